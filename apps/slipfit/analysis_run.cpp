@@ -1,0 +1,94 @@
+#include "analysis_run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <vector>
+
+#include "failure.hpp"
+#include "output.hpp"
+#include "slipfit/io/recording_reader.hpp"
+#include "slipfit/report/csv.hpp"
+#include "slipfit/report/json.hpp"
+#include "slipfit/report/text.hpp"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Options that contradict themselves are wrong usage; what depends on the file's content is the recording's fault.
+ExitCode exit_code_for(const std::string& error_code) {
+  const bool options = error_code == "conflicting_options" || error_code == "bad_window" ||
+                       error_code == "bad_sample_rate" || error_code == "speed_not_positive";
+  return options ? ExitCode::WrongUsage : ExitCode::BadRecording;
+}
+
+slipfit::Recording read(const AnalysisArguments& arguments) {
+  const slipfit::Conditions conditions = conditions_from(arguments.recording);
+  const slipfit::ReadOptions options = read_options_from(arguments.recording);
+  auto recording = slipfit::read_recording(arguments.recording.file, conditions, options);
+  if (!recording) throw Failure(exit_code_for(recording.error().code), recording.error().message);
+  return std::move(recording).value();
+}
+
+std::vector<OutputFile> outputs_of(const AnalysisArguments& arguments) {
+  std::vector<OutputFile> outputs;
+  if (arguments.out) outputs.push_back({"--out", *arguments.out});
+  if (arguments.cycles) outputs.push_back({"--cycles", *arguments.cycles});
+  if (arguments.curve) outputs.push_back({"--curve", *arguments.curve});
+  return outputs;
+}
+
+std::string timing_text(const slipfit::Timing& timing) {
+  return fmt::format("\nTiming\n  read {:.4f} s, frequency {:.4f} s, fit {:.4f} s, total {:.4f} s\n", timing.read_s,
+                     timing.frequency_s, timing.fit_s, timing.total_s);
+}
+
+std::string document(const AnalysisArguments& arguments, const slipfit::Recording& recording,
+                     const slipfit::Analysis& analysis) {
+  if (!arguments.json) {
+    return slipfit::to_text(recording, analysis) + (arguments.timing ? timing_text(analysis.timing) : std::string());
+  }
+  slipfit::JsonOptions options;
+  options.timing = arguments.timing;
+  return slipfit::to_json(recording, analysis, options) + "\n";
+}
+
+void write_results(const AnalysisArguments& arguments, const slipfit::Recording& recording,
+                   const slipfit::Analysis& analysis) {
+  for (const OutputFile& output : outputs_of(arguments)) {
+    const std::string content = output.option == "--cycles"  ? slipfit::cycles_to_csv(recording, analysis)
+                                : output.option == "--curve" ? slipfit::curve_to_csv(recording, analysis)
+                                                             : document(arguments, recording, analysis);
+    write_file(output, content);
+    if (!arguments.quiet) say(fmt::format("wrote '{}'", output.file));
+  }
+  if (!arguments.out) write_standard_output(document(arguments, recording, analysis));
+}
+
+}  // namespace
+
+void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
+  add_recording_options(command, arguments.recording);
+  command.add_flag("--json", arguments.json, "One JSON document in place of the report");
+  command.add_option("--out", arguments.out, "Write the report or the JSON document to this file");
+  command.add_option("--cycles", arguments.cycles, "Write a table of the cycles (CSV)");
+  command.add_flag("--timing", arguments.timing, "Add the seconds that each stage took");
+  command.add_flag("--quiet", arguments.quiet, "No messages on standard error but errors");
+}
+
+void run_analysis(const AnalysisArguments& arguments,
+                  const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis) {
+  check_outputs(outputs_of(arguments), arguments.recording.file);
+  const Clock::time_point start = Clock::now();
+  const slipfit::Recording recording = read(arguments);
+  const double read_s = seconds_since(start);
+  slipfit::Analysis result = analysis(recording);
+  result.timing.read_s = read_s;
+  result.timing.total_s = seconds_since(start);
+  write_results(arguments, recording, result);
+}

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "recording_options.hpp"
+#include "slipfit/pipeline.hpp"
+
+/// What `analyze` and `fit` share: which results to write, and where.
+struct AnalysisArguments {
+  RecordingArguments recording;
+  bool json = false;
+  bool timing = false;
+  bool quiet = false;
+  std::optional<std::string> out;
+  std::optional<std::string> cycles;
+  std::optional<std::string> curve;
+};
+
+void add_analysis_options(CLI::App& command, AnalysisArguments& arguments);
+
+/// Reads the recording, analyses it, writes every result that was asked for. Throws Failure.
+void run_analysis(const AnalysisArguments& arguments,
+                  const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis);

@@ -1,0 +1,11 @@
+#include <memory>
+
+#include "analysis_run.hpp"
+#include "commands.hpp"
+
+void add_analyze_command(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand("analyze", "Frequency, cycles and kind of sliding; no model fit");
+  const auto arguments = std::make_shared<AnalysisArguments>();
+  add_analysis_options(*command, *arguments);
+  command->callback([arguments] { run_analysis(*arguments, slipfit::analyze); });
+}

@@ -1,0 +1,9 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+// Each adds one command to the program; the command runs when the arguments name it, and throws Failure where it
+// cannot.
+void add_analyze_command(CLI::App& program);
+void add_fit_command(CLI::App& program);
+void add_simulate_command(CLI::App& program);

@@ -1,0 +1,9 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slipfit/fit/fit.hpp"
+
+/// `--tier` and `--fix` as typed, into what the fit takes. Throws Failure(WrongUsage).
+slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed);

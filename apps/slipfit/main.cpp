@@ -1,0 +1,76 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "output.hpp"
+
+namespace {
+
+int code_of(ExitCode exit) {
+  return static_cast<int>(exit);
+}
+
+/// The command that the arguments named, for "see slipfit fit --help".
+std::string command_line(const CLI::App& program) {
+  const auto commands = program.get_subcommands();
+  return commands.empty() ? "slipfit" : "slipfit " + commands.front()->get_name();
+}
+
+/// CLI11's errors as one line; --help and --version arrive here too and are no errors.
+int report_parse_result(const CLI::App& program, const CLI::ParseError& error) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+    return program.exit(error, std::cout, std::cerr);
+  }
+  say(std::string(error.what()) + " (see " + command_line(program) + " --help)");
+  return code_of(ExitCode::WrongUsage);
+}
+
+void check_command(const CLI::App& program, const std::string& first_argument) {
+  std::string known;
+  for (const CLI::App* const command : program.get_subcommands({})) {
+    if (command->get_name() == first_argument) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  if (first_argument.empty()) throw Failure(ExitCode::WrongUsage, "a command is missing: one of " + known);
+  if (first_argument.front() == '-') return;
+  throw Failure(ExitCode::WrongUsage, "unknown command '" + first_argument + "', expected one of " + known);
+}
+
+int run(int argc, char** argv) {
+  CLI::App program("Fits a stick-slip friction model to tribometer recordings", "slipfit");
+  program.set_version_flag("--version", std::string("slipfit ") + SLIPFIT_VERSION);
+  program.require_subcommand(1);
+  program.footer("Exit codes: 0 analysed, 2 wrong usage, 3 recording unreadable or without anything usable.");
+  add_analyze_command(program);
+  add_fit_command(program);
+  add_simulate_command(program);
+  try {
+    check_command(program, argc > 1 ? argv[1] : "");
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return report_parse_result(program, error);
+  } catch (const Failure& failure) {
+    say(failure.what());
+    return code_of(failure.exit());
+  }
+  return code_of(ExitCode::Analysed);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    say("not enough memory for this recording: use --window to take a part of it");
+  } catch (const std::exception& error) {
+    say(std::string("internal error, please report it with the recording: ") + error.what());
+  } catch (...) {
+    say("internal error, please report it with the recording");
+  }
+  return code_of(ExitCode::BadRecording);
+}

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "slipfit/model/motion.hpp"
+
+/// The model on the command line, as typed.
+struct ModelArguments {
+  std::optional<std::string> stiffness;
+  std::optional<std::string> mass;
+  std::optional<std::string> natural_frequency;
+  std::string damping_ratio = "0";
+  std::optional<std::string> static_friction;
+  std::optional<std::string> kinetic_friction;
+};
+
+struct Model {
+  slipfit::Slider slider;
+  slipfit::Friction friction;
+};
+
+void add_model_options(CLI::App& command, ModelArguments& arguments);
+
+/// Throws Failure(WrongUsage).
+Model model_from(const ModelArguments& arguments);
+
+/// The text, or Failure(WrongUsage) that the option is missing; `meaning` says what to give.
+const std::string& required(const std::optional<std::string>& text, const std::string& option,
+                            const std::string& meaning);

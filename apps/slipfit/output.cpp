@@ -1,0 +1,110 @@
+#include "output.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "failure.hpp"
+#include "slipfit/report/text.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct CloseFile {
+  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): the unique_ptr below is the owner
+  void operator()(std::FILE* file) const { (void)std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+[[noreturn]] void cannot_write(const OutputFile& output, int error_number) {
+  throw Failure(ExitCode::WrongUsage,
+                fmt::format("{}: cannot write '{}': {}", output.option, output.file, std::strerror(error_number)));
+}
+
+/// Returns 0, or the errno of the step that failed.
+int write_all(const std::string& path, const char* mode, const std::string& content) {
+  errno = 0;
+  File file(std::fopen(path.c_str(), mode));
+  if (!file) return errno;
+  const bool written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
+  const bool flushed = written && std::fflush(file.get()) == 0;
+  if (!flushed) return errno == 0 ? EIO : errno;
+  return std::fclose(file.release()) == 0 ? 0 : errno;
+}
+
+/// Two names of one file, also where neither exists yet.
+bool same_file(const fs::path& first, const fs::path& second) {
+  std::error_code ignored;
+  if (fs::equivalent(first, second, ignored)) return true;
+  return fs::weakly_canonical(first, ignored) == fs::weakly_canonical(second, ignored);
+}
+
+void check_place(const OutputFile& output) {
+  std::error_code ignored;
+  const fs::path path(output.file);
+  if (output.file.empty() || fs::is_directory(path, ignored)) {
+    throw Failure(ExitCode::WrongUsage,
+                  fmt::format("{}: '{}' is a folder, expected a file's name", output.option, output.file));
+  }
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, ignored)) {
+    throw Failure(ExitCode::WrongUsage, fmt::format("{}: cannot write '{}': the folder '{}' does not exist",
+                                                    output.option, output.file, folder.string()));
+  }
+}
+
+}  // namespace
+
+void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    check_place(outputs[i]);
+    if (!input.empty() && same_file(outputs[i].file, input)) {
+      throw Failure(ExitCode::WrongUsage, fmt::format("{}: '{}' is the recording itself, choose another file",
+                                                      outputs[i].option, outputs[i].file));
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!same_file(outputs[i].file, outputs[j].file)) continue;
+      throw Failure(ExitCode::WrongUsage, fmt::format("{} and {} name the same file '{}', choose two",
+                                                      outputs[j].option, outputs[i].option, outputs[i].file));
+    }
+  }
+}
+
+void write_file(const OutputFile& output, const std::string& content) {
+  std::error_code error;
+  const fs::path target = fs::exists(output.file, error) ? fs::canonical(output.file, error) : fs::path(output.file);
+  if (fs::exists(target, error) && !fs::is_regular_file(target, error)) {
+    if (const int failed = write_all(output.file, "wb", content); failed != 0) cannot_write(output, failed);
+    return;
+  }
+  static int files_written = 0;
+  const std::string name = fmt::format(".slipfit-{}-{}.tmp", ::getpid(), ++files_written);
+  const fs::path temporary = target.parent_path() / name;
+  int failed = write_all(temporary.string(), "wbx", content);
+  if (failed == 0) {
+    fs::rename(temporary, target, error);
+    failed = error.value();
+  }
+  if (failed == 0) return;
+  fs::remove(temporary, error);
+  cannot_write(output, failed);
+}
+
+void write_standard_output(const std::string& content) {
+  const bool written = std::fwrite(content.data(), 1, content.size(), stdout) == content.size();
+  if (!written || std::fflush(stdout) != 0) {
+    throw Failure(ExitCode::WrongUsage, fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+  }
+}
+
+void say(const std::string& message) {
+  const std::string line = "slipfit: " + slipfit::one_line(message) + "\n";
+  (void)std::fwrite(line.data(), 1, line.size(), stderr);
+}

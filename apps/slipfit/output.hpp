@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// A file that an option names, and the option for messages.
+struct OutputFile {
+  std::string option;
+  std::string file;
+};
+
+/// Before any work: throws Failure(WrongUsage) where an output is the input, is named twice, is a folder, or has no
+/// folder.
+void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input);
+
+/// Through a temporary file beside it and a rename: readers see the old content or the new, never a part.
+/// What is no regular file (a pipe, /dev/stdout) is written directly.
+void write_file(const OutputFile& output, const std::string& content);
+
+void write_standard_output(const std::string& content);
+
+/// A message to standard error, "slipfit: ...", on one line.
+void say(const std::string& message);

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "slipfit/core/recording.hpp"
+#include "slipfit/core/units.hpp"
+#include "slipfit/io/recording_reader.hpp"
+
+// Text of the command line into SI numbers. Each throws Failure(WrongUsage) that names the option, the text and the
+// remedy.
+
+/// A number (SI) or a number with a unit.
+double quantity(const std::string& option, const std::string& text, slipfit::Dimension dimension);
+double positive_quantity(const std::string& option, const std::string& text, slipfit::Dimension dimension);
+double quantity_not_negative(const std::string& option, const std::string& text, slipfit::Dimension dimension);
+
+/// A finite number without a unit; `unit` is for the message.
+double plain_number(const std::string& option, const std::string& text, const std::string& unit);
+
+/// The driving speed; "60rpm" needs the radius at which the sensor touches: V = omega R.
+double driving_speed(const std::string& text, const std::optional<std::string>& radius);
+
+/// Standard error of the speed: a speed, or a percentage of it.
+double speed_standard_error(const std::string& text, double speed_m_per_s, const std::optional<std::string>& radius);
+
+/// "T0:T1" in seconds, T0 < T1.
+slipfit::TimeWindow time_window(const std::string& text);
+
+slipfit::ForceView force_view(const std::string& text);

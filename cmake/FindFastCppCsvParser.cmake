@@ -1,0 +1,10 @@
+# FastCppCsvParser::csv, a header (Debian: libfccp-dev)
+find_path(FastCppCsvParser_INCLUDE_DIR csv.h PATH_SUFFIXES libfccp fast-cpp-csv-parser)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(FastCppCsvParser REQUIRED_VARS FastCppCsvParser_INCLUDE_DIR)
+if(FastCppCsvParser_FOUND AND NOT TARGET FastCppCsvParser::csv)
+  add_library(FastCppCsvParser::csv INTERFACE IMPORTED)
+  set_target_properties(FastCppCsvParser::csv PROPERTIES
+    INTERFACE_INCLUDE_DIRECTORIES "${FastCppCsvParser_INCLUDE_DIR}")
+endif()
+mark_as_advanced(FastCppCsvParser_INCLUDE_DIR)

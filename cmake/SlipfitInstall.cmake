@@ -1,0 +1,37 @@
+# cmake --install, find_package(slipfit), and the tests of both.
+include(CMakePackageConfigHelpers)
+
+set(SLIPFIT_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/slipfit")
+
+install(TARGETS slipfit EXPORT slipfit_targets
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(TARGETS slipfit_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/slipfit" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(EXPORT slipfit_targets NAMESPACE slipfit:: FILE slipfit-targets.cmake DESTINATION "${SLIPFIT_CMAKE_DIR}")
+
+configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/slipfit-config.cmake.in"
+  "${PROJECT_BINARY_DIR}/slipfit-config.cmake" INSTALL_DESTINATION "${SLIPFIT_CMAKE_DIR}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/slipfit-config-version.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${PROJECT_BINARY_DIR}/slipfit-config.cmake"
+  "${PROJECT_BINARY_DIR}/slipfit-config-version.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindFFTW3.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindUDUNITS2.cmake"
+  DESTINATION "${SLIPFIT_CMAKE_DIR}")
+install(FILES "${PROJECT_SOURCE_DIR}/docs/fit.schema.json" "${PROJECT_SOURCE_DIR}/LICENSE"
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/slipfit")
+
+if(SLIPFIT_BUILD_TESTS)
+  find_package(Python3 COMPONENTS Interpreter)
+  if(Python3_FOUND)
+    add_test(NAME lint/layers
+      COMMAND "${Python3_EXECUTABLE}" "${PROJECT_SOURCE_DIR}/scripts/check_layers.py" "${PROJECT_SOURCE_DIR}")
+  endif()
+  add_test(NAME consumer/find_package
+    COMMAND "${CMAKE_COMMAND}"
+      "-DSLIPFIT_BUILD_DIR=${PROJECT_BINARY_DIR}" "-DCONSUMER_SOURCE_DIR=${PROJECT_SOURCE_DIR}/tests/consumer"
+      "-DWORK_DIR=${PROJECT_BINARY_DIR}/consumer" "-DCXX_COMPILER=${CMAKE_CXX_COMPILER}"
+      "-DCXX_FLAGS=${CMAKE_CXX_FLAGS}" "-DBUILD_TYPE=${CMAKE_BUILD_TYPE}" "-DGENERATOR=${CMAKE_GENERATOR}"
+      -P "${PROJECT_SOURCE_DIR}/tests/consumer/run.cmake")
+endif()

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "slipfit/core/estimate.hpp"
+#include "slipfit/core/result.hpp"
+
+namespace slipfit {
+
+/// Which force the sensor sees (docs/model.md section 7).
+enum class ForceView { Spring, Transmitted, Contact };
+
+/// What the force column holds: newtons, or a friction coefficient whose normal force is not known.
+enum class ForceQuantity { Force_N, FrictionCoefficient };
+
+/// How the recording was made: what the trace itself does not tell.
+struct Conditions {
+  double speed_m_per_s = 0.0;                          ///< driving speed, > 0
+  std::optional<double> speed_standard_error_m_per_s;  ///< of the stated speed, when the user gives one
+  std::optional<double> normal_force_N;                ///< > 0
+  ForceView force_view = ForceView::Spring;
+  ForceQuantity quantity = ForceQuantity::Force_N;
+  std::optional<double> zero_force_N;  ///< sensor reading at no force, already subtracted; absolute forces need it
+};
+
+/// Where the numbers came from and what the reader had to assume, count or leave out.
+struct Provenance {
+  std::string file;
+  std::vector<std::string> assumed;       ///< sentences, in the order of the decisions
+  Warnings warnings;                      ///< found while reading (speed against displacement, backward time, ...)
+  std::size_t rows_without_number = 0;    ///< nan, inf, empty or text cells in the chosen columns: left out
+  std::size_t rows_backward_in_time = 0;  ///< left out
+  std::size_t rows_repeating_time = 0;    ///< kept: same time stamp as the row before
+};
+
+/// Time and tangential force of one run: at least 2 samples, all finite, time never decreasing and not constant.
+class Recording {
+ public:
+  /// Errors: too_few_samples, length_mismatch, not_finite, time_decreases, time_constant, speed_not_positive,
+  /// normal_force_not_positive. `force` is in newtons, or a friction coefficient as `conditions.quantity` says.
+  static Result<Recording> create(std::vector<double> time_s, std::vector<double> force, Conditions conditions,
+                                  Provenance provenance = {});
+
+  [[nodiscard]] std::span<const double> time_s() const { return time_s_; }
+  [[nodiscard]] std::span<const double> force() const { return force_; }
+  [[nodiscard]] std::size_t size() const { return time_s_.size(); }
+  [[nodiscard]] const Conditions& conditions() const { return conditions_; }
+  [[nodiscard]] const Provenance& provenance() const { return provenance_; }
+  [[nodiscard]] double duration_s() const { return time_s_.back() - time_s_.front(); }
+  /// Median step of the clock (of the steps that are not zero).
+  [[nodiscard]] double sample_interval_s() const { return sample_interval_s_; }
+
+ private:
+  Recording() = default;
+
+  std::vector<double> time_s_;
+  std::vector<double> force_;
+  Conditions conditions_;
+  Provenance provenance_;
+  double sample_interval_s_ = 0.0;
+};
+
+}  // namespace slipfit

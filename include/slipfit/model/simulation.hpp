@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slipfit/core/recording.hpp"
+#include "slipfit/model/motion.hpp"
+
+namespace slipfit {
+
+/// What is added to the model's force, and how the static friction scatters.
+struct SimulationOptions {
+  double duration_s = 1.0;
+  double sample_rate_Hz = 1000.0;
+  ForceView force_view = ForceView::Spring;
+  double static_friction_sd_N = 0.0;  ///< normal, drawn anew for each cycle; never below the kinetic friction
+  double noise_rms_N = 0.0;           ///< white
+  double offset_N = 0.0;
+  double drift_N_per_s = 0.0;
+  double hum_N = 0.0;  ///< amplitude of a sine at the mains frequency
+  double hum_frequency_Hz = 50.0;
+  std::uint64_t seed = 1;
+};
+
+struct SimulatedTrace {
+  std::vector<double> time_s;
+  std::vector<double> force_N;
+};
+
+/// A recording of the exact Coulomb model from rest (spring relaxed, first a ramp). Where a slip does not stick again
+/// the motion rings down to steady sliding. Same options, same numbers on every platform (own normal deviates).
+SimulatedTrace simulate(const Slider& slider, const Friction& friction, double speed_m_per_s,
+                        const SimulationOptions& options);
+
+}  // namespace slipfit

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "slipfit/core/estimate.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/fit.hpp"
+#include "slipfit/predict/derived.hpp"
+#include "slipfit/signal/quality.hpp"
+#include "slipfit/signal/spectrum.hpp"
+
+namespace slipfit {
+
+/// What kind of sliding the recording shows.
+enum class Verdict { StickSlip, SteadySliding, OscillatorySlip, Undetermined };
+
+/// Spectral and counted frequency beside each other, and the one to quote.
+struct FrequencyReport {
+  Estimate quoted;     ///< Hz; empty where neither method finds one
+  std::string method;  ///< "harmonic_least_squares", "slip_counting" or "none"
+  SpectralFrequency spectral;
+  Estimate counted;  ///< Hz, from the mean interval between slips
+};
+
+/// Statistics over the cycles of one recording; forces in the unit of the force column.
+struct CycleStatistics {
+  std::size_t count = 0;  ///< slips whose drop is at least a quarter of the median drop
+  std::size_t minor = 0;  ///< smaller slips
+  std::size_t used = 0;   ///< cycles in the fit (0 without one)
+  std::optional<double> period_s, period_sd_s, slip_time_s, stick_time_s, sticking_degree;
+  std::optional<double> peak_force, peak_force_sd, trough_force, force_drop, force_drop_sd;
+};
+
+/// Wall-clock seconds of the stages.
+struct Timing {
+  double read_s = 0.0;  ///< filled by the caller that reads the file
+  double frequency_s = 0.0;
+  double fit_s = 0.0;
+  double total_s = 0.0;  ///< filled by the caller: from opening the file to the result
+};
+
+/// Everything that is known about one recording.
+struct Analysis {
+  Quality quality;
+  Verdict verdict = Verdict::Undetermined;
+  std::string verdict_reason;  ///< one plain sentence
+  Warnings warnings;
+  FrequencyReport frequency;
+  CycleStatistics cycles;
+  std::vector<Cycle> cycle_table;
+  std::optional<FitResult> fit;  ///< empty: not asked for, or no cycles to fit
+  Derived derived;
+  Timing timing;
+};
+
+/// Frequency, cycles and verdict; no model fit.
+Analysis analyze(const Recording& recording);
+
+/// `analyze`, then the fit and what follows from it at the recording's own speed.
+Analysis analyze_and_fit(const Recording& recording, const FitOptions& options);
+
+}  // namespace slipfit

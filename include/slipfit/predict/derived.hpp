@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "slipfit/core/estimate.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/fit.hpp"
+
+namespace slipfit {
+
+/// Quantities that follow from the fit or from V and f (docs/model.md says how).
+struct Derived {
+  Estimate lambda, gamma, lambda_critical, critical_speed_m_per_s;
+  std::optional<std::string>
+      regime;  ///< stick_slip, stick_slip_bistable, oscillatory_slip, continuous_slip, unstable_steady
+  std::optional<bool> bistable;
+  Estimate periodic_displacement_m;            ///< predicted by the fitted model at the recording's speed
+  Estimate pattern_spacing_m;                  ///< measured: V/f, an identity that proves nothing about the model
+  std::optional<double> pattern_spacing_sd_m;  ///< spread over cycles
+  Estimate micro_vibration_spacing_m;          ///< estimate only, see docs/model.md section 8
+  Estimate impulse_rate_per_m;                 ///< 1 / spacing
+};
+
+/// What the fitted model says at the recording's own speed; the measured members are left empty.
+Derived derive_from_model(const FitResult& fit, const Conditions& conditions);
+
+}  // namespace slipfit

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "slipfit/core/recording.hpp"
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+
+enum class JsonLayout { Indented, OneLine };
+
+struct JsonOptions {
+  std::string id;                            ///< empty: the file's name without its ending
+  bool timing = false;                       ///< only with timing do two runs differ
+  JsonLayout layout = JsonLayout::Indented;  ///< OneLine: for a file with one result a line
+};
+
+/// One document of the schema slipfit.fit/1 (docs/fit.schema.json), without a trailing newline. Always valid UTF-8 and
+/// free of NaN and infinity: what is not known, or not finite, is null.
+std::string to_json(const Recording& recording, const Analysis& analysis, const JsonOptions& options = {});
+
+}  // namespace slipfit

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "slipfit/core/recording.hpp"
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+
+/// For people: verdict, parameters with intervals and status, spacing (measured, kept apart from predicted), warnings.
+std::string to_text(const Recording& recording, const Analysis& analysis);
+
+/// The text with line breaks and other control characters as '?': a file's name cannot forge a second line of output.
+std::string one_line(std::string_view text);
+
+}  // namespace slipfit

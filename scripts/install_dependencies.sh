@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# install_dependencies.sh [build|test]: what the build (or also the tests, the default) needs on Debian 12.
+# Installs only what is missing, as root or through sudo; says what it installs, and nothing when all is there.
+set -euo pipefail
+
+packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
+  nlohmann-json3-dev libfmt-dev libudunits2-dev)
+if [ "${1:-test}" = test ]; then
+  packages+=(catch2 python3 python3-jsonschema)
+fi
+
+if ! command -v dpkg-query >/dev/null 2>&1; then
+  echo "install_dependencies.sh: no Debian here; needed, by their Debian names: ${packages[*]}" >&2
+  exit 0
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$state" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null 2>&1; then
+    echo "install_dependencies.sh: run as root, or install: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+echo "installing: ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+install_missing() {
+  "${as_root[@]}" apt-get update -qq &&
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+}
+if ! install_missing >"$log" 2>&1; then
+  cat "$log" >&2
+  echo "install_dependencies.sh: apt-get could not install: ${missing[*]}" >&2
+  exit 1
+fi

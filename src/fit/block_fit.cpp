@@ -1,0 +1,180 @@
+#include "fit/block_fit.hpp"
+
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <utility>
+
+namespace slipfit::fit {
+namespace {
+
+/// A start outside the model is an ordinary answer here; Ceres reports it on standard error, and this library never
+/// prints.
+void silence_solver_log() {
+  static std::once_flag once;
+  std::call_once(once, [] { FLAGS_minloglevel = google::GLOG_FATAL; });
+}
+
+/// Parameter blocks: shared, [level,] own.
+class CycleCost : public ceres::CostFunction {
+ public:
+  explicit CycleCost(const CycleModel& model) : model_(model) {
+    set_num_residuals(static_cast<int>(model.residuals()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(kShared));
+    if (model.level_parameters() > 0)
+      mutable_parameter_block_sizes()->push_back(static_cast<int>(model.level_parameters()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(model.own_parameters()));
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+    const bool has_level = model_.level_parameters() > 0;
+    const double* level = has_level ? parameters[1] : nullptr;
+    const double* own = parameters[has_level ? 2 : 1];
+    Jacobians out;
+    if (jacobians != nullptr) out = {jacobians[0], has_level ? jacobians[1] : nullptr, jacobians[has_level ? 2 : 1]};
+    return model_.evaluate(parameters[0], level, own, residuals, out);
+  }
+
+ private:
+  const CycleModel& model_;
+};
+
+/// Parameter blocks: shared, own of the first cycle, own of the second.
+class RampCost : public ceres::SizedCostFunction<1, 3, 2, 2> {
+ public:
+  RampCost(const BlockFit& fit, std::size_t first) : fit_(fit), first_(first) {}
+
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+    const RampResidual ramp = ramp_residual(fit_, first_, parameters[0], parameters[1], parameters[2]);
+    if (!std::isfinite(ramp.value)) return false;
+    residuals[0] = ramp.value;
+    if (jacobians == nullptr) return true;
+    const auto copy = [](const auto& from, double* to) {
+      if (to != nullptr) std::copy(from.begin(), from.end(), to);
+    };
+    copy(ramp.d_shared, jacobians[0]);
+    copy(ramp.d_first, jacobians[1]);
+    copy(ramp.d_second, jacobians[2]);
+    return true;
+  }
+
+ private:
+  const BlockFit& fit_;
+  std::size_t first_;
+};
+
+void hold(ceres::Problem& problem, double* shared, const Held& held) {
+  std::vector<int> constant;
+  if (held.stiffness) constant.push_back(0);
+  if (held.frequency) constant.push_back(1);
+  if (held.damping) constant.push_back(2);
+  if (constant.size() == kShared) {
+    problem.SetParameterBlockConstant(shared);
+  } else if (!constant.empty()) {
+    problem.SetManifold(shared, new ceres::SubsetManifold(static_cast<int>(kShared), constant));
+  }
+}
+
+ceres::Solver::Options solver_options(const SolveOptions& options, std::size_t residuals) {
+  ceres::Solver::Options solver;
+  solver.max_num_iterations = options.max_iterations;
+  // Continuity couples neighbouring cycles: a banded matrix with a border instead of independent blocks.
+  solver.linear_solver_type = options.continuous ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_SCHUR;
+  solver.function_tolerance = options.tolerance / static_cast<double>(residuals);
+  solver.gradient_tolerance = 1e-14;
+  solver.parameter_tolerance = 1e-11;
+  solver.logging_type = ceres::SILENT;
+  solver.num_threads = 1;
+  return solver;
+}
+
+}  // namespace
+
+RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const double* shared, const double* own_first,
+                           const double* own_second) {
+  const Scales& scales = fit.scales();
+  CycleState s;
+  if (!fit.model(first).state(shared, own_first, s)) return {std::numeric_limits<double>::quiet_NaN(), {}, {}, {}};
+  const double weight = 1.0 / (scales.noise * kRampTolerance);
+  const double rate = s.stiffness_N_per_m * scales.speed_m_per_s;
+  const double second_onset_s = fit.reference_s(first + 1) + scales.half_period_s * own_second[0];
+  const double elapsed_s = second_onset_s - s.onset_s;
+  const double u = s.force_scale;
+  // d(u I) / d ln u at fixed A: I depends on z0 = A / u
+  const double scale_part = u * (s.after.intercept - s.slip.z0 * s.after.d_z0);
+  RampResidual ramp;
+  ramp.value = weight * (rate * elapsed_s + u * s.after.intercept - scales.force * own_second[1]);
+  ramp.d_shared = {weight * (rate * elapsed_s + scale_part), -weight * scale_part, weight * u * s.after.d_zeta};
+  ramp.d_first = {-weight * rate * scales.half_period_s, weight * scales.force * s.after.d_z0};
+  ramp.d_second = {weight * rate * scales.half_period_s, -weight * scales.force};
+  return ramp;
+}
+
+BlockFit::BlockFit(std::vector<CycleData> cycles, std::vector<double> reference_s, Scales scales, LevelModel level)
+    : cycles_(std::move(cycles)), reference_s_(std::move(reference_s)), scales_(scales), level_(std::move(level)) {
+  parameters.level.assign(level_.columns(), 0.0);
+  parameters.cycles.assign(cycles_.size(), Own{});
+  models_.reserve(cycles_.size());
+  for (std::size_t i = 0; i < cycles_.size(); ++i) models_.emplace_back(cycles_[i], scales_, reference_s_[i], level_);
+}
+
+CycleState BlockFit::state(std::size_t cycle) const {
+  CycleState state;
+  models_[cycle].state(parameters.shared.data(), parameters.cycles[cycle].data(), state);
+  return state;
+}
+
+double BlockFit::solve(const SolveOptions& options) {
+  silence_solver_log();
+  ceres::Problem::Options ownership;
+  ownership.enable_fast_removal = false;
+  ceres::Problem problem(ownership);
+  double* shared = parameters.shared.data();
+  auto* ordering = new ceres::ParameterBlockOrdering;
+  std::size_t residuals = 0;
+  for (const CycleModel& model : models_) residuals += model.residuals();
+  ceres::Solver::Options solver = solver_options(options, residuals);
+  for (std::size_t i = 0; i < models_.size(); ++i) {
+    std::vector<double*> blocks{shared};
+    if (level_.columns() > 0) blocks.push_back(parameters.level.data());
+    blocks.push_back(parameters.cycles[i].data());
+    ceres::LossFunction* loss = nullptr;
+    if (options.robust) loss = new ceres::HuberLoss(3.0 * std::sqrt(static_cast<double>(models_[i].residuals())));
+    problem.AddResidualBlock(new CycleCost(models_[i]), loss, blocks);
+    ordering->AddElementToGroup(parameters.cycles[i].data(), 0);
+  }
+  ordering->AddElementToGroup(shared, 1);
+  if (level_.columns() > 0) ordering->AddElementToGroup(parameters.level.data(), 1);
+  for (std::size_t i = 0; options.continuous && i + 1 < models_.size(); ++i) {
+    if (!cycles_[i].continuous_with_next) continue;
+    problem.AddResidualBlock(new RampCost(*this, i), nullptr, shared, parameters.cycles[i].data(),
+                             parameters.cycles[i + 1].data());
+  }
+  hold(problem, shared, options.held);
+  if (options.continuous) {
+    delete ordering;
+  } else {
+    solver.linear_solver_ordering.reset(ordering);
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return std::numeric_limits<double>::infinity();
+  return 2.0 * summary.final_cost;
+}
+
+double BlockFit::cycle_sum_of_squares(std::size_t cycle) const {
+  const CycleModel& model = models_[cycle];
+  std::vector<double> residuals(model.residuals());
+  if (!model.evaluate(parameters.shared.data(), parameters.level.data(), parameters.cycles[cycle].data(),
+                      residuals.data(), {})) {
+    return std::numeric_limits<double>::infinity();
+  }
+  double sum = 0.0;
+  for (const double r : residuals) sum += r * r;
+  return sum;
+}
+
+}  // namespace slipfit::fit

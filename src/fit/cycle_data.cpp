@@ -1,0 +1,167 @@
+#include "fit/cycle_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace slipfit::fit {
+namespace {
+
+constexpr std::size_t kBinsPerRamp = 4;  // lets a bent ramp or a drift show; a straight one loses nothing
+constexpr std::size_t kMinRampSamples = 2;
+constexpr double kGapSteps = 3.5;
+
+class Cutter {
+ public:
+  Cutter(const Recording& recording, const Segmentation& segmentation, double half_width_s,
+         const std::vector<bool>& excluded, const HumLines& hum)
+      : time_s_(recording.time_s()),
+        force_(recording.force()),
+        slips_(segmentation.slips),
+        half_width_s_(half_width_s),
+        step_s_(recording.sample_interval_s()),
+        excluded_(excluded),
+        hum_(hum) {}
+
+  std::vector<CycleData> cut() const {
+    std::vector<CycleData> cycles;
+    for (std::size_t i = 1; i < slips_.size(); ++i) {
+      CycleData cycle = cut_one(i);
+      const DetectedSlip& slip = slips_[i];
+      const bool has_ramps = index_at(cycle.window_begin_s) + kMinRampSamples <= slip.peak &&
+                             slip.trough + kMinRampSamples < index_at(cycle.window_end_s);
+      if (!has_ramps || has_gap(cycle.samples)) continue;
+      if (!cycles.empty()) cycles.back().continuous_with_next = cycles.back().slip + 1 == i && !gap_between(i - 1, i);
+      cycles.push_back(std::move(cycle));
+    }
+    return cycles;
+  }
+
+ private:
+  CycleData cut_one(std::size_t i) const {
+    CycleData cycle;
+    cycle.slip = i;
+    const double before_s = slips_[i - 1].middle_s + 0.5 * slips_[i - 1].fall_s;
+    cycle.window_begin_s = 0.5 * (before_s + slips_[i].middle_s);
+    cycle.window_end_s = i + 1 < slips_.size()
+                             ? 0.5 * (slips_[i].middle_s + slips_[i + 1].middle_s)
+                             : std::min(time_s_.back(), slips_[i].middle_s + slips_[i].middle_s - cycle.window_begin_s);
+    const double margin_s = std::max(half_width_s_, 1.5 * step_s_);
+    const std::size_t begin = index_at(cycle.window_begin_s);
+    const std::size_t slip_begin = std::clamp(index_at(slips_[i].middle_s - margin_s), begin, time_s_.size());
+    const std::size_t end = index_at(cycle.window_end_s);
+    const std::size_t slip_end =
+        std::clamp(index_at(slips_[i].middle_s + margin_s), slip_begin, std::max(slip_begin, end));
+    cycle.bins_before = bin(begin, slip_begin);
+    cycle.bins_after = bin(slip_end, end);
+    for (std::size_t j = slip_begin; j < slip_end; ++j) {
+      if (is_excluded(j)) continue;
+      cycle.samples.push_back(j);
+      cycle.time_s.push_back(time_s_[j]);
+      cycle.force.push_back(force_[j]);
+    }
+    return cycle;
+  }
+
+  std::size_t index_at(double time_s) const {
+    return static_cast<std::size_t>(std::lower_bound(time_s_.begin(), time_s_.end(), time_s) - time_s_.begin());
+  }
+
+  bool is_excluded(std::size_t i) const { return !excluded_.empty() && excluded_[i]; }
+
+  bool has_gap(const std::vector<std::size_t>& samples) const {
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+      if (time_s_[samples[i]] - time_s_[samples[i] - 1] > kGapSteps * step_s_) return true;
+    }
+    return samples.empty();
+  }
+
+  bool gap_between(std::size_t first_slip, std::size_t second_slip) const {
+    for (std::size_t i = slips_[first_slip].trough + 1; i <= slips_[second_slip].peak; ++i) {
+      if (time_s_[i] - time_s_[i - 1] > kGapSteps * step_s_) return true;
+    }
+    return false;
+  }
+
+  std::vector<StickBin> bin(std::size_t begin, std::size_t end) const {
+    std::vector<StickBin> bins;
+    if (end <= begin) return bins;
+    const std::size_t length = end - begin;
+    const std::size_t parts = std::min<std::size_t>(kBinsPerRamp, std::max<std::size_t>(1, length / 8));
+    for (std::size_t part = 0; part < parts; ++part) {
+      const StickBin one = reduce(begin + part * length / parts, begin + (part + 1) * length / parts);
+      if (one.count > 0.0) bins.push_back(one);
+    }
+    return bins;
+  }
+
+  StickBin reduce(std::size_t begin, std::size_t end) const {
+    StickBin bin;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (is_excluded(i)) continue;
+      bin.count += 1.0;
+      bin.time_s += time_s_[i] - time_s_[begin];
+      bin.force += force_[i];
+    }
+    if (bin.count == 0.0) return bin;
+    bin.time_s = time_s_[begin] + bin.time_s / bin.count;
+    bin.force /= bin.count;
+    double cross = 0.0;
+    double square = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (is_excluded(i)) continue;
+      const double dt = time_s_[i] - bin.time_s;
+      const double df = force_[i] - bin.force;
+      bin.time_spread += dt * dt;
+      cross += dt * df;
+      square += df * df;
+    }
+    if (bin.time_spread > 0.0) bin.slope = cross / bin.time_spread;
+    bin.scatter = std::max(0.0, square - bin.slope * cross);
+    for (const double line_Hz : hum_.frequencies_Hz) bin.lines.push_back(reduce_line(begin, end, bin, line_Hz));
+    return bin;
+  }
+
+  /// On an even clock (hum is looked for on no other) the phase turns by the same angle from sample to sample.
+  LineInBin reduce_line(std::size_t begin, std::size_t end, const StickBin& bin, double line_Hz) const {
+    const double omega = 2.0 * std::numbers::pi * line_Hz;
+    const double step = omega * (time_s_.back() - time_s_.front()) / static_cast<double>(time_s_.size() - 1);
+    const double turn_c = std::cos(step);
+    const double turn_s = std::sin(step);
+    double c = std::cos(omega * (time_s_[begin] - hum_.begin_s));
+    double s = std::sin(omega * (time_s_[begin] - hum_.begin_s));
+    LineInBin line;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!is_excluded(i)) {
+        const double dt = time_s_[i] - bin.time_s;
+        line.mean[0] += c;
+        line.mean[1] += s;
+        line.slope[0] += dt * c;
+        line.slope[1] += dt * s;
+      }
+      const double next = c * turn_c - s * turn_s;
+      s = c * turn_s + s * turn_c;
+      c = next;
+    }
+    for (double& mean : line.mean) mean /= bin.count;
+    for (double& slope : line.slope) slope = bin.time_spread > 0.0 ? slope / bin.time_spread : 0.0;
+    return line;
+  }
+
+  std::span<const double> time_s_;
+  std::span<const double> force_;
+  const std::vector<DetectedSlip>& slips_;
+  double half_width_s_;
+  double step_s_;
+  const std::vector<bool>& excluded_;
+  const HumLines& hum_;
+};
+
+}  // namespace
+
+std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,
+                                  const std::vector<bool>& excluded, const HumLines& hum) {
+  return Cutter(recording, segmentation, half_width_s, excluded, hum).cut();
+}
+
+}  // namespace slipfit::fit

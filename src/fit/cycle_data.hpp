@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "slipfit/core/recording.hpp"
+#include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
+
+namespace slipfit::fit {
+
+/// Where the sliding and the fit's numbers are of order one: every parameter inside fit/ is scaled by these.
+struct Scales {
+  double speed_m_per_s = 1.0;
+  double force = 1.0;         ///< typical half drop
+  double level = 0.0;         ///< typical middle of the slips
+  double noise = 1.0;         ///< residuals are divided by it
+  double time_begin_s = 0.0;  ///< of the cycles in the fit: the drift polynomial lives on [begin, end]
+  double time_end_s = 1.0;
+  ForceView view = ForceView::Spring;  ///< spring or transmitted: what the samples show of a slip
+  double half_period_s = 1.0;          ///< from the largest to the smallest force of a slip, pi / (w_n b)
+};
+
+/// What a bin keeps of a mains line: mean and least-squares slope of its cosine and sine over the bin's samples.
+struct LineInBin {
+  std::array<double, 2> mean{};
+  std::array<double, 2> slope{};
+};
+
+/// Samples of a straight stretch of stick, reduced without loss to their centred sums: a line enters a least-squares
+/// fit only through them.
+struct StickBin {
+  double count = 0.0;
+  double time_s = 0.0;           ///< mean
+  double force = 0.0;            ///< mean
+  double slope = 0.0;            ///< least-squares slope
+  double time_spread = 0.0;      ///< sum of squared distances from the mean time, s^2
+  double scatter = 0.0;          ///< sum of squares about the line
+  std::vector<LineInBin> lines;  ///< one for each line of HumLines
+};
+
+/// Mains lines whose share in the stick bins is wanted; phases count from `begin_s`.
+struct HumLines {
+  std::vector<double> frequencies_Hz;
+  double begin_s = 0.0;
+};
+
+/// One cycle of the fit: a slip with half of the ramp on either side.
+struct CycleData {
+  std::size_t slip = 0;  ///< index into the segmentation
+  double window_begin_s = 0.0;
+  double window_end_s = 0.0;
+  std::vector<std::size_t> samples;  ///< around the slip, each one fitted; stick bins hold the rest
+  std::vector<double> time_s;
+  std::vector<double> force;
+  std::vector<StickBin> bins_before;
+  std::vector<StickBin> bins_after;
+  bool continuous_with_next = false;  ///< the next slip of the recording is in the fit too, no gap between
+
+  [[nodiscard]] std::size_t residuals() const { return time_s.size() + 2 * (bins_before.size() + bins_after.size()); }
+};
+
+/// Cuts the recording into cycles. `excluded` (empty or one flag a sample) leaves out impulses, clipped samples and
+/// outliers. The first slip starts from rest and is left out; so is a slip with a gap in it or without ramp samples.
+/// Samples within `half_width_s` of a slip's middle are kept one by one, the rest goes into bins.
+std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,
+                                  const std::vector<bool>& excluded, const HumLines& hum = {});
+
+}  // namespace slipfit::fit

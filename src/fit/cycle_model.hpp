@@ -1,0 +1,156 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "fit/cycle_data.hpp"
+#include "model/slip.hpp"
+
+namespace slipfit::fit {
+
+/// Values of the Legendre polynomials P_0 ... P_(terms-1) at x, and their derivatives.
+void legendre(double x, std::size_t terms, double* values, double* derivatives);
+
+/// Shared by all cycles: ln k, ln w_n, zeta. zeta may be negative while fitting (any |zeta| < 1), so that its estimate
+/// is not pushed away from 0; the interval is cut there afterwards.
+inline constexpr std::size_t kShared = 3;
+using Shared = std::array<double, kShared>;
+
+inline constexpr std::size_t kMaxLevelTerms = 16;
+
+/// How the kinetic level F_k is described: one polynomial in time (additive drift of the sensor, order 0: constant) or
+/// one value a cycle (friction that wanders); beside it hum of the mains, a cosine and a sine for each line.
+struct LevelModel {
+  bool per_cycle = false;
+  std::size_t terms = 1;  ///< of the Legendre polynomial, at most kMaxLevelTerms; 0 where per_cycle
+  std::vector<double> lines_Hz;
+
+  /// Shared coefficients: polynomial first, then cosine and sine of each line.
+  [[nodiscard]] std::size_t columns() const { return terms + 2 * lines_Hz.size(); }
+};
+
+/// A cycle's own numbers, scaled: onset time (from the detected middle, in half periods), force at onset above the
+/// level and, where the level is per cycle, the level. The last is 0 and unused otherwise.
+using Own = std::array<double, 3>;
+
+struct Parameters {
+  Shared shared{};
+  std::vector<double> level;  ///< LevelModel::columns() coefficients, scaled by Scales::force
+  std::vector<Own> cycles;
+};
+
+/// What the physical numbers are for one cycle.
+struct CycleState {
+  double stiffness_N_per_m = 0.0;
+  double omega_rad_per_s = 0.0;
+  double zeta = 0.0;
+  double force_scale = 0.0;  ///< u = k V / w_n
+  double onset_s = 0.0;
+  double onset_force = 0.0;  ///< above the level, A
+  model::Slip slip;
+  model::StickLine after;
+};
+
+/// Derivatives of residuals, row-major like Ceres; null where not wanted.
+struct Jacobians {
+  double* shared = nullptr;
+  double* level = nullptr;
+  double* own = nullptr;
+};
+
+/// The residuals of one cycle: (data - model) / noise for every sample around the slip, and two for each stick bin
+/// (its mean and its slope, weighted as the samples in it).
+class CycleModel {
+ public:
+  CycleModel(const CycleData& data, const Scales& scales, double reference_s, const LevelModel& level);
+
+  [[nodiscard]] std::size_t residuals() const { return data_->residuals(); }
+  [[nodiscard]] std::size_t own_parameters() const { return level_.per_cycle ? 3 : 2; }
+  [[nodiscard]] std::size_t level_parameters() const { return level_.columns(); }
+  [[nodiscard]] const CycleData& data() const { return *data_; }
+
+  /// Empty slip (lambda <= 0) has no solution: false, outputs untouched.
+  bool evaluate(const double* shared, const double* level, const double* own, double* residuals,
+                const Jacobians& jacobians) const;
+
+  bool state(const double* shared, const double* own, CycleState& state) const;
+  /// Without hum.
+  [[nodiscard]] double level_at(double time_s, const double* level, const double* own) const;
+  [[nodiscard]] double hum_at(double time_s, const double* level) const;
+  /// Model force at any time of the cycle, without hum.
+  [[nodiscard]] double force_at(const CycleState& state, double time_s, const double* level, const double* own) const;
+
+ private:
+  /// Force above the level in units of u, as the sensor sees it.
+  [[nodiscard]] model::WavePoint wave_at(const CycleState& state, double tau) const;
+  [[nodiscard]] model::WavePoint stick_before(const CycleState& state, double tau) const;
+  [[nodiscard]] model::WavePoint stick_after(const CycleState& state, double tau) const;
+  [[nodiscard]] model::WavePoint with_drag(const CycleState& state, model::WavePoint stick) const;
+  void put(std::size_t row, double weight, double data, double model, const std::array<double, 5>& gradient,
+           const double* basis, double* residuals, const Jacobians& jacobians) const;
+  void fill_basis();
+
+  const CycleData* data_;
+  Scales scales_;
+  double reference_s_;
+  LevelModel level_;
+  std::vector<double> basis_;  ///< level_.columns() values for every residual row (slopes for slope rows)
+};
+
+// Inline: asked for every sample of the recording.
+
+inline double CycleModel::level_at(double time_s, const double* level, const double* own) const {
+  if (level_.per_cycle) return scales_.level + scales_.force * own[2];
+  std::array<double, kMaxLevelTerms> values{};
+  std::array<double, kMaxLevelTerms> slopes{};
+  const double span_s = scales_.time_end_s - scales_.time_begin_s;
+  legendre(2.0 * (time_s - scales_.time_begin_s) / span_s - 1.0, level_.terms, values.data(), slopes.data());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < level_.terms; ++i) sum += level[i] * values[i];
+  return scales_.level + scales_.force * sum;
+}
+
+inline double CycleModel::hum_at(double time_s, const double* level) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < level_.lines_Hz.size(); ++i) {
+    const double phase = 2.0 * std::numbers::pi * level_.lines_Hz[i] * (time_s - scales_.time_begin_s);
+    const double* pair = level + level_.terms + 2 * i;
+    sum += pair[0] * std::cos(phase) + pair[1] * std::sin(phase);
+  }
+  return scales_.force * sum;
+}
+
+inline double CycleModel::force_at(const CycleState& state, double time_s, const double* level,
+                                   const double* own) const {
+  const double tau = state.omega_rad_per_s * (time_s - state.onset_s);
+  return level_at(time_s, level, own) + state.force_scale * wave_at(state, tau).z;
+}
+
+inline model::WavePoint CycleModel::wave_at(const CycleState& state, double tau) const {
+  const bool transmitted = scales_.view == ForceView::Transmitted;
+  if (tau > 0.0 && tau <= state.slip.tau_end) {
+    return transmitted ? model::transmitted_wave(state.slip, tau) : model::slip_wave(state.slip, tau);
+  }
+  return tau <= 0.0 ? stick_before(state, tau) : stick_after(state, tau);
+}
+
+inline model::WavePoint CycleModel::stick_before(const CycleState& state, double tau) const {
+  return with_drag(state, {state.slip.z0 + tau, 1.0, 0.0, 1.0});
+}
+
+inline model::WavePoint CycleModel::stick_after(const CycleState& state, double tau) const {
+  return with_drag(state, {state.after.intercept + tau, state.after.d_z0, state.after.d_zeta, 1.0});
+}
+
+inline model::WavePoint CycleModel::with_drag(const CycleState& state, model::WavePoint stick) const {
+  if (scales_.view == ForceView::Transmitted) {
+    stick.z += 2.0 * state.zeta;
+    stick.d_zeta += 2.0;
+  }
+  return stick;
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,347 @@
+#include "fit/damped_fit.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "fit/level_order.hpp"
+#include "fit/mains_hum.hpp"
+#include "fit/outliers.hpp"
+#include "fit/start.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+constexpr std::size_t kMinCycles = 3;
+
+/// Samples that no model should be asked to explain: impulses, and those at or beyond a level where the sensor
+/// saturates.
+std::vector<bool> initial_exclusions(const Recording& recording, const Quality& quality) {
+  std::vector<bool> excluded = quality.impulse_mask;
+  if (!quality.clip_high && !quality.clip_low) return excluded;
+  excluded.resize(recording.size(), false);
+  for (std::size_t i = 0; i < recording.size(); ++i) {
+    const double force = recording.force()[i];
+    if ((quality.clip_high && force >= *quality.clip_high) || (quality.clip_low && force <= *quality.clip_low)) {
+      excluded[i] = true;
+    }
+  }
+  return excluded;
+}
+
+class Fitter {
+ public:
+  Fitter(const Recording& recording, const Quality& quality, const Segmentation& segmentation, const HeldValues& held)
+      : recording_(recording), segmentation_(segmentation), held_values_(held) {
+    held_ = {held.stiffness_N_per_m.has_value(), held.omega_rad_per_s.has_value(), held.damping_ratio.has_value()};
+    excluded_ = initial_exclusions(recording, quality);
+    scales_.speed_m_per_s = recording.conditions().speed_m_per_s;
+    scales_.view = recording.conditions().force_view;
+    scales_.half_period_s = std::max(half_period_of(segmentation), 1e-3 * recording.sample_interval_s());
+    std::vector<double> drops;
+    std::vector<double> middles;
+    for (const DetectedSlip& slip : segmentation.slips) {
+      drops.push_back(slip.drop());
+      middles.push_back(0.5 * (slip.peak_force + slip.trough_force));
+    }
+    scales_.force = 0.5 * signal::median(drops);
+    scales_.level = signal::median(middles);
+    // A recording without noise still has rounding; residuals must keep a finite weight.
+    scales_.noise = std::max({quality.noise_rms, 0.29 * quality.quantisation_step.value_or(0.0), 1e-6 * scales_.force});
+  }
+
+  std::optional<DampedFit> fit() {
+    start_stiffness_ = held_values_.stiffness_N_per_m.value_or(stiffness_of(recording_, segmentation_));
+    if (!(start_stiffness_ > 0.0)) return std::nullopt;
+    cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), excluded_);
+    if (cycles_.size() < kMinCycles) return std::nullopt;
+    scales_.time_begin_s = cycles_.front().window_begin_s;
+    scales_.time_end_s = cycles_.back().window_end_s;
+
+    const LevelModel level = first_level();
+    const std::vector<CycleData> probe = spread_subset(cycles_, std::max<std::size_t>(kProbeCycles, 3 * level.terms));
+    std::optional<BlockFit> start = fit_probe(probe, level);
+    if (!start) return std::nullopt;
+    if (is_hopeless(*start)) return finish(std::move(*start));
+    std::optional<BlockFit> fit = fit_from(cycles_, start->level(), start->parameters.shared, kMaxIterations, kFinal);
+    if (fit) fit = with_clean_data(std::move(*fit));
+    if (!fit) return std::nullopt;
+    refuse_negative_damping(*fit, kFinal);
+    return finish(std::move(*fit));
+  }
+
+ private:
+  /// Enough cycles to find the shared parameters' neighbourhood; the full fit starts from there.
+  static constexpr std::size_t kProbeCycles = 12;
+  /// Above it the level model is in doubt: noise alone gives 1 +- sqrt(2 / samples), and the noise measured from
+  /// differences is good to a few percent.
+  static constexpr double kSuspectChi2 = 1.2;
+  /// F ratio of one level a cycle against the polynomial; far beyond chance for the 12 and more cycles it is used with.
+  static constexpr double kWanderingRatio = 3.0;
+
+  /// Wandering that shows in the middles of well sampled slips: this much of the drop and of the noise is left
+  /// unexplained.
+  static constexpr double kWanderingShare = 0.03;
+  static constexpr double kWanderingNoises = 10.0;
+  static constexpr double kWellSampled = 10.0;  // samples in a half period: peaks are met to (pi / 20)^2 / 2 = 1 %
+
+  /// A slip lasts 2 (pi - atan lambda) / w_n around its middle; 0.3 half periods on either side are left for the fit to
+  /// move its ends.
+  double half_width_s() const {
+    const double u = start_stiffness_ * scales_.speed_m_per_s * scales_.half_period_s / std::numbers::pi;
+    return scales_.half_period_s * (1.0 - std::atan2(scales_.force, u) / std::numbers::pi + 0.3);
+  }
+
+  /// The level model to begin with: the polynomial that the middles pay for, or at once one level a cycle.
+  LevelModel first_level() const {
+    std::vector<double> middles;
+    std::vector<double> drops;
+    for (const CycleData& cycle : cycles_) {
+      const DetectedSlip& slip = segmentation_.slips[cycle.slip];
+      middles.push_back(0.5 * (slip.peak_force + slip.trough_force));
+      drops.push_back(slip.drop());
+    }
+    const std::vector<double> times_s = middles_s(cycles_);
+    const std::size_t terms = choose_level_terms(times_s, middles);
+    const double left = unexplained_level(times_s, middles, drops, terms);
+    const bool well_sampled = scales_.half_period_s > kWellSampled * recording_.sample_interval_s();
+    const bool wanders = well_sampled && left > kWanderingShare * 2.0 * scales_.force &&
+                         left > kWanderingNoises * scales_.noise && cycles_.size() >= kProbeCycles;
+    return wanders ? LevelModel{true, 0, {}} : LevelModel{false, terms, {}};
+  }
+
+  static std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size) {
+    if (cycles.size() <= size) return cycles;
+    std::vector<CycleData> subset;
+    for (std::size_t i = 0; i < size; ++i) subset.push_back(cycles[i * (cycles.size() - 1) / (size - 1)]);
+    return subset;
+  }
+
+  std::vector<double> middles_s(const std::vector<CycleData>& cycles) const {
+    std::vector<double> values;
+    for (const CycleData& cycle : cycles) values.push_back(segmentation_.slips[cycle.slip].middle_s);
+    return values;
+  }
+
+  /// Finds level model and neighbourhood of the shared parameters on a few cycles.
+  std::optional<BlockFit> fit_probe(const std::vector<CycleData>& probe, LevelModel level) {
+    std::optional<BlockFit> fit = fit_from_starts(probe, level);
+    if (!fit) return std::nullopt;
+    start_ = fit->parameters.shared;
+    if (!level.per_cycle && probe.size() > level.terms && reduced_chi2(*fit) > kSuspectChi2) {
+      std::optional<BlockFit> wandering =
+          fit_from(probe, {true, 0, {}}, fit->parameters.shared, kQuickIterations, kRough);
+      if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
+    }
+    if (!std::isfinite(fit->solve({held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
+    refuse_negative_damping(*fit, kRough);
+    return fit;
+  }
+
+  bool explains_more(const BlockFit& wandering, const BlockFit& polynomial) const {
+    const Uncertainty rich = estimate_uncertainty(wandering, held_, false);
+    const Uncertainty poor = estimate_uncertainty(polynomial, held_, false);
+    const auto extra = static_cast<double>(wandering.size() - polynomial.level().terms);
+    const double noise2 = rich.noise * rich.noise / (scales_.noise * scales_.noise);
+    return (poor.chi2 - rich.chi2) / extra > kWanderingRatio * noise2;
+  }
+
+  /// Short runs with zeta held, from several damping ratios (and frequencies, where the fall is hardly sampled).
+  std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles, LevelModel level) const {
+    BlockFit fit(cycles, middles_s(cycles), scales_, level);
+    std::vector<double> stretches{1.0};
+    if (scales_.half_period_s < 6.0 * recording_.sample_interval_s()) stretches = {1.0, 1.6, 1.0 / 0.6};
+    std::vector<double> dampings{0.05, 0.01, 0.15};
+    if (level.per_cycle) dampings = {0.05};  // a level a cycle takes up what a wrong zeta does to the troughs
+    if (held_values_.damping_ratio) dampings = {*held_values_.damping_ratio};
+    double best_cost = std::numeric_limits<double>::infinity();
+    Parameters best;
+    for (const double stretch : stretches) {
+      for (const double zeta : dampings) {
+        const double b = std::sqrt(1.0 - zeta * zeta);
+        const double omega =
+            held_values_.omega_rad_per_s.value_or(stretch * std::numbers::pi / (scales_.half_period_s * b));
+        set_start(fit, segmentation_, {std::log(start_stiffness_), std::log(omega), zeta});
+        SolveOptions quick{held_, false, true, kQuickIterations, kRough};
+        quick.held.damping = true;
+        const double cost = fit.solve(quick);
+        if (cost >= best_cost) continue;
+        best_cost = cost;
+        best = fit.parameters;
+        if (reduced_chi2(fit) < kSuspectChi2) return fit;  // nothing left to find
+      }
+    }
+    if (!std::isfinite(best_cost)) return std::nullopt;
+    fit.parameters = best;
+    return fit;
+  }
+
+  std::optional<BlockFit> fit_from(const std::vector<CycleData>& cycles, LevelModel level, const Shared& shared,
+                                   int max_iterations, double tolerance) const {
+    BlockFit fit(cycles, middles_s(cycles), scales_, level);
+    set_start(fit, segmentation_, shared);
+    if (!std::isfinite(fit.solve({held_, false, true, max_iterations, tolerance}))) return std::nullopt;
+    return fit;
+  }
+
+  /// A damping ratio clearly below 0 (jackknife where residuals are not white) means that slips are not shaped like the
+  /// model's: zeta is held at 0 from here on, and called unidentified.
+  void refuse_negative_damping(BlockFit& fit, double tolerance) {
+    const double zeta = fit.parameters.shared[2];
+    if (held_.damping || !(zeta < 0.0) || reduced_chi2(fit) < kSuspectChi2) return;
+    const Uncertainty uncertainty = estimate_uncertainty(fit, held_, false);
+    const double se = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
+    if (!(zeta + 2.5 * se < 0.0)) return;
+    refused_damping_ = zeta;
+    held_.damping = true;
+    // From the features again: the runaway zeta has dragged the other parameters along.
+    set_start(fit, segmentation_, {start_[0], start_[1], 0.0});
+    fit.solve({held_, false, true, kMaxIterations, tolerance});
+  }
+
+  /// Residuals of half the friction drop: no stick-slip, whatever more cycles would say.
+  bool is_hopeless(const BlockFit& fit) const {
+    double mean = 0.0;
+    for (const Own& own : fit.parameters.cycles) mean += own[1] / static_cast<double>(fit.size());
+    return !(std::sqrt(reduced_chi2(fit)) * scales_.noise < 0.5 * std::abs(mean) * scales_.force);
+  }
+
+  /// Leaves out samples far from the fit and slips that it cannot explain, takes mains hum into the model, and refits.
+  /// Where there was much hum, again: the next residuals show its frequency and the outliers more clearly.
+  std::optional<BlockFit> with_clean_data(BlockFit fit) {
+    for (int pass = 0; pass < kCleanPasses; ++pass) {
+      const Residuals residuals = residuals_of(recording_, fit, excluded_);
+      const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
+      const std::vector<std::size_t> bad = unexplained_slips(fit);
+      const std::vector<double> lines_Hz = find_hum(recording_, fit, residuals, outliers);
+      if (outliers.empty() && bad.empty() && lines_Hz.empty()) return fit;
+      excluded_.resize(recording_.size(), false);
+      for (const std::size_t sample : outliers) excluded_[sample] = true;
+      outliers_ += outliers.size();
+      std::optional<BlockFit> next = refit(fit, bad, lines_Hz);
+      if (!next) return std::nullopt;
+      fit = std::move(*next);
+      if (hum_power(fit) < kMuchHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
+    }
+    return fit;
+  }
+
+  static double hum_power(const BlockFit& fit) {
+    double power = 0.0;
+    for (std::size_t i = fit.level().terms; i < fit.level().columns(); ++i) {
+      const double amplitude = fit.scales().force * fit.parameters.level[i];
+      power += 0.5 * amplitude * amplitude;
+    }
+    return power;
+  }
+
+  /// Cuts again without the slips `bad`, with hum lines in the level, and fits from the present solution.
+  std::optional<BlockFit> refit(const BlockFit& fit, const std::vector<std::size_t>& bad,
+                                const std::vector<double>& lines_Hz) const {
+    std::vector<CycleData> kept;
+    const HumLines hum{lines_Hz, scales_.time_begin_s};
+    for (CycleData& cycle : cut_cycles(recording_, segmentation_, half_width_s(), excluded_, hum)) {
+      if (std::find(bad.begin(), bad.end(), cycle.slip) == bad.end()) {
+        kept.push_back(std::move(cycle));
+      } else if (!kept.empty()) {
+        kept.back().continuous_with_next = false;
+      }
+    }
+    if (kept.size() < kMinCycles) return std::nullopt;
+    LevelModel level = fit.level();
+    level.lines_Hz = lines_Hz;
+    BlockFit refit(kept, middles_s(kept), scales_, level);
+    refit.parameters.shared = fit.parameters.shared;
+    std::copy_n(fit.parameters.level.begin(), level.terms, refit.parameters.level.begin());
+    std::size_t old = 0;
+    for (std::size_t i = 0; i < refit.size(); ++i) {
+      while (fit.data(old).slip < refit.data(i).slip) ++old;
+      refit.parameters.cycles[i] = fit.parameters.cycles[old];
+    }
+    if (!std::isfinite(refit.solve({held_, false, true, kMaxIterations, kFinal}))) return std::nullopt;
+    return refit;
+  }
+
+  DampedFit finish(BlockFit fit) const {
+    DampedFit result{std::move(fit), false, held_, refused_damping_, excluded_, outliers_, {}};
+    result.uncertainty = estimate_uncertainty(result.blocks, held_, false);
+    if (!result.blocks.level().per_cycle && !result.uncertainty.from_cycles) join_ramps(result);
+    return result;
+  }
+
+  /// Joined ramps halve the error of k where the data agree: F test, one degree of freedom a ramp.
+  void join_ramps(DampedFit& result) const {
+    double ramps = 0.0;
+    for (std::size_t i = 0; i + 1 < result.blocks.size(); ++i) {
+      ramps += result.blocks.data(i).continuous_with_next ? 1.0 : 0.0;
+    }
+    if (ramps < 1.0) return;
+    const Parameters before = result.blocks.parameters;
+    if (std::isfinite(result.blocks.solve({held_, true, true, kMaxIterations, kFinal}))) {
+      const Uncertainty joined = estimate_uncertainty(result.blocks, held_, true);
+      const double freedom = std::max(1.0, result.uncertainty.degrees_of_freedom);
+      const double ratio = (joined.chi2 - result.uncertainty.chi2) / ramps / (result.uncertainty.chi2 / freedom);
+      const boost::math::fisher_f_distribution<double> chance(ramps, freedom);
+      if (ratio <= 0.0 || boost::math::cdf(boost::math::complement(chance, ratio)) > 1e-3) {
+        result.continuous = true;
+        result.uncertainty = joined;
+        return;
+      }
+    }
+    result.blocks.parameters = before;
+  }
+
+  static constexpr int kQuickIterations = 8;
+  static constexpr int kCleanPasses = 4;
+  static constexpr double kMuchHum = 0.5;  // of the residual variance: less does not blur outliers and frequency
+  static constexpr int kProbeIterations = 12;
+  static constexpr int kMaxIterations = 60;
+  static constexpr double kRough = 0.1;  // SolveOptions::tolerance
+  static constexpr double kFinal = 1e-3;
+
+  const Recording& recording_;
+  const Segmentation& segmentation_;
+  HeldValues held_values_;
+  Held held_;
+  double start_stiffness_ = 0.0;
+  Shared start_{};
+  std::optional<double> refused_damping_;
+  Scales scales_;
+  std::vector<bool> excluded_;
+  std::vector<CycleData> cycles_;
+  std::size_t outliers_ = 0;
+};
+
+}  // namespace
+
+std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& quality,
+                                    const Segmentation& segmentation, const HeldValues& held) {
+  if (segmentation.slips.size() < kMinCycles) return std::nullopt;
+  return Fitter(recording, quality, segmentation, held).fit();
+}
+
+std::optional<DampedFit> fit_undamped(const DampedFit& damped) {
+  const BlockFit& from = damped.blocks;
+  std::vector<CycleData> cycles;
+  std::vector<double> reference_s;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    cycles.push_back(from.data(i));
+    reference_s.push_back(from.reference_s(i));
+  }
+  BlockFit blocks(std::move(cycles), std::move(reference_s), from.scales(), from.level());
+  blocks.parameters = from.parameters;
+  blocks.parameters.shared[2] = 0.0;
+  Held held = damped.held;
+  held.damping = true;
+  if (!std::isfinite(blocks.solve({held, damped.continuous, true}))) return std::nullopt;
+  DampedFit result{std::move(blocks), damped.continuous, held, damped.refused_damping,
+                   damped.excluded,   damped.outliers,   {}};
+  result.uncertainty = estimate_uncertainty(result.blocks, held, damped.continuous);
+  return result;
+}
+
+}  // namespace slipfit::fit

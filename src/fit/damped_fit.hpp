@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fit/block_fit.hpp"
+#include "fit/uncertainty.hpp"
+#include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
+
+namespace slipfit::fit {
+
+/// The block fit of a recording and what it was reached with.
+struct DampedFit {
+  BlockFit blocks;
+  bool continuous = false;  ///< ramps shared by neighbouring cycles: the data agree with it
+  Held held;
+  /// Free damping ratio where it came out clearly negative: the slip is not shaped like the model's, zeta is held at 0.
+  std::optional<double> refused_damping;
+  std::vector<bool> excluded;  ///< one flag a sample: impulses, clipped, outliers
+  std::size_t outliers = 0;    ///< of `excluded`, found by the fit
+  Uncertainty uncertainty;
+};
+
+/// Values (natural parameters, zeta itself) at which shared parameters are held.
+struct HeldValues {
+  std::optional<double> stiffness_N_per_m;
+  std::optional<double> omega_rad_per_s;
+  std::optional<double> damping_ratio;
+};
+
+/// The per-cycle block fit with all that makes it stand real recordings: several starts in zeta, a level that may
+/// drift or wander, outliers left out, ramps joined where the data allow it. Empty: fewer than 3 cycles to fit, or no
+/// start converges.
+std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& quality,
+                                    const Segmentation& segmentation, const HeldValues& held);
+
+/// The same cycles and level with zeta held at 0, from the damped solution.
+std::optional<DampedFit> fit_undamped(const DampedFit& damped);
+
+}  // namespace slipfit::fit

@@ -1,0 +1,154 @@
+#include "slipfit/fit/fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+#include "fit/damped_fit.hpp"
+#include "fit/parameters.hpp"
+#include "fit/tiers.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit {
+namespace {
+
+using fit::BlockFit;
+using fit::CycleState;
+using fit::DampedFit;
+
+fit::HeldValues held_values(const FitOptions& options) {
+  fit::HeldValues held;
+  for (const auto& [name, value] : options.fixed) {
+    if (name == "stiffness_N_per_m") held.stiffness_N_per_m = value;
+    if (name == "natural_frequency_rad_per_s") held.omega_rad_per_s = value;
+    if (name == "damping_ratio") held.damping_ratio = value;
+  }
+  if (options.tier == Tier::Undamped) held.damping_ratio = 0.0;
+  return held;
+}
+
+Evidence weigh(const Recording& recording, const DampedFit& damped, const fit::Resolution& resolution) {
+  const BlockFit& blocks = damped.blocks;
+  std::vector<double> onset_forces;
+  double restick = 0.0;
+  double mean = 0.0;
+  const auto count = static_cast<double>(blocks.size());
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const CycleState state = blocks.state(i);
+    onset_forces.push_back(state.onset_force);
+    mean += state.onset_force / count;
+    restick += (state.slip.resticks ? 1.0 : 0.0) / count;
+  }
+  const auto half = static_cast<std::ptrdiff_t>(onset_forces.size() / 2);
+  Evidence evidence;
+  evidence.relative_residual = damped.uncertainty.noise / std::abs(mean);
+  evidence.onset_force_spread = damped.uncertainty.onset_force_sd * blocks.scales().force / std::abs(mean);
+  evidence.restick_share = restick;
+  evidence.decay = signal::median({onset_forces.begin(), onset_forces.begin() + half}) /
+                   signal::median({onset_forces.begin() + half, onset_forces.end()});
+  evidence.span_share = (blocks.scales().time_end_s - blocks.scales().time_begin_s) / recording.duration_s();
+  evidence.samples_per_slip = resolution.samples_per_slip;
+  return evidence;
+}
+
+/// The table of all detected cycles, with what the fit says of those that it uses.
+void tabulate(const Recording& recording, const Segmentation& segmentation, const BlockFit& blocks, FitResult& result) {
+  for (const DetectedSlip& slip : segmentation.slips) {
+    Cycle row;
+    row.peak_s = recording.time_s()[slip.peak];
+    row.trough_s = recording.time_s()[slip.trough];
+    row.peak_force = slip.peak_force;
+    row.trough_force = slip.trough_force;
+    result.cycles.push_back(row);
+  }
+  for (std::size_t c = 0; c < blocks.size(); ++c) {
+    const CycleState state = blocks.state(c);
+    const double* own = blocks.parameters.cycles[c].data();
+    Cycle& row = result.cycles[blocks.data(c).slip];
+    row.used = true;
+    row.onset_s = state.onset_s;
+    row.end_s = state.onset_s + state.slip.tau_end / state.omega_rad_per_s;
+    row.level_force = blocks.model(c).level_at(state.onset_s, blocks.level_data(), own);
+    row.onset_force = *row.level_force + state.onset_force;
+    row.residual_rms = blocks.scales().noise *
+                       std::sqrt(blocks.cycle_sum_of_squares(c) / static_cast<double>(blocks.data(c).residuals()));
+  }
+}
+
+/// Curve of the chosen tier over the windows of the fitted cycles.
+std::vector<CurvePoint> curve_of(const Recording& recording, const BlockFit& blocks) {
+  const auto time_s = recording.time_s();
+  std::vector<CurvePoint> curve;
+  for (std::size_t c = 0; c < blocks.size(); ++c) {
+    const CycleState state = blocks.state(c);
+    const double* own = blocks.parameters.cycles[c].data();
+    auto i = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), blocks.data(c).window_begin_s) -
+                                      time_s.begin());
+    for (; i < time_s.size() && time_s[i] < blocks.data(c).window_end_s; ++i) {
+      curve.push_back({i, blocks.model(c).force_at(state, time_s[i], blocks.level_data(), own) +
+                              blocks.model(c).hum_at(time_s[i], blocks.level_data())});
+    }
+  }
+  return curve;
+}
+
+Residual residual_of(const DampedFit& chosen, const Quality& quality) {
+  const fit::Uncertainty& uncertainty = chosen.uncertainty;
+  Residual residual;
+  residual.rms = uncertainty.noise;
+  if (quality.noise_rms > 0.0) {
+    residual.reduced_chi2 = uncertainty.noise * uncertainty.noise / (quality.noise_rms * quality.noise_rms);
+  }
+  if (uncertainty.lag1_pairs > 2.0) {
+    const double z = std::abs(uncertainty.lag1_correlation) * std::sqrt(uncertainty.lag1_pairs);
+    residual.whiteness_p = 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
+  }
+  return residual;
+}
+
+}  // namespace
+
+void withdraw_parameters(FitResult& fit) {
+  for (Parameter& parameter : fit.parameters) {
+    if (parameter.status == ParameterStatus::Fixed) continue;
+    parameter = {parameter.name, {}, ParameterStatus::Unidentified};
+    parameter.estimate.note = "the motion is not stick-slip of this model";
+  }
+  fit.correlation.reset();
+  fit.estimate.reset();
+}
+
+std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
+                                       const Segmentation& segmentation, const FitOptions& options) {
+  std::optional<DampedFit> damped = fit::fit_damped(recording, quality, segmentation, held_values(options));
+  if (!damped) return std::nullopt;
+  std::optional<DampedFit> undamped;
+  if (!damped->held.damping) undamped = fit::fit_undamped(*damped);
+  fit::TierFits fits{fit::fit_sawtooth(*damped), std::move(undamped), std::move(*damped)};
+  const fit::Resolution resolution = fit::resolve(recording, fits);
+
+  FitResult result;
+  result.candidates = fit::choose_tier(fits, resolution, options.tier);
+  for (const Candidate& candidate : result.candidates) {
+    if (candidate.chosen) result.tier = candidate.tier;
+  }
+  const DampedFit* undamped_fit = fits.without_damping();
+  const DampedFit& chosen = result.tier == Tier::Undamped && undamped_fit != nullptr ? *undamped_fit : fits.damped;
+  result.evidence = weigh(recording, fits.damped, resolution);
+  result.conditional_on.emplace_back(
+      "Coulomb friction (one speed cannot tell zeta and F_s - F_k from friction that depends on speed)");
+  fit::report_parameters(recording, fits, resolution, result);
+  result.residual = residual_of(chosen, quality);
+  tabulate(recording, segmentation, chosen.blocks, result);
+  const std::vector<double>& hum_Hz = chosen.blocks.level().lines_Hz;
+  if (!hum_Hz.empty()) {
+    result.warnings.push_back({"hum_fitted", fmt::format("hum of the mains at {:.4g} Hz is fitted beside the cycles",
+                                                         fmt::join(hum_Hz, ", "))});
+  }
+  if (options.curve) result.curve = curve_of(recording, chosen.blocks);
+  return result;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,102 @@
+#include "fit/mains_hum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "signal/mains.hpp"
+#include "signal/transform.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+/// Cosine and sine amplitude of one frequency.
+struct HumTerm {
+  double frequency_Hz = 0.0;
+  double cosine = 0.0;
+  double sine = 0.0;
+};
+
+/// Residuals with the fitted hum put back; outliers, which would smear over the spectrum, are 0.
+std::vector<double> with_hum(const Recording& recording, const BlockFit& fit, const Residuals& residuals,
+                             const std::vector<std::size_t>& outliers) {
+  std::vector<double> values = residuals.value;
+  for (const std::size_t sample : outliers) values[sample] = 0.0;
+  if (fit.level().lines_Hz.empty()) return values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] != 0.0) values[i] += fit.model(0).hum_at(recording.time_s()[i], fit.level_data());
+  }
+  return values;
+}
+
+/// Least-squares amplitude of one frequency on an even clock (the phasor turns by a fixed step from sample to sample).
+HumTerm fit_term(const std::vector<double>& residuals, double step_s, double frequency_Hz) {
+  const double turn_c = std::cos(2.0 * std::numbers::pi * frequency_Hz * step_s);
+  const double turn_s = std::sin(2.0 * std::numbers::pi * frequency_Hz * step_s);
+  double c = 1.0;
+  double s = 0.0;
+  double cc = 0.0, cs = 0.0, rc = 0.0, rs = 0.0, used = 0.0;
+  for (const double r : residuals) {
+    const double present = r != 0.0 ? 1.0 : 0.0;
+    used += present;
+    cc += present * c * c;
+    cs += present * c * s;
+    rc += r * c;
+    rs += r * s;
+    const double next = c * turn_c - s * turn_s;
+    s = c * turn_s + s * turn_c;
+    c = next;
+  }
+  const double ss = used - cc;
+  const double determinant = cc * ss - cs * cs;
+  if (!(determinant > 0.0)) return {frequency_Hz, 0.0, 0.0};
+  return {frequency_Hz, (rc * ss - rs * cs) / determinant, (rs * cc - rc * cs) / determinant};
+}
+
+double power_of(const HumTerm& term) {
+  return term.cosine * term.cosine + term.sine * term.sine;
+}
+
+/// Half a resolution on either side in steps of a quarter, then the vertex of a parabola through the best three.
+double refine(const std::vector<double>& residuals, double step_s, double frequency_Hz, double resolution_Hz) {
+  constexpr int kSteps = 2;
+  std::vector<double> powers;
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    powers.push_back(power_of(fit_term(residuals, step_s, frequency_Hz + 0.25 * i * resolution_Hz)));
+  }
+  const auto best = std::max_element(powers.begin(), powers.end()) - powers.begin();
+  double offset = static_cast<double>(best) - kSteps;
+  if (best > 0 && best < 2 * kSteps) {
+    const auto at = static_cast<std::size_t>(best);
+    const double curvature = powers[at - 1] - 2.0 * powers[at] + powers[at + 1];
+    if (curvature < 0.0) offset += 0.5 * (powers[at - 1] - powers[at + 1]) / curvature;
+  }
+  return frequency_Hz + 0.25 * offset * resolution_Hz;
+}
+
+}  // namespace
+
+std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, const Residuals& residuals,
+                             const std::vector<std::size_t>& outliers) {
+  if (!signal::clock_is_even(recording)) return {};
+  const std::vector<double> values = with_hum(recording, fit, residuals, outliers);
+  const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
+  const std::size_t length = signal::good_length(values.size());
+  const std::vector<double> power = signal::hann_power(values, length);
+  const double bin_Hz = 1.0 / (static_cast<double>(length) * step_s);
+  const double resolution_Hz = 1.0 / recording.duration_s();
+
+  // A new line is taken where its peak is; its hum must be fitted before its frequency is worth refining.
+  std::vector<double> frequencies_Hz;
+  for (const double known_Hz : fit.level().lines_Hz) {
+    frequencies_Hz.push_back(refine(values, step_s, known_Hz, resolution_Hz));
+  }
+  for (const signal::MainsLine& line : signal::find_mains(power, bin_Hz, resolution_Hz)) {
+    const auto is_near = [&](double f) { return std::abs(f - line.frequency_Hz) < 2.0 * resolution_Hz; };
+    if (std::none_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near))
+      frequencies_Hz.push_back(line.frequency_Hz);
+  }
+  return frequencies_Hz;
+}
+
+}  // namespace slipfit::fit

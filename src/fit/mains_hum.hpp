@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "fit/block_fit.hpp"
+#include "fit/outliers.hpp"
+
+namespace slipfit::fit {
+
+/// Frequencies of the mains lines that stand out of the residuals. Small hum hides under the cycles' own spectrum; in
+/// the residuals it does not. Lines that the fit has already are looked at again (their hum is put back first), so that
+/// their frequency follows the better fit. Empty on an uneven clock.
+std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, const Residuals& residuals,
+                             const std::vector<std::size_t>& outliers);
+
+}  // namespace slipfit::fit

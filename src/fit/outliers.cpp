@@ -1,0 +1,68 @@
+#include "fit/outliers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "signal/robust.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+constexpr double kOutlierSigmas = 4.5;      // one false alarm in 150 000 normal samples
+constexpr double kUnexplainedRatio = 25.0;  // 5 standard deviations on average over a whole cycle
+
+void append_outliers(const Residuals& residuals, Phase phase, double noise, std::vector<std::size_t>& outliers) {
+  std::vector<double> sizes;
+  sizes.reserve(residuals.value.size());
+  for (std::size_t i = 0; i < residuals.value.size(); ++i) {
+    if (residuals.phase[i] == phase) sizes.push_back(std::abs(residuals.value[i]));
+  }
+  const double bound = kOutlierSigmas * std::max(1.4826 * signal::median(std::move(sizes)), noise);
+  for (std::size_t i = 0; i < residuals.value.size(); ++i) {
+    if (residuals.phase[i] == phase && std::abs(residuals.value[i]) > bound) outliers.push_back(i);
+  }
+}
+
+}  // namespace
+
+Residuals residuals_of(const Recording& recording, const BlockFit& fit, const std::vector<bool>& excluded) {
+  const auto time_s = recording.time_s();
+  const auto force = recording.force();
+  Residuals residuals{std::vector<double>(recording.size(), 0.0), std::vector<Phase>(recording.size(), Phase::None)};
+  for (std::size_t c = 0; c < fit.size(); ++c) {
+    const CycleState state = fit.state(c);
+    const double* own = fit.parameters.cycles[c].data();
+    const double slip_end_s = state.onset_s + state.slip.tau_end / state.omega_rad_per_s;
+    auto i = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), fit.data(c).window_begin_s) -
+                                      time_s.begin());
+    for (; i < time_s.size() && time_s[i] < fit.data(c).window_end_s; ++i) {
+      if (!excluded.empty() && excluded[i]) continue;
+      residuals.value[i] = force[i] - fit.model(c).force_at(state, time_s[i], fit.level_data(), own) -
+                           fit.model(c).hum_at(time_s[i], fit.level_data());
+      residuals.phase[i] = time_s[i] > state.onset_s && time_s[i] < slip_end_s ? Phase::Slip : Phase::Stick;
+    }
+  }
+  return residuals;
+}
+
+std::vector<std::size_t> find_outliers(const Residuals& residuals, double noise) {
+  std::vector<std::size_t> outliers;
+  append_outliers(residuals, Phase::Slip, noise, outliers);
+  append_outliers(residuals, Phase::Stick, noise, outliers);
+  return outliers;
+}
+
+std::vector<std::size_t> unexplained_slips(const BlockFit& fit) {
+  std::vector<double> mean_squares;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    mean_squares.push_back(fit.cycle_sum_of_squares(i) / static_cast<double>(fit.data(i).residuals()));
+  }
+  const double bound = kUnexplainedRatio * std::max(1.0, signal::median(mean_squares));
+  std::vector<std::size_t> bad;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    if (!(mean_squares[i] <= bound)) bad.push_back(fit.data(i).slip);
+  }
+  return bad;
+}
+
+}  // namespace slipfit::fit

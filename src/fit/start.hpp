@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "fit/block_fit.hpp"
+#include "slipfit/signal/cycles.hpp"
+
+namespace slipfit::fit {
+
+/// Half period from the 80 % to 20 % falls: a half cosine passes them in acos(-0.6) - acos(0.6) of its pi.
+double half_period_of(const Segmentation& segmentation);
+
+/// Merges centred sums (parallel axis rule): the same as reducing all samples at once.
+StickBin merge(const std::vector<StickBin>& bins);
+
+/// Median slope of the rises over the speed, N/m (or 1/m); 0 where no rise has two samples in its middle.
+double stiffness_of(const Recording& recording, const Segmentation& segmentation);
+
+/// Fills `fit.parameters` for the given shared ones from peaks, troughs and middles of the slips.
+void set_start(BlockFit& fit, const Segmentation& segmentation, const Shared& shared);
+
+}  // namespace slipfit::fit

@@ -1,0 +1,151 @@
+#include "io/cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "io/short_decimal.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kLongestNumber = 63;
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+struct Parsed {
+  double value = kNone;
+  std::size_t length = 0;  ///< characters used, 0 where there is no number
+};
+
+/// A number at the very start of the text. Correctly rounded (fast-cpp-csv-parser's own conversion is not).
+Parsed parse_point(std::string_view text) {
+  const bool plus = text.size() > 1 && text[0] == '+' && (is_digit(text[1]) || text[1] == '.');
+  const char* begin = text.data() + (plus ? 1 : 0);
+  Parsed parsed;
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), parsed.value);
+  if (error != std::errc()) return {};
+  parsed.length = static_cast<std::size_t>(end - text.data());
+  return parsed;
+}
+
+Parsed parse_comma(std::string_view text) {
+  std::array<char, kLongestNumber> copy{};
+  const std::size_t length = std::min(text.size(), copy.size());
+  if (text.substr(0, length).find('.') != std::string_view::npos) {
+    // "1.5" is no number where the comma is decimal, but it may stand in a tag behind one.
+    const Parsed parsed = parse_comma(text.substr(0, text.find('.')));
+    return parsed.length == text.find('.') ? Parsed{} : parsed;
+  }
+  std::replace_copy(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(length), copy.begin(), ',', '.');
+  const Parsed parsed = parse_point({copy.data(), length});
+  return parsed.length > 0 && text[parsed.length - 1] == ',' ? Parsed{} : parsed;  // "1," is a cell and a delimiter
+}
+
+Parsed parse(std::string_view text, bool decimal_comma) {
+  return decimal_comma ? parse_comma(text) : parse_point(text);
+}
+
+bool is_missing(std::string_view text) {
+  static constexpr std::array kWords = {"nan",      "na",      "n/a",     "#n/a",   "null",     "none",   "inf",
+                                        "+inf",     "-inf",    "+nan",    "-nan",   "infinity", "ol",     "overload",
+                                        "overflow", "err",     "error",   "-",      "--",       "---",    "----",
+                                        "#value!",  "#div/0!", "1.#qnan", "1.#inf", "-1.#ind",  "1.#ind", "invalid"};
+  std::string word(text);
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+}
+
+/// hh:mm:ss with an optional fraction; anything else gives no number.
+Parsed parse_clock(std::string_view text, bool decimal_comma) {
+  double seconds = 0.0;
+  for (int colons = 0; colons < 2; ++colons) {
+    int part = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), part);
+    const auto used = static_cast<std::size_t>(end - text.data());
+    if (error != std::errc() || part < 0 || used >= text.size() || text[used] != ':') return {};
+    seconds = (seconds + part) * 60.0;
+    text.remove_prefix(used + 1);
+  }
+  if (text.empty() || !is_digit(text[0])) return {};
+  const Parsed rest = parse(text, decimal_comma || text.find(',') != std::string_view::npos);
+  if (rest.length != text.size() || !(rest.value < 61.0)) return {};
+  return {seconds + rest.value, text.size()};
+}
+
+/// A tag begins with a letter or a unit sign, behind the blanks: neither a second number nor the rest of a date.
+bool is_tag(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  return std::isalpha(first) != 0 || first >= 0x80 || first == '%' || first == '[' || first == '(';
+}
+
+}  // namespace
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view unquote(std::string_view text) {
+  text = trim(text);
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') return trim(text.substr(1, text.size() - 2));
+  return text;
+}
+
+double plain_number(std::string_view text, bool decimal_comma) {
+  text = trim(text);
+  if (text.empty()) return kNone;
+  const ShortDecimal quick = read_short_decimal(text.data(), text.data() + text.size(), decimal_comma ? ',' : '.');
+  if (quick.is_number && quick.end == text.data() + text.size()) return quick.value;
+  const Parsed parsed = parse(text, decimal_comma);
+  return parsed.length == text.size() ? parsed.value : kNone;
+}
+
+Cell read_cell(std::string_view text, bool decimal_comma) {
+  text = unquote(text);
+  if (text.empty()) return {CellKind::Blank, kNone, {}};
+  const Parsed parsed = parse(text, decimal_comma);
+  if (parsed.length > 0) {
+    const std::string_view rest = trim(text.substr(parsed.length));
+    const bool finite = std::isfinite(parsed.value);
+    const bool apart =
+        is_blank(text[std::min(parsed.length, text.size() - 1)]);  // "Info", "Nanometer" hold inf and nan
+    if (rest.empty() || (is_tag(rest) && (finite || apart))) {
+      return {finite ? CellKind::Number : CellKind::Missing, parsed.value, rest};
+    }
+  }
+  if (is_missing(text)) return {CellKind::Missing, kNone, {}};
+  const Parsed clock = parse_clock(text, decimal_comma);
+  if (clock.length > 0) return {CellKind::Clock, clock.value, {}};
+  return {CellKind::Text, kNone, {}};
+}
+
+std::vector<std::string_view> split(std::string_view line, char delimiter) {
+  std::vector<std::string_view> cells;
+  if (delimiter == '\0') return {line};
+  const std::string copy(line);  // ends in NUL, as end_of_cell wants it
+  const char* cell = copy.c_str();
+  for (;;) {
+    if (delimiter == ' ') {
+      while (is_blank(*cell)) ++cell;
+      if (*cell == '\0') return cells;
+    }
+    const char* end = end_of_cell(cell, delimiter);
+    cells.push_back(line.substr(static_cast<std::size_t>(cell - copy.c_str()), static_cast<std::size_t>(end - cell)));
+    if (*end == '\0') return cells;
+    cell = end + 1;
+  }
+}
+
+}  // namespace slipfit::reading

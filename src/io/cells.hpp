@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace slipfit::reading {
+
+/// How a line falls into cells and how a cell spells a number.
+struct Dialect {
+  char delimiter = ',';  ///< ',', ';', tab, ' ' for any run of blanks, NUL for one cell a line
+  bool decimal_comma = false;
+};
+
+enum class CellKind {
+  Number,
+  Clock,    ///< hh:mm:ss(.fff), value in seconds
+  Blank,    ///< nothing
+  Missing,  ///< nan, inf, n/a, ---, overflow: a reading that is none
+  Text
+};
+
+struct Cell {
+  CellKind kind = CellKind::Text;
+  double value = 0.0;
+  std::string_view tag;  ///< what stands behind a number: "N1" in "1.79 N1"
+};
+
+/// Understands blanks around the number, a sign, exponents, quotes and a tag that begins with a letter.
+Cell read_cell(std::string_view text, bool decimal_comma);
+
+/// A number that fills the text from end to end (blanks aside); the fast way, for the rows of a recording. NaN if not.
+double plain_number(std::string_view text, bool decimal_comma);
+
+/// Every cell of a line. Quotes protect delimiters and stay in the cell.
+std::vector<std::string_view> split(std::string_view line, char delimiter);
+
+/// The end of the cell that begins at `cell` (for blanks: that begins there with no blank), at the latest the NUL.
+inline const char* end_of_cell(const char* cell, char delimiter) {
+  if (*cell == '"') {
+    const char* quote = cell + 1;
+    while (*quote != '\0' && *quote != '"') ++quote;
+    if (*quote == '"') cell = quote + 1;
+  }
+  if (delimiter == ' ') {
+    while (*cell != '\0' && *cell != ' ' && *cell != '\t') ++cell;
+  } else {
+    while (*cell != '\0' && *cell != delimiter) ++cell;
+  }
+  return cell;
+}
+
+std::string_view trim(std::string_view text);
+std::string_view unquote(std::string_view text);
+
+}  // namespace slipfit::reading

@@ -1,0 +1,106 @@
+#include "io/column_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+#include "io/message.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+constexpr std::size_t kMostListed = 24;
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+template <class Matches>
+std::vector<std::size_t> columns_where(const Layout& layout, const Matches& matches) {
+  std::vector<std::size_t> found;
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    if (matches(layout.columns[c].name)) found.push_back(c);
+  }
+  return found;
+}
+
+std::vector<std::size_t> columns_called(const Layout& layout, const std::string& wanted) {
+  if (wanted.empty()) return {};
+  auto found = columns_where(layout, [&](const ColumnName& name) { return name.text == wanted; });
+  if (found.empty()) {
+    found = columns_where(layout, [&](const ColumnName& name) {
+      return lower(name.text) == lower(wanted) || lower(name.base) == lower(wanted);
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string describe(const Layout& layout, std::size_t column) {
+  const std::string& name = layout.columns[column].name.text;
+  return name.empty() ? fmt::format("column {}", column + 1) : fmt::format("column {} '{}'", column + 1, name);
+}
+
+std::string list_columns(const Layout& layout) {
+  std::string list = layout.columns.size() == 1 ? "the only column is " : "the columns are ";
+  for (std::size_t c = 0; c < layout.columns.size() && c < kMostListed; ++c) {
+    const std::string& name = layout.columns[c].name.text;
+    list += fmt::format("{}{}{}", c == 0 ? "" : ", ", c + 1, name.empty() ? "" : fmt::format(" '{}'", name));
+  }
+  if (layout.columns.size() > kMostListed) list += fmt::format(" and {} more", layout.columns.size() - kMostListed);
+  return list + (layout.has_names ? "" : " (without names)");
+}
+
+Result<std::size_t> find_column(const Layout& layout, const std::string& wanted, const std::string& option,
+                                const std::string& file) {
+  auto found = columns_called(layout, printable(wanted));
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+  const bool is_number = error == std::errc() && end == wanted.data() + wanted.size();
+  if (found.empty() && is_number && number >= 1 && number <= layout.columns.size()) found = {number - 1};
+  if (found.empty()) {
+    return Error{"unknown_column", fmt::format("{}: no column '{}'; {}; choose one with {}", file, printable(wanted),
+                                               list_columns(layout), option)};
+  }
+  if (found.size() > 1) {
+    return Error{"unknown_column", fmt::format("{}: several columns are called '{}'; {}; give the number with {}", file,
+                                               printable(wanted), list_columns(layout), option)};
+  }
+  if (!layout.columns[found.front()].may_be_numeric()) {
+    return Error{"column_not_numeric", fmt::format("{}:{}: {} holds text, not numbers; choose another with {}", file,
+                                                   layout.first_data_line, describe(layout, found.front()), option)};
+  }
+  return found.front();
+}
+
+Result<std::vector<std::size_t>> find_time_column(const Layout& layout, const std::string& file) {
+  auto found = best_columns(layout, [](const Column& column, std::size_t) {
+    if (column.name.role != Role::Time || !column.may_be_numeric()) return 0;
+    return column.name.rank + (column.never_decreases ? 8 : 0) +
+           (column.name.unit.empty() && column.clocks == 0 ? 0 : 4);
+  });
+  const auto rises = [](const Column& column) {
+    return column.name.role == Role::Unknown && column.is_numeric() && column.never_decreases;
+  };
+  const auto is_numeric = [](const Column& column) { return column.is_numeric(); };
+  const bool is_alone = std::count_if(layout.columns.begin(), layout.columns.end(), is_numeric) == 1;
+  if (found.empty() && !is_alone) {
+    // By monotony. A clock runs in even steps, and a whole number that steps by one beside it is a line number.
+    found = best_columns(layout, [&](const Column& column, std::size_t) {
+      const bool is_counter = column.is_whole && column.is_regular && column.median_step == 1.0;
+      return !rises(column) ? 0 : is_counter ? 1 : column.is_regular ? 3 : 2;
+    });
+  }
+  if (found.size() > 1) {
+    return Error{"ambiguous_time_column",
+                 fmt::format("{}: {} and {} may both be the time; {}; choose one with --time-column", file,
+                             describe(layout, found[0]), describe(layout, found[1]), list_columns(layout))};
+  }
+  return found;
+}
+
+}  // namespace slipfit::reading

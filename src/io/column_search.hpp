@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/layout.hpp"
+#include "slipfit/core/result.hpp"
+
+namespace slipfit::reading {
+
+/// "column 2 'force [N]'", "column 2" where it has no name.
+std::string describe(const Layout& layout, std::size_t column);
+
+/// "the columns are 1 'time', 2 'Fx', 3 'Fy'".
+std::string list_columns(const Layout& layout);
+
+/// By name (exact, then without unit or case) or 1-based number. Errors: unknown_column, column_not_numeric.
+Result<std::size_t> find_column(const Layout& layout, const std::string& wanted, const std::string& option,
+                                const std::string& file);
+
+/// The columns with the highest score above 0 (several where they tie).
+template <class ScoreOf>
+std::vector<std::size_t> best_columns(const Layout& layout, const ScoreOf& score_of) {
+  std::vector<std::size_t> best;
+  int highest = 1;
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    const int score = score_of(layout.columns[c], c);
+    if (score < highest) continue;
+    if (score > highest) best.clear();
+    highest = score;
+    best.push_back(c);
+  }
+  return best;
+}
+
+/// Where the time is: the column, or nothing where no column qualifies. Errors: ambiguous_time_column.
+Result<std::vector<std::size_t>> find_time_column(const Layout& layout, const std::string& file);
+
+}  // namespace slipfit::reading

@@ -1,0 +1,236 @@
+#include "io/columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/column_search.hpp"
+#include "io/message.hpp"
+#include "slipfit/core/units.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+/// What `choose_columns` was asked, handed from step to step.
+struct Request {
+  const Layout& layout;
+  const ReadOptions& options;
+  const std::string& file;
+};
+
+Error unit_error(const Request& request, std::size_t column, const std::string& cause, const std::string& option) {
+  return {"unknown_unit", fmt::format("{}: the unit of {}: {}; give it with {}", request.file,
+                                      describe(request.layout, column), printable(cause), option)};
+}
+
+bool mentions(const std::string& name, std::initializer_list<std::string_view> words) {
+  std::string lower = name;
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view w) { return lower.find(w) != std::string::npos; });
+}
+
+struct GuessedUnit {
+  std::string_view unit;
+  std::string_view why;
+};
+
+/// Computers stamp in whole milliseconds since some start, or in milliseconds, micro- or nanoseconds since 1970.
+GuessedUnit guess_time_unit(const Column& column) {
+  const bool is_stamp = mentions(column.name.base, {"stamp", "stempel", "tick"});
+  const double start = std::abs(column.first);
+  if (column.is_whole && start >= 1e17) return {"ns", "whole numbers of the size of nanoseconds since 1970"};
+  if (column.is_whole && start >= 1e14) return {"us", "whole numbers of the size of microseconds since 1970"};
+  if (column.is_whole && start >= 1e11) return {"ms", "whole numbers of the size of milliseconds since 1970"};
+  if (mentions(column.name.base, {"millis"})) return {"ms", "its name"};
+  if (mentions(column.name.base, {"micros"})) return {"us", "its name"};
+  if (is_stamp && column.is_whole && column.median_step > 1.0) return {"ms", "whole time stamps in steps above 1"};
+  if (column.is_whole && column.is_regular && column.median_step == 1.0) {
+    return {"s", "no unit is given; if it counts samples, give --sample-rate"};
+  }
+  return {"s", "no unit is given"};
+}
+
+Result<Channel> time_channel(const Request& request, std::size_t column) {
+  const Column& found = request.layout.columns[column];
+  const std::string name = describe(request.layout, column);
+  if (found.clocks > found.numbers) {
+    return Channel{column, 1.0, ForceQuantity::Force_N, fmt::format("Time is {}, a clock (h:min:s).", name)};
+  }
+  if (request.options.time_unit) {
+    const auto scale = parse_unit(*request.options.time_unit, Dimension::Time);
+    if (!scale) return unit_error(request, column, scale.error().message, "--time-unit");
+    return Channel{column, scale.value().scale, ForceQuantity::Force_N,
+                   fmt::format("Time is {}, in {} (as told).", name, printable(*request.options.time_unit))};
+  }
+  if (!found.name.unit.empty()) {
+    const auto scale = parse_unit(found.name.unit, Dimension::Time);
+    if (!scale) return unit_error(request, column, scale.error().message, "--time-unit");
+    return Channel{column, scale.value().scale, ForceQuantity::Force_N,
+                   fmt::format("Time is {}, in {}.", name, found.name.unit)};
+  }
+  const GuessedUnit guess = guess_time_unit(found);
+  return Channel{column, parse_unit(guess.unit, Dimension::Time).value().scale, ForceQuantity::Force_N,
+                 fmt::format("Time is {}, taken to be in {} ({}).", name, guess.unit, guess.why)};
+}
+
+Result<std::optional<Channel>> choose_time(const Request& request) {
+  const auto& [layout, options, file] = request;
+  std::optional<std::size_t> column;
+  if (options.time_column) {
+    const auto found = find_column(layout, *options.time_column, "--time-column", file);
+    if (!found) return found.error();
+    column = found.value();
+  } else if (!options.sample_rate_Hz) {
+    const auto found = find_time_column(layout, file);
+    if (!found) return found.error();
+    if (found.value().empty()) {
+      return Error{"no_time_column",
+                   fmt::format("{}: no time column; {}; give the sampling rate with --sample-rate, or the "
+                               "column with --time-column",
+                               file, list_columns(layout))};
+    }
+    column = found.value().front();
+  }
+  if (!column) return std::optional<Channel>{};
+  const auto channel = time_channel(request, *column);
+  if (!channel) return channel.error();
+  return std::optional<Channel>(channel.value());
+}
+
+/// What is said about a clock that is counted from the sampling rate.
+std::string say_no_clock(const Layout& layout, double sample_rate_Hz) {
+  std::string said = fmt::format("Time is counted from 0 at {} samples a second (as told).", sample_rate_Hz);
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    if (layout.columns[c].name.role == Role::Time)
+      said += fmt::format(" The times in {} are not used.", describe(layout, c));
+  }
+  return said;
+}
+
+/// Candidates for the force, best first in rank; a "load" beside a friction coefficient is the normal load.
+std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<std::size_t> time) {
+  const auto is_usable = [&](const Column& column, std::size_t c) {
+    return column.may_be_numeric() && (!time || *time != c);
+  };
+  auto coefficients = best_columns(layout, [&](const Column& column, std::size_t c) {
+    return is_usable(column, c) && column.name.role == Role::FrictionCoefficient ? column.name.rank : 0;
+  });
+  auto forces = best_columns(layout, [&](const Column& column, std::size_t c) {
+    if (!is_usable(column, c) || column.name.role != Role::TangentialForce) return 0;
+    return column.name.rank == 1 && !coefficients.empty() ? 0 : column.name.rank;
+  });
+  if (!forces.empty()) return forces;
+  if (!coefficients.empty()) return coefficients;
+  return best_columns(layout, [&](const Column& column, std::size_t c) {
+    if (!is_usable(column, c) || column.name.role != Role::Unknown || !column.is_numeric()) return 0;
+    const bool is_counter = column.is_whole && column.is_regular;  // line numbers
+    return is_counter ? 1 : column.varies ? 3 : 2;
+  });
+}
+
+Result<std::size_t> choose_force(const Request& request, std::optional<std::size_t> time) {
+  const auto& [layout, options, file] = request;
+  if (options.force_column) return find_column(layout, *options.force_column, "--force-column", file);
+  auto candidates = force_candidates(layout, time);
+  if (candidates.size() > 1) {
+    std::vector<std::size_t> varying;
+    for (const std::size_t c : candidates) {
+      if (layout.columns[c].varies) varying.push_back(c);
+    }
+    if (varying.size() == 1) candidates = varying;
+  }
+  if (candidates.empty()) {
+    return Error{"no_force_column",
+                 fmt::format("{}: no column is a tangential force; {}; choose one with --force-column", file,
+                             list_columns(layout))};
+  }
+  if (candidates.size() > 1) {
+    const std::string others = candidates.size() > 2 ? fmt::format(" (and {} more)", candidates.size() - 2) : "";
+    return Error{
+        "ambiguous_force_column",
+        fmt::format("{}: {} and {}{} may each be the force; {}; choose one with --force-column", file,
+                    describe(layout, candidates[0]), describe(layout, candidates[1]), others, list_columns(layout))};
+  }
+  return candidates.front();
+}
+
+/// The unit decides between force and coefficient; without one the name does.
+Result<Channel> force_channel(const Request& request, std::size_t column) {
+  const ColumnName& name = request.layout.columns[column].name;
+  const bool is_told = request.options.force_unit.has_value();
+  const std::string unit = is_told ? *request.options.force_unit : name.unit;
+  const std::string described = describe(request.layout, column);
+  if (unit.empty() && name.role == Role::FrictionCoefficient) {
+    return Channel{column, 1.0, ForceQuantity::FrictionCoefficient,
+                   fmt::format("Friction coefficient is {}.", described)};
+  }
+  if (unit.empty()) {
+    return Channel{column, 1.0, ForceQuantity::Force_N,
+                   fmt::format("Force is {}, taken to be in N (no unit is given).", described)};
+  }
+  const std::string in_unit = fmt::format("in {}{}", printable(unit), is_told ? " (as told)" : "");
+  const auto as_force = parse_unit(unit, Dimension::Force);
+  if (as_force) {
+    return Channel{column, as_force.value().scale, ForceQuantity::Force_N,
+                   fmt::format("Force is {}, {}.", described, in_unit)};
+  }
+  const auto as_number = parse_unit(unit, Dimension::Dimensionless);
+  if (!as_number) return unit_error(request, column, as_force.error().message, "--force-unit");
+  return Channel{column, as_number.value().scale, ForceQuantity::FrictionCoefficient,
+                 fmt::format("Friction coefficient is {}, {}.", described, in_unit)};
+}
+
+/// The first displacement whose unit is a length.
+std::optional<Channel> choose_displacement(const Layout& layout, const Choice& choice) {
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    const Column& column = layout.columns[c];
+    if (column.name.role != Role::Displacement || !column.is_numeric() || column.name.unit.empty()) continue;
+    if (c == choice.force.column || (choice.time && c == choice.time->column)) continue;
+    const auto scale = parse_unit(column.name.unit, Dimension::Length);
+    if (scale) return Channel{c, scale.value().scale, ForceQuantity::Force_N, {}};
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> say_layout(const Layout& layout) {
+  std::vector<std::string> said;
+  if (layout.skipped_lines > 0) {
+    said.push_back(fmt::format("{} before the data {} skipped.", counted(layout.skipped_lines, "line"),
+                               layout.skipped_lines == 1 ? "was" : "were"));
+  }
+  if (layout.dialect.decimal_comma) said.emplace_back("The comma is the decimal sign.");
+  if (!layout.has_names) said.emplace_back("The columns have no names.");
+  return said;
+}
+
+}  // namespace
+
+Result<Choice> choose_columns(const Layout& layout, const ReadOptions& options, const std::string& file) {
+  if (options.time_column && options.sample_rate_Hz) {
+    return Error{"conflicting_options",
+                 file + ": both a time column and a sampling rate are given; leave out one of them"};
+  }
+  const Request request{layout, options, file};
+  const auto time = choose_time(request);
+  if (!time) return time.error();
+  Choice choice;
+  choice.time = time.value();
+  const auto column = choose_force(request, choice.time ? std::optional(choice.time->column) : std::nullopt);
+  if (!column) return column.error();
+  if (choice.time && choice.time->column == column.value()) {
+    return Error{"conflicting_options", fmt::format("{}: {} cannot be both time and force; {}; choose two columns",
+                                                    file, describe(layout, column.value()), list_columns(layout))};
+  }
+  const auto force = force_channel(request, column.value());
+  if (!force) return force.error();
+  choice.force = force.value();
+  choice.displacement = choose_displacement(layout, choice);
+  choice.assumed = say_layout(layout);
+  choice.assumed.push_back(choice.time ? choice.time->said : say_no_clock(layout, *options.sample_rate_Hz));
+  choice.assumed.push_back(choice.force.said);
+  return choice;
+}
+
+}  // namespace slipfit::reading

@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "io/layout.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+constexpr std::size_t kLinesTried = 256;  // ten dialects on each cost under a millisecond
+
+// In the order of preference where two explain the lines equally well.
+constexpr std::array kDialects = std::to_array<Dialect>({{',', false},
+                                                         {';', false},
+                                                         {'\t', false},
+                                                         {' ', false},
+                                                         {'\0', false},
+                                                         {';', true},
+                                                         {'\t', true},
+                                                         {' ', true},
+                                                         {'\0', true},
+                                                         {',', true}});
+
+struct Score {
+  double weight = 0.0;
+  std::size_t columns = 0;
+};
+
+/// 1 for a row of numbers only, little for one that holds text, 0 for one without a number.
+double row_weight(const std::vector<std::string_view>& cells, bool decimal_comma) {
+  double numbers = 0.0;
+  double others = 0.0;
+  double texts = 0.0;
+  for (const std::string_view text : cells) {
+    const CellKind kind = read_cell(text, decimal_comma).kind;
+    (kind == CellKind::Number || kind == CellKind::Clock ? numbers : kind == CellKind::Text ? texts : others) += 1.0;
+  }
+  if (numbers == 0.0) return 0.0;
+  const double part = numbers / (numbers + others + texts);
+  return texts == 0.0 ? 1.0 : 0.25 * part * part;
+}
+
+Score score(const std::vector<std::string_view>& lines, const Dialect& dialect) {
+  std::map<std::size_t, double> weight_by_columns;
+  for (const std::string_view line : lines) {
+    const auto cells = split(line, dialect.delimiter);
+    weight_by_columns[cells.size()] += row_weight(cells, dialect.decimal_comma);
+  }
+  Score best;
+  for (const auto& [columns, weight] : weight_by_columns) {
+    if (weight > best.weight) best = {weight, columns};
+  }
+  return best;
+}
+
+/// A comma between digits may be all that a decimal comma needs; between columns it needs a quote or another sign
+/// beside it.
+bool is_worth_trying(const Dialect& dialect, std::string_view all) {
+  const auto holds = [&](char c) { return all.find(c) != std::string_view::npos; };
+  if (dialect.decimal_comma && !holds(',')) return false;
+  if (dialect.delimiter == ',' && dialect.decimal_comma) return holds('"');
+  if (dialect.delimiter == ' ') return holds(' ') || holds('\t');
+  return dialect.delimiter == '\0' || holds(dialect.delimiter);
+}
+
+/// "0,51" below a single name ("Kraft [N]") is one number, not two columns.
+bool is_single_column(const std::vector<std::string_view>& lines) {
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    if (read_cell(lines[i + 1], true).kind != CellKind::Number) continue;
+    const ColumnName name = read_name(lines[i], {});
+    return lines[i].find(',') == std::string_view::npos && (name.role != Role::Unknown || !name.unit.empty());
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string_view> split_lines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    lines.push_back(line);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+std::vector<std::string_view> choose_samples(const std::vector<std::string_view>& lines) {
+  std::vector<std::string_view> with_digit;
+  for (const std::string_view line : lines) {
+    if (line.find_first_of("0123456789") != std::string_view::npos) with_digit.push_back(line);
+  }
+  const std::size_t last = with_digit.size() - std::min(with_digit.size(), kLinesTried / 2);
+  const std::size_t stride = 1 + 2 * last / kLinesTried;
+  std::vector<std::string_view> chosen;
+  for (std::size_t i = 0; i < last; i += stride) chosen.push_back(with_digit[i]);
+  chosen.insert(chosen.end(), with_digit.begin() + static_cast<std::ptrdiff_t>(last), with_digit.end());
+  return chosen;
+}
+
+std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines) {
+  const auto tried = choose_samples(lines);
+  std::string all;
+  for (const std::string_view line : tried) all.append(line);
+  std::optional<Dialect> best;
+  Score best_score;
+  for (const Dialect& dialect : kDialects) {
+    if (!is_worth_trying(dialect, all)) continue;
+    const Score found = score(tried, dialect);
+    const bool is_better = found.weight > best_score.weight * 1.001;
+    const bool is_equal = found.weight > 0.0 && found.weight >= best_score.weight * 0.999;
+    if (!is_better && !(is_equal && found.columns > best_score.columns)) continue;
+    best = dialect;
+    best_score = found;
+  }
+  if (best && best->delimiter == ',' && !best->decimal_comma && best_score.columns == 2 && is_single_column(lines)) {
+    return Dialect{'\0', true};
+  }
+  return best;
+}
+
+}  // namespace slipfit::reading

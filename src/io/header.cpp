@@ -1,0 +1,115 @@
+#include "io/header.hpp"
+
+#include <algorithm>
+
+#include "io/names.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+std::string_view strip_comment(std::string_view line) {
+  line = trim(line);
+  while (!line.empty() && (line.front() == '#' || line.front() == '%' || line.front() == '!')) line.remove_prefix(1);
+  if (line.starts_with("//")) line.remove_prefix(2);
+  return trim(line);
+}
+
+/// "Time (s)  Force (N)" has two names, not four: brackets belong to the word before them.
+std::vector<std::string_view> join_brackets(const std::vector<std::string_view>& cells) {
+  std::vector<std::string_view> joined;
+  for (const std::string_view cell : cells) {
+    const bool is_bracket = cell.front() == '(' || cell.front() == '[' || cell == "/";
+    const bool follows_slash = !joined.empty() && joined.back().ends_with("/");
+    if (!joined.empty() && (is_bracket || follows_slash)) {
+      const char* begin = joined.back().data();
+      joined.back() = {begin, static_cast<std::size_t>(cell.data() + cell.size() - begin)};
+    } else {
+      joined.push_back(cell);
+    }
+  }
+  return joined;
+}
+
+/// Columns of words parted by tabs or by two and more blanks.
+std::vector<std::string_view> split_wide(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (!(line = trim(line)).empty()) {
+    const auto end = std::min({line.find("  "), line.find('\t'), line.size()});
+    cells.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+  return cells;
+}
+
+/// The cells of a line of names or units; empty where no way of splitting gives the columns of the data.
+std::vector<std::string_view> split_header(std::string_view line, const Dialect& dialect, std::size_t columns) {
+  const bool is_comment = strip_comment(line) != trim(line);
+  if (is_comment || dialect.delimiter == ' ') line = strip_comment(line);
+  const auto matches = [&](const std::vector<std::string_view>& cells) {
+    return cells.size() == columns || (cells.size() + 1 == columns && cells.size() > 1) ||
+           (cells.size() == columns + 1 && trim(cells.back()).empty());
+  };
+  std::vector<std::vector<std::string_view>> ways = {split(line, dialect.delimiter)};
+  if (dialect.delimiter == ' ') ways.push_back(join_brackets(ways.front()));
+  if (dialect.delimiter == ' ') ways.push_back(split_wide(line));
+  if (columns > 1) {
+    for (const char other : {'\t', ';', ','}) ways.push_back(split(line, other));
+  }
+  for (auto& cells : ways) {
+    if (!matches(cells)) continue;
+    cells.resize(columns);
+    return cells;
+  }
+  return {};
+}
+
+bool is_units_row(const std::vector<std::string_view>& cells) {
+  bool has_unit = false;
+  for (const std::string_view cell : cells) {
+    std::string_view text = unquote(cell);
+    const bool in_brackets = text.size() > 2 && (text.front() == '[' || text.front() == '(');
+    if (in_brackets) text = trim(text.substr(1, text.size() - 2));
+    const UnitClass unit_class = classify_unit(text);
+    if (unit_class == UnitClass::NotAUnit && !in_brackets) return false;
+    has_unit = has_unit || unit_class != UnitClass::None;
+  }
+  return has_unit;
+}
+
+bool is_names_row(const std::vector<std::string_view>& cells) {
+  if (cells.empty()) return false;
+  std::size_t texts = 0;
+  for (const std::string_view cell : cells) {
+    const CellKind kind = read_cell(cell, false).kind;
+    if (kind == CellKind::Number || kind == CellKind::Clock) return false;
+    if (kind == CellKind::Text || kind == CellKind::Missing) ++texts;
+  }
+  if (cells.size() > 1) return texts > 0;
+  // Above a single column any console text may stand.
+  const ColumnName name = read_name(cells.front(), {});
+  return texts > 0 && (name.role != Role::Unknown || !name.unit.empty()) && name.text.size() < 40;
+}
+
+}  // namespace
+
+Header find_header(const std::vector<std::string_view>& lines, std::size_t data, const Dialect& dialect,
+                   std::size_t columns) {
+  std::vector<std::vector<std::string_view>> above;
+  for (std::size_t i = data; i > 0 && above.size() < 2; --i) {
+    if (!trim(lines[i - 1]).empty()) above.push_back(split_header(lines[i - 1], dialect, columns));
+  }
+  above.resize(2);
+  Header header;
+  if (!above[0].empty() && is_units_row(above[0])) {
+    header.units = above[0];
+    header.names = is_names_row(above[1]) ? above[1] : std::vector<std::string_view>{};
+    header.lines = header.names.empty() ? 1 : 2;
+    if (header.names.empty()) header.names = header.units;  // "s,N" alone names the columns too
+  } else if (is_names_row(above[0])) {
+    header.names = above[0];
+    header.lines = 1;
+  }
+  return header;
+}
+
+}  // namespace slipfit::reading

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/cells.hpp"
+#include "io/names.hpp"
+
+namespace slipfit::reading {
+
+/// A column as the first rows show it.
+struct Column {
+  ColumnName name;
+  std::size_t numbers = 0;
+  std::size_t clocks = 0;
+  std::size_t missing = 0;  ///< blank, nan, ...
+  std::size_t texts = 0;
+  bool varies = false;
+  bool never_decreases = false;  ///< of at least 3 numbers, and varies
+  bool is_regular = false;       ///< never_decreases, in steps that are all alike
+  bool is_whole = false;         ///< whole numbers only
+  double first = 0.0;
+  double median_step = 0.0;
+  std::string tag;  ///< what most numbers carry behind them
+
+  [[nodiscard]] bool is_numeric() const { return numbers + clocks > 0 && numbers + clocks >= texts; }
+  /// No text in it: it may be a column of readings that are all missing.
+  [[nodiscard]] bool may_be_numeric() const { return is_numeric() || (texts == 0 && missing > 0); }
+};
+
+/// How the text is laid out, from its first part.
+struct Layout {
+  Dialect dialect;
+  std::vector<Column> columns;
+  std::size_t first_data_line = 1;  ///< 1-based
+  std::size_t skipped_lines = 0;    ///< text before the data that is neither names nor units
+  bool has_names = false;
+  std::size_t rows = 0;  ///< looked at
+  double mean_line_length = 0.0;
+};
+
+std::vector<std::string_view> split_lines(std::string_view text);
+
+/// Lines to judge by: of those that hold a digit the last ones, and some spread over the rest (which may be console
+/// text).
+std::vector<std::string_view> choose_samples(const std::vector<std::string_view>& lines);
+
+/// The dialect under which most of the lines are rows of numbers; nothing where none makes any.
+std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines);
+
+/// Nothing where the lines hold no rows of numbers.
+std::optional<Layout> find_layout(const std::vector<std::string_view>& lines);
+
+}  // namespace slipfit::reading

@@ -1,0 +1,161 @@
+#include "io/names.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <span>
+#include <vector>
+
+#include "io/cells.hpp"
+#include "io/message.hpp"
+#include "io/vocabulary.hpp"
+#include "slipfit/core/units.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+/// Both micro signs become "u".
+std::string with_u(std::string_view unit) {
+  std::string text;
+  while (!unit.empty()) {
+    const bool is_micro = unit.starts_with("\xC2\xB5") || unit.starts_with("\xCE\xBC");
+    text += is_micro ? 'u' : unit.front();
+    unit.remove_prefix(is_micro ? 2 : 1);
+  }
+  return text;
+}
+
+bool measures(std::string_view unit, Dimension dimension) {
+  return parse_unit(unit, dimension).ok();
+}
+
+/// "Force (left)" keeps its brackets, "Force (daN)" does not: asks UDUNITS-2 where the list does not know.
+bool is_unit_in_brackets(std::string_view text) {
+  const UnitClass known = classify_unit(text);
+  if (known != UnitClass::NotAUnit) return known != UnitClass::None;
+  return text.size() <= 12 && (measures(text, Dimension::Force) || measures(text, Dimension::Time) ||
+                               measures(text, Dimension::Length) || measures(text, Dimension::Speed));
+}
+
+struct NameAndUnit {
+  std::string_view base;
+  std::string_view unit;
+};
+
+NameAndUnit take_brackets(std::string_view name, char open, char close) {
+  const auto end = name.rfind(close);
+  const auto begin = end == std::string_view::npos ? end : name.rfind(open, end);
+  if (begin == std::string_view::npos) return {name, {}};
+  const std::string_view inside = trim(name.substr(begin + 1, end - begin - 1));
+  if (open == '(' && !is_unit_in_brackets(inside)) return {name, {}};
+  return {trim(name.substr(0, begin)), inside};
+}
+
+/// "F / N", "Force, N", "Kraft in N", "force_N", "Time s".
+NameAndUnit take_suffix(std::string_view name) {
+  for (const std::string_view separator : {"/", ",", " in ", "_", " "}) {
+    const auto at = name.rfind(separator);
+    if (at == std::string_view::npos || at == 0) continue;
+    const std::string_view unit = trim(name.substr(at + separator.size()));
+    const UnitClass unit_class = classify_unit(unit);
+    const bool is_loose = separator == "_" || separator == " ";  // "Sensor A", "Channel 1", "Load C"
+    const bool is_letter = unit.size() == 1 && unit != "s" && unit != "N" && unit != "g" && unit != "m" && unit != "h";
+    if (unit_class == UnitClass::None || unit_class == UnitClass::NotAUnit || (is_loose && is_letter)) continue;
+    return {trim(name.substr(0, at)), unit};
+  }
+  return {name, {}};
+}
+
+NameAndUnit separate_unit(std::string_view name) {
+  for (const std::string_view brackets : {"[]", "()", "{}"}) {
+    const NameAndUnit found = take_brackets(name, brackets[0], brackets[1]);
+    if (!found.unit.empty()) return found;
+  }
+  return take_suffix(name);
+}
+
+/// Lower-case words: "StandardForce_2" is "standard", "force"; letters beyond ASCII count as letters.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words;
+  bool in_word = false;
+  bool after_lower = false;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_letter = std::isalpha(byte) != 0 || byte >= 0x80;
+    if (is_letter && (!in_word || (after_lower && std::isupper(byte) != 0))) words.emplace_back();
+    if (is_letter) words.back() += static_cast<char>(byte < 0x80 ? std::tolower(byte) : c);
+    in_word = is_letter;
+    after_lower = std::islower(byte) != 0;
+  }
+  if (words.size() > 1 && words[0] == "f" && words[1].size() == 1) {  // "F_n", "F x"
+    words[1].insert(words[1].begin(), 'f');
+    words.erase(words.begin());
+  }
+  return words;
+}
+
+bool has(const std::vector<std::string>& words, std::span<const std::string_view> list) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); });
+}
+
+struct RoleAndRank {
+  Role role;
+  int rank;
+};
+
+/// The order matters: "normal stress" is no force, "normal force" not the tangential one, "Friction [N]" no
+/// coefficient.
+RoleAndRank role_of(const std::vector<std::string>& words, UnitClass unit) {
+  const bool unit_allows_force = unit == UnitClass::None || unit == UnitClass::Force || unit == UnitClass::Mass;
+  const bool is_force_unit = unit == UnitClass::Force || unit == UnitClass::Mass;
+  const bool says_force = has(words, kForce) || has(words, kLoad);
+  if (has(words, kTime) && (unit == UnitClass::Time || unit == UnitClass::None || unit == UnitClass::NotAUnit)) {
+    return {Role::Time, words.size() == 1 ? 3 : 2};
+  }
+  if (has(words, kOtherQuantity)) return {Role::Other, 0};
+  if (has(words, kDisplacement) && !is_force_unit && !says_force) {
+    return {has(words, kNormal) ? Role::Other : Role::Displacement, 2};
+  }
+  if (has(words, kCoefficient) && !is_force_unit) return {Role::FrictionCoefficient, 3};
+  if (has(words, kNormal) || (has(words, kLoad) && has(words, kNominal))) return {Role::NormalForce, 2};
+  if (has(words, kFriction)) {
+    if (is_force_unit || says_force) return {Role::TangentialForce, 3};
+    return {unit == UnitClass::None || unit == UnitClass::One ? Role::FrictionCoefficient : Role::Other, 2};
+  }
+  if (unit == UnitClass::Time || unit == UnitClass::Length) {
+    return {unit == UnitClass::Time ? Role::Time : Role::Displacement, 1};
+  }
+  if (has(words, kTangential)) return {Role::TangentialForce, 3};
+  if (has(words, kForce) && (words.front() != "f" || unit_allows_force)) return {Role::TangentialForce, 2};
+  if (has(words, kLoad)) return {Role::TangentialForce, 1};
+  if (unit == UnitClass::Force) return {Role::TangentialForce, 1};
+  return {unit == UnitClass::Other || has(words, kCounter) ? Role::Other : Role::Unknown, 0};
+}
+
+}  // namespace
+
+UnitClass classify_unit(std::string_view unit) {
+  if (unit.empty()) return UnitClass::None;
+  const std::string text = with_u(unit);
+  const auto* const found =
+      std::find_if(kUnits.begin(), kUnits.end(), [&](const KnownUnit& k) { return k.text == text; });
+  return found == kUnits.end() ? UnitClass::NotAUnit : found->unit_class;
+}
+
+ColumnName read_name(std::string_view name_cell, std::string_view unit_cell) {
+  ColumnName name;
+  name.text = printable(unquote(name_cell));
+  std::string unit_text = printable(unquote(unit_cell));
+  if (unit_text.size() > 2 && std::string_view("[({").find(unit_text.front()) != std::string_view::npos) {
+    unit_text = unit_text.substr(1, unit_text.size() - 2);
+  }
+  const NameAndUnit parts = unit_text.empty() ? separate_unit(name.text) : NameAndUnit{name.text, unit_text};
+  name.base = std::string(parts.base);
+  name.unit = std::string(trim(parts.unit));
+  const RoleAndRank found = role_of(words_of(name.base), classify_unit(name.unit));
+  name.role = found.role;
+  name.rank = found.rank;
+  return name;
+}
+
+}  // namespace slipfit::reading

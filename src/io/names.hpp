@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace slipfit::reading {
+
+/// What a column holds as far as its name and unit tell.
+enum class Role { Unknown, Time, TangentialForce, NormalForce, FrictionCoefficient, Displacement, Other };
+
+/// A coarse look at a unit text by a list of the usual ones: enough to tell columns apart, without loading UDUNITS-2.
+enum class UnitClass { None, NotAUnit, Time, Length, Force, Mass, One, Other };
+
+struct ColumnName {
+  std::string text;  ///< as in the file, in UTF-8; empty where the file has none
+  std::string base;  ///< without the unit
+  std::string unit;  ///< "mN" of "force [mN]", "Ft (mN)", "force_mN", or from a units row; may be empty
+  Role role = Role::Unknown;
+  int rank = 0;  ///< how strongly the name says so: 3 "Ft", 2 "force", 1 "load" or only the unit
+};
+
+UnitClass classify_unit(std::string_view unit);
+
+/// From the cell of the names row and that of the units row (either may be empty).
+ColumnName read_name(std::string_view name_cell, std::string_view unit_cell);
+
+}  // namespace slipfit::reading

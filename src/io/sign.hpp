@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+
+namespace slipfit::reading {
+
+/// A force that dwells at +F and at -F in turn: the strokes of a reciprocating test. A saw-tooth that swings through
+/// zero is none: it spends as much time near zero as anywhere.
+bool is_reciprocating(std::span<const double> force);
+
+/// Pulled the other way round: at least 90 % of the samples are negative.
+bool is_negative_throughout(std::span<const double> force);
+
+}  // namespace slipfit::reading

@@ -1,0 +1,183 @@
+#include "io/text_source.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "io/message.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+constexpr std::size_t kProbe = std::size_t{64} * 1024;
+constexpr char kNotText = '\x1A';  // stands for NUL: no number holds it, so the cell is counted as one without a number
+
+struct NulCounts {
+  std::size_t even = 0;
+  std::size_t odd = 0;
+};
+
+NulCounts count_nul(std::string_view bytes) {
+  NulCounts counts;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (bytes[i] == '\0') ++(i % 2 == 0 ? counts.even : counts.odd);
+  }
+  return counts;
+}
+
+/// NUL, or more than a tenth of control characters, or more than a third of bytes beyond ASCII.
+bool looks_binary(std::string_view bytes) {
+  std::size_t control = 0;
+  std::size_t high = 0;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte == 0) return true;
+    if (byte < 0x20 && std::strchr("\t\n\v\f\r\x1A", c) == nullptr) ++control;
+    if (byte >= 0x80) ++high;
+  }
+  return control * 10 > bytes.size() || high * 3 > bytes.size();
+}
+
+void append_utf8(std::string& text, unsigned unit) {
+  if (unit >= 0xD800 && unit < 0xE000) unit = '?';  // half of a character that no header needs
+  if (unit < 0x80) {
+    text += static_cast<char>(unit);
+  } else if (unit < 0x800) {
+    text += static_cast<char>(0xC0 | (unit >> 6));
+    text += static_cast<char>(0x80 | (unit & 0x3F));
+  } else {
+    text += static_cast<char>(0xE0 | (unit >> 12));
+    text += static_cast<char>(0x80 | ((unit >> 6) & 0x3F));
+    text += static_cast<char>(0x80 | (unit & 0x3F));
+  }
+}
+
+/// Lone CR becomes LF; the CRs before a CRLF (files that went through two conversions) become blanks.
+void mend_line_ends(char* begin, char* end, char next) {
+  for (char* p = begin; (p = static_cast<char*>(std::memchr(p, '\r', static_cast<std::size_t>(end - p)))) != nullptr;) {
+    char* run_end = p;
+    while (run_end != end && *run_end == '\r') ++run_end;
+    const char after = run_end == end ? next : *run_end;
+    if (after == '\n') {
+      std::fill(p, run_end - 1, ' ');
+    } else {
+      std::fill(p, run_end, '\n');
+    }
+    p = run_end;
+  }
+}
+
+Error open_error(const std::string& name, int reason) {
+  if (reason == ENOENT || reason == ENOTDIR) return {"file_not_found", name + ": no such file; check the path"};
+  return {"not_readable", name + ": cannot be opened (" + std::strerror(reason) + "); check the permissions"};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<TextSource>> TextSource::open(const std::filesystem::path& file) {
+  const std::string name = printable(file.string());
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    return Error{"is_directory", name + ": is a folder; name a file in it"};
+  }
+  std::unique_ptr<TextSource> source(new TextSource);
+  source->file_.reset(std::fopen(file.c_str(), "rb"));  // NOLINT(cppcoreguidelines-owning-memory): file_ owns it
+  if (!source->file_) return open_error(name, errno);
+  source->raw_.resize(kProbe);
+  source->raw_.resize(std::fread(source->raw_.data(), 1, kProbe, source->file_.get()));
+  if (std::ferror(source->file_.get()) != 0) return open_error(name, errno);
+  if (source->raw_.empty()) return Error{"empty_file", name + ": the file is empty; export the recording again"};
+  source->detect_encoding();
+  if (!source->is_utf16() && looks_binary(source->raw_)) {
+    return Error{"binary_file", name + ": not a text file; export the recording as CSV or text"};
+  }
+  const auto size = std::filesystem::file_size(file, ignored);
+  if (!ignored) source->estimated_size_ = static_cast<std::size_t>(source->is_utf16() ? size / 2 : size);
+  return source;
+}
+
+/// By the byte order mark, which is dropped, or by a NUL beside every ASCII character.
+void TextSource::detect_encoding() {
+  const std::string_view start(raw_);
+  const NulCounts nul = count_nul(start);
+  if (start.starts_with("\xFF\xFE")) {
+    encoding_ = Encoding::Utf16LittleEndian;
+    raw_used_ = 2;
+  } else if (start.starts_with("\xFE\xFF")) {
+    encoding_ = Encoding::Utf16BigEndian;
+    raw_used_ = 2;
+  } else if (start.starts_with("\xEF\xBB\xBF")) {
+    raw_used_ = 3;
+  } else if (nul.even == 0 && nul.odd * 10 > start.size() * 4) {
+    encoding_ = Encoding::Utf16LittleEndian;
+  } else if (nul.odd == 0 && nul.even * 10 > start.size() * 4) {
+    encoding_ = Encoding::Utf16BigEndian;
+  }
+}
+
+std::size_t TextSource::read_raw(char* buffer, std::size_t size) {
+  const std::size_t kept = std::min(size, raw_.size() - raw_used_);
+  std::memcpy(buffer, raw_.data() + raw_used_, kept);
+  raw_used_ += kept;
+  if (kept == size) return size;
+  const std::size_t got = std::fread(buffer + kept, 1, size - kept, file_.get());
+  if (std::ferror(file_.get()) != 0) throw std::system_error(errno, std::generic_category(), "reading failed");
+  return kept + got;
+}
+
+void TextSource::decode_utf16_chunk() {
+  std::string chunk(kProbe, '\0');
+  chunk.resize(read_raw(chunk.data(), chunk.size()));
+  const std::size_t high = encoding_ == Encoding::Utf16LittleEndian ? 1 : 0;
+  for (std::size_t i = 0; i + 1 < chunk.size(); i += 2) {
+    append_utf8(pending_, static_cast<unsigned>(static_cast<unsigned char>(chunk[i + high]) << 8U) |
+                              static_cast<unsigned char>(chunk[i + 1 - high]));
+  }
+}
+
+std::size_t TextSource::decode(char* buffer, std::size_t size) {
+  while (is_utf16() && pending_.size() < size) {
+    const std::size_t before = pending_.size();
+    decode_utf16_chunk();
+    if (pending_.size() == before) break;
+  }
+  const std::size_t kept = std::min(size, pending_.size());
+  std::memcpy(buffer, pending_.data(), kept);
+  pending_.erase(0, kept);
+  return is_utf16() ? kept : kept + read_raw(buffer + kept, size - kept);
+}
+
+std::size_t TextSource::fill(char* buffer, std::size_t size) {
+  if (ended_ || size == 0) return 0;
+  std::size_t count = decode(buffer, size);
+  char next = '\0';
+  if (count == size && buffer[count - 1] == '\r' && decode(&next, 1) == 1) pending_.insert(0, 1, next);
+  if (std::memchr(buffer, '\0', count) != nullptr) std::replace(buffer, buffer + count, '\0', kNotText);
+  mend_line_ends(buffer, buffer + count, next);
+  if (count > 0) last_ = buffer[count - 1];
+  if (count < size) {
+    ended_ = true;
+    if (last_ != '\n') buffer[count++] = '\n';
+  }
+  return count;
+}
+
+std::string_view TextSource::head(std::size_t size) {
+  const std::size_t before = head_.size();
+  if (size > before) {
+    head_.resize(size);
+    head_.resize(before + fill(head_.data() + before, size - before));
+  }
+  return head_;
+}
+
+int TextSource::read(char* buffer, int size) {
+  const auto wanted = static_cast<std::size_t>(size);
+  const std::size_t kept = std::min(wanted, head_.size() - head_used_);
+  std::memcpy(buffer, head_.data() + head_used_, kept);
+  head_used_ += kept;
+  return static_cast<int>(kept + fill(buffer + kept, wanted - kept));
+}
+
+}  // namespace slipfit::reading

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "io/line_reader.hpp"
+#include "slipfit/core/result.hpp"
+
+namespace slipfit::reading {
+
+/// The bytes of a text file as io::LineReader wants them: UTF-8 or Latin-1 (UTF-16 is converted), no byte order mark,
+/// lines that end in LF or CRLF (a lone CR becomes LF), no NUL, and a line end behind the last line. (LineReader cuts
+/// lines at NUL, and without a final line end it reads one byte past the data.) `read` throws std::system_error when
+/// the disk fails; LineReader hands that on.
+class TextSource final : public ::io::ByteSourceBase {
+ public:
+  /// Errors: file_not_found, is_directory, not_readable, empty_file, binary_file.
+  static Result<std::unique_ptr<TextSource>> open(const std::filesystem::path& file);
+
+  /// The first `size` bytes of the text (fewer when there are no more), without consuming them.
+  std::string_view head(std::size_t size);
+  /// Whether the last `head` holds the whole text.
+  [[nodiscard]] bool head_is_everything() const { return ended_; }
+  /// Of the text, not exact; 0 where the file does not say (a pipe).
+  [[nodiscard]] std::size_t estimated_size() const { return estimated_size_; }
+  [[nodiscard]] bool is_utf16() const { return encoding_ != Encoding::Bytes; }
+
+  int read(char* buffer, int size) override;
+
+ private:
+  enum class Encoding { Bytes, Utf16LittleEndian, Utf16BigEndian };
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }  // NOLINT(cppcoreguidelines-owning-memory)
+  };
+
+  TextSource() = default;
+  void detect_encoding();
+  std::size_t read_raw(char* buffer, std::size_t size);
+  std::size_t decode(char* buffer, std::size_t size);
+  void decode_utf16_chunk();
+  std::size_t fill(char* buffer, std::size_t size);
+
+  std::unique_ptr<std::FILE, CloseFile> file_;
+  Encoding encoding_ = Encoding::Bytes;
+  std::string raw_;  ///< read while opening
+  std::size_t raw_used_ = 0;
+  std::string pending_;  ///< decoded, not yet handed out
+  std::string head_;
+  std::size_t head_used_ = 0;
+  std::size_t estimated_size_ = 0;
+  char last_ = '\n';
+  bool ended_ = false;
+};
+
+}  // namespace slipfit::reading

@@ -1,0 +1,197 @@
+#include "measured.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "signal/robust.hpp"
+
+namespace slipfit {
+namespace {
+
+constexpr double kGapSteps = 3.5;
+
+struct MeanAndSpread {
+  double mean = 0.0;
+  double sd = 0.0;
+  double count = 0.0;
+};
+
+MeanAndSpread describe(const std::vector<double>& values) {
+  MeanAndSpread result;
+  result.count = static_cast<double>(values.size());
+  if (values.empty()) return result;
+  result.mean = std::accumulate(values.begin(), values.end(), 0.0) / result.count;
+  for (const double value : values) result.sd += (value - result.mean) * (value - result.mean);
+  result.sd = values.size() > 1 ? std::sqrt(result.sd / (result.count - 1.0)) : 0.0;
+  return result;
+}
+
+/// From slip to slip, without the first slip and without intervals that hold a gap.
+std::vector<double> intervals_s(const Recording& recording, const Segmentation& segmentation) {
+  const auto time_s = recording.time_s();
+  const double gap_s = kGapSteps * recording.sample_interval_s();
+  std::vector<double> intervals;
+  for (std::size_t i = 2; i < segmentation.slips.size(); ++i) {
+    const DetectedSlip& first = segmentation.slips[i - 1];
+    const DetectedSlip& second = segmentation.slips[i];
+    bool whole = true;
+    for (std::size_t j = first.trough + 1; j <= second.peak; ++j) whole = whole && time_s[j] - time_s[j - 1] <= gap_s;
+    if (whole) intervals.push_back(second.middle_s - first.middle_s);
+  }
+  return intervals;
+}
+
+double t_quantile(double degrees_of_freedom) {
+  return boost::math::quantile(boost::math::students_t_distribution<double>(std::max(1.0, degrees_of_freedom)), 0.975);
+}
+
+Estimate with_interval(double value, double se, double degrees_of_freedom) {
+  const double half = t_quantile(degrees_of_freedom) * se;
+  return {value, se, Interval{value - half, value + half}, {}};
+}
+
+}  // namespace
+
+Estimate count_frequency(const Recording& recording, const Segmentation& segmentation) {
+  const MeanAndSpread interval = describe(intervals_s(recording, segmentation));
+  if (interval.count < 1.0) return {std::nullopt, std::nullopt, std::nullopt, "fewer than 3 slips"};
+  const double value = 1.0 / interval.mean;
+  if (interval.count < 2.0) return {value, std::nullopt, std::nullopt, "one interval tells no error"};
+  return with_interval(value, value * interval.sd / interval.mean / std::sqrt(interval.count), interval.count - 1.0);
+}
+
+FrequencyReport report_frequency(const Recording& recording, const Segmentation& segmentation,
+                                 const SpectralFrequency& spectral, Verdict verdict) {
+  // Above this scatter of the intervals the harmonic fit is no better than the count (docs/accuracy.md).
+  constexpr double kRegular = 0.01;
+  FrequencyReport report;
+  report.spectral = spectral;
+  report.counted = count_frequency(recording, segmentation);
+  report.method = "none";
+  const MeanAndSpread interval = describe(intervals_s(recording, segmentation));
+  const bool cycles_seen = verdict == Verdict::StickSlip || verdict == Verdict::OscillatorySlip;
+  const bool agree =
+      spectral.value_Hz && report.counted.value && std::abs(*spectral.value_Hz / *report.counted.value - 1.0) < 0.05;
+  const bool regular = interval.count >= 2.0 && interval.sd < kRegular * interval.mean;
+  if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || !cycles_seen)) {
+    report.method = "harmonic_least_squares";
+    report.quoted = with_interval(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
+    if (agree || verdict != Verdict::Undetermined) return report;
+  }
+  if (report.counted.value && (cycles_seen || agree)) {
+    report.method = "slip_counting";
+    report.quoted = report.counted;
+  }
+  if (!report.quoted.value) report.quoted.note = "no repetition stands out of the noise";
+  return report;
+}
+
+CycleStatistics summarise_cycles(const Recording& recording, const Segmentation& segmentation, const FitResult* fit) {
+  CycleStatistics result;
+  result.count = segmentation.slips.size();
+  result.minor = segmentation.minor;
+  if (segmentation.slips.empty()) return result;
+  std::vector<double> peaks;
+  std::vector<double> troughs;
+  std::vector<double> drops;
+  const std::size_t first = segmentation.slips.size() > 3 ? 1 : 0;  // the first slip starts from rest
+  for (std::size_t i = first; i < segmentation.slips.size(); ++i) {
+    peaks.push_back(segmentation.slips[i].peak_force);
+    troughs.push_back(segmentation.slips[i].trough_force);
+    drops.push_back(segmentation.slips[i].drop());
+  }
+  const MeanAndSpread peak = describe(peaks);
+  const MeanAndSpread drop = describe(drops);
+  result.peak_force = peak.mean;
+  result.trough_force = describe(troughs).mean;
+  result.force_drop = drop.mean;
+  if (peak.count > 1.0) {
+    result.peak_force_sd = peak.sd;
+    result.force_drop_sd = drop.sd;
+  }
+  const MeanAndSpread interval = describe(intervals_s(recording, segmentation));
+  if (interval.count >= 1.0) result.period_s = interval.mean;
+  if (interval.count >= 2.0) result.period_sd_s = interval.sd;
+  if (fit == nullptr) return result;
+  std::vector<double> slips;
+  for (const Cycle& cycle : fit->cycles) {
+    if (cycle.used) slips.push_back(*cycle.end_s - *cycle.onset_s);
+  }
+  result.used = slips.size();
+  if (fit->tier == Tier::Sawtooth || !result.period_s) return result;
+  result.slip_time_s = describe(slips).mean;
+  result.stick_time_s = std::max(0.0, *result.period_s - *result.slip_time_s);
+  result.sticking_degree = *result.stick_time_s / *result.period_s;
+  return result;
+}
+
+std::vector<Cycle> table_of(const Recording& recording, const Segmentation& segmentation) {
+  std::vector<Cycle> table;
+  for (const DetectedSlip& slip : segmentation.slips) {
+    Cycle row;
+    row.peak_s = recording.time_s()[slip.peak];
+    row.trough_s = recording.time_s()[slip.trough];
+    row.peak_force = slip.peak_force;
+    row.trough_force = slip.trough_force;
+    table.push_back(row);
+  }
+  return table;
+}
+
+void add_measured_spacing(const Recording& recording, const FrequencyReport& frequency, const CycleStatistics& cycles,
+                          Derived& derived) {
+  if (!frequency.quoted.value) {
+    derived.pattern_spacing_m.note = derived.impulse_rate_per_m.note = "no frequency, no spacing";
+    return;
+  }
+  const double speed = recording.conditions().speed_m_per_s;
+  const double spacing = speed / *frequency.quoted.value;
+  derived.pattern_spacing_m = {spacing, std::nullopt, std::nullopt, "V / f at the measured speed"};
+  derived.impulse_rate_per_m = {1.0 / spacing, std::nullopt, std::nullopt, {}};
+  if (cycles.period_sd_s) derived.pattern_spacing_sd_m = speed * *cycles.period_sd_s;
+  if (!frequency.quoted.standard_error) return;
+  const double of_frequency = *frequency.quoted.standard_error / *frequency.quoted.value;
+  const double of_speed = recording.conditions().speed_standard_error_m_per_s.value_or(0.0) / speed;
+  const double relative = std::hypot(of_frequency, of_speed);
+  const double freedom = std::max(1.0, static_cast<double>(cycles.count) - 3.0);
+  derived.pattern_spacing_m = with_interval(spacing, spacing * relative, freedom);
+  derived.pattern_spacing_m.note = "V / f at the measured speed";
+  derived.impulse_rate_per_m = with_interval(1.0 / spacing, relative / spacing, freedom);
+}
+
+Warnings collect_warnings(const Recording& recording, const Analysis& analysis) {
+  Warnings warnings = recording.provenance().warnings;
+  const auto warn = [&](const char* code, std::string message) { warnings.push_back({code, std::move(message)}); };
+  const Quality& quality = analysis.quality;
+  if (quality.gaps > 0) {
+    warn("gaps", fmt::format("{} gap(s) in the clock, the longest {:.3g} s", quality.gaps, quality.longest_gap_s));
+  }
+  if (quality.clock_jitter > 0.05) {
+    warn("uneven_clock", fmt::format("the time step varies by {:.0f} %", 100.0 * quality.clock_jitter));
+  }
+  if (quality.clipped_samples > 0) {
+    warn("clipped", fmt::format("{} samples at a level where the sensor saturates: left out", quality.clipped_samples));
+  }
+  if (quality.impulses > 0) {
+    warn("impulses", fmt::format("{} isolated impulses: left out", quality.impulses));
+  }
+  if (quality.quantisation_step) {
+    warn("quantised", fmt::format("forces are multiples of {:.3g}", *quality.quantisation_step));
+  }
+  for (const SuspiciousLine& line : analysis.frequency.spectral.suspicious_lines) {
+    warn("suspicious_line", fmt::format("line at {:.4g} Hz: {}", line.frequency_Hz, line.reason));
+  }
+  const auto& spectral = analysis.frequency.spectral.value_Hz;
+  const auto& counted = analysis.frequency.counted.value;
+  if (spectral && counted && std::abs(*spectral / *counted - 1.0) > 0.05) {
+    warn("frequencies_disagree",
+         fmt::format("the spectrum shows {:.4g} Hz, counting slips {:.4g} Hz", *spectral, *counted));
+  }
+  if (analysis.fit) warnings.insert(warnings.end(), analysis.fit->warnings.begin(), analysis.fit->warnings.end());
+  return warnings;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+
+/// Frequency from the mean interval between slips, in Hz; empty below 3 slips. The first slip starts from rest and is
+/// left out, and so are intervals across a gap of the recording.
+Estimate count_frequency(const Recording& recording, const Segmentation& segmentation);
+
+/// Both frequencies and the one to quote: harmonic least squares where the cycles are regular, counting where they
+/// scatter. Quoted only where there is a repetition: a count of noise is no frequency.
+FrequencyReport report_frequency(const Recording& recording, const Segmentation& segmentation,
+                                 const SpectralFrequency& spectral, Verdict verdict);
+
+CycleStatistics summarise_cycles(const Recording& recording, const Segmentation& segmentation, const FitResult* fit);
+
+/// Detected cycles without a fit.
+std::vector<Cycle> table_of(const Recording& recording, const Segmentation& segmentation);
+
+/// Spacing V/f and impulse rate from the quoted frequency; uncertainty of the speed included where it is given.
+void add_measured_spacing(const Recording& recording, const FrequencyReport& frequency, const CycleStatistics& cycles,
+                          Derived& derived);
+
+Warnings collect_warnings(const Recording& recording, const Analysis& analysis);
+
+}  // namespace slipfit

@@ -1,0 +1,72 @@
+#include "report/json_sections.hpp"
+#include "report/names.hpp"
+
+namespace slipfit {
+namespace {
+
+Json candidate_json(const Candidate& candidate, ForceQuantity quantity) {
+  Json json{{"tier", name_of(candidate.tier)}, {"parameters", candidate.parameters}};
+  ForceKeys forces(json, quantity);
+  forces.put("rms", candidate.rms);
+  json["aicc"] = number(candidate.aicc);
+  json["chosen"] = candidate.chosen;
+  json["reason"] = candidate.reason;
+  forces.finish();
+  return json;
+}
+
+}  // namespace
+
+Json model_json(const FitResult& fit, ForceQuantity quantity) {
+  Json candidates = Json::array();
+  for (const Candidate& candidate : fit.candidates) candidates.push_back(candidate_json(candidate, quantity));
+  Json residual = Json::object();
+  ForceKeys forces(residual, quantity);
+  forces.put("rms", fit.residual.rms);
+  residual["reduced_chi2"] = number(fit.residual.reduced_chi2);
+  residual["whiteness_p"] = number(fit.residual.whiteness_p);
+  forces.finish();
+  return Json{{"tier", name_of(fit.tier)},
+              {"conditional_on", fit.conditional_on},
+              {"candidates", std::move(candidates)},
+              {"residual", std::move(residual)}};
+}
+
+Json parameters_json(const FitResult& fit) {
+  Json json = Json::object();
+  for (const Parameter& parameter : fit.parameters) {
+    json[parameter.name] = {{"value", number(parameter.estimate.value)},
+                            {"se", number(parameter.estimate.standard_error)},
+                            {"ci95", interval(parameter.estimate.ci95)},
+                            {"status", name_of(parameter.status)},
+                            {"note", parameter.estimate.note}};
+  }
+  return json;
+}
+
+Json correlation_json(const std::optional<Correlation>& correlation) {
+  if (!correlation) return nullptr;
+  Json matrix = Json::array();
+  for (const std::vector<double>& row : correlation->matrix) {
+    Json cells = Json::array();
+    for (const double cell : row) cells.push_back(number(cell));
+    matrix.push_back(std::move(cells));
+  }
+  return Json{{"names", correlation->names}, {"matrix", std::move(matrix)}};
+}
+
+Json derived_json(const Derived& derived) {
+  return Json{{"lambda", estimate(derived.lambda)},
+              {"gamma", estimate(derived.gamma)},
+              {"lambda_critical", estimate(derived.lambda_critical)},
+              {"critical_speed_m_per_s", estimate(derived.critical_speed_m_per_s)},
+              {"regime", derived.regime ? Json(*derived.regime) : Json(nullptr)},
+              {"bistable", derived.bistable ? Json(*derived.bistable) : Json(nullptr)},
+              {"periodic_displacement_m", estimate(derived.periodic_displacement_m)},
+              {"pattern_spacing_m", estimate(derived.pattern_spacing_m)},
+              {"pattern_spacing_sd_m", estimate(Estimate{derived.pattern_spacing_sd_m, {}, {}, {}})},
+              {"micro_vibration_spacing_m", estimate(derived.micro_vibration_spacing_m)},
+              {"impulse_rate_per_m", estimate(derived.impulse_rate_per_m)}};
+}
+
+}  // namespace slipfit

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "report/json_values.hpp"
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+
+// One function a section of the document (docs/formats.md).
+Json recording_json(const Recording& recording, const Quality& quality);
+Json warnings_json(const Warnings& warnings);
+Json frequency_json(const FrequencyReport& frequency);
+Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity);
+Json model_json(const FitResult& fit, ForceQuantity quantity);
+Json parameters_json(const FitResult& fit);
+Json correlation_json(const std::optional<Correlation>& correlation);
+Json derived_json(const Derived& derived);
+
+}  // namespace slipfit

@@ -1,0 +1,37 @@
+#include "report/json_values.hpp"
+
+#include <cmath>
+
+namespace slipfit {
+
+Json number(std::optional<double> value) {
+  if (!value || !std::isfinite(*value)) return nullptr;
+  return *value;
+}
+
+Json interval(const std::optional<Interval>& bounds) {
+  if (!bounds || !std::isfinite(bounds->low) || !std::isfinite(bounds->high)) return nullptr;
+  return Json::array({bounds->low, bounds->high});
+}
+
+Json estimate(const Estimate& quantity) {
+  Json json{
+      {"value", number(quantity.value)}, {"se", number(quantity.standard_error)}, {"ci95", interval(quantity.ci95)}};
+  if (!quantity.note.empty()) json["note"] = quantity.note;
+  return json;
+}
+
+void ForceKeys::put(const std::string& name, std::optional<double> value) {
+  if (quantity_ == ForceQuantity::Force_N) {
+    object_[name + "_N"] = number(value);
+  } else {
+    object_[name + "_N"] = nullptr;
+    coefficient_[name] = number(value);
+  }
+}
+
+void ForceKeys::finish() {
+  if (quantity_ == ForceQuantity::FrictionCoefficient) object_["coefficient"] = std::move(coefficient_);
+}
+
+}  // namespace slipfit

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "slipfit/core/estimate.hpp"
+#include "slipfit/core/recording.hpp"
+
+namespace slipfit {
+
+using Json = nlohmann::ordered_json;  // keys in the order of writing: same input, same bytes
+
+/// null where the number is absent or not finite.
+Json number(std::optional<double> value);
+
+/// [low, high], or null where it is absent or a bound is not finite.
+Json interval(const std::optional<Interval>& bounds);
+
+/// { value, se, ci95 }, and a note where there is one.
+Json estimate(const Estimate& quantity);
+
+/// Numbers in the unit of the force column. The keys NAME_N hold newtons and are null for a friction coefficient, whose
+/// numbers stand in the object "coefficient" instead.
+class ForceKeys {
+ public:
+  ForceKeys(Json& object, ForceQuantity quantity) : object_(object), quantity_(quantity) {}
+  void put(const std::string& name, std::optional<double> value);
+  void finish();
+
+ private:
+  Json& object_;
+  ForceQuantity quantity_;
+  Json coefficient_ = Json::object();
+};
+
+}  // namespace slipfit

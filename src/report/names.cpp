@@ -1,0 +1,81 @@
+#include "report/names.hpp"
+
+#include <algorithm>
+
+namespace slipfit {
+
+std::string_view name_of(Tier tier) {
+  switch (tier) {
+    case Tier::Sawtooth:
+      return "sawtooth";
+    case Tier::Undamped:
+      return "undamped";
+    case Tier::Damped:
+      return "damped";
+  }
+  return "unknown";
+}
+
+std::string_view name_of(ForceView view) {
+  switch (view) {
+    case ForceView::Spring:
+      return "spring";
+    case ForceView::Transmitted:
+      return "transmitted";
+    case ForceView::Contact:
+      return "contact";
+  }
+  return "unknown";
+}
+
+std::string_view name_of(ForceQuantity quantity) {
+  return quantity == ForceQuantity::Force_N ? "force" : "friction_coefficient";
+}
+
+std::string_view name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::StickSlip:
+      return "stick_slip";
+    case Verdict::SteadySliding:
+      return "steady_sliding";
+    case Verdict::OscillatorySlip:
+      return "oscillatory_slip";
+    case Verdict::Undetermined:
+      return "undetermined";
+  }
+  return "undetermined";
+}
+
+std::string_view name_of(ParameterStatus status) {
+  switch (status) {
+    case ParameterStatus::Identified:
+      return "identified";
+    case ParameterStatus::Weak:
+      return "weak";
+    case ParameterStatus::Bounded:
+      return "bounded";
+    case ParameterStatus::Unidentified:
+      return "unidentified";
+    case ParameterStatus::Fixed:
+      return "fixed";
+  }
+  return "unidentified";
+}
+
+Warnings all_warnings(const Recording& recording, const Analysis& analysis) {
+  Warnings all;
+  const auto add = [&all](const Warnings& warnings) {
+    for (const Warning& warning : warnings) {
+      const bool known = std::any_of(all.begin(), all.end(), [&warning](const Warning& other) {
+        return other.code == warning.code && other.message == warning.message;
+      });
+      if (!known) all.push_back(warning);
+    }
+  };
+  add(recording.provenance().warnings);
+  add(analysis.warnings);
+  if (analysis.fit) add(analysis.fit->warnings);
+  return all;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string_view>
+
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+
+// The words of the JSON document; docs/formats.md lists them.
+std::string_view name_of(Tier tier);
+std::string_view name_of(ForceView view);
+std::string_view name_of(ForceQuantity quantity);
+std::string_view name_of(Verdict verdict);
+std::string_view name_of(ParameterStatus status);
+
+/// What the reader, the analysis and the fit have to say, in this order, each once.
+Warnings all_warnings(const Recording& recording, const Analysis& analysis);
+
+}  // namespace slipfit

@@ -1,0 +1,103 @@
+#include "report/rounding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace slipfit {
+namespace {
+
+constexpr int kDigitsOfError = 2;  // the usual rule for a standard error
+constexpr int kDigitsWithoutError = 4;
+constexpr int kMostDigits = 9;  // beyond any force sensor and clock
+constexpr int kSmallestFixedExponent = -4;
+constexpr int kLargestFixedExponent = 6;
+
+int exponent_of(double value) {
+  return value == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
+}
+
+bool usable(std::optional<double> uncertainty) {
+  return uncertainty && std::isfinite(*uncertainty) && *uncertainty > 0.0;
+}
+
+/// Power of ten of the last digit worth writing.
+int last_digit_exponent(double value, std::optional<double> uncertainty) {
+  const int by_error = usable(uncertainty) ? exponent_of(*uncertainty) - (kDigitsOfError - 1)
+                                           : exponent_of(value) - (kDigitsWithoutError - 1);
+  return std::max(by_error, exponent_of(value) - (kMostDigits - 1));
+}
+
+std::string fixed_text(double value, int last_digit) {
+  const double unit = std::pow(10.0, std::max(last_digit, 0));
+  std::string text =
+      fmt::format("{:.{}f}", last_digit > 0 ? std::round(value / unit) * unit : value, std::max(-last_digit, 0));
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  if (is_zero && text.front() == '-') text.erase(0, 1);
+  return text;
+}
+
+/// The half width of the interval over 1.96 stands in where no standard error is given.
+std::optional<double> uncertainty_of(const Estimate& estimate) {
+  if (usable(estimate.standard_error)) return estimate.standard_error;
+  if (!estimate.ci95) return std::nullopt;
+  return (estimate.ci95->high - estimate.ci95->low) / (2.0 * 1.96);
+}
+
+}  // namespace
+
+std::string rounded(double value, std::optional<double> uncertainty) {
+  if (!std::isfinite(value)) return "-";
+  if (value == 0.0 && !usable(uncertainty)) return "0";
+  const int exponent = exponent_of(value);
+  const int last_digit = last_digit_exponent(value, uncertainty);
+  const bool drowned = last_digit > exponent;  // the error is larger than the number: one digit place is all there is
+  const int leading = drowned ? last_digit : exponent;
+  if (leading >= kSmallestFixedExponent && leading <= kLargestFixedExponent) return fixed_text(value, last_digit);
+  return fmt::format("{:.{}e}", value, std::max(0, exponent - last_digit));
+}
+
+RoundedEstimate rounded(const Estimate& estimate) {
+  const std::optional<double> uncertainty = uncertainty_of(estimate);
+  RoundedEstimate text{"-", "-"};
+  if (estimate.value) text.value = rounded(*estimate.value, uncertainty);
+  if (estimate.ci95 && std::isfinite(estimate.ci95->low) && std::isfinite(estimate.ci95->high)) {
+    text.interval =
+        fmt::format("[{}, {}]", rounded(estimate.ci95->low, uncertainty), rounded(estimate.ci95->high, uncertainty));
+  }
+  return text;
+}
+
+std::string with_error(const Estimate& estimate) {
+  if (!estimate.value || !std::isfinite(*estimate.value)) return "-";
+  if (!usable(estimate.standard_error)) return rounded(*estimate.value, std::nullopt);
+  return fmt::format("{} ± {}", rounded(*estimate.value, estimate.standard_error),
+                     rounded(*estimate.standard_error, estimate.standard_error));
+}
+
+DisplayUnit display_unit(const std::string& SI_unit, std::optional<double> typical) {
+  if (SI_unit == "1/m") return {1e-3, "1/mm"};
+  constexpr std::array<const char*, 5> kPrefixable{"m", "m/s", "s", "N", "kg"};
+  const bool prefixable = std::find(kPrefixable.begin(), kPrefixable.end(), SI_unit) != kPrefixable.end();
+  if (!prefixable || !typical || !std::isfinite(*typical) || *typical == 0.0) return {1.0, SI_unit};
+  const double magnitude = std::abs(*typical);
+  if (magnitude >= 1.0) return {1.0, SI_unit};
+  const std::string base = SI_unit == "kg" ? "g" : SI_unit;
+  const double base_per_SI = SI_unit == "kg" ? 1e3 : 1.0;
+  if (SI_unit == "kg" && magnitude >= 1e-3) return {base_per_SI, base};
+  if (magnitude * base_per_SI >= 1e-3) return {1e3 * base_per_SI, "m" + base};
+  if (magnitude * base_per_SI >= 1e-6) return {1e6 * base_per_SI, "µ" + base};
+  return {1e9 * base_per_SI, "n" + base};
+}
+
+Estimate scaled(const Estimate& estimate, double factor) {
+  Estimate result = estimate;
+  if (result.value) *result.value *= factor;
+  if (result.standard_error) *result.standard_error *= factor;
+  if (result.ci95) result.ci95 = Interval{result.ci95->low * factor, result.ci95->high * factor};
+  return result;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "slipfit/core/estimate.hpp"
+
+namespace slipfit {
+
+/// An estimate as people write it: rounded to two significant digits of its standard error, the interval alike.
+struct RoundedEstimate {
+  std::string value;     ///< "-" where it is not known
+  std::string interval;  ///< "[low, high]", or "-"
+};
+
+/// The number with as many decimals as two significant digits of `uncertainty` need; without an uncertainty four
+/// significant digits. "-" for what is not finite. Scientific below 1e-4 and from 1e7 on.
+std::string rounded(double value, std::optional<double> uncertainty);
+
+RoundedEstimate rounded(const Estimate& estimate);
+
+/// "2.345 ± 0.012", the standard error with two digits; the value alone where there is no standard error.
+std::string with_error(const Estimate& estimate);
+
+/// A unit with the prefix that brings `typical` to between 1 and 1000: value_SI * per_SI is in `unit`.
+struct DisplayUnit {
+  double per_SI = 1.0;
+  std::string unit;
+};
+
+/// Prefixes for m, m/s, s, N and kg (from nano to the unit itself); 1/m becomes 1/mm; other units stay.
+DisplayUnit display_unit(const std::string& SI_unit, std::optional<double> typical);
+
+Estimate scaled(const Estimate& estimate, double factor);
+
+}  // namespace slipfit

@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/names.hpp"
+#include "report/rounding.hpp"
+#include "report/table.hpp"
+#include "report/text_sections.hpp"
+#include "slipfit/report/text.hpp"
+
+namespace slipfit {
+namespace {
+
+std::string spectral_text(const SpectralFrequency& spectral) {
+  if (!spectral.value_Hz) return "no line stands out";
+  const std::string frequency = with_error(Estimate{spectral.value_Hz, spectral.standard_error_Hz, {}, {}});
+  const std::size_t lines = spectral.harmonics_Hz.size();
+  return fmt::format("{} Hz, {} {}, false-alarm probability {:.1g}", frequency, lines,
+                     lines == 1 ? "line" : "lines in step", spectral.false_alarm_probability);
+}
+
+std::string lines_text(const std::vector<SuspiciousLine>& lines) {
+  std::string text;
+  for (const SuspiciousLine& line : lines) {
+    text += fmt::format("  suspicious line at {}: {}\n", quantity_text(line.frequency_Hz, "Hz"), one_line(line.reason));
+  }
+  return text;
+}
+
+/// "5.983 N (sd 0.054 N)": rounded by the spread, both in one unit.
+std::string with_spread(std::optional<double> value, std::optional<double> spread, const std::string& SI_unit) {
+  if (!value || !spread) return quantity_text(value, SI_unit);
+  const DisplayUnit unit = display_unit(SI_unit, value);
+  const double shown_spread = *spread * unit.per_SI;
+  const std::string blank_unit = unit.unit.empty() ? std::string() : " " + unit.unit;
+  return fmt::format("{}{} (sd {}{})", rounded(*value * unit.per_SI, shown_spread), blank_unit,
+                     rounded(shown_spread, shown_spread), blank_unit);
+}
+
+/// What is not known is a row only where the note says why.
+void add_estimate(Table& table, const std::string& words, const Estimate& estimate, const std::string& SI_unit) {
+  if (!estimate.value && !estimate.ci95 && estimate.note.empty()) return;
+  const EstimateRow row = estimate_row(estimate, SI_unit);
+  table.add({words, row.value, row.unit, row.interval == "-" ? "" : row.interval, one_line(estimate.note)});
+}
+
+std::string regime_text(const Derived& derived) {
+  std::string words = one_line(*derived.regime);
+  if (words == "stick_slip_bistable") words = "stick-slip from rest";
+  std::replace(words.begin(), words.end(), '_', '-');
+  return fmt::format("  regime: {}{}\n", words,
+                     derived.bistable.value_or(false) ? "; steady sliding, once reached, persists too (bistable)" : "");
+}
+
+}  // namespace
+
+std::string frequency_text(const FrequencyReport& frequency) {
+  Table table({Align::Left, Align::Left});
+  table.add({"by FFT", spectral_text(frequency.spectral)});
+  table.add({"by counting slips", frequency.counted.value ? with_error(frequency.counted) + " Hz" : "too few slips"});
+  if (frequency.quoted.value) {
+    const std::string interval = rounded(frequency.quoted).interval;
+    table.add({"quoted", with_error(frequency.quoted) + " Hz" + (interval == "-" ? "" : ", 95 % interval " + interval) +
+                             fmt::format(" ({})", one_line(frequency.method))});
+  } else {
+    table.add({"quoted", "none"});
+  }
+  return "\nFrequency\n" + table.text() + lines_text(frequency.spectral.suspicious_lines);
+}
+
+std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity) {
+  const std::string unit = force_unit(quantity);
+  Table table({Align::Left, Align::Left});
+  table.add(
+      {"slips", fmt::format("{} counted, {} minor, {} used in the fit", cycles.count, cycles.minor, cycles.used)});
+  if (cycles.period_s) table.add({"period", with_spread(cycles.period_s, cycles.period_sd_s, "s")});
+  if (cycles.slip_time_s) table.add({"slip time", quantity_text(cycles.slip_time_s, "s")});
+  if (cycles.stick_time_s) table.add({"stick time", quantity_text(cycles.stick_time_s, "s")});
+  if (cycles.sticking_degree) table.add({"sticking degree", quantity_text(cycles.sticking_degree, "")});
+  if (cycles.peak_force) table.add({"peak force", with_spread(cycles.peak_force, cycles.peak_force_sd, unit)});
+  if (cycles.trough_force) table.add({"trough force", quantity_text(cycles.trough_force, unit)});
+  if (cycles.force_drop) table.add({"force drop", with_spread(cycles.force_drop, cycles.force_drop_sd, unit)});
+  return "\nCycles\n" + table.text();
+}
+
+std::string spacing_text(const Recording& recording, const Derived& derived) {
+  const std::string title =
+      fmt::format("\nSpacing, measured (V/f) at {}\n", stated_text(recording.conditions().speed_m_per_s, "m/s"));
+  if (!derived.pattern_spacing_m.value) {
+    const std::string& note = derived.pattern_spacing_m.note;
+    return title + fmt::format("  none{}\n", note.empty() ? note : ": " + one_line(note));
+  }
+  Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
+  add_estimate(table, "pattern spacing", derived.pattern_spacing_m, "m");
+  add_estimate(table, "its spread over cycles (sd)", Estimate{derived.pattern_spacing_sd_m, {}, {}, {}}, "m");
+  add_estimate(table, "impulses along the path", derived.impulse_rate_per_m, "1/m");
+  return title + table.text();
+}
+
+std::string predicted_text(const Derived& derived) {
+  const std::string title = "\nPredicted by the model at this speed\n";
+  if (!derived.lambda.value && !derived.lambda.note.empty())
+    return title + "  nothing: " + one_line(derived.lambda.note) + "\n";
+  Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
+  add_estimate(table, "periodic displacement", derived.periodic_displacement_m, "m");
+  add_estimate(table, "lambda", derived.lambda, "");
+  add_estimate(table, "lambda at the stick-slip limit", derived.lambda_critical, "");
+  add_estimate(table, "critical speed", derived.critical_speed_m_per_s, "m/s");
+  add_estimate(table, "F_s / F_k (gamma)", derived.gamma, "");
+  add_estimate(table, "micro-vibration spacing (estimate)", derived.micro_vibration_spacing_m, "m");
+  if (table.empty() && !derived.regime) return {};
+  return title + table.text() + (derived.regime ? regime_text(derived) : std::string());
+}
+
+std::string recording_text(const Recording& recording, const Quality& quality) {
+  const Conditions& conditions = recording.conditions();
+  const Provenance& provenance = recording.provenance();
+  std::string text = "\nRecording\n";
+  text += fmt::format("  {} samples at {} over {}, sensor sees the {} force", recording.size(),
+                      stated_text(1.0 / recording.sample_interval_s(), "Hz"),
+                      quantity_text(recording.duration_s(), "s"), name_of(conditions.force_view));
+  if (conditions.normal_force_N) text += ", normal force " + stated_text(*conditions.normal_force_N, "N");
+  text += fmt::format("\n  noise {} rms", quantity_text(quality.noise_rms, force_unit(conditions.quantity)));
+  const auto count = [&text](std::size_t number_of, const char* what) {
+    if (number_of > 0) text += fmt::format(", {} {}", number_of, what);
+  };
+  count(quality.clipped_samples, "clipped samples");
+  count(quality.impulses, "impulses");
+  count(quality.gaps, "gaps");
+  count(provenance.rows_without_number, "rows without a number");
+  count(provenance.rows_backward_in_time, "rows backward in time");
+  count(provenance.rows_repeating_time, "repeated time stamps");
+  return text + "\n";
+}
+
+}  // namespace slipfit

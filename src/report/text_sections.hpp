@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+
+// One function a section of the report for people; each ends with a line break, or is empty.
+std::string judgement_text(const Recording& recording, const Analysis& analysis);
+std::string parameters_text(const Recording& recording, const Analysis& analysis);
+std::string frequency_text(const FrequencyReport& frequency);
+std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity);
+std::string spacing_text(const Recording& recording, const Derived& derived);
+std::string predicted_text(const Derived& derived);
+std::string recording_text(const Recording& recording, const Quality& quality);
+
+/// "key   value ± error unit   [low, high]" for a table of estimates; SI_unit gets a prefix where that reads better.
+struct EstimateRow {
+  std::string value;
+  std::string interval;
+  std::string unit;
+};
+EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit);
+
+/// "1.234 mm": a number without an error.
+std::string quantity_text(std::optional<double> value, const std::string& SI_unit);
+
+/// "10 mm/s": a number that somebody stated, with the digits that it needs.
+std::string stated_text(double value, const std::string& SI_unit);
+
+/// The unit of the force column: N, or 1 (empty text) for a friction coefficient.
+std::string force_unit(ForceQuantity quantity);
+
+}  // namespace slipfit

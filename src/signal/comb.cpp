@@ -1,0 +1,225 @@
+#include "signal/comb.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+
+namespace slipfit::signal {
+namespace {
+
+// Half widths of the lines over their frequency: a period that scatters by s makes the fundamental 2 pi s^2 wide.
+constexpr std::array kWidths{0.0, 0.01, 0.03, 0.08, 0.16};
+
+// Boost reports nothing by exceptions here: out of range counts as probability 0 or 1.
+using Quiet =
+    boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
+                                  boost::math::policies::pole_error<boost::math::policies::ignore_error>,
+                                  boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
+                                  boost::math::policies::underflow_error<boost::math::policies::ignore_error>,
+                                  boost::math::policies::evaluation_error<boost::math::policies::ignore_error>,
+                                  boost::math::policies::promote_double<false>>;
+
+/// -ln P(line / gaps > ratio) for two independent gamma variates of mean one.
+double surprise(double ratio, double line_shape, double gap_shape) {
+  const double y = gap_shape / (gap_shape + line_shape * ratio);
+  const double p = boost::math::ibeta(gap_shape, line_shape, y, Quiet());
+  return p > 1e-300 ? -std::log(std::min(1.0, p)) : 690.0;
+}
+
+/// Fisher's sum of the surprises of the first harmonics; neighbours share a gap, which `spread` allows for (Brown).
+double comb_probability(const Comb& comb, std::size_t harmonics, const std::vector<double>& surprises) {
+  double sum = 0.0;
+  double spread = 0.0;
+  for (std::size_t h = 0; h < harmonics; ++h) {
+    sum += surprises[h];
+    spread += 1.0 + 0.5 / comb.gap_shape[h];
+  }
+  spread /= static_cast<double>(harmonics);
+  return boost::math::gamma_q(static_cast<double>(harmonics) / spread, sum / spread, Quiet());
+}
+
+/// Independent places to look at: two to a resolution for sharp lines (harmonics move faster than the fundamental), two
+/// to a width for broad ones. Every width is a class of its own, so that broad combs do not pay for all sharp ones.
+double trials(const BandPower& bands, CombRange range, double relative_width) {
+  const double places = relative_width > 0.0 ? 2.0 * std::log(range.high_Hz / range.low_Hz) / relative_width
+                                             : 2.0 * (range.high_Hz - range.low_Hz) / bands.resolution_Hz();
+  return std::max(1.0, places) * static_cast<double>(kWidths.size());
+}
+
+void judge(const BandPower& bands, CombRange range, Comb& comb) {
+  std::vector<double> surprises;
+  for (std::size_t h = 0; h < std::min(comb.measured, std::max<std::size_t>(4, comb.harmonics)); ++h) {
+    surprises.push_back(surprise(comb.ratio[h], comb.line_shape[h], comb.gap_shape[h]));
+  }
+  double smallest = 1.0;
+  for (const std::size_t harmonics : {std::size_t{1}, std::size_t{2}, std::size_t{4}, comb.harmonics}) {
+    if (harmonics > comb.measured) continue;
+    smallest = std::min(smallest, comb_probability(comb, harmonics, surprises));
+  }
+  // Sums over the first so many harmonics agree largely: together they count as two.
+  const double per_place = std::min(1.0, 2.0 * smallest);
+  comb.false_alarm_probability = -std::expm1(trials(bands, range, comb.relative_width) * std::log1p(-per_place));
+  if (per_place >= 1.0) comb.false_alarm_probability = 1.0;
+}
+
+/// Local maxima of the power against a running mean on either side, the strongest ones: frequencies.
+std::vector<double> outstanding_peaks(const BandPower& bands, CombRange range, std::size_t most) {
+  struct Peak {
+    double ratio;
+    double frequency_Hz;
+  };
+  std::vector<Peak> peaks;
+  const double bin = bands.resolution_Hz();
+  double before = 0.0;
+  double here = 0.0;
+  const double step = bin;
+  for (double f = range.low_Hz; f < range.high_Hz; f += step) {
+    const double next = bands.mean(f - 0.75 * bin, f + 0.75 * bin);
+    if (here >= before && here > next) {
+      const double at = f - step;
+      const double reach = std::max(10.0 * bin, 0.25 * at);
+      const double around = 0.5 * (bands.mean(at - reach, at - 2.0 * bin) + bands.mean(at + 2.0 * bin, at + reach));
+      if (here > 3.0 * around) peaks.push_back({here / (around + 1e-300), at});
+    }
+    before = here;
+    here = next;
+  }
+  const std::size_t kept = std::min(most, peaks.size());
+  const auto middle = peaks.begin() + static_cast<std::ptrdiff_t>(kept);
+  std::partial_sort(peaks.begin(), middle, peaks.end(), [](const Peak& a, const Peak& b) { return a.ratio > b.ratio; });
+  std::vector<double> frequencies;
+  for (auto peak = peaks.begin(); peak != middle; ++peak) frequencies.push_back(peak->frequency_Hz);
+  return frequencies;
+}
+
+/// The best of a fine grid about a frequency known to within one resolution.
+Comb best_sharp(const BandPower& bands, double frequency_Hz, double multiple) {
+  Comb best;
+  for (int step = -10; step <= 10; ++step) {
+    const double f = frequency_Hz + 0.1 * static_cast<double>(step) * bands.resolution_Hz();
+    Comb comb = measure_comb(bands, f / multiple, 0.0);
+    if (comb.score > best.score) best = comb;
+  }
+  return best;
+}
+
+void search_peaks(const BandPower& bands, CombRange range, std::vector<Comb>& found) {
+  const CombRange lines{range.low_Hz, std::min(4.0 * range.high_Hz, 0.98 * bands.highest_Hz())};
+  for (const double peak : outstanding_peaks(bands, lines, 30)) {
+    for (const double multiple : {1.0, 2.0, 3.0, 4.0}) {  // it may be a harmonic of a fundamental that is hidden
+      const double f = peak / multiple;
+      if (f >= range.low_Hz && f <= range.high_Hz) found.push_back(best_sharp(bands, peak, multiple));
+    }
+  }
+}
+
+void search_grid(const BandPower& bands, CombRange range, std::vector<Comb>& found) {
+  for (double f = range.low_Hz; f < range.high_Hz; f += 0.05 * bands.resolution_Hz()) {
+    found.push_back(measure_comb(bands, f, 0.0));
+  }
+}
+
+void search_broad(const BandPower& bands, CombRange range, double width, std::vector<Comb>& found) {
+  // Below the start the lines are no broader than sharp ones.
+  const double start = std::max(range.low_Hz, 1.5 * bands.resolution_Hz() / width);
+  for (double f = start; f < range.high_Hz; f *= 1.0 + 0.4 * width) {
+    found.push_back(measure_comb(bands, f, width));
+  }
+}
+
+/// The probabilities cost a microsecond each: only the combs with the largest scores of every width get theirs, and
+/// those with the strongest single line, which a sum of logarithms ranks too low.
+void keep_best(std::vector<Comb>& found, std::size_t most) {
+  const auto by_score = [](const Comb& a, const Comb& b) { return a.score > b.score; };
+  const auto by_line = [](const Comb& a, const Comb& b) { return a.ratio[0] > b.ratio[0]; };
+  const std::size_t first = std::min(most, found.size());
+  const std::size_t second = std::min(2 * most, found.size());
+  const auto at = [&](std::size_t i) { return found.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::partial_sort(found.begin(), at(first), found.end(), by_score);
+  std::partial_sort(at(first), at(second), found.end(), by_line);
+  found.resize(second);
+}
+
+/// One more line of the comb and the gaps on either side of it, half a spacing away (nearer below the highest
+/// frequency, so that there are always two). False: no room for it.
+bool measure_line(const BandPower& bands, std::size_t h, Comb& comb) {
+  const double spacing = comb.frequency_Hz;
+  const double resolution = bands.resolution_Hz();
+  const double line = static_cast<double>(h + 1) * spacing;
+  const double away = std::min(0.5 * spacing, 0.8 * (bands.highest_Hz() - line));
+  const double sharp = std::min(resolution, 0.17 * spacing);
+  const double half = std::max(sharp, std::min(comb.relative_width * line, 0.25 * spacing));
+  if (away < 2.0 * half) return false;
+  const double gap = std::clamp(away - 1.9 * resolution, 0.1 * resolution, 0.4 * away);
+  const double below = bands.mean(line - away - gap, line - away + gap);
+  const double above = bands.mean(line + away - gap, line + away + gap);
+  comb.line_shape[h] = bands.shape(2.0 * half);
+  comb.gap_shape[h] = 2.0 * bands.shape(2.0 * gap);
+  // A smooth background may stand above the mean of its sides by a third or so (the knee of a low-pass): where
+  // averaging over a broad line would make that significant, it is allowed for.
+  const double expected = (1.5 - 0.5 / comb.line_shape[h]) * 0.5 * (below + above);
+  const double height = bands.mean(line - half, line + half);
+  comb.ratio[h] = height / (expected + 1e-300);
+  comb.power[h] = std::max(0.0, height - expected) * 2.0 * half / line;
+  comb.measured = h + 1;
+  return true;
+}
+
+}  // namespace
+
+BandPower::BandPower(std::span<const double> power, double bin_Hz, double resolution_Hz)
+    : bin_Hz_(bin_Hz),
+      per_bin_(1.0 / bin_Hz),
+      last_(static_cast<double>(power.size())),
+      resolution_Hz_(resolution_Hz),
+      tail_(power.size() + 1) {
+  for (std::size_t i = power.size(); i-- > 0;) tail_[i] = tail_[i + 1] + power[i] * static_cast<double>(i);
+}
+
+double BandPower::shape(double width_Hz) const {
+  return 1.0 + 0.45 * std::max(0.0, width_Hz / resolution_Hz_ - 1.0);
+}
+
+Comb measure_comb(const BandPower& bands, double frequency_Hz, double relative_width) {
+  Comb comb;
+  comb.frequency_Hz = frequency_Hz;
+  comb.relative_width = relative_width;
+  double sum = 0.0;
+  double variance = 0.0;
+  for (std::size_t h = 0; h < Comb::kMostHarmonics; ++h) {
+    if (!measure_line(bands, h, comb)) break;
+    sum += std::log(std::clamp(comb.ratio[h], 0.5, 1e12));
+    variance += 1.0 / comb.line_shape[h] + 1.0 / comb.gap_shape[h] + 0.09;
+    const double score = sum / std::sqrt(variance);
+    if (h == 0 || score > comb.score) {
+      comb.score = score;
+      comb.harmonics = h + 1;
+    }
+    if (h == 2 && comb.score < 1.0) break;  // nothing here: the rest is not worth the time
+  }
+  return comb;
+}
+
+std::vector<Comb> search_combs(const BandPower& bands, CombRange range, CombGrid grid) {
+  std::vector<Comb> combs;
+  if (!(range.high_Hz > range.low_Hz)) return combs;
+  for (const double width : kWidths) {
+    std::vector<Comb> found;
+    if (width > 0.0) {
+      search_broad(bands, range, width, found);
+    } else if (grid == CombGrid::Fine) {
+      search_grid(bands, range, found);
+    } else {
+      search_peaks(bands, range, found);
+    }
+    keep_best(found, 5);
+    for (Comb& comb : found) {
+      judge(bands, range, comb);
+      combs.push_back(comb);
+    }
+  }
+  return combs;
+}
+
+}  // namespace slipfit::signal

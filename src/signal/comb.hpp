@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace slipfit::signal {
+
+/// Power times frequency of a spectrum, ready for means over any band. (Times frequency, because the mean of the two
+/// gaps beside a line then equals the background under it for white noise and for 1/f, and exceeds it for 1/f^2.)
+class BandPower {
+ public:
+  /// `resolution_Hz`: one over the duration; the bins may be finer (zero padding).
+  BandPower(std::span<const double> power, double bin_Hz, double resolution_Hz);
+
+  [[nodiscard]] double mean(double low_Hz, double high_Hz) const {
+    const double low = std::max(0.0, low_Hz * per_bin_ + 0.5);
+    const double high = high_Hz * per_bin_ + 0.5;
+    return (tail(low) - tail(high)) / std::max(1e-3, high - low);
+  }
+  /// Shape of the gamma distribution that such a mean follows in noise (Hann: neighbouring bins correlate).
+  [[nodiscard]] double shape(double width_Hz) const;
+  [[nodiscard]] double resolution_Hz() const { return resolution_Hz_; }
+  [[nodiscard]] double highest_Hz() const { return bin_Hz_ * last_; }
+
+ private:
+  [[nodiscard]] double tail(double edge) const {
+    const double place = std::min(std::max(edge, 0.0), last_);
+    const auto below = std::min(static_cast<std::size_t>(place), tail_.size() - 2);
+    return tail_[below] + (place - static_cast<double>(below)) * (tail_[below + 1] - tail_[below]);
+  }
+
+  double bin_Hz_;
+  double per_bin_;
+  double last_;
+  double resolution_Hz_;
+  std::vector<double> tail_;  ///< sum over the bins from i up: the faint ones first, so that they keep their digits
+};
+
+/// Lines at multiples of one frequency, each against the gaps on either side of it.
+struct Comb {
+  static constexpr std::size_t kMostHarmonics = 10;
+
+  double frequency_Hz = 0.0;
+  double relative_width = 0.0;                 ///< half width of the lines over their frequency; 0: as sharp as can be
+  std::size_t harmonics = 0;                   ///< that make the score largest
+  double score = 0.0;                          ///< sum of ln(line / gaps) in its standard deviations in noise
+  double false_alarm_probability = 1.0;        ///< that noise shows such a comb anywhere in the searched range
+  std::size_t measured = 0;                    ///< harmonics below the highest frequency
+  std::array<double, kMostHarmonics> ratio{};  ///< line / gaps
+  std::array<double, kMostHarmonics> line_shape{};  ///< of the gamma distributions
+  std::array<double, kMostHarmonics> gap_shape{};
+  std::array<double, kMostHarmonics> power{};  ///< of the line above its gaps, (unit of force)^2
+};
+
+struct CombRange {
+  double low_Hz = 0.0;
+  double high_Hz = 0.0;
+};
+
+/// The combs worth a look in the range, their false-alarm probability included. `fine`: on a grid finer than the
+/// resolution (few cycles, oversampled spectrum); otherwise from the peaks that stand out.
+enum class CombGrid { Fine, Peaks };
+std::vector<Comb> search_combs(const BandPower& bands, CombRange range, CombGrid grid);
+
+/// Comb at one frequency: ratios and score, no false-alarm probability.
+Comb measure_comb(const BandPower& bands, double frequency_Hz, double relative_width);
+
+}  // namespace slipfit::signal

@@ -1,0 +1,130 @@
+#include "slipfit/signal/cycles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "signal/robust.hpp"
+#include "signal/zigzag.hpp"
+
+namespace slipfit {
+namespace {
+
+using signal::Fall;
+using signal::find_falls;
+
+/// Median of three neighbours, impulses held at the last good value before.
+std::vector<double> smooth(std::span<const double> force, const std::vector<bool>& impulses) {
+  std::vector<double> held(force.begin(), force.end());
+  for (std::size_t i = 1; i < held.size() && !impulses.empty(); ++i) {
+    if (impulses[i]) held[i] = held[i - 1];
+  }
+  std::vector<double> smoothed = held;
+  for (std::size_t i = 1; i + 1 < held.size(); ++i) {
+    const double low = std::min(held[i - 1], held[i + 1]);
+    const double high = std::max(held[i - 1], held[i + 1]);
+    smoothed[i] = std::clamp(held[i], low, high);
+  }
+  return smoothed;
+}
+
+std::vector<double> drops_of(const std::vector<Fall>& falls, const std::vector<double>& force) {
+  std::vector<double> drops;
+  drops.reserve(falls.size());
+  for (const Fall& fall : falls) drops.push_back(force[fall.peak] - force[fall.trough]);
+  return drops;
+}
+
+/// The drop at which the sorted drops reach half of their sum: the size that carries the motion, however many small
+/// falls there are beside.
+double carrying_drop(std::vector<double> drops) {
+  std::sort(drops.begin(), drops.end());
+  const double half = 0.5 * std::accumulate(drops.begin(), drops.end(), 0.0);
+  double sum = 0.0;
+  for (const double drop : drops) {
+    sum += drop;
+    if (sum >= half) return drop;
+  }
+  return drops.empty() ? 0.0 : drops.back();
+}
+
+double central_range(std::vector<double> values) {
+  const auto at = [&](double share) {
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+  };
+  const double low = at(0.005);
+  return at(0.995) - low;
+}
+
+/// Last time before `from`, or first after it, at which the force is beyond `level`; linear between samples.
+double crossing_before(std::span<const double> time_s, const std::vector<double>& force, std::size_t from,
+                       std::size_t stop, double level) {
+  for (std::size_t i = from; i > stop; --i) {
+    if (force[i - 1] >= level && force[i] < level) {
+      const double share = (force[i - 1] - level) / (force[i - 1] - force[i]);
+      return time_s[i - 1] + share * (time_s[i] - time_s[i - 1]);
+    }
+  }
+  return time_s[stop];
+}
+
+double crossing_after(std::span<const double> time_s, const std::vector<double>& force, std::size_t from,
+                      std::size_t stop, double level) {
+  for (std::size_t i = from; i < stop; ++i) {
+    if (force[i] > level && force[i + 1] <= level) {
+      const double share = (force[i] - level) / (force[i] - force[i + 1]);
+      return time_s[i] + share * (time_s[i + 1] - time_s[i]);
+    }
+  }
+  return time_s[stop];
+}
+
+DetectedSlip describe(const Fall& fall, std::span<const double> time_s, const std::vector<double>& force) {
+  DetectedSlip slip{fall.peak, fall.trough, force[fall.peak], force[fall.trough], 0.0, 0.0};
+  const auto level = [&](double share) { return slip.trough_force + share * slip.drop(); };
+  // The fastest part of the fall: the last sample above the middle before the force is first below it for good.
+  std::size_t middle = fall.trough;
+  while (middle > fall.peak && force[middle - 1] < level(0.5)) --middle;
+  slip.middle_s = crossing_before(time_s, force, middle, fall.peak, level(0.5));
+  const double above_s = crossing_before(time_s, force, middle, fall.peak, level(0.8));
+  const double below_s =
+      crossing_after(time_s, force, middle > fall.peak ? middle - 1 : middle, fall.trough, level(0.2));
+  slip.fall_s = below_s - above_s;
+  return slip;
+}
+
+}  // namespace
+
+Segmentation find_slips(const Recording& recording, const Quality& quality) {
+  const std::vector<double> force = smooth(recording.force(), quality.impulse_mask);
+  const double range = central_range(force);
+  if (!(range > 0.0)) return {};
+  // Noise makes no turning point below 10 standard deviations; beyond 0.35 of the range nothing would be left to find.
+  const double noise_floor = std::min(10.0 * quality.noise_rms, 0.35 * range);
+  double hysteresis = std::max(0.05 * range, noise_floor);
+  for (int pass = 0; pass < 4; ++pass) {
+    const double next = std::max(noise_floor, 0.4 * carrying_drop(drops_of(find_falls(force, hysteresis), force)));
+    const bool settled = std::abs(next - hysteresis) <= 1e-3 * hysteresis;
+    hysteresis = next;
+    if (settled || !(hysteresis > 0.0)) break;
+  }
+  if (!(hysteresis > 0.0)) return {};
+
+  const double typical = signal::median(drops_of(find_falls(force, hysteresis), force));
+  Segmentation segmentation;
+  segmentation.hysteresis = std::max(noise_floor, 0.25 * typical);
+  const std::vector<Fall> falls = find_falls(force, segmentation.hysteresis);
+  const double quarter = 0.25 * signal::median(drops_of(falls, force));
+  for (const Fall& fall : falls) {
+    if (force[fall.peak] - force[fall.trough] < quarter) continue;
+    segmentation.slips.push_back(describe(fall, recording.time_s(), force));
+  }
+  const double smallest = std::max(noise_floor, 0.1 * typical);
+  segmentation.minor = find_falls(force, smallest).size();
+  segmentation.minor -= std::min(segmentation.minor, segmentation.slips.size());
+  return segmentation;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <fftw3.h>
+
+#include <complex>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+
+namespace slipfit::signal {
+
+/// Complex FFTW transform of one length, planned once. The planner is not thread safe, so it stands behind one lock;
+/// the arrays belong to the caller, so that any number of transforms of one thread share a plan.
+class ComplexTransform {
+ public:
+  using Complex = std::complex<double>;
+  struct Release {
+    void operator()(Complex* memory) const { fftw_free(memory); }
+  };
+  using Buffer = std::unique_ptr<Complex[], Release>;
+
+  /// Not set to zero. Aligned as FFTW wants it.
+  static Buffer allocate(std::size_t length) {
+    return Buffer(static_cast<Complex*>(fftw_malloc(sizeof(Complex) * length)));
+  }
+
+  explicit ComplexTransform(std::size_t length) : length_(length) {
+    // Out of place: a fifth of the planning time of the in-place plan at 100 000 points, and no slower to run.
+    const Buffer in = allocate(length);
+    const Buffer out = allocate(length);
+    const std::lock_guard lock(planner());
+    plan_ = fftw_plan_dft_1d(static_cast<int>(length), raw(in), raw(out), FFTW_FORWARD, FFTW_ESTIMATE);
+  }
+  ~ComplexTransform() {
+    const std::lock_guard lock(planner());
+    fftw_destroy_plan(plan_);
+  }
+  ComplexTransform(const ComplexTransform&) = delete;
+  ComplexTransform& operator=(const ComplexTransform&) = delete;
+  ComplexTransform(ComplexTransform&&) = delete;
+  ComplexTransform& operator=(ComplexTransform&&) = delete;
+
+  [[nodiscard]] std::size_t length() const { return length_; }
+  void run(const Buffer& in, const Buffer& out) const { fftw_execute_dft(plan_, raw(in), raw(out)); }
+
+ private:
+  static std::mutex& planner() {
+    static std::mutex lock;
+    return lock;
+  }
+  static fftw_complex* raw(const Buffer& buffer) {
+    return static_cast<fftw_complex*>(static_cast<void*>(buffer.get()));
+  }
+
+  std::size_t length_;
+  fftw_plan plan_ = nullptr;
+};
+
+}  // namespace slipfit::signal

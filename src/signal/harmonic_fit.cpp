@@ -1,0 +1,134 @@
+#include "signal/harmonic_fit.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "signal/robust.hpp"
+#include "signal/student.hpp"
+
+namespace slipfit::signal {
+namespace {
+
+/// The trace in means of a few samples, time and force from their middles.
+struct Points {
+  Eigen::VectorXd time_s;
+  Eigen::VectorXd force;
+  Eigen::VectorXd weight;  ///< Hann: without it the harmonics that are left out pull at both ends (0.8 % at 4 cycles)
+};
+
+Points thinned(const Recording& recording, double highest_Hz) {
+  const std::span<const double> time = recording.time_s();
+  const double step = recording.duration_s() / static_cast<double>(recording.size() - 1);
+  const auto factor = static_cast<std::size_t>(std::max(1.0, 1.0 / (8.0 * highest_Hz * step)));
+  const auto count = static_cast<Eigen::Index>(recording.size() / factor);
+  Points points{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
+  const double middle = 0.5 * (time.front() + time.back());
+  for (Eigen::Index row = 0; row < count; ++row) {
+    for (std::size_t k = 0; k < factor; ++k) {
+      const std::size_t i = static_cast<std::size_t>(row) * factor + k;
+      points.time_s[row] += (time[i] - middle) / static_cast<double>(factor);
+      points.force[row] += recording.force()[i] / static_cast<double>(factor);
+    }
+  }
+  points.force.array() -= points.force.mean();
+  points.weight = 1.0 + (2.0 * std::numbers::pi / recording.duration_s() * points.time_s.array()).cos();
+  return points;
+}
+
+/// Columns: 1, t, then cosine and sine of every harmonic.
+Eigen::MatrixXd design(const Points& points, double frequency_Hz, std::size_t harmonics) {
+  const auto waves = static_cast<Eigen::Index>(harmonics);
+  Eigen::MatrixXd columns(points.time_s.size(), 2 + 2 * waves);
+  columns.col(0).setOnes();
+  columns.col(1) = points.time_s;
+  for (Eigen::Index h = 0; h < waves; ++h) {
+    const double omega = 2.0 * std::numbers::pi * frequency_Hz * static_cast<double>(h + 1);
+    columns.col(2 + 2 * h) = (omega * points.time_s.array()).cos();
+    columns.col(3 + 2 * h) = (omega * points.time_s.array()).sin();
+  }
+  return columns;
+}
+
+struct Step {
+  double change_Hz = 0.0;
+  Eigen::VectorXd residual;
+  Eigen::VectorXd influence;  ///< change of the frequency for a unit change of every point
+};
+
+Step newton_step(const Points& points, double frequency_Hz, std::size_t harmonics) {
+  const auto waves = static_cast<Eigen::Index>(harmonics);
+  const Eigen::MatrixXd columns = design(points, frequency_Hz, harmonics);
+  const Eigen::MatrixXd weighted = points.weight.asDiagonal() * columns;
+  const Eigen::MatrixXd normal = weighted.transpose() * columns;
+  const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
+  const Eigen::VectorXd weights = solver.solve(weighted.transpose() * points.force);
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(points.time_s.size());
+  for (Eigen::Index h = 0; h < waves; ++h) {
+    const double turn = 2.0 * std::numbers::pi * static_cast<double>(h + 1);
+    slope.array() +=
+        turn * points.time_s.array() *
+        (weights[3 + 2 * h] * columns.col(2 + 2 * h) - weights[2 + 2 * h] * columns.col(3 + 2 * h)).array();
+  }
+  Step step;
+  step.residual = points.force - columns * weights;
+  // What the linear columns can take over tells nothing about the frequency.
+  slope -= columns * solver.solve(weighted.transpose() * slope);
+  const Eigen::VectorXd pull = points.weight.cwiseProduct(slope);
+  const double information = pull.dot(slope);
+  step.influence = information > 0.0 ? Eigen::VectorXd(pull / information) : Eigen::VectorXd::Zero(slope.size());
+  step.change_Hz = step.influence.dot(step.residual);
+  return step;
+}
+
+/// Noise of the residuals from their second differences, which see little of what varies slowly.
+double noise_variance(const Eigen::VectorXd& residual) {
+  std::vector<double> bends;
+  for (Eigen::Index i = 1; i + 1 < residual.size(); ++i) {
+    bends.push_back(std::abs(residual[i - 1] - 2.0 * residual[i] + residual[i + 1]));
+  }
+  const double rms = 1.4826 * median(std::move(bends)) / std::sqrt(6.0);
+  return rms * rms;
+}
+
+/// Variance of the estimate: noise, and what the residuals show beyond it, summed over correlations up to a period
+/// (Newey and West). The latter comes from periods that scatter, that is a phase that walks at random; of a walk the
+/// straight line fitted to N cycles leaves N/15 of the variance of one step in the residuals, but is itself off by
+/// 6/5 of it over N: 3/2 N times what independent errors of the size of the residuals would make.
+double variance(const Step& step, double cycles, double points_per_period) {
+  const Eigen::VectorXd score = step.influence.cwiseProduct(step.residual);
+  const Eigen::Index n = score.size();
+  const Eigen::Index reach = std::min<Eigen::Index>(n - 1, static_cast<Eigen::Index>(points_per_period) + 1);
+  double sum = score.squaredNorm();
+  for (Eigen::Index lag = 1; lag < reach; ++lag) {
+    const double weight = 1.0 - static_cast<double>(lag) / static_cast<double>(reach);
+    sum += 2.0 * weight * score.head(n - lag).dot(score.tail(n - lag));
+  }
+  const double noise = step.influence.squaredNorm() * noise_variance(step.residual);
+  const double widened = students_factor(cycles - 1.0);
+  return 1.2 * noise + widened * widened * 1.5 * cycles * std::max(0.0, sum - noise);
+}
+
+}  // namespace
+
+std::optional<TrackedFrequency> fit_harmonics(const Recording& recording, double near_Hz, std::size_t harmonics) {
+  const Points points = thinned(recording, near_Hz * static_cast<double>(harmonics));
+  if (points.time_s.size() < static_cast<Eigen::Index>(2 * harmonics + 6)) return std::nullopt;
+  const double resolution_Hz = 1.0 / recording.duration_s();
+  double frequency = near_Hz;
+  for (int pass = 0; pass < 12; ++pass) {
+    const Step step = newton_step(points, frequency, harmonics);
+    const double change = std::clamp(step.change_Hz, -0.1 * resolution_Hz, 0.1 * resolution_Hz);
+    frequency += change;
+    if (!std::isfinite(frequency) || std::abs(frequency - near_Hz) > 0.7 * resolution_Hz) return std::nullopt;
+    if (std::abs(change) < 1e-5 * resolution_Hz) {
+      const double per_period = static_cast<double>(points.time_s.size()) * resolution_Hz / frequency;
+      return TrackedFrequency{frequency, std::sqrt(variance(step, frequency / resolution_Hz, per_period))};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace slipfit::signal

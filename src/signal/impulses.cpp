@@ -1,0 +1,64 @@
+#include "signal/impulses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace slipfit::signal {
+namespace {
+
+// Gaussian noise of a million samples stays below 5 sigma; measured noise has tails.
+constexpr double kNoiseFactor = 8.0;
+// More than this share is a signal with few samples a cycle, not impulses.
+constexpr double kLargestShare = 0.08;
+
+/// Three samples beside the suspected one.
+struct Side {
+  double median = 0.0;
+  double range = 0.0;
+};
+
+Side side_of(double a, double b, double c) {
+  const double low = std::min({a, b, c});
+  const double high = std::max({a, b, c});
+  return {std::max(std::min(a, b), std::min(std::max(a, b), c)), high - low};
+}
+
+/// Whether `width` samples from i on stand out. What the sides do by themselves is allowed for: the step between them
+/// (a slip), and the range within the quieter one (a slope, the crest of a wave with few samples a period).
+bool stands_out(std::span<const double> force, std::size_t i, std::size_t width, double noise_rms) {
+  const double* after = force.data() + i + width;
+  const Side left = side_of(force[i - 1], force[i - 2], force[i - 3]);
+  const Side right = side_of(after[0], after[1], after[2]);
+  const double level = 0.5 * (left.median + right.median);
+  const double allowed =
+      kNoiseFactor * noise_rms + std::abs(left.median - right.median) + 1.5 * std::min(left.range, right.range);
+  const double first = force[i] - level;
+  const double last = force[i + width - 1] - level;
+  return std::min(std::abs(first), std::abs(last)) > allowed && (first > 0.0) == (last > 0.0);
+}
+
+}  // namespace
+
+std::vector<bool> find_impulses(std::span<const double> force, double noise_rms) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 3; i + 4 < force.size(); ++i) {
+    if (std::abs(force[i] - force[i - 1]) <= 0.5 * kNoiseFactor * noise_rms) continue;  // nothing begins here
+    std::size_t width = 0;
+    if (stands_out(force, i, 1, noise_rms)) {
+      width = 1;
+    } else if (i + 5 < force.size() && stands_out(force, i, 2, noise_rms)) {
+      width = 2;
+    }
+    for (std::size_t k = 0; k < width; ++k) found.push_back(i + k);
+    if (width > 0) i += width - 1;
+  }
+  std::vector<bool> mask;
+  if (found.empty() || static_cast<double>(found.size()) > kLargestShare * static_cast<double>(force.size()))
+    return mask;
+  mask.resize(force.size(), false);
+  for (const std::size_t i : found) mask[i] = true;
+  return mask;
+}
+
+}  // namespace slipfit::signal

@@ -1,0 +1,103 @@
+#include "signal/levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "signal/robust.hpp"
+
+namespace slipfit::signal {
+namespace {
+
+constexpr std::size_t kSorted = 10000;  // values looked at for the step; all are checked against it
+constexpr double kLargestDistinctShare = 0.05;
+constexpr double kOffLattice = 0.1;  // of a step: what a file's decimals may move a value
+constexpr std::size_t kFewestClipped = 8;
+constexpr double kPile = 6.0;    // over the count of the next value
+constexpr double kInRuns = 0.7;  // share of the clipped samples that have a clipped neighbour
+
+std::vector<double> some_distinct(std::span<const double> values) {
+  const std::size_t stride = 1 + (values.size() - 1) / kSorted;
+  std::vector<double> distinct;
+  for (std::size_t i = 0; i < values.size(); i += stride) distinct.push_back(values[i]);
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  return distinct;
+}
+
+/// Smallest gap, then the range over the number of steps in it: the gaps carry the rounding of the file, the range
+/// carries it once.
+std::optional<double> step_of(const std::vector<double>& distinct) {
+  if (distinct.size() < 2) return std::nullopt;
+  double smallest = distinct.back() - distinct.front();
+  for (std::size_t i = 1; i < distinct.size(); ++i) smallest = std::min(smallest, distinct[i] - distinct[i - 1]);
+  double steps = 0.0;
+  for (std::size_t i = 1; i < distinct.size(); ++i) steps += std::round((distinct[i] - distinct[i - 1]) / smallest);
+  return (distinct.back() - distinct.front()) / steps;
+}
+
+/// All values on the lattice, and how many places of it they take.
+bool fills_lattice(std::span<const double> values, double origin, double lowest, double highest, double step) {
+  const double places = (highest - lowest) / step + 2.0;
+  if (!(places < static_cast<double>(values.size()))) return false;
+  const double first = std::round((lowest - origin) / step);
+  std::vector<bool> taken(static_cast<std::size_t>(places) + 1, false);
+  for (const double value : values) {
+    const double place = (value - origin) / step;
+    const double nearest = std::round(place);
+    if (std::abs(place - nearest) > kOffLattice) return false;
+    taken[static_cast<std::size_t>(std::clamp(nearest - first, 0.0, places))] = true;
+  }
+  const auto distinct = static_cast<double>(std::count(taken.begin(), taken.end(), true));
+  return distinct >= 2.0 && distinct < kLargestDistinctShare * static_cast<double>(values.size());
+}
+
+/// The samples at one end of the range (`sign` +1: the highest values), if they pile up there.
+std::size_t piled_up(std::span<const double> values, double sign, double end) {
+  const auto at_end = static_cast<std::size_t>(std::count(values.begin(), values.end(), end));
+  // Half of all samples at one level is a force at rest, not a sensor at its end.
+  if (at_end < kFewestClipped || 2 * at_end >= values.size()) return 0;
+  double next = -sign * HUGE_VAL;
+  std::size_t in_runs = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] == end) {
+      const bool run = (i > 0 && values[i - 1] == end) || (i + 1 < values.size() && values[i + 1] == end);
+      if (run) ++in_runs;
+    } else if (sign * values[i] > sign * next) {
+      next = values[i];
+    }
+  }
+  const auto at_next = std::count(values.begin(), values.end(), next);
+  const bool piled = static_cast<double>(at_end) > kPile * static_cast<double>(at_next) &&
+                     static_cast<double>(in_runs) > kInRuns * static_cast<double>(at_end);
+  return piled ? at_end : 0;
+}
+
+}  // namespace
+
+std::optional<double> lattice_step(std::span<const double> values) {
+  const std::vector<double> distinct = some_distinct(values);
+  const std::optional<double> step = step_of(distinct);
+  if (!step || !std::isfinite(*step)) return std::nullopt;
+  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+  if (!fills_lattice(values, distinct.front(), *lowest, *highest, *step)) return std::nullopt;
+  return step;
+}
+
+Clipping find_clipping(std::span<const double> values, std::optional<double> step) {
+  Clipping clipping;
+  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+  // On a coarse lattice neighbouring levels fill very differently: four steps of range do not make an end.
+  if (*highest - *lowest <= 4.0 * step.value_or(0.0)) return clipping;
+  if (const std::size_t high = piled_up(values, 1.0, *highest)) {
+    clipping.high = *highest;
+    clipping.samples += high;
+  }
+  if (const std::size_t low = piled_up(values, -1.0, *lowest)) {
+    clipping.low = *lowest;
+    clipping.samples += low;
+  }
+  return clipping;
+}
+
+}  // namespace slipfit::signal

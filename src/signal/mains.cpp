@@ -1,0 +1,127 @@
+#include "signal/mains.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "signal/robust.hpp"
+
+namespace slipfit::signal {
+namespace {
+
+constexpr int kMostHarmonics = 20;
+
+/// Half of the width that a line takes, which wanders with the mains.
+double half_width(double resolution_Hz, double line_Hz) {
+  return std::max(3.0 * resolution_Hz, 2e-3 * line_Hz);
+}
+
+/// Median power beside the line, 16 resolutions on both sides.
+double level_beside(std::span<const double> power, double bin_Hz, double resolution_Hz, double line_Hz) {
+  std::vector<double> beside;
+  const double top = static_cast<double>(power.size()) - 1.0;
+  const auto collect = [&](double low_Hz, double high_Hz) {
+    const double low = std::clamp(std::ceil(low_Hz / bin_Hz), 1.0, top);
+    const double high = std::clamp(std::floor(high_Hz / bin_Hz), 1.0, top);
+    for (double i = low; i <= high; i += 1.0) beside.push_back(power[static_cast<std::size_t>(i)]);
+  };
+  const double near = half_width(resolution_Hz, line_Hz);
+  const double far = near + 16.0 * resolution_Hz;
+  collect(line_Hz - far, line_Hz - near);
+  collect(line_Hz + near, line_Hz + far);
+  return median(std::move(beside));
+}
+
+/// Power over the median beside that makes a line: four times in amplitude, more where so many bins are looked at that
+/// noise alone would reach it (one recording in a thousand; the median of noise power is ln 2 of its mean).
+double prominence(double bins) {
+  return std::max(16.0, std::log(1e3 * 4.0 * kMostHarmonics * bins) / std::log(2.0));
+}
+
+/// Top of the parabola through the logarithms of a bin and its neighbours, in bins from it.
+double peak_offset(double before, double here, double after) {
+  if (!(before > 0.0 && after > 0.0)) return 0.0;
+  const double rise = std::log(here / before);
+  const double fall = std::log(here / after);
+  return rise + fall > 0.0 ? 0.5 * (rise - fall) / (rise + fall) : 0.0;
+}
+
+std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, double resolution_Hz, double target_Hz) {
+  // The mains keeps its frequency to 0.1 %; the top of a peak is known to a fraction of the resolution.
+  const double tolerance = std::max(0.3 * resolution_Hz, 1e-3 * target_Hz);
+  const auto low = static_cast<std::size_t>(std::floor((target_Hz - tolerance) / bin_Hz));
+  const auto high = static_cast<std::size_t>(std::ceil((target_Hz + tolerance) / bin_Hz));
+  if (low < 1 || high + 1 >= power.size()) return std::nullopt;
+  const auto first = power.begin() + static_cast<std::ptrdiff_t>(low);
+  const auto last = power.begin() + static_cast<std::ptrdiff_t>(high) + 1;
+  const auto peak = static_cast<std::size_t>(std::max_element(first, last) - power.begin());
+  if (power[peak] < power[peak - 1] || power[peak] < power[peak + 1]) return std::nullopt;
+  const double offset = peak_offset(power[peak - 1], power[peak], power[peak + 1]);
+  const double frequency = (static_cast<double>(peak) + offset) * bin_Hz;
+  if (std::abs(frequency - target_Hz) > tolerance) return std::nullopt;
+  if (power[peak] <= prominence(tolerance / resolution_Hz) * level_beside(power, bin_Hz, resolution_Hz, frequency)) {
+    return std::nullopt;
+  }
+  return MainsLine{frequency, 0.0, 1, half_width(resolution_Hz, frequency)};
+}
+
+}  // namespace
+
+std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz) {
+  std::vector<MainsLine> lines;
+  const double highest_Hz = bin_Hz * (static_cast<double>(power.size()) - 2.0);
+  for (const double mains_Hz : {50.0, 60.0}) {
+    bool has_lower = false;
+    for (int order = 1; order <= kMostHarmonics && mains_Hz * order < highest_Hz; ++order) {
+      if (mains_Hz * order < 4.0 * resolution_Hz) continue;
+      const auto line = line_at(power, bin_Hz, resolution_Hz, mains_Hz * order);
+      const auto same = [&](const MainsLine& other) { return other.frequency_Hz == line->frequency_Hz; };
+      if (!line || std::any_of(lines.begin(), lines.end(), same)) continue;
+      // High orders come in company: one alone is a line of something else that happens to lie there.
+      if (order > 3 && !has_lower) continue;
+      has_lower = true;
+      lines.push_back({line->frequency_Hz, mains_Hz, order, line->width_Hz});
+    }
+  }
+  return lines;
+}
+
+std::string describe(const MainsLine& line) {
+  if (line.order == 1) return fmt::format("mains {:.0f} Hz", line.mains_Hz);
+  constexpr std::array kEndings{"th", "st", "nd", "rd"};
+  const bool teen = line.order >= 10 && line.order < 20;
+  const int digit = line.order % 10;
+  const char* ending = kEndings.at(!teen && digit <= 3 ? static_cast<std::size_t>(digit) : 0);
+  return fmt::format("{}{} harmonic of {:.0f} Hz mains", line.order, ending, line.mains_Hz);
+}
+
+void flatten(std::vector<double>& power, double bin_Hz, double resolution_Hz, const MainsLine& line) {
+  const double level = level_beside(power, bin_Hz, resolution_Hz, line.frequency_Hz);
+  const double top = static_cast<double>(power.size()) - 1.0;
+  const double low = std::clamp(std::ceil((line.frequency_Hz - line.width_Hz) / bin_Hz), 0.0, top);
+  const double high = std::clamp(std::floor((line.frequency_Hz + line.width_Hz) / bin_Hz), 0.0, top);
+  for (double i = low; i <= high; i += 1.0) {
+    double& bin = power[static_cast<std::size_t>(i)];
+    bin = std::min(bin, level);
+  }
+}
+
+std::vector<MainsLine> without_hinted(std::vector<MainsLine> lines, std::optional<double> hint_Hz) {
+  double agreeing_Hz = 0.0;
+  for (const MainsLine& line : lines) {
+    if (hint_Hz && std::abs(*hint_Hz / line.frequency_Hz - 1.0) < 0.03) agreeing_Hz = line.mains_Hz;
+  }
+  std::erase_if(lines, [&](const MainsLine& line) { return line.mains_Hz == agreeing_Hz; });
+  return lines;
+}
+
+bool is_on_line(const std::vector<MainsLine>& lines, double frequency_Hz, double reach_Hz) {
+  return std::any_of(lines.begin(), lines.end(), [&](const MainsLine& line) {
+    return std::abs(line.frequency_Hz - frequency_Hz) < std::max(line.width_Hz, reach_Hz);
+  });
+}
+
+}  // namespace slipfit::signal

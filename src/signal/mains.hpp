@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace slipfit::signal {
+
+/// A peak of a spectrum where the mains or one of its harmonics would be.
+struct MainsLine {
+  double frequency_Hz = 0.0;
+  double mains_Hz = 0.0;  ///< 50 or 60
+  int order = 1;
+  double width_Hz = 0.0;  ///< half width that the line takes
+};
+
+/// Lines four times (in amplitude) above their neighbours at multiples of 50 and 60 Hz.
+std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz);
+
+/// "mains 50 Hz", "3rd harmonic of 50 Hz mains".
+std::string describe(const MainsLine& line);
+
+/// The spectrum with the line replaced by the level beside it.
+void flatten(std::vector<double>& power, double bin_Hz, double resolution_Hz, const MainsLine& line);
+
+/// The lines, without those of a mains with which the counted slips agree.
+std::vector<MainsLine> without_hinted(std::vector<MainsLine> lines, std::optional<double> hint_Hz);
+
+/// Whether a frequency lies within the width of a line, or within `reach_Hz` of it if that is more.
+bool is_on_line(const std::vector<MainsLine>& lines, double frequency_Hz, double reach_Hz);
+
+}  // namespace slipfit::signal

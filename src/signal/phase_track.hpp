@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "slipfit/core/recording.hpp"
+
+namespace slipfit::signal {
+
+struct TrackedFrequency {
+  double frequency_Hz = 0.0;
+  double standard_error_Hz = 0.0;
+};
+
+/// Mean frequency of a trace that repeats at about `near_Hz`, from the phase of its cycles. The phase is taken as a
+/// random walk (a period that scatters) plus independent errors (noise): without a walk this is the harmonic
+/// least-squares estimate, with a large one it is cycles counted over time; the data decide how much of either.
+/// Empty: fewer than 6 usable cycles or no phase to follow.
+std::optional<TrackedFrequency> track_frequency(const Recording& recording, double near_Hz, std::size_t harmonics);
+
+}  // namespace slipfit::signal

@@ -1,0 +1,190 @@
+#include "signal/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <memory>
+#include <numbers>
+
+#include "signal/fftw.hpp"
+
+namespace slipfit::signal {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// exp(i (start + k step)) by rotation, begun afresh every 64 steps: rounding stays below 1e-14.
+class Rotator {
+ public:
+  Rotator(double start, double step) : start_(start), step_(step), turn_(std::polar(1.0, step)) {}
+  Complex next() {
+    if (count_ % 64 == 0) {
+      value_ = std::polar(1.0, start_ + step_ * static_cast<double>(count_));
+    } else {
+      value_ = {value_.real() * turn_.real() - value_.imag() * turn_.imag(),
+                value_.real() * turn_.imag() + value_.imag() * turn_.real()};
+    }
+    ++count_;
+    return value_;
+  }
+
+ private:
+  double start_;
+  double step_;
+  Complex turn_;
+  Complex value_;
+  std::size_t count_ = 0;
+};
+
+struct Line {
+  double at_middle = 0.0;
+  double slope = 0.0;  ///< a sample
+};
+
+Line fit_line(std::span<const double> values) {
+  const auto n = static_cast<double>(values.size());
+  const double middle = 0.5 * (n - 1.0);
+  const double first = values.front();  // taken off so that a small signal on a large level keeps its digits
+  double sum = 0.0;
+  double moment = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += values[i] - first;
+    moment += (values[i] - first) * (static_cast<double>(i) - middle);
+  }
+  const double spread = n * (n * n - 1.0) / 12.0;
+  return {first + sum / n, spread > 0.0 ? moment / spread : 0.0};
+}
+
+/// Detrended, windowed values as the real and imaginary parts of half as many complex ones; zeros behind.
+ComplexTransform::Buffer windowed(std::span<const double> values, std::size_t padded_length) {
+  ComplexTransform::Buffer buffer = ComplexTransform::allocate(padded_length / 2);
+  auto* out = static_cast<double*>(static_cast<void*>(buffer.get()));
+  const Line line = fit_line(values);
+  const double middle = 0.5 * static_cast<double>(values.size() - 1);
+  const double step = 2.0 * std::numbers::pi / static_cast<double>(values.size());
+  Rotator angle(0.5 * step, step);  // zero half a sample outside either end
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double window = 0.5 - 0.5 * angle.next().real();
+    out[i] = window * (values[i] - line.at_middle - line.slope * (static_cast<double>(i) - middle));
+  }
+  std::fill(out + values.size(), out + padded_length, 0.0);
+  return buffer;
+}
+
+/// The plan of this thread for this length; the last two lengths are kept (a batch meets the same ones again).
+const ComplexTransform& transform_of(std::size_t length) {
+  thread_local std::unique_ptr<ComplexTransform> latest;
+  thread_local std::unique_ptr<ComplexTransform> previous;
+  if (!latest || latest->length() != length) {
+    std::swap(latest, previous);
+    if (!latest || latest->length() != length) latest = std::make_unique<ComplexTransform>(length);
+  }
+  return *latest;
+}
+
+/// |X_k|^2 of the real series of length 2 M whose even and odd values are the parts of the M complex ones in z.
+std::vector<double> real_power(const Complex* z, std::size_t half, double scale) {
+  std::vector<double> power(half + 1);
+  Rotator turn(0.0, -std::numbers::pi / static_cast<double>(half));
+  for (std::size_t k = 0; 2 * k <= half; ++k) {
+    const Complex a = z[k];
+    const Complex b = std::conj(z[k == 0 ? 0 : half - k]);
+    const Complex even = 0.5 * (a + b);
+    const Complex difference = 0.5 * (a - b);
+    const Complex odd(difference.imag(), -difference.real());
+    const Complex w = turn.next();
+    const Complex turned(odd.real() * w.real() - odd.imag() * w.imag(), odd.real() * w.imag() + odd.imag() * w.real());
+    const double both = std::norm(even) + std::norm(odd);
+    const double cross = 2.0 * (even.real() * turned.real() + even.imag() * turned.imag());
+    power[k] = scale * std::max(0.0, both + cross);
+    power[half - k] = scale * std::max(0.0, both - cross);
+  }
+  power[half] *= 0.5;
+  return power;
+}
+
+}  // namespace
+
+bool clock_is_even(const Recording& recording) {
+  const std::span<const double> time = recording.time_s();
+  const double step = recording.duration_s() / static_cast<double>(time.size() - 1);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    worst = std::max(worst, std::abs(time[i] - time.front() - step * static_cast<double>(i)));
+  }
+  return worst < 0.25 * step;
+}
+
+UniformTrace resample(const Recording& recording, const std::vector<bool>& held) {
+  const std::span<const double> time = recording.time_s();
+  const std::span<const double> force = recording.force();
+  // Not more than twice the samples: a clock of bursts and long gaps must not fill the memory.
+  const double step =
+      std::max(recording.sample_interval_s(), recording.duration_s() / (2.0 * static_cast<double>(time.size())));
+  UniformTrace trace{step, {}};
+  const auto count = static_cast<std::size_t>(recording.duration_s() / step + 1e-6) + 1;
+  trace.force.reserve(count);
+  std::size_t last = time.size() - 1;
+  while (last > 0 && !held.empty() && held[last]) --last;
+  const auto good_from = [&](std::size_t i) {
+    while (i < last && !held.empty() && held[i]) ++i;
+    return i;
+  };
+  std::size_t left = good_from(0);
+  std::size_t right = good_from(std::min(left + 1, last));
+  for (std::size_t k = 0; k < count; ++k) {
+    const double at = time.front() + step * static_cast<double>(k);
+    while (time[right] < at && right < last) {
+      left = right;
+      right = good_from(right + 1);
+    }
+    const double span = time[right] - time[left];
+    const double share = span > 0.0 ? std::clamp((at - time[left]) / span, 0.0, 1.0) : 1.0;
+    trace.force.push_back(force[left] + share * (force[right] - force[left]));
+  }
+  return trace;
+}
+
+std::vector<double> thin(std::span<const double> values, std::size_t factor) {
+  const std::size_t count = values.size() / factor;
+  std::vector<double> thinned(count, 0.0);
+  const double level = values.front();
+  const double scale = 1.0 / static_cast<double>(factor * factor);
+  for (std::size_t j = 0; j < count; ++j) {
+    const std::size_t begin = j * factor;
+    double sum = 0.0;
+    double falling = 0.0;  // sum of (1 - place) * value: the rest belongs to the next one
+    for (std::size_t k = 0; k < factor; ++k) {
+      const double value = values[begin + k] - level;
+      sum += value;
+      falling += value * (static_cast<double>(factor - k) - 0.5);
+    }
+    thinned[j] += falling * scale;
+    if (j + 1 < count) thinned[j + 1] += (sum * static_cast<double>(factor) - falling) * scale;
+  }
+  if (count > 1) thinned[0] *= 2.0;  // half of its triangle lies before the trace
+  return thinned;
+}
+
+std::size_t good_length(std::size_t length) {
+  for (std::size_t half = std::max<std::size_t>(2, (length + 1) / 2);; ++half) {
+    std::size_t rest = half;
+    for (const std::size_t prime : {2U, 3U, 5U, 7U}) {
+      while (rest % prime == 0) rest /= prime;
+    }
+    if (rest == 1) return 2 * half;
+  }
+}
+
+std::vector<double> hann_power(std::span<const double> values, std::size_t padded_length) {
+  const std::size_t half = padded_length / 2;
+  const ComplexTransform::Buffer in = windowed(values, padded_length);
+  const ComplexTransform::Buffer out = ComplexTransform::allocate(half);
+  transform_of(half).run(in, out);
+  const double window_energy = 0.375 * static_cast<double>(values.size());  // sum of squares of the Hann window
+  std::vector<double> power = real_power(out.get(), half, 2.0 / (static_cast<double>(padded_length) * window_energy));
+  power[0] = 0.0;
+  return power;
+}
+
+}  // namespace slipfit::signal

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+
+struct Judgement {
+  Verdict verdict = Verdict::Undetermined;
+  std::string reason;
+};
+
+/// What the fitted cycles show. `fit` empty: too few cycles could be fitted.
+Judgement judge_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
+                    const SpectralFrequency& spectral, const FitResult* fit);
+
+/// A guess from the detected cycles alone (no model fit).
+Judgement judge_shape(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
+                      const SpectralFrequency& spectral);
+
+}  // namespace slipfit

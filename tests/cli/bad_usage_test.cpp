@@ -1,0 +1,127 @@
+#include <catch2/catch.hpp>
+
+#include "recordings.hpp"
+#include "run_program.hpp"
+
+using test::slipfit;
+
+namespace {
+
+/// Wrong usage: exit code 2, nothing on standard output, one line that holds `part`.
+void check_refused(const std::vector<std::string>& arguments, const std::string& part) {
+  const test::ProgramResult result = slipfit(arguments);
+  CAPTURE(arguments, result.err);
+  CHECK(result.exit_code == 2);
+  CHECK(result.out.empty());
+  CHECK(result.err.rfind("slipfit: ", 0) == 0);
+  CHECK(test::lines_in(result.err) == 1);
+  CHECK_THAT(result.err, Catch::Contains(part));
+}
+
+}  // namespace
+
+TEST_CASE("wrong usage is refused with exit code 2 and one line before the recording is opened") {
+  const std::string file = "no-such-recording.csv";
+  check_refused({}, "analyze, fit, simulate");
+  check_refused({"polish", "x.csv", "--speed", "1"}, "unknown command 'polish'");
+  check_refused({"fit"}, "REC");
+  check_refused({"fit", file}, "--speed is missing");
+  check_refused({"fit", file, "--speed"}, "--speed");
+  check_refused({"fit", file, "--speed", "1", "--sped", "2"}, "--sped");
+  check_refused({"fit", file, "other.csv", "--speed", "1"}, "other.csv");
+}
+
+TEST_CASE("a speed that cannot be a driving speed is refused") {
+  const std::string file = "no-such-recording.csv";
+  for (const std::string command : {"analyze", "fit"}) {
+    check_refused({command, file, "--speed", "0"}, "not above zero");
+    check_refused({command, file, "--speed", "-1"}, "not above zero");
+    check_refused({command, file, "--speed", "-1mm/s"}, "not above zero");
+    check_refused({command, file, "--speed", "fast"}, "fast");
+    check_refused({command, file, "--speed", "nan"}, "nan");
+    check_refused({command, file, "--speed", "inf"}, "inf");
+    check_refused({command, file, "--speed", ""}, "--speed");
+    check_refused({command, file, "--speed", "3 kg"}, "kg");
+    check_refused({command, file, "--speed", "60rpm"}, "--radius");
+    check_refused({command, file, "--speed", "60rpm", "--radius", "0"}, "--radius");
+    check_refused({command, file, "--speed", "60rpm", "--radius", "-3mm"}, "--radius");
+    check_refused({command, file, "--speed", "1", "--speed-uncertainty", "-1%"}, "--speed-uncertainty");
+  }
+}
+
+TEST_CASE("options of the recording that make no sense are refused") {
+  const std::vector<std::string> start{"analyze", "no-such-recording.csv", "--speed", "0.01"};
+  const auto refused = [&start](const std::string& option, const std::string& text, const std::string& part) {
+    std::vector<std::string> arguments = start;
+    arguments.insert(arguments.end(), {option, text});
+    check_refused(arguments, option);
+    check_refused(arguments, part);
+  };
+  refused("--normal-force", "0", "not above zero");
+  refused("--normal-force", "5 m", "not a unit of force");
+  refused("--window", "3", "T0:T1");
+  refused("--window", "3:1", "T0 < T1");
+  refused("--window", "a:b", "a");
+  refused("--sample-rate", "0", "not above zero");
+  refused("--time-unit", "furlong", "furlong");
+  refused("--force-unit", "furlong", "furlong");
+  refused("--force-view", "sideways", "spring, transmitted or contact");
+  refused("--radius", "x", "x");
+}
+
+TEST_CASE("options of the fit that make no sense are refused") {
+  const std::vector<std::string> start{"fit", "no-such-recording.csv", "--speed", "0.01"};
+  const auto refused = [&start](const std::string& option, const std::string& text, const std::string& part) {
+    std::vector<std::string> arguments = start;
+    arguments.insert(arguments.end(), {option, text});
+    check_refused(arguments, part);
+  };
+  refused("--tier", "velocity", "speed sweep");
+  refused("--tier", "cubic", "sawtooth, undamped or damped");
+  refused("--fix", "damping_ratio", "NAME=VALUE");
+  refused("--fix", "colour=3", "damping_ratio");
+  refused("--fix", "damping_ratio=1", "below 1");
+  refused("--fix", "stiffness_N_per_m=0", "above 0");
+  refused("--fix", "stiffness_N_per_m=1e400", "1e400");
+  refused("--fix", "stiffness_N_per_m=12x", "12x");
+}
+
+TEST_CASE("a parameter that is fixed twice is refused") {
+  check_refused({"fit", "x.csv", "--speed", "1", "--fix", "damping_ratio=0.1", "--fix", "damping_ratio=0.2"}, "twice");
+}
+
+TEST_CASE("an output that would destroy the recording, or has no place, is refused") {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("run.csv", "time_s,force_N\n0,1\n");
+  const std::string link = folder.path("link.csv");
+  std::filesystem::create_symlink(file, link);
+  for (const std::string option : {"--out", "--cycles", "--curve"}) {
+    check_refused({"fit", file, "--speed", "1", option, file}, "the recording itself");
+    check_refused({"fit", file, "--speed", "1", option, folder.path("../" + std::string("x/../") + "run.csv")}, option);
+    check_refused({"fit", file, "--speed", "1", option, link}, "the recording itself");
+    check_refused({"fit", file, "--speed", "1", option, folder.path("")}, "folder");
+    check_refused({"fit", file, "--speed", "1", option, folder.path("none/x.csv")}, "does not exist");
+  }
+  check_refused({"fit", file, "--speed", "1", "--out", folder.path("a"), "--cycles", folder.path("a")}, "same file");
+  CHECK(test::content_of(file) == "time_s,force_N\n0,1\n");
+}
+
+TEST_CASE("a simulation that makes no sense is refused") {
+  const std::vector<std::string> start{"simulate", "--stiffness", "1000", "--static-friction", "6", "--speed",
+                                       "0.02",     "--duration",  "1",    "--sample-rate"};
+  const auto refused = [&start](const std::vector<std::string>& rest, const std::string& part) {
+    std::vector<std::string> arguments = start;
+    arguments.insert(arguments.end(), rest.begin(), rest.end());
+    check_refused(arguments, part);
+  };
+  refused({"1000", "--mass", "1"}, "--kinetic-friction is missing");
+  refused({"1000", "--kinetic-friction", "4"}, "--natural-frequency");
+  refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--natural-frequency", "30"}, "--natural-frequency");
+  refused({"1000", "--kinetic-friction", "4", "--mass", "0"}, "--mass");
+  refused({"1000", "--kinetic-friction", "7", "--mass", "1"}, "static");
+  refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--damping-ratio", "1"}, "damping");
+  refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--noise", "-1"}, "--noise");
+  refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--seed", "x"}, "--seed");
+  refused({"0", "--kinetic-friction", "4", "--mass", "1"}, "--sample-rate");
+  refused({"1e15", "--kinetic-friction", "4", "--mass", "1"}, "samples");
+}

@@ -1,0 +1,192 @@
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "recordings.hpp"
+#include "run_program.hpp"
+
+using test::slipfit;
+
+namespace {
+
+struct Example {
+  test::TemporaryFolder folder;
+  std::string file = folder.file("run.csv", test::simulated_csv("7"));
+};
+
+nlohmann::json fit_json(const std::vector<std::string>& arguments) {
+  const test::ProgramResult result = slipfit(arguments);
+  CAPTURE(arguments, result.err);
+  REQUIRE(result.exit_code == 0);
+  return nlohmann::json::parse(result.out);
+}
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
+TEST_CASE("help and version go to standard output with exit code 0") {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"--version"},
+                                                    {"fit", "--help"},
+                                                    {"analyze", "--help"},
+                                                    {"simulate", "-h"}}) {
+    const test::ProgramResult result = slipfit(arguments);
+    CHECK(result.exit_code == 0);
+    CHECK_FALSE(result.out.empty());
+    CHECK(result.err.empty());
+  }
+  CHECK_THAT(slipfit({"--version"}).out, Catch::Matches("slipfit [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST_CASE("with --json standard output is one document and nothing else, the same bytes every time") {
+  const Example example;
+  const std::vector<std::string> arguments{"fit", example.file, "--speed", "20mm/s", "--json"};
+  const test::ProgramResult first = slipfit(arguments);
+  REQUIRE(first.exit_code == 0);
+  const auto document = nlohmann::json::parse(first.out);
+  CHECK(document["schema"] == "slipfit.fit/1");
+  CHECK(document["id"] == "run");
+  CHECK(document["status"] == "stick_slip");
+  CHECK_FALSE(document.contains("timing"));
+  CHECK(slipfit(arguments).out == first.out);
+}
+
+TEST_CASE("analyze gives the same document without the fit") {
+  const Example example;
+  const auto document = fit_json({"analyze", example.file, "--speed", "20mm/s", "--json"});
+  CHECK(document["schema"] == "slipfit.fit/1");
+  for (const std::string key : {"model", "parameters", "correlation"}) CHECK_FALSE(document.contains(key));
+  CHECK(document["cycles"]["used"] == 0);
+  CHECK(document["frequency"]["value_Hz"].is_number());
+}
+
+TEST_CASE("the units of the command line are converted") {
+  const Example example;
+  const auto speed = [&example](const std::vector<std::string>& words) {
+    std::vector<std::string> arguments{"analyze", example.file, "--json"};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    return fit_json(arguments)["recording"];
+  };
+  CHECK(speed({"--speed", "1200 mm/min"})["speed_m_per_s"].get<double>() == Approx(0.02));
+  CHECK(speed({"--speed", "60rpm", "--radius", "10mm"})["speed_m_per_s"].get<double>() == Approx(0.0628318531));
+  CHECK(speed({"--speed", "0.02", "--speed-uncertainty", "1%"})["speed_se_m_per_s"].get<double>() == Approx(2e-4));
+  CHECK(speed({"--speed", "0.02", "--speed-uncertainty", "1mm/s"})["speed_se_m_per_s"].get<double>() == Approx(1e-3));
+  CHECK(speed({"--speed", "0.02", "--normal-force", "41 gf"})["normal_force_N"].get<double>() == Approx(0.40207265));
+  CHECK(speed({"--speed", "0.02", "--force-view", "contact"})["force_view"] == "contact");
+  CHECK(speed({"--speed", "0.02", "--window", "1:2"})["duration_s"].get<double>() == Approx(1.0).margin(0.002));
+  CHECK(speed({"--speed", "0.02", "--zero", "-0.5"})["zero_force_N"].get<double>() == Approx(-0.5));
+}
+
+TEST_CASE("with --timing the document has the seconds of the stages") {
+  const Example example;
+  const auto timing = fit_json({"fit", example.file, "--speed", "20mm/s", "--json", "--timing"})["timing"];
+  CHECK(timing["total_s"].get<double>() >= timing["read_s"].get<double>());
+  CHECK(timing["read_s"].get<double>() > 0.0);
+}
+
+TEST_CASE("the report for people begins with the judgement and keeps measured and predicted spacing apart") {
+  const Example example;
+  const test::ProgramResult result = slipfit({"fit", example.file, "--speed", "20mm/s"});
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(first_line(result.out), Catch::Contains("stick-slip") && Catch::Contains("Hz"));
+  const std::size_t measured = result.out.find("Spacing, measured (V/f)");
+  const std::size_t predicted = result.out.find("Predicted by the model at this speed");
+  CHECK(measured != std::string::npos);
+  CHECK(predicted != std::string::npos);
+  CHECK(measured < predicted);
+}
+
+TEST_CASE("the file of --out holds what standard output would, through a rename that leaves nothing behind") {
+  const Example example;
+  const std::string out = example.folder.file("result.json", "old");
+  const test::ProgramResult shown = slipfit({"fit", example.file, "--speed", "20mm/s", "--json"});
+  const test::ProgramResult written = slipfit({"fit", example.file, "--speed", "20mm/s", "--json", "--out", out});
+  CHECK(written.exit_code == 0);
+  CHECK(written.out.empty());
+  CHECK_THAT(written.err, Catch::Contains("wrote"));
+  CHECK(test::content_of(out) == shown.out);
+  CHECK(example.folder.names() == std::vector<std::string>{"result.json", "run.csv"});
+  CHECK(slipfit({"fit", example.file, "--speed", "20mm/s", "--quiet", "--out", out}).err.empty());
+}
+
+TEST_CASE("option --out keeps a link a link and writes to what is no regular file directly") {
+  const Example example;
+  const std::string target = example.folder.file("target.json", "old");
+  const std::string link = example.folder.path("link.json");
+  std::filesystem::create_symlink(target, link);
+  CHECK(slipfit({"analyze", example.file, "--speed", "20mm/s", "--json", "--out", link}).exit_code == 0);
+  CHECK(std::filesystem::is_symlink(link));
+  CHECK(test::content_of(target).rfind("{", 0) == 0);
+  CHECK(slipfit({"analyze", example.file, "--speed", "20mm/s", "--json", "--out", "/dev/null"}).exit_code == 0);
+  CHECK(std::filesystem::is_character_file("/dev/null"));
+  const test::ProgramResult full = slipfit({"analyze", example.file, "--speed", "20mm/s", "--out", "/dev/full"});
+  CHECK(full.exit_code == 2);
+  CHECK(test::lines_in(full.err) == 1);
+}
+
+TEST_CASE("files of --cycles and --curve are tables that agree with the document") {
+  const Example example;
+  const std::string cycles = example.folder.path("cycles.csv");
+  const std::string curve = example.folder.path("curve.csv");
+  const auto document =
+      fit_json({"fit", example.file, "--speed", "20mm/s", "--json", "--cycles", cycles, "--curve", curve});
+  const std::string cycles_csv = test::content_of(cycles);
+  const std::string curve_csv = test::content_of(curve);
+  CHECK(first_line(cycles_csv) ==
+        "cycle,peak_s,trough_s,peak_force_N,trough_force_N,force_drop_N,used,onset_s,end_s,onset_force_N,"
+        "level_force_N,residual_rms_N");
+  CHECK(first_line(curve_csv) == "time_s,force_N,fitted_N,residual_N");
+  CHECK(test::lines_in(cycles_csv) == document["cycles"]["count"].get<std::size_t>() + 1);
+  const auto samples = document["recording"]["samples"].get<std::size_t>();
+  CHECK(test::lines_in(curve_csv) == samples + 1);
+  std::size_t fitted = 0;
+  std::istringstream lines(curve_csv);
+  for (std::string line; std::getline(lines, line);) fitted += line.back() != ',' ? 1U : 0U;
+  CHECK(fitted > samples / 2);
+}
+
+TEST_CASE("simulate gives the same bytes for the same seed, and slipfit reads them back") {
+  const std::string csv = test::simulated_csv("3");
+  CHECK(csv == test::simulated_csv("3"));
+  CHECK(csv != test::simulated_csv("4"));
+  CHECK(csv.rfind("# ", 0) == 0);
+  const test::TemporaryFolder folder;
+  const auto document = fit_json({"analyze", folder.file("run.csv", csv), "--speed", "20mm/s", "--json"});
+  CHECK(document["recording"]["samples"].get<std::size_t>() + 2 == test::lines_in(csv));
+}
+
+TEST_CASE("the parameters of a simulated recording come back through the executable") {
+  const Example example;
+  const auto parameters = fit_json({"fit", example.file, "--speed", "20mm/s", "--json"})["parameters"];
+  const auto near = [&parameters](const std::string& name, double truth) {
+    const double value = parameters[name]["value"].get<double>();
+    const double error = parameters[name]["se"].get<double>();
+    CAPTURE(name, value, error);
+    CHECK(std::abs(value - truth) < 5.0 * error);  // 5 standard errors: one miss in two million
+    CHECK(error < 0.05 * truth);
+  };
+  near("stiffness_N_per_m", 1000.0);
+  near("natural_frequency_rad_per_s", 200.0);
+  near("friction_difference_N", 2.0);
+}
+
+TEST_CASE("a fixed parameter is held and said to be fixed") {
+  const Example example;
+  const auto document = fit_json({"fit", "--fix", "damping_ratio=0.06", example.file, "--speed", "20mm/s", "--json"});
+  CHECK(document["parameters"]["damping_ratio"]["value"] == 0.06);
+  CHECK(document["parameters"]["damping_ratio"]["status"] == "fixed");
+}
+
+TEST_CASE("file names in any encoding are reported without an exception") {
+  const Example example;
+  const std::string odd = example.folder.file("\xff\xfe\"\\ odd.csv", test::content_of(example.file));
+  const test::ProgramResult json = slipfit({"analyze", odd, "--speed", "20mm/s", "--json"});
+  CHECK(json.exit_code == 0);
+  CHECK(nlohmann::json::accept(json.out));
+  CHECK(slipfit({"analyze", odd, "--speed", "20mm/s"}).exit_code == 0);
+}

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "recordings.hpp"
+#include "run_program.hpp"
+
+using test::slipfit;
+
+namespace {
+
+std::filesystem::path project_folder() {
+  return std::filesystem::path(SLIPFIT_TESTDATA_DIR).parent_path();
+}
+
+/// Names of all keys that the schema describes, those of the objects "coefficient" aside: they are the others without
+/// unit.
+void collect_keys(const nlohmann::json& node, std::set<std::string>& keys) {
+  if (!node.is_structured()) return;
+  for (const auto& [name, child] : node.items()) {
+    if (name == "properties") {
+      for (const auto& [key, value] : child.items()) keys.insert(key);
+    }
+    if (name != "coefficient") collect_keys(child, keys);
+  }
+}
+
+std::string schema_file() {
+  return (project_folder() / "docs/fit.schema.json").string();
+}
+
+/// Exit code 77 where no Python at hand has the module jsonschema: then there is nothing to test with.
+test::ProgramResult validate(const std::vector<std::string>& documents) {
+  std::vector<std::string> arguments{(project_folder() / "tests/cli/validate_schema.py").string(), schema_file()};
+  arguments.insert(arguments.end(), documents.begin(), documents.end());
+  const test::ProgramResult result = test::run_program("python3", arguments);
+  if (result.exit_code != 77 || !std::filesystem::exists("/usr/bin/python3")) return result;
+  return test::run_program("/usr/bin/python3", arguments);  // Debian's own has the module; the first may be another one
+}
+
+}  // namespace
+
+TEST_CASE("every kind of document obeys docs/fit.schema.json, with no key that the schema does not name") {
+  const test::TemporaryFolder folder;
+  const std::string run = folder.file("run.csv", test::simulated_csv("5"));
+  const std::string steady = folder.file("steady.csv", test::recording_csv(500, 1000.0, [](double) { return 2.0; }));
+  const std::string coefficient = folder.file("coefficient.csv", [] {
+    std::string csv = test::recording_csv(4000, 1000.0, [](double t) { return 0.02 * test::sawtooth_N(t, 0.2); });
+    return "time_s,COF\n" + csv.substr(csv.find('\n') + 1);
+  }());
+  std::vector<std::string> documents;
+  const auto add = [&](const std::vector<std::string>& start) {
+    documents.push_back(folder.path(std::to_string(documents.size()) + ".json"));
+    std::vector<std::string> arguments = start;
+    arguments.insert(arguments.end(), {"--speed", "20mm/s", "--json", "--out", documents.back()});
+    const test::ProgramResult result = slipfit(arguments);
+    CAPTURE(arguments, result.err);
+    REQUIRE(result.exit_code == 0);
+  };
+  add({"fit", run});
+  add({"fit", run, "--timing", "--normal-force", "10", "--speed-uncertainty", "1%", "--zero", "0"});
+  add({"fit", run, "--tier", "sawtooth"});
+  add({"fit", run, "--tier", "undamped"});
+  add({"fit", run, "--fix", "damping_ratio=0.05"});
+  add({"analyze", run});
+  add({"fit", steady});
+  add({"fit", coefficient});
+  add({"fit", coefficient, "--normal-force", "10"});
+  const test::ProgramResult result = validate(documents);
+  CAPTURE(result.out, result.err);
+  if (result.exit_code == 77) WARN("skipped: python3-jsonschema is not installed");
+  CHECK((result.exit_code == 0 || result.exit_code == 77));
+}
+
+TEST_CASE("the schema check fails for a document that is wrong") {
+  const test::TemporaryFolder folder;
+  const std::string wrong = folder.file("wrong.json", R"({"schema": "slipfit.fit/1"})");
+  const int exit_code = validate({wrong}).exit_code;
+  CHECK((exit_code == 1 || exit_code == 77));
+}
+
+TEST_CASE("docs/formats.md names every key of the schema") {
+  std::set<std::string> keys;
+  collect_keys(nlohmann::json::parse(test::content_of(schema_file())), keys);
+  const std::string formats = test::content_of((project_folder() / "docs/formats.md").string());
+  CHECK(keys.size() > 90);
+  for (const std::string& key : keys) CHECK_THAT(formats, Catch::Contains(key));
+}
+
+TEST_CASE("docs/formats.md lists every warning that a recording full of defects gives") {
+  const test::TemporaryFolder folder;
+  std::string csv = test::recording_csv(4000, 1000.0, [](double t) {
+    const double force_N = test::sawtooth_N(t, 0.2);
+    return t > 2.0 && t < 2.0015 ? 100.0 : std::min(14.5, std::round(20.0 * force_N) / 20.0);
+  });
+  csv += "4.5,nan\n4.6,12\n4.6,12.5\n4.55,12\n";
+  const test::ProgramResult result =
+      slipfit({"fit", folder.file("defects.csv", csv), "--speed", "20mm/s", "--json", "--quiet"});
+  REQUIRE(result.exit_code == 0);
+  const std::string formats = test::content_of((project_folder() / "docs/formats.md").string());
+  const auto warnings = nlohmann::json::parse(result.out)["warnings"];
+  CHECK(warnings.size() >= 5);
+  for (const auto& warning : warnings) {
+    std::string code = warning["code"];
+    code.insert(code.begin(), '`');
+    code.push_back('`');
+    CHECK_THAT(formats, Catch::Contains(code));
+  }
+}

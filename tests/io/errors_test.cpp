@@ -1,0 +1,115 @@
+#include "temp_file.hpp"
+
+using namespace io_test;
+
+namespace {
+
+struct Case {
+  std::string what;
+  std::string content;
+  std::string code;
+  std::string part;  ///< of the message: place, value or remedy
+};
+
+slipfit::Error read_path_error(const std::filesystem::path& path) {
+  const auto recording = slipfit::read_recording(path, at_speed(1e-3));
+  REQUIRE_FALSE(recording.ok());
+  CHECK(contains(recording.error().message, path.filename().string()));
+  return recording.error();
+}
+
+}  // namespace
+
+TEST_CASE("each unusable content has its own error, in one line with the place") {
+  const std::string rows = "0,1\n1,2\n2,1\n3,2\n";
+  std::string backwards = "time,force\n";
+  for (int i = 0; i < 50; ++i) backwards += std::to_string(i % 20) + "," + std::to_string(i % 3) + "\n";
+  const std::vector<Case> cases = {
+      {"empty", "", "empty_file", "empty"},
+      {"blank lines", "\n  \n\t\n", "empty_file", "blank"},
+      {"binary", std::string("PK\x03\x04\0\0\0\x08", 8) + "abc", "binary_file", "not a text file"},
+      {"unprintable", "\x01\x02\x03\x04\x05\x06\x07\x0e\x0f text", "binary_file", "not a text file"},
+      {"prose", "This is a letter.\nIt has no numbers.\n", "no_numeric_column", "no rows of numbers"},
+      {"names only", "time,force\n", "no_numeric_column", "no rows of numbers"},
+      {"one row", "time,force\n0,1\n", "too_few_samples", "run7.csv:2: only one row"},
+      {"all NaN", "time,force\n0,nan\n1,nan\n2,NaN\n", "no_number_in_column", "column 2 'force'"},
+      {"backwards", backwards, "time_runs_backwards", "run7.csv:22: time runs backwards in 29 of 50 rows"},
+      {"constant time", "time,force\n3,1\n3,2\n3,1\n", "time_constant", "3 s in all of 3 rows"},
+      {"force unit unknown", "time,force [V]\n" + rows, "unknown_unit", "column 2 'force [V]'"},
+      {"time unit unknown", "time [furlong],force\n" + rows, "unknown_unit", "--time-unit"},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.what);
+    const auto error = read_error(c.content);
+    CHECK(error.code == c.code);
+    CHECK(contains(error.message, c.part));
+  }
+}
+
+TEST_CASE("each impossible option has its own error") {
+  const std::string content = "time,force,state\n0,1,ok\n1,2,ok\n2,1,ok\n3,2,ok\n";
+  const auto code_of = [&](auto change, std::string_view part) {
+    slipfit::ReadOptions options;
+    change(options);
+    const auto error = read_error(content, options);
+    CAPTURE(error.message);
+    CHECK(contains(error.message, part));
+    return error.code;
+  };
+  using Options = slipfit::ReadOptions;
+  CHECK(code_of([](Options& o) { o.force_column = "torque"; }, "the columns are 1 'time', 2 'force', 3 'state'") ==
+        "unknown_column");
+  CHECK(code_of([](Options& o) { o.time_column = "9"; }, "no column '9'") == "unknown_column");
+  CHECK(code_of([](Options& o) { o.force_column = "0"; }, "--force-column") == "unknown_column");
+  CHECK(code_of([](Options& o) { o.force_column = "state"; }, "holds text") == "column_not_numeric");
+  CHECK(code_of([](Options& o) { o.force_unit = "mm"; }, "'mm'") == "unknown_unit");
+  CHECK(code_of([](Options& o) { o.time_unit = "N"; }, "'N'") == "unknown_unit");
+  CHECK(code_of([](Options& o) { o.window = {{2.0, 1.0}}; }, "2:1") == "bad_window");
+  CHECK(code_of([](Options& o) { o.window = {{1.0, std::nan("")}}; }, "window") == "bad_window");
+  CHECK(code_of([](Options& o) { o.window = {{10.0, 20.0}}; }, "the clock runs from 0 to 3 s") == "window_empty");
+  CHECK(code_of([](Options& o) { o.window = {{0.9, 1.1}}; }, "holds 1 sample;") == "window_empty");
+  CHECK(code_of([](Options& o) { o.sample_rate_Hz = -4.0; }, "-4") == "bad_sample_rate");
+  CHECK(code_of(
+            [](Options& o) {
+              o.sample_rate_Hz = 4.0;
+              o.time_column = "1";
+            },
+            "both") == "conflicting_options");
+  CHECK(code_of(
+            [](Options& o) {
+              o.time_column = "2";
+              o.force_column = "2";
+            },
+            "both") == "conflicting_options");
+}
+
+TEST_CASE("a missing file, a folder and an unreadable file are told apart") {
+  const TempFile file("time,force\n0,1\n1,2\n");
+  CHECK(read_path_error(file.path().parent_path() / "absent.csv").code == "file_not_found");
+  CHECK(read_path_error(file.path().parent_path()).code == "is_directory");
+  const auto loop = file.path().parent_path() / "loop.csv";
+  std::filesystem::create_symlink(loop, loop);  // unreadable for root too
+  const auto error = read_path_error(loop);
+  CHECK(error.code == "not_readable");
+  CHECK(contains(error.message, "Too many levels of symbolic links"));
+}
+
+TEST_CASE("a name with a line break keeps the message on one line") {
+  const TempFile file("", "bad\nname\x1b.csv");
+  const auto recording = slipfit::read_recording(file.path(), at_speed(1e-3));
+  REQUIRE_FALSE(recording.ok());
+  CHECK(contains(recording.error().message, "bad\\nname\\x1b.csv: the file is empty"));
+  CHECK_FALSE(contains(recording.error().message, "\n"));
+}
+
+TEST_CASE("a line beyond 16 MB is refused, not read past") {
+  const std::string content = "time,force\n0,1\n1,2\n2,1\n" + std::string(17 << 20, '7') + "\n";
+  const auto error = read_error(content);
+  CHECK(error.code == "line_too_long");
+  CHECK(contains(error.message, "run7.csv:5:"));
+}
+
+TEST_CASE("the rules of Recording::create are reported with the file") {
+  const auto error = read_error("time,force\n0,1\n1,2\n", {}, at_speed(0.0));
+  CHECK(error.code == "speed_not_positive");
+}

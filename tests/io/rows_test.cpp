@@ -1,0 +1,126 @@
+#include "temp_file.hpp"
+
+using namespace io_test;
+
+namespace {
+
+/// 100 rows at 10 Hz with 0.5, 1.5, 0.5, ... where `replace` does not give another line.
+template <class Replace>
+std::string rows(const Replace& replace) {
+  std::string text = "time,force\n";
+  for (int i = 0; i < 100; ++i) {
+    const std::string other = replace(i);
+    text += (other.empty() ? std::to_string(0.1 * i) + "," + std::to_string(0.5 + i % 2) : other) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("rows without a number are left out, counted and warned of") {
+  const auto recording = read_ok(rows([](int i) -> std::string {
+    switch (i) {
+      case 10:
+        return "1.0,nan";
+      case 20:
+        return "2.0,";
+      case 30:
+        return ",0.5";
+      case 40:
+        return "4.0,inf";
+      case 50:
+        return "5.0,overload";
+      case 60:
+        return "6.0,broken";
+      case 70:
+        return "7.0";
+      case 80:
+        return "8.0,1e999";
+      default:
+        return {};
+    }
+  }));
+  CHECK(recording.size() == 92);
+  CHECK(recording.provenance().rows_without_number == 8);
+  CHECK(warns(recording, "rows_without_number"));
+}
+
+TEST_CASE("text lines among the data are skipped and counted, with the first line number") {
+  const auto recording = read_ok(rows([](int i) -> std::string {
+    return i == 10 ? "motor restarted" : i == 20 ? "# note" : i == 30 ? "time,force" : "";
+  }));
+  CHECK(recording.size() == 97);
+  CHECK(recording.provenance().rows_without_number == 0);
+  CHECK(says(recording, {"3 lines of text", "the first is line 12"}));
+}
+
+TEST_CASE("single backward stamps are left out, counted and warned of") {
+  const auto recording = read_ok(rows([](int i) -> std::string {
+    return i == 50 ? "4.85,9" : i == 51 ? "4.8,9" : "";
+  }));
+  CHECK(recording.size() == 98);
+  CHECK(recording.provenance().rows_backward_in_time == 2);
+  CHECK(warns(recording, "time_runs_backwards"));
+  CHECK(std::is_sorted(recording.time_s().begin(), recording.time_s().end()));
+  CHECK(*std::max_element(recording.force().begin(), recording.force().end()) == 1.5);
+}
+
+TEST_CASE("repeated stamps are kept, counted and warned of") {
+  const auto recording = read_ok(rows([](int i) -> std::string { return i == 50 ? "4.9,0.75" : ""; }));
+  CHECK(recording.size() == 100);
+  CHECK(recording.provenance().rows_repeating_time == 1);
+  CHECK(warns(recording, "repeated_time_stamps"));
+}
+
+TEST_CASE("a window takes part of the recording, bounds included, on the recording's own clock") {
+  slipfit::ReadOptions options;
+  options.window = slipfit::TimeWindow{102.0, 104.0};
+  const auto recording = read_ok("time,force\n100,1\n101,2\n102,3\n103,4\n104,5\n105,6\n", options);
+  CHECK(copy(recording.time_s()) == std::vector<double>{102, 103, 104});
+  CHECK(copy(recording.force()) == std::vector<double>{3, 4, 5});
+  CHECK(says(recording, {"window 102:104 s", "100 to 105 s"}));
+}
+
+TEST_CASE("defects outside the window do not count") {
+  slipfit::ReadOptions options;
+  options.window = slipfit::TimeWindow{0.0, 4.0};
+  const auto recording =
+      read_ok(rows([](int i) -> std::string { return i == 60  ? "6.0,nan"
+                                                     : i > 80 ? "7.0,1"
+                                                              : ""; }), options);
+  CHECK(recording.size() == 41);
+  CHECK(recording.provenance().warnings.empty());
+}
+
+TEST_CASE("a NUL among the text costs its row only") {
+  std::string content;
+  for (int i = 0; i < 9000; ++i) content += std::to_string(0.1 * i) + "," + std::to_string(i % 2) + "\n";
+  const auto at = content.find("800.0");
+  REQUIRE(at > 70'000);  // behind the part that is looked at for binary content
+  content[at + 8] = '\0';
+  const auto recording = read_ok(content);
+  CHECK(recording.size() == 8999);
+  CHECK(recording.provenance().rows_without_number == 1);
+}
+
+TEST_CASE("the displacement is compared with the stated speed") {
+  std::string content = "time [s],displacement [mm],force [N]\n";
+  for (int i = 0; i < 500; ++i) {
+    const double moved_mm = i < 100 ? 0.0 : 0.02 * (i - 100);  // stands for 1 s, then 2 mm/s
+    content += std::to_string(0.01 * i) + "," + std::to_string(moved_mm) + "," + std::to_string(i % 5) + "\n";
+  }
+  CHECK_FALSE(warns(read_ok(content, {}, at_speed(2e-3)), "speed_differs_from_displacement"));
+  CHECK_FALSE(warns(read_ok(content, {}, at_speed(2.08e-3)), "speed_differs_from_displacement"));
+  const auto recording = read_ok(content, {}, at_speed(2.12e-3));
+  REQUIRE(warns(recording, "speed_differs_from_displacement"));
+  CHECK(contains(recording.provenance().warnings.back().message, "0.00212 m/s"));
+  CHECK(contains(recording.provenance().warnings.back().message, "0.002 m/s"));
+}
+
+TEST_CASE("a displacement that does not run at one speed is not compared") {
+  std::string content = "time [s],displacement [mm],force [N]\n";
+  for (int i = 0; i < 500; ++i) {
+    content += std::to_string(0.01 * i) + "," + std::to_string(1e-4 * i * i) + "," + std::to_string(i % 5) + "\n";
+  }
+  CHECK_FALSE(warns(read_ok(content, {}, at_speed(1.0)), "speed_differs_from_displacement"));
+}

@@ -1,0 +1,119 @@
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "io/sign.hpp"
+#include "temp_file.hpp"
+
+using namespace io_test;
+using slipfit::reading::is_negative_throughout;
+using slipfit::reading::is_reciprocating;
+
+namespace {
+
+constexpr std::size_t kSamples = 4000;
+
+template <class Force>
+std::vector<double> sample(const Force& force) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < kSamples; ++i) values.push_back(force(static_cast<double>(i) / kSamples));
+  return values;
+}
+
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
+/// Strokes of +1 and -1, turning linearly over `turning` of each stroke.
+double stroke(double t, double strokes, double turning) {
+  const double phase = fraction(t * strokes / 2.0) * 2.0;
+  const double side = phase < 1.0 ? 1.0 : -1.0;
+  const double since_turn = fraction(phase);
+  return side * (since_turn < turning ? 2.0 * since_turn / turning - 1.0 : 1.0);
+}
+
+std::string text_of(const std::vector<double>& force) {
+  std::string text = "time,force\n";
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    text += std::to_string(0.01 * static_cast<double>(i)) + "," + std::to_string(force[i]) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("strokes are told from stick-slip by where the force dwells") {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  const auto saw = [](double t, double cycles) { return fraction(t * cycles); };
+
+  SECTION("strokes") {
+    CHECK(is_reciprocating(sample([](double t) { return stroke(t, 6, 0.05); })));
+    CHECK(is_reciprocating(sample([](double t) { return stroke(t, 3, 0.05); })));
+    CHECK(is_reciprocating(sample([](double t) { return stroke(t, 40, 0.2); })));
+    CHECK(is_reciprocating(sample([](double t) { return 0.2 + stroke(t, 8, 0.1); })));
+    CHECK(is_reciprocating(sample([&](double t) { return stroke(t, 8, 0.1) + 0.1 * noise(random); })));
+  }
+  SECTION("stick-slip inside strokes") {
+    CHECK(is_reciprocating(sample([&](double t) { return stroke(t, 6, 0.05) * (0.6 + 0.4 * saw(t, 120)); })));
+    CHECK(is_reciprocating(
+        sample([&](double t) { return stroke(t, 10, 0.1) * (0.7 + 0.3 * saw(t, 90)) + 0.05 * noise(random); })));
+  }
+  SECTION("saw-tooth through zero") {
+    CHECK_FALSE(is_reciprocating(sample([&](double t) { return saw(t, 20) - 0.5; })));
+    CHECK_FALSE(is_reciprocating(sample([&](double t) { return saw(t, 20) - 0.3; })));
+    CHECK_FALSE(is_reciprocating(sample([&](double t) { return saw(t, 20) - 0.5 + 0.05 * noise(random); })));
+    CHECK_FALSE(is_reciprocating(sample([&](double t) { return saw(t, 900) - 0.5; })));
+  }
+  SECTION("oscillation and noise about zero") {
+    CHECK_FALSE(is_reciprocating(sample([](double t) { return std::sin(60.0 * t); })));
+    CHECK_FALSE(
+        is_reciprocating(sample([](double t) { return std::sin(60.0 * t) + 0.2 * std::sin(180.0 * t + 1.0); })));
+    CHECK_FALSE(is_reciprocating(sample([&](double) { return noise(random); })));
+    CHECK_FALSE(is_reciprocating(sample([&](double) { return noise(random) > 0.0 ? 0.5 : -0.5; })));  // 1-bit converter
+  }
+  SECTION("one turn is no reciprocation, and a force of one sign is none") {
+    CHECK_FALSE(is_reciprocating(sample([](double t) { return t < 0.4 ? -1.0 : 1.0; })));
+    CHECK_FALSE(is_reciprocating(sample([&](double t) { return 1.0 + 0.4 * saw(t, 30); })));
+    CHECK_FALSE(is_reciprocating(sample([](double) { return 0.0; })));
+  }
+}
+
+TEST_CASE("a reciprocating recording is refused with the advice to use a window, and read with one") {
+  const std::string content =
+      text_of(sample([](double t) { return stroke(t, 8, 0.05) * (0.7 + 0.3 * fraction(t * 100)); }));
+  const auto error = read_error(content);
+  CHECK(error.code == "reciprocating");
+  CHECK(contains(error.message, "--window T0:T1"));
+  slipfit::ReadOptions options;
+  options.window = slipfit::TimeWindow{0.5, 4.5};
+  const auto forward = read_ok(content, options);
+  CHECK(*std::min_element(forward.force().begin(), forward.force().end()) > 0.6);
+  options.window = slipfit::TimeWindow{5.5, 9.5};
+  const auto backward = read_ok(content, options);
+  CHECK(*std::min_element(backward.force().begin(), backward.force().end()) > 0.6);
+  CHECK(says(backward, {"negative throughout"}));
+}
+
+TEST_CASE("a force that is negative throughout is turned, one that is often positive is not") {
+  const auto mostly = [](std::size_t positive_of_100) {
+    std::vector<double> force;
+    for (std::size_t i = 0; i < 200; ++i)
+      force.push_back(i % 100 < positive_of_100 ? 0.1 : -1.0 - 0.01 * static_cast<double>(i % 7));
+    return force;
+  };
+  CHECK(is_negative_throughout(mostly(10)));
+  CHECK_FALSE(is_negative_throughout(mostly(11)));
+  const auto turned = read_ok(text_of(mostly(5)));
+  CHECK(turned.force()[0] == -0.1);
+  CHECK(turned.force()[50] == Approx(1.01));
+  CHECK(says(turned, {"negative throughout"}));
+  CHECK(read_ok(text_of(mostly(11))).force()[50] == Approx(-1.01));
+}
+
+TEST_CASE("the zero force is subtracted before the sign is judged") {
+  auto conditions = at_speed(1e-3);
+  conditions.zero_force_N = 3.0;
+  const auto recording = read_ok("time,force\n0,1.0\n1,2.0\n2,1.5\n", {}, conditions);
+  CHECK(copy(recording.force()) == std::vector<double>{2.0, 1.0, 1.5});
+}

@@ -1,0 +1,135 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "model/slip.hpp"
+#include "slipfit/model/motion.hpp"
+
+namespace {
+
+using slipfit::damped_motion;
+
+/// Rows of a reference table by column name; empty where the folder is absent.
+std::vector<std::map<std::string, double>> reference_rows(const std::string& name) {
+  std::ifstream file(std::filesystem::path(SLIPFIT_SHARED_DIR) / "reference" / name);
+  std::vector<std::string> names;
+  std::vector<std::map<std::string, double>> rows;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.empty() || line[0] == '#') continue;
+    std::stringstream fields(line);
+    std::map<std::string, double> row;
+    std::size_t column = 0;
+    for (std::string field; std::getline(fields, field, ','); ++column) {
+      if (rows.empty() && names.size() == column && std::isalpha(static_cast<unsigned char>(field[0])) != 0 &&
+          field != "nan") {
+        names.push_back(field);
+      } else {
+        row[names.at(column)] = std::strtod(field.c_str(), nullptr);
+      }
+    }
+    if (!row.empty()) rows.push_back(row);
+  }
+  if (rows.empty()) WARN("skipped: no " << name << " beside the checkout");
+  return rows;
+}
+
+/// Unit slider: w_n = 1, k = 1, V = 1, so times are tau and forces are in k V / w_n.
+slipfit::Motion unit_motion(double lambda, double zeta) {
+  return damped_motion(slipfit::Slider::create(1.0, 1.0, zeta).value(), slipfit::Friction::create(lambda, 0.0).value(),
+                       1.0);
+}
+
+}  // namespace
+
+TEST_CASE("undamped cycle agrees with the independent table") {
+  for (auto& row : reference_rows("undamped.csv")) {
+    if (row["lambda"] == 0.0) continue;
+    const auto motion = unit_motion(row["lambda"], 0.0);
+    INFO("lambda " << row["lambda"]);
+    REQUIRE(motion.cycle);
+    CHECK(motion.cycle->slip_s == Approx(row["slip_time"]).epsilon(1e-11));
+    // v'' is lambda at the end of slip: round-off of v (2e-16) moves the end, and with it the stick, by 2e-16 / lambda.
+    const double margin = 1e-15 / row["lambda"];
+    CHECK(motion.cycle->stick_s == Approx(row["stick_time"]).epsilon(1e-11).margin(margin));
+    CHECK(motion.cycle->period_s == Approx(row["period"]).epsilon(1e-11));
+  }
+}
+
+TEST_CASE("damped cycle agrees with the independent table, existence included") {
+  for (auto& row : reference_rows("damped_exact.csv")) {
+    const auto motion = unit_motion(row["lambda"], row["zeta"]);
+    INFO("lambda " << row["lambda"] << " zeta " << row["zeta"]);
+    REQUIRE(motion.cycle.has_value() == (row["sticks"] == 1.0));
+    if (!motion.cycle) continue;
+    CHECK(motion.cycle->slip_s == Approx(row["slip_time"]).epsilon(1e-10));
+    CHECK(motion.cycle->period_s == Approx(row["period"]).epsilon(1e-10));
+    CHECK(motion.cycle->end_force_N == Approx(row["z_end"]).epsilon(1e-9).margin(1e-9));
+  }
+}
+
+TEST_CASE("critical lambda agrees with the independent table") {
+  for (auto& row : reference_rows("stick_slip_boundary.csv")) {
+    INFO("zeta " << row["zeta"]);
+    CHECK(slipfit::critical_lambda(row["zeta"]) == Approx(row["lambda_c"]).epsilon(1e-10));
+  }
+  CHECK(slipfit::critical_lambda(0.015) == Approx(0.453482).epsilon(2e-6));
+  CHECK(slipfit::critical_lambda(0.0) == 0.0);
+}
+
+TEST_CASE("undamped closed form holds for random lambda") {
+  std::mt19937_64 random(20240601);
+  std::uniform_real_distribution<double> exponent(-2.0, 4.0);
+  for (int i = 0; i < 200; ++i) {
+    const double lambda = std::pow(10.0, exponent(random));
+    const auto cycle = *unit_motion(lambda, 0.0).cycle;
+    CHECK(cycle.slip_s == Approx(2.0 * (std::numbers::pi - std::atan(lambda))).epsilon(1e-12));
+    CHECK(cycle.stick_s == Approx(2.0 * lambda).epsilon(1e-10));
+    CHECK(cycle.force_peak_N == Approx(std::hypot(1.0, lambda)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the sliding body rejects impossible parameters by name") {
+  CHECK(slipfit::Slider::create(-1.0, 1.0, 0.1).error().message.find("stiffness") != std::string::npos);
+  CHECK(slipfit::Slider::create(1.0, std::nan(""), 0.1).error().message.find("natural frequency") != std::string::npos);
+  CHECK(slipfit::Slider::create(1.0, 1.0, 1.0).error().message.find("damping ratio") != std::string::npos);
+  CHECK(slipfit::Friction::create(1.0, 2.0).error().message.find("static friction") != std::string::npos);
+  CHECK(slipfit::Friction::create(1.0, -2.0).error().message.find("kinetic friction") != std::string::npos);
+}
+
+TEST_CASE("wave derivatives are exact on either side of every event") {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> log_z0(-0.5, 2.0);
+  std::uniform_real_distribution<double> any_zeta(0.0, 0.3);
+  const double h = 1e-6;
+  for (int i = 0; i < 300; ++i) {
+    const double z0 = std::pow(10.0, log_z0(random));
+    const double zeta = any_zeta(random);
+    const auto slip = slipfit::model::solve_slip(z0, zeta);
+    INFO("z0 " << z0 << " zeta " << zeta << " resticks " << slip.resticks);
+    for (const double tau : {0.0, 0.3 * slip.tau_end, slip.tau_end}) {
+      const auto wave = slipfit::model::slip_wave(slip, tau);
+      const auto z = [&](double a, double c, double t) { return slipfit::model::slip_point(a, c, t).z; };
+      const double tolerance = 1e-8 * (1.0 + z0);  // h^2 z''' of the difference and round-off / h
+      CHECK(wave.z == Approx(z(z0, zeta, tau)).margin(1e-13 * (1.0 + z0)));
+      CHECK(wave.d_z0 == Approx((z(z0 + h, zeta, tau) - z(z0 - h, zeta, tau)) / (2 * h)).margin(tolerance));
+      CHECK(wave.d_zeta == Approx((z(z0, zeta + h, tau) - z(z0, zeta - h, tau)) / (2 * h)).margin(tolerance));
+      CHECK(wave.d_tau == Approx((z(z0, zeta, tau + h) - z(z0, zeta, tau - h)) / (2 * h)).margin(tolerance));
+    }
+    const auto line = slipfit::model::stick_after(slip);
+    const auto intercept = [](double a, double c) {
+      return slipfit::model::stick_after(slipfit::model::solve_slip(a, c)).intercept;
+    };
+    const bool grazes = std::abs(slip.end.dz - 1.0) < 1e-3 && !slip.resticks;
+    if (grazes || (slip.resticks && std::abs(slip.end.ddz) < 1e-2)) continue;  // the end jumps within the step h
+    CHECK(line.d_z0 == Approx((intercept(z0 + h, zeta) - intercept(z0 - h, zeta)) / (2 * h)).margin(1e-7 * (1 + z0)));
+    CHECK(line.d_zeta == Approx((intercept(z0, zeta + h) - intercept(z0, zeta - h)) / (2 * h)).margin(1e-7 * (1 + z0)));
+  }
+}

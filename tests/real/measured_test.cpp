@@ -1,0 +1,161 @@
+// Recordings that other people measured, from the folder beside the checkout; each test skips, and says so, without it.
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "slipfit/io/recording_reader.hpp"
+#include "slipfit/pipeline.hpp"
+
+using namespace slipfit;
+
+namespace {
+
+const std::filesystem::path kData = std::filesystem::path(SLIPFIT_SHARED_DIR) / "data";
+
+std::optional<Analysis> fit_file(const std::string& file, double speed_m_per_s, const ReadOptions& options = {}) {
+  if (!std::filesystem::exists(kData / file)) {
+    WARN("skipped: no " << file << " beside the checkout");
+    return std::nullopt;
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = speed_m_per_s;
+  const auto recording = read_recording(kData / file, conditions, options);
+  if (!recording.ok()) FAIL(recording.error().message);
+  return analyze_and_fit(recording.value(), {});
+}
+
+const Parameter* find(const Analysis& analysis, const std::string& name) {
+  if (!analysis.fit) return nullptr;
+  for (const Parameter& p : analysis.fit->parameters) {
+    if (p.name == name) return &p;
+  }
+  return nullptr;
+}
+
+std::vector<std::map<std::string, std::string>> table(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> names;
+  std::vector<std::map<std::string, std::string>> rows;
+  for (std::string line; std::getline(in, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    std::stringstream fields(line);
+    std::map<std::string, std::string> row;
+    std::size_t column = 0;
+    for (std::string field; std::getline(fields, field, ','); ++column) {
+      if (rows.empty() && names.size() == column) {
+        names.push_back(field);
+      } else {
+        row[names.at(column)] = field;
+      }
+    }
+    if (!row.empty()) rows.push_back(row);
+  }
+  if (rows.empty()) WARN("skipped: no " << file.filename() << " beside the checkout");
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("paper on paper, slow: stick-slip with the published stiffness") {
+  const auto analysis = fit_file("real/colas/colas_k168_v42.csv", 42e-6);
+  if (!analysis) return;
+  CHECK(analysis->verdict == Verdict::StickSlip);
+  REQUIRE(find(*analysis, "stiffness_N_per_m"));
+  CHECK(*find(*analysis, "stiffness_N_per_m")->estimate.value == Approx(168.0).epsilon(0.12));
+  REQUIRE(analysis->frequency.counted.value);
+  CHECK(*analysis->frequency.counted.value > 0.5);
+  CHECK(*analysis->frequency.counted.value < 0.7);
+  CHECK(analysis->cycles.used >= 40);
+}
+
+TEST_CASE("paper on paper, fast and stiff: an oscillation of 35 Hz without straight sticks") {
+  const auto analysis = fit_file("real/colas/colas_k1002_v4300.csv", 4300e-6);
+  if (!analysis) return;
+  CHECK(analysis->verdict != Verdict::StickSlip);
+  REQUIRE(analysis->frequency.quoted.value);
+  CHECK(*analysis->frequency.quoted.value == Approx(35.0).epsilon(0.04));
+}
+
+TEST_CASE("controls are not called stick-slip") {
+  const auto continuous = fit_file("real/colas/colas_k2254_v42.csv", 42e-6);
+  if (continuous) CHECK(continuous->verdict != Verdict::StickSlip);
+  const auto rock = fit_file("real/giacomel/giacomel_velstep3_TR2_exp013_sepiolite.txt", 1e-6);
+  if (rock) CHECK(rock->verdict != Verdict::StickSlip);
+  for (const char* speed : {"1000", "1400", "1800"}) {
+    const auto fast = fit_file("real/fdm/fdm_77g_" + std::string(speed) + "mm_min.csv", std::atof(speed) / 60000.0);
+    if (fast) CHECK(fast->verdict != Verdict::StickSlip);
+  }
+}
+
+TEST_CASE("printed plastic: spacing agrees with the authors' own") {
+  std::vector<double> ratios;
+  for (auto& row : table(kData / "real/fdm/published_spacing.csv")) {
+    const double speed_mm_min = std::atof(row["speed_mm_min"].c_str());
+    if (speed_mm_min < 30.0 || speed_mm_min > 300.0) continue;
+    const auto analysis =
+        fit_file("real/fdm/fdm_" + row["mass_g"] + "g_" + row["speed_mm_min"] + "mm_min.csv", speed_mm_min / 60000.0);
+    if (!analysis) return;
+    INFO(row["mass_g"] << " g, " << speed_mm_min << " mm/min");
+    REQUIRE(analysis->derived.pattern_spacing_m.value);
+    ratios.push_back(*analysis->derived.pattern_spacing_m.value * 1e3 / std::atof(row["published_spacing_mm"].c_str()));
+    CHECK(ratios.back() == Approx(1.0).epsilon(0.25));
+  }
+  if (ratios.empty()) return;
+  std::sort(ratios.begin(), ratios.end());
+  CHECK(0.5 * (ratios[(ratios.size() - 1) / 2] + ratios[ratios.size() / 2]) == Approx(1.0).epsilon(0.05));
+}
+
+TEST_CASE("teaching rig without a clock: period found, damping refused, friction drop bounded") {
+  ReadOptions options;
+  options.sample_rate_Hz = 4.0;
+  const auto analysis = fit_file("real/guldstrand/Force7_OG.txt", 1.198e-3, options);
+  if (!analysis) return;
+  REQUIRE(analysis->cycles.period_s);
+  CHECK(*analysis->cycles.period_s == Approx(6.26).epsilon(0.05));
+  REQUIRE(find(*analysis, "damping_ratio"));
+  CHECK(find(*analysis, "damping_ratio")->status == ParameterStatus::Unidentified);
+  CHECK(find(*analysis, "friction_difference_N")->status == ParameterStatus::Bounded);
+}
+
+TEST_CASE("simulated recordings of an independent generator: truth inside the intervals") {
+  std::map<std::string, std::map<std::string, std::string>> truths;
+  for (auto& row : table(kData / "synthetic/truth.csv")) truths[row["id"]] = row;
+  int inside = 0;
+  int given = 0;
+  for (auto& row : table(kData / "synthetic/manifest.csv")) {
+    const std::string id = row["id"];
+    if (id.rfind("clean", 0) != 0 && id.rfind("jitter", 0) != 0) continue;
+    const auto analysis = fit_file("synthetic/" + row["file"], std::atof(row["speed_m_per_s"].c_str()));
+    if (!analysis) return;
+    INFO(id);
+    CHECK(analysis->verdict == Verdict::StickSlip);
+    auto& truth = truths[id];
+    const auto number = [&](const char* name) { return std::atof(truth[name].c_str()); };
+    const std::pair<const char*, double> values[] = {{"stiffness_N_per_m", number("k")},
+                                                     {"natural_frequency_rad_per_s", number("wn")},
+                                                     {"friction_difference_N", number("Fs") - number("Fk")},
+                                                     {"damping_ratio", number("zeta")}};
+    for (const auto& [name, value] : values) {
+      INFO(name);
+      const Parameter* p = find(*analysis, name);
+      REQUIRE(p);
+      REQUIRE(p->estimate.ci95);
+      ++given;
+      inside += p->estimate.ci95->low <= value && value <= p->estimate.ci95->high ? 1 : 0;
+      const bool is_ratio = std::string(name) == "damping_ratio";
+      CHECK(std::abs(*p->estimate.value - value) <= (is_ratio ? 0.02 : 0.05 * value));
+    }
+  }
+  if (given == 0) return;
+  INFO(inside << " of " << given);
+  CHECK(inside >= 43);  // of 48 at 95 %: fewer has a chance of 2 %, F_s - F_k and zeta missing together
+}
