@@ -25,8 +25,8 @@ Result<Slider> Slider::create(double stiffness_N_per_m, double natural_frequency
   if (!is_positive(natural_frequency_rad_per_s)) {
     return out_of_range("natural frequency (rad/s)", natural_frequency_rad_per_s, "a number > 0");
   }
-  if (!(damping_ratio >= 0.0 && damping_ratio < 1.0)) {
-    return out_of_range("damping ratio", damping_ratio, "a number in [0, 1)");
+  if (!(std::isfinite(damping_ratio) && damping_ratio >= 0.0)) {
+    return out_of_range("damping ratio", damping_ratio, "a number >= 0");
   }
   Slider slider;
   slider.stiffness_N_per_m_ = stiffness_N_per_m;
@@ -62,35 +62,44 @@ double critical_lambda(double damping_ratio) {
   return high;
 }
 
+std::optional<double> critical_speed_m_per_s(const Slider& slider, const Friction& friction) {
+  const double zeta = slider.damping_ratio();
+  if (zeta >= 1.0) return 0.0;
+  if (zeta == 0.0) return std::nullopt;
+  const double fastest = slider.natural_frequency_rad_per_s() * friction.difference_N() / slider.stiffness_N_per_m();
+  return fastest / critical_lambda(zeta);
+}
+
 Motion damped_motion(const Slider& slider, const Friction& friction, double speed_m_per_s) {
   const double w_n = slider.natural_frequency_rad_per_s();
   const double zeta = slider.damping_ratio();
   const double force_scale_N = slider.stiffness_N_per_m() * speed_m_per_s / w_n;
   Motion motion;
   motion.lambda = friction.difference_N() / force_scale_N;
+  motion.regime = zeta < 1.0 ? Regime::OscillatorySlip : Regime::ContinuousSlip;
+  if (!(motion.lambda > 0.0) || zeta >= 1.0) return motion;
   const double z0 = motion.lambda - 2.0 * zeta;
-  const bool exists = motion.lambda > 0.0 && (zeta == 0.0 || model::restick_margin(motion.lambda, zeta) > 0.0);
-  if (!exists) {
-    motion.regime = Regime::OscillatorySlip;
-    return motion;
-  }
+  const model::SpiralEnd spiral(z0, zeta);
+  if (!spiral.resticks()) return motion;
   motion.regime = zeta > 0.0 ? Regime::StickSlipBistable : Regime::StickSlip;
 
-  const model::Slip slip = model::solve_slip(z0, zeta);
-  // Extremes of the force in a slip: z' = 0, half a damped period apart. tan(b tau) = b / (z0 + zeta)
-  const double b = slip.b;
-  const double tau_peak = std::atan2(b, z0 + zeta) / b;
+  double end_angle = 0.0;
+  const double y = spiral.solve(end_angle);  // z at the end of slip is -y
+  const double tau_slip = (2.0 * std::numbers::pi + end_angle - spiral.start_angle()) / spiral.b();
+  const double tau_stick = z0 + y;
+  const auto force_N = [&](double z) { return friction.kinetic_N() + force_scale_N * z; };
   LimitCycle cycle;
-  cycle.slip_s = slip.tau_end / w_n;
-  cycle.stick_s = (z0 - slip.end.z) / w_n;
-  cycle.period_s = cycle.slip_s + cycle.stick_s;
-  cycle.sticking_degree = cycle.stick_s / cycle.period_s;
+  cycle.slip_s = tau_slip / w_n;
+  cycle.stick_s = tau_stick / w_n;
+  cycle.period_s = (tau_slip + tau_stick) / w_n;
+  cycle.sticking_degree = tau_stick / (tau_slip + tau_stick);
   cycle.periodic_displacement_m = speed_m_per_s * cycle.period_s;
-  cycle.onset_force_N = friction.kinetic_N() + force_scale_N * z0;
-  cycle.end_force_N = friction.kinetic_N() + force_scale_N * slip.end.z;
-  cycle.force_peak_N = friction.kinetic_N() + force_scale_N * model::slip_point(z0, zeta, tau_peak).z;
-  cycle.force_trough_N =
-      friction.kinetic_N() + force_scale_N * model::slip_point(z0, zeta, tau_peak + std::numbers::pi / b).z;
+  cycle.onset_force_N = force_N(z0);
+  cycle.end_force_N = force_N(-y);
+  cycle.force_peak_N = force_N(spiral.extreme(0));
+  cycle.force_trough_N = force_N(-spiral.extreme(1));
+  // Slip: z = -z'' - 2 zeta z' integrates to 2 zeta (z0 - z_end). Stick: a straight line from z_end to z0.
+  cycle.mean_force_N = force_N(tau_stick * (2.0 * zeta + 0.5 * (z0 - y)) / (tau_slip + tau_stick));
   motion.cycle = cycle;
   return motion;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace slipfit::model {
@@ -16,13 +17,23 @@ struct SlipPoint {
   T z, dz, ddz;
 };
 
+/// Any damping: oscillating, critical (zeta = 1) and overdamped.
 template <class T>
 SlipPoint<T> slip_point(const T& z0, const T& zeta, const T& tau) {
-  using std::cos, std::exp, std::sin, std::sqrt;
-  const T b = sqrt(1.0 - zeta * zeta);
-  const T decay = exp(-zeta * tau);
-  const T c = decay * cos(b * tau);
-  const T s = decay * sin(b * tau) / b;
+  using std::cos, std::exp, std::expm1, std::sin, std::sqrt;
+  T c, s;  // exp(-zeta tau) cos b tau and exp(-zeta tau) sin(b tau) / b
+  if (zeta < 1.0) {
+    const T b = sqrt(1.0 - zeta * zeta);
+    const T decay = exp(-zeta * tau);
+    c = decay * cos(b * tau);
+    s = decay * sin(b * tau) / b;
+  } else {
+    const T beta = sqrt(zeta * zeta - 1.0);
+    const T slow = exp(-tau / (zeta + beta));  // zeta - beta without cancellation; no overflow however long
+    const T spread = expm1(-2.0 * beta * tau);
+    c = slow * (1.0 + 0.5 * spread);
+    s = beta > 0.0 ? T(-0.5 * slow * spread / beta) : T(slow * tau);
+  }
   const T z = z0 * c + (1.0 + zeta * z0) * s;
   const T dz = c - (z0 + zeta) * s;
   return {z, dz, -2.0 * zeta * dz - z};
@@ -44,37 +55,106 @@ inline double tau_of_fastest_slip(double z0, double zeta, double b) {
   return std::atan2(b * lambda, zeta * lambda - 1.0) / b;
 }
 
-/// End of slip: the only root of z' = 1 between the largest and the smallest sliding speed, both in closed form.
-/// Needs lambda = z0 + 2 zeta > 0 and |zeta| < 1.
-inline Slip solve_slip(double z0, double zeta) {
-  Slip slip{z0, zeta, std::sqrt(1.0 - zeta * zeta), 0.0, false, {}};
-  double low = tau_of_fastest_slip(z0, zeta, slip.b);
-  double high = low + std::numbers::pi / slip.b;
-  const SlipPoint<double> slowest = slip_point(z0, zeta, high);
-  slip.tau_end = high;
-  slip.end = slowest;
-  if (slowest.dz < 1.0) return slip;
-  slip.resticks = true;
-
-  // Start: z' = exp(-zeta tau) R cos(b tau + phi), with the decay taken at the undamped end of slip.
-  const double q = (z0 + zeta) / slip.b;
-  const double phi = std::atan(q);
-  const double undamped_end = 2.0 * (std::numbers::pi - phi) / slip.b;
-  const double cosine = std::min(1.0, std::exp(zeta * undamped_end) / std::hypot(1.0, q));
-  double tau = (2.0 * std::numbers::pi - phi - std::acos(cosine)) / slip.b;
-  constexpr int kMaxSteps = 60;  // bisection alone needs 53 halvings to reach the last bit
-  for (int step = 0; step < kMaxSteps; ++step) {
-    if (!(tau > low && tau < high)) tau = 0.5 * (low + high);
-    slip.end = slip_point(z0, zeta, tau);
-    const double excess = slip.end.dz - 1.0;  // < 0 while sliding
-    (excess < 0.0 ? low : high) = tau;
-    const double newton = tau - excess / slip.end.ddz;
-    if (std::abs(newton - tau) <= 2e-16 * tau || high - low <= 2e-16 * high) break;
-    tau = newton;
+/// In the plane of z and (z' + zeta z) / b a slip runs along a spiral of radius exp(-zeta tau) and angle b tau, and
+/// starts and ends on the line z' = 1. There, with y = -z, radius^2 b^2 = 1 - 2 zeta y + y^2 =: exp(2 h) and the angle
+/// is atan2(-b y, 1 - zeta y), so that the end of slip is the root of one function of h alone, docs/model.md eq. (7):
+///   G(h) = h - h_start + (zeta / b) (2 pi + angle(h) - angle_start),   dG/dh = (y - 2 zeta) / (y - zeta)
+/// G is all but straight in h, and y has full relative precision however short the stick.
+class SpiralEnd {
+ public:
+  SpiralEnd(double z0, double zeta)
+      : zeta_(zeta), b_(std::sqrt(1.0 - zeta * zeta)), loss_angle_(std::asin(zeta)) {
+    const double lambda = z0 + 2.0 * zeta;
+    start_h_ = 0.5 * std::log1p(lambda * z0);
+    start_angle_ = std::atan2(b_ * z0, 1.0 + zeta * z0);
   }
-  slip.tau_end = tau;
-  slip.end = slip_point(z0, zeta, tau);
+
+  [[nodiscard]] double b() const { return b_; }
+  [[nodiscard]] double start_angle() const { return start_angle_; }
+
+  /// Size of z where z' = 0: the force peak is the first such state of the spiral (half_turns = 0), the trough the
+  /// next.
+  [[nodiscard]] double extreme(int half_turns) const {
+    const double angle = (0.5 + half_turns) * std::numbers::pi - loss_angle_;
+    return std::exp(start_h_ - zeta_ / b_ * (angle - start_angle_));
+  }
+
+  /// G at the smallest sliding speed (y = 2 zeta): below 0 the speed has been through 0 before.
+  [[nodiscard]] bool resticks() const { return excess(0.0, -2.0 * loss_angle_) < 0.0; }
+
+  /// y at the end of slip; `angle` becomes the angle there.
+  double solve(double& angle) const {
+    double low = 0.0;
+    double high = zeta_ >= 0.0 ? start_h_ : start_h_ - 2.0 * kTurn * zeta_ / b_;
+    // The angle of an undamped end; grazing ends are parabolas in y, which Newton's steps would meet slowly from afar.
+    double h = std::clamp(start_h_ - zeta_ / b_ * (kTurn - 2.0 * start_angle_), low, high);
+    constexpr int kMaxSteps = 80;  // bisection alone needs 53 halvings to reach the last bit
+    double y = 0.0;
+    for (int step = 0; step < kMaxSteps; ++step) {
+      y = y_at(h);
+      angle = std::atan2(-b_ * y, 1.0 - zeta_ * y);
+      const double g = excess(h, angle);
+      (g < 0.0 ? low : high) = h;
+      const double change = -g * (y - zeta_) / (y - 2.0 * zeta_);
+      double next = h + change;
+      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+      const bool settled = std::abs(next - h) <= 1e-8 * std::abs(h);  // the next error is its square
+      const bool stuck = next == h;
+      h = next;
+      if (settled) {
+        angle -= b_ / (y - zeta_) * change;
+        return y_at(h);
+      }
+      if (stuck) break;
+    }
+    return y;
+  }
+
+ private:
+  static constexpr double kTurn = 2.0 * std::numbers::pi;
+
+  [[nodiscard]] double excess(double h, double angle) const {
+    return h - start_h_ + zeta_ / b_ * (kTurn + angle - start_angle_);
+  }
+  [[nodiscard]] double y_at(double h) const { return zeta_ + std::sqrt(zeta_ * zeta_ + std::expm1(2.0 * h)); }
+
+  double zeta_;
+  double b_;
+  double loss_angle_;  ///< asin zeta: by how much extremes of z lead the quarter turns
+  double start_h_ = 0.0;
+  double start_angle_ = 0.0;
+};
+
+/// End of slip: the only time between the largest and the smallest sliding speed, both in closed form, with z' = 1.
+/// Needs lambda = z0 + 2 zeta > 0 and zeta > -1.
+inline Slip solve_slip(double z0, double zeta) {
+  if (zeta >= 1.0) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    return {z0, zeta, 0.0, kNever, false, {0.0, 0.0, 0.0}};
+  }
+  const SpiralEnd spiral(z0, zeta);
+  Slip slip{z0, zeta, spiral.b(), 0.0, spiral.resticks(), {}};
+  if (!slip.resticks) {
+    slip.tau_end = tau_of_fastest_slip(z0, zeta, slip.b) + std::numbers::pi / slip.b;
+    slip.end = slip_point(z0, zeta, slip.tau_end);
+    return slip;
+  }
+  double angle = 0.0;
+  const double y = spiral.solve(angle);
+  slip.tau_end = (2.0 * std::numbers::pi + angle - spiral.start_angle()) / slip.b;
+  slip.end = {-y, 1.0, y - 2.0 * zeta};
   return slip;
+}
+
+/// SpiralEnd::extreme for any number type.
+template <class T>
+T slip_extreme(const T& z0, const T& zeta, int half_turns) {
+  using std::asin, std::atan2, std::exp, std::log1p, std::sqrt;
+  const T b = sqrt(1.0 - zeta * zeta);
+  const T start_h = 0.5 * log1p((z0 + 2.0 * zeta) * z0);
+  const T start_angle = atan2(b * z0, 1.0 + zeta * z0);
+  const T angle = (0.5 + half_turns) * std::numbers::pi - asin(zeta);
+  return exp(start_h - zeta / b * (angle - start_angle));
 }
 
 /// End of slip with derivatives: one Newton step in T from the solution in double (implicit function theorem). Where
@@ -104,15 +184,18 @@ struct WavePoint {
 };
 
 /// The slip itself, 0 <= tau <= tau_end.
-inline WavePoint slip_wave(const Slip& slip, double tau) {
-  const double decay = std::exp(-slip.zeta * tau);
-  const double c = decay * std::cos(slip.b * tau);
-  const double s = decay * std::sin(slip.b * tau) / slip.b;
+/// From c = exp(-zeta tau) cos b tau and s = exp(-zeta tau) sin(b tau) / b.
+inline WavePoint wave_from(const Slip& slip, double tau, double c, double s) {
   const double g = c + slip.zeta * s;  // d z / d z0
   const double ds_dzeta = -tau * s + slip.zeta / (slip.b * slip.b) * (s - tau * c);
   const double dg_dzeta = -tau * c + (1.0 + slip.zeta * tau) * s + slip.zeta * ds_dzeta;
   // z = z0 g + s and z' = c - (z0 + zeta) s
   return {slip.z0 * g + s, g, slip.z0 * dg_dzeta + ds_dzeta, c - (slip.z0 + slip.zeta) * s};
+}
+
+inline WavePoint slip_wave(const Slip& slip, double tau) {
+  const double decay = std::exp(-slip.zeta * tau);
+  return wave_from(slip, tau, decay * std::cos(slip.b * tau), decay * std::sin(slip.b * tau) / slip.b);
 }
 
 /// The slip as the drive or the sample side feels it: z + 2 zeta z' (docs/model.md section 7). In stick z' = 1.

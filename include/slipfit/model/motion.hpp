@@ -9,7 +9,7 @@ namespace slipfit {
 /// The sliding body on its spring: m x'' + c x' + k x (docs/model.md section 1). Mass is k / w_n^2.
 class Slider {
  public:
-  /// stiffness > 0, natural frequency > 0, damping ratio in [0, 1): finite all. Errors name parameter, value and range.
+  /// stiffness > 0, natural frequency > 0, damping ratio >= 0: finite all. Errors name parameter, value and range.
   static Result<Slider> create(double stiffness_N_per_m, double natural_frequency_rad_per_s, double damping_ratio);
 
   [[nodiscard]] double stiffness_N_per_m() const { return stiffness_N_per_m_; }
@@ -56,6 +56,7 @@ struct LimitCycle {
   double force_trough_N = 0.0;           ///< smallest spring force
   double onset_force_N = 0.0;            ///< spring force at the start of slip, F_s - cV
   double end_force_N = 0.0;              ///< spring force at the end of slip
+  double mean_force_N = 0.0;             ///< spring force over a period; F_k at zeta = 0
 };
 
 /// No cycle = no stick-slip at this speed: an answer, not an error.
@@ -66,10 +67,15 @@ struct Motion {
 };
 
 /// The exact solution of the Coulomb tier with viscous damping (docs/model.md section 4; zeta = 0 is section 2, [Paper]
-/// eqs (12)-(27)). speed > 0.
+/// eqs (12)-(27)). Relative accuracy 4e-14 for lambda from 1e-6 to 1e8. speed > 0. zeta >= 1: no cycle, continuous
+/// slip.
 Motion damped_motion(const Slider& slider, const Friction& friction, double speed_m_per_s);
 
 /// The smallest lambda at which a slip that starts from stick sticks again; 0 for zeta = 0. zeta in [0, 1).
 double critical_lambda(double damping_ratio);
+
+/// Speed above which stick-slip ends, V_c = w_n (F_s - F_k) / (k lambda_c); empty where it never ends (zeta = 0) and 0
+/// where there is none at any speed (zeta >= 1).
+std::optional<double> critical_speed_m_per_s(const Slider& slider, const Friction& friction);
 
 }  // namespace slipfit

@@ -1,0 +1,193 @@
+#include "slipfit/model/waveform.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/slip.hpp"
+
+namespace slipfit {
+namespace {
+
+/// exp(-zeta tau) cos b tau and exp(-zeta tau) sin b tau at even steps: one complex multiplication a sample, set afresh
+/// at every slip and every kFresh samples, so that rounding adds up over fewer than kFresh steps.
+class Phasor {
+ public:
+  static constexpr std::size_t kFresh = 256;
+
+  Phasor(double zeta, double b, double step_tau)
+      : zeta_(zeta),
+        b_(b),
+        turn_c_(std::exp(-zeta * step_tau) * std::cos(b * step_tau)),
+        turn_s_(std::exp(-zeta * step_tau) * std::sin(b * step_tau)) {}
+
+  void start(double tau) {
+    const double decay = std::exp(-zeta_ * tau);
+    c_ = decay * std::cos(b_ * tau);
+    s_ = decay * std::sin(b_ * tau);
+  }
+  void step() {
+    const double next = c_ * turn_c_ - s_ * turn_s_;
+    s_ = c_ * turn_s_ + s_ * turn_c_;
+    c_ = next;
+  }
+  [[nodiscard]] double c() const { return c_; }
+  [[nodiscard]] double s() const { return s_; }
+
+ private:
+  double zeta_, b_, turn_c_, turn_s_;
+  double c_ = 1.0, s_ = 0.0;
+};
+
+struct Periodic {
+  model::Slip slip;
+  double w_n = 0.0;
+  double zeta = 0.0;
+  double scale_N = 0.0;  ///< k V / w_n
+  double kinetic_N = 0.0;
+  double tau_period = 0.0;
+};
+
+std::optional<Periodic> periodic(const Slider& slider, const Friction& friction, double speed_m_per_s) {
+  Periodic p;
+  p.w_n = slider.natural_frequency_rad_per_s();
+  p.zeta = slider.damping_ratio();
+  p.scale_N = slider.stiffness_N_per_m() * speed_m_per_s / p.w_n;
+  p.kinetic_N = friction.kinetic_N();
+  const double lambda = friction.difference_N() / p.scale_N;
+  if (!(lambda > 0.0)) return std::nullopt;
+  p.slip = model::solve_slip(lambda - 2.0 * p.zeta, p.zeta);
+  if (!p.slip.resticks) return std::nullopt;
+  p.tau_period = p.slip.tau_end + p.slip.z0 - p.slip.end.z;
+  return p;
+}
+
+/// Calls `slips(first, last, tau_first)` and `sticks(first, last, tau_first, cycle)` for every stretch of samples; tau
+/// counts from the onset of the stretch's cycle.
+template <class Slips, class Sticks>
+void for_each_stretch(const Periodic& p, const SampleTimes& times, const Slips& slips, const Sticks& sticks) {
+  const double step = p.w_n * times.step_s;
+  const double begin = p.w_n * times.begin_s;
+  std::size_t first = 0;
+  auto cycle = static_cast<std::size_t>(begin / p.tau_period);
+  while (first < times.count) {
+    const double onset = static_cast<double>(cycle) * p.tau_period;
+    const auto samples_before = [&](double tau) {
+      const double samples = std::ceil((onset + tau - begin) / step);
+      return std::clamp(samples, static_cast<double>(first), static_cast<double>(times.count));
+    };
+    const auto tau_at = [&](std::size_t i) { return begin + static_cast<double>(i) * step - onset; };
+    const auto slip_last = static_cast<std::size_t>(samples_before(p.slip.tau_end));
+    for (; first < slip_last; first = std::min(slip_last, first + Phasor::kFresh)) {
+      slips(first, std::min(slip_last, first + Phasor::kFresh), tau_at(first), cycle);
+    }
+    const auto stick_last = static_cast<std::size_t>(samples_before(p.tau_period));
+    if (first < stick_last) sticks(first, stick_last, tau_at(first), cycle);
+    first = std::max(first, stick_last);
+    ++cycle;
+  }
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> damped_waveform(const Slider& slider, const Friction& friction, double speed_m_per_s,
+                                                   ForceView view, const SampleTimes& times) {
+  const std::optional<Periodic> p = periodic(slider, friction, speed_m_per_s);
+  if (!p) return std::nullopt;
+  std::vector<double> force_N(times.count);
+  const double step = p->w_n * times.step_s;
+  const double drag = view == ForceView::Spring ? 0.0 : 2.0 * p->zeta;  // z' = 1 in stick
+  // z = z0 c + (1 + zeta z0) s / b and z' = c - (z0 + zeta) s / b: one cosine and one sine weight for the view's sum.
+  const double z0 = p->slip.z0;
+  const double sine_scale = p->scale_N / p->slip.b;
+  double cosine_N = p->scale_N * (z0 + drag);
+  double sine_N = sine_scale * (1.0 + p->zeta * z0 - drag * (z0 + p->zeta));
+  if (view == ForceView::Contact) cosine_N = sine_N = 0.0;
+  Phasor phasor(p->zeta, p->slip.b, step);
+  const auto slips = [&](std::size_t first, std::size_t last, double tau, std::size_t) {
+    phasor.start(tau);
+    for (std::size_t i = first; i < last; ++i, phasor.step()) {
+      force_N[i] = p->kinetic_N + cosine_N * phasor.c() + sine_N * phasor.s();
+    }
+  };
+  const auto sticks = [&](std::size_t first, std::size_t last, double tau, std::size_t) {
+    const double start_N = p->kinetic_N + p->scale_N * (p->slip.end.z + drag + tau - p->slip.tau_end);
+    for (std::size_t i = first; i < last; ++i) {
+      force_N[i] = start_N + p->scale_N * step * static_cast<double>(i - first);
+    }
+  };
+  for_each_stretch(*p, times, slips, sticks);
+  return force_N;
+}
+
+namespace {
+
+/// Turns d force / d (z0, zeta at fixed tau, tau) of a sample into derivatives with respect to the model's parameters.
+class ChainRule {
+ public:
+  ChainRule(const Periodic& p, const Slider& slider, const Friction& friction, double speed_m_per_s)
+      : scale_N_(p.scale_N), z0_(p.slip.z0), w_n_(p.w_n) {
+    const CycleSensitivity cycle = *damped_sensitivity(slider, friction, speed_m_per_s);
+    period_ = cycle.period_s.gradient;
+    const double k = slider.stiffness_N_per_m();
+    log_scale_[kStiffness] = 1.0 / k;
+    log_scale_[kNaturalFrequency] = -1.0 / w_n_;
+    log_scale_[kDrivingSpeed] = 1.0 / speed_m_per_s;
+    // z0 = (F_s - F_k) / scale - 2 zeta
+    const double lambda = friction.difference_N() / scale_N_;
+    for (std::size_t i = 0; i < kModelParameters; ++i) z0_gradient_[i] = -lambda * log_scale_[i];
+    z0_gradient_[kStaticFriction] = 1.0 / scale_N_;
+    z0_gradient_[kKineticFriction] = -1.0 / scale_N_;
+    z0_gradient_[kDampingRatio] = -2.0;
+  }
+
+  /// tau = w_n (t - cycle * T): moves with w_n and with the period.
+  void put(const model::WavePoint& wave, double tau, std::size_t cycle, double* row) const {
+    const auto periods = static_cast<double>(cycle);
+    const double tau_by_period = -periods * w_n_ * wave.d_tau;
+    for (std::size_t i = 0; i < kModelParameters; ++i) {
+      row[i] = scale_N_ * (wave.z * log_scale_[i] + wave.d_z0 * z0_gradient_[i] + tau_by_period * period_[i]);
+    }
+    row[kDampingRatio] += scale_N_ * wave.d_zeta;
+    row[kNaturalFrequency] += scale_N_ * wave.d_tau * tau / w_n_;
+    row[kKineticFriction] += 1.0;
+  }
+
+ private:
+  double scale_N_, z0_, w_n_;
+  std::array<double, kModelParameters> period_{};
+  std::array<double, kModelParameters> log_scale_{};
+  std::array<double, kModelParameters> z0_gradient_{};
+};
+
+}  // namespace
+
+std::optional<WaveformSensitivity> damped_waveform_sensitivity(const Slider& slider, const Friction& friction,
+                                                               double speed_m_per_s, const SampleTimes& times) {
+  const std::optional<Periodic> p = periodic(slider, friction, speed_m_per_s);
+  if (!p) return std::nullopt;
+  WaveformSensitivity result{std::vector<double>(times.count), std::vector<double>(times.count * kModelParameters)};
+  const ChainRule chain(*p, slider, friction, speed_m_per_s);
+  const double step = p->w_n * times.step_s;
+  const auto put = [&](std::size_t i, const model::WavePoint& wave, double tau, std::size_t cycle) {
+    result.force_N[i] = p->kinetic_N + p->scale_N * wave.z;
+    chain.put(wave, tau, cycle, result.gradient.data() + i * kModelParameters);
+  };
+  Phasor phasor(p->zeta, p->slip.b, step);
+  const auto slips = [&](std::size_t first, std::size_t last, double tau, std::size_t cycle) {
+    phasor.start(tau);
+    for (std::size_t i = first; i < last; ++i, phasor.step(), tau += step) {
+      put(i, model::wave_from(p->slip, tau, phasor.c(), phasor.s() / p->slip.b), tau, cycle);
+    }
+  };
+  const model::StickLine line = model::stick_after(p->slip);
+  const auto sticks = [&](std::size_t first, std::size_t last, double tau_first, std::size_t cycle) {
+    for (std::size_t i = first; i < last; ++i) {
+      const double tau = tau_first + step * static_cast<double>(i - first);
+      put(i, {line.intercept + tau, line.d_z0, line.d_zeta, 1.0}, tau, cycle);
+    }
+  };
+  for_each_stretch(*p, times, slips, sticks);
+  return result;
+}
+
+}  // namespace slipfit

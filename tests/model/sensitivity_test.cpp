@@ -1,0 +1,129 @@
+#include "slipfit/model/sensitivity.hpp"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "slipfit/model/waveform.hpp"
+
+using namespace slipfit;
+
+namespace {
+
+using Values = std::array<double, kModelParameters>;
+
+Slider slider_of(const Values& p) {
+  return Slider::create(p[kStiffness], p[kNaturalFrequency], p[kDampingRatio]).value();
+}
+Friction friction_of(const Values& p) {
+  return Friction::create(p[kStaticFriction], p[kKineticFriction]).value();
+}
+
+/// Fourth-order central difference of f along parameter i: error h^4 f^(5) / 30 and round-off 1e-16 f / h.
+template <class F>
+double difference(const F& f, const Values& p, std::size_t i, double relative_step) {
+  const double h = relative_step * p[i];
+  const auto at = [&](double steps) {
+    Values q = p;
+    q[i] += steps * h;
+    return f(q);
+  };
+  return (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h);
+}
+
+Values random_values(std::mt19937_64& random) {
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  Values p{};
+  p[kStiffness] = uniform(100.0, 5000.0);
+  p[kNaturalFrequency] = uniform(20.0, 800.0);
+  p[kDampingRatio] = uniform(0.01, 0.4);
+  p[kKineticFriction] = uniform(0.5, 3.0);
+  p[kStaticFriction] = p[kKineticFriction] + uniform(0.3, 2.0);
+  const double lambda = critical_lambda(p[kDampingRatio]) * uniform(1.3, 30.0);
+  p[kDrivingSpeed] = p[kNaturalFrequency] * (p[kStaticFriction] - p[kKineticFriction]) / (p[kStiffness] * lambda);
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("derivatives of times and forces agree with fourth-order differences") {
+  std::mt19937_64 random(17);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Values p = random_values(random);
+    const auto exact = damped_sensitivity(slider_of(p), friction_of(p), p[kDrivingSpeed]);
+    REQUIRE(exact);
+    const LimitCycle cycle = *damped_motion(slider_of(p), friction_of(p), p[kDrivingSpeed]).cycle;
+    const auto check = [&](const Sensitive& sensitive, double LimitCycle::*member) {
+      CHECK(sensitive.value == Approx(cycle.*member).epsilon(1e-13).margin(1e-13));
+      const auto f = [&](const Values& q) {
+        return (*damped_motion(slider_of(q), friction_of(q), q[kDrivingSpeed]).cycle).*member;
+      };
+      for (std::size_t i = 0; i < kModelParameters; ++i) {
+        INFO("trial " << trial << " parameter " << i);
+        const double size = std::abs(cycle.*member) / p[i];
+        CHECK(sensitive.gradient[i] == Approx(difference(f, p, i, 2e-4)).epsilon(1e-7).margin(1e-7 * size));
+      }
+    };
+    check(exact->slip_s, &LimitCycle::slip_s);
+    check(exact->stick_s, &LimitCycle::stick_s);
+    check(exact->period_s, &LimitCycle::period_s);
+    check(exact->periodic_displacement_m, &LimitCycle::periodic_displacement_m);
+    check(exact->force_peak_N, &LimitCycle::force_peak_N);
+    check(exact->force_trough_N, &LimitCycle::force_trough_N);
+    check(exact->onset_force_N, &LimitCycle::onset_force_N);
+    check(exact->end_force_N, &LimitCycle::end_force_N);
+  }
+}
+
+TEST_CASE("waveforms agree with the slip solution, with events on a sample and one ulp on either side") {
+  std::mt19937_64 random(23);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Values p = random_values(random);
+    const LimitCycle cycle = *damped_motion(slider_of(p), friction_of(p), p[kDrivingSpeed]).cycle;
+    const double step_s = cycle.slip_s / 8.0;  // the end of slip falls on sample 8
+    for (const double shifted_s : {step_s, std::nextafter(step_s, 0.0), std::nextafter(step_s, 1.0)}) {
+      const SampleTimes times{0.0, shifted_s, 400};
+      const auto force_N = damped_waveform(slider_of(p), friction_of(p), p[kDrivingSpeed], ForceView::Spring, times);
+      REQUIRE(force_N);
+      INFO("trial " << trial);
+      CHECK(force_N->at(0) == Approx(cycle.onset_force_N).epsilon(1e-12));
+      CHECK(force_N->at(8) == Approx(cycle.end_force_N).epsilon(1e-10).margin(1e-10 * cycle.onset_force_N));
+      const auto [low, high] = std::minmax_element(force_N->begin(), force_N->end());
+      CHECK(*low >= cycle.force_trough_N - 1e-10 * cycle.force_peak_N);
+      CHECK(*high <= cycle.force_peak_N * (1.0 + 1e-10));
+      const auto transmitted =
+          damped_waveform(slider_of(p), friction_of(p), p[kDrivingSpeed], ForceView::Transmitted, times);
+      CHECK(transmitted->at(0) == Approx(p[kStaticFriction]).epsilon(1e-12));
+      const auto contact = damped_waveform(slider_of(p), friction_of(p), p[kDrivingSpeed], ForceView::Contact, times);
+      CHECK(contact->at(3) == Approx(p[kKineticFriction]).epsilon(1e-15));
+    }
+  }
+}
+
+TEST_CASE("waveform derivatives agree with fourth-order differences") {
+  std::mt19937_64 random(29);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Values p = random_values(random);
+    const LimitCycle cycle = *damped_motion(slider_of(p), friction_of(p), p[kDrivingSpeed]).cycle;
+    const SampleTimes times{0.37 * cycle.slip_s, cycle.period_s / 37.3, 120};
+    const auto exact = damped_waveform_sensitivity(slider_of(p), friction_of(p), p[kDrivingSpeed], times);
+    REQUIRE(exact);
+    for (std::size_t sample = 0; sample < times.count; sample += 7) {
+      const auto f = [&](const Values& q) {
+        return (*damped_waveform(slider_of(q), friction_of(q), q[kDrivingSpeed], ForceView::Spring, times))[sample];
+      };
+      CHECK(exact->force_N[sample] == Approx(f(p)).epsilon(1e-11));
+      for (std::size_t i = 0; i < kModelParameters; ++i) {
+        INFO("trial " << trial << " sample " << sample << " parameter " << i);
+        // The second derivative jumps at events: where one crosses a sample within the step, a part of h times it
+        // remains.
+        const double size = cycle.force_peak_N / p[i];
+        CHECK(exact->gradient[sample * kModelParameters + i] ==
+              Approx(difference(f, p, i, 1e-6)).epsilon(1e-6).margin(1e-5 * size));
+      }
+    }
+  }
+}
