@@ -103,6 +103,61 @@ TEST_CASE("waveforms agree with the slip solution, with events on a sample and o
   }
 }
 
+TEST_CASE("energy: what the drive gives, kinetic friction and the damper take") {
+  std::mt19937_64 random(31);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Values p = random_values(random);
+    const Slider slider = slider_of(p);
+    const LimitCycle cycle = *damped_motion(slider, friction_of(p), p[kDrivingSpeed]).cycle;
+    const std::size_t count = 20000;
+    const double step_s = cycle.period_s / static_cast<double>(count);
+    const auto waveform = [&](ForceView view) {
+      return *damped_waveform(slider, friction_of(p), p[kDrivingSpeed], view, {0.0, step_s, count});
+    };
+    const auto spring_N = waveform(ForceView::Spring);
+    const auto transmitted_N = waveform(ForceView::Transmitted);
+    const double c = slider.damping_N_s_per_m();
+    double mean_N = 0.0;
+    double damper_J = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      mean_N += spring_N[i] / static_cast<double>(count);
+      const double rate = (transmitted_N[i] - spring_N[i]) / c;  // u', the speed of the damper
+      damper_J += c * rate * rate * step_s;
+    }
+    // Trapezoids on a periodic trace with kinks: step^2, here 1e-8 of the force range.
+    CHECK(mean_N == Approx(cycle.mean_force_N).epsilon(1e-6));
+    const double drive_J = cycle.mean_force_N * cycle.periodic_displacement_m;
+    CHECK(drive_J == Approx(p[kKineticFriction] * cycle.periodic_displacement_m + damper_J).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("finite valid parameters never give a number that is not finite") {
+  std::mt19937_64 random(37);
+  const auto log_uniform = [&](double low, double high) {
+    return std::exp(std::uniform_real_distribution<double>(std::log(low), std::log(high))(random));
+  };
+  int bad = 0;
+  int cycles = 0;
+  for (int i = 0; i < 1000000; ++i) {
+    const double zeta = i % 10 == 0 ? 0.0 : log_uniform(1e-9, 10.0);
+    const auto slider = Slider::create(log_uniform(1e-6, 1e12), log_uniform(1e-4, 1e8), zeta);
+    const double kinetic_N = i % 7 == 0 ? 0.0 : log_uniform(1e-9, 1e6);
+    const auto friction = Friction::create(kinetic_N + log_uniform(1e-12, 1e6), kinetic_N);
+    const Motion motion = damped_motion(slider.value(), friction.value(), log_uniform(1e-12, 1e4));
+    if (!std::isfinite(motion.lambda)) ++bad;
+    if (!motion.cycle) continue;
+    ++cycles;
+    const LimitCycle& c = *motion.cycle;
+    for (const double value : {c.slip_s, c.stick_s, c.period_s, c.sticking_degree, c.periodic_displacement_m,
+                               c.force_peak_N, c.force_trough_N, c.onset_force_N, c.end_force_N, c.mean_force_N}) {
+      if (!std::isfinite(value)) ++bad;
+    }
+    if (!(c.slip_s > 0.0 && c.stick_s > 0.0 && c.sticking_degree <= 1.0)) ++bad;
+  }
+  CHECK(bad == 0);
+  CHECK(cycles > 100000);
+}
+
 TEST_CASE("waveform derivatives agree with fourth-order differences") {
   std::mt19937_64 random(29);
   for (int trial = 0; trial < 20; ++trial) {
