@@ -12,6 +12,8 @@ ALLOWED = {
     "model": {"core"},
     "fit": {"core", "signal", "model"},
     "predict": {"core", "model", "fit"},
+    "chart": set(),
+    "figures": {"core", "model", "chart"},
 }
 ON_TOP = {"report", "batch", "pipeline"}  # these, and apps/, may include every layer
 LAYERS = set(ALLOWED) | ON_TOP

@@ -6,4 +6,6 @@
 // cannot.
 void add_analyze_command(CLI::App& program);
 void add_fit_command(CLI::App& program);
+void add_figures_command(CLI::App& program);
 void add_simulate_command(CLI::App& program);
+void add_predict_command(CLI::App& program);

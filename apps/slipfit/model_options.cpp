@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -45,6 +47,13 @@ void add_model_options(CLI::App& command, ModelArguments& arguments) {
   command.add_option("--damping-ratio", arguments.damping_ratio, "c / (2 sqrt(k m)), below 1")->capture_default_str();
   command.add_option("--static-friction", arguments.static_friction, "F_s (N)");
   command.add_option("--kinetic-friction", arguments.kinetic_friction, "F_k (N), at most F_s");
+}
+
+bool model_given(const CLI::App& command) {
+  constexpr std::array<const char*, 6> kOptions{
+      "--stiffness", "--mass", "--natural-frequency", "--damping-ratio", "--static-friction", "--kinetic-friction"};
+  return std::any_of(kOptions.begin(), kOptions.end(),
+                     [&command](const char* name) { return command.count(name) > 0; });
 }
 
 Model model_from(const ModelArguments& arguments) {

@@ -23,6 +23,9 @@ struct Model {
 
 void add_model_options(CLI::App& command, ModelArguments& arguments);
 
+/// Whether any of the options was given.
+bool model_given(const CLI::App& command);
+
 /// Throws Failure(WrongUsage).
 Model model_from(const ModelArguments& arguments);
 

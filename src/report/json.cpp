@@ -34,7 +34,7 @@ std::string to_json(const Recording& recording, const Analysis& analysis, const 
   if (analysis.fit) {
     json["model"] = model_json(*analysis.fit, quantity);
     json["parameters"] = parameters_json(*analysis.fit);
-    json["correlation"] = correlation_json(analysis.fit->correlation);
+    json["correlation"] = correlation_json(*analysis.fit);
   }
   json["derived"] = derived_json(analysis.derived);
   if (options.timing) json["timing"] = timing_json(analysis.timing);

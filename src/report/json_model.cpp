@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "report/json_sections.hpp"
 #include "report/names.hpp"
 
@@ -15,6 +18,15 @@ Json candidate_json(const Candidate& candidate, ForceQuantity quantity) {
   return json;
 }
 
+/// With the matrix this is the whole covariance. Where zeta lies at 0 the se of the parameters is wider.
+Json scaled_errors_json(const Correlation& correlation, const ModelEstimate& estimate) {
+  Json errors = Json::array();
+  for (std::size_t i = 0; i < correlation.names.size() && i < estimate.covariance.size(); ++i) {
+    errors.push_back(number(std::sqrt(std::max(0.0, estimate.covariance[i][i]))));
+  }
+  return errors;
+}
+
 }  // namespace
 
 Json model_json(const FitResult& fit, ForceQuantity quantity) {
@@ -29,7 +41,8 @@ Json model_json(const FitResult& fit, ForceQuantity quantity) {
   return Json{{"tier", name_of(fit.tier)},
               {"conditional_on", fit.conditional_on},
               {"candidates", std::move(candidates)},
-              {"residual", std::move(residual)}};
+              {"residual", std::move(residual)},
+              {"degrees_of_freedom", fit.estimate ? number(fit.estimate->degrees_of_freedom) : Json(nullptr)}};
 }
 
 Json parameters_json(const FitResult& fit) {
@@ -44,15 +57,17 @@ Json parameters_json(const FitResult& fit) {
   return json;
 }
 
-Json correlation_json(const std::optional<Correlation>& correlation) {
-  if (!correlation) return nullptr;
+Json correlation_json(const FitResult& fit) {
+  if (!fit.correlation) return nullptr;
   Json matrix = Json::array();
-  for (const std::vector<double>& row : correlation->matrix) {
+  for (const std::vector<double>& row : fit.correlation->matrix) {
     Json cells = Json::array();
     for (const double cell : row) cells.push_back(number(cell));
     matrix.push_back(std::move(cells));
   }
-  return Json{{"names", correlation->names}, {"matrix", std::move(matrix)}};
+  Json json{{"names", fit.correlation->names}, {"matrix", std::move(matrix)}};
+  if (fit.estimate) json["scaled_se"] = scaled_errors_json(*fit.correlation, *fit.estimate);
+  return json;
 }
 
 Json derived_json(const Derived& derived) {

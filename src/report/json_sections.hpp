@@ -12,7 +12,7 @@ Json frequency_json(const FrequencyReport& frequency);
 Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity);
 Json model_json(const FitResult& fit, ForceQuantity quantity);
 Json parameters_json(const FitResult& fit);
-Json correlation_json(const std::optional<Correlation>& correlation);
+Json correlation_json(const FitResult& fit);
 Json derived_json(const Derived& derived);
 
 }  // namespace slipfit

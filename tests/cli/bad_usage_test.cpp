@@ -119,7 +119,7 @@ TEST_CASE("a simulation that makes no sense is refused") {
   refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--natural-frequency", "30"}, "--natural-frequency");
   refused({"1000", "--kinetic-friction", "4", "--mass", "0"}, "--mass");
   refused({"1000", "--kinetic-friction", "7", "--mass", "1"}, "static");
-  refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--damping-ratio", "1"}, "damping");
+  refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--damping-ratio", "-0.1"}, "damping");
   refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--noise", "-1"}, "--noise");
   refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--seed", "x"}, "--seed");
   refused({"0", "--kinetic-friction", "4", "--mass", "1"}, "--sample-rate");

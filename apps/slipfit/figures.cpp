@@ -1,0 +1,56 @@
+#include "slipfit/figures/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "model_options.hpp"
+#include "output.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct FiguresArguments {
+  std::optional<std::string> folder;
+  bool quiet = false;
+};
+
+/// Made where it is missing, but not what it stands in: a slip of the pen makes no tree.
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  if (fs::is_directory(folder, error)) return;
+  if (fs::exists(folder, error)) {
+    throw Failure(ExitCode::WrongUsage, fmt::format("--out: '{}' is a file, expected a folder", folder));
+  }
+  fs::create_directory(folder, error);
+  if (!error) return;
+  throw Failure(ExitCode::WrongUsage, fmt::format("--out: cannot make the folder '{}': {}", folder, error.message()));
+}
+
+void run(const FiguresArguments& arguments) {
+  const std::string& folder = required(arguments.folder, "--out", "the folder for the figures");
+  make_folder(folder);
+  const std::vector<slipfit::FigureFile> files = slipfit::paper_figures();
+  for (const slipfit::FigureFile& file : files)
+    write_file({"--out", (fs::path(folder) / file.name).string()}, file.content);
+  if (!arguments.quiet) say(fmt::format("wrote {} files to '{}'", files.size(), folder));
+}
+
+}  // namespace
+
+void add_figures_command(CLI::App& program) {
+  CLI::App* const command =
+      program.add_subcommand("figures", "Figures 2 to 8 of the paper and the map of regimes (CSV and SVG)");
+  const auto arguments = std::make_shared<FiguresArguments>();
+  command->add_option("--out", arguments->folder, "Write into this folder; made where it is missing");
+  command->add_flag("--quiet", arguments->quiet, "No messages on standard error but errors");
+  command->callback([arguments] { run(*arguments); });
+}

@@ -1,0 +1,201 @@
+#include "fit_document.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "json_node.hpp"
+
+namespace {
+
+struct Needed {
+  const char* name;
+  const char* expected;
+  double low;  ///< exclusive, but for the damping ratio
+  double high;
+};
+
+// The order of ModelEstimate::covariance.
+constexpr std::size_t kDamping = 2;
+constexpr std::array<Needed, 4> kNeeded{{
+    {"stiffness_N_per_m", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
+    {"natural_frequency_rad_per_s", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
+    {"damping_ratio", "a number in [0, 1)", 0.0, 1.0},
+    {"friction_difference_N", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
+}};
+
+bool is_known(const std::string& status) {
+  return status == "identified" || status == "weak" || status == "fixed";
+}
+
+/// What the fit left open, with its own words why.
+void check_known(const std::string& file, const JsonNode& parameters) {
+  std::string open;
+  std::string note;
+  for (const Needed& needed : kNeeded) {
+    if (!parameters.has(needed.name)) {
+      open += fmt::format("{}{} is absent", open.empty() ? "" : ", ", needed.name);
+      continue;
+    }
+    const JsonNode parameter = parameters.member(needed.name);
+    const std::string status = parameter.member("status").text();
+    if (is_known(status)) continue;
+    if (status != "bounded" && status != "unidentified") {
+      parameter.member("status").fail("identified, weak, bounded, unidentified or fixed");
+    }
+    open += fmt::format("{}{} is {}", open.empty() ? "" : ", ", needed.name, status);
+    if (note.empty() && parameter.has("note")) note = parameter.member("note").text();
+  }
+  if (open.empty()) return;
+  refuse_document(file, fmt::format("cannot predict: {}{}; a prediction needs all four of k, w_n, zeta and F_s - F_k",
+                                    open, note.empty() ? note : " (" + note + ")"));
+}
+
+double checked_value(const JsonNode& parameter, const Needed& needed) {
+  const JsonNode node = parameter.member("value");
+  const std::optional<double> value = node.number(needed.expected);
+  const bool above = value && (*value > needed.low || (needed.high == 1.0 && *value == needed.low));
+  if (!above || !(*value < needed.high)) node.fail(needed.expected);
+  return *value;
+}
+
+std::optional<double> checked_error(const JsonNode& node) {
+  const std::optional<double> error = node.number();
+  if (error && !(*error >= 0.0)) node.fail("a number >= 0 or null");
+  return error;
+}
+
+/// zeta held by the user, or told from 0.
+bool damping_identified(const JsonNode& damping) {
+  if (damping.member("status").text() == "fixed") return true;
+  const JsonNode bounds = damping.member("ci95");
+  if (bounds.is_null()) return false;
+  if (bounds.array_size() != 2) bounds.fail("[low, high] or null");
+  const std::optional<double> low = bounds.element(0).number();
+  return low && *low > 0.0;
+}
+
+/// Standard errors of (ln k, ln w_n, zeta, ln dF); empty where one is null.
+std::optional<std::array<double, 4>> scaled_errors(const JsonNode& parameters, const slipfit::ModelEstimate& estimate) {
+  const std::array<double, 4> scales{estimate.stiffness_N_per_m, estimate.natural_frequency_rad_per_s, 1.0,
+                                     estimate.friction_difference_N};
+  std::array<double, 4> errors{};
+  for (std::size_t i = 0; i < kNeeded.size(); ++i) {
+    const std::optional<double> error = checked_error(parameters.member(kNeeded[i].name).member("se"));
+    if (!error) return std::nullopt;
+    errors[i] = *error / scales[i];
+  }
+  return errors;
+}
+
+/// Rows of the four parameters in the correlation's matrix.
+std::array<std::size_t, 4> rows_of(const JsonNode& names) {
+  std::array<std::size_t, 4> rows{};
+  for (std::size_t i = 0; i < kNeeded.size(); ++i) {
+    std::size_t row = 0;
+    while (row < names.array_size() && names.element(row).text() != kNeeded[i].name) ++row;
+    if (row == names.array_size()) names.fail(std::string("a list with ") + kNeeded[i].name);
+    rows[i] = row;
+  }
+  return rows;
+}
+
+double correlation_between(const JsonNode& matrix, std::size_t i, std::size_t j, std::size_t size) {
+  const auto cell = [&](std::size_t row, std::size_t column) {
+    const JsonNode cells = matrix.element(row);
+    if (cells.array_size() != size) cells.fail(fmt::format("a row of {} numbers", size));
+    const JsonNode node = cells.element(column);
+    const std::optional<double> value = node.number("a number from -1 to 1");
+    constexpr double kRounding = 1e-9;
+    if (!value || std::abs(*value) > 1.0 + kRounding) node.fail("a number from -1 to 1");
+    return *value;
+  };
+  constexpr double kAsymmetry = 1e-6;
+  if (std::abs(cell(i, j) - cell(j, i)) > kAsymmetry) matrix.fail("a symmetric matrix");
+  return i == j ? 1.0 : cell(i, j);
+}
+
+/// From standard errors and correlation; leaves `model` without covariance where the document has none.
+void read_covariance(const JsonNode& document, slipfit::PredictionModel& model) {
+  std::optional<std::array<double, 4>> errors = scaled_errors(document.member("parameters"), model.estimate);
+  if (!errors || !document.has("correlation") || document.member("correlation").is_null()) return;
+  const JsonNode correlation = document.member("correlation");
+  const JsonNode names = correlation.member("names");
+  const std::array<std::size_t, 4> rows = rows_of(names);
+  const JsonNode matrix = correlation.member("matrix");
+  const std::size_t size = names.array_size();
+  if (matrix.array_size() != size) matrix.fail(fmt::format("{} rows", size));
+  if (correlation.has("scaled_se") && correlation.member("scaled_se").array_size() == size) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const std::optional<double> error = checked_error(correlation.member("scaled_se").element(rows[i]));
+      if (!error) return;
+      (*errors)[i] = *error;
+    }
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      model.estimate.covariance[i][j] =
+          (*errors)[i] * (*errors)[j] * correlation_between(matrix, rows[i], rows[j], size);
+    }
+  }
+  model.has_covariance = true;
+}
+
+std::optional<slipfit::Estimate> kinetic_friction_N(const JsonNode& parameters) {
+  if (!parameters.has("kinetic_friction_N")) return std::nullopt;
+  const JsonNode parameter = parameters.member("kinetic_friction_N");
+  const std::optional<double> value = parameter.member("value").number();
+  if (!value || !is_known(parameter.member("status").text())) return std::nullopt;
+  return slipfit::Estimate{value, checked_error(parameter.member("se")), std::nullopt, {}};
+}
+
+/// Student's t; without the key, or null, the normal distribution.
+double degrees_of_freedom(const JsonNode& document) {
+  constexpr double kNormal = std::numeric_limits<double>::infinity();
+  if (!document.has("model") || !document.member("model").has("degrees_of_freedom")) return kNormal;
+  const JsonNode node = document.member("model").member("degrees_of_freedom");
+  const std::optional<double> freedom = node.number();
+  if (freedom && !(*freedom >= 1.0)) node.fail("a number >= 1 or null");
+  return freedom.value_or(kNormal);
+}
+
+std::vector<std::string> conditions(const JsonNode& document) {
+  std::vector<std::string> texts;
+  if (!document.has("model") || !document.member("model").has("conditional_on")) return texts;
+  const JsonNode list = document.member("model").member("conditional_on");
+  for (std::size_t i = 0; i < list.array_size(); ++i) texts.push_back(list.element(i).text());
+  return texts;
+}
+
+}  // namespace
+
+FitDocument read_fit_document(const std::string& file) {
+  const nlohmann::json content = read_json(file);
+  const JsonNode document(file, content);
+  if (const JsonNode schema = document.member("schema"); schema.text() != "slipfit.fit/1") schema.fail("slipfit.fit/1");
+  if (!document.has("parameters")) {
+    refuse_document(
+        file, "has no parameters: slipfit analyze fits none, and fit found no cycles; use slipfit fit on stick-slip");
+  }
+  const JsonNode parameters = document.member("parameters");
+  if (parameters.has("alpha_s_per_m")) {
+    refuse_document(file, "has velocity-dependent friction (alpha_s_per_m): predict knows Coulomb friction only");
+  }
+  check_known(file, parameters);
+  FitDocument result;
+  slipfit::ModelEstimate& estimate = result.model.estimate;
+  const std::array<double*, 4> targets{&estimate.stiffness_N_per_m, &estimate.natural_frequency_rad_per_s,
+                                       &estimate.damping_ratio, &estimate.friction_difference_N};
+  for (std::size_t i = 0; i < kNeeded.size(); ++i) {
+    *targets[i] = checked_value(parameters.member(kNeeded[i].name), kNeeded[i]);
+  }
+  estimate.damping_identified = damping_identified(parameters.member(kNeeded[kDamping].name));
+  estimate.degrees_of_freedom = degrees_of_freedom(document);
+  read_covariance(document, result.model);
+  result.model.kinetic_friction_N = kinetic_friction_N(parameters);
+  result.conditional_on = conditions(document);
+  return result;
+}

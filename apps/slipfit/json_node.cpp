@@ -1,0 +1,103 @@
+#include "json_node.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "failure.hpp"
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kLargestDocument = std::size_t{64} << 20U;  // a thousand times a real one
+
+struct CloseFile {
+  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): the unique_ptr below is the owner
+  void operator()(std::FILE* file) const { (void)std::fclose(file); }
+};
+
+std::string content_of(const std::string& file) {
+  const std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(file.c_str(), "rb"));
+  const auto failed = [&file] {
+    refuse_document(file,
+                    fmt::format("cannot read: {}; expected the document that slipfit fit --json --out FIT.json writes",
+                                std::strerror(errno)));
+  };
+  if (!stream) failed();
+  std::string content;
+  std::array<char, 65536> part{};
+  while (const std::size_t count = std::fread(part.data(), 1, part.size(), stream.get())) {
+    content.append(part.data(), count);
+    if (content.size() > kLargestDocument) refuse_document(file, "is too large for a fit document (64 MiB at most)");
+  }
+  if (std::ferror(stream.get()) != 0) failed();
+  return content;
+}
+
+}  // namespace
+
+void refuse_document(const std::string& file, const std::string& message) {
+  throw Failure(ExitCode::WrongUsage, fmt::format("'{}': {}", file, message));
+}
+
+json read_json(const std::string& file) {
+  const std::string content = content_of(file);
+  try {
+    return json::parse(content);
+  } catch (const json::parse_error& error) {
+    const std::size_t read = std::min(error.byte, content.size());
+    const auto lines = std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(read), '\n');
+    refuse_document(fmt::format("{}:{}", file, lines + 1),
+                    "is not one JSON document, expected what slipfit fit --json --out FIT.json writes");
+  } catch (const json::exception&) {
+    refuse_document(file, "has a number that is too large, expected what slipfit fit --json --out FIT.json writes");
+  }
+}
+
+JsonNode JsonNode::member(const std::string& key) const {
+  if (!content_.is_object()) fail("an object");
+  const auto found = content_.find(key);
+  if (found == content_.end()) {
+    refuse_document(file_,
+                    fmt::format("{} is missing: write the document again with slipfit fit --json", place_of(key)));
+  }
+  return {file_, *found, place_of(key)};
+}
+
+JsonNode JsonNode::element(std::size_t index) const {
+  return {file_, content_.at(index), fmt::format("{}[{}]", place_, index)};
+}
+
+std::size_t JsonNode::array_size() const {
+  if (!content_.is_array()) fail("a list");
+  return content_.size();
+}
+
+std::string JsonNode::text() const {
+  if (!content_.is_string()) fail("a text");
+  return content_.get<std::string>();
+}
+
+std::optional<double> JsonNode::number(const std::string& expected) const {
+  if (content_.is_null()) return std::nullopt;
+  if (!content_.is_number()) fail(expected);
+  return content_.get<double>();
+}
+
+void JsonNode::fail(const std::string& expected) const {
+  std::string shown = content_.dump(-1, ' ', true, json::error_handler_t::replace);
+  constexpr std::size_t kLongest = 40;
+  if (shown.size() > kLongest) shown = shown.substr(0, kLongest) + "...";
+  refuse_document(file_,
+                  fmt::format("{} is {}, expected {}", place_.empty() ? "the document" : place_, shown, expected));
+}
+
+std::string JsonNode::place_of(const std::string& key) const {
+  return place_.empty() ? key : place_ + "." + key;
+}

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+/// Throws Failure(WrongUsage) about a document.
+[[noreturn]] void refuse_document(const std::string& file, const std::string& message);
+
+/// The one JSON document of a file. Throws Failure(WrongUsage).
+nlohmann::json read_json(const std::string& file);
+
+/// A value in a document that others wrote. What is missing or of another kind throws Failure(WrongUsage) that names
+/// file, place and value: "'fit.json': parameters.damping_ratio.value is "0.1", expected ...".
+class JsonNode {
+ public:
+  /// The document itself; both outlive the nodes.
+  JsonNode(const std::string& file, const nlohmann::json& content) : file_(file), content_(content) {}
+
+  [[nodiscard]] bool is_null() const { return content_.is_null(); }
+  [[nodiscard]] bool has(const std::string& key) const { return content_.contains(key); }
+  [[nodiscard]] JsonNode member(const std::string& key) const;
+  [[nodiscard]] JsonNode element(std::size_t index) const;  ///< index < array_size()
+  [[nodiscard]] std::size_t array_size() const;
+  [[nodiscard]] std::string text() const;
+  /// Empty where it is null.
+  [[nodiscard]] std::optional<double> number(const std::string& expected = "a number or null") const;
+  [[noreturn]] void fail(const std::string& expected) const;
+
+ private:
+  JsonNode(const std::string& file, const nlohmann::json& content, std::string place)
+      : file_(file), content_(content), place_(std::move(place)) {}
+  [[nodiscard]] std::string place_of(const std::string& key) const;
+
+  const std::string& file_;
+  const nlohmann::json& content_;
+  std::string place_;
+};

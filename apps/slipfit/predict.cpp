@@ -1,0 +1,168 @@
+#include "slipfit/predict/prediction.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "fit_document.hpp"
+#include "model_options.hpp"
+#include "output.hpp"
+#include "quantities.hpp"
+#include "slipfit/report/prediction.hpp"
+
+using slipfit::Dimension;
+
+namespace {
+
+constexpr std::size_t kMostSpeeds = 100'000;  // about 100 MB of JSON: more is a slip of the pen
+
+struct PredictArguments {
+  std::optional<std::string> file;
+  std::optional<std::string> speeds;
+  ModelArguments model;
+  bool json = false;
+  bool quiet = false;
+  std::optional<std::string> out;
+  std::optional<std::string> csv;
+};
+
+void add_options(CLI::App& command, PredictArguments& arguments) {
+  command.add_option("FIT.json", arguments.file, "Document of slipfit fit --json; or the model options in its place");
+  command.add_option("--speeds", arguments.speeds,
+                     "A:B:N, N speeds from A to B in equal ratios: 1mm/s:1m/s:50; or a list: 5mm/s,10mm/s");
+  add_model_options(command, arguments.model);
+  command.add_flag("--json", arguments.json, "One JSON document in place of the table");
+  command.add_option("--out", arguments.out, "Write the table or the JSON document to this file");
+  command.add_option("--csv", arguments.csv, "Write one row a speed: value, low and high of every quantity (CSV)");
+  command.add_flag("--quiet", arguments.quiet, "No messages on standard error but errors");
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t start = 0;
+  for (std::size_t end = 0; end != std::string::npos; start = end + 1) {
+    end = text.find(separator, start);
+    parts.push_back(text.substr(start, end == std::string::npos ? end : end - start));
+  }
+  return parts;
+}
+
+[[noreturn]] void refuse_speeds(const std::string& message) {
+  throw Failure(ExitCode::WrongUsage, "--speeds: " + message);
+}
+
+std::size_t number_of_speeds(const std::string& text) {
+  std::size_t count = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, count);
+  if (status != std::errc() || stop != end || count < 2 || count > kMostSpeeds) {
+    refuse_speeds(fmt::format("bad number of speeds '{}', expected A:B:N with N from 2 to {}", text, kMostSpeeds));
+  }
+  return count;
+}
+
+/// N speeds from A to B in equal ratios, both ends exact.
+std::vector<double> speed_range(const std::vector<std::string>& parts) {
+  const double first = positive_quantity("--speeds", parts[0], Dimension::Speed);
+  const double last = positive_quantity("--speeds", parts[1], Dimension::Speed);
+  const std::size_t count = number_of_speeds(parts[2]);
+  if (!(first < last)) {
+    refuse_speeds(fmt::format("'{}' is not below '{}', expected A:B:N with A < B", parts[0], parts[1]));
+  }
+  std::vector<double> speeds(count, last);
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+    speeds[i] = first * std::exp(share * (std::log(last) - std::log(first)));
+  }
+  return speeds;
+}
+
+std::vector<double> speeds_from(const std::string& text) {
+  if (text.find(':') != std::string::npos) {
+    const std::vector<std::string> parts = split(text, ':');
+    if (parts.size() != 3) refuse_speeds(fmt::format("bad range '{}', expected A:B:N", text));
+    return speed_range(parts);
+  }
+  std::vector<double> speeds;
+  for (const std::string& part : split(text, ',')) {
+    speeds.push_back(positive_quantity("--speeds", part, Dimension::Speed));
+  }
+  if (speeds.size() > kMostSpeeds) refuse_speeds(fmt::format("more than {} speeds", kMostSpeeds));
+  return speeds;
+}
+
+std::vector<OutputFile> outputs_of(const PredictArguments& arguments) {
+  std::vector<OutputFile> outputs;
+  if (arguments.out) outputs.push_back({"--out", *arguments.out});
+  if (arguments.csv) outputs.push_back({"--csv", *arguments.csv});
+  return outputs;
+}
+
+void check_places(const PredictArguments& arguments) {
+  for (const OutputFile& output : outputs_of(arguments)) {
+    std::error_code ignored;
+    if (!arguments.file || !std::filesystem::equivalent(output.file, *arguments.file, ignored)) continue;
+    throw Failure(ExitCode::WrongUsage,
+                  fmt::format("{}: '{}' is the fit document itself, choose another file", output.option, output.file));
+  }
+  check_outputs(outputs_of(arguments), "");
+}
+
+/// A model, and where it comes from.
+struct Basis {
+  slipfit::PredictionModel model;
+  slipfit::PredictionSource source;
+};
+
+Basis basis_from(const PredictArguments& arguments, const CLI::App& command) {
+  const bool stated = model_given(command);
+  if (arguments.file && stated) {
+    throw Failure(ExitCode::WrongUsage,
+                  fmt::format("give either '{}' or the model options (--stiffness, ...), not both", *arguments.file));
+  }
+  if (arguments.file) {
+    FitDocument document = read_fit_document(*arguments.file);
+    return {std::move(document.model), {*arguments.file, std::move(document.conditional_on)}};
+  }
+  if (!stated) {
+    throw Failure(ExitCode::WrongUsage,
+                  "the model is missing: give FIT.json (from slipfit fit --json --out FIT.json), or --stiffness, "
+                  "--natural-frequency, --damping-ratio, --static-friction and --kinetic-friction");
+  }
+  const Model model = model_from(arguments.model);
+  return {slipfit::stated_model(model.slider, model.friction), {"command line", {}}};
+}
+
+void run(const PredictArguments& arguments, const CLI::App& command) {
+  const std::vector<double> speeds_m_per_s =
+      speeds_from(required(arguments.speeds, "--speeds", "A:B:N or a list, for example --speeds 1mm/s:1m/s:50"));
+  check_places(arguments);
+  const Basis basis = basis_from(arguments, command);
+  const slipfit::Prediction prediction = slipfit::predict_at(basis.model, speeds_m_per_s);
+  const std::string document =
+      arguments.json ? slipfit::to_json(prediction, basis.source) + "\n" : slipfit::to_text(prediction, basis.source);
+  for (const OutputFile& output : outputs_of(arguments)) {
+    write_file(output, output.option == "--csv" ? slipfit::prediction_to_csv(prediction) : document);
+    if (!arguments.quiet) say(fmt::format("wrote '{}'", output.file));
+  }
+  if (!arguments.out) write_standard_output(document);
+}
+
+}  // namespace
+
+void add_predict_command(CLI::App& program) {
+  CLI::App* const command =
+      program.add_subcommand("predict", "Period, frequency and spacing at other speeds; where stick-slip ends");
+  const auto arguments = std::make_shared<PredictArguments>();
+  add_options(*command, *arguments);
+  command->callback([arguments, command] { run(*arguments, *command); });
+}

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "chart/chart.hpp"
+
+namespace slipfit::chart {
+
+struct Tick {
+  double value = 0.0;
+  std::string text;  ///< empty: a grid line only
+};
+
+/// Steps of 1, 2 or 5 times a power of ten, at most eight of them; decades with their parts on a logarithmic axis.
+std::vector<Tick> ticks_of(const Axis& axis);
+
+}  // namespace slipfit::chart

@@ -1,0 +1,59 @@
+#include "figures/scaled.hpp"
+
+#include <cmath>
+
+#include "model/slip.hpp"
+
+namespace slipfit::figures {
+
+Slider scaled_slider(double damping_ratio) {
+  return Slider::create(1.0, 1.0, damping_ratio).value();
+}
+
+Friction scaled_friction(double lambda) {
+  return Friction::create(lambda, 0.0).value();
+}
+
+Motion scaled_motion(double lambda, double damping_ratio) {
+  return damped_motion(scaled_slider(damping_ratio), scaled_friction(lambda), 1.0);
+}
+
+Result<PaperCycle> scaled_paper_cycle(double lambda, double damping_ratio) {
+  return paper_cycle(scaled_slider(damping_ratio), scaled_friction(lambda), 1.0);
+}
+
+double first_solvable_lambda(double damping_ratio) {
+  double low = 0.0;
+  double high = 1.0;
+  while (!scaled_paper_cycle(high, damping_ratio)) {
+    low = high;
+    high *= 2.0;
+  }
+  constexpr int kMaxHalvings = 60;  // to the last bit of a double
+  for (int halving = 0; halving < kMaxHalvings; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (scaled_paper_cycle(middle, damping_ratio) ? high : low) = middle;
+  }
+  return high;
+}
+
+double sticking_degree_at_limit(double damping_ratio) {
+  const double z0 = critical_lambda(damping_ratio) - 2.0 * damping_ratio;
+  const model::Slip slip = model::solve_slip(z0, damping_ratio);
+  const double stick = z0 - slip.end.z;
+  return stick / (stick + slip.tau_end);
+}
+
+std::vector<double> evenly_spaced(double low, double high, int intervals) {
+  std::vector<double> values;
+  for (int i = 0; i <= intervals; ++i) values.push_back(low + (high - low) * i / intervals);
+  return values;
+}
+
+std::vector<double> logarithmically_spaced(double low, double high, int intervals) {
+  std::vector<double> values;
+  for (int i = 0; i <= intervals; ++i) values.push_back(low * std::pow(high / low, static_cast<double>(i) / intervals));
+  return values;
+}
+
+}  // namespace slipfit::figures

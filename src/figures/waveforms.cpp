@@ -1,0 +1,113 @@
+// Figures 5 and 6: one undamped cycle in time, from the beginning of the slip.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "chart/chart.hpp"
+#include "figures/parts.hpp"
+#include "figures/scaled.hpp"
+#include "figures/table.hpp"
+#include "model/slip.hpp"
+
+namespace slipfit::figures {
+namespace {
+
+using chart::Colour, chart::Stroke;
+
+constexpr std::array<Colour, 4> kColours{Colour::Blue, Colour::Vermillion, Colour::Green, Colour::Purple};
+constexpr std::array<double, 4> kLambdas{0.5, 1.0, 2.0, 5.0};          // assumed
+constexpr std::array<double, 4> kFrictionRatios{1.25, 1.5, 2.0, 2.5};  // assumed but for 2.5
+constexpr double kForceLambda = 2.0;                                   // figure 6
+const std::string kTimeLabel = "time since the slip began, τ = ωₙ t  [rad]";
+
+/// Spring force above F_k in k V / w_n, and the sliding speed in V.
+struct State {
+  double z = 0.0;
+  double speed_ratio = 0.0;
+};
+
+/// The undamped cycle repeats after slip and stick; [Paper] eqs (25)-(27).
+State state_at(const model::Slip& slip, double tau) {
+  const double stick = slip.z0 - slip.end.z;
+  const double phase = std::fmod(tau, slip.tau_end + stick);
+  if (phase >= slip.tau_end) return {slip.end.z + phase - slip.tau_end, 0.0};
+  const model::SlipPoint<double> point = model::slip_point(slip.z0, 0.0, phase);
+  return {point.z, std::max(0.0, 1.0 - point.dz)};  // round-off at the very start of slip
+}
+
+/// Even steps, with the ends of slip and of stick among them.
+std::vector<double> times_of(const model::Slip& slip, int cycles) {
+  const double period = slip.tau_end + slip.z0 - slip.end.z;
+  std::vector<double> times = evenly_spaced(0.0, cycles * period, 200 * cycles);
+  for (int cycle = 0; cycle < cycles; ++cycle) times.push_back(cycle * period + slip.tau_end);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+}  // namespace
+
+std::vector<FigureFile> velocity_ratio() {
+  Table table({"figure 5 of the paper: undamped, eq. (25) with the phase atan(lambda) - pi; one period from slip onset",
+               "assumed: the values of lambda, which the paper's text does not give"},
+              {"assumed_lambda", "tau_rad", "velocity_ratio"});
+  chart::Panel panel;
+
+  for (std::size_t i = 0; i < kLambdas.size(); ++i) {
+    const model::Slip slip = model::solve_slip(kLambdas.at(i), 0.0);
+    chart::Line line{fmt::format("λ = {}", kLambdas.at(i)), kColours.at(i), Stroke::Solid, {}};
+    for (const double tau : times_of(slip, 1)) {
+      const double ratio = state_at(slip, tau).speed_ratio;
+      table.add({kLambdas.at(i), tau, ratio});
+      line.points.push_back({tau, ratio});
+    }
+    panel.markers.push_back({"", kColours.at(i), chart::Shape::Ring, {{slip.tau_end, 0.0}}});
+    panel.markers.push_back({"", kColours.at(i), chart::Shape::Cross, {{line.points.back().x, 0.0}}});
+    panel.lines.push_back(line);
+  }
+  panel.x = {kTimeLabel, 0.0, 14.0, chart::Scale::Linear};
+  panel.y = {"velocity ratio v* = (sliding speed) / V  [-]", 0.0, 6.5, chart::Scale::Linear};
+  panel.legend = {1.0, 1.0};
+  panel.markers.push_back({"end of slip", Colour::Grey, chart::Shape::Ring, {}});
+  panel.markers.push_back({"end of stick", Colour::Grey, chart::Shape::Cross, {}});
+  const chart::Chart chart{"Figure 5: velocity ratio in one period, undamped",
+                           {"Exact: the paper's eq. (25) with the phase of eq. (14) corrected to atan λ − π.",
+                            "Assumed: the values of λ, which the text of the paper does not give."},
+                           {panel}};
+  return {{"figure_5.csv", table.csv()}, {"figure_5.svg", to_svg(chart)}};
+}
+
+std::vector<FigureFile> spring_force() {
+  Table table({"figure 6 of the paper: undamped, eqs (26) and (27), lambda = 2; two periods from slip onset",
+               "assumed: friction_ratio 1.25, 1.5 and 2; the paper's text gives 2.5 only"},
+              {"assumed_friction_ratio", "tau_rad", "normalized_spring_force"});
+  const model::Slip slip = model::solve_slip(kForceLambda, 0.0);
+  const std::vector<double> times = times_of(slip, 2);
+  chart::Panel panel;
+  for (std::size_t i = 0; i < kFrictionRatios.size(); ++i) {
+    const double ratio = kFrictionRatios.at(i);
+    chart::Line line{
+        fmt::format("γ = {}{}", ratio, ratio == 2.5 ? "" : " (assumed)"), kColours.at(i), Stroke::Solid, {}};
+    for (const double tau : times) {
+      const double force = 1.0 / (ratio - 1.0) + state_at(slip, tau).z / kForceLambda;  // [Paper] eqs (26), (27)
+      table.add({ratio, tau, force});
+      line.points.push_back({tau, force});
+    }
+    panel.lines.push_back(line);
+  }
+  panel.x = {kTimeLabel, 0.0, 17.0, chart::Scale::Linear};
+  panel.y = {"spring force Fₑ* = Fₑ / (Fₛ − Fₖ)  [-]", -1.0, 8.0, chart::Scale::Linear};
+  panel.legend = {1.0, 1.0};
+  panel.areas = {{"spring in compression", Colour::Grey, chart::Fill::Plain, {{0, -1}, {0, 0}, {17, 0}, {17, -1}}}};
+  const chart::Chart chart{"Figure 6: spring force in two periods at λ = 2, undamped",
+                           {"Exact; so are the paper's eqs (26) and (27). γ = Fₛ/Fₖ.",
+                            "Assumed: the values of γ but for 2.5, which the text of the paper gives."},
+                           {panel}};
+  return {{"figure_6.csv", table.csv()}, {"figure_6.svg", to_svg(chart)}};
+}
+
+}  // namespace slipfit::figures

@@ -1,0 +1,137 @@
+#include "predict/delta.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "model/slip.hpp"
+#include "slipfit/model/sensitivity.hpp"
+
+namespace slipfit::predict {
+namespace {
+
+/// A quantity whose logarithm is parameter i.
+Jet positive_parameter(double value, int i) {
+  Jet jet(value);
+  jet.v[i] = value;
+  return jet;
+}
+
+struct Body {
+  Slider slider;
+  Friction friction;
+};
+
+/// With F_k = 0: only the difference matters here.
+Body body_of(const ModelEstimate& model) {
+  auto slider = Slider::create(model.stiffness_N_per_m, model.natural_frequency_rad_per_s, model.damping_ratio);
+  auto friction = Friction::create(model.friction_difference_N, 0.0);
+  assert(slider && friction);
+  return {std::move(slider).value(), std::move(friction).value()};
+}
+
+/// From derivatives with respect to the parameters to those with respect to their logarithms. At F_k = 0 the static
+/// friction is the difference.
+Jet jet_of(const Sensitive& quantity, const ModelEstimate& model) {
+  Jet jet(quantity.value);
+  jet.v[0] = quantity.gradient[kStiffness] * model.stiffness_N_per_m;
+  jet.v[1] = quantity.gradient[kNaturalFrequency] * model.natural_frequency_rad_per_s;
+  jet.v[2] = quantity.gradient[kDampingRatio];
+  jet.v[3] = quantity.gradient[kStaticFriction] * model.friction_difference_N;
+  return jet;
+}
+
+}  // namespace
+
+ModelJets jets_of(const ModelEstimate& model) {
+  return {positive_parameter(model.stiffness_N_per_m, 0), positive_parameter(model.natural_frequency_rad_per_s, 1),
+          Jet(model.damping_ratio, 2), positive_parameter(model.friction_difference_N, 3)};
+}
+
+Propagation::Propagation(const ModelEstimate& model) : model_(model) {
+  const boost::math::students_t_distribution<double> student(std::max(1.0, model.degrees_of_freedom));
+  quantile_ = boost::math::quantile(student, 0.975);
+}
+
+double Propagation::standard_error(const Jet& y) const {
+  double variance = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      variance += y.v[i] * model_.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * y.v[j];
+    }
+  }
+  return std::sqrt(std::max(0.0, variance));  // rounding may leave a small negative number
+}
+
+Estimate Propagation::positive(const Jet& y) const {
+  const double relative = standard_error(y) / y.a;
+  const double factor = std::exp(quantile_ * relative);
+  return {y.a, relative * y.a, Interval{y.a / factor, y.a * factor}, {}};
+}
+
+Estimate unknown(std::string reason) {
+  return {std::nullopt, std::nullopt, std::nullopt, std::move(reason)};
+}
+
+CriticalPoint critical_point(const ModelEstimate& model, const Propagation& propagation) {
+  if (!model.damping_identified) {
+    const Estimate reason = unknown("the damping ratio cannot be told from 0");
+    return {reason, reason};
+  }
+  if (!(model.damping_ratio > 0.0)) {
+    return {{0.0, std::nullopt, std::nullopt, {}}, unknown("without damping there is stick-slip at every speed")};
+  }
+  if (model.damping_ratio >= 1.0) {
+    const std::string reason = "no stick-slip at any speed: the damping ratio is not below 1";
+    return {unknown(reason), {0.0, std::nullopt, std::nullopt, reason}};
+  }
+  const ModelJets p = jets_of(model);
+  const double solution = critical_lambda(model.damping_ratio);
+  // One Newton step in dual numbers: derivatives of the root by the implicit function theorem.
+  const ceres::Jet<double, 1> at(solution, 0);
+  const double slope = model::restick_margin(at, ceres::Jet<double, 1>(model.damping_ratio)).v[0];
+  const Jet critical = Jet(solution) - model::restick_margin(Jet(solution), p.damping_ratio) / slope;
+  // V_c = w_n (F_s - F_k) / (k lambda_c). docs/model.md (6)
+  return {propagation.positive(critical),
+          propagation.positive(p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * critical))};
+}
+
+std::optional<CycleJets> cycle_jets(const ModelEstimate& model, double speed_m_per_s) {
+  const auto [slider, friction] = body_of(model);
+  const std::optional<CycleSensitivity> cycle = damped_sensitivity(slider, friction, speed_m_per_s);
+  if (!cycle) return std::nullopt;
+  return CycleJets{jet_of(cycle->slip_s, model),       jet_of(cycle->stick_s, model),
+                   jet_of(cycle->period_s, model),     jet_of(cycle->periodic_displacement_m, model),
+                   jet_of(cycle->force_peak_N, model), jet_of(cycle->force_trough_N, model)};
+}
+
+Motion motion_of(const ModelEstimate& model, double speed_m_per_s) {
+  const auto [slider, friction] = body_of(model);
+  return damped_motion(slider, friction, speed_m_per_s);
+}
+
+Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s) {
+  const Jet damped_omega = model.omega_rad_per_s * sqrt(1.0 - model.damping_ratio * model.damping_ratio);
+  return 2.0 * std::numbers::pi * speed_m_per_s / damped_omega;
+}
+
+std::string name_of(Regime regime) {
+  switch (regime) {
+    case Regime::StickSlip:
+      return "stick_slip";
+    case Regime::StickSlipBistable:
+      return "stick_slip_bistable";
+    case Regime::OscillatorySlip:
+      return "oscillatory_slip";
+    case Regime::ContinuousSlip:
+      return "continuous_slip";
+    case Regime::UnstableSteady:
+      return "unstable_steady";
+  }
+  return {};
+}
+
+}  // namespace slipfit::predict

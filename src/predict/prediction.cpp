@@ -1,0 +1,131 @@
+#include "slipfit/predict/prediction.hpp"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "model/slip.hpp"
+#include "predict/delta.hpp"
+
+namespace slipfit {
+namespace {
+
+using predict::Jet;
+
+class Predictor {
+ public:
+  explicit Predictor(const PredictionModel& model)
+      : model_(model),
+        propagation_(model.estimate),
+        jets_(predict::jets_of(model.estimate)),
+        critical_(predict::critical_point(model.estimate, propagation_)) {
+    if (!model.has_covariance) {
+      critical_ = {without_interval(critical_.lambda), without_interval(critical_.speed_m_per_s)};
+    }
+  }
+
+  [[nodiscard]] const predict::CriticalPoint& critical() const { return critical_; }
+
+  [[nodiscard]] PredictedMotion motion_at(double speed_m_per_s) const {
+    PredictedMotion row;
+    row.speed_m_per_s = speed_m_per_s;
+    const Jet lambda = jets_.omega_rad_per_s * jets_.difference_N / (jets_.stiffness_N_per_m * speed_m_per_s);
+    row.lambda = positive(lambda);
+    const Motion motion = predict::motion_of(model_.estimate, speed_m_per_s);
+    row.regime = predict::name_of(motion.regime);
+    row.bistable = motion.regime == Regime::StickSlipBistable;
+    if (const auto cycle = predict::cycle_jets(model_.estimate, speed_m_per_s)) add_cycle(*cycle, row);
+    if (is_doubtful(lambda, speed_m_per_s)) withdraw_intervals(row);
+    return row;
+  }
+
+ private:
+  static Estimate without_interval(const Estimate& estimate) {
+    return {estimate.value, std::nullopt, std::nullopt, estimate.note};
+  }
+
+  [[nodiscard]] Estimate positive(const Jet& y) const {
+    return model_.has_covariance ? propagation_.positive(y) : Estimate{y.a, std::nullopt, std::nullopt, {}};
+  }
+
+  /// part / (part + rest): the interval is symmetric in the logarithm of part / rest, which keeps it between 0 and 1.
+  [[nodiscard]] Estimate share(const Jet& part, const Jet& rest) const {
+    Estimate ratio = positive(part / rest);
+    const auto share_of = [](double x) { return x / (1.0 + x); };
+    const double value = (part / (part + rest)).a;
+    if (!ratio.ci95) return {value, std::nullopt, std::nullopt, {}};
+    return {value, propagation_.standard_error(part / (part + rest)),
+            Interval{share_of(ratio.ci95->low), share_of(ratio.ci95->high)}, std::string{}};
+  }
+
+  /// F_k plus a force of the cycle. How the two go together is not known: the sum of the standard errors is the most
+  /// that the standard error of the sum can be.
+  [[nodiscard]] Estimate force(const Jet& above_kinetic_N) const {
+    if (!model_.kinetic_friction_N || !model_.kinetic_friction_N->value) return predict::unknown("F_k is not known");
+    const double value = *model_.kinetic_friction_N->value + above_kinetic_N.a;
+    const std::optional<double> kinetic_se = model_.kinetic_friction_N->standard_error;
+    if (!model_.has_covariance || !kinetic_se) return {value, std::nullopt, std::nullopt, {}};
+    const double se = *kinetic_se + propagation_.standard_error(above_kinetic_N);
+    const double reach = propagation_.quantile() * se;
+    return {value, se, Interval{value - reach, value + reach}, {}};
+  }
+
+  void add_cycle(const predict::CycleJets& cycle, PredictedMotion& row) const {
+    row.period_s = positive(cycle.period_s);
+    row.frequency_Hz = positive(1.0 / cycle.period_s);
+    row.slip_time_s = positive(cycle.slip_s);
+    row.stick_time_s = positive(cycle.stick_s);
+    row.sticking_degree = share(cycle.stick_s, cycle.slip_s);
+    row.periodic_displacement_m = positive(cycle.periodic_displacement_m);
+    row.micro_vibration_spacing_m = positive(predict::micro_vibration_spacing_m(jets_, row.speed_m_per_s));
+    row.force_peak_N = force(cycle.force_peak_N);
+    row.force_trough_N = force(cycle.force_trough_N);
+  }
+
+  /// Near its end the cycle changes with the square root of the distance: the delta method fails there. The margin is
+  /// nearly linear in zeta and ln lambda, so it tells also where zeta, and with it the critical speed, is unknown.
+  [[nodiscard]] bool is_doubtful(const Jet& lambda, double speed_m_per_s) const {
+    if (!model_.has_covariance) return false;
+    const std::optional<Interval>& critical = critical_.speed_m_per_s.ci95;
+    if (critical && critical->low <= speed_m_per_s && speed_m_per_s <= critical->high) return true;
+    const Jet margin = model::restick_margin(lambda, jets_.damping_ratio);
+    return std::abs(margin.a) <= propagation_.quantile() * propagation_.standard_error(margin);
+  }
+
+  static void withdraw_intervals(PredictedMotion& row) {
+    row.note =
+        "within the uncertainty of the critical speed: the data cannot tell whether there is stick-slip at this speed";
+    for (Estimate* const quantity :
+         {&row.period_s, &row.frequency_Hz, &row.slip_time_s, &row.stick_time_s, &row.sticking_degree,
+          &row.periodic_displacement_m, &row.micro_vibration_spacing_m, &row.force_peak_N, &row.force_trough_N}) {
+      *quantity = without_interval(*quantity);
+    }
+  }
+
+  const PredictionModel& model_;
+  predict::Propagation propagation_;
+  predict::ModelJets jets_;
+  predict::CriticalPoint critical_;
+};
+
+}  // namespace
+
+PredictionModel stated_model(const Slider& slider, const Friction& friction) {
+  PredictionModel model;
+  model.estimate.stiffness_N_per_m = slider.stiffness_N_per_m();
+  model.estimate.natural_frequency_rad_per_s = slider.natural_frequency_rad_per_s();
+  model.estimate.damping_ratio = slider.damping_ratio();
+  model.estimate.friction_difference_N = friction.difference_N();
+  model.estimate.damping_identified = true;
+  model.kinetic_friction_N = Estimate{friction.kinetic_N(), std::nullopt, std::nullopt, {}};
+  return model;
+}
+
+Prediction predict_at(const PredictionModel& model, std::span<const double> speeds_m_per_s) {
+  const Predictor predictor(model);
+  Prediction prediction{predictor.critical().speed_m_per_s, predictor.critical().lambda, {}};
+  for (const double speed_m_per_s : speeds_m_per_s) prediction.rows.push_back(predictor.motion_at(speed_m_per_s));
+  return prediction;
+}
+
+}  // namespace slipfit

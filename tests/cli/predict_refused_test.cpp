@@ -1,0 +1,161 @@
+#include <catch2/catch.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "fit_example.hpp"
+#include "run_program.hpp"
+
+using nlohmann::json;
+using test::slipfit;
+
+TEST_CASE("a fit document that leaves the motion open is refused with what is open and why") {
+  const test::FitExample example;
+  const auto refused = [&example](const std::function<void(json&)>& change, const std::string& part) {
+    json document = example.document();
+    change(document);
+    test::check_one_line_refusal({"predict", example.folder.file("changed.json", document.dump()), "--speeds", "0.1"},
+                                 part);
+  };
+  refused(
+      [](json& d) {
+        d["parameters"]["friction_difference_N"]["status"] = "bounded";
+        d["parameters"]["friction_difference_N"]["note"] = "between half of the drop\nand the drop";
+      },
+      "friction_difference_N is bounded (between half of the drop?and the drop)");
+  refused(
+      [](json& d) {
+        for (const char* const name : {"natural_frequency_rad_per_s", "damping_ratio"}) {
+          d["parameters"][name] = {
+              {"value", nullptr}, {"se", nullptr}, {"ci95", nullptr}, {"status", "unidentified"}, {"note", "too slow"}};
+        }
+      },
+      "natural_frequency_rad_per_s is unidentified, damping_ratio is unidentified (too slow)");
+  refused([](json& d) { d["parameters"].erase("damping_ratio"); }, "damping_ratio is absent");
+  refused([](json& d) { d.erase("parameters"); }, "no parameters");
+  refused([](json& d) { d["parameters"]["alpha_s_per_m"] = json::object(); }, "velocity-dependent");
+  const std::string analysed =
+      example.folder.file("analysed.json", slipfit({"analyze", example.recording, "--speed", "20mm/s", "--json"}).out);
+  test::check_one_line_refusal({"predict", analysed, "--speeds", "0.1"}, "no parameters");
+}
+
+TEST_CASE("numbers that a fit cannot have written are refused with their place") {
+  const test::FitExample example;
+  const auto refused = [&example](const char* pointer, const json& value, const std::string& part) {
+    json document = example.document();
+    document[json::json_pointer(pointer)] = value;
+    test::check_one_line_refusal({"predict", example.folder.file("changed.json", document.dump()), "--speeds", "0.1"},
+                                 part);
+  };
+  refused("/schema", "slipfit.predict/1", "schema is \"slipfit.predict/1\", expected slipfit.fit/1");
+  refused("/schema", 3, "schema is 3");
+  refused("/parameters", json::array(), "stiffness_N_per_m is absent");
+  refused("/parameters/stiffness_N_per_m", 1000, "parameters.stiffness_N_per_m is 1000, expected an object");
+  refused("/parameters/stiffness_N_per_m/value", "1000", "parameters.stiffness_N_per_m.value is \"1000\"");
+  refused("/parameters/stiffness_N_per_m/value", -5, "value is -5, expected a number > 0");
+  refused("/parameters/stiffness_N_per_m/value", 0, "expected a number > 0");
+  refused("/parameters/natural_frequency_rad_per_s/value", nullptr, "value is null");
+  refused("/parameters/friction_difference_N/value", true, "value is true");
+  refused("/parameters/damping_ratio/value", 1.0, "expected a number in [0, 1)");
+  refused("/parameters/damping_ratio/value", -0.1, "expected a number in [0, 1)");
+  refused("/parameters/damping_ratio/status", "sure", "parameters.damping_ratio.status is \"sure\"");
+  refused("/parameters/damping_ratio/se", -1, "parameters.damping_ratio.se is -1");
+  refused("/parameters/damping_ratio/ci95", 3, "parameters.damping_ratio.ci95 is 3");
+  refused("/parameters/damping_ratio/ci95", json::array({1}), "parameters.damping_ratio.ci95 is [1]");
+  refused("/parameters/kinetic_friction_N/value", "4", "kinetic_friction_N.value");
+  refused("/correlation/names/0", "mass_kg", "correlation.names");
+  refused("/correlation/names", 3, "correlation.names is 3");
+  refused("/correlation/matrix", json::array(), "correlation.matrix");
+  refused("/correlation/matrix/1", json::array({1, 2}), "correlation.matrix[1]");
+  refused("/correlation/matrix/0/1", 7, "from -1 to 1");
+  refused("/correlation/matrix/0/1", 0.99, "symmetric");
+  refused("/correlation/scaled_se/2", "x", "correlation.scaled_se[2]");
+  refused("/model/degrees_of_freedom", 0, "model.degrees_of_freedom is 0");
+  refused("/model/conditional_on", "x", "model.conditional_on");
+  refused("/parameters/stiffness_N_per_m/value", std::string(5000, 'x'), "...");
+  json missing = example.document();
+  missing["parameters"]["stiffness_N_per_m"].erase("value");
+  test::check_one_line_refusal({"predict", example.folder.file("missing.json", missing.dump()), "--speeds", "0.1"},
+                               "parameters.stiffness_N_per_m.value is missing");
+}
+
+TEST_CASE("files that are no fit document are refused") {
+  const test::TemporaryFolder folder;
+  const auto refused = [&folder](const std::string& content, const std::string& part) {
+    test::check_one_line_refusal({"predict", folder.file("bad.json", content), "--speeds", "0.1"}, part);
+  };
+  refused("", "bad.json:1': is not one JSON document");
+  refused("{\n\"schema\": \"slipfit.fit/1\",\n", "bad.json:3'");
+  refused("{\"schema\": NaN}", "is not one JSON document");
+  refused("{\"schema\": 1e999}", "too large");
+  refused("{} {}", "is not one JSON document");
+  refused("time_s,force_N\n0,1\n", "is not one JSON document");
+  refused("[1, 2]", "the document is [1,2], expected an object");
+  refused("null", "expected an object");
+  refused("{}", "schema is missing");
+  refused(std::string(100'000, '['), "is not one JSON document");
+  refused(std::string("\xff\xfe{", 3), "is not one JSON document");
+  test::check_one_line_refusal({"predict", folder.path("none.json"), "--speeds", "0.1"}, "No such file");
+  test::check_one_line_refusal({"predict", folder.path(""), "--speeds", "0.1"}, "directory");
+  test::check_one_line_refusal({"predict", "/dev/zero", "--speeds", "0.1"}, "too large");
+}
+
+TEST_CASE("speeds that make no sense are refused") {
+  const std::vector<std::string> model = test::model_options();
+  const auto refused = [&model](const std::string& speeds, const std::string& part) {
+    std::vector<std::string> arguments{"predict"};
+    arguments.insert(arguments.end(), model.begin(), model.end());
+    arguments.insert(arguments.end(), {"--speeds", speeds});
+    test::check_one_line_refusal(arguments, "--speeds");
+    test::check_one_line_refusal(arguments, part);
+  };
+  refused("", "--speeds");
+  refused("0", "not above zero");
+  refused("-1", "not above zero");
+  refused("1,,2", "--speeds");
+  refused("1,", "--speeds");
+  refused("fast", "fast");
+  refused("nan", "nan");
+  refused("1,inf", "inf");
+  refused("3 kg", "kg");
+  refused("60rpm", "rpm");
+  refused("1:2", "expected A:B:N");
+  refused("1:2:3:4", "expected A:B:N");
+  refused("2:1:5", "A < B");
+  refused("1:1:5", "A < B");
+  refused("0:1:5", "not above zero");
+  refused("1:2:1", "bad number of speeds '1'");
+  refused("1:2:0", "bad number of speeds");
+  refused("1:2:-3", "bad number of speeds");
+  refused("1:2:2.5", "bad number of speeds");
+  refused("1:2:", "bad number of speeds");
+  refused("1:2:100001", "bad number of speeds");
+  refused("1:2:99999999999999999999", "bad number of speeds");
+  test::check_one_line_refusal({"predict", "--stiffness", "1"}, "--speeds is missing");
+}
+
+TEST_CASE("the model is a fit document or options, not both, not neither, not half") {
+  test::check_one_line_refusal({"predict", "--speeds", "1"}, "model is missing");
+  test::check_one_line_refusal({"predict", "fit.json", "--stiffness", "1000", "--speeds", "1"}, "not both");
+  test::check_one_line_refusal({"predict", "fit.json", "--damping-ratio", "0", "--speeds", "1"}, "not both");
+  test::check_one_line_refusal({"predict", "--stiffness", "1000", "--mass", "1", "--speeds", "1"},
+                               "--static-friction is missing");
+  test::check_one_line_refusal(
+      {"predict", "--stiffness", "1000", "--static-friction", "3", "--kinetic-friction", "2", "--speeds", "1"},
+      "--natural-frequency");
+  test::check_one_line_refusal({"predict", "a.json", "b.json", "--speeds", "1"}, "b.json");
+}
+
+TEST_CASE("an output that would destroy the fit document is refused") {
+  const test::FitExample example;
+  const std::string before = test::content_of(example.fit);
+  for (const std::string option : {"--out", "--csv"}) {
+    test::check_one_line_refusal({"predict", example.fit, "--speeds", "1", option, example.fit},
+                                 "the fit document itself");
+    test::check_one_line_refusal({"predict", example.fit, "--speeds", "1", option, example.folder.path("none/x")},
+                                 "does not exist");
+  }
+  test::check_one_line_refusal(
+      {"predict", example.fit, "--speeds", "1", "--out", example.folder.path("a"), "--csv", example.folder.path("a")},
+      "same file");
+  CHECK(test::content_of(example.fit) == before);
+}

@@ -1,0 +1,207 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "fit_example.hpp"
+#include "run_program.hpp"
+
+using nlohmann::json;
+using test::slipfit;
+
+namespace {
+
+std::filesystem::path project_folder() {
+  return std::filesystem::path(SLIPFIT_TESTDATA_DIR).parent_path();
+}
+
+json predicted(const std::vector<std::string>& source, const std::string& speeds) {
+  std::vector<std::string> arguments{"predict"};
+  arguments.insert(arguments.end(), source.begin(), source.end());
+  arguments.insert(arguments.end(), {"--speeds", speeds, "--json"});
+  const test::ProgramResult result = slipfit(arguments);
+  CAPTURE(arguments, result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.err.empty());
+  return json::parse(result.out);
+}
+
+void check_same(const json& quantity, const json& estimate) {
+  // Only the rounding of standard error times correlation lies between the two.
+  CHECK(quantity["value"].get<double>() == Approx(estimate["value"].get<double>()).epsilon(1e-12));
+  for (const std::size_t end : {0U, 1U}) {
+    CHECK(quantity["ci95"][end].get<double>() == Approx(estimate["ci95"][end].get<double>()).epsilon(1e-9));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("predict at the recording's own speed gives what the fit derived: values and intervals") {
+  const test::FitExample example;
+  const json derived = example.document()["derived"];
+  const json prediction = predicted({example.fit}, "20mm/s");
+  CHECK(prediction["schema"] == "slipfit.predict/1");
+  CHECK(prediction["source"] == example.fit);
+  check_same(prediction["critical_speed_m_per_s"], derived["critical_speed_m_per_s"]);
+  check_same(prediction["lambda_critical"], derived["lambda_critical"]);
+  const json row = prediction["rows"][0];
+  CHECK(prediction["rows"].size() == 1);
+  for (const char* const key : {"lambda", "periodic_displacement_m", "micro_vibration_spacing_m"}) {
+    CAPTURE(key);
+    check_same(row[key], derived[key]);
+  }
+  CHECK(row["regime"] == derived["regime"]);
+  CHECK(row["force_peak_N"]["value"].get<double>() == Approx(6.0).epsilon(0.02));
+}
+
+TEST_CASE("the round trip keeps the intervals also where the damping lies at its bound, or is held") {
+  const test::TemporaryFolder folder;
+  const std::string run =
+      folder.file("run.csv", slipfit({"simulate", "--stiffness", "1000", "--natural-frequency", "200",
+                                      "--static-friction", "6", "--kinetic-friction", "4", "--speed", "20mm/s",
+                                      "--duration", "3", "--sample-rate", "1kHz", "--noise", "0.02", "--seed", "3"})
+                                 .out);
+  for (const std::vector<std::string>& options : {std::vector<std::string>{},
+                                                  {"--tier", "undamped"},
+                                                  {"--fix", "damping_ratio=0.001"},
+                                                  {"--fix", "damping_ratio=0"}}) {
+    std::vector<std::string> arguments{"fit", run, "--speed", "20mm/s", "--json", "--out", folder.path("fit.json")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    REQUIRE(slipfit(arguments).exit_code == 0);
+    CAPTURE(options);
+    const json derived = json::parse(test::content_of(folder.path("fit.json")))["derived"];
+    const json prediction = predicted({folder.path("fit.json")}, "0.02");
+    check_same(prediction["rows"][0]["periodic_displacement_m"], derived["periodic_displacement_m"]);
+    CHECK(prediction["critical_speed_m_per_s"]["value"] == derived["critical_speed_m_per_s"]["value"]);
+  }
+}
+
+TEST_CASE("speeds are a logarithmic range with exact ends, or a list in the order given") {
+  const json range = predicted(test::model_options(), "1mm/s:1m/s:4")["rows"];
+  REQUIRE(range.size() == 4);
+  CHECK(range[0]["speed_m_per_s"] == 0.001);
+  CHECK(range[1]["speed_m_per_s"].get<double>() == Approx(0.01));
+  CHECK(range[3]["speed_m_per_s"] == 1.0);
+  const json list = predicted(test::model_options(), "0.5,5mm/s, 10 mm/s")["rows"];
+  REQUIRE(list.size() == 3);
+  CHECK(list[0]["speed_m_per_s"] == 0.5);
+  CHECK(list[1]["speed_m_per_s"] == 0.005);
+  CHECK(list[2]["speed_m_per_s"] == 0.01);
+}
+
+TEST_CASE("model options give the exact motion without intervals; above the critical speed there is none") {
+  const json prediction = predicted(test::model_options(), "20mm/s,0.5");
+  CHECK(prediction["source"] == "command line");
+  CHECK(prediction["lambda_critical"]["value"].get<double>() == Approx(0.910670).epsilon(1e-5));  // design reference
+  CHECK(prediction["critical_speed_m_per_s"]["ci95"].is_null());
+  const json& slow = prediction["rows"][0];
+  CHECK(slow["regime"] == "stick_slip_bistable");
+  CHECK(slow["lambda"]["value"].get<double>() == Approx(20.0));
+  CHECK(slow["period_s"]["ci95"].is_null());
+  CHECK(slow["periodic_displacement_m"]["value"].get<double>() ==
+        Approx(0.02 * slow["period_s"]["value"].get<double>()));
+  const json& fast = prediction["rows"][1];
+  CHECK(fast["regime"] == "oscillatory_slip");
+  CHECK(fast["bistable"] == false);
+  for (const char* const key :
+       {"period_s", "frequency_Hz", "sticking_degree", "periodic_displacement_m", "force_peak_N"}) {
+    CHECK(fast[key]["value"].is_null());
+    CHECK(fast[key]["ci95"].is_null());
+  }
+  CHECK(fast["lambda"]["value"].is_number());
+}
+
+TEST_CASE("near the critical speed the row says that the data cannot tell") {
+  const test::FitExample example;
+  const json prediction = predicted({example.fit}, "20mm/s,0.42");
+  CHECK_FALSE(prediction["rows"][0].contains("note"));
+  const json& row = prediction["rows"][1];
+  CHECK_THAT(row["note"].get<std::string>(), Catch::Contains("cannot tell"));
+  CHECK(row["period_s"]["ci95"].is_null());
+  CHECK(row["lambda"]["ci95"].is_array());
+  const test::ProgramResult text = slipfit({"predict", example.fit, "--speeds", "20mm/s,0.42"});
+  CHECK_THAT(text.out, Catch::Contains("cannot tell"));
+}
+
+TEST_CASE("the table for people has prefixes and bands; --out and --csv write the same numbers") {
+  const test::FitExample example;
+  const std::vector<std::string> arguments{"predict", example.fit, "--speeds", "10mm/s:40mm/s:3"};
+  const test::ProgramResult text = slipfit(arguments);
+  CHECK(text.exit_code == 0);
+  for (const char* const part : {"critical speed: 4", "mm/s", " ms [", "mm [", "95 % interval", "Coulomb friction"}) {
+    CHECK_THAT(text.out, Catch::Contains(part));
+  }
+  const std::string out = example.folder.path("prediction.json");
+  const std::string csv = example.folder.path("prediction.csv");
+  std::vector<std::string> writing = arguments;
+  writing.insert(writing.end(), {"--json", "--out", out, "--csv", csv});
+  const test::ProgramResult written = slipfit(writing);
+  CHECK(written.exit_code == 0);
+  CHECK(written.out.empty());
+  CHECK(test::lines_in(written.err) == 2);
+  CHECK(json::parse(test::content_of(out)) == predicted({example.fit}, "10mm/s:40mm/s:3"));
+  const std::string table = test::content_of(csv);
+  CHECK(table.rfind("speed_m_per_s,regime,bistable,lambda,lambda_low,lambda_high,period_s,period_low_s,period_high_s,",
+                    0) == 0);
+  CHECK(test::lines_in(table) == 4);
+  const double period_s = json::parse(test::content_of(out))["rows"][0]["period_s"]["value"];
+  CHECK_THAT(table, Catch::Contains(json(period_s).dump()));
+}
+
+TEST_CASE("a fit document without correlation, or without F_k, leaves intervals or forces out") {
+  const test::FitExample example;
+  json document = example.document();
+  document["correlation"] = nullptr;
+  document["parameters"].erase("kinetic_friction_N");
+  const json row = predicted({example.folder.file("bare.json", document.dump())}, "20mm/s")["rows"][0];
+  CHECK(row["period_s"]["value"].is_number());
+  CHECK(row["period_s"]["ci95"].is_null());
+  CHECK(row["force_peak_N"]["value"].is_null());
+  document = example.document();
+  document["model"].erase("degrees_of_freedom");
+  document["correlation"].erase("scaled_se");
+  const json normal = predicted({example.folder.file("normal.json", document.dump())}, "20mm/s")["rows"][0];
+  const json student = predicted({example.fit}, "20mm/s")["rows"][0];
+  CHECK(normal["period_s"]["ci95"][0].get<double>() > student["period_s"]["ci95"][0].get<double>());
+}
+
+TEST_CASE("hostile names of fit documents neither break the JSON nor forge lines") {
+  const test::FitExample example;
+  const std::string odd = example.folder.file("\xff\xfe\"\\\n odd.json", test::content_of(example.fit));
+  const test::ProgramResult document = slipfit({"predict", odd, "--speeds", "0.1", "--json"});
+  CHECK(document.exit_code == 0);
+  CHECK(json::accept(document.out));
+  const test::ProgramResult text = slipfit({"predict", odd, "--speeds", "0.1"});
+  CHECK(text.exit_code == 0);
+  CHECK(test::lines_in(text.out) == 6);
+  test::check_one_line_refusal({"predict", example.folder.file("bad\nslipfit: ok.json", "{"), "--speeds", "0.1"},
+                               "not one JSON");
+}
+
+TEST_CASE("every kind of prediction obeys docs/predict.schema.json, and docs/formats.md names its keys") {
+  const test::FitExample example;
+  const test::FitExample without_zero(std::vector<std::string>{});
+  const std::string schema = (project_folder() / "docs/predict.schema.json").string();
+  std::vector<std::string> arguments{(project_folder() / "tests/cli/validate_schema.py").string(), schema};
+  const auto add = [&](const json& document) {
+    arguments.push_back(example.folder.file(std::to_string(arguments.size()) + ".json", document.dump()));
+  };
+  add(predicted({example.fit}, "1mm/s:1m/s:20"));
+  add(predicted({without_zero.fit}, "20mm/s,0.42"));
+  add(predicted(test::model_options(), "20mm/s,0.5"));
+  add(predicted({"--stiffness", "1e3", "--mass", "1", "--static-friction", "6", "--kinetic-friction", "4"},
+                "1e-300,1e-9,1,1e9,1e300"));
+  test::ProgramResult result = test::run_program("python3", arguments);
+  if (result.exit_code == 77 && std::filesystem::exists("/usr/bin/python3")) {
+    result = test::run_program("/usr/bin/python3", arguments);
+  }
+  CAPTURE(result.out, result.err);
+  if (result.exit_code == 77) WARN("skipped: python3-jsonschema is not installed");
+  CHECK((result.exit_code == 0 || result.exit_code == 77));
+
+  const json described = json::parse(test::content_of(schema));
+  const std::string formats = test::content_of((project_folder() / "docs/formats.md").string());
+  for (const json& properties : {described["properties"], described["properties"]["rows"]["items"]["properties"]}) {
+    for (const auto& [key, value] : properties.items()) CHECK_THAT(formats, Catch::Contains("`" + key + "`"));
+  }
+}

@@ -1,0 +1,80 @@
+#include <catch2/catch.hpp>
+#include <optional>
+#include <regex>
+#include <stdexcept>
+
+#include "chart/chart.hpp"
+#include "chart/ticks.hpp"
+#include "run_program.hpp"
+#include "slipfit/figures/figures.hpp"
+#include "tables.hpp"
+
+namespace chart = slipfit::chart;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Exit code of Python's XML parser over files, nothing where there is no Python.
+std::optional<int> parse_xml(const std::vector<std::string>& files) {
+  std::vector<std::string> arguments{"-c", "import sys, xml.dom.minidom as x; [x.parse(f) for f in sys.argv[1:]]"};
+  arguments.insert(arguments.end(), files.begin(), files.end());
+  try {
+    return test::run_program("python3", arguments).exit_code;
+  } catch (const std::runtime_error&) {
+    WARN("skipped: no python3");
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("pictures are well-formed XML, small, and the same bytes twice") {
+  const test::TemporaryFolder folder;
+  const auto files = slipfit::paper_figures();
+  const auto again = slipfit::paper_figures();
+  std::vector<std::string> pictures;
+  REQUIRE(files.size() == again.size());
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    CAPTURE(files[i].name);
+    CHECK(files[i].name == again[i].name);
+    CHECK(files[i].content == again[i].content);
+    CHECK(files[i].content.size() < 200'000);
+    CHECK_FALSE(std::regex_search(files[i].content, std::regex(R"(\b(nan|inf)\b)")));
+    if (has(files[i].name, ".svg")) pictures.push_back(folder.file(files[i].name, files[i].content));
+  }
+  CHECK(pictures.size() == 8);
+  if (const auto exit_code = parse_xml(pictures)) CHECK(*exit_code == 0);
+}
+
+TEST_CASE("pictures say which values are assumed") {
+  for (const std::string figure : {"figure_4", "figure_5", "figure_6", "figure_8"}) {
+    CAPTURE(figure);
+    CHECK(has(test::figure_file(figure + ".svg"), "Assumed: "));
+    CHECK(has(test::figure_file(figure + ".csv"), "# assumed: "));
+    CHECK(has(test::figure_file(figure + ".csv"), "\nassumed_"));
+  }
+}
+
+TEST_CASE("text stays text, with what XML reserves escaped") {
+  chart::Panel panel;
+  panel.x.label = "a < b & c";
+  panel.lines = {{"name", chart::Colour::Blue, chart::Stroke::Solid, {{0.0, 0.0}, {1.0, 1.0}}}};
+  const std::string svg = chart::to_svg({"title", {"remark"}, {panel}});
+  CHECK(has(svg, "a &lt; b &amp; c</text>"));
+  for (const std::string text : {">title</text>", ">remark</text>", ">name</text>"}) CHECK(has(svg, text));
+}
+
+TEST_CASE("ticks are round numbers inside the axis") {
+  const auto texts = [](const chart::Axis& axis) {
+    std::string joined;
+    for (const chart::Tick& tick : chart::ticks_of(axis)) joined += tick.text.empty() ? "." : " " + tick.text;
+    return joined;
+  };
+  CHECK(texts({"", 0.0, 1.0, chart::Scale::Linear}) == " 0 0.2 0.4 0.6 0.8 1");
+  CHECK(texts({"", -1.0, 8.0, chart::Scale::Linear}) == " 0 2 4 6 8");
+  CHECK(texts({"", 0.0, 0.35, chart::Scale::Linear}) == " 0 0.05 0.1 0.15 0.2 0.25 0.3 0.35");
+  CHECK(texts({"", 0.5, 30.0, chart::Scale::Logarithmic}) == "..... 1........ 10..");
+}

@@ -1,0 +1,255 @@
+#include "slipfit/predict/prediction.hpp"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "slipfit/predict/derived.hpp"
+
+using namespace slipfit;
+
+namespace {
+
+constexpr double kQuantile = 1.959963984540054;  // of the normal distribution, 97.5 %
+
+/// zeta 0.05, V_c = 0.439 m/s.
+PredictionModel example() {
+  PredictionModel model;
+  model.estimate.stiffness_N_per_m = 1000.0;
+  model.estimate.natural_frequency_rad_per_s = 200.0;
+  model.estimate.damping_ratio = 0.05;
+  model.estimate.friction_difference_N = 2.0;
+  const std::array<double, 4> se{0.002, 0.003, 0.0015, 0.008};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) model.estimate.covariance[i][j] = se[i] * se[j] * (i == j ? 1.0 : 0.2);
+  }
+  model.estimate.degrees_of_freedom = 1e9;
+  model.estimate.damping_identified = true;
+  model.has_covariance = true;
+  model.kinetic_friction_N = Estimate{4.0, 0.01, {}, {}};
+  return model;
+}
+
+PredictedMotion predicted(const PredictionModel& model, double speed_m_per_s) {
+  const std::array<double, 1> speeds{speed_m_per_s};
+  return predict_at(model, speeds).rows.front();
+}
+
+Motion exact_motion(const ModelEstimate& e, double kinetic_N, double speed_m_per_s) {
+  const Slider slider =
+      Slider::create(e.stiffness_N_per_m, e.natural_frequency_rad_per_s, std::max(0.0, e.damping_ratio)).value();
+  const Friction friction = Friction::create(kinetic_N + e.friction_difference_N, kinetic_N).value();
+  return damped_motion(slider, friction, speed_m_per_s);
+}
+
+/// The estimate moved by `step` in (ln k, ln w_n, zeta, ln dF).
+ModelEstimate moved(ModelEstimate e, const std::array<double, 4>& step) {
+  e.stiffness_N_per_m *= std::exp(step[0]);
+  e.natural_frequency_rad_per_s *= std::exp(step[1]);
+  e.damping_ratio += step[2];
+  e.friction_difference_N *= std::exp(step[3]);
+  return e;
+}
+
+struct Compared {
+  Estimate PredictedMotion::*predicted;
+  double LimitCycle::*exact;
+};
+
+const std::array<Compared, 7> kCompared{
+    {{&PredictedMotion::period_s, &LimitCycle::period_s},
+     {&PredictedMotion::slip_time_s, &LimitCycle::slip_s},
+     {&PredictedMotion::stick_time_s, &LimitCycle::stick_s},
+     {&PredictedMotion::sticking_degree, &LimitCycle::sticking_degree},
+     {&PredictedMotion::periodic_displacement_m, &LimitCycle::periodic_displacement_m},
+     {&PredictedMotion::force_peak_N, &LimitCycle::force_peak_N},
+     {&PredictedMotion::force_trough_N, &LimitCycle::force_trough_N}}};
+
+/// Of the estimate's own covariance, by central differences of the exact motion.
+double standard_error_by_differences(const ModelEstimate& e, double speed, double LimitCycle::*quantity) {
+  std::array<double, 4> gradient{};
+  constexpr double kStep = 1e-5;  // truncation and rounding both below 1e-8 of the derivative
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::array<double, 4> step{};
+    step[i] = kStep;
+    const double above = (*exact_motion(moved(e, step), 4.0, speed).cycle).*quantity;
+    step[i] = -kStep;
+    gradient[i] = (above - (*exact_motion(moved(e, step), 4.0, speed).cycle).*quantity) / (2.0 * kStep);
+  }
+  double variance = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) variance += gradient[i] * e.covariance[i][j] * gradient[j];
+  }
+  return std::sqrt(variance);
+}
+
+}  // namespace
+
+TEST_CASE("a prediction is the exact motion, for random parameters and speeds") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int run = 0; run < 200; ++run) {
+    CAPTURE(run);
+    const Slider slider = Slider::create(std::exp(4.0 + 8.0 * unit(random)), std::exp(3.0 + 5.0 * unit(random)),
+                                         0.4 * unit(random) * unit(random))
+                              .value();
+    const double kinetic_N = 3.0 * unit(random);
+    const Friction friction = Friction::create(kinetic_N + 0.1 + unit(random), kinetic_N).value();
+    const double lambda = std::exp(-1.0 + 9.0 * unit(random));
+    const double speed =
+        slider.natural_frequency_rad_per_s() * friction.difference_N() / (slider.stiffness_N_per_m() * lambda);
+    const Motion exact = damped_motion(slider, friction, speed);
+    const PredictedMotion row = predicted(stated_model(slider, friction), speed);
+    CHECK(*row.lambda.value == Approx(exact.lambda).epsilon(1e-12));
+    CHECK_FALSE(row.lambda.ci95);
+    CHECK(row.note.empty());
+    for (const Compared& compared : kCompared) {
+      CHECK((row.*compared.predicted).value.has_value() == exact.cycle.has_value());
+      CHECK_FALSE((row.*compared.predicted).ci95);
+      if (!exact.cycle) continue;
+      CHECK(*(row.*compared.predicted).value == Approx((*exact.cycle).*compared.exact).epsilon(1e-10).margin(1e-14));
+    }
+    CHECK(row.frequency_Hz.value.has_value() == exact.cycle.has_value());
+    if (exact.cycle) CHECK(*row.frequency_Hz.value == Approx(1.0 / exact.cycle->period_s).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("standard errors of a prediction agree with central differences of the exact motion") {
+  PredictionModel model = example();
+  model.kinetic_friction_N->standard_error = 0.0;
+  for (const double speed : {0.001, 0.02, 0.1, 0.3}) {
+    const PredictedMotion row = predicted(model, speed);
+    for (const Compared& compared : kCompared) {
+      const double expected = standard_error_by_differences(model.estimate, speed, compared.exact);
+      CAPTURE(speed, expected);
+      CHECK(*(row.*compared.predicted).standard_error == Approx(expected).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("intervals are symmetric in the logarithm, and a sticking degree stays between 0 and 1") {
+  PredictionModel model = example();
+  const PredictedMotion row = predicted(model, 0.02);
+  const Estimate& period = row.period_s;
+  CHECK(period.ci95->low * period.ci95->high == Approx(*period.value * *period.value));
+  CHECK(std::log(period.ci95->high / *period.value) == Approx(kQuantile * *period.standard_error / *period.value));
+  CHECK(row.frequency_Hz.ci95->low == Approx(1.0 / period.ci95->high));
+  for (auto& line : model.estimate.covariance) {
+    for (double& cell : line) cell *= 1e4;
+  }
+  model.estimate.damping_identified = false;
+  const Interval sticking = *predicted(model, 1e-4).sticking_degree.ci95;
+  CHECK(sticking.low > 0.0);
+  CHECK(sticking.high < 1.0);
+}
+
+TEST_CASE("at the recording's own speed a prediction is what the fit derives") {
+  FitResult fit;
+  fit.estimate = example().estimate;
+  Conditions conditions;
+  conditions.speed_m_per_s = 0.03;
+  const Derived derived = derive_from_model(fit, conditions);
+  const std::array<double, 1> speeds{0.03};
+  const Prediction prediction = predict_at(example(), speeds);
+  const auto same = [](const Estimate& a, const Estimate& b) {
+    CHECK(*a.value == *b.value);
+    CHECK(a.ci95->low == b.ci95->low);
+    CHECK(a.ci95->high == b.ci95->high);
+  };
+  same(prediction.critical_speed_m_per_s, derived.critical_speed_m_per_s);
+  same(prediction.lambda_critical, derived.lambda_critical);
+  same(prediction.rows[0].lambda, derived.lambda);
+  same(prediction.rows[0].micro_vibration_spacing_m, derived.micro_vibration_spacing_m);
+  CHECK(*prediction.rows[0].periodic_displacement_m.value == Approx(*derived.periodic_displacement_m.value));
+  CHECK(prediction.rows[0].periodic_displacement_m.ci95->low == Approx(derived.periodic_displacement_m.ci95->low));
+  CHECK(prediction.rows[0].regime == *derived.regime);
+}
+
+TEST_CASE("the regime changes at the critical speed, without intervals within its uncertainty") {
+  const std::array<double, 4> speeds{0.3, 0.435, 0.443, 0.6};
+  const Prediction prediction = predict_at(example(), speeds);
+  const Interval critical = *prediction.critical_speed_m_per_s.ci95;
+  REQUIRE(critical.low < 0.435);
+  REQUIRE(critical.high > 0.443);
+  const auto& rows = prediction.rows;
+  CHECK(rows[0].regime == "stick_slip_bistable");
+  CHECK(rows[0].bistable);
+  CHECK(rows[0].period_s.ci95);
+  CHECK(rows[0].note.empty());
+  CHECK(rows[1].regime == "stick_slip_bistable");
+  CHECK(rows[1].period_s.value);
+  CHECK_FALSE(rows[1].period_s.ci95);
+  CHECK_FALSE(rows[1].force_peak_N.ci95);
+  CHECK(rows[1].lambda.ci95);
+  CHECK_FALSE(rows[1].note.empty());
+  CHECK(rows[2].regime == "oscillatory_slip");
+  CHECK_FALSE(rows[2].bistable);
+  CHECK_FALSE(rows[2].period_s.value);
+  CHECK_FALSE(rows[2].note.empty());
+  CHECK(rows[3].regime == "oscillatory_slip");
+  CHECK(rows[3].note.empty());
+  CHECK(rows[3].lambda.ci95);
+}
+
+TEST_CASE("where the damping cannot be told from 0 the doubt begins where the margin says so") {
+  PredictionModel model = example();
+  model.estimate.damping_ratio = 0.0;
+  model.estimate.damping_identified = false;
+  model.estimate.covariance[2][2] = 0.02 * 0.02;
+  const std::array<double, 2> speeds{0.02, 2.0};  // zeta up to 0.04: V_c down to 0.5 m/s
+  const Prediction prediction = predict_at(model, speeds);
+  CHECK_FALSE(prediction.critical_speed_m_per_s.value);
+  CHECK_FALSE(prediction.critical_speed_m_per_s.note.empty());
+  CHECK(prediction.rows[0].period_s.ci95);
+  CHECK_FALSE(prediction.rows[1].period_s.ci95);
+  CHECK_FALSE(prediction.rows[1].note.empty());
+}
+
+TEST_CASE("a stated model without damping has stick-slip at every speed") {
+  const PredictionModel model =
+      stated_model(Slider::create(1000.0, 200.0, 0.0).value(), Friction::create(6.0, 4.0).value());
+  const std::array<double, 2> speeds{0.001, 100.0};
+  const Prediction prediction = predict_at(model, speeds);
+  CHECK(*prediction.lambda_critical.value == 0.0);
+  CHECK_FALSE(prediction.critical_speed_m_per_s.value);
+  for (const PredictedMotion& row : prediction.rows) {
+    CHECK(row.regime == "stick_slip");
+    CHECK_FALSE(row.bistable);
+    CHECK(row.period_s.value);
+  }
+}
+
+TEST_CASE("from a damping ratio of 1 on there is no stick-slip at any speed") {
+  const PredictionModel model =
+      stated_model(Slider::create(1000.0, 200.0, 1.5).value(), Friction::create(6.0, 4.0).value());
+  const std::array<double, 1> speeds{0.01};
+  const Prediction prediction = predict_at(model, speeds);
+  CHECK(prediction.rows[0].regime == "continuous_slip");
+  CHECK_FALSE(prediction.rows[0].period_s.value);
+  CHECK(*prediction.critical_speed_m_per_s.value == 0.0);
+  CHECK_FALSE(prediction.lambda_critical.value);
+}
+
+TEST_CASE("no friction difference, no stick-slip: an answer") {
+  const PredictionModel model =
+      stated_model(Slider::create(1000.0, 200.0, 0.1).value(), Friction::create(4.0, 4.0).value());
+  const PredictedMotion row = predicted(model, 0.01);
+  CHECK(row.regime == "oscillatory_slip");
+  CHECK_FALSE(row.period_s.value);
+}
+
+TEST_CASE("forces need the kinetic friction, and their interval is never too narrow") {
+  PredictionModel model = example();
+  const PredictedMotion row = predicted(model, 0.02);
+  model.kinetic_friction_N->standard_error = 0.0;
+  const double model_part = *predicted(model, 0.02).force_peak_N.standard_error;
+  CHECK(*row.force_peak_N.standard_error == Approx(0.01 + model_part));
+  model.kinetic_friction_N->standard_error.reset();
+  CHECK(predicted(model, 0.02).force_peak_N.value);
+  CHECK_FALSE(predicted(model, 0.02).force_peak_N.ci95);
+  model.kinetic_friction_N.reset();
+  CHECK_FALSE(predicted(model, 0.02).force_peak_N.value);
+  CHECK_FALSE(predicted(model, 0.02).force_trough_N.value);
+}
