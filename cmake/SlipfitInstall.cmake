@@ -19,7 +19,8 @@ install(FILES
   "${PROJECT_SOURCE_DIR}/cmake/FindFFTW3.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindUDUNITS2.cmake"
   DESTINATION "${SLIPFIT_CMAKE_DIR}")
-install(FILES "${PROJECT_SOURCE_DIR}/docs/fit.schema.json" "${PROJECT_SOURCE_DIR}/LICENSE"
+install(FILES "${PROJECT_SOURCE_DIR}/docs/fit.schema.json" "${PROJECT_SOURCE_DIR}/docs/predict.schema.json"
+  "${PROJECT_SOURCE_DIR}/LICENSE"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/slipfit")
 
 if(SLIPFIT_BUILD_TESTS)

@@ -44,7 +44,10 @@ void add_model_options(CLI::App& command, ModelArguments& arguments) {
   command.add_option("--stiffness", arguments.stiffness, "Tangential stiffness (N/m)");
   command.add_option("--mass", arguments.mass, "Oscillating mass (kg)");
   command.add_option("--natural-frequency", arguments.natural_frequency, "sqrt(k/m) (rad/s), in place of --mass");
-  command.add_option("--damping-ratio", arguments.damping_ratio, "c / (2 sqrt(k m)), below 1")->capture_default_str();
+  command
+      .add_option("--damping-ratio", arguments.damping_ratio,
+                  "c / (2 sqrt(k m)), at least 0; from 1 on there is no stick-slip")
+      ->capture_default_str();
   command.add_option("--static-friction", arguments.static_friction, "F_s (N)");
   command.add_option("--kinetic-friction", arguments.kinetic_friction, "F_k (N), at most F_s");
 }

@@ -43,7 +43,7 @@ double speed_at(double lambda, const Slider& slider) {
   return kInside * slider.natural_frequency_rad_per_s() * kForceDifference_N / (slider.stiffness_N_per_m() * lambda);
 }
 
-std::vector<double> speeds_with(std::vector<double> more) {
+std::vector<double> speeds_with(const std::vector<double>& more) {
   std::vector<double> speeds = evenly_spaced(kSlowest_m_per_s, kFastest_m_per_s, 200);
   for (const double speed : more) {
     if (speed < kFastest_m_per_s) speeds.push_back(speed);

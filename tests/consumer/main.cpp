@@ -1,9 +1,5 @@
 #include <cstdio>
-#include <slipfit/model/motion.hpp>
-#include <slipfit/model/simulation.hpp>
-#include <slipfit/pipeline.hpp>
-#include <slipfit/report/json.hpp>
-#include <slipfit/report/text.hpp>
+#include <slipfit/slipfit.hpp>
 
 // Simulate, analyse, report: touches every layer of the installed library.
 int main() {

@@ -13,7 +13,7 @@ namespace slipfit {
 
 /// What a prediction starts from: Coulomb friction, fitted or stated.
 struct PredictionModel {
-  ModelEstimate estimate;                      ///< friction_difference_N >= 0, damping_ratio in [0, 1)
+  ModelEstimate estimate;                      ///< friction_difference_N >= 0
   bool has_covariance = false;                 ///< false: `estimate.covariance` means nothing, and no interval is given
   std::optional<Estimate> kinetic_friction_N;  ///< absolute forces need it
 };
