@@ -96,28 +96,31 @@ class Cutter {
   }
 
   StickBin reduce(std::size_t begin, std::size_t end) const {
+    // Sums about the first sample: near enough to the mean that nothing cancels.
+    const double time0_s = time_s_[begin];
+    const double force0 = force_[begin];
+    double sum_t = 0.0, sum_f = 0.0, sum_tt = 0.0, sum_tf = 0.0, sum_ff = 0.0;
     StickBin bin;
     for (std::size_t i = begin; i < end; ++i) {
       if (is_excluded(i)) continue;
+      const double t = time_s_[i] - time0_s;
+      const double f = force_[i] - force0;
       bin.count += 1.0;
-      bin.time_s += time_s_[i] - time_s_[begin];
-      bin.force += force_[i];
+      sum_t += t;
+      sum_f += f;
+      sum_tt += t * t;
+      sum_tf += t * f;
+      sum_ff += f * f;
     }
     if (bin.count == 0.0) return bin;
-    bin.time_s = time_s_[begin] + bin.time_s / bin.count;
-    bin.force /= bin.count;
-    double cross = 0.0;
-    double square = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (is_excluded(i)) continue;
-      const double dt = time_s_[i] - bin.time_s;
-      const double df = force_[i] - bin.force;
-      bin.time_spread += dt * dt;
-      cross += dt * df;
-      square += df * df;
-    }
+    const double mean_t = sum_t / bin.count;
+    const double mean_f = sum_f / bin.count;
+    const double cross = sum_tf - sum_t * mean_f;
+    bin.time_s = time0_s + mean_t;
+    bin.force = force0 + mean_f;
+    bin.time_spread = std::max(0.0, sum_tt - sum_t * mean_t);
     if (bin.time_spread > 0.0) bin.slope = cross / bin.time_spread;
-    bin.scatter = std::max(0.0, square - bin.slope * cross);
+    bin.scatter = std::max(0.0, sum_ff - sum_f * mean_f - bin.slope * cross);
     for (const double line_Hz : hum_.frequencies_Hz) bin.lines.push_back(reduce_line(begin, end, bin, line_Hz));
     return bin;
   }

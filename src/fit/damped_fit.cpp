@@ -67,7 +67,7 @@ class Fitter {
     std::optional<BlockFit> start = fit_probe(probe, level);
     if (!start) return std::nullopt;
     if (is_hopeless(*start)) return finish(std::move(*start));
-    std::optional<BlockFit> fit = fit_from(cycles_, start->level(), start->parameters.shared, kMaxIterations, kFinal);
+    std::optional<BlockFit> fit = fit_from(cycles_, start->level(), start->parameters.shared, kMaxIterations, kRough);
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
     refuse_negative_damping(*fit, kFinal);
@@ -218,7 +218,10 @@ class Fitter {
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
       const std::vector<double> lines_Hz = find_hum(recording_, fit, residuals, outliers);
-      if (outliers.empty() && bad.empty() && lines_Hz.empty()) return fit;
+      if (outliers.empty() && bad.empty() && lines_Hz.empty()) {
+        if (pass == 0) fit.solve({held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
+        return fit;
+      }
       excluded_.resize(recording_.size(), false);
       for (const std::size_t sample : outliers) excluded_[sample] = true;
       outliers_ += outliers.size();
