@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "fit/start.hpp"
+
 namespace slipfit::fit {
 namespace {
 
@@ -17,6 +19,7 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kFewCycles = 5;          // below it a scatter says little: nothing is called identified
 constexpr double kSamplesForIdentified = 3.0;  // in a slip
+constexpr double kBendSigmas = 3.0;
 
 double t_quantile(double degrees_of_freedom) {
   return boost::math::quantile(boost::math::students_t_distribution<double>(std::max(1.0, degrees_of_freedom)), 0.975);
@@ -76,6 +79,9 @@ class Reporter {
       level_ += share * blocks.model(i).level_at(blocks.reference_s(i), blocks.level_data(),
                                                  blocks.parameters.cycles[i].data());
     }
+    const std::optional<RampBend> bend = ramp_bend(blocks);
+    if (bend && std::abs(bend->log_ratio) > kBendSigmas * bend->standard_error) bend_ = bend;
+    shape_refused_ = fits.damped.refused_damping.has_value();
     damping_se_ = std::sqrt(std::max(0.0, uncertainty_.covariance(kDamping, kDamping)));
     damping_ci_ = fits.damped.held.damping
                       ? Interval{zeta_, zeta_}
@@ -156,12 +162,27 @@ class Reporter {
     } else if (held_.stiffness) {
       add(name, {stiffness_, 0.0, Interval{stiffness_, stiffness_}, {}}, ParameterStatus::Fixed);
     } else {
-      const Linear y = linear(std::log(stiffness_), unit(kLogStiffness), 0.0);
-      // A sensor at the contact jumps at both ends of a slip: samples beside the jumps bend the ramps.
-      const bool contact = recording_.conditions().force_view == ForceView::Contact;
-      add(name, exponential(estimate(y)), contact ? ParameterStatus::Weak : graded(y.se, 0.05),
-          contact ? "from the ramps of a contact sensor only" : few_cycles());
+      report_free_stiffness(name);
     }
+  }
+
+  void report_free_stiffness(const char* name) {
+    Linear y = linear(std::log(stiffness_), unit(kLogStiffness), 0.0);
+    // Ramps that bend (creep before a slip, a tightening line) have no one slope: k depends on the stretch that is
+    // used, by half of what the halves of the ramps differ.
+    std::string note = few_cycles();
+    if (bend_) {
+      const double half = 0.5 * bend_->log_ratio;
+      y.se = std::hypot(y.se, half);
+      y.se_given_damping = std::hypot(y.se_given_damping, half);
+      note = fmt::format("ramps begin {:.1f} % {} than they end: the interval allows for it",
+                         100.0 * std::abs(bend_->log_ratio), bend_->log_ratio > 0.0 ? "steeper" : "flatter");
+      result_.warnings.push_back({"model_misfit", "the sticks are not straight: " + note});
+    }
+    // A sensor at the contact jumps at both ends of a slip: samples beside the jumps bend the ramps.
+    const bool contact = recording_.conditions().force_view == ForceView::Contact;
+    add(name, exponential(estimate(y)), contact ? ParameterStatus::Weak : graded(y.se, 0.05),
+        contact ? "from the ramps of a contact sensor only" : note);
   }
 
   std::string few_cycles() const {
@@ -219,12 +240,14 @@ class Reporter {
       add(damping, {}, ParameterStatus::Unidentified, resolution_.reason);
       return;
     }
-    const bool resolved = resolution_.samples_per_slip > kSamplesForIdentified;
+    const bool resolved = resolution_.samples_per_slip > kSamplesForIdentified && !shape_refused_;
     if (held_.frequency) {
       add(frequency, {omega_, 0.0, Interval{omega_, omega_}, {}}, ParameterStatus::Fixed);
     } else {
       const Linear y = linear(std::log(omega_), unit(kLogFrequency), 0.0);
-      add(frequency, exponential(estimate(y)), resolved ? graded(y.se, 0.05) : ParameterStatus::Weak, few_cycles());
+      add(frequency, exponential(estimate(y)), resolved ? graded(y.se, 0.05) : ParameterStatus::Weak,
+          shape_refused_ ? "the slip is not shaped like a damped oscillation: the interval does not contain this"
+                         : few_cycles());
     }
     report_mass();
     if (held_.damping) {
@@ -246,7 +269,7 @@ class Reporter {
     gradient(kLogFrequency) = -2.0;
     const Linear y = linear(std::log(stiffness_ / (omega_ * omega_)), gradient, 0.0);
     const bool both_held = held_.stiffness && held_.frequency;
-    const bool resolved = resolution_.samples_per_slip > kSamplesForIdentified;
+    const bool resolved = resolution_.samples_per_slip > kSamplesForIdentified && !shape_refused_;
     add("mass_kg", exponential(estimate(y)),
         both_held  ? ParameterStatus::Fixed
         : resolved ? graded(y.se, 0.1)
@@ -308,6 +331,8 @@ class Reporter {
   MatrixXd given_damping_;
   bool at_bound_ = false;
   bool in_newtons_ = true;
+  bool shape_refused_ = false;    // slips are not shaped like the model's: w_n and mass are weak
+  std::optional<RampBend> bend_;  // where it is no chance
   double zeta_free_ = 0.0, zeta_ = 0.0, damping_se_ = 0.0;
   Interval damping_ci_;
   double stiffness_ = 0.0, omega_ = 0.0, scale_ = 0.0, force_ = 1.0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "signal/robust.hpp"
 
@@ -38,6 +39,31 @@ StickBin merge(const std::vector<StickBin>& bins) {
   if (all.time_spread > 0.0) all.slope = cross / all.time_spread;
   all.scatter = std::max(0.0, square - all.slope * cross);
   return all;
+}
+
+std::optional<RampBend> ramp_bend(const BlockFit& fit) {
+  // Each cycle's difference of slopes, weighted by what its halves know: slopes have the variance noise^2 /
+  // time_spread.
+  double weights = 0.0;
+  double difference = 0.0;
+  double slope = 0.0;
+  std::vector<std::pair<double, double>> cycles;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    const StickBin late = merge(fit.data(i).bins_before);
+    const StickBin early = merge(fit.data(i).bins_after);
+    if (late.count < 3.0 || early.count < 3.0) continue;
+    const double weight = 1.0 / (1.0 / late.time_spread + 1.0 / early.time_spread);
+    cycles.emplace_back(weight, early.slope - late.slope);
+    weights += weight;
+    difference += weight * (early.slope - late.slope);
+    slope += weight * 0.5 * (early.slope + late.slope);
+  }
+  if (cycles.size() < 5 || !(slope > 0.0)) return std::nullopt;
+  difference /= weights;
+  slope /= weights;
+  double variance = 0.0;
+  for (const auto& [weight, value] : cycles) variance += weight * weight * (value - difference) * (value - difference);
+  return RampBend{difference / slope, std::sqrt(variance) / weights / slope};
 }
 
 double stiffness_of(const Recording& recording, const Segmentation& segmentation) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fit/block_fit.hpp"
@@ -12,6 +13,14 @@ double half_period_of(const Segmentation& segmentation);
 
 /// Merges centred sums (parallel axis rule): the same as reducing all samples at once.
 StickBin merge(const std::vector<StickBin>& bins);
+
+/// How much steeper a ramp begins (after a slip) than it ends (before the next): ln of the ratio of the slopes, with
+/// the standard error over cycles. 0 for the model's straight sticks. Empty below 5 cycles with both halves.
+struct RampBend {
+  double log_ratio = 0.0;
+  double standard_error = 0.0;
+};
+std::optional<RampBend> ramp_bend(const BlockFit& fit);
 
 /// Median slope of the rises over the speed, N/m (or 1/m); 0 where no rise has two samples in its middle.
 double stiffness_of(const Recording& recording, const Segmentation& segmentation);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -179,6 +180,31 @@ TEST_CASE("below the stick-slip limit the motion rings down, and no parameter is
   CHECK(analysis.verdict != Verdict::StickSlip);
   if (!analysis.fit) return;
   for (const Parameter& p : analysis.fit->parameters) CHECK(p.status == ParameterStatus::Unidentified);
+}
+
+TEST_CASE("sticks that bend widen the interval of the stiffness and are warned of") {
+  Scene s;
+  s.noise = 0.005;
+  s.jitter = 0.05;
+  const Recording straight = record(s);
+  const auto time_s = straight.time_s();
+  std::vector<double> force(straight.force().begin(), straight.force().end());
+  // Creep: a soft ceiling that the force approaches, so that each stick flattens towards its end.
+  for (double& f : force) f -= 0.15 * (f - 0.9) * (f - 0.9);
+  const auto bent = Recording::create({time_s.begin(), time_s.end()}, force, straight.conditions());
+  const auto width = [](const Analysis& analysis) {
+    const Interval ci = *parameter(analysis, "stiffness_N_per_m").estimate.ci95;
+    return (ci.high - ci.low) / ci.low;
+  };
+  const auto warned = [](const Analysis& analysis) {
+    return std::any_of(analysis.warnings.begin(), analysis.warnings.end(),
+                       [](const Warning& w) { return w.code == "model_misfit"; });
+  };
+  const Analysis plain = analyze_and_fit(straight, {});
+  const Analysis creeping = analyze_and_fit(bent.value(), {});
+  CHECK_FALSE(warned(plain));
+  CHECK(warned(creeping));
+  CHECK(width(creeping) > 10.0 * width(plain));
 }
 
 TEST_CASE("held parameters stay where they are put") {
