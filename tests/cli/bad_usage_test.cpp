@@ -1,24 +1,11 @@
 #include <catch2/catch.hpp>
 
 #include "recordings.hpp"
+#include "refusal.hpp"
 #include "run_program.hpp"
 
+using test::check_refused;
 using test::slipfit;
-
-namespace {
-
-/// Wrong usage: exit code 2, nothing on standard output, one line that holds `part`.
-void check_refused(const std::vector<std::string>& arguments, const std::string& part) {
-  const test::ProgramResult result = slipfit(arguments);
-  CAPTURE(arguments, result.err);
-  CHECK(result.exit_code == 2);
-  CHECK(result.out.empty());
-  CHECK(result.err.rfind("slipfit: ", 0) == 0);
-  CHECK(test::lines_in(result.err) == 1);
-  CHECK_THAT(result.err, Catch::Contains(part));
-}
-
-}  // namespace
 
 TEST_CASE("wrong usage is refused with exit code 2 and one line before the recording is opened") {
   const std::string file = "no-such-recording.csv";

@@ -17,14 +17,4 @@ std::vector<std::string> model_options() {
           "--static-friction", "6",    "--kinetic-friction",  "4"};
 }
 
-void check_one_line_refusal(const std::vector<std::string>& arguments, const std::string& part) {
-  const test::ProgramResult result = slipfit(arguments);
-  CAPTURE(arguments, result.err);
-  CHECK(result.exit_code == 2);
-  CHECK(result.out.empty());
-  CHECK(result.err.rfind("slipfit: ", 0) == 0);
-  CHECK(test::lines_in(result.err) == 1);
-  CHECK_THAT(result.err, Catch::Contains(part));
-}
-
 }  // namespace test

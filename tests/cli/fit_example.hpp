@@ -22,7 +22,4 @@ struct FitExample {
 /// The same model as options.
 std::vector<std::string> model_options();
 
-/// Exit code 2, nothing on standard output, one line that holds `part`.
-void check_one_line_refusal(const std::vector<std::string>& arguments, const std::string& part);
-
 }  // namespace test

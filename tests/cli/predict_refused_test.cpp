@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fit_example.hpp"
+#include "refusal.hpp"
 #include "run_program.hpp"
 
 using nlohmann::json;
@@ -13,8 +14,7 @@ TEST_CASE("a fit document that leaves the motion open is refused with what is op
   const auto refused = [&example](const std::function<void(json&)>& change, const std::string& part) {
     json document = example.document();
     change(document);
-    test::check_one_line_refusal({"predict", example.folder.file("changed.json", document.dump()), "--speeds", "0.1"},
-                                 part);
+    test::check_refused({"predict", example.folder.file("changed.json", document.dump()), "--speeds", "0.1"}, part);
   };
   refused(
       [](json& d) {
@@ -35,7 +35,7 @@ TEST_CASE("a fit document that leaves the motion open is refused with what is op
   refused([](json& d) { d["parameters"]["alpha_s_per_m"] = json::object(); }, "velocity-dependent");
   const std::string analysed =
       example.folder.file("analysed.json", slipfit({"analyze", example.recording, "--speed", "20mm/s", "--json"}).out);
-  test::check_one_line_refusal({"predict", analysed, "--speeds", "0.1"}, "no parameters");
+  test::check_refused({"predict", analysed, "--speeds", "0.1"}, "no parameters");
 }
 
 TEST_CASE("numbers that a fit cannot have written are refused with their place") {
@@ -43,8 +43,7 @@ TEST_CASE("numbers that a fit cannot have written are refused with their place")
   const auto refused = [&example](const char* pointer, const json& value, const std::string& part) {
     json document = example.document();
     document[json::json_pointer(pointer)] = value;
-    test::check_one_line_refusal({"predict", example.folder.file("changed.json", document.dump()), "--speeds", "0.1"},
-                                 part);
+    test::check_refused({"predict", example.folder.file("changed.json", document.dump()), "--speeds", "0.1"}, part);
   };
   refused("/schema", "slipfit.predict/1", "schema is \"slipfit.predict/1\", expected slipfit.fit/1");
   refused("/schema", 3, "schema is 3");
@@ -74,14 +73,14 @@ TEST_CASE("numbers that a fit cannot have written are refused with their place")
   refused("/parameters/stiffness_N_per_m/value", std::string(5000, 'x'), "...");
   json missing = example.document();
   missing["parameters"]["stiffness_N_per_m"].erase("value");
-  test::check_one_line_refusal({"predict", example.folder.file("missing.json", missing.dump()), "--speeds", "0.1"},
-                               "parameters.stiffness_N_per_m.value is missing");
+  test::check_refused({"predict", example.folder.file("missing.json", missing.dump()), "--speeds", "0.1"},
+                      "parameters.stiffness_N_per_m.value is missing");
 }
 
 TEST_CASE("files that are no fit document are refused") {
   const test::TemporaryFolder folder;
   const auto refused = [&folder](const std::string& content, const std::string& part) {
-    test::check_one_line_refusal({"predict", folder.file("bad.json", content), "--speeds", "0.1"}, part);
+    test::check_refused({"predict", folder.file("bad.json", content), "--speeds", "0.1"}, part);
   };
   refused("", "bad.json:1': is not one JSON document");
   refused("{\n\"schema\": \"slipfit.fit/1\",\n", "bad.json:3'");
@@ -94,9 +93,9 @@ TEST_CASE("files that are no fit document are refused") {
   refused("{}", "schema is missing");
   refused(std::string(100'000, '['), "is not one JSON document");
   refused(std::string("\xff\xfe{", 3), "is not one JSON document");
-  test::check_one_line_refusal({"predict", folder.path("none.json"), "--speeds", "0.1"}, "No such file");
-  test::check_one_line_refusal({"predict", folder.path(""), "--speeds", "0.1"}, "directory");
-  test::check_one_line_refusal({"predict", "/dev/zero", "--speeds", "0.1"}, "too large");
+  test::check_refused({"predict", folder.path("none.json"), "--speeds", "0.1"}, "No such file");
+  test::check_refused({"predict", folder.path(""), "--speeds", "0.1"}, "directory");
+  test::check_refused({"predict", "/dev/zero", "--speeds", "0.1"}, "too large");
 }
 
 TEST_CASE("speeds that make no sense are refused") {
@@ -105,8 +104,8 @@ TEST_CASE("speeds that make no sense are refused") {
     std::vector<std::string> arguments{"predict"};
     arguments.insert(arguments.end(), model.begin(), model.end());
     arguments.insert(arguments.end(), {"--speeds", speeds});
-    test::check_one_line_refusal(arguments, "--speeds");
-    test::check_one_line_refusal(arguments, part);
+    test::check_refused(arguments, "--speeds");
+    test::check_refused(arguments, part);
   };
   refused("", "--speeds");
   refused("0", "not above zero");
@@ -130,31 +129,30 @@ TEST_CASE("speeds that make no sense are refused") {
   refused("1:2:", "bad number of speeds");
   refused("1:2:100001", "bad number of speeds");
   refused("1:2:99999999999999999999", "bad number of speeds");
-  test::check_one_line_refusal({"predict", "--stiffness", "1"}, "--speeds is missing");
+  test::check_refused({"predict", "--stiffness", "1"}, "--speeds is missing");
 }
 
 TEST_CASE("the model is a fit document or options, not both, not neither, not half") {
-  test::check_one_line_refusal({"predict", "--speeds", "1"}, "model is missing");
-  test::check_one_line_refusal({"predict", "fit.json", "--stiffness", "1000", "--speeds", "1"}, "not both");
-  test::check_one_line_refusal({"predict", "fit.json", "--damping-ratio", "0", "--speeds", "1"}, "not both");
-  test::check_one_line_refusal({"predict", "--stiffness", "1000", "--mass", "1", "--speeds", "1"},
-                               "--static-friction is missing");
-  test::check_one_line_refusal(
+  test::check_refused({"predict", "--speeds", "1"}, "model is missing");
+  test::check_refused({"predict", "fit.json", "--stiffness", "1000", "--speeds", "1"}, "not both");
+  test::check_refused({"predict", "fit.json", "--damping-ratio", "0", "--speeds", "1"}, "not both");
+  test::check_refused({"predict", "--stiffness", "1000", "--mass", "1", "--speeds", "1"},
+                      "--static-friction is missing");
+  test::check_refused(
       {"predict", "--stiffness", "1000", "--static-friction", "3", "--kinetic-friction", "2", "--speeds", "1"},
       "--natural-frequency");
-  test::check_one_line_refusal({"predict", "a.json", "b.json", "--speeds", "1"}, "b.json");
+  test::check_refused({"predict", "a.json", "b.json", "--speeds", "1"}, "b.json");
 }
 
 TEST_CASE("an output that would destroy the fit document is refused") {
   const test::FitExample example;
   const std::string before = test::content_of(example.fit);
   for (const std::string option : {"--out", "--csv"}) {
-    test::check_one_line_refusal({"predict", example.fit, "--speeds", "1", option, example.fit},
-                                 "the fit document itself");
-    test::check_one_line_refusal({"predict", example.fit, "--speeds", "1", option, example.folder.path("none/x")},
-                                 "does not exist");
+    test::check_refused({"predict", example.fit, "--speeds", "1", option, example.fit}, "the fit document itself");
+    test::check_refused({"predict", example.fit, "--speeds", "1", option, example.folder.path("none/x")},
+                        "does not exist");
   }
-  test::check_one_line_refusal(
+  test::check_refused(
       {"predict", example.fit, "--speeds", "1", "--out", example.folder.path("a"), "--csv", example.folder.path("a")},
       "same file");
   CHECK(test::content_of(example.fit) == before);

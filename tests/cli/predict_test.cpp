@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fit_example.hpp"
+#include "refusal.hpp"
 #include "run_program.hpp"
 
 using nlohmann::json;
@@ -174,8 +175,8 @@ TEST_CASE("hostile names of fit documents neither break the JSON nor forge lines
   const test::ProgramResult text = slipfit({"predict", odd, "--speeds", "0.1"});
   CHECK(text.exit_code == 0);
   CHECK(test::lines_in(text.out) == 6);
-  test::check_one_line_refusal({"predict", example.folder.file("bad\nslipfit: ok.json", "{"), "--speeds", "0.1"},
-                               "not one JSON");
+  test::check_refused({"predict", example.folder.file("bad\nslipfit: ok.json", "{"), "--speeds", "0.1"},
+                      "not one JSON");
 }
 
 TEST_CASE("every kind of prediction obeys docs/predict.schema.json, and docs/formats.md names its keys") {

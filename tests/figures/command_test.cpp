@@ -2,22 +2,11 @@
 #include <filesystem>
 #include <iterator>
 
+#include "refusal.hpp"
 #include "run_program.hpp"
 #include "slipfit/figures/figures.hpp"
 
-namespace {
-
-/// Exit code 2, nothing on standard output, one line that holds `part`.
-void check_refused(const std::vector<std::string>& arguments, const std::string& part) {
-  const test::ProgramResult result = test::slipfit(arguments);
-  CAPTURE(arguments, result.err);
-  CHECK(result.exit_code == 2);
-  CHECK(result.out.empty());
-  CHECK(test::lines_in(result.err) == 1);
-  CHECK_THAT(result.err, Catch::StartsWith("slipfit: ") && Catch::Contains(part));
-}
-
-}  // namespace
+using test::check_refused;
 
 TEST_CASE("slipfit figures writes every figure, the same bytes twice, into a folder that it makes") {
   const test::TemporaryFolder folder;
