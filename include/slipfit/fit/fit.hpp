@@ -15,7 +15,7 @@
 namespace slipfit {
 
 /// Models from the poorest to the richest; each adds one idea to the one before.
-enum class Tier { Sawtooth, Undamped, Damped };
+enum class Tier { Sawtooth, Undamped, Damped, Velocity };
 
 struct FitOptions {
   std::optional<Tier> tier;                           ///< empty: chosen by the data
