@@ -132,12 +132,13 @@ class Fitter {
     std::optional<BlockFit> fit = fit_from_starts(probe, level);
     if (!fit) return std::nullopt;
     start_ = fit->parameters.shared;
+    // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
+    if (!std::isfinite(fit->solve({held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
     if (!level.per_cycle && probe.size() > level.terms && reduced_chi2(*fit) > kSuspectChi2) {
       std::optional<BlockFit> wandering =
-          fit_from(probe, {true, 0, {}}, fit->parameters.shared, kQuickIterations, kRough);
+          fit_from(probe, {true, 0, {}}, fit->parameters.shared, kProbeIterations, kRough);
       if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
     }
-    if (!std::isfinite(fit->solve({held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
     refuse_negative_damping(*fit, kRough);
     return fit;
   }
