@@ -95,7 +95,7 @@ Estimate with_interval(double value, double relative_error, double degrees_of_fr
 
 }  // namespace
 
-std::optional<Estimate> fitted_frequency(const FitResult& fit, const Estimate& counted, double sample_interval_s) {
+std::optional<Estimate> fitted_frequency(const FitResult& fit, const Estimate& counted, const Recording& recording) {
   constexpr std::size_t kFewest = 5;
   constexpr double kSampled = 6.0;
   if (!counted.value) return std::nullopt;
@@ -103,14 +103,17 @@ std::optional<Estimate> fitted_frequency(const FitResult& fit, const Estimate& c
   if (onsets.size() < kFewest) return std::nullopt;
   const auto count = static_cast<double>(onsets.size());
   const Line line = line_through(onsets);
+  // The first and the last slip are timed to a step of the clock, evenly distributed.
+  const double timing = recording.sample_interval_s() * *counted.value / std::sqrt(6.0) / count;
   if (!is_regular(fit.evidence, onsets, line.period_s)) {
-    // The first and the last slip are timed to a sample, evenly distributed.
-    const double timing = sample_interval_s * *counted.value / std::sqrt(6.0) / count;
-    return with_interval(*counted.value, std::hypot(recovery_error(fit), timing), count - 1.0);
+    const double mean_Hz = onsets.back().index / (onsets.back().time_s - onsets.front().time_s);
+    return with_interval(mean_Hz, std::hypot(recovery_error(fit), timing), count - 1.0);
   }
   // Between two samples of a hardly sampled slip the errors of regular cycles are no chance: they repeat.
   if (fit.evidence.samples_per_slip < kSampled) return std::nullopt;
-  return with_interval(1.0 / line.period_s, line.standard_error_s / line.period_s, count - 2.0);
+  // Jumps of a sensor at the contact are timed to a step, and the error of regular ones may repeat.
+  const double step = recording.conditions().force_view == ForceView::Contact ? timing : 0.0;
+  return with_interval(1.0 / line.period_s, std::hypot(line.standard_error_s / line.period_s, step), count - 2.0);
 }
 
 }  // namespace slipfit

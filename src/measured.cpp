@@ -73,7 +73,7 @@ FrequencyReport report_frequency(const Recording& recording, const Segmentation&
   report.counted = count_frequency(recording, segmentation);
   report.method = "none";
   if (fit != nullptr && verdict == Verdict::StickSlip) {
-    if (const auto fitted = fitted_frequency(*fit, report.counted, recording.sample_interval_s())) {
+    if (const auto fitted = fitted_frequency(*fit, report.counted, recording)) {
       report.method = "fitted_cycles";
       report.quoted = *fitted;
       return report;

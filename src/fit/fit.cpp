@@ -6,6 +6,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "fit/contact_fit.hpp"
 #include "fit/damped_fit.hpp"
 #include "fit/parameters.hpp"
 #include "fit/tiers.hpp"
@@ -124,6 +125,8 @@ void withdraw_parameters(FitResult& fit) {
 
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
                                        const Segmentation& segmentation, const FitOptions& options) {
+  if (recording.conditions().force_view == ForceView::Contact)
+    return fit::fit_contact(recording, segmentation, options);
   std::optional<DampedFit> damped = fit::fit_damped(recording, quality, segmentation, held_values(options));
   if (!damped) return std::nullopt;
   std::optional<DampedFit> undamped;

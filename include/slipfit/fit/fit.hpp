@@ -35,8 +35,8 @@ struct Cycle {
   std::optional<double> end_s;        ///< end of slip by the fit
   std::optional<double> onset_force;  ///< spring force at the start of slip, F_s - c V
   std::optional<double> level_force;  ///< kinetic level F_k of this cycle
-  std::optional<double> recovery_s;   ///< slip and the stick that makes good its drop: the period that it causes
   std::optional<double> residual_rms;
+  std::optional<double> recovery_s;  ///< slip and the stick that makes good its drop: the period that it causes
 };
 
 /// A tier that was tried, and why it was taken or left.
