@@ -40,7 +40,8 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   Analysis analysis;
   analysis.verdict = judgement.verdict;
   analysis.verdict_reason = judgement.reason;
-  analysis.frequency = report_frequency(recording, signals.segmentation, signals.spectral, judgement.verdict);
+  analysis.frequency =
+      report_frequency(recording, signals.segmentation, signals.spectral, judgement.verdict, fit ? &*fit : nullptr);
   analysis.cycles = summarise_cycles(recording, signals.segmentation, fit ? &*fit : nullptr);
   analysis.cycle_table = fit ? fit->cycles : table_of(recording, signals.segmentation);
   if (fit && analysis.verdict != Verdict::StickSlip) withdraw_parameters(*fit);
