@@ -184,7 +184,7 @@ class Assembler {
     joint.fit.conditional_on.emplace_back(choice.velocity ? "F_k(v) = f0 + f1 exp(alpha v)" : "Coulomb friction");
     joint.fit.residual.reduced_chi2 = outcome_.solution.chi2 / outcome_.solution.degrees_of_freedom;
     add_warnings(joint);
-    fit::SweepEvidence evidence{model_, intervals_};
+    fit::SweepEvidence evidence{outcome_.values, data_.scales, intervals_};
     evidence.depends_on_speed = choice.velocity;
     evidence.law_reason = choice.reason;
     evidence.zero_known = std::all_of(recordings_.begin(), recordings_.end(), [](const SweepRecording& sweep) {

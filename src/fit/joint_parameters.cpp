@@ -15,7 +15,10 @@ constexpr double kSamplesForIdentified = 3.0;
 class SweepReporter {
  public:
   SweepReporter(const SweepEvidence& evidence, FitResult& result)
-      : evidence_(evidence), model_(evidence.model), intervals_(evidence.intervals), result_(result) {}
+      : evidence_(evidence),
+        model_(evidence.values, evidence.scales),
+        intervals_(evidence.intervals),
+        result_(result) {}
 
   void report() {
     add_positive("stiffness_N_per_m", model_.stiffness, 0.05, evidence_.held[kJointStiffness]);
@@ -93,19 +96,35 @@ class SweepReporter {
           fmt::format("only the product f1 alpha can be told: {:.3g} N s/m, 95 % interval {:.3g} to {:.3g}",
                       *slope.value, slope.ci95->low, slope.ci95->high));
     }
-    const bool good = relative < 0.25 && resolved();
-    const ParameterStatus status = good ? ParameterStatus::Identified : ParameterStatus::Weak;
-    const SweepJet f1 = model_.slope / model_.alpha;
-    const SweepJet f0 = model_.level - f1;
-    const std::string note = good ? "" : "the speeds show little of the curvature; f1 alpha is known better";
-    add("alpha_s_per_m", intervals_.of_one_sign(model_.alpha), status, note);
-    const std::string zero = evidence_.zero_known ? note : "takes the sensor's zero as right; state it with --zero";
-    add("f0_N", intervals_.plain(f0), evidence_.zero_known ? status : ParameterStatus::Weak, zero);
-    add("f1_N", intervals_.of_one_sign(f1), status, note);
+    const std::string bends = "the speeds show little of the curvature; f1 alpha is known better";
+    const std::string zero = evidence_.zero_known ? "" : "takes the sensor's zero as right; state it with --zero";
+    const auto graded = [&](double error) {
+      return error < 0.25 && resolved() ? ParameterStatus::Identified : ParameterStatus::Weak;
+    };
+    const auto noted = [&](ParameterStatus status) { return status == ParameterStatus::Weak ? bends : ""; };
+    add("alpha_s_per_m", intervals_.of_one_sign(model_.alpha), graded(relative), noted(graded(relative)));
+    const auto f1 = [](const SweepModel& model) { return model.slope / model.alpha; };
+    const auto f0 = [](const SweepModel& model) { return model.level - model.slope / model.alpha; };
+    const Estimate high_speed = through_rate(f0);
+    const Estimate strength = through_rate(f1);
+    const ParameterStatus status = graded(*strength.standard_error / std::abs(*strength.value));
+    add("f0_N", high_speed, evidence_.zero_known ? status : ParameterStatus::Weak, zero);
+    add("f1_N", strength, status, noted(status));
     if (!evidence_.reference_normal_force_N) return;
+    add("mu0", over_load(high_speed), evidence_.zero_known ? status : ParameterStatus::Weak, zero);
+    add("mu1", over_load(strength), status, noted(status));
+  }
+
+  [[nodiscard]] Estimate through_rate(const std::function<SweepJet(const SweepModel&)>& quantity) const {
+    return intervals_.through_rate(evidence_.values, evidence_.scales, quantity);
+  }
+
+  [[nodiscard]] Estimate over_load(const Estimate& force) const {
     const double load = *evidence_.reference_normal_force_N;
-    add("mu0", intervals_.plain(f0 / load), evidence_.zero_known ? status : ParameterStatus::Weak, zero);
-    add("mu1", intervals_.of_one_sign(f1 / load), status, note);
+    return {*force.value / load,
+            *force.standard_error / load,
+            Interval{force.ci95->low / load, force.ci95->high / load},
+            {}};
   }
 
   void withhold_law(const std::string& reason) {
@@ -135,7 +154,7 @@ class SweepReporter {
   }
 
   const SweepEvidence& evidence_;
-  const SweepModel& model_;
+  SweepModel model_;
   const SweepIntervals& intervals_;
   FitResult& result_;
 };

@@ -8,7 +8,8 @@ namespace slipfit::fit {
 
 /// What the named parameters of a sweep are made from.
 struct SweepEvidence {
-  SweepModel model;
+  SweepVector values;
+  JointScales scales;
   SweepIntervals intervals;
   bool depends_on_speed = false;  ///< the velocity tier is chosen
   std::string law_reason{};       ///< why it is, or not

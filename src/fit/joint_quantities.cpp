@@ -111,4 +111,22 @@ Estimate SweepIntervals::of_one_sign(const SweepJet& y) const {
   return {y.a, se, Interval{std::min(y.a / factor, y.a * factor), std::max(y.a / factor, y.a * factor)}, {}};
 }
 
+Estimate SweepIntervals::through_rate(const SweepVector& values, const JointScales& scales,
+                                      const std::function<SweepJet(const SweepModel&)>& quantity) const {
+  const double variance = matrix_(kFrictionRate, kFrictionRate);
+  const SweepVector follow = matrix_.col(kFrictionRate) / variance;
+  const double reach = quantile_ * std::sqrt(variance);
+  const SweepJet y = quantity(SweepModel(values, scales));
+  const double along = y.v.dot(follow);  // d y / d rate, the others following
+  const double held = std::sqrt(std::max(0.0, covariance(y, y) - along * along * variance));
+  Interval ends{y.a, y.a};
+  for (const double side : {-reach, reach}) {
+    const double end = quantity(SweepModel(values + side * follow, scales)).a;
+    ends = {std::min(ends.low, end), std::max(ends.high, end)};
+  }
+  const Interval ci{y.a - std::hypot(y.a - ends.low, quantile_ * held),
+                    y.a + std::hypot(ends.high - y.a, quantile_ * held)};
+  return {y.a, 0.5 * (ci.high - ci.low) / quantile_, ci, {}};
+}
+
 }  // namespace slipfit::fit

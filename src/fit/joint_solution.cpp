@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kRough = 0.1;
-constexpr double kFinal = 1e-3;
+constexpr double kFinal = 1e-4;
 constexpr int kQuickIterations = 10;
 constexpr int kMaxIterations = 50;
 /// What the recordings share is believed unless chance would hardly give such a disagreement.
