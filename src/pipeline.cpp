@@ -43,6 +43,9 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   analysis.cycle_table = fit ? fit->cycles : table_of(recording, signals.segmentation);
   if (fit && analysis.verdict != Verdict::StickSlip) withdraw_parameters(*fit);
   if (fit) analysis.derived = derive_from_model(*fit, recording.conditions());
+  if (!fit && recording.conditions().measured_spacing_m) {
+    analysis.derived.measured_spacing_En = Estimate{{}, {}, {}, "needs a fitted model"};
+  }
   add_measured_spacing(recording, analysis.frequency, analysis.cycles, analysis.derived);
   analysis.quality = std::move(signals.quality);
   analysis.fit = std::move(fit);
