@@ -49,11 +49,11 @@ int run(int argc, char** argv) {
       "anything usable.");
   add_analyze_command(program);
   add_fit_command(program);
-  add_batch_command(program);
-  add_merge_command(program);
   add_simulate_command(program);
   add_predict_command(program);
   add_figures_command(program);
+  add_batch_command(program);
+  add_merge_command(program);
   try {
     check_command(program, argc > 1 ? argv[1] : "");
     program.parse(argc, argv);
