@@ -89,7 +89,6 @@ std::optional<Error> close(const BatchOptions& options, const WorkList& list, Ru
 Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& hooks) {
   const auto list = list_work(options);
   if (!list) return list.error();
-  tell_ignored_columns(options, hooks);
   const auto lock = FolderLock::take(options.folder);
   if (!lock) return lock.error();
   const RunRecord record = begin_record(options, list.value().manifest_digest, list.value().rows);
@@ -97,6 +96,7 @@ Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& ho
   if (!opened) return opened.error();
   const std::unique_ptr<Ledger> ledger = std::move(opened).value();
   if (auto error = write_record(options.folder, record)) return *error;
+  tell_ignored_columns(options, hooks);
   std::error_code ignored;
   std::filesystem::remove(options.folder / "summary.csv", ignored);  // of an earlier run: it comes back at the end
 

@@ -43,7 +43,10 @@ bool is_still(const fs::path& file, int descriptor) {
 Result<FolderLock> FolderLock::take(const fs::path& folder) {
   std::error_code error;
   fs::create_directory(folder, error);
-  if (error) return cannot_write(folder, error.value());
+  if (error) {
+    return Error{"cannot_write", fmt::format("{}: the folder cannot be written ({}); choose another one with --out",
+                                             one_line(folder.string()), error.message())};
+  }
   const fs::path file = folder / "lock";
   for (;;) {
     FileHandle handle(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));

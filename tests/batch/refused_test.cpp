@@ -57,7 +57,7 @@ TEST_CASE("a manifest with any fault is refused before anything is done") {
 
 TEST_CASE("a folder that cannot be written is one line and exit code 2") {
   const BatchScene scene(1);
-  check_refused({"batch", scene.manifest(), "--out", scene.path("none/out")}, "cannot be written");
+  check_refused({"batch", scene.manifest(), "--out", scene.path("none/out")}, "the folder cannot be written");
   check_refused({"batch", scene.manifest(), "--out", scene.path("r0.csv")}, "cannot be written");
   std::filesystem::create_directory(scene.path("out"));
   std::filesystem::permissions(scene.path("out"), std::filesystem::perms::owner_read);
