@@ -55,7 +55,7 @@ struct BatchOutcome {
 
 /// Fits every recording of a manifest on its own (and every group together) and writes results.jsonl, summary.csv,
 /// failures.csv and run.json as docs/formats.md says. A recording that fails is a row of failures.csv and no error.
-/// Memory: the recordings in flight and about 30 bytes a row. After a stop, an error or a kill at any moment, `resume`
+/// Memory: the recordings in flight and at most 60 bytes a row. After a stop, an error or a kill at any moment, `resume`
 /// goes on. Errors: those of ManifestReader, duplicate_id, empty_manifest, folder_in_use, folder_of_another_batch,
 /// results_present, manifest_changed, cannot_write.
 Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& hooks = {});
