@@ -5,7 +5,9 @@
 // Each adds one command to the program; the command runs when the arguments name it, and throws Failure where it
 // cannot.
 void add_analyze_command(CLI::App& program);
+void add_batch_command(CLI::App& program);
 void add_fit_command(CLI::App& program);
 void add_figures_command(CLI::App& program);
 void add_simulate_command(CLI::App& program);
+void add_merge_command(CLI::App& program);
 void add_predict_command(CLI::App& program);

@@ -4,7 +4,14 @@
 #include <string>
 
 /// What the shell sees; docs/formats.md lists them.
-enum class ExitCode { Analysed = 0, WrongUsage = 2, BadRecording = 3 };
+enum class ExitCode {
+  Analysed = 0,
+  RecordingsFailed = 1,  ///< a batch finished, and some of its recordings failed
+  WrongUsage = 2,
+  BadRecording = 3,
+  Interrupted = 130,  ///< 128 + SIGINT
+  Terminated = 143    ///< 128 + SIGTERM
+};
 
 /// Ends a command: main() prints the message as one line and exits with the code. Thrown in apps/ only.
 class Failure : public std::runtime_error {

@@ -8,7 +8,6 @@
 #include "failure.hpp"
 #include "output.hpp"
 #include "slipfit/io/manifest.hpp"
-#include "slipfit/io/recording_reader.hpp"
 #include "slipfit/report/sweep.hpp"
 
 namespace {
@@ -33,24 +32,9 @@ std::vector<ManifestEntry> read_manifest(const JointArguments& arguments) {
 }
 
 std::vector<slipfit::SweepEntry> read_recordings(const std::vector<ManifestEntry>& manifest) {
-  std::vector<slipfit::SweepEntry> entries;
-  for (const ManifestEntry& entry : manifest) {
-    auto recording = slipfit::read_recording(entry.file.string(), entry.conditions, entry.options);
-    if (!recording) throw Failure(ExitCode::BadRecording, recording.error().message);
-    if (recording.value().conditions().quantity != slipfit::ForceQuantity::Force_N) {
-      throw Failure(ExitCode::BadRecording,
-                    fmt::format("{}: holds a friction coefficient; a joint fit needs forces: give normal_force_N in "
-                                "the manifest",
-                                entry.file.string()));
-    }
-    if (recording.value().conditions().force_view != slipfit::ForceView::Spring) {
-      throw Failure(ExitCode::WrongUsage,
-                    fmt::format("{}: a joint fit knows the spring force only (force_view spring); fit this one alone",
-                                entry.file.string()));
-    }
-    entries.push_back({entry.id, std::move(recording).value()});
-  }
-  return entries;
+  auto entries = slipfit::read_sweep(manifest);
+  if (!entries) throw Failure(ExitCode::BadRecording, entries.error().message);
+  return std::move(entries).value();
 }
 
 std::string name_of_fit(const JointArguments& arguments) {

@@ -44,12 +44,16 @@ int run(int argc, char** argv) {
   CLI::App program("Fits a stick-slip friction model to tribometer recordings", "slipfit");
   program.set_version_flag("--version", std::string("slipfit ") + SLIPFIT_VERSION);
   program.require_subcommand(1);
-  program.footer("Exit codes: 0 analysed, 2 wrong usage, 3 recording unreadable or without anything usable.");
+  program.footer(
+      "Exit codes: 0 analysed, 1 some recordings of a batch failed, 2 wrong usage, 3 recording unreadable or without "
+      "anything usable.");
   add_analyze_command(program);
   add_fit_command(program);
   add_simulate_command(program);
   add_predict_command(program);
   add_figures_command(program);
+  add_batch_command(program);
+  add_merge_command(program);
   try {
     check_command(program, argc > 1 ? argv[1] : "");
     program.parse(argc, argv);

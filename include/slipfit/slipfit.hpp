@@ -2,6 +2,7 @@
 
 // Everything that a user of the library needs: read a recording, analyse or fit it, report the result.
 
+#include "slipfit/batch/batch.hpp"
 #include "slipfit/core/units.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"

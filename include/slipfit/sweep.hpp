@@ -7,6 +7,7 @@
 
 #include "slipfit/core/recording.hpp"
 #include "slipfit/fit/joint.hpp"
+#include "slipfit/io/manifest.hpp"
 #include "slipfit/pipeline.hpp"
 
 namespace slipfit {
@@ -16,6 +17,10 @@ struct SweepEntry {
   std::string id;
   Recording recording;
 };
+
+/// The recordings that a manifest names, in its order. A joint fit compares forces behind the spring. Errors: those of
+/// read_recording, not_a_force, view_not_spring.
+Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manifest);
 
 /// Recordings of one sliding pair at several speeds (or loads), analysed one by one and then together.
 struct SweepAnalysis {

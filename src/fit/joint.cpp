@@ -166,6 +166,15 @@ double samples_per_slip(std::span<const SweepRecording> recordings, const SweepD
   return signal::median(samples);
 }
 
+/// Over all cycles of all recordings.
+double residual_rms(const fit::JointProblem& problem) {
+  double square = 0.0;
+  for (std::size_t run = 0; run < problem.size(); ++run) {
+    square += problem.run(run).noise * problem.run(run).noise * static_cast<double>(problem.recording(run).size());
+  }
+  return std::sqrt(square / static_cast<double>(problem.cycle_count()));
+}
+
 class Assembler {
  public:
   Assembler(std::span<const SweepRecording> recordings, const SweepData& data, const Outcome& outcome)
@@ -182,6 +191,7 @@ class Assembler {
     joint.difference_shared = problem.shares().difference;
     joint.fit.tier = choice.velocity ? Tier::Velocity : Tier::Damped;
     joint.fit.conditional_on.emplace_back(choice.velocity ? "F_k(v) = f0 + f1 exp(alpha v)" : "Coulomb friction");
+    joint.fit.residual.rms = residual_rms(problem);
     joint.fit.residual.reduced_chi2 = outcome_.solution.chi2 / outcome_.solution.degrees_of_freedom;
     add_warnings(joint);
     fit::SweepEvidence evidence{outcome_.values, data_.scales, intervals_};

@@ -69,9 +69,8 @@ std::string notes_text(const std::vector<Parameter>& parameters) {
 }
 
 std::string residual_text(const FitResult& fit, ForceQuantity quantity) {
-  std::string text = fmt::format("  fit: {} model", name_of(fit.tier));
-  if (fit.residual.rms > 0.0)
-    text += fmt::format(", residual {} rms", quantity_text(fit.residual.rms, force_unit(quantity)));
+  std::string text = fmt::format("  fit: {} model, residual {} rms", name_of(fit.tier),
+                                 quantity_text(fit.residual.rms, force_unit(quantity)));
   if (fit.residual.reduced_chi2) text += fmt::format(", reduced chi2 {:.3g}", *fit.residual.reduced_chi2);
   if (fit.residual.whiteness_p) text += fmt::format(", whiteness p {:.2g}", *fit.residual.whiteness_p);
   return text + "\n";

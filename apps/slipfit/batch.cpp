@@ -1,0 +1,114 @@
+#include "slipfit/batch/batch.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "fit_options.hpp"
+#include "output.hpp"
+#include "progress_line.hpp"
+#include "stop_signals.hpp"
+
+namespace {
+
+constexpr std::size_t kMostJobs = 1024;
+
+struct BatchArguments {
+  std::string manifest;
+  std::string out;
+  std::optional<std::size_t> jobs;
+  std::optional<std::string> shard;
+  bool resume = false;
+  bool joint_groups = false;
+  std::string tier = "auto";
+  std::vector<std::string> fixed;
+  bool quiet = false;
+};
+
+void add_options(CLI::App& command, BatchArguments& arguments) {
+  command.add_option("MANIFEST", arguments.manifest, "CSV: id,file,speed_m_per_s, one row a recording")->required();
+  command.add_option("--out", arguments.out, "Folder of the results; made where it is missing")->required();
+  command.add_option("--jobs", arguments.jobs, "Recordings at a time; without it one a core");
+  command.add_flag("--resume", arguments.resume, "Go on with what the folder holds");
+  command.add_option("--shard", arguments.shard, "I/N: the I-th of N parts of the manifest, I from 1");
+  command.add_flag("--joint-groups", arguments.joint_groups, "Fit the recordings of each group together, too");
+  command.add_option("--tier", arguments.tier, "Model: auto, sawtooth, undamped, damped")->capture_default_str();
+  command.add_option("--fix", arguments.fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
+      ->allow_extra_args(false);
+  command.add_flag("--quiet", arguments.quiet, "No messages on standard error but errors");
+}
+
+slipfit::Shard shard_from(const std::string& text) {
+  slipfit::Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto index = std::from_chars(text.data(), end, shard.index);
+  const bool has_slash = index.ec == std::errc() && index.ptr != end && *index.ptr == '/';
+  const auto count = has_slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
+  const bool is_whole = has_slash && count.ec == std::errc() && count.ptr == end;
+  if (is_whole && shard.index >= 1 && shard.index <= shard.count) return shard;
+  throw Failure(ExitCode::WrongUsage,
+                fmt::format("--shard: bad '{}', expected I/N with I from 1 to N (Slurm: --array=1-N)", text));
+}
+
+std::size_t jobs_from(const std::optional<std::size_t>& jobs) {
+  if (!jobs) return std::max(1U, std::thread::hardware_concurrency());
+  if (*jobs >= 1 && *jobs <= kMostJobs) return *jobs;
+  throw Failure(ExitCode::WrongUsage, fmt::format("--jobs: {} is out of range, expected 1 to {}", *jobs, kMostJobs));
+}
+
+slipfit::BatchOptions options_from(const BatchArguments& arguments) {
+  slipfit::BatchOptions options;
+  options.manifest = arguments.manifest;
+  options.folder = arguments.out;
+  options.fit = fit_options_from(arguments.tier, arguments.fixed, FitKind::Single);
+  options.jobs = jobs_from(arguments.jobs);
+  options.resume = arguments.resume;
+  if (arguments.shard) options.shard = shard_from(*arguments.shard);
+  if (arguments.joint_groups) options.fit_group = slipfit::group_fit(options.fit);
+  return options;
+}
+
+slipfit::BatchOutcome run_shown(const slipfit::BatchOptions& options, const BatchArguments& arguments) {
+  ProgressLine line;
+  slipfit::BatchHooks hooks;
+  hooks.should_stop = [] { return StopSignals::received().has_value(); };
+  if (!arguments.quiet) {
+    hooks.show_progress = [&line](const slipfit::BatchProgress& progress) { line.show(progress); };
+    hooks.tell = say;
+  }
+  auto outcome = slipfit::run_batch(options, hooks);
+  if (!outcome) throw Failure(ExitCode::WrongUsage, outcome.error().message);
+  return std::move(outcome).value();
+}
+
+void run(const BatchArguments& arguments) {
+  const slipfit::BatchOptions options = options_from(arguments);
+  const StopSignals signals;
+  const slipfit::BatchOutcome outcome = run_shown(options, arguments);
+  const slipfit::BatchProgress& progress = outcome.progress;
+  const std::size_t done = progress.before + progress.fitted;
+  if (outcome.end == slipfit::BatchEnd::Stopped) {
+    throw Failure(StopSignals::received().value_or(ExitCode::Interrupted),
+                  fmt::format("stopped with {} of {} done; --resume goes on", done, progress.total));
+  }
+  if (progress.failed > 0) {
+    throw Failure(ExitCode::RecordingsFailed, fmt::format("{} of {} failed: '{}' says why", progress.failed,
+                                                          progress.total, (options.folder / "failures.csv").string()));
+  }
+  if (!arguments.quiet) say(fmt::format("wrote {} results to '{}' in {:.3g} s", done, arguments.out, progress.seconds));
+}
+
+}  // namespace
+
+void add_batch_command(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand("batch", "The fit of every recording of a manifest, into a folder");
+  const auto arguments = std::make_shared<BatchArguments>();
+  add_options(*command, *arguments);
+  command->callback([arguments] { run(*arguments); });
+}

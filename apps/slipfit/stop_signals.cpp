@@ -1,0 +1,41 @@
+#include "stop_signals.hpp"
+
+#include <csignal>
+
+namespace {
+
+// A signal handler can reach nothing else.
+volatile std::sig_atomic_t received_signal = 0;
+
+extern "C" void remember(int signal) {
+  received_signal = signal;
+}
+
+}  // namespace
+
+StopSignals::StopSignals() {
+  received_signal = 0;
+  struct sigaction action {};
+  action.sa_handler = remember;
+  action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);  // a job in the background ignores Ctrl-C
+  }
+}
+
+StopSignals::~StopSignals() {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction now {};
+    ::sigaction(signal, nullptr, &now);
+    if (now.sa_handler == remember) (void)std::signal(signal, SIG_DFL);
+  }
+}
+
+std::optional<ExitCode> StopSignals::received() {
+  if (received_signal == SIGINT) return ExitCode::Interrupted;
+  if (received_signal == SIGTERM) return ExitCode::Terminated;
+  return std::nullopt;
+}

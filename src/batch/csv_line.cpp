@@ -1,0 +1,26 @@
+#include "batch/csv_line.hpp"
+
+namespace slipfit::batch {
+namespace {
+
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+}  // namespace
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i > 0) line += ',';
+    const std::string& cell = cells[i];
+    const bool is_plain = cell.find_first_of(",;\"\n\r\t#") == std::string::npos &&
+                          (cell.empty() || (cell.front() != ' ' && cell.back() != ' '));
+    line += is_plain ? cell : quoted(cell);
+  }
+  return line;
+}
+
+}  // namespace slipfit::batch

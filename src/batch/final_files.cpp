@@ -1,0 +1,86 @@
+#include "batch/final_files.hpp"
+
+#include <cstddef>
+
+#include "batch/summary.hpp"
+#include "io/csv_fields.hpp"
+#include "slipfit/report/text.hpp"
+
+namespace slipfit::batch {
+namespace {
+
+std::optional<Error> append_line(Replacement& file, const std::string& line) {
+  return file.append(line + "\n");
+}
+
+/// The second cell of a line of failures.csv.
+std::string code_of(const std::string& failure) {
+  const auto cells = reading::csv_fields(failure, ',');
+  return cells && cells->size() > 1 ? (*cells)[1] : std::string();
+}
+
+std::optional<Error> add_slot(FinalFiles& files, const Ledger& ledger, std::size_t slot, const SummaryKey& key) {
+  const Ledger::Kind kind = ledger.kind_of(slot);
+  if (kind == Ledger::Kind::Nothing) return std::nullopt;
+  const auto line = ledger.line_of(slot);
+  if (!line) return line.error();
+  if (kind == Ledger::Kind::Failure) {
+    return files.add_failure(line.value(), summary_of_failure(key, code_of(line.value())));
+  }
+  const auto summary = summary_of_result(key, line.value());
+  if (!summary) return summary.error();
+  return files.add_result(line.value(), summary.value());
+}
+
+}  // namespace
+
+Result<FinalFiles> FinalFiles::open(const std::filesystem::path& folder) {
+  auto results = Replacement::open(folder / "results.jsonl");
+  if (!results) return results.error();
+  auto summary = Replacement::open(folder / "summary.csv");
+  if (!summary) return summary.error();
+  auto failures = Replacement::open(folder / "failures.csv");
+  if (!failures) return failures.error();
+  FinalFiles files(std::move(results).value(), std::move(summary).value(), std::move(failures).value());
+  if (auto error = append_line(files.summary_, summary_names())) return *error;
+  if (auto error = append_line(files.failures_, failure_names())) return *error;
+  return files;
+}
+
+std::optional<Error> FinalFiles::add_result(const std::string& document, const std::string& summary) {
+  if (auto error = append_line(results_, document)) return error;
+  return append_line(summary_, summary);
+}
+
+std::optional<Error> FinalFiles::add_failure(const std::string& failure, const std::string& summary) {
+  if (auto error = append_line(failures_, failure)) return error;
+  return append_line(summary_, summary);
+}
+
+std::optional<Error> FinalFiles::finish() {
+  for (Replacement* const file : {&results_, &failures_, &summary_}) {
+    if (auto error = file->finish()) return error;
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
+                                       const WorkList& list, const Ledger& ledger) {
+  auto opened = FinalFiles::open(folder);
+  if (!opened) return opened.error();
+  FinalFiles files = std::move(opened).value();
+  std::size_t group = 0;
+  auto failed = for_each_entry(manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
+    const SummaryKey key{entry.row, entry.id, entry.group, one_line(entry.file.string())};
+    if (auto error = add_slot(files, ledger, entry.row - 1, key)) return error;
+    for (; group < list.groups.size() && list.groups[group].last_row == entry.row; ++group) {
+      const std::string& name = list.groups[group].name;
+      const SummaryKey group_key{entry.row, id_of_group(name), name, ""};
+      if (auto error = add_slot(files, ledger, list.slot_of_group(group), group_key)) return error;
+    }
+    return std::nullopt;
+  });
+  return failed ? failed : files.finish();
+}
+
+}  // namespace slipfit::batch

@@ -1,0 +1,148 @@
+#include "batch/run.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <unordered_map>
+#include <utility>
+
+#include "slipfit/pipeline.hpp"
+#include "slipfit/report/json.hpp"
+#include "slipfit/report/text.hpp"
+
+namespace slipfit::batch {
+namespace {
+
+constexpr std::chrono::seconds kSyncInterval{1};
+constexpr std::size_t kGroupsAtATime = 1000;  // whose entries are in memory: a few megabytes
+
+Result<std::string> fit_recording_of(const ManifestEntry& entry, const FitOptions& options) {
+  const auto recording = read_recording(entry.file, entry.conditions, entry.options);
+  if (!recording) return recording.error();
+  JsonOptions layout;
+  layout.id = entry.id;
+  layout.layout = JsonLayout::OneLine;
+  return to_json(recording.value(), analyze_and_fit(recording.value(), options), layout);
+}
+
+/// One recording's trouble stays its own.
+Result<std::string> guarded(const std::string& name, const std::function<Result<std::string>()>& fit) {
+  try {
+    return fit();
+  } catch (const std::bad_alloc&) {
+    return Error{"out_of_memory", one_line(name) + ": not enough memory; give a part of it as window, or fewer --jobs"};
+  } catch (const std::exception& error) {
+    return Error{"internal_error",
+                 one_line(name) + ": internal error, please report it with the recording: " + one_line(error.what())};
+  }
+}
+
+}  // namespace
+
+Run::Run(const BatchOptions& options, const BatchHooks& hooks, const WorkList& list, Ledger& ledger)
+    : options_(options), hooks_(hooks), list_(list), ledger_(ledger) {
+  for (std::size_t slot = 0; slot < list.is_mine.size(); ++slot) {
+    if (!list.is_mine[slot]) continue;
+    ++total_;
+    if (ledger.kind_of(slot) == Ledger::Kind::Result) ++before_;
+  }
+}
+
+std::optional<Error> Run::fit_recordings() {
+  auto opened = ManifestReader::open(options_.manifest);
+  if (!opened) return opened.error();
+  ManifestReader reader = std::move(opened).value();
+  run_crew(
+      options_.jobs, [&] { return next_recording(reader); }, [this] { return watch(); });
+  return first_error();
+}
+
+std::optional<Error> Run::fit_groups() {
+  for (std::size_t first = 0; first < list_.groups.size() && !stopped_; first += kGroupsAtATime) {
+    const std::size_t count = std::min(kGroupsAtATime, list_.groups.size() - first);
+    const auto members = members_of(first, count);
+    if (!members) return members.error();
+    std::size_t next = 0;
+    const auto next_group = [&]() -> std::optional<Task> {
+      while (next < count && !first_error()) {
+        const std::size_t group = next++;
+        if (auto task = task_for_group(first + group, members.value()[group])) return task;
+      }
+      return std::nullopt;
+    };
+    run_crew(options_.jobs, next_group, [this] { return watch(); });
+    if (auto error = first_error()) return error;
+  }
+  return std::nullopt;
+}
+
+BatchProgress Run::progress() const {
+  return {total_, before_, fitted_, failed_, std::chrono::duration<double>(Clock::now() - start_).count()};
+}
+
+bool Run::is_to_do(std::size_t slot) const {
+  return list_.is_mine[slot] && ledger_.kind_of(slot) == Ledger::Kind::Nothing;
+}
+
+std::optional<Task> Run::next_recording(ManifestReader& reader) {
+  while (!first_error()) {
+    auto next = reader.next();
+    if (!next) keep(next.error());
+    if (!next || !next.value() || next.value()->row > list_.rows) return std::nullopt;
+    if (!is_to_do(next.value()->row - 1)) continue;
+    return [this, entry = *std::move(next).value()] {
+      take_in(entry.row - 1, entry.id,
+              guarded(entry.file.string(), [&] { return fit_recording_of(entry, options_.fit); }));
+    };
+  }
+  return std::nullopt;
+}
+
+std::optional<Task> Run::task_for_group(std::size_t group, const Members& members) {
+  const std::size_t slot = list_.slot_of_group(group);
+  if (!is_to_do(slot)) return std::nullopt;
+  return [this, slot, id = id_of_group(list_.groups[group].name), &members] {
+    take_in(slot, id, guarded(id, [&] { return options_.fit_group(id, members); }));
+  };
+}
+
+Result<std::vector<Run::Members>> Run::members_of(std::size_t first_group, std::size_t count) const {
+  std::unordered_map<std::string, std::size_t> wanted;
+  for (std::size_t i = 0; i < count; ++i) wanted.emplace(list_.groups[first_group + i].name, i);
+  std::vector<Members> members(count);
+  auto failed = for_each_entry(options_.manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
+    const auto place = wanted.find(entry.group);
+    if (place != wanted.end()) members[place->second].push_back(entry);
+    return std::nullopt;
+  });
+  if (failed) return *failed;
+  return members;
+}
+
+void Run::take_in(std::size_t slot, const std::string& id, const Result<std::string>& document) {
+  auto error = document ? ledger_.add_result(slot, document.value()) : ledger_.add_failure(slot, id, document.error());
+  if (error) return keep(*std::move(error));
+  ++(document ? fitted_ : failed_);
+}
+
+void Run::keep(Error error) {
+  const std::lock_guard lock(error_mutex_);
+  if (!error_) error_ = std::move(error);
+}
+
+std::optional<Error> Run::first_error() {
+  const std::lock_guard lock(error_mutex_);
+  return error_;
+}
+
+Watch Run::watch() {
+  if (Clock::now() - last_sync_ >= kSyncInterval) {
+    last_sync_ = Clock::now();
+    if (auto error = ledger_.sync()) keep(*std::move(error));
+  }
+  if (hooks_.show_progress) hooks_.show_progress(progress());
+  stopped_ = stopped_ || (hooks_.should_stop && hooks_.should_stop());
+  return stopped_ ? Watch::Stop : Watch::GoOn;
+}
+
+}  // namespace slipfit::batch

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "slipfit/batch/batch.hpp"
+#include "slipfit/core/result.hpp"
+
+namespace slipfit::batch {
+
+/// What run.json says: what was run, and how far it came.
+struct RunRecord {
+  std::string version;
+  std::string manifest;
+  std::string manifest_digest;
+  std::string options;  ///< JSON text of what changes the results
+  Shard shard;
+  std::size_t jobs = 1;
+  std::size_t rows = 0;  ///< of the whole manifest
+  BatchProgress progress;
+  std::string started;  ///< UTC, ISO 8601
+  bool finished = false;
+};
+
+/// Of a run that begins now.
+RunRecord begin_record(const BatchOptions& options, std::uint64_t manifest_digest, std::size_t rows);
+
+std::optional<Error> write_record(const std::filesystem::path& folder, const RunRecord& record);
+
+/// Nothing where the folder has none. Error: folder_of_another_batch where it is not ours.
+Result<std::optional<RunRecord>> read_record(const std::filesystem::path& folder);
+
+/// What keeps `now` from going on with what `before` began ("the manifest has changed"), or nothing.
+std::optional<std::string> difference(const RunRecord& before, const RunRecord& now);
+
+}  // namespace slipfit::batch

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "slipfit/core/result.hpp"
+
+namespace slipfit::batch {
+
+/// What the manifest says about a row of summary.csv; of a group `row` is its last one and `file` is empty.
+struct SummaryKey {
+  std::size_t row = 0;
+  std::string id;
+  std::string group;
+  std::string file;
+};
+
+/// The line of names, without its end.
+std::string summary_names();
+
+/// From a document of `slipfit fit --json`; what it does not know is empty. Error: not_readable.
+Result<std::string> summary_of_result(const SummaryKey& key, const std::string& document);
+
+/// Of a recording that failed.
+std::string summary_of_failure(const SummaryKey& key, const std::string& code);
+
+/// What a merge needs of a row that summary_of_... made.
+struct SummaryPlace {
+  std::size_t row = 0;
+  bool is_group = false;
+  bool has_failed = false;
+};
+std::optional<SummaryPlace> place_of(const std::string& summary_line);
+
+}  // namespace slipfit::batch

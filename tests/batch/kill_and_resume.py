@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""kill_and_resume.py SLIPFIT [--kills N] [--recordings N] [--seed N]
+
+Kills `slipfit batch` with SIGKILL at random moments, cuts off random bytes that a crash of the machine could have taken,
+resumes, and compares the final files with those of a run that nobody disturbed. Exit code 1 where they differ.
+"""
+
+import argparse
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+FILES = ("results.jsonl", "summary.csv", "failures.csv")
+MODEL = "--stiffness 1000 --natural-frequency 200 --damping-ratio 0.05 --static-friction 6 --kinetic-friction 4".split()
+DISTINCT = 20
+
+
+def simulate(slipfit, folder):
+    for i in range(DISTINCT):
+        options = f"--speed 20mm/s --duration 2 --sample-rate 1000 --noise 0.02 --jitter 0.05 --seed {i + 1}".split()
+        subprocess.run([slipfit, "simulate", *MODEL, *options, "--out", folder / f"r{i}.csv", "--quiet"], check=True)
+
+
+def write_manifest(folder, recordings):
+    """Every 50th file is missing, so that there are failures."""
+    rows = ["id,file,speed_m_per_s"]
+    for i in range(recordings):
+        rows.append(f"x{i},{'none' if i % 50 == 49 else f'r{i % DISTINCT}'}.csv,0.02")
+    manifest = folder / "runs.csv"
+    manifest.write_text("\n".join(rows) + "\n")
+    return manifest
+
+
+def start(slipfit, manifest, out):
+    return subprocess.Popen([slipfit, "batch", manifest, "--out", out, "--resume", "--jobs", "2", "--quiet"],
+                            stderr=subprocess.PIPE, text=True)
+
+
+def finish(slipfit, manifest, out):
+    process = start(slipfit, manifest, out)
+    message = process.communicate()[1]
+    if process.returncode not in (0, 1):
+        sys.exit(f"batch ended with {process.returncode}: {message}")
+
+
+def lose_some_bytes(file, chance):
+    """What was written less than a second ago may be lost with the machine."""
+    size = file.stat().st_size if file.exists() else 0
+    if size and chance.random() < 0.5:
+        with file.open("r+b") as stream:
+            stream.truncate(size - chance.randrange(min(size, 9000)))
+
+
+def same(first, second):
+    return all((first / name).read_bytes() == (second / name).read_bytes() for name in FILES)
+
+
+def kill_once(slipfit, manifest, out, seconds, chance):
+    """Whether there was a batch left to kill."""
+    process = start(slipfit, manifest, out)
+    time.sleep(chance.uniform(0.0, seconds))
+    process.kill()
+    process.communicate()
+    lose_some_bytes(out / "results.jsonl", chance)
+    return process.returncode < 0
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("slipfit")
+    parser.add_argument("--kills", type=int, default=30)
+    parser.add_argument("--recordings", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    chance = random.Random(arguments.seed)
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="slipfit-kill-"))
+    try:
+        simulate(arguments.slipfit, folder)
+        manifest = write_manifest(folder, arguments.recordings)
+        begin = time.monotonic()
+        finish(arguments.slipfit, manifest, folder / "whole")
+        seconds = time.monotonic() - begin
+        kills = attempts = rounds = 0
+        while kills < arguments.kills and attempts < 20 * arguments.kills:
+            # Several kills a round, spread over the whole of a run: the end, where files change places, included.
+            rounds += 1
+            for _ in range(chance.randint(1, 4)):
+                attempts += 1
+                if kills < arguments.kills:
+                    kills += kill_once(arguments.slipfit, manifest, folder / "out", 1.05 * seconds, chance)
+            finish(arguments.slipfit, manifest, folder / "out")
+            if not same(folder / "whole", folder / "out"):
+                sys.exit(f"seed {arguments.seed}: the files differ after {kills} kills; they are in {folder}")
+            shutil.rmtree(folder / "out")
+        lines = len((folder / "whole" / "results.jsonl").read_text().splitlines())
+        print(f"seed {arguments.seed}: {kills} kills in {rounds} batches of {arguments.recordings} recordings "
+              f"({lines} results, {seconds:.2f} s undisturbed): every final file is the same")
+        sys.exit(0 if kills == arguments.kills else f"only {kills} kills found a batch at work")
+    finally:
+        if sys.exc_info()[0] is SystemExit and sys.exc_info()[1].code in (0, None):
+            shutil.rmtree(folder)
+
+
+main()

@@ -1,0 +1,96 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "batch/shards.hpp"
+#include "manifests.hpp"
+#include "refusal.hpp"
+
+using test::batch;
+using test::BatchScene;
+using test::check_refused;
+using test::files_in;
+
+namespace {
+
+std::vector<std::string> run_shards(const BatchScene& scene, std::size_t count) {
+  std::vector<std::string> folders;
+  for (std::size_t i = 1; i <= count; ++i) {
+    folders.push_back(scene.path("shard" + std::to_string(i)));
+    const std::string shard = std::to_string(i) + "/" + std::to_string(count);
+    const auto run = batch(scene.manifest(), folders.back(), {"--shard", shard});
+    CAPTURE(run.err);
+    REQUIRE(run.exit_code <= 1);
+  }
+  return folders;
+}
+
+test::ProgramResult merge(std::vector<std::string> folders, const std::string& out) {
+  folders.insert(folders.begin(), "merge");
+  folders.insert(folders.end(), {"--out", out});
+  return test::slipfit(folders);
+}
+
+}  // namespace
+
+TEST_CASE("merged shards are the files of one machine, failures included") {
+  const BatchScene scene(11);
+  std::filesystem::remove(scene.path("r3.csv"));
+  std::filesystem::remove(scene.path("r10.csv"));
+  REQUIRE(batch(scene.manifest(), scene.path("single")).exit_code == 1);
+  for (const std::size_t count : {std::size_t{1}, std::size_t{3}, std::size_t{20}}) {
+    CAPTURE(count);
+    auto folders = run_shards(scene, count);
+    std::reverse(folders.begin(), folders.end());
+    const auto run = merge(folders, scene.path("merged"));
+    CAPTURE(run.err);
+    CHECK(run.exit_code == 1);
+    CHECK_THAT(run.err, Catch::Contains("2 of 11 failed"));
+    CHECK(files_in(scene.path("merged")) == files_in(scene.path("single")));
+    for (const std::string& folder : folders) std::filesystem::remove_all(folder);
+  }
+  const auto record = nlohmann::json::parse(test::content_of(scene.path("merged/run.json")));
+  CHECK(record["rows"] == 11);
+  CHECK(record["fitted"] == 9);
+  CHECK(record["shard"]["count"] == 1);
+}
+
+TEST_CASE("shards share the work by size, the same way every time") {
+  std::vector<std::uint64_t> sizes(1000);
+  for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = 1000 + (i * 7919) % 5000 + (i % 97 == 0 ? 400000 : 0);
+  const auto shard_of = slipfit::batch::spread(sizes, 7);
+  std::vector<std::uint64_t> loads(7, 0);
+  for (std::size_t i = 0; i < sizes.size(); ++i) loads.at(shard_of[i] - 1) += sizes[i];
+  const auto [least, most] = std::minmax_element(loads.begin(), loads.end());
+  CHECK(static_cast<double>(*most) < 1.01 * static_cast<double>(*least));
+  CHECK(shard_of == slipfit::batch::spread(sizes, 7));
+}
+
+TEST_CASE("a merge of what does not belong together is refused") {
+  const BatchScene scene(4);
+  const auto shards = run_shards(scene, 2);
+  const std::string out = scene.path("merged");
+  check_refused({"merge", shards[0], "--out", out}, "shard 2 of the batch");
+  check_refused({"merge", shards[0], shards[0], shards[1], "--out", out}, "given before");
+  check_refused({"merge", shards[0], shards[1], "--out", shards[1]}, "is one of the shards");
+  check_refused({"merge", shards[0], scene.path("none"), "--out", out}, "run.json");
+  check_refused({"merge", shards[0], shards[1], "--out", scene.path("none/merged")}, "cannot be written");
+  REQUIRE(batch(scene.manifest(), scene.path("other"), {"--shard", "2/2", "--tier", "undamped"}).exit_code == 0);
+  check_refused({"merge", shards[0], scene.path("other"), "--out", out}, "belongs to another batch");
+  REQUIRE(batch(scene.manifest(), scene.path("third"), {"--shard", "2/3"}).exit_code == 0);
+  check_refused({"merge", shards[0], scene.path("third"), "--out", out}, "belongs to another batch");
+  check_refused({"merge", shards[0], shards[1], "--out", scene.path("other")}, "results of another batch");
+  REQUIRE(merge(shards, out).exit_code == 0);
+  CHECK(merge(shards, out).exit_code == 0);  // a merge job that Slurm starts twice
+  std::filesystem::remove(shards[1] + "/summary.csv");
+  check_refused({"merge", shards[0], shards[1], "--out", out}, "not complete");
+}
+
+TEST_CASE("shards that were cut at different sizes of the files are noticed") {
+  const BatchScene scene(4);
+  REQUIRE(batch(scene.manifest(), scene.path("shard1"), {"--shard", "1/2"}).exit_code == 0);
+  (void)scene.file("r0.csv", test::content_of(scene.path("r4.csv")) + std::string(500000, '\n'));
+  REQUIRE(batch(scene.manifest(), scene.path("shard2"), {"--shard", "2/2"}).exit_code <= 1);
+  check_refused({"merge", scene.path("shard1"), scene.path("shard2"), "--out", scene.path("merged")},
+                "in no shard, or in two");
+}

@@ -1,0 +1,125 @@
+#include "refusal.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "manifests.hpp"
+
+using test::batch;
+using test::BatchScene;
+using test::check_refused;
+
+namespace {
+
+void check_refused_batch(const BatchScene& scene, const std::string& manifest, const std::vector<std::string>& more,
+                         const std::string& part) {
+  std::vector<std::string> arguments{"batch", manifest, "--out", scene.path("refused")};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  check_refused(arguments, part);
+}
+
+}  // namespace
+
+TEST_CASE("options of a batch that make no sense are refused") {
+  const BatchScene scene(1);
+  check_refused({"batch"}, "MANIFEST");
+  check_refused({"batch", scene.manifest()}, "--out");
+  for (const std::string shard : {"0/2", "3/2", "1", "1/", "/2", "1/0", "-1/2", "1/2x", "a/b"}) {
+    check_refused_batch(scene, scene.manifest(), {"--shard", shard}, "expected I/N");
+  }
+  check_refused_batch(scene, scene.manifest(), {"--jobs", "0"}, "--jobs");
+  check_refused_batch(scene, scene.manifest(), {"--jobs", "-1"}, "--jobs");
+  check_refused_batch(scene, scene.manifest(), {"--jobs", "many"}, "--jobs");
+  check_refused_batch(scene, scene.manifest(), {"--tier", "cubic"}, "--tier");
+  check_refused_batch(scene, scene.manifest(), {"--fix", "x=1"}, "--fix");
+  check_refused({"merge", "--out", scene.path("refused")}, "DIR");
+  check_refused({"merge", scene.path("none")}, "--out");
+  CHECK_FALSE(std::filesystem::exists(scene.path("refused")));
+}
+
+TEST_CASE("a manifest with any fault is refused before anything is done") {
+  const BatchScene scene(2);
+  const std::string names = "id,file,speed_m_per_s\n";
+  const auto refused = [&](const std::string& content, const std::string& part) {
+    check_refused_batch(scene, scene.file("bad.csv", content), {}, part);
+  };
+  refused("id,file\nr0,r0.csv\n", "there is no column 'speed_m_per_s'");
+  refused(names + "r0,r0.csv,0.02\nr0,r1.csv,0.02\n", "bad.csv:3: column 'id': 'r0' stands in line 2");
+  refused("id,file,speed [furlong]\nr0,r0.csv,1\n", "'furlong' is not a unit of speed");
+  refused(names + "r0,r0.csv,0.02\nr1,r1.csv\n", "bad.csv:3: 2 fields");
+  refused(names + "r0,r0.csv,0.02\na/b,r1.csv,0.02\n", "bad.csv:3: column 'id': bad value 'a/b'");
+  refused(names, "holds no recordings");
+  refused("", "empty");
+  check_refused_batch(scene, scene.path("none.csv"), {}, "no such file");
+  check_refused_batch(scene, scene.path(""), {}, "folder");
+  CHECK_FALSE(std::filesystem::exists(scene.path("refused")));
+}
+
+TEST_CASE("a folder that cannot be written is one line and exit code 2") {
+  const BatchScene scene(1);
+  check_refused({"batch", scene.manifest(), "--out", scene.path("none/out")}, "the folder cannot be written");
+  check_refused({"batch", scene.manifest(), "--out", scene.path("r0.csv")}, "cannot be written");
+  std::filesystem::create_directory(scene.path("out"));
+  std::filesystem::permissions(scene.path("out"), std::filesystem::perms::owner_read);
+  if (std::ofstream(scene.path("out/x")).good()) {
+    WARN("read-only folder skipped: this user (root) may write everywhere; /proc stands in for it");
+    check_refused({"batch", scene.manifest(), "--out", "/proc/slipfit"}, "cannot be written");
+    return;
+  }
+  check_refused({"batch", scene.manifest(), "--out", scene.path("out")}, "cannot be written");
+}
+
+TEST_CASE("a full disk ends a batch with one line, and the folder can be gone on with") {
+  const BatchScene scene(6);
+  REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 0);
+  // A limit on the size of files fills up in the middle of a line, like a disk.
+  const std::string limited = "trap '' XFSZ; ulimit -f 24; exec \"$0\" batch \"$1\" --out \"$2\" --jobs 2";
+  const auto run = test::run_program("sh", {"-c", limited, SLIPFIT_EXECUTABLE, scene.manifest(), scene.path("small")});
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 2);
+  CHECK(test::lines_in(run.err) == 1);
+  CHECK_THAT(run.err, Catch::Contains("results.jsonl: cannot be written") && Catch::Contains("--resume"));
+  CHECK(test::content_of(scene.path("small/results.jsonl")).back() != '\n');
+  CHECK(batch(scene.manifest(), scene.path("small"), {"--resume"}).exit_code == 0);
+  CHECK(test::files_in(scene.path("small")) == test::files_in(scene.path("out")));
+}
+
+TEST_CASE("a disk that is really full") {
+  const BatchScene scene(6);
+  std::filesystem::create_directory(scene.path("disk"));
+  const std::string mounted =
+      "mount -t tmpfs -o size=24k none \"$2\" 2>/dev/null || exit 77; exec \"$0\" batch \"$1\" --out \"$2/out\"";
+  const auto run = test::run_program("unshare", {"--map-root-user", "--mount", "sh", "-c", mounted, SLIPFIT_EXECUTABLE,
+                                                 scene.manifest(), scene.path("disk")});
+  CAPTURE(run.err);
+  if (run.exit_code == 77 || run.err.find("unshare") != std::string::npos) {
+    WARN("skipped: this user may not mount a small disk");
+    return;
+  }
+  CHECK(run.exit_code == 2);
+  CHECK(test::lines_in(run.err) == 1);
+  CHECK_THAT(run.err, Catch::Contains("No space left on device"));
+}
+
+TEST_CASE("the folder of another batch is refused, and --resume says why") {
+  const BatchScene scene(2);
+  const std::string out = scene.path("out");
+  REQUIRE(batch(scene.manifest(), out).exit_code == 0);
+  const auto before = test::files_in(out);
+  const std::string other = scene.file("other.csv", "id,file,speed_m_per_s\nr0,r0.csv,0.02\n");
+  check_refused({"batch", scene.manifest(), "--out", out}, "--resume");
+  check_refused({"batch", other, "--out", out, "--resume"}, "the manifest was another one");
+  check_refused({"batch", other, "--out", out}, "the manifest was another one");
+  check_refused({"batch", scene.manifest(), "--out", out, "--resume", "--tier", "undamped"}, "the options were");
+  check_refused({"batch", scene.manifest(), "--out", out, "--resume", "--shard", "1/2"}, "the shard was 1/1, now 1/2");
+  std::string record = test::content_of(out + "/run.json");
+  const std::string version = nlohmann::json::parse(record)["version"];
+  record.replace(record.find(version), version.size(), "0.0.1");
+  (void)scene.file("out/run.json", record);
+  check_refused({"batch", scene.manifest(), "--out", out, "--resume"}, "the version of slipfit was 0.0.1");
+  (void)scene.file("out/run.json", "{\"x\": 1}");
+  check_refused({"batch", scene.manifest(), "--out", out, "--resume"}, "not written by slipfit");
+  std::filesystem::remove(out + "/run.json");
+  check_refused({"batch", scene.manifest(), "--out", out, "--resume"}, "without the run.json");
+  CHECK(test::files_in(out) == before);
+}

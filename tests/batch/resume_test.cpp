@@ -1,0 +1,139 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "manifests.hpp"
+#include "refusal.hpp"
+
+using test::batch;
+using test::BatchScene;
+using test::check_refused;
+using test::content_of;
+using test::files_in;
+using test::lines_of;
+
+namespace {
+
+/// A finished batch, and what a kill would leave of it.
+class Interrupted {
+ public:
+  explicit Interrupted(std::size_t recordings) : scene_(recordings) {
+    REQUIRE(batch(scene_.manifest(), scene_.path("out")).exit_code == 0);
+    whole_ = files_in(scene_.path("out"));
+  }
+
+  /// Goes on from these bytes of results.jsonl, and demands the files of the whole run.
+  void check_resumed_from(const std::string& results) const {
+    std::filesystem::remove(scene_.path("out/summary.csv"));
+    (void)scene_.file("out/results.jsonl", results);
+    (void)scene_.file("out/failures.csv", "id,co");
+    (void)scene_.file("out/lock", "process 1 on nowhere");
+    (void)scene_.file("out/.results.jsonl.new", "left over");
+    const auto run = batch(scene_.manifest(), scene_.path("out"), {"--resume", "--jobs", "2"});
+    CAPTURE(run.err, results.size());
+    CHECK(run.exit_code == 0);
+    CHECK(files_in(scene_.path("out")) == whole_);
+    CHECK_FALSE(std::filesystem::exists(scene_.path("out/.results.jsonl.new")));
+    CHECK_FALSE(std::filesystem::exists(scene_.path("out/lock")));
+  }
+
+  [[nodiscard]] const std::string& results() const { return whole_.results; }
+  [[nodiscard]] nlohmann::json record() const { return nlohmann::json::parse(content_of(scene_.path("out/run.json"))); }
+
+ private:
+  BatchScene scene_;
+  test::BatchFiles whole_;
+};
+
+/// A manifest that keeps a batch busy for some seconds: the same recordings over and over.
+std::string long_manifest(const BatchScene& scene) {
+  std::string rows = "id,file,speed_m_per_s\n";
+  for (int i = 0; i < 5000; ++i) rows += "x" + std::to_string(i) + ",r" + std::to_string(i % 5) + ".csv,0.02\n";
+  return scene.file("long.csv", rows);
+}
+
+}  // namespace
+
+TEST_CASE("a batch that was cut off at any byte goes on to the same files") {
+  const Interrupted run(5);
+  const std::string& results = run.results();
+  const std::size_t first_line = results.find('\n') + 1;
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, first_line - 1, first_line, first_line + 1,
+                                 results.size() / 2, results.size() - 1, results.size()}) {
+    run.check_resumed_from(results.substr(0, size));
+  }
+}
+
+TEST_CASE("lines in another order, twice, of no recording or without sense do not disturb a resumed batch") {
+  const Interrupted run(4);
+  const auto lines = lines_of(run.results());
+  run.check_resumed_from(lines[3] + "\n" + lines[1] + "\n");
+  run.check_resumed_from(lines[0] + "\n" + lines[0] + "\n" + lines[2] + "\n");
+  run.check_resumed_from(std::string(200, '\0') + "\n" + lines[2] + "\n");
+  run.check_resumed_from("{}\n[1]\n{\"id\": \"stranger\"}\n" + lines[2] + "\n" + lines[1].substr(0, 100));
+}
+
+TEST_CASE("a resumed batch does not do again what is there") {
+  const Interrupted run(4);
+  const auto lines = lines_of(run.results());
+  run.check_resumed_from(lines[0] + "\n" + lines[2] + "\n" + lines[3]);
+  CHECK(run.record()["before"] == 2);
+  CHECK(run.record()["fitted"] == 2);
+}
+
+TEST_CASE("a folder that is empty, or holds nothing but a beginning, starts afresh") {
+  const BatchScene scene(2);
+  REQUIRE(batch(scene.manifest(), scene.path("whole")).exit_code == 0);
+  std::filesystem::create_directory(scene.path("out"));
+  CHECK(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 0);
+  CHECK(files_in(scene.path("out")) == files_in(scene.path("whole")));
+  (void)scene.file("out/results.jsonl", "{\"schema\":\"slipf");
+  (void)scene.file("out/run.json", "{\"torn");
+  CHECK(batch(scene.manifest(), scene.path("out")).exit_code == 0);
+  CHECK(files_in(scene.path("out")) == files_in(scene.path("whole")));
+}
+
+TEST_CASE("a failure is tried again when a batch is resumed") {
+  const BatchScene scene(3);
+  std::filesystem::rename(scene.path("r1.csv"), scene.path("away.csv"));
+  REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 1);
+  std::filesystem::rename(scene.path("away.csv"), scene.path("r1.csv"));
+  CHECK(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 0);
+  REQUIRE(batch(scene.manifest(), scene.path("whole")).exit_code == 0);
+  CHECK(files_in(scene.path("out")) == files_in(scene.path("whole")));
+}
+
+TEST_CASE("Ctrl-C and SIGTERM leave whole lines, a folder to go on with, and the exit code of the signal") {
+  const BatchScene scene(5);
+  const std::string manifest = long_manifest(scene);
+  const auto stopped_by = [&](const std::string& signal) {
+    return test::run_program(
+        "timeout", {"--foreground", "--preserve-status", "--signal", signal, "0.5", SLIPFIT_EXECUTABLE, "batch",
+                    manifest, "--out", scene.path("out"), "--resume", "--jobs", "2"});
+  };
+  const std::vector<std::pair<std::string, int>> signals{{"INT", 130}, {"TERM", 143}};
+  for (const auto& [signal, exit_code] : signals) {
+    const auto run = stopped_by(signal);
+    CAPTURE(signal, run.err);
+    CHECK(run.exit_code == exit_code);
+    CHECK(test::lines_in(run.err) == 1);
+    CHECK_THAT(run.err, Catch::Contains("of 5000 done; --resume goes on"));
+    const std::string results = content_of(scene.path("out/results.jsonl"));
+    REQUIRE_FALSE(results.empty());
+    CHECK(results.back() == '\n');
+    const auto record = nlohmann::json::parse(content_of(scene.path("out/run.json")));
+    CHECK(record["finished"] == false);
+    CHECK(record["before"].get<std::size_t>() + record["fitted"].get<std::size_t>() == lines_of(results).size());
+    CHECK_FALSE(std::filesystem::exists(scene.path("out/summary.csv")));
+  }
+}
+
+TEST_CASE("two batches on one folder exclude each other") {
+  const BatchScene scene(5);
+  const std::string both =
+      "\"$0\" batch \"$1\" --out \"$2\" --quiet & first=$!; until [ -s \"$2/results.jsonl\" ]; do sleep 0.05; done; "
+      "\"$0\" batch \"$1\" --out \"$2\" --resume; second=$?; kill -KILL $first; exit $second";
+  const auto run = test::run_program("sh", {"-c", both, SLIPFIT_EXECUTABLE, long_manifest(scene), scene.path("out")});
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Catch::Contains("is working in this folder") && Catch::Contains("process "));
+}
