@@ -20,6 +20,10 @@ using SweepMatrix = Eigen::Matrix<double, kSweepValues, kSweepValues>;
 SweepVector sweep_values(const JointSolution& solution);
 SweepMatrix sweep_covariance(const JointSolution& solution, const JointCovariance& covariance);
 
+/// zeta cannot be negative: where its best value is, the best values given zeta = 0 (by the covariance, to second
+/// order).
+SweepVector with_damping_cut(const SweepVector& values, const SweepMatrix& covariance);
+
 /// The sweep's parameters in SI with their derivatives.
 struct SweepModel {
   SweepJet stiffness, omega, zeta, slope, alpha, level, difference;
@@ -43,9 +47,11 @@ class SweepIntervals {
   [[nodiscard]] Estimate of_one_sign(const SweepJet& y) const;
   [[nodiscard]] double covariance(const SweepJet& a, const SweepJet& b) const { return a.v.dot(matrix_ * b.v); }
   [[nodiscard]] double quantile() const { return quantile_; }
+  [[nodiscard]] double degrees_of_freedom() const { return degrees_of_freedom_; }
 
  private:
   SweepMatrix matrix_;
+  double degrees_of_freedom_;
   double quantile_;
 };
 

@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "model/slip.hpp"
 #include "predict/delta.hpp"
 
 namespace slipfit {
@@ -31,11 +30,15 @@ class Predictor {
     row.speed_m_per_s = speed_m_per_s;
     const Jet lambda = jets_.omega_rad_per_s * jets_.difference_N / (jets_.stiffness_N_per_m * speed_m_per_s);
     row.lambda = positive(lambda);
-    const Motion motion = predict::motion_of(model_.estimate, speed_m_per_s);
+    const predict::MotionJets motion = predict::motion_at(model_.estimate, speed_m_per_s);
     row.regime = predict::name_of(motion.regime);
     row.bistable = motion.regime == Regime::StickSlipBistable;
-    if (const auto cycle = predict::cycle_jets(model_.estimate, speed_m_per_s)) add_cycle(*cycle, row);
-    if (is_doubtful(lambda, speed_m_per_s)) withdraw_intervals(row);
+    if (motion.cycle) add_cycle(*motion.cycle, row);
+    if (is_doubtful(motion, speed_m_per_s)) {
+      withdraw_intervals(row);
+    } else if (model_.has_covariance && model_.estimate.speed_dependence && may_be_either(motion.total_damping_ratio)) {
+      row.note = "the data cannot tell whether steady sliding is stable at this speed";
+    }
     return row;
   }
 
@@ -84,12 +87,16 @@ class Predictor {
 
   /// Near its end the cycle changes with the square root of the distance: the delta method fails there. The margin is
   /// nearly linear in zeta and ln lambda, so it tells also where zeta, and with it the critical speed, is unknown.
-  [[nodiscard]] bool is_doubtful(const Jet& lambda, double speed_m_per_s) const {
+  [[nodiscard]] bool is_doubtful(const predict::MotionJets& motion, double speed_m_per_s) const {
     if (!model_.has_covariance) return false;
     const std::optional<Interval>& critical = critical_.speed_m_per_s.ci95;
     if (critical && critical->low <= speed_m_per_s && speed_m_per_s <= critical->high) return true;
-    const Jet margin = model::restick_margin(lambda, jets_.damping_ratio);
-    return std::abs(margin.a) <= propagation_.quantile() * propagation_.standard_error(margin);
+    return motion.restick_margin && may_be_either(*motion.restick_margin);
+  }
+
+  /// Its sign is within the uncertainty.
+  [[nodiscard]] bool may_be_either(const Jet& y) const {
+    return std::abs(y.a) <= propagation_.quantile() * propagation_.standard_error(y);
   }
 
   static void withdraw_intervals(PredictedMotion& row) {
