@@ -134,13 +134,17 @@ double correlation_between(const JsonNode& matrix, std::size_t i, std::size_t j,
   return i == j ? 1.0 : cell(i, j);
 }
 
-/// Those of the correlation, else those of the parameters; empty where one is null.
+/// Those of the correlation, else those of the parameters; empty where one is null. (Slope and alpha may be told only
+/// together, then the parameter has none.)
 std::optional<std::vector<double>> standard_errors(const JsonNode& document, const slipfit::ModelEstimate& estimate,
                                                    const std::vector<std::size_t>& rows) {
   const JsonNode correlation = document.member("correlation");
   const std::size_t size = correlation.member("names").array_size();
   const bool scaled = correlation.has("scaled_se") && correlation.member("scaled_se").array_size() == size;
-  if (!scaled && !estimate.speed_dependence) return parameter_errors(document.member("parameters"), estimate);
+  if (!estimate.speed_dependence) {
+    std::optional<std::vector<double>> errors = parameter_errors(document.member("parameters"), estimate);
+    if (!errors || !scaled) return errors;
+  }
   const JsonNode list = correlation.member("scaled_se");
   if (list.array_size() != size) list.fail(fmt::format("a list of {} numbers", size));
   std::vector<double> errors;
