@@ -9,3 +9,4 @@ void add_fit_command(CLI::App& program);
 void add_figures_command(CLI::App& program);
 void add_simulate_command(CLI::App& program);
 void add_predict_command(CLI::App& program);
+void add_plan_command(CLI::App& program);

@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
   add_fit_command(program);
   add_simulate_command(program);
   add_predict_command(program);
+  add_plan_command(program);
   add_figures_command(program);
   try {
     check_command(program, argc > 1 ? argv[1] : "");
