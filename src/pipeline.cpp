@@ -94,6 +94,7 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
     recordings.push_back({entry.recording, signals.back().quality, signals.back().segmentation, sweep.roles.back()});
   }
   sweep.joint = fit_jointly(recordings, options);
+  sweep.derived = derive_from_sweep(sweep.joint ? sweep.joint->fit : FitResult{});
   sweep.joint_reason = describe_roles(sweep.roles);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
   return sweep;

@@ -11,3 +11,4 @@ void add_figures_command(CLI::App& program);
 void add_simulate_command(CLI::App& program);
 void add_merge_command(CLI::App& program);
 void add_predict_command(CLI::App& program);
+void add_plan_command(CLI::App& program);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "json_node.hpp"
 
@@ -26,6 +28,9 @@ constexpr std::array<Needed, 4> kNeeded{{
     {"damping_ratio", "a number in [0, 1)", 0.0, 1.0},
     {"friction_difference_N", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
 }};
+
+constexpr const char* kSlope = "friction_slope_N_s_per_m";
+constexpr const char* kAlpha = "alpha_s_per_m";
 
 bool is_known(const std::string& status) {
   return status == "identified" || status == "weak" || status == "fixed";
@@ -78,28 +83,39 @@ bool damping_identified(const JsonNode& damping) {
   return low && *low > 0.0;
 }
 
-/// Standard errors of (ln k, ln w_n, zeta, ln dF); empty where one is null.
-std::optional<std::array<double, 4>> scaled_errors(const JsonNode& parameters, const slipfit::ModelEstimate& estimate) {
+/// Coulomb friction: the four. Friction that depends on the speed: its slope and rate beside them.
+std::vector<std::string> names_of(const slipfit::ModelEstimate& estimate) {
+  std::vector<std::string> names;
+  for (const Needed& needed : kNeeded) names.emplace_back(needed.name);
+  if (estimate.speed_dependence) names.insert(names.end(), {kSlope, kAlpha});
+  return names;
+}
+
+/// Standard errors of (ln k, ln w_n, zeta, ln dF) from those of the parameters; empty where one is null.
+std::optional<std::vector<double>> parameter_errors(const JsonNode& parameters,
+                                                    const slipfit::ModelEstimate& estimate) {
   const std::array<double, 4> scales{estimate.stiffness_N_per_m, estimate.natural_frequency_rad_per_s, 1.0,
                                      estimate.friction_difference_N};
-  std::array<double, 4> errors{};
+  std::vector<double> errors;
   for (std::size_t i = 0; i < kNeeded.size(); ++i) {
     const std::optional<double> error = checked_error(parameters.member(kNeeded[i].name).member("se"));
     if (!error) return std::nullopt;
-    errors[i] = *error / scales[i];
+    errors.push_back(*error / scales[i]);
   }
   return errors;
 }
 
-/// Rows of the four parameters in the correlation's matrix.
-std::array<std::size_t, 4> rows_of(const JsonNode& names) {
-  std::array<std::size_t, 4> rows{};
-  for (std::size_t i = 0; i < kNeeded.size(); ++i) {
-    std::size_t row = 0;
-    while (row < names.array_size() && names.element(row).text() != kNeeded[i].name) ++row;
-    if (row == names.array_size()) names.fail(std::string("a list with ") + kNeeded[i].name);
-    rows[i] = row;
-  }
+std::size_t row_of(const JsonNode& names, const std::string& name) {
+  std::size_t row = 0;
+  while (row < names.array_size() && names.element(row).text() != name) ++row;
+  if (row == names.array_size()) names.fail("a list with " + name);
+  return row;
+}
+
+/// Rows in the correlation's matrix.
+std::vector<std::size_t> rows_of(const JsonNode& names, const std::vector<std::string>& wanted) {
+  std::vector<std::size_t> rows;
+  for (const std::string& name : wanted) rows.push_back(row_of(names, name));
   return rows;
 }
 
@@ -118,23 +134,39 @@ double correlation_between(const JsonNode& matrix, std::size_t i, std::size_t j,
   return i == j ? 1.0 : cell(i, j);
 }
 
+/// Those of the correlation, else those of the parameters; empty where one is null. (Slope and alpha may be told only
+/// together, then the parameter has none.)
+std::optional<std::vector<double>> standard_errors(const JsonNode& document, const slipfit::ModelEstimate& estimate,
+                                                   const std::vector<std::size_t>& rows) {
+  const JsonNode correlation = document.member("correlation");
+  const std::size_t size = correlation.member("names").array_size();
+  const bool scaled = correlation.has("scaled_se") && correlation.member("scaled_se").array_size() == size;
+  if (!estimate.speed_dependence) {
+    std::optional<std::vector<double>> errors = parameter_errors(document.member("parameters"), estimate);
+    if (!errors || !scaled) return errors;
+  }
+  const JsonNode list = correlation.member("scaled_se");
+  if (list.array_size() != size) list.fail(fmt::format("a list of {} numbers", size));
+  std::vector<double> errors;
+  for (const std::size_t row : rows) {
+    const std::optional<double> error = checked_error(list.element(row));
+    if (!error) return std::nullopt;
+    errors.push_back(*error);
+  }
+  return errors;
+}
+
 /// From standard errors and correlation; leaves `model` without covariance where the document has none.
 void read_covariance(const JsonNode& document, slipfit::PredictionModel& model) {
-  std::optional<std::array<double, 4>> errors = scaled_errors(document.member("parameters"), model.estimate);
-  if (!errors || !document.has("correlation") || document.member("correlation").is_null()) return;
+  if (!document.has("correlation") || document.member("correlation").is_null()) return;
   const JsonNode correlation = document.member("correlation");
   const JsonNode names = correlation.member("names");
-  const std::array<std::size_t, 4> rows = rows_of(names);
+  const std::vector<std::size_t> rows = rows_of(names, names_of(model.estimate));
   const JsonNode matrix = correlation.member("matrix");
   const std::size_t size = names.array_size();
   if (matrix.array_size() != size) matrix.fail(fmt::format("{} rows", size));
-  if (correlation.has("scaled_se") && correlation.member("scaled_se").array_size() == size) {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const std::optional<double> error = checked_error(correlation.member("scaled_se").element(rows[i]));
-      if (!error) return;
-      (*errors)[i] = *error;
-    }
-  }
+  const std::optional<std::vector<double>> errors = standard_errors(document, model.estimate, rows);
+  if (!errors) return;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (std::size_t j = 0; j < rows.size(); ++j) {
       model.estimate.covariance[i][j] =
@@ -142,6 +174,25 @@ void read_covariance(const JsonNode& document, slipfit::PredictionModel& model) 
     }
   }
   model.has_covariance = true;
+}
+
+/// Slope and rate stand in the correlation: there they have a value also where the data tell only one of them.
+std::optional<slipfit::SpeedDependence> speed_dependence(const std::string& file, const JsonNode& document) {
+  if (!document.has("model") || document.member("model").member("tier").text() != "velocity") return std::nullopt;
+  if (!document.has("correlation") || document.member("correlation").is_null()) {
+    refuse_document(file,
+                    "cannot predict: friction depends on the speed, and correlation (with its values) is missing");
+  }
+  const JsonNode correlation = document.member("correlation");
+  const JsonNode values = correlation.member("values");
+  if (values.array_size() != correlation.member("names").array_size()) values.fail("as many numbers as names");
+  const auto value_of = [&](const char* name) {
+    const JsonNode node = values.element(row_of(correlation.member("names"), name));
+    const std::optional<double> value = node.number("a number");
+    if (!value) node.fail("a number");
+    return *value;
+  };
+  return slipfit::SpeedDependence{value_of(kSlope), value_of(kAlpha)};
 }
 
 std::optional<slipfit::Estimate> kinetic_friction_N(const JsonNode& parameters) {
@@ -181,9 +232,6 @@ FitDocument read_fit_document(const std::string& file) {
         file, "has no parameters: slipfit analyze fits none, and fit found no cycles; use slipfit fit on stick-slip");
   }
   const JsonNode parameters = document.member("parameters");
-  if (parameters.has("alpha_s_per_m")) {
-    refuse_document(file, "has velocity-dependent friction (alpha_s_per_m): predict knows Coulomb friction only");
-  }
   check_known(file, parameters);
   FitDocument result;
   slipfit::ModelEstimate& estimate = result.model.estimate;
@@ -192,6 +240,7 @@ FitDocument read_fit_document(const std::string& file) {
   for (std::size_t i = 0; i < kNeeded.size(); ++i) {
     *targets[i] = checked_value(parameters.member(kNeeded[i].name), kNeeded[i]);
   }
+  estimate.speed_dependence = speed_dependence(file, document);
   estimate.damping_identified = damping_identified(parameters.member(kNeeded[kDamping].name));
   estimate.degrees_of_freedom = degrees_of_freedom(document);
   read_covariance(document, result.model);

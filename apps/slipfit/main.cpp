@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
   add_fit_command(program);
   add_simulate_command(program);
   add_predict_command(program);
+  add_plan_command(program);
   add_figures_command(program);
   add_batch_command(program);
   add_merge_command(program);

@@ -181,7 +181,7 @@ class Assembler {
       : recordings_(recordings),
         data_(data),
         outcome_(outcome),
-        model_(outcome.values, data.scales),
+        model_(fit::with_damping_cut(outcome.values, outcome.covariance), data.scales),
         intervals_(outcome.covariance, outcome.degrees_of_freedom) {}
 
   JointFit assemble(const LawChoice& choice) const {
@@ -194,7 +194,8 @@ class Assembler {
     joint.fit.residual.rms = residual_rms(problem);
     joint.fit.residual.reduced_chi2 = outcome_.solution.chi2 / outcome_.solution.degrees_of_freedom;
     add_warnings(joint);
-    fit::SweepEvidence evidence{outcome_.values, data_.scales, intervals_};
+    fit::SweepEvidence evidence{fit::with_damping_cut(outcome_.values, outcome_.covariance), data_.scales, intervals_,
+                                outcome_.values(fit::kJointDamping)};
     evidence.depends_on_speed = choice.velocity;
     evidence.law_reason = choice.reason;
     evidence.zero_known = std::all_of(recordings_.begin(), recordings_.end(), [](const SweepRecording& sweep) {
@@ -255,7 +256,8 @@ class Assembler {
 
   [[nodiscard]] Estimate spacing_without(const std::optional<LeftOut::One>& one, double speed, double load) const {
     if (!one) return {std::nullopt, std::nullopt, std::nullopt, "too few recordings to leave one out"};
-    const auto spacing = SweepModel(one->values, data_.scales).spacing(speed, load);
+    const SweepVector values = fit::with_damping_cut(one->values, one->covariance);
+    const auto spacing = SweepModel(values, data_.scales).spacing(speed, load);
     if (!spacing) return {std::nullopt, std::nullopt, std::nullopt, "no stick-slip at this speed by the others"};
     return SweepIntervals(one->covariance, one->degrees_of_freedom).of_one_sign(*spacing);
   }

@@ -30,7 +30,7 @@ class SweepReporter {
     add_positive("mass_kg", model_.stiffness / (model_.omega * model_.omega), 0.1, both_held);
     add_damping();
     add_friction_law();
-    correlate();
+    report_model();
   }
 
  private:
@@ -66,7 +66,9 @@ class SweepReporter {
       add("damping_ratio", {model_.zeta.a, 0.0, Interval{model_.zeta.a, model_.zeta.a}, {}}, ParameterStatus::Fixed);
       return;
     }
-    Estimate zeta = intervals_.plain(model_.zeta);
+    SweepJet free = model_.zeta;
+    free.a = evidence_.free_damping_ratio;
+    Estimate zeta = intervals_.plain(free);
     if (zeta.ci95->high <= 0.0) {
       add("damping_ratio", {}, ParameterStatus::Unidentified,
           "the best value is negative: the slips are not shaped like a damped oscillation");
@@ -80,7 +82,7 @@ class SweepReporter {
         sharp                  ? ""
         : evidence_.shares_all ? fmt::format("known to {:.2g}, from 0 it cannot be told well", *zeta.standard_error)
                                : "holds for Coulomb friction only: the recordings share no level or static friction");
-    Estimate c = intervals_.plain(2.0 * model_.zeta * model_.stiffness / model_.omega);
+    Estimate c = intervals_.plain(2.0 * free * model_.stiffness / model_.omega);
     c.value = std::max(0.0, *c.value);
     c.ci95->low = std::max(0.0, c.ci95->low);
     add("damping_coefficient_N_s_per_m", c, sharp ? ParameterStatus::Identified : ParameterStatus::Weak);
@@ -90,6 +92,8 @@ class SweepReporter {
     if (!evidence_.depends_on_speed)
       return withhold_law("Coulomb friction explains the sweep: " + evidence_.law_reason);
     const Estimate slope = intervals_.plain(model_.slope);
+    const bool steep = resolved() && intervals_.error(model_.slope) < 0.25 * std::abs(model_.slope.a);
+    add("friction_slope_N_s_per_m", slope, steep ? ParameterStatus::Identified : ParameterStatus::Weak);
     const double relative = intervals_.error(model_.alpha) / std::abs(model_.alpha.a);
     if (!(relative < 0.5)) {
       return withhold_law(
@@ -131,26 +135,43 @@ class SweepReporter {
     for (const char* name : {"alpha_s_per_m", "f0_N", "f1_N"}) add(name, {}, ParameterStatus::Unidentified, reason);
   }
 
-  void correlate() {
-    std::vector<std::pair<std::string, SweepJet>> all{{"stiffness_N_per_m", model_.stiffness},
-                                                      {"natural_frequency_rad_per_s", model_.omega},
+  /// For everything that is computed from the fit. Needs zeta, and F_s above F_k.
+  void report_model() {
+    const bool damping_known = evidence_.held[kJointDamping] || damping_high() > 0.0;
+    if (!damping_known || !(model_.difference.a > 0.0)) return;
+    // In the order of ModelEstimate::covariance; of the positive ones the logarithm.
+    std::vector<std::pair<std::string, SweepJet>> all{{"stiffness_N_per_m", log(model_.stiffness)},
+                                                      {"natural_frequency_rad_per_s", log(model_.omega)},
                                                       {"damping_ratio", model_.zeta},
-                                                      {"friction_difference_N", model_.difference}};
+                                                      {"friction_difference_N", log(model_.difference)}};
+    ModelEstimate estimate{model_.stiffness.a, model_.omega.a, model_.zeta.a, model_.difference.a};
     if (evidence_.depends_on_speed) {
+      all.emplace_back("friction_slope_N_s_per_m", model_.slope);
       all.emplace_back("alpha_s_per_m", model_.alpha);
-      all.emplace_back("f1_N", model_.slope / model_.alpha);
+      estimate.speed_dependence = SpeedDependence{model_.slope.a, model_.alpha.a};
     }
     Correlation correlation;
-    for (const auto& [name, y] : all) {
-      correlation.names.push_back(name);
-      std::vector<double> row;
-      for (const auto& [other, x] : all) {
-        const double scale = intervals_.error(x) * intervals_.error(y);
-        row.push_back(other == name ? 1.0 : scale > 0.0 ? intervals_.covariance(x, y) / scale : 0.0);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      correlation.names.push_back(all[i].first);
+      correlation.matrix.emplace_back();
+      for (std::size_t j = 0; j < all.size(); ++j) {
+        const double covariance = intervals_.covariance(all[i].second, all[j].second);
+        const double scale = intervals_.error(all[i].second) * intervals_.error(all[j].second);
+        estimate.covariance[i][j] = covariance;
+        correlation.matrix.back().push_back(i == j ? 1.0 : scale > 0.0 ? covariance / scale : 0.0);
       }
-      correlation.matrix.push_back(std::move(row));
     }
+    estimate.degrees_of_freedom = intervals_.degrees_of_freedom();
+    estimate.damping_identified = evidence_.held[kJointDamping] || damping_low() > 0.0;
     result_.correlation = std::move(correlation);
+    result_.estimate = estimate;
+  }
+
+  [[nodiscard]] double damping_low() const {
+    return evidence_.free_damping_ratio - intervals_.quantile() * intervals_.error(model_.zeta);
+  }
+  [[nodiscard]] double damping_high() const {
+    return evidence_.free_damping_ratio + intervals_.quantile() * intervals_.error(model_.zeta);
   }
 
   const SweepEvidence& evidence_;

@@ -11,8 +11,9 @@ struct SweepEvidence {
   SweepVector values;
   JointScales scales;
   SweepIntervals intervals;
-  bool depends_on_speed = false;  ///< the velocity tier is chosen
-  std::string law_reason{};       ///< why it is, or not
+  double free_damping_ratio = 0.0;  ///< best value, negative ones included; the model's is cut at 0
+  bool depends_on_speed = false;    ///< the velocity tier is chosen
+  std::string law_reason{};         ///< why it is, or not
   bool zero_known = false;
   bool shares_all = false;  ///< level and static friction are the same in all recordings
   JointHeld held{};
@@ -21,7 +22,7 @@ struct SweepEvidence {
   std::optional<double> reference_normal_force_N{};  ///< known for all recordings
 };
 
-/// Fills parameters, correlation and, where the law is Coulomb's, the model estimate.
+/// Fills parameters, correlation and the model estimate.
 void report_sweep(const SweepEvidence& evidence, FitResult& result);
 
 }  // namespace slipfit::fit

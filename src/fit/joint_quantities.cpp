@@ -58,6 +58,14 @@ SweepMatrix sweep_covariance(const JointSolution& solution, const JointCovarianc
   return matrix;
 }
 
+SweepVector with_damping_cut(const SweepVector& values, const SweepMatrix& covariance) {
+  const double variance = covariance(kJointDamping, kJointDamping);
+  if (!(values(kJointDamping) < 0.0) || !(variance > 0.0)) return values;
+  SweepVector cut = values - covariance.col(kJointDamping) * (values(kJointDamping) / variance);
+  cut(kJointDamping) = 0.0;
+  return cut;
+}
+
 SweepModel::SweepModel(const SweepVector& values, const JointScales& scales) {
   const auto jet = [&](int i) { return SweepJet(values(i), i); };
   stiffness = exp(jet(kJointStiffness));
@@ -93,8 +101,8 @@ std::optional<SweepJet> SweepModel::spacing(double speed_m_per_s, double load) c
 
 SweepIntervals::SweepIntervals(const SweepMatrix& covariance, double degrees_of_freedom)
     : matrix_(covariance),
-      quantile_(boost::math::quantile(boost::math::students_t_distribution<double>(std::max(1.0, degrees_of_freedom)),
-                                      0.975)) {}
+      degrees_of_freedom_(std::max(1.0, degrees_of_freedom)),
+      quantile_(boost::math::quantile(boost::math::students_t_distribution<double>(degrees_of_freedom_), 0.975)) {}
 
 double SweepIntervals::error(const SweepJet& y) const {
   return std::sqrt(std::max(0.0, covariance(y, y)));

@@ -21,6 +21,10 @@ using SweepMatrix = Eigen::Matrix<double, kSweepValues, kSweepValues>;
 SweepVector sweep_values(const JointSolution& solution);
 SweepMatrix sweep_covariance(const JointSolution& solution, const JointCovariance& covariance);
 
+/// zeta cannot be negative: where its best value is, the best values given zeta = 0 (by the covariance, to second
+/// order).
+SweepVector with_damping_cut(const SweepVector& values, const SweepMatrix& covariance);
+
 /// The sweep's parameters in SI with their derivatives.
 struct SweepModel {
   SweepJet stiffness, omega, zeta, slope, alpha, level, difference;
@@ -49,9 +53,11 @@ class SweepIntervals {
                                       const std::function<SweepJet(const SweepModel&)>& quantity) const;
   [[nodiscard]] double covariance(const SweepJet& a, const SweepJet& b) const { return a.v.dot(matrix_ * b.v); }
   [[nodiscard]] double quantile() const { return quantile_; }
+  [[nodiscard]] double degrees_of_freedom() const { return degrees_of_freedom_; }
 
  private:
   SweepMatrix matrix_;
+  double degrees_of_freedom_;
   double quantile_;
 };
 

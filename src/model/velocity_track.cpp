@@ -60,6 +60,11 @@ class VelocityTrack::Integrator {
     for (std::size_t i = 1; i < kRows; ++i) dx[kRows + i] = -x[i] - damping * x[kRows + i] + direct[i];
   }
 
+  [[nodiscard]] double third_derivative(const Node& node) const {
+    const Friction friction = friction_at(1.0 - node.first[0], slope_, rate_);
+    return -node.first[0] - (2.0 * zeta_ + friction.d_speed) * node.second[0];
+  }
+
   [[nodiscard]] Node node() const { return node_of(state_, tau_); }
 
   /// Between two nodes.
@@ -131,14 +136,17 @@ std::optional<VelocityTrack> VelocityTrack::solve(double z0, double zeta, double
     const bool comes_to_rest = step > 0 && !slides(slowest);
     if (!comes_to_rest && !turns) continue;
     const double tau_end = comes_to_rest ? last_time(from.tau, slowest, slides) : slowest;
-    track.finish(integrator.node_at(from, to, tau_end), comes_to_rest);
+    const Node end = integrator.node_at(from, to, tau_end);
+    track.finish(end, integrator.third_derivative(end), comes_to_rest);
     return track;
   }
   return std::nullopt;
 }
 
-void VelocityTrack::finish(const Node& end, bool resticks) {
+void VelocityTrack::finish(const Node& end, double third, bool resticks) {
   tau_end_ = end.tau;
+  const auto value = [](const Row& row) { return TrackValue{row[0], row[1], row[2], row[3], row[4]}; };
+  end_ = {end.tau, value(end.first), value(end.second), third};
   resticks_ = resticks;
   Row row = end.value;
   if (!resticks) {

@@ -17,6 +17,18 @@ struct TrackLine {
   double intercept = 0.0, d_z0 = 0.0, d_zeta = 0.0, d_slope = 0.0, d_rate = 0.0;
 };
 
+/// A value and its derivatives at fixed tau.
+struct TrackValue {
+  double value = 0.0, d_z0 = 0.0, d_zeta = 0.0, d_slope = 0.0, d_rate = 0.0;
+};
+
+/// Where the slip ends: z' = 1 where it sticks again, else z'' = 0.
+struct TrackEnd {
+  double tau = 0.0;
+  TrackValue first, second;  ///< z', z''
+  double third = 0.0;        ///< z'''
+};
+
 /// One cycle with friction that depends on the sliding speed, for fits: dense output and derivatives to about 1e-7.
 ///   z'' + 2 zeta z' + z = slope (exp(rate v) - 1) / rate,  v = 1 - z',  z(0) = z0, z'(0) = 1
 /// (docs/model.md section 5): slope = b w_n / k with b the slope of F_k(v) at v = 0, rate = alpha V. At rate 0 friction
@@ -32,6 +44,7 @@ class VelocityTrack {
   [[nodiscard]] bool resticks() const { return resticks_; }
   [[nodiscard]] double tau_end() const { return tau_end_; }
   [[nodiscard]] TrackLine after() const { return after_; }
+  [[nodiscard]] const TrackEnd& end() const { return end_; }
 
  private:
   static constexpr std::size_t kRows = 5;  // z and its derivatives with respect to z0, zeta, slope, rate
@@ -58,12 +71,13 @@ class VelocityTrack {
   class Integrator;
 
   [[nodiscard]] TrackPoint inside(double tau) const;
-  void finish(const Node& end, bool resticks);
+  void finish(const Node& end, double third, bool resticks);
 
   double z0_ = 0.0;
   double tau_end_ = 0.0;
   bool resticks_ = false;
   TrackLine after_;
+  TrackEnd end_;
   std::vector<Node> nodes_;
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "model/slip.hpp"
+#include "predict/velocity.hpp"
 #include "slipfit/model/sensitivity.hpp"
 
 namespace slipfit::predict {
@@ -47,8 +48,13 @@ Jet jet_of(const Sensitive& quantity, const ModelEstimate& model) {
 }  // namespace
 
 ModelJets jets_of(const ModelEstimate& model) {
-  return {positive_parameter(model.stiffness_N_per_m, 0), positive_parameter(model.natural_frequency_rad_per_s, 1),
-          Jet(model.damping_ratio, 2), positive_parameter(model.friction_difference_N, 3)};
+  const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
+  return {positive_parameter(model.stiffness_N_per_m, 0),
+          positive_parameter(model.natural_frequency_rad_per_s, 1),
+          Jet(model.damping_ratio, 2),
+          positive_parameter(model.friction_difference_N, 3),
+          Jet(law.slope_N_s_per_m, 4),
+          Jet(law.alpha_s_per_m, 5)};
 }
 
 Propagation::Propagation(const ModelEstimate& model) : model_(model) {
@@ -58,9 +64,9 @@ Propagation::Propagation(const ModelEstimate& model) : model_(model) {
 
 double Propagation::standard_error(const Jet& y) const {
   double variance = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
-      variance += y.v[i] * model_.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * y.v[j];
+  for (std::size_t i = 0; i < kModelValues; ++i) {
+    for (std::size_t j = 0; j < kModelValues; ++j) {
+      variance += y.v[static_cast<Eigen::Index>(i)] * model_.covariance[i][j] * y.v[static_cast<Eigen::Index>(j)];
     }
   }
   return std::sqrt(std::max(0.0, variance));  // rounding may leave a small negative number
@@ -77,6 +83,7 @@ Estimate unknown(std::string reason) {
 }
 
 CriticalPoint critical_point(const ModelEstimate& model, const Propagation& propagation) {
+  if (model.speed_dependence) return velocity_critical_point(model, propagation);
   if (!model.damping_identified) {
     const Estimate reason = unknown("the damping ratio cannot be told from 0");
     return {reason, reason};
@@ -99,18 +106,21 @@ CriticalPoint critical_point(const ModelEstimate& model, const Propagation& prop
           propagation.positive(p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * critical))};
 }
 
-std::optional<CycleJets> cycle_jets(const ModelEstimate& model, double speed_m_per_s) {
+MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s) {
+  if (model.speed_dependence) return velocity_motion_at(model, speed_m_per_s);
   const auto [slider, friction] = body_of(model);
-  const std::optional<CycleSensitivity> cycle = damped_sensitivity(slider, friction, speed_m_per_s);
-  if (!cycle) return std::nullopt;
-  return CycleJets{jet_of(cycle->slip_s, model),       jet_of(cycle->stick_s, model),
-                   jet_of(cycle->period_s, model),     jet_of(cycle->periodic_displacement_m, model),
-                   jet_of(cycle->force_peak_N, model), jet_of(cycle->force_trough_N, model)};
-}
-
-Motion motion_of(const ModelEstimate& model, double speed_m_per_s) {
-  const auto [slider, friction] = body_of(model);
-  return damped_motion(slider, friction, speed_m_per_s);
+  const ModelJets p = jets_of(model);
+  MotionJets motion;
+  motion.regime = damped_motion(slider, friction, speed_m_per_s).regime;
+  motion.total_damping_ratio = p.damping_ratio;
+  const Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed_m_per_s);
+  if (model.damping_ratio < 1.0) motion.restick_margin = model::restick_margin(lambda, p.damping_ratio);
+  if (const std::optional<CycleSensitivity> cycle = damped_sensitivity(slider, friction, speed_m_per_s)) {
+    motion.cycle = CycleJets{jet_of(cycle->slip_s, model),       jet_of(cycle->stick_s, model),
+                             jet_of(cycle->period_s, model),     jet_of(cycle->periodic_displacement_m, model),
+                             jet_of(cycle->force_peak_N, model), jet_of(cycle->force_trough_N, model)};
+  }
+  return motion;
 }
 
 Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s) {

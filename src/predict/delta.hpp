@@ -13,11 +13,11 @@
 
 namespace slipfit::predict {
 
-/// Numbers that know their derivatives with respect to (ln k, ln w_n, zeta, ln dF).
-using Jet = ceres::Jet<double, 4>;
+/// Numbers that know their derivatives with respect to (ln k, ln w_n, zeta, ln dF, b, alpha).
+using Jet = ceres::Jet<double, static_cast<int>(kModelValues)>;
 
 struct ModelJets {
-  Jet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N;
+  Jet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N, slope_N_s_per_m, alpha_s_per_m;
 };
 
 ModelJets jets_of(const ModelEstimate& model);
@@ -51,11 +51,16 @@ CriticalPoint critical_point(const ModelEstimate& model, const Propagation& prop
 struct CycleJets {
   Jet slip_s, stick_s, period_s, periodic_displacement_m, force_peak_N, force_trough_N;
 };
-/// Empty where damped_motion() has no cycle. speed > 0.
-std::optional<CycleJets> cycle_jets(const ModelEstimate& model, double speed_m_per_s);
 
-/// The motion by itself: regime and whether there is a cycle. speed > 0.
-Motion motion_of(const ModelEstimate& model, double speed_m_per_s);
+/// The motion at one speed.
+struct MotionJets {
+  Regime regime = Regime::ContinuousSlip;
+  std::optional<CycleJets> cycle;     ///< empty: no stick-slip
+  std::optional<Jet> restick_margin;  ///< > 0 where the slip sticks again, nearly linear around 0; empty: not known
+  Jet total_damping_ratio;  ///< of small oscillations around steady sliding, which is unstable where it is < 0
+};
+/// By the Coulomb tier, or the velocity tier where `model` has a `speed_dependence`. speed > 0.
+MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s);
 
 /// Spacing of the free oscillation inside a slip, an estimate only: V 2 pi / w. docs/model.md section 8
 Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s);

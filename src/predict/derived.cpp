@@ -66,15 +66,33 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   derived.micro_vibration_spacing_m = propagation.positive(predict::micro_vibration_spacing_m(p, speed));
   derived.micro_vibration_spacing_m.note = "estimate: the one-mass model has no micro-vibration inside a slip";
 
-  const Motion motion = predict::motion_of(model, speed);
+  const predict::MotionJets motion = predict::motion_at(model, speed);
   derived.regime = predict::name_of(motion.regime);
   derived.bistable = motion.regime == Regime::StickSlipBistable;
-  const std::optional<predict::CycleJets> cycle = predict::cycle_jets(model, speed);
-  derived.periodic_displacement_m = cycle ? propagation.positive(cycle->periodic_displacement_m)
-                                          : unknown("the fitted model has no stick-slip at this speed");
+  derived.periodic_displacement_m = motion.cycle ? propagation.positive(motion.cycle->periodic_displacement_m)
+                                                 : unknown("the fitted model has no stick-slip at this speed");
   if (conditions.measured_spacing_m) {
     derived.measured_spacing_En = spacing_score(derived.periodic_displacement_m, *conditions.measured_spacing_m);
   }
+  return derived;
+}
+
+Derived derive_from_sweep(const FitResult& fit) {
+  Derived derived;
+  const Estimate one_speed = unknown("belongs to one speed: see the recordings, or slipfit predict");
+  for (Estimate* const quantity :
+       {&derived.lambda, &derived.gamma, &derived.periodic_displacement_m, &derived.pattern_spacing_m,
+        &derived.micro_vibration_spacing_m, &derived.impulse_rate_per_m}) {
+    *quantity = one_speed;
+  }
+  if (!fit.estimate) {
+    derived.lambda_critical = derived.critical_speed_m_per_s =
+        unknown("needs k, w_n, zeta and F_s - F_k, which these recordings do not give");
+    return derived;
+  }
+  predict::CriticalPoint critical = predict::critical_point(*fit.estimate, predict::Propagation(*fit.estimate));
+  derived.lambda_critical = std::move(critical.lambda);
+  derived.critical_speed_m_per_s = std::move(critical.speed_m_per_s);
   return derived;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "report/json_sections.hpp"
@@ -15,6 +16,18 @@ Json candidate_json(const Candidate& candidate, ForceQuantity quantity) {
   json["chosen"] = candidate.chosen;
   json["reason"] = candidate.reason;
   forces.finish();
+  return json;
+}
+
+/// What the covariance belongs to, in the order of Correlation::names. A value that the data hardly tell alone, and
+/// whose parameter is therefore null, still stands here: together with the others it predicts.
+Json working_values_json(const Correlation& correlation, const ModelEstimate& estimate) {
+  const SpeedDependence law = estimate.speed_dependence.value_or(SpeedDependence{});
+  const std::array<double, kModelValues> values{estimate.stiffness_N_per_m, estimate.natural_frequency_rad_per_s,
+                                                estimate.damping_ratio,     estimate.friction_difference_N,
+                                                law.slope_N_s_per_m,        law.alpha_s_per_m};
+  Json json = Json::array();
+  for (std::size_t i = 0; i < std::min(correlation.names.size(), values.size()); ++i) json.push_back(number(values[i]));
   return json;
 }
 
@@ -66,6 +79,7 @@ Json correlation_json(const FitResult& fit) {
     matrix.push_back(std::move(cells));
   }
   Json json{{"names", fit.correlation->names}, {"matrix", std::move(matrix)}};
+  if (fit.estimate) json["values"] = working_values_json(*fit.correlation, *fit.estimate);
   if (fit.estimate) json["scaled_se"] = scaled_errors_json(*fit.correlation, *fit.estimate);
   return json;
 }

@@ -19,7 +19,7 @@ struct ParameterName {
   std::string_view unit;
 };
 
-constexpr std::array<ParameterName, 16> kParameterNames{{
+constexpr std::array<ParameterName, 17> kParameterNames{{
     {"stiffness_N_per_m", "tangential stiffness k", "N/m"},
     {"friction_difference_N", "static minus kinetic friction", "N"},
     {"static_friction_N", "static friction F_s", "N"},
@@ -28,6 +28,7 @@ constexpr std::array<ParameterName, 16> kParameterNames{{
     {"mass_kg", "effective mass m", "kg"},
     {"damping_ratio", "damping ratio zeta", ""},
     {"damping_coefficient_N_s_per_m", "damping coefficient c", "N s/m"},
+    {"friction_slope_N_s_per_m", "slope of friction at rest f1 alpha", "N s/m"},
     {"alpha_s_per_m", "velocity dependence alpha", "s/m"},
     {"f0_N", "friction at high speed f0", "N"},
     {"f1_N", "velocity-dependent friction f1", "N"},

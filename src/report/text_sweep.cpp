@@ -40,6 +40,13 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
   return "\nRecordings\n" + table.text();
 }
 
+std::string limit_text(const Derived& derived) {
+  const Estimate& speed = derived.critical_speed_m_per_s;
+  std::string text = "\nEnd of stick-slip by the fitted model\n  critical speed  ";
+  if (!speed.value || !speed.note.empty()) return text + one_line(speed.note) + "\n";
+  return text + fmt::format("{}, lambda there {}\n", cell(speed, "m/s"), cell(derived.lambda_critical, ""));
+}
+
 }  // namespace
 
 std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name) {
@@ -48,7 +55,7 @@ std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sw
     text = fmt::format("{}: {} recordings, no joint fit: {}\n", one_line(name), entries.size(), sweep.joint_reason);
   if (sweep.joint) text += parameters_text(sweep.joint->fit, ForceQuantity::Force_N, "");
   text += recordings_text(entries, sweep);
-  text += predicted_text(sweep.derived);
+  if (sweep.joint) text += limit_text(sweep.derived);
   return text + warnings_text(all_warnings(sweep));
 }
 

@@ -32,7 +32,7 @@ TEST_CASE("a fit document that leaves the motion open is refused with what is op
       "natural_frequency_rad_per_s is unidentified, damping_ratio is unidentified (too slow)");
   refused([](json& d) { d["parameters"].erase("damping_ratio"); }, "damping_ratio is absent");
   refused([](json& d) { d.erase("parameters"); }, "no parameters");
-  refused([](json& d) { d["parameters"]["alpha_s_per_m"] = json::object(); }, "velocity-dependent");
+  refused([](json& d) { d["model"]["tier"] = "velocity"; }, "friction_slope_N_s_per_m");
   const std::string analysed =
       example.folder.file("analysed.json", slipfit({"analyze", example.recording, "--speed", "20mm/s", "--json"}).out);
   test::check_refused({"predict", analysed, "--speeds", "0.1"}, "no parameters");

@@ -10,10 +10,12 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/pipeline.hpp"
+#include "slipfit/sweep.hpp"
 
 using namespace slipfit;
 
@@ -158,4 +160,52 @@ TEST_CASE("simulated recordings of an independent generator: truth inside the in
   if (given == 0) return;
   INFO(inside << " of " << given);
   CHECK(inside >= 43);  // of 48 at 95 %: fewer has a chance of 2 %, F_s - F_k and zeta missing together
+}
+
+namespace {
+
+/// Sum of the 16 channels of a tactile sensor over time; the clock counts milliseconds.
+std::optional<SweepEntry> tactile(const std::string& name, double speed_m_per_s) {
+  std::ifstream in(kData / "real/fabricslide" / name);
+  if (!in) {
+    WARN("skipped: no " << name << " beside the checkout");
+    return std::nullopt;
+  }
+  std::vector<double> time_s;
+  std::vector<double> sum;
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::stringstream fields(line);
+    std::vector<double> cells;
+    for (std::string field; std::getline(fields, field, ',');) cells.push_back(std::stod(field));
+    time_s.push_back(1e-3 * cells.at(0));
+    sum.push_back(0.0);
+    for (std::size_t i = 3; i < 19; ++i) sum.back() += cells.at(i);
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = speed_m_per_s;
+  auto recording = Recording::create(std::move(time_s), std::move(sum), conditions);
+  if (!recording.ok()) FAIL(recording.error().message);
+  return SweepEntry{name, std::move(recording).value()};
+}
+
+}  // namespace
+
+TEST_CASE("a control loop and a ribbed board are no stick-slip: their frequency does not follow the speed") {
+  const std::vector<std::vector<std::pair<std::string, double>>> sweeps{
+      {{"BeigeCotton_F210_V10mmps_0.csv", 0.01}, {"BeigeCotton_F210_V50mmps_0.csv", 0.05}},
+      {{"Board10mm_F120_V-10mmps_0.csv", 0.01}, {"Board10mm_F120_V-30mmps_0.csv", 0.03}}};
+  for (const auto& sweep : sweeps) {
+    std::vector<SweepEntry> entries;
+    for (const auto& [name, speed] : sweep) {
+      std::optional<SweepEntry> entry = tactile(name, speed);
+      if (!entry) return;
+      entries.push_back(std::move(*entry));
+    }
+    const Warnings warnings = analyze_sweep(entries, {}).warnings;
+    CAPTURE(sweep.front().first);
+    CHECK(std::any_of(warnings.begin(), warnings.end(),
+                      [](const Warning& warning) { return warning.code == "frequency_does_not_follow_speed"; }));
+  }
 }

@@ -77,16 +77,27 @@ struct Evidence {
   double samples_per_slip = 0.0;
 };
 
+/// Friction that depends on the sliding speed v: F_k(v) = F_k(0+) + b (exp(alpha v) - 1) / alpha, the law f0 + f1
+/// exp(alpha v) of docs/model.md section 5 with b = f1 alpha, which stays known where alpha alone is not.
+struct SpeedDependence {
+  double slope_N_s_per_m = 0.0;  ///< b, the slope of F_k at v = 0
+  double alpha_s_per_m = 0.0;
+};
+
+inline constexpr std::size_t kModelValues = 6;
+
 /// The fitted model as one point with its covariance, for everything that is computed from it.
 struct ModelEstimate {
   double stiffness_N_per_m = 0.0;
   double natural_frequency_rad_per_s = 0.0;
-  double damping_ratio = 0.0;  ///< >= 0
-  double friction_difference_N = 0.0;
-  /// Of (ln k, ln w_n, zeta, ln (F_s - F_k)), scatter of the cycles included.
-  std::array<std::array<double, 4>, 4> covariance{};
-  double degrees_of_freedom = 1.0;  ///< of Student's t
-  bool damping_identified = false;  ///< zeta is known well enough to ask for critical speeds
+  double damping_ratio = 0.0;          ///< >= 0
+  double friction_difference_N = 0.0;  ///< F_s - F_k(0+)
+  /// Of (ln k, ln w_n, zeta, ln (F_s - F_k(0+)), b, alpha), scatter of the cycles included; b and alpha are exactly 0
+  /// under Coulomb friction.
+  std::array<std::array<double, kModelValues>, kModelValues> covariance{};
+  double degrees_of_freedom = 1.0;                    ///< of Student's t
+  bool damping_identified = false;                    ///< zeta is known well enough to ask for critical speeds
+  std::optional<SpeedDependence> speed_dependence{};  ///< empty: Coulomb friction
 };
 
 struct FitResult {

@@ -28,4 +28,7 @@ struct Derived {
 /// empty.
 Derived derive_from_model(const FitResult& fit, const Conditions& conditions);
 
+/// What a joint fit says beyond any one speed: where stick-slip ends. All else belongs to one speed and is left empty.
+Derived derive_from_sweep(const FitResult& fit);
+
 }  // namespace slipfit

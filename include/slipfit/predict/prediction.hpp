@@ -11,11 +11,11 @@
 
 namespace slipfit {
 
-/// What a prediction starts from: Coulomb friction, fitted or stated.
+/// What a prediction starts from: Coulomb friction or friction that depends on the speed, fitted or stated.
 struct PredictionModel {
   ModelEstimate estimate;                      ///< friction_difference_N >= 0
   bool has_covariance = false;                 ///< false: `estimate.covariance` means nothing, and no interval is given
-  std::optional<Estimate> kinetic_friction_N;  ///< absolute forces need it
+  std::optional<Estimate> kinetic_friction_N;  ///< F_k(0+); absolute forces need it
 };
 
 /// Parameters that somebody states: no intervals.
@@ -32,8 +32,9 @@ struct PredictedMotion {
   Estimate period_s, frequency_Hz, slip_time_s, stick_time_s, sticking_degree;
   Estimate periodic_displacement_m, micro_vibration_spacing_m;
   Estimate force_peak_N, force_trough_N;  ///< spring view
-  /// Not empty where the data cannot tell whether there is stick-slip at this speed: regime and values are those of the
-  /// best estimate, without intervals.
+  /// Not empty where the data cannot tell whether there is stick-slip at this speed, or alpha is too little known for
+  /// it: regime and values are those of the best estimate, without intervals. Also where they cannot tell whether
+  /// steady sliding is stable: the values keep their intervals.
   std::string note;
 };
 

@@ -1,0 +1,58 @@
+#include <algorithm>
+
+#include "fit_document.hpp"
+#include "json_node.hpp"
+
+namespace {
+
+double positive(const JsonNode& node) {
+  const std::optional<double> value = node.number("a number > 0");
+  if (!value || !(*value > 0.0)) node.fail("a number > 0");
+  return *value;
+}
+
+slipfit::RecordingPlan conditions_of(const JsonNode& recording) {
+  return {positive(recording.member("speed_m_per_s")), positive(recording.member("sample_rate_Hz")),
+          positive(recording.member("duration_s"))};
+}
+
+std::optional<double> median(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// Without a scatter of its own a recording says nothing about it.
+void add_scatter(const JsonNode& cycles, std::vector<double>& scatter) {
+  if (const std::optional<double> sd = cycles.member("peak_force_sd_N").number()) scatter.push_back(*sd);
+}
+
+}  // namespace
+
+RecordedConditions read_recorded_conditions(const std::string& file) {
+  const nlohmann::json content = read_json(file);
+  const JsonNode document(file, content);
+  RecordedConditions result;
+  std::vector<double> scatter;
+  if (!document.has("recordings")) {
+    result.recordings = {conditions_of(document.member("recording"))};
+    result.noise_rms_N = positive(document.member("model").member("residual").member("rms_N"));
+    add_scatter(document.member("cycles"), scatter);
+    result.static_friction_sd_N = median(scatter);
+    return result;
+  }
+  const JsonNode members = document.member("recordings");
+  std::vector<double> noise;
+  for (std::size_t i = 0; i < members.array_size(); ++i) {
+    const JsonNode member = members.element(i);
+    if (member.member("role").text() != "cycles" || !member.has("joint")) continue;
+    if (member.member("joint").member("rms_N").is_null()) continue;
+    result.recordings.push_back(conditions_of(member.member("recording")));
+    noise.push_back(positive(member.member("joint").member("rms_N")));
+    add_scatter(member.member("cycles"), scatter);
+  }
+  if (noise.empty()) members.fail("recordings with cycles in the joint fit");
+  result.noise_rms_N = *median(noise);
+  result.static_friction_sd_N = median(scatter);
+  return result;
+}

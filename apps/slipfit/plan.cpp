@@ -1,0 +1,83 @@
+#include "slipfit/predict/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "fit_document.hpp"
+#include "output.hpp"
+#include "quantities.hpp"
+#include "slipfit/report/plan.hpp"
+
+namespace {
+
+struct PlanArguments {
+  std::string file;
+  std::optional<std::string> target;
+  std::optional<std::string> speed;
+  bool json = false;
+  bool quiet = false;
+  std::optional<std::string> out;
+};
+
+constexpr const char* kSpacing = "periodic_displacement_m";
+
+std::optional<slipfit::PlanTarget> target_from(const PlanArguments& arguments) {
+  if (!arguments.target && !arguments.speed) return std::nullopt;
+  slipfit::PlanTarget target{arguments.target.value_or(kSpacing), std::nullopt};
+  if (arguments.speed) {
+    if (target.name != kSpacing) {
+      throw Failure(ExitCode::WrongUsage, fmt::format("--at goes with --for {} only", kSpacing));
+    }
+    target.speed_m_per_s = positive_quantity("--at", *arguments.speed, slipfit::Dimension::Speed);
+  } else if (target.name == kSpacing) {
+    throw Failure(ExitCode::WrongUsage, fmt::format("--for {} needs a speed: give it with --at", kSpacing));
+  }
+  return target;
+}
+
+slipfit::PlanBasis basis_from(const std::string& file, const FitDocument& document) {
+  if (!document.model.has_covariance) {
+    throw Failure(ExitCode::WrongUsage,
+                  fmt::format("{}: has no covariance, and without one there is nothing to narrow", file));
+  }
+  RecordedConditions recorded = read_recorded_conditions(file);
+  return {document.model.estimate, std::move(recorded.recordings), recorded.noise_rms_N, recorded.static_friction_sd_N};
+}
+
+void run(const PlanArguments& arguments) {
+  const std::optional<slipfit::PlanTarget> target = target_from(arguments);
+  std::vector<OutputFile> outputs;
+  if (arguments.out) outputs.push_back({"--out", *arguments.out});
+  check_outputs(outputs, arguments.file);
+  const FitDocument document = read_fit_document(arguments.file);
+  const auto plan = slipfit::plan_next(basis_from(arguments.file, document), target);
+  if (!plan) throw Failure(ExitCode::WrongUsage, fmt::format("{}: {}", arguments.file, plan.error().message));
+  const slipfit::PredictionSource source{arguments.file, document.conditional_on};
+  const std::string text =
+      arguments.json ? slipfit::to_json(plan.value(), source) + "\n" : slipfit::to_text(plan.value(), source);
+  if (!arguments.out) return write_standard_output(text);
+  write_file(outputs.front(), text);
+  if (!arguments.quiet) say(fmt::format("wrote '{}'", *arguments.out));
+}
+
+}  // namespace
+
+void add_plan_command(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand(
+      "plan", "Which speed, sampling rate and duration to measure next, and what limits each parameter");
+  const auto arguments = std::make_shared<PlanArguments>();
+  command->add_option("FIT.json", arguments->file, "Document of slipfit fit --json")->required();
+  command->add_option(
+      "--for", arguments->target,
+      "Parameter to narrow, by its key in the document, or periodic_displacement_m; else the worst known");
+  command->add_option("--at", arguments->speed, "Speed of the predicted spacing to narrow");
+  command->add_flag("--json", arguments->json, "One JSON document in place of the text");
+  command->add_option("--out", arguments->out, "Write the text or the JSON document to this file");
+  command->add_flag("--quiet", arguments->quiet, "No messages on standard error but errors");
+  command->callback([arguments] { run(*arguments); });
+}

@@ -1,0 +1,117 @@
+#include "predict/information.hpp"
+
+#include <ceres/jet.h>
+
+#include <cmath>
+
+#include "model/velocity_track.hpp"
+
+namespace slipfit::predict {
+namespace {
+
+/// ModelEstimate's values, then the force level, and what each cycle has of its own: onset force and time.
+constexpr int kValues = static_cast<int>(kModelValues);
+constexpr int kLevel = kValues;
+constexpr int kOnsetForce = kValues + 1;
+constexpr int kOnsetTime = kValues + 2;
+constexpr int kColumns = kValues + 3;
+using CycleJet = ceres::Jet<double, kColumns>;
+using CycleMatrix = Eigen::Matrix<double, kColumns, kColumns>;
+
+/// One cycle of the recording.
+class Cycle {
+ public:
+  Cycle(const ModelEstimate& model, double speed_m_per_s)
+      : stiffness_(exponential(model.stiffness_N_per_m, 0)),
+        omega_(exponential(model.natural_frequency_rad_per_s, 1)),
+        zeta_(model.damping_ratio, 2),
+        difference_(exponential(model.friction_difference_N, 3)),
+        unit_(stiffness_ * speed_m_per_s / omega_) {
+    const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
+    slope_ = CycleJet(law.slope_N_s_per_m, 4) * omega_ / stiffness_;
+    rate_ = CycleJet(law.alpha_s_per_m, 5) * speed_m_per_s;
+    onset_force_ = CycleJet((difference_ - 2.0 * zeta_ * unit_).a, kOnsetForce);  // the slip starts from F_s - cV
+    z0_ = onset_force_ / unit_;
+    track_ = model::VelocityTrack::solve(z0_.a, zeta_.a, slope_.a, rate_.a);
+  }
+
+  [[nodiscard]] bool sticks() const { return track_ && track_->resticks() && tau_stick() > 0.0; }
+  [[nodiscard]] double omega_rad_per_s() const { return omega_.a; }
+  [[nodiscard]] double tau_slip() const { return track_->tau_end(); }
+  [[nodiscard]] double tau_stick() const { return z0_.a - track_->after().intercept - tau_slip(); }
+
+  /// Force of a sample at a fixed time.
+  [[nodiscard]] CycleJet force(double at) const {
+    const model::TrackPoint p = track_->at(at);
+    CycleJet tau(at);
+    tau.v = at * omega_.v / omega_.a;
+    tau.v(kOnsetTime) -= omega_.a;
+    CycleJet z(p.z);
+    z.v = p.d_tau * tau.v + p.d_z0 * z0_.v + p.d_zeta * zeta_.v + p.d_slope * slope_.v + p.d_rate * rate_.v;
+    return CycleJet(0.0, kLevel) + unit_ * z;
+  }
+  /// What the population of cycles says of this one's onset force.
+  [[nodiscard]] CycleJet onset_departure() const { return onset_force_ - (difference_ - 2.0 * zeta_ * unit_); }
+
+ private:
+  static CycleJet exponential(double value, int i) {
+    CycleJet jet(value);
+    jet.v(i) = value;
+    return jet;
+  }
+
+  CycleJet stiffness_, omega_, zeta_, difference_, unit_, slope_, rate_, onset_force_, z0_;
+  std::optional<model::VelocityTrack> track_;
+};
+
+/// Sum over the samples of one cycle, the clock being as likely in any phase; half a stick on either side.
+CycleMatrix normal_matrix(const Cycle& cycle, double tau_step, const Disturbance& disturbance) {
+  CycleMatrix sum = CycleMatrix::Zero();
+  const auto add = [&sum](const CycleJet& y, double weight) { sum += weight * y.v * y.v.transpose(); };
+  const double precision = 1.0 / (disturbance.noise_rms_N * disturbance.noise_rms_N);
+  constexpr int kPhases = 8;
+  for (double tau = 0.5 * tau_step / kPhases; tau < cycle.tau_slip(); tau += tau_step / kPhases) {
+    add(cycle.force(tau), precision / kPhases);
+  }
+  // Squares of straight lines: two Gauss points are exact.
+  const double half = 0.5 * cycle.tau_stick();
+  for (const double share : {0.5 - std::sqrt(1.0 / 12.0), 0.5 + std::sqrt(1.0 / 12.0)}) {
+    add(cycle.force(-share * half), 0.5 * half / tau_step * precision);
+    add(cycle.force(cycle.tau_slip() + share * half), 0.5 * half / tau_step * precision);
+  }
+  // No scatter at all would be one number for all cycles; a thousandth of the noise is as good as none.
+  const double scatter = std::max(disturbance.static_friction_sd_N, 1e-3 * disturbance.noise_rms_N);
+  add(cycle.onset_departure(), 1.0 / (scatter * scatter));
+  return sum;
+}
+
+/// What remains of the first `kept` rows when the others are free.
+Eigen::MatrixXd marginal(const Eigen::MatrixXd& matrix, Eigen::Index kept) {
+  const Eigen::Index freed = matrix.rows() - kept;
+  const Eigen::MatrixXd cross = matrix.topRightCorner(kept, freed);
+  const Eigen::MatrixXd corner = matrix.bottomRightCorner(freed, freed);
+  return matrix.topLeftCorner(kept, kept) - cross * corner.ldlt().solve(cross.transpose());
+}
+
+}  // namespace
+
+std::optional<Information> information_of(const ModelEstimate& model, const RecordingPlan& recording,
+                                          const Disturbance& disturbance) {
+  const Cycle cycle(model, recording.speed_m_per_s);
+  if (!cycle.sticks()) return std::nullopt;
+  const double tau_step = cycle.omega_rad_per_s() / recording.sample_rate_Hz;
+  Information information;
+  information.cycles = recording.duration_s * cycle.omega_rad_per_s() / (cycle.tau_slip() + cycle.tau_stick());
+  information.samples_per_slip = cycle.tau_slip() / tau_step;
+  // Onsets are free in each cycle, the level in the recording.
+  const Eigen::MatrixXd one = marginal(normal_matrix(cycle, tau_step, disturbance), kOnsetForce);
+  information.matrix = information.cycles * marginal(one, kLevel);
+  return information;
+}
+
+ModelMatrix updated(const ModelMatrix& covariance, const ModelMatrix& information) {
+  const ModelMatrix system = ModelMatrix::Identity() + covariance * information;
+  return system.partialPivLu().solve(covariance);
+}
+
+}  // namespace slipfit::predict

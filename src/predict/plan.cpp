@@ -1,0 +1,224 @@
+#include "slipfit/predict/plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "predict/delta.hpp"
+#include "predict/information.hpp"
+
+namespace slipfit {
+namespace {
+
+using predict::Disturbance;
+using predict::Information;
+using predict::Jet;
+using predict::ModelMatrix;
+
+struct NamedJet {
+  std::string name;
+  Jet value;
+};
+
+std::vector<NamedJet> parameters_of(const ModelEstimate& model) {
+  const predict::ModelJets p = predict::jets_of(model);
+  std::vector<NamedJet> all{
+      {"stiffness_N_per_m", p.stiffness_N_per_m},
+      {"friction_difference_N", p.difference_N},
+      {"natural_frequency_rad_per_s", p.omega_rad_per_s},
+      {"mass_kg", p.stiffness_N_per_m / (p.omega_rad_per_s * p.omega_rad_per_s)},
+      {"damping_ratio", p.damping_ratio},
+      {"damping_coefficient_N_s_per_m", 2.0 * p.damping_ratio * p.stiffness_N_per_m / p.omega_rad_per_s}};
+  if (model.speed_dependence) {
+    all.push_back({"friction_slope_N_s_per_m", p.slope_N_s_per_m});
+    all.push_back({"alpha_s_per_m", p.alpha_s_per_m});
+  }
+  return all;
+}
+
+double standard_error(const Jet& y, const ModelMatrix& covariance) {
+  return std::sqrt(std::max(0.0, y.v.dot(covariance * y.v)));
+}
+
+ModelMatrix covariance_of(const ModelEstimate& model) {
+  ModelMatrix matrix = ModelMatrix::Zero();
+  for (std::size_t i = 0; i < kModelValues; ++i) {
+    for (std::size_t j = 0; j < kModelValues; ++j) {
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = model.covariance[i][j];
+    }
+  }
+  return matrix;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+class Planner {
+ public:
+  explicit Planner(const PlanBasis& basis)
+      : basis_(basis),
+        covariance_(covariance_of(basis.estimate)),
+        disturbance_{basis.noise_rms_N, basis.static_friction_sd_N.value_or(0.0)} {}
+
+  [[nodiscard]] double error_now(const Jet& y) const { return standard_error(y, covariance_); }
+
+  [[nodiscard]] ParameterLimit limit_of(const NamedJet& parameter) const {
+    ParameterLimit result{parameter.name, parameter.value.a, error_now(parameter.value), Limit::Held};
+    if (!(result.standard_error > 0.0)) return result;
+    const double expected = error_again(parameter.value, disturbance_, 1.0);
+    constexpr double kUnexplained = 2.0;
+    result.limit =
+        result.standard_error > kUnexplained * expected ? Limit::Misfit : most_helpful(parameter.value, expected);
+    return result;
+  }
+
+  [[nodiscard]] std::vector<PlanOption> options(const Jet& target) const {
+    std::vector<PlanOption> all;
+    for (const double speed : speeds()) {
+      if (const auto option = best_rate(target, speed)) all.push_back(*option);
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const PlanOption& a, const PlanOption& b) { return a.standard_error < b.standard_error; });
+    return all;
+  }
+
+  /// Information grows as the duration.
+  [[nodiscard]] std::optional<double> halving_s(const Jet& target, RecordingPlan recording) const {
+    const auto information = predict::information_of(basis_.estimate, recording, disturbance_);
+    const auto error = [&](double times) {
+      return standard_error(target, predict::updated(covariance_, times * information->matrix));
+    };
+    double low = 1e-3;
+    double high = kLongest;
+    const double wanted = 0.5 * error_now(target);
+    if (!information || !(error(high) <= wanted)) return std::nullopt;
+    while (high / low > 1.01) (error(std::sqrt(low * high)) > wanted ? low : high) = std::sqrt(low * high);
+    return high * recording.duration_s;
+  }
+
+ private:
+  static constexpr double kLongest = 1e3;    // times as long as now: longer is no plan
+  static constexpr double kGood = 0.1;       // less disturbance, as good as none
+  static constexpr double kFastClock = 8.0;  // more samples
+  static constexpr double kHelpful = 0.7;    // below it a change pays by itself
+
+  /// The same recordings once more, with another disturbance and clock; hardly anything known before.
+  [[nodiscard]] double error_again(const Jet& y, const Disturbance& disturbance, double clock) const {
+    const ModelMatrix vague = 1e4 * ModelMatrix(covariance_.diagonal().asDiagonal());
+    ModelMatrix sum = ModelMatrix::Zero();
+    for (RecordingPlan recording : basis_.recordings) {
+      recording.sample_rate_Hz *= clock;
+      const auto information = predict::information_of(basis_.estimate, recording, disturbance);
+      if (information) sum += information->matrix;
+    }
+    return standard_error(y, predict::updated(vague, sum));
+  }
+
+  [[nodiscard]] Limit most_helpful(const Jet& y, double now) const {
+    Disturbance quiet = disturbance_;
+    quiet.noise_rms_N *= kGood;
+    Disturbance even = disturbance_;
+    even.static_friction_sd_N *= kGood;
+    // More samples, each with more noise, so that nothing is won by their number.
+    Disturbance same_density = disturbance_;
+    same_density.noise_rms_N *= std::sqrt(kFastClock);
+    const std::array<std::pair<Limit, double>, 3> changes{{{Limit::Sampling, error_again(y, same_density, kFastClock)},
+                                                           {Limit::Scatter, error_again(y, even, 1.0)},
+                                                           {Limit::Noise, error_again(y, quiet, 1.0)}}};
+    const auto& best = *std::min_element(changes.begin(), changes.end(),
+                                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    return best.second < kHelpful * now ? best.first : Limit::Cycles;
+  }
+
+  /// Around those measured, where the model sticks for sure.
+  [[nodiscard]] std::vector<double> speeds() const {
+    const predict::Propagation propagation(basis_.estimate);
+    const auto [slow, fast] = std::minmax_element(
+        basis_.recordings.begin(), basis_.recordings.end(),
+        [](const RecordingPlan& a, const RecordingPlan& b) { return a.speed_m_per_s < b.speed_m_per_s; });
+    std::vector<double> result;
+    constexpr double kBeyond = 8.0;
+    for (double speed = slow->speed_m_per_s / kBeyond; speed < fast->speed_m_per_s * kBeyond * 1.01; speed *= 2.0) {
+      const predict::MotionJets motion = predict::motion_at(basis_.estimate, speed);
+      if (!motion.cycle || !motion.restick_margin) continue;
+      const Jet& margin = *motion.restick_margin;
+      if (margin.a > 2.0 * propagation.quantile() * propagation.standard_error(margin)) result.push_back(speed);
+    }
+    return result;
+  }
+
+  /// The slowest clock that is within a tenth of the best; the present one, or faster.
+  [[nodiscard]] std::optional<PlanOption> best_rate(const Jet& target, double speed_m_per_s) const {
+    std::vector<double> rates;
+    std::vector<double> durations;
+    for (const RecordingPlan& recording : basis_.recordings) {
+      rates.push_back(recording.sample_rate_Hz);
+      durations.push_back(recording.duration_s);
+    }
+    std::vector<PlanOption> options;
+    for (const double faster : {1.0, 4.0, 16.0}) {
+      const RecordingPlan recording{speed_m_per_s, faster * median(rates), median(durations)};
+      const auto information = predict::information_of(basis_.estimate, recording, disturbance_);
+      constexpr double kLeastCycles = 5.0;  // fewer are no fit
+      if (!information || information->cycles < kLeastCycles) return std::nullopt;
+      options.push_back({recording, information->cycles, information->samples_per_slip,
+                         standard_error(target, predict::updated(covariance_, information->matrix))});
+    }
+    const double best = options.back().standard_error;
+    return *std::find_if(options.begin(), options.end(),
+                         [best](const PlanOption& option) { return option.standard_error <= 1.1 * best; });
+  }
+
+  const PlanBasis& basis_;
+  ModelMatrix covariance_;
+  Disturbance disturbance_;
+};
+
+/// The parameter with the widest relative interval; held ones need nothing.
+PlanTarget worst_known(const std::vector<ParameterLimit>& limits) {
+  const auto relative = [](const ParameterLimit& limit) {
+    return limit.standard_error > 0.0 ? limit.standard_error / std::abs(limit.value) : 0.0;
+  };
+  const auto worst = std::max_element(limits.begin(), limits.end(),
+                                      [&](const auto& a, const auto& b) { return relative(a) < relative(b); });
+  return {worst->name, std::nullopt};
+}
+
+Result<Jet> jet_of(const PlanTarget& target, const ModelEstimate& model) {
+  if (target.name == "periodic_displacement_m") {
+    if (!target.speed_m_per_s) return Error{"bad_target", "periodic_displacement_m needs a speed"};
+    const predict::MotionJets motion = predict::motion_at(model, *target.speed_m_per_s);
+    if (!motion.cycle) return Error{"bad_target", "the fitted model has no stick-slip at this speed"};
+    return Jet(motion.cycle->periodic_displacement_m);
+  }
+  std::string known;
+  for (const NamedJet& parameter : parameters_of(model)) {
+    if (parameter.name == target.name) return Jet(parameter.value);
+    known += parameter.name + ", ";
+  }
+  return Error{"bad_target",
+               "unknown target '" + target.name + "', expected one of " + known + "periodic_displacement_m"};
+}
+
+}  // namespace
+
+Result<Plan> plan_next(const PlanBasis& basis, const std::optional<PlanTarget>& target) {
+  const Planner planner(basis);
+  Plan plan;
+  for (const NamedJet& parameter : parameters_of(basis.estimate)) plan.limits.push_back(planner.limit_of(parameter));
+  plan.target = target.value_or(worst_known(plan.limits));
+  const Result<Jet> wanted = jet_of(plan.target, basis.estimate);
+  if (!wanted) return wanted.error();
+  plan.value = wanted.value().a;
+  plan.standard_error = planner.error_now(wanted.value());
+  if (!(plan.standard_error > 0.0))
+    return Error{"bad_target", plan.target.name + " is held by the fit: there is nothing to narrow"};
+  plan.options = planner.options(wanted.value());
+  if (!plan.options.empty()) plan.halving_s = planner.halving_s(wanted.value(), plan.options.front().recording);
+  return plan;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,172 @@
+#include "predict/velocity.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "model/velocity_track.hpp"
+
+namespace slipfit::predict {
+namespace {
+
+/// The slip that starts from stick at one speed, in units of docs/model.md section 5 and with its derivatives.
+struct ScaledSlip {
+  Jet force_unit_N, z0, zeta, slope, rate;
+  double speed_m_per_s = 0.0;
+
+  ScaledSlip(const ModelJets& p, double speed)
+      : force_unit_N(p.stiffness_N_per_m * speed / p.omega_rad_per_s),
+        z0(p.difference_N / force_unit_N - 2.0 * p.damping_ratio),  // the slip starts from F_s - cV
+        zeta(p.damping_ratio),
+        slope(p.slope_N_s_per_m * p.omega_rad_per_s / p.stiffness_N_per_m),
+        rate(p.alpha_s_per_m * speed),
+        speed_m_per_s(speed) {}
+
+  [[nodiscard]] std::optional<model::VelocityTrack> solve() const {
+    return model::VelocityTrack::solve(z0.a, zeta.a, slope.a, rate.a);
+  }
+
+  /// At fixed tau.
+  [[nodiscard]] Jet jet(double value, double d_z0, double d_zeta, double d_slope, double d_rate) const {
+    Jet result(value);
+    result.v = d_z0 * z0.v + d_zeta * zeta.v + d_slope * slope.v + d_rate * rate.v;
+    return result;
+  }
+  [[nodiscard]] Jet jet(const model::TrackValue& y) const {
+    return jet(y.value, y.d_z0, y.d_zeta, y.d_slope, y.d_rate);
+  }
+};
+
+/// Force where z' passes 0 between two times; to first order it does not move with that time.
+Jet extreme(const ScaledSlip& slip, const model::VelocityTrack& track, double before, double after) {
+  const bool rises = track.at(before).d_tau > 0.0;
+  constexpr int kHalvings = 50;  // to round-off
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (before + after);
+    ((track.at(middle).d_tau > 0.0) == rises ? before : after) = middle;
+  }
+  const model::TrackPoint point = track.at(before);
+  return slip.force_unit_N * slip.jet(point.z, point.d_z0, point.d_zeta, point.d_slope, point.d_rate);
+}
+
+/// The force is largest soon after the slip has started and smallest soon before it ends: between those two z' < 0.
+double time_of_falling_force(const model::VelocityTrack& track) {
+  constexpr int kSteps = 256;
+  double steepest = 0.0;
+  for (int i = 1; i < kSteps; ++i) {
+    const double tau = track.tau_end() * i / kSteps;
+    if (track.at(tau).d_tau < track.at(steepest).d_tau) steepest = tau;
+  }
+  return steepest;
+}
+
+/// Empty where the slip does not stick, or ends with the force above that of the next slip's start.
+std::optional<CycleJets> cycle_of(const ScaledSlip& slip, const model::VelocityTrack& track, const Jet& omega) {
+  if (!track.resticks()) return std::nullopt;
+  const model::TrackEnd& end = track.end();
+  Jet tau_slip(end.tau);
+  tau_slip.v = -slip.jet(end.first).v / end.second.value;  // z'(tau) = 1 holds at the end
+  const model::TrackLine after = track.after();
+  const Jet tau_period = slip.z0 - slip.jet(after.intercept, after.d_z0, after.d_zeta, after.d_slope, after.d_rate);
+  if (!(tau_period.a > tau_slip.a)) return std::nullopt;
+  const double falling = time_of_falling_force(track);
+  const Jet period_s = tau_period / omega;
+  return CycleJets{tau_slip / omega,
+                   (tau_period - tau_slip) / omega,
+                   period_s,
+                   slip.speed_m_per_s * period_s,
+                   extreme(slip, track, 0.0, falling),
+                   extreme(slip, track, falling, end.tau)};
+}
+
+/// Positive where the slip sticks: z''^2 at its end is linear in the parameters up to where it vanishes; without stick
+/// what z' lacks to 1.
+Jet margin_of(const ScaledSlip& slip, const model::VelocityTrack& track) {
+  const model::TrackEnd& end = track.end();
+  const Jet first = slip.jet(end.first);
+  if (!track.resticks()) return first - 1.0;
+  Jet margin(end.second.value * end.second.value);
+  margin.v = 2.0 * (end.second.value * slip.jet(end.second).v - end.third * first.v);
+  return margin;
+}
+
+Regime regime_of(double total_damping_ratio, bool sticks) {
+  if (sticks) return total_damping_ratio > 0.0 ? Regime::StickSlipBistable : Regime::StickSlip;
+  if (total_damping_ratio < 0.0) return Regime::UnstableSteady;
+  return total_damping_ratio < 1.0 ? Regime::OscillatorySlip : Regime::ContinuousSlip;
+}
+
+bool sticks_at(const ModelJets& p, double speed_m_per_s) {
+  const auto track = ScaledSlip(p, speed_m_per_s).solve();
+  return track && track->resticks();
+}
+
+/// Two speeds with nothing between them: the slip sticks at the lower one and at no higher speed looked at.
+struct Bracket {
+  double sticks = 0.0, slides = 0.0;
+};
+
+/// In units of the speed of a slip, (F_s - F_k) w_n / k: lambda from 1000 down to 1/300. Damping of 3e-6 ends
+/// stick-slip there, less than any recording shows.
+constexpr double kSlowest = 1e-3;
+constexpr double kFastest = 300.0;
+constexpr double kSearchStep = 1.1;
+/// Wider than a factor of 2 either way a critical speed is no answer, and linear propagation no basis for one.
+constexpr double kWidest = std::numbers::ln2;
+
+Bracket refined(const ModelJets& p, Bracket bracket) {
+  constexpr double kSharp = 1e-13;
+  while (bracket.slides - bracket.sticks > kSharp * bracket.slides) {
+    const double middle = 0.5 * (bracket.sticks + bracket.slides);
+    (sticks_at(p, middle) ? bracket.sticks : bracket.slides) = middle;
+  }
+  return bracket;
+}
+
+CriticalPoint both(const Estimate& estimate) {
+  return {estimate, estimate};
+}
+
+}  // namespace
+
+MotionJets velocity_motion_at(const ModelEstimate& model, double speed_m_per_s) {
+  const ModelJets p = jets_of(model);
+  const ScaledSlip slip(p, speed_m_per_s);
+  MotionJets motion;
+  // Linearised at the driving speed: tangent of the friction law, not its chord. docs/model.md section 5
+  motion.total_damping_ratio = slip.zeta + 0.5 * slip.slope * exp(slip.rate);
+  if (const auto track = slip.solve()) {
+    motion.cycle = cycle_of(slip, *track, p.omega_rad_per_s);
+    motion.restick_margin = margin_of(slip, *track);
+  }
+  motion.regime = regime_of(motion.total_damping_ratio.a, motion.cycle.has_value());
+  return motion;
+}
+
+CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagation& propagation) {
+  const ModelJets p = jets_of(model);
+  const double unit = (p.omega_rad_per_s * p.difference_N / p.stiffness_N_per_m).a;
+  double speed = kFastest * unit;
+  if (sticks_at(p, speed)) {
+    if (!model.damping_identified) return both(unknown("the damping ratio cannot be told from 0"));
+    return {{0.0, std::nullopt, std::nullopt, {}}, unknown("there is stick-slip at every speed looked at")};
+  }
+  while (speed > kSlowest * unit && !sticks_at(p, speed / kSearchStep)) speed /= kSearchStep;
+  if (speed <= kSlowest * unit) return both(unknown("no stick-slip at any speed"));
+  const double critical = refined(p, {speed / kSearchStep, speed}).slides;
+  const ScaledSlip slip(p, critical);
+  const auto track = slip.solve();
+  if (!track || track->resticks()) return both(unknown("the end of stick-slip has no solution"));
+  // The largest z' is 1 there: derivatives of the root by the implicit function theorem.
+  const model::TrackValue& first = track->end().first;
+  const double by_speed = (-first.d_z0 * (slip.z0.a + 2.0 * slip.zeta.a) + first.d_rate * slip.rate.a) / critical;
+  Jet speed_jet(critical);
+  speed_jet.v = -slip.jet(first).v / by_speed;
+  if (propagation.quantile() * propagation.standard_error(speed_jet) > kWidest * critical) {
+    return both(unknown("damping and friction law are not known well enough to tell where stick-slip ends"));
+  }
+  const Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed_jet);
+  return {propagation.positive(lambda), propagation.positive(speed_jet)};
+}
+
+}  // namespace slipfit::predict

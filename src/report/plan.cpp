@@ -1,0 +1,125 @@
+#include "slipfit/report/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "report/json_values.hpp"
+#include "report/table.hpp"
+#include "report/text_sections.hpp"
+#include "slipfit/report/text.hpp"
+
+namespace slipfit {
+namespace {
+
+std::string_view name_of(Limit limit) {
+  switch (limit) {
+    case Limit::Noise:
+      return "noise";
+    case Limit::Scatter:
+      return "scatter";
+    case Limit::Sampling:
+      return "sampling";
+    case Limit::Cycles:
+      return "cycles";
+    case Limit::Misfit:
+      return "misfit";
+    case Limit::Held:
+      return "held";
+  }
+  return "cycles";
+}
+
+std::string_view words_of(Limit limit) {
+  switch (limit) {
+    case Limit::Noise:
+      return "noise of the samples: more cycles, or a quieter sensor";
+    case Limit::Scatter:
+      return "scatter of the static friction: more cycles";
+    case Limit::Sampling:
+      return "too few samples in a slip: a faster clock";
+    case Limit::Cycles:
+      return "noise and scatter alike: more cycles";
+    case Limit::Misfit:
+      return "more than noise and scatter: cycles or recordings disagree with the model";
+    case Limit::Held:
+      return "held by --fix";
+  }
+  return {};
+}
+
+std::string percent(double part, double whole) {
+  return whole == 0.0 ? "-" : fmt::format("{:.2g} %", 100.0 * part / std::abs(whole));
+}
+
+std::string options_text(const Plan& plan) {
+  if (plan.options.empty()) return "\nNo speed around those measured gives enough cycles in the same time.\n";
+  Table table({Align::Right, Align::Right, Align::Right, Align::Right, Align::Right, Align::Right});
+  table.add({"speed", "sample rate", "duration", "cycles", "samples a slip", "standard error then"});
+  for (const PlanOption& option : plan.options) {
+    table.add({quantity_text(option.recording.speed_m_per_s, "m/s"),
+               quantity_text(option.recording.sample_rate_Hz, "Hz"), quantity_text(option.recording.duration_s, "s"),
+               fmt::format("{:.0f}", option.cycles), fmt::format("{:.1f}", option.samples_per_slip),
+               percent(option.standard_error, plan.value)});
+  }
+  std::string text = "\nOne recording more, as long as those before (best first)\n" + table.text();
+  if (!plan.halving_s) return text + "  no duration of the best one within reason halves the standard error\n";
+  return text + fmt::format("  {} of the best one halve the standard error\n", quantity_text(*plan.halving_s, "s"));
+}
+
+std::string limits_text(const Plan& plan) {
+  Table table({Align::Left, Align::Right, Align::Left});
+  table.add({"parameter", "standard error", "limited by"});
+  for (const ParameterLimit& limit : plan.limits) {
+    table.add({limit.name, percent(limit.standard_error, limit.value), std::string(words_of(limit.limit))});
+  }
+  return "\nWhat limits each parameter\n" + table.text();
+}
+
+Json option_json(const PlanOption& option) {
+  return {{"speed_m_per_s", number(option.recording.speed_m_per_s)},
+          {"sample_rate_Hz", number(option.recording.sample_rate_Hz)},
+          {"duration_s", number(option.recording.duration_s)},
+          {"cycles", number(option.cycles)},
+          {"samples_per_slip", number(option.samples_per_slip)},
+          {"se", number(option.standard_error)}};
+}
+
+}  // namespace
+
+std::string to_json(const Plan& plan, const PredictionSource& source) {
+  Json limits = Json::array();
+  for (const ParameterLimit& limit : plan.limits) {
+    limits.push_back({{"name", limit.name},
+                      {"value", number(limit.value)},
+                      {"se", number(limit.standard_error)},
+                      {"limited_by", name_of(limit.limit)}});
+  }
+  Json options = Json::array();
+  for (const PlanOption& option : plan.options) options.push_back(option_json(option));
+  const Json json{{"schema", "slipfit.plan/1"},
+                  {"version", SLIPFIT_VERSION},
+                  {"source", source.name},
+                  {"conditional_on", source.conditional_on},
+                  {"target",
+                   {{"name", plan.target.name},
+                    {"speed_m_per_s", number(plan.target.speed_m_per_s)},
+                    {"value", number(plan.value)},
+                    {"se", number(plan.standard_error)}}},
+                  {"options", std::move(options)},
+                  {"halving_s", number(plan.halving_s)},
+                  {"limits", std::move(limits)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string to_text(const Plan& plan, const PredictionSource& source) {
+  std::string text = fmt::format("To narrow {}", plan.target.name);
+  if (plan.target.speed_m_per_s) text += " at " + quantity_text(*plan.target.speed_m_per_s, "m/s");
+  text += fmt::format(", known to {} (standard error) from {}\n", percent(plan.standard_error, plan.value),
+                      one_line(source.name));
+  for (const std::string& condition : source.conditional_on) text += "  holds if: " + one_line(condition) + "\n";
+  return text + options_text(plan) + limits_text(plan);
+}
+
+}  // namespace slipfit

@@ -1,0 +1,99 @@
+// slipfit fit --joint: what is refused, and what text and document of a sweep say.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "joint_example.hpp"
+#include "refusal.hpp"
+#include "run_program.hpp"
+
+using nlohmann::json;
+using test::check_refused;
+using test::slipfit;
+
+TEST_CASE("a joint fit of a Coulomb sweep says so: text, document, prediction") {
+  const test::JointExample example;
+  const test::ProgramResult text = slipfit({"fit", "--joint", example.manifest, "--group", "pad"});
+  CHECK(text.exit_code == 0);
+  for (const char* const part :
+       {"pad: 3 recordings fitted together", "tangential stiffness k", "identified", "slow", "fast",
+        "predicted without it", "Coulomb friction explains the sweep", "critical speed  4"}) {
+    CHECK_THAT(text.out, Catch::Contains(part));
+  }
+  const json document = example.fit({"--group", "pad"});
+  CHECK(document["id"] == "pad");
+  CHECK(document["status"] == "stick_slip");
+  CHECK_FALSE(document.contains("recording"));
+  REQUIRE(document["recordings"].size() == 3);
+  for (const json& member : document["recordings"]) {
+    CHECK(member["role"] == "cycles");
+    CHECK(member["status"] == "stick_slip");
+    CHECK(member["joint"]["cycles_used"].get<int>() > 5);
+    CHECK(member["joint"]["spacing_left_out_m"]["ci95"].is_array());
+  }
+  CHECK(document["model"]["tier"] == "damped");
+  CHECK(document["model"]["residual"]["rms_N"].is_null());
+  CHECK(document["parameters"]["stiffness_N_per_m"]["value"].get<double>() == Approx(1000.0).epsilon(0.005));
+  CHECK(document["parameters"]["alpha_s_per_m"]["value"].is_null());
+  CHECK(document["parameters"]["alpha_s_per_m"]["status"] == "unidentified");
+  CHECK(document["derived"]["lambda"]["value"].is_null());
+  const json& critical = document["derived"]["critical_speed_m_per_s"];
+  CHECK(critical["value"].get<double>() == Approx(0.4392).epsilon(0.05));  // 200 * 2 / (1000 * 0.910670)
+  const test::ProgramResult predicted = slipfit({"predict", example.out, "--speeds", "0.02,0.1", "--json"});
+  REQUIRE(predicted.exit_code == 0);
+  CHECK(json::parse(predicted.out)["critical_speed_m_per_s"]["ci95"] == critical["ci95"]);
+}
+
+TEST_CASE("a velocity fit hands slope and alpha on to predict") {
+  const test::JointExample example;
+  json document = example.fit({"--group", "pad", "--tier", "velocity"});
+  CHECK(document["model"]["tier"] == "velocity");
+  CHECK(document["correlation"]["names"].size() == 6);
+  CHECK(document["correlation"]["names"][4] == "friction_slope_N_s_per_m");
+  CHECK(document["correlation"]["values"][5].is_number());
+  const test::ProgramResult same = slipfit({"predict", example.out, "--speeds", "0.02", "--json"});
+  REQUIRE(same.exit_code == 0);
+  const json row = json::parse(same.out)["rows"][0];
+  const json& spacing = document["recordings"][0]["joint"]["spacing_m"];
+  CHECK(row["periodic_displacement_m"]["value"].get<double>() == Approx(spacing["value"].get<double>()).epsilon(1e-9));
+  // Coulomb friction gives no alpha: at this speed exp(alpha V) may be anything, where the speed is low it is 1.
+  CHECK_THAT(row["note"].get<std::string>(), Catch::Contains("alpha is not known"));
+  const test::ProgramResult slow = slipfit({"predict", example.out, "--speeds", "0.0001", "--json"});
+  CHECK(json::parse(slow.out)["rows"][0]["periodic_displacement_m"]["ci95"].is_array());
+
+  document["correlation"]["values"][4] = document["correlation"]["values"][4].get<double>() + 2.0;
+  const std::string steeper = example.folder.file("steeper.json", document.dump());
+  const test::ProgramResult other = slipfit({"predict", steeper, "--speeds", "0.02", "--json"});
+  CHECK(json::parse(other.out)["rows"][0]["periodic_displacement_m"]["value"] !=
+        row["periodic_displacement_m"]["value"]);
+
+  document["correlation"].erase("values");
+  check_refused({"predict", example.folder.file("bare.json", document.dump()), "--speeds", "0.02"}, "values");
+  document["correlation"] = nullptr;
+  check_refused({"predict", example.folder.file("none.json", document.dump()), "--speeds", "0.02"}, "correlation");
+}
+
+TEST_CASE("fit --joint refuses what it cannot do, in one line") {
+  const test::JointExample example;
+  const std::string run = example.folder.path("slow.csv");
+  check_refused({"fit", run, "--joint", example.manifest}, "REC does not go with --joint");
+  check_refused({"fit", "--joint", example.folder.path("none.csv")}, "none.csv");
+  check_refused({"fit", "--joint", example.manifest, "--group", "nobody"}, "nobody");
+  check_refused({"fit", "--joint", example.manifest, "--only", "slow,nobody"}, "nobody");
+  check_refused({"fit", "--joint", example.manifest, "--speed", "1"}, "--speed does not go with --joint");
+  check_refused({"fit", "--joint", example.manifest, "--tier", "sawtooth"}, "no tier of a joint fit");
+  check_refused({"fit", run, "--speed", "20mm/s", "--group", "pad"}, "--group");
+  check_refused({"fit", "--joint", example.manifest, "--group", "contact"}, "spring");
+}
+
+TEST_CASE("one recording is no sweep: the answer says that nothing was fitted together, and why") {
+  const test::JointExample example;
+  const json document = example.fit({"--only", "slow"});
+  CHECK(document["status"] == "undetermined");
+  CHECK_FALSE(document.contains("parameters"));
+  CHECK_THAT(document["status_reason"].get<std::string>(), Catch::Contains("1 with stick-slip cycles"));
+  CHECK_FALSE(document["recordings"][0].contains("joint"));
+  CHECK(document["derived"]["critical_speed_m_per_s"]["value"].is_null());
+  check_refused({"predict", example.out, "--speeds", "0.1"}, "no parameters");
+}
