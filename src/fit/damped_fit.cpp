@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "fit/clock_weights.hpp"
 #include "fit/level_order.hpp"
 #include "fit/mains_hum.hpp"
 #include "fit/outliers.hpp"
@@ -36,7 +37,7 @@ std::vector<bool> initial_exclusions(const Recording& recording, const Quality& 
 class Fitter {
  public:
   Fitter(const Recording& recording, const Quality& quality, const Segmentation& segmentation, const HeldValues& held)
-      : recording_(recording), segmentation_(segmentation), held_values_(held) {
+      : recording_(recording), quality_(quality), segmentation_(segmentation), held_values_(held) {
     held_ = {held.stiffness_N_per_m.has_value(), held.omega_rad_per_s.has_value(), held.damping_ratio.has_value()};
     excluded_ = initial_exclusions(recording, quality);
     scales_.speed_m_per_s = recording.conditions().speed_m_per_s;
@@ -70,6 +71,7 @@ class Fitter {
     std::optional<BlockFit> fit = fit_from(cycles_, start->level(), start->parameters.shared, kMaxIterations, kRough);
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
+    if (quality_.clock_jitter > kUnevenClock) fit = with_clock_weights(std::move(*fit));
     refuse_negative_damping(*fit, kFinal);
     return finish(std::move(*fit));
   }
@@ -217,14 +219,16 @@ class Fitter {
     for (int pass = 0; pass < kCleanPasses; ++pass) {
       const Residuals residuals = residuals_of(recording_, fit, excluded_);
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
+      const std::vector<std::size_t> censored = beyond_clip(residuals);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
       const std::vector<double> lines_Hz = find_hum(recording_, fit, residuals, outliers);
-      if (outliers.empty() && bad.empty() && lines_Hz.empty()) {
+      if (outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty()) {
         if (pass == 0) fit.solve({held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
         return fit;
       }
       excluded_.resize(recording_.size(), false);
       for (const std::size_t sample : outliers) excluded_[sample] = true;
+      for (const std::size_t sample : censored) excluded_[sample] = true;
       outliers_ += outliers.size();
       std::optional<BlockFit> next = refit(fit, bad, lines_Hz);
       if (!next) return std::nullopt;
@@ -232,6 +236,35 @@ class Fitter {
       if (hum_power(fit) < kMuchHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
     }
     return fit;
+  }
+
+  /// Weights depend on the model, the model on the weights: three rounds settle both to a percent of an error.
+  BlockFit with_clock_weights(BlockFit fit) const {
+    for (int round = 0; round < 3; ++round) {
+      std::vector<CycleData> cycles = weigh_by_slope(fit);
+      std::vector<double> middles = middles_s(cycles);
+      BlockFit weighted(std::move(cycles), std::move(middles), scales_, fit.level());
+      weighted.parameters = fit.parameters;
+      if (!std::isfinite(weighted.solve({held_, false, true, kMaxIterations, kFinal}))) return fit;
+      fit = std::move(weighted);
+    }
+    return fit;
+  }
+
+  /// Samples whose model lies where the sensor saturates: keeping those that noise has left below the ceiling, and only
+  /// those, would pull the fit down.
+  std::vector<std::size_t> beyond_clip(const Residuals& residuals) const {
+    constexpr double kReach = 3.0;  // of the noise
+    std::vector<std::size_t> beyond;
+    if (!quality_.clip_high && !quality_.clip_low) return beyond;
+    for (std::size_t i = 0; i < recording_.size(); ++i) {
+      if (residuals.phase[i] == Phase::None) continue;
+      const double model = recording_.force()[i] - residuals.value[i];
+      const bool above = quality_.clip_high && model > *quality_.clip_high - kReach * scales_.noise;
+      const bool below = quality_.clip_low && model < *quality_.clip_low + kReach * scales_.noise;
+      if (above || below) beyond.push_back(i);
+    }
+    return beyond;
   }
 
   static double hum_power(const BlockFit& fit) {
@@ -311,6 +344,7 @@ class Fitter {
     result.blocks.parameters = before;
   }
 
+  static constexpr double kUnevenClock = 0.02;  // relative spread of the steps
   static constexpr int kQuickIterations = 8;
   static constexpr int kCleanPasses = 4;
   static constexpr double kMuchHum = 0.5;  // of the residual variance: less does not blur outliers and frequency
@@ -320,6 +354,7 @@ class Fitter {
   static constexpr double kFinal = 1e-3;
 
   const Recording& recording_;
+  const Quality& quality_;
   const Segmentation& segmentation_;
   HeldValues held_values_;
   Held held_;
