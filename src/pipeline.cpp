@@ -1,6 +1,9 @@
 #include "slipfit/pipeline.hpp"
 
 #include <chrono>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "measured.hpp"
 #include "verdict.hpp"
@@ -22,16 +25,29 @@ struct Signals {
   double seconds = 0.0;
 };
 
-Signals look_at(const Recording& recording) {
+Signals look_at(const Recording& recording, Quality quality, Segmentation slips) {
   const auto start = Clock::now();
-  Signals signals;
-  signals.quality = assess_quality(recording);
-  signals.segmentation = find_slips(recording, signals.quality);
+  Signals signals{std::move(quality), std::move(slips), {}, 0.0};
   const std::vector<bool>& impulses = signals.quality.impulse_mask;
   const Estimate counted = count_frequency(recording, signals.segmentation);
   signals.spectral = find_frequency(recording, compute_spectrum(recording, impulses), counted.value, impulses);
   signals.seconds = seconds_since(start);
   return signals;
+}
+
+Signals look_at(const Recording& recording) {
+  const auto start = Clock::now();
+  Quality quality = assess_quality(recording);
+  Segmentation slips = find_slips(recording, quality);
+  Signals signals = look_at(recording, std::move(quality), std::move(slips));
+  signals.seconds = seconds_since(start);
+  return signals;
+}
+
+/// How badly the cycles fit: residual and spread over the onset force. A missing fit is the worst.
+double misfit_of(const std::optional<FitResult>& fit) {
+  if (!fit) return std::numeric_limits<double>::infinity();
+  return fit->evidence.relative_residual + 0.3 * fit->evidence.onset_force_spread;
 }
 
 Analysis conclude(const Recording& recording, Signals signals, Judgement judgement, std::optional<FitResult> fit) {
@@ -64,6 +80,13 @@ Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) 
   Signals signals = look_at(recording);
   const auto start = Clock::now();
   std::optional<FitResult> fit = fit_recording(recording, signals.quality, signals.segmentation, options);
+  if (auto beneath = find_slips_beneath_hum(recording, signals.quality, signals.segmentation)) {
+    std::optional<FitResult> other = fit_recording(recording, signals.quality, *beneath, options);
+    if (misfit_of(other) < misfit_of(fit)) {
+      signals = look_at(recording, std::move(signals.quality), std::move(*beneath));
+      fit = std::move(other);
+    }
+  }
   const double fit_s = seconds_since(start);
   Judgement judgement =
       judge_fit(recording, signals.quality, signals.segmentation, signals.spectral, fit ? &*fit : nullptr);

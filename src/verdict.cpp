@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "signal/robust.hpp"
@@ -42,6 +43,19 @@ double fall_share(const Segmentation& segmentation) {
     shares.push_back(segmentation.slips[i].fall_s / period_s);
   }
   return signal::median(shares);
+}
+
+/// 50 or 60 where the median interval between slips is that of the mains, to half a percent.
+std::optional<double> mains_rhythm_Hz(const Segmentation& segmentation) {
+  std::vector<double> periods_s;
+  for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
+    periods_s.push_back(segmentation.slips[i].middle_s - segmentation.slips[i - 1].middle_s);
+  }
+  const double period_s = signal::median(std::move(periods_s));
+  for (const double mains_Hz : {50.0, 60.0}) {
+    if (std::abs(period_s * mains_Hz - 1.0) < 5e-3) return mains_Hz;
+  }
+  return std::nullopt;
 }
 
 bool no_repetition(const SpectralFrequency& spectral) {
@@ -105,6 +119,10 @@ Judgement judge_fit(const Recording& recording, const Quality& quality, const Se
                     100.0 * e.relative_residual, 100.0 * e.onset_force_spread)};
   }
   const bool sine_like = fall_share(segmentation) > kSineFall;
+  if (const auto mains_Hz = mains_rhythm_Hz(segmentation); sine_like && mains_Hz) {
+    return {Verdict::Undetermined,
+            fmt::format("nearly sinusoidal swings at {:.0f} Hz: they may be hum of the mains", *mains_Hz)};
+  }
   if (sine_like && (e.restick_share < kSineRestickShare || e.relative_residual > kSineFit)) {
     return {Verdict::OscillatorySlip, "nearly sinusoidal: no straight sticks can be told from an oscillation"};
   }

@@ -62,6 +62,10 @@ class Fitter {
     if (cycles_.size() < kMinCycles) return std::nullopt;
     scales_.time_begin_s = cycles_.front().window_begin_s;
     scales_.time_end_s = cycles_.back().window_end_s;
+    if (!segmentation_.mains_Hz.empty()) {
+      const HumLines hum{segmentation_.mains_Hz, scales_.time_begin_s};
+      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), excluded_, hum);
+    }
 
     const LevelModel level = first_level();
     const std::vector<CycleData> probe = spread_subset(cycles_, std::max<std::size_t>(kProbeCycles, 3 * level.terms));
@@ -113,7 +117,7 @@ class Fitter {
     const bool well_sampled = scales_.half_period_s > kWellSampled * recording_.sample_interval_s();
     const bool wanders = well_sampled && left > kWanderingShare * 2.0 * scales_.force &&
                          left > kWanderingNoises * scales_.noise && cycles_.size() >= kProbeCycles;
-    return wanders ? LevelModel{true, 0, {}} : LevelModel{false, terms, {}};
+    return {wanders, wanders ? 0 : terms, segmentation_.mains_Hz};
   }
 
   static std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size) {
@@ -138,7 +142,7 @@ class Fitter {
     if (!std::isfinite(fit->solve({held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
     if (!level.per_cycle && probe.size() > level.terms && reduced_chi2(*fit) > kSuspectChi2) {
       std::optional<BlockFit> wandering =
-          fit_from(probe, {true, 0, {}}, fit->parameters.shared, kProbeIterations, kRough);
+          fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.shared, kProbeIterations, kRough);
       if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
     }
     refuse_negative_damping(*fit, kRough);
