@@ -273,6 +273,22 @@ double reduced_chi2(const BlockFit& fit) {
   return chi2 / std::max(1.0, samples - parameters);
 }
 
+Eigen::VectorXd quantities_of(const BlockFit& fit) {
+  std::vector<std::size_t> all(fit.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  const Selection selection = select(fit, all);
+  VectorXd common(common_size(fit));
+  std::copy(fit.parameters.shared.begin(), fit.parameters.shared.end(), common.data());
+  std::copy(fit.parameters.level.begin(), fit.parameters.level.end(), common.data() + kShared);
+  VectorXd quantities = selection.common.transpose() * common;
+  for (const Own& own : fit.parameters.cycles) {
+    for (Index i = 0; i < own_size(fit); ++i) {
+      quantities += selection.own.row(i).transpose() * own[static_cast<std::size_t>(i)];
+    }
+  }
+  return quantities;
+}
+
 Uncertainty estimate_uncertainty(const BlockFit& fit, const Held& held, bool continuous) {
   std::vector<Normal> normals;
   normals.reserve(fit.size());
