@@ -44,6 +44,13 @@ Signals look_at(const Recording& recording) {
   return signals;
 }
 
+/// A line of the mains stands out, or the slips counted may be its swings: worth a second look beneath it.
+bool may_be_hum(const Signals& signals) {
+  if (!signals.spectral.suspicious_lines.empty()) return true;
+  const double share = mains_share(signals.segmentation);
+  return share > 0.9 && share < 1.1;
+}
+
 /// How badly the cycles fit: residual and spread over the onset force. A missing fit is the worst.
 double misfit_of(const std::optional<FitResult>& fit) {
   if (!fit) return std::numeric_limits<double>::infinity();
@@ -80,7 +87,9 @@ Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) 
   Signals signals = look_at(recording);
   const auto start = Clock::now();
   std::optional<FitResult> fit = fit_recording(recording, signals.quality, signals.segmentation, options);
-  if (auto beneath = find_slips_beneath_hum(recording, signals.quality, signals.segmentation)) {
+  std::optional<Segmentation> beneath;
+  if (may_be_hum(signals)) beneath = find_slips_beneath_hum(recording, signals.quality, signals.segmentation);
+  if (beneath) {
     std::optional<FitResult> other = fit_recording(recording, signals.quality, *beneath, options);
     if (misfit_of(other) < misfit_of(fit)) {
       signals = look_at(recording, std::move(signals.quality), std::move(*beneath));
