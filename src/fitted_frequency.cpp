@@ -121,7 +121,7 @@ std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& 
   // Between two samples of a hardly sampled slip the errors of regular cycles are no chance: they repeat.
   if (fit.evidence.samples_per_slip < kSampled) return std::nullopt;
   // Jumps of a sensor at the contact are timed to a step, and the error of regular ones may repeat.
-  const double step = recording.conditions().force_view == ForceView::Contact ? timing : 0.0;
+  const double step = recording.conditions().force_view == ForceView::Contact ? 0.5 * timing : 0.0;
   return with_interval(1.0 / line.period_s, std::hypot(line.standard_error_s / line.period_s, step), count - 2.0);
 }
 

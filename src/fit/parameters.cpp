@@ -19,6 +19,7 @@ using Eigen::VectorXd;
 constexpr std::size_t kFewCycles = 5;          // below it a scatter says little: nothing is called identified
 constexpr double kSamplesForIdentified = 3.0;  // in a slip
 constexpr double kBendSigmas = 3.0;
+constexpr double kDriftMatters = 0.02;
 constexpr double kMisshapen = 0.03;  // systematic residual over the onset force: simulated slips stay below 0.01
 
 /// A linear function of the fitted quantities near the solution, with what it owes to zeta.
@@ -66,6 +67,7 @@ class Reporter {
       level_ += share * blocks.model(i).level_at(blocks.reference_s(i), blocks.level_data(),
                                                  blocks.parameters.cycles[i].data());
     }
+    trend_ = level_trend(blocks);
     const std::optional<RampBend> bend = ramp_bend(blocks);
     if (bend && std::abs(bend->log_ratio) > kBendSigmas * bend->standard_error) bend_ = bend;
     const auto& misfit = fits.damped.misfit;
@@ -158,7 +160,14 @@ class Reporter {
                          100.0 * std::abs(bend_->log_ratio), bend_->log_ratio > 0.0 ? "steeper" : "flatter");
       result_.warnings.push_back({"model_misfit", "the sticks are not straight: " + note});
     }
-    add(name, exponential(estimate(y)), graded(y.se, 0.05), note);
+    const double drift = std::abs(trend_ / (stiffness_ * recording_.conditions().speed_m_per_s));
+    if (drift > y.se) {
+      y.se = std::hypot(y.se, drift);
+      y.se_given_damping = std::hypot(y.se_given_damping, drift);
+      note =
+          fmt::format("the level rises or falls all along: k is off by {:.1f} % if the sensor drifts", 100.0 * drift);
+    }
+    add(name, exponential(estimate(y)), drift > kDriftMatters ? ParameterStatus::Weak : graded(y.se, 0.05), note);
   }
 
   std::string few_cycles() const {
@@ -309,6 +318,7 @@ class Reporter {
   bool at_bound_ = false;
   bool in_newtons_ = true;
   bool shape_refused_ = false;    // slips are not shaped like the model's: w_n and mass are weak
+  double trend_ = 0.0;            // of levels of their own, force a second
   std::optional<RampBend> bend_;  // where it is no chance
   double zeta_free_ = 0.0, zeta_ = 0.0, damping_se_ = 0.0;
   Interval damping_ci_;
