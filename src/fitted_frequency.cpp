@@ -4,7 +4,10 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include "signal/robust.hpp"
 
 namespace slipfit {
 namespace {
@@ -14,13 +17,20 @@ struct Onset {
   double time_s = 0.0;
 };
 
-std::vector<Onset> onsets_of(const FitResult& fit, double period_s) {
+std::vector<Onset> onsets_of(const FitResult& fit) {
   std::vector<Onset> onsets;
+  std::vector<double> steps_s;
+  double rows = 1.0;
   for (const Cycle& cycle : fit.cycles) {
-    if (!cycle.used) continue;
-    const double time_s = *cycle.onset_s;
-    const double since_first_s = onsets.empty() ? 0.0 : time_s - onsets.front().time_s;
-    onsets.push_back({std::round(since_first_s / period_s), time_s});
+    if (cycle.used && !onsets.empty()) steps_s.push_back((*cycle.onset_s - onsets.back().time_s) / rows);
+    if (cycle.used) onsets.push_back({0.0, *cycle.onset_s});
+    rows = cycle.used ? 1.0 : rows + 1.0;
+  }
+  const double period_s = signal::median(std::move(steps_s));
+  for (std::size_t i = 1; i < onsets.size(); ++i) {
+    // From one to the next: a period that drifts does not add up.
+    const double steps = std::round((onsets[i].time_s - onsets[i - 1].time_s) / period_s);
+    onsets[i].index = onsets[i - 1].index + std::max(1.0, steps);
   }
   return onsets;
 }
@@ -95,24 +105,23 @@ Estimate with_interval(double value, double relative_error, double degrees_of_fr
 
 }  // namespace
 
-std::optional<Estimate> fitted_frequency(const FitResult& fit, const Estimate& counted, const Recording& recording) {
+std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& recording) {
   constexpr std::size_t kFewest = 5;
   constexpr double kSampled = 6.0;
-  if (!counted.value) return std::nullopt;
-  const std::vector<Onset> onsets = onsets_of(fit, 1.0 / *counted.value);
+  const std::vector<Onset> onsets = onsets_of(fit);
   if (onsets.size() < kFewest) return std::nullopt;
   const auto count = static_cast<double>(onsets.size());
   const Line line = line_through(onsets);
   // The first and the last slip are timed to a step of the clock, evenly distributed.
-  const double timing = recording.sample_interval_s() * *counted.value / std::sqrt(6.0) / count;
+  const double mean_s = (onsets.back().time_s - onsets.front().time_s) / onsets.back().index;
+  const double timing = recording.sample_interval_s() / mean_s / std::sqrt(6.0) / count;
   if (!is_regular(fit.evidence, onsets, line.period_s)) {
-    const double mean_Hz = onsets.back().index / (onsets.back().time_s - onsets.front().time_s);
-    return with_interval(mean_Hz, std::hypot(recovery_error(fit), timing), count - 1.0);
+    return with_interval(1.0 / mean_s, std::hypot(recovery_error(fit), timing), count - 1.0);
   }
   // Between two samples of a hardly sampled slip the errors of regular cycles are no chance: they repeat.
   if (fit.evidence.samples_per_slip < kSampled) return std::nullopt;
   // Jumps of a sensor at the contact are timed to a step, and the error of regular ones may repeat.
-  const double step = recording.conditions().force_view == ForceView::Contact ? timing : 0.0;
+  const double step = recording.conditions().force_view == ForceView::Contact ? 0.5 * timing : 0.0;
   return with_interval(1.0 / line.period_s, std::hypot(line.standard_error_s / line.period_s, step), count - 2.0);
 }
 

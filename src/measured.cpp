@@ -39,7 +39,7 @@ std::vector<double> intervals_s(const Recording& recording, const Segmentation& 
     const DetectedSlip& first = segmentation.slips[i - 1];
     const DetectedSlip& second = segmentation.slips[i];
     bool whole = true;
-    for (std::size_t j = first.trough + 1; j <= second.peak; ++j) whole = whole && time_s[j] - time_s[j - 1] <= gap_s;
+    for (std::size_t j = first.peak + 1; j <= second.trough; ++j) whole = whole && time_s[j] - time_s[j - 1] <= gap_s;
     if (whole) intervals.push_back(second.middle_s - first.middle_s);
   }
   return intervals;
@@ -73,7 +73,7 @@ FrequencyReport report_frequency(const Recording& recording, const Segmentation&
   report.counted = count_frequency(recording, segmentation);
   report.method = "none";
   if (fit != nullptr && verdict == Verdict::StickSlip) {
-    if (const auto fitted = fitted_frequency(*fit, report.counted, recording)) {
+    if (const auto fitted = fitted_frequency(*fit, recording)) {
       report.method = "fitted_cycles";
       report.quoted = *fitted;
       return report;

@@ -1,6 +1,9 @@
 #include "slipfit/pipeline.hpp"
 
 #include <chrono>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "measured.hpp"
 #include "slipfit/sweep.hpp"
@@ -24,16 +27,36 @@ struct Signals {
   double seconds = 0.0;
 };
 
-Signals look_at(const Recording& recording) {
+Signals look_at(const Recording& recording, Quality quality, Segmentation slips) {
   const auto start = Clock::now();
-  Signals signals;
-  signals.quality = assess_quality(recording);
-  signals.segmentation = find_slips(recording, signals.quality);
+  Signals signals{std::move(quality), std::move(slips), {}, 0.0};
   const std::vector<bool>& impulses = signals.quality.impulse_mask;
   const Estimate counted = count_frequency(recording, signals.segmentation);
   signals.spectral = find_frequency(recording, compute_spectrum(recording, impulses), counted.value, impulses);
   signals.seconds = seconds_since(start);
   return signals;
+}
+
+Signals look_at(const Recording& recording) {
+  const auto start = Clock::now();
+  Quality quality = assess_quality(recording);
+  Segmentation slips = find_slips(recording, quality);
+  Signals signals = look_at(recording, std::move(quality), std::move(slips));
+  signals.seconds = seconds_since(start);
+  return signals;
+}
+
+/// A line of the mains stands out, or the slips counted may be its swings: worth a second look beneath it.
+bool may_be_hum(const Signals& signals) {
+  if (!signals.spectral.suspicious_lines.empty()) return true;
+  const double share = mains_share(signals.segmentation);
+  return share > 0.9 && share < 1.1;
+}
+
+/// How badly the cycles fit: residual and spread over the onset force. A missing fit is the worst.
+double misfit_of(const std::optional<FitResult>& fit) {
+  if (!fit) return std::numeric_limits<double>::infinity();
+  return fit->evidence.relative_residual + 0.3 * fit->evidence.onset_force_spread;
 }
 
 Analysis conclude(const Recording& recording, Signals signals, Judgement judgement, std::optional<FitResult> fit) {
@@ -57,6 +80,40 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   return analysis;
 }
 
+/// A fit and the signals that it rests on.
+struct Fitted {
+  Signals signals;
+  std::optional<FitResult> fit;
+  double seconds = 0.0;
+};
+
+Fitted look_and_fit(const Recording& recording, const FitOptions& options) {
+  Fitted fitted{look_at(recording), std::nullopt, 0.0};
+  Signals& signals = fitted.signals;
+  const auto start = Clock::now();
+  fitted.fit = fit_recording(recording, signals.quality, signals.segmentation, options);
+  std::optional<Segmentation> beneath;
+  if (may_be_hum(signals)) beneath = find_slips_beneath_hum(recording, signals.quality, signals.segmentation);
+  if (beneath) {
+    std::optional<FitResult> other = fit_recording(recording, signals.quality, *beneath, options);
+    if (misfit_of(other) < misfit_of(fitted.fit)) {
+      signals = look_at(recording, std::move(signals.quality), std::move(*beneath));
+      fitted.fit = std::move(other);
+    }
+  }
+  fitted.seconds = seconds_since(start);
+  return fitted;
+}
+
+Analysis conclude(const Recording& recording, Fitted fitted) {
+  const Signals& signals = fitted.signals;
+  Judgement judgement = judge_fit(recording, signals.quality, signals.segmentation, signals.spectral,
+                                  fitted.fit ? &*fitted.fit : nullptr);
+  Analysis analysis = conclude(recording, std::move(fitted.signals), std::move(judgement), std::move(fitted.fit));
+  analysis.timing.fit_s = fitted.seconds;
+  return analysis;
+}
+
 SweepRole role_of(Verdict verdict) {
   if (verdict == Verdict::StickSlip) return SweepRole::Cycles;
   return verdict == Verdict::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
@@ -71,15 +128,8 @@ Analysis analyze(const Recording& recording) {
 }
 
 Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) {
-  Signals signals = look_at(recording);
-  const auto start = Clock::now();
-  std::optional<FitResult> fit = fit_recording(recording, signals.quality, signals.segmentation, options);
-  const double fit_s = seconds_since(start);
-  Judgement judgement =
-      judge_fit(recording, signals.quality, signals.segmentation, signals.spectral, fit ? &*fit : nullptr);
-  Analysis analysis = conclude(recording, std::move(signals), std::move(judgement), std::move(fit));
-  analysis.timing.fit_s = fit_s;
-  return analysis;
+  Fitted fitted = look_and_fit(recording, options);
+  return conclude(recording, std::move(fitted));
 }
 
 SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options) {
@@ -88,9 +138,10 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   std::vector<SweepRecording> recordings;
   signals.reserve(entries.size());
   for (const SweepEntry& entry : entries) {
-    sweep.recordings.push_back(analyze_and_fit(entry.recording, {}));
+    Fitted fitted = look_and_fit(entry.recording, {});
+    signals.push_back(fitted.signals);
+    sweep.recordings.push_back(conclude(entry.recording, std::move(fitted)));
     sweep.roles.push_back(role_of(sweep.recordings.back().verdict));
-    signals.push_back(look_at(entry.recording));
     recordings.push_back({entry.recording, signals.back().quality, signals.back().segmentation, sweep.roles.back()});
   }
   sweep.joint = fit_jointly(recordings, options);

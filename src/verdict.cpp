@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "signal/robust.hpp"
@@ -23,8 +24,10 @@ constexpr double kRestickShare = 0.8;
 constexpr double kSineFall = 0.17;
 constexpr double kSineRestickShare = 0.95;
 constexpr double kSineFit = 0.05;
-constexpr double kDecay = 1.7;       // onset force, first half over second half: a ring-down
-constexpr double kSpanShare = 0.5;   // cycles cover less of the recording: they died out
+constexpr double kDecay = 1.7;      // onset force, first half over second half: a ring-down
+constexpr double kSpanShare = 0.5;  // cycles cover less of the recording: they died out
+constexpr double kMainsRhythm =
+    5e-3;                            // the mains keeps its frequency to 0.1 %, intervals of few samples are less exact
 constexpr double kNoiseDrop = 14.0;  // drop over noise below which turning points may be noise alone
 
 double median_drop(const Segmentation& segmentation) {
@@ -80,6 +83,17 @@ std::optional<Judgement> judge_counts(const Recording& recording, const Quality&
 
 }  // namespace
 
+double mains_share(const Segmentation& segmentation) {
+  std::vector<double> periods_s;
+  for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
+    periods_s.push_back(segmentation.slips[i].middle_s - segmentation.slips[i - 1].middle_s);
+  }
+  const double period_s = signal::median(std::move(periods_s));
+  const double at_50 = period_s * 50.0;
+  const double at_60 = period_s * 60.0;
+  return std::abs(at_50 - 1.0) < std::abs(at_60 - 1.0) ? at_50 : at_60;
+}
+
 Judgement judge_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
                     const SpectralFrequency& spectral, const FitResult* fit) {
   if (auto early = judge_counts(recording, quality, segmentation, spectral)) return *early;
@@ -105,6 +119,9 @@ Judgement judge_fit(const Recording& recording, const Quality& quality, const Se
                     100.0 * e.relative_residual, 100.0 * e.onset_force_spread)};
   }
   const bool sine_like = fall_share(segmentation) > kSineFall;
+  if (sine_like && std::abs(mains_share(segmentation) - 1.0) < kMainsRhythm) {
+    return {Verdict::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
+  }
   if (sine_like && (e.restick_share < kSineRestickShare || e.relative_residual > kSineFit)) {
     return {Verdict::OscillatorySlip, "nearly sinusoidal: no straight sticks can be told from an oscillation"};
   }

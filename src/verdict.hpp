@@ -12,6 +12,9 @@ struct Judgement {
   std::string reason;
 };
 
+/// Median interval between slips in periods of the mains, 50 or 60 Hz, whichever is nearer; 0 below 2 slips.
+double mains_share(const Segmentation& segmentation);
+
 /// What the fitted cycles show. `fit` empty: too few cycles could be fitted.
 Judgement judge_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
                     const SpectralFrequency& spectral, const FitResult* fit);

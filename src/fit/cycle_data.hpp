@@ -55,6 +55,7 @@ struct CycleData {
   std::vector<std::size_t> samples;  ///< around the slip, each one fitted; stick bins hold the rest
   std::vector<double> time_s;
   std::vector<double> force;
+  std::vector<double> weight;  ///< of the residuals of `samples`; empty: all 1
   std::vector<StickBin> bins_before;
   std::vector<StickBin> bins_after;
   bool continuous_with_next = false;  ///< the next slip of the recording is in the fit too, no gap between

@@ -111,8 +111,9 @@ bool CycleModel::evaluate(const double* shared, const double* level, const doubl
   for (std::size_t i = 0; i < data_->time_s.size(); ++i, ++row, basis += columns) {
     const double tau = w * (data_->time_s[i] - s.onset_s);
     const model::WavePoint p = wave_at(s, tau);
-    put(row, 1.0 / scales_.noise, data_->force[i], constant + level_part(basis) + u * p.z, gradient_of(p, tau), basis,
-        residuals, jacobians);
+    const double weight = data_->weight.empty() ? 1.0 : data_->weight[i];
+    put(row, weight / scales_.noise, data_->force[i], constant + level_part(basis) + u * p.z, gradient_of(p, tau),
+        basis, residuals, jacobians);
   }
   const auto put_bin = [&](const StickBin& bin, const model::WavePoint& p, double tau) {
     put(row++, std::sqrt(bin.count) / scales_.noise, bin.force, constant + level_part(basis) + u * p.z,
@@ -132,7 +133,10 @@ bool CycleModel::evaluate(const double* shared, const double* level, const doubl
   }
   if (level_.per_cycle && jacobians.own != nullptr) {
     std::size_t r = 0;
-    for (; r < data_->time_s.size(); ++r) jacobians.own[3 * r + 2] = -scales_.force / scales_.noise;
+    for (; r < data_->time_s.size(); ++r) {
+      const double weight = data_->weight.empty() ? 1.0 : data_->weight[r];
+      jacobians.own[3 * r + 2] = -weight * scales_.force / scales_.noise;
+    }
     const auto bin_rows = [&](const std::vector<StickBin>& bins) {
       for (const StickBin& bin : bins) {
         jacobians.own[3 * r++ + 2] = -std::sqrt(bin.count) * scales_.force / scales_.noise;

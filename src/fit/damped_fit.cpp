@@ -1,12 +1,13 @@
 #include "fit/damped_fit.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
+#include "fit/clock_weights.hpp"
+#include "fit/finish.hpp"
 #include "fit/level_order.hpp"
 #include "fit/mains_hum.hpp"
 #include "fit/outliers.hpp"
@@ -36,7 +37,7 @@ std::vector<bool> initial_exclusions(const Recording& recording, const Quality& 
 class Fitter {
  public:
   Fitter(const Recording& recording, const Quality& quality, const Segmentation& segmentation, const HeldValues& held)
-      : recording_(recording), segmentation_(segmentation), held_values_(held) {
+      : recording_(recording), quality_(quality), segmentation_(segmentation), held_values_(held) {
     held_ = {held.stiffness_N_per_m.has_value(), held.omega_rad_per_s.has_value(), held.damping_ratio.has_value()};
     excluded_ = initial_exclusions(recording, quality);
     scales_.speed_m_per_s = recording.conditions().speed_m_per_s;
@@ -61,6 +62,10 @@ class Fitter {
     if (cycles_.size() < kMinCycles) return std::nullopt;
     scales_.time_begin_s = cycles_.front().window_begin_s;
     scales_.time_end_s = cycles_.back().window_end_s;
+    if (!segmentation_.mains_Hz.empty()) {
+      const HumLines hum{segmentation_.mains_Hz, scales_.time_begin_s};
+      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), excluded_, hum);
+    }
 
     const LevelModel level = first_level();
     const std::vector<CycleData> probe = spread_subset(cycles_, std::max<std::size_t>(kProbeCycles, 3 * level.terms));
@@ -70,6 +75,7 @@ class Fitter {
     std::optional<BlockFit> fit = fit_from(cycles_, start->level(), start->parameters.shared, kMaxIterations, kRough);
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
+    if (quality_.clock_jitter > kUnevenClock) fit = with_clock_weights(std::move(*fit));
     refuse_negative_damping(*fit, kFinal);
     return finish(std::move(*fit));
   }
@@ -111,7 +117,7 @@ class Fitter {
     const bool well_sampled = scales_.half_period_s > kWellSampled * recording_.sample_interval_s();
     const bool wanders = well_sampled && left > kWanderingShare * 2.0 * scales_.force &&
                          left > kWanderingNoises * scales_.noise && cycles_.size() >= kProbeCycles;
-    return wanders ? LevelModel{true, 0, {}} : LevelModel{false, terms, {}};
+    return {wanders, wanders ? 0 : terms, segmentation_.mains_Hz};
   }
 
   static std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size) {
@@ -136,7 +142,7 @@ class Fitter {
     if (!std::isfinite(fit->solve({held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
     if (!level.per_cycle && probe.size() > level.terms && reduced_chi2(*fit) > kSuspectChi2) {
       std::optional<BlockFit> wandering =
-          fit_from(probe, {true, 0, {}}, fit->parameters.shared, kProbeIterations, kRough);
+          fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.shared, kProbeIterations, kRough);
       if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
     }
     refuse_negative_damping(*fit, kRough);
@@ -217,14 +223,16 @@ class Fitter {
     for (int pass = 0; pass < kCleanPasses; ++pass) {
       const Residuals residuals = residuals_of(recording_, fit, excluded_);
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
+      const std::vector<std::size_t> censored = beyond_clip(residuals);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
       const std::vector<double> lines_Hz = find_hum(recording_, fit, residuals, outliers);
-      if (outliers.empty() && bad.empty() && lines_Hz.empty()) {
+      if (outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty()) {
         if (pass == 0) fit.solve({held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
         return fit;
       }
       excluded_.resize(recording_.size(), false);
       for (const std::size_t sample : outliers) excluded_[sample] = true;
+      for (const std::size_t sample : censored) excluded_[sample] = true;
       outliers_ += outliers.size();
       std::optional<BlockFit> next = refit(fit, bad, lines_Hz);
       if (!next) return std::nullopt;
@@ -232,6 +240,35 @@ class Fitter {
       if (hum_power(fit) < kMuchHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
     }
     return fit;
+  }
+
+  /// Weights depend on the model, the model on the weights: three rounds settle both to a percent of an error.
+  BlockFit with_clock_weights(BlockFit fit) const {
+    for (int round = 0; round < 3; ++round) {
+      std::vector<CycleData> cycles = weigh_by_slope(fit);
+      std::vector<double> middles = middles_s(cycles);
+      BlockFit weighted(std::move(cycles), std::move(middles), scales_, fit.level());
+      weighted.parameters = fit.parameters;
+      if (!std::isfinite(weighted.solve({held_, false, true, kMaxIterations, kFinal}))) return fit;
+      fit = std::move(weighted);
+    }
+    return fit;
+  }
+
+  /// Samples whose model lies where the sensor saturates: keeping those that noise has left below the ceiling, and only
+  /// those, would pull the fit down.
+  std::vector<std::size_t> beyond_clip(const Residuals& residuals) const {
+    constexpr double kReach = 3.0;  // of the noise
+    std::vector<std::size_t> beyond;
+    if (!quality_.clip_high && !quality_.clip_low) return beyond;
+    for (std::size_t i = 0; i < recording_.size(); ++i) {
+      if (residuals.phase[i] == Phase::None) continue;
+      const double model = recording_.force()[i] - residuals.value[i];
+      const bool above = quality_.clip_high && model > *quality_.clip_high - kReach * scales_.noise;
+      const bool below = quality_.clip_low && model < *quality_.clip_low + kReach * scales_.noise;
+      if (above || below) beyond.push_back(i);
+    }
+    return beyond;
   }
 
   static double hum_power(const BlockFit& fit) {
@@ -270,47 +307,12 @@ class Fitter {
     return refit;
   }
 
-  /// Empty where the normal equations are singular: the cycles do not tell the shared parameters apart.
   std::optional<DampedFit> finish(BlockFit fit) const {
-    DampedFit result{std::move(fit), false, held_, refused_damping_, excluded_, outliers_, {}};
-    result.uncertainty = estimate_uncertainty(result.blocks, held_, false);
-    if (!is_regular(result.uncertainty)) return std::nullopt;
-    if (!result.blocks.level().per_cycle && !result.uncertainty.from_cycles) join_ramps(result);
-    return result;
+    return finish_fit(recording_, quality_, segmentation_, half_width_s(),
+                      {std::move(fit), false, held_, refused_damping_, excluded_, outliers_, {}, {}});
   }
 
-  bool is_regular(const Uncertainty& uncertainty) const {
-    const Eigen::MatrixXd& c = uncertainty.covariance;
-    return c.allFinite() && (held_.stiffness || c(kLogStiffness, kLogStiffness) > 0.0) &&
-           (held_.frequency || c(kLogFrequency, kLogFrequency) > 0.0) && (held_.damping || c(kDamping, kDamping) > 0.0);
-  }
-
-  /// Joined ramps halve the error of k where the data agree: F test, one degree of freedom a ramp.
-  void join_ramps(DampedFit& result) const {
-    double ramps = 0.0;
-    for (std::size_t i = 0; i + 1 < result.blocks.size(); ++i) {
-      ramps += result.blocks.data(i).continuous_with_next ? 1.0 : 0.0;
-    }
-    if (ramps < 1.0) return;
-    const Parameters before = result.blocks.parameters;
-    if (std::isfinite(result.blocks.solve({held_, true, true, kMaxIterations, kFinal}))) {
-      const Uncertainty joined = estimate_uncertainty(result.blocks, held_, true);
-      const double freedom = std::max(1.0, result.uncertainty.degrees_of_freedom);
-      const double ratio = (joined.chi2 - result.uncertainty.chi2) / ramps / (result.uncertainty.chi2 / freedom);
-      const boost::math::fisher_f_distribution<double> chance(ramps, freedom);
-      if (!is_regular(joined)) {
-        result.blocks.parameters = before;
-        return;
-      }
-      if (ratio <= 0.0 || boost::math::cdf(boost::math::complement(chance, ratio)) > 1e-3) {
-        result.continuous = true;
-        result.uncertainty = joined;
-        return;
-      }
-    }
-    result.blocks.parameters = before;
-  }
-
+  static constexpr double kUnevenClock = 0.02;  // relative spread of the steps
   static constexpr int kQuickIterations = 8;
   static constexpr int kCleanPasses = 4;
   static constexpr double kMuchHum = 0.5;  // of the residual variance: less does not blur outliers and frequency
@@ -320,6 +322,7 @@ class Fitter {
   static constexpr double kFinal = 1e-3;
 
   const Recording& recording_;
+  const Quality& quality_;
   const Segmentation& segmentation_;
   HeldValues held_values_;
   Held held_;
@@ -355,7 +358,7 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped) {
   held.damping = true;
   if (!std::isfinite(blocks.solve({held, damped.continuous, true}))) return std::nullopt;
   DampedFit result{std::move(blocks), damped.continuous, held, damped.refused_damping,
-                   damped.excluded,   damped.outliers,   {}};
+                   damped.excluded,   damped.outliers,   {},   damped.misfit};
   result.uncertainty = estimate_uncertainty(result.blocks, held, damped.continuous);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fit/block_fit.hpp"
+#include "fit/misfit.hpp"
 #include "fit/uncertainty.hpp"
 #include "slipfit/signal/cycles.hpp"
 #include "slipfit/signal/quality.hpp"
@@ -20,6 +21,7 @@ struct DampedFit {
   std::vector<bool> excluded;  ///< one flag a sample: impulses, clipped, outliers
   std::size_t outliers = 0;    ///< of `excluded`, found by the fit
   Uncertainty uncertainty;
+  std::optional<PhaseMisfit> misfit;  ///< slips are not shaped like the model's; the covariances allow for it
 };
 
 /// Values (natural parameters, zeta itself) at which shared parameters are held.

@@ -147,6 +147,13 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   fit::report_parameters(recording, fits, resolution, result);
   result.residual = residual_of(chosen, quality);
   tabulate(recording, segmentation, chosen.blocks, result);
+  if (const auto& misfit = chosen.misfit) {
+    result.warnings.push_back(
+        {"model_misfit",
+         fmt::format("slips are not shaped like the model's: {:+.1f} % of the onset force at {:.0f} % of the slip, "
+                     "in every cycle; intervals are wider by what leaving out parts of the slip changes",
+                     100.0 * misfit->size, 100.0 * misfit->phase)});
+  }
   const std::vector<double>& hum_Hz = chosen.blocks.level().lines_Hz;
   if (!hum_Hz.empty()) {
     result.warnings.push_back({"hum_fitted", fmt::format("hum of the mains at {:.4g} Hz is fitted beside the cycles",

@@ -22,6 +22,10 @@ struct RampBend {
 };
 std::optional<RampBend> ramp_bend(const BlockFit& fit);
 
+/// Rate (force a second) at which levels of their own rise from cycle to cycle, 0 where that is chance (3 standard
+/// errors) or the level is a polynomial. A sensor that drifts adds it to every ramp, friction that changes does not.
+double level_trend(const BlockFit& fit);
+
 /// Median slope of the rises over the speed, N/m (or 1/m); 0 where no rise has two samples in its middle.
 double stiffness_of(const Recording& recording, const Segmentation& segmentation);
 

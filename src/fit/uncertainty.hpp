@@ -16,6 +16,7 @@ struct Uncertainty {
   Eigen::MatrixXd covariance_given_damping;  ///< the same with zeta held
   double degrees_of_freedom = 0.0;           ///< of Student's t for the intervals
   bool from_cycles = false;                  ///< jackknife over cycles (correlated residuals), else white noise
+  bool from_refits = false;                  ///< refits (rounding, misfit) have their part in the covariances
   double noise = 0.0;                        ///< rms of the residuals, degrees of freedom counted
   double lag1_correlation = 0.0;             ///< of residuals of neighbouring samples, inside slips
   double lag1_pairs = 0.0;                   ///< how many pairs it is made of
@@ -27,6 +28,9 @@ struct Uncertainty {
 
 /// Residual variance over the noise's, degrees of freedom counted: all that a quick look needs.
 double reduced_chi2(const BlockFit& fit);
+
+/// The quantities at the solution.
+Eigen::VectorXd quantities_of(const BlockFit& fit);
 
 /// `continuous` as the solution was found. White-noise covariance where residuals are white, otherwise the delete-one
 /// jackknife over cycles (cluster-robust CR3), which sees misfit and correlated noise alike.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "signal/mains_removal.hpp"
 #include "signal/robust.hpp"
 #include "signal/zigzag.hpp"
 
@@ -97,8 +98,10 @@ DetectedSlip describe(const Fall& fall, std::span<const double> time_s, const st
 
 }  // namespace
 
-Segmentation find_slips(const Recording& recording, const Quality& quality) {
-  const std::vector<double> force = smooth(recording.force(), quality.impulse_mask);
+namespace {
+
+Segmentation find_slips_in(std::span<const double> raw, const Recording& recording, const Quality& quality) {
+  const std::vector<double> force = smooth(raw, quality.impulse_mask);
   const double range = central_range(force);
   if (!(range > 0.0)) return {};
   // Noise makes no turning point below 10 standard deviations; beyond 0.35 of the range nothing would be left to find.
@@ -125,6 +128,27 @@ Segmentation find_slips(const Recording& recording, const Quality& quality) {
   segmentation.minor = find_falls(force, smallest).size();
   segmentation.minor -= std::min(segmentation.minor, segmentation.slips.size());
   return segmentation;
+}
+
+}  // namespace
+
+Segmentation find_slips(const Recording& recording, const Quality& quality) {
+  return find_slips_in(recording.force(), recording, quality);
+}
+
+std::optional<Segmentation> find_slips_beneath_hum(const Recording& recording, const Quality& quality,
+                                                   const Segmentation& seen) {
+  // Hum below a tenth of a drop moves no turning point beyond the hysteresis; the fit finds it in the residuals.
+  constexpr double kHarmless = 0.1;
+  const signal::Dehummed clean = signal::without_mains(recording);
+  if (clean.lines_Hz.empty()) return std::nullopt;
+  std::vector<double> drops;
+  for (const DetectedSlip& slip : seen.slips) drops.push_back(slip.drop());
+  if (clean.swing < kHarmless * signal::median(drops)) return std::nullopt;
+  Segmentation beneath = find_slips_in(clean.force, recording, quality);
+  if (beneath.slips.empty()) return std::nullopt;
+  beneath.mains_Hz = clean.lines_Hz;
+  return beneath;
 }
 
 }  // namespace slipfit

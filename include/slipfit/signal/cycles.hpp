@@ -26,10 +26,16 @@ struct Segmentation {
   std::vector<DetectedSlip> slips;  ///< counted slips: drop at least a quarter of the median drop
   std::size_t minor = 0;            ///< smaller ones
   double hysteresis = 0.0;          ///< swing that makes a turning point, unit of the force column
+  std::vector<double> mains_Hz;     ///< lines that were taken off the force before looking
 };
 
 /// Slips by turning points with hysteresis: the level may wander, noise and quantisation below the hysteresis count for
 /// nothing, isolated impulses are passed over. Fewer than one fall larger than the noise: no slips.
 Segmentation find_slips(const Recording& recording, const Quality& quality);
+
+/// The same on the recording without its mains lines, where they are large enough to hide slips or to pass for them
+/// (`seen`: the slips as it stands). Empty otherwise, and where nothing is left.
+std::optional<Segmentation> find_slips_beneath_hum(const Recording& recording, const Quality& quality,
+                                                   const Segmentation& seen);
 
 }  // namespace slipfit

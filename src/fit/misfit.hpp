@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fit/block_fit.hpp"
+#include "fit/uncertainty.hpp"
+
+namespace slipfit::fit {
+
+/// Stretches of equal length from shortly before a slip to shortly after it.
+inline constexpr int kPhases = 8;
+
+/// Where residuals are the same in every cycle, and how large.
+struct PhaseMisfit {
+  double phase = 0.0;  ///< middle of the worst stretch: 0 at the onset, 1 at the end of slip
+  double size = 0.0;   ///< mean residual there over the mean onset force, signed
+};
+
+/// Residuals stacked over the phase of the slip. Empty where no stretch has a mean that is beyond chance (4.5 standard
+/// errors over the cycles) and matters (1 % of the onset force, `tolerated` on top); below 5 cycles.
+std::optional<PhaseMisfit> find_misfit(const BlockFit& fit, double tolerated);
+
+/// The cycles of a fit with the samples of one stretch left out.
+std::vector<CycleData> without_phase(const BlockFit& fit, int phase);
+
+/// Adds the jackknife over the stretches: what the estimates owe to one part of the slip alone. Each row of `moves`:
+/// what a refit without one stretch moves the quantities by.
+Uncertainty with_misfit(Uncertainty uncertainty, const Eigen::MatrixXd& moves);
+
+}  // namespace slipfit::fit

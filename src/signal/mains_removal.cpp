@@ -1,0 +1,54 @@
+#include "signal/mains_removal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "signal/mains.hpp"
+#include "signal/transform.hpp"
+
+namespace slipfit::signal {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+/// Complex amplitude of one frequency, phase counted from the first sample.
+std::complex<double> amplitude_of(const std::vector<double>& values, double mean, double step_s, double frequency_Hz) {
+  std::complex<double> sum = 0.0;
+  double weights = 0.0;
+  const auto count = static_cast<double>(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto at = static_cast<double>(i);
+    const double weight = 0.5 - 0.5 * std::cos(kTurn * (at + 0.5) / count);
+    sum += weight * (values[i] - mean) * std::polar(1.0, -kTurn * frequency_Hz * step_s * at);
+    weights += weight;
+  }
+  return 2.0 * sum / weights;
+}
+
+}  // namespace
+
+Dehummed without_mains(const Recording& recording) {
+  Dehummed result;
+  result.force.assign(recording.force().begin(), recording.force().end());
+  if (!clock_is_even(recording)) return result;
+  const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
+  const std::size_t length = good_length(recording.size());
+  const std::vector<double> power = hann_power(result.force, length);
+  double mean = 0.0;
+  for (const double f : result.force) mean += f / static_cast<double>(recording.size());
+  for (const MainsLine& line :
+       find_mains(power, 1.0 / (static_cast<double>(length) * step_s), 1.0 / recording.duration_s())) {
+    const std::complex<double> amplitude = amplitude_of(result.force, mean, step_s, line.frequency_Hz);
+    for (std::size_t i = 0; i < result.force.size(); ++i) {
+      const double phase = kTurn * line.frequency_Hz * step_s * static_cast<double>(i);
+      result.force[i] -= std::real(amplitude * std::polar(1.0, phase));
+    }
+    result.lines_Hz.push_back(line.frequency_Hz);
+    result.swing = std::max(result.swing, 2.0 * std::abs(amplitude));
+  }
+  return result;
+}
+
+}  // namespace slipfit::signal
