@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "fitted_frequency.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -64,13 +65,20 @@ Estimate count_frequency(const Recording& recording, const Segmentation& segment
 }
 
 FrequencyReport report_frequency(const Recording& recording, const Segmentation& segmentation,
-                                 const SpectralFrequency& spectral, Verdict verdict) {
+                                 const SpectralFrequency& spectral, Verdict verdict, const FitResult* fit) {
   // Above this scatter of the intervals the harmonic fit is no better than the count (docs/accuracy.md).
   constexpr double kRegular = 0.01;
   FrequencyReport report;
   report.spectral = spectral;
   report.counted = count_frequency(recording, segmentation);
   report.method = "none";
+  if (fit != nullptr && verdict == Verdict::StickSlip) {
+    if (const auto fitted = fitted_frequency(*fit, report.counted, recording)) {
+      report.method = "fitted_cycles";
+      report.quoted = *fitted;
+      return report;
+    }
+  }
   const MeanAndSpread interval = describe(intervals_s(recording, segmentation));
   const bool cycles_seen = verdict == Verdict::StickSlip || verdict == Verdict::OscillatorySlip;
   const bool agree =

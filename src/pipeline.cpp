@@ -3,6 +3,8 @@
 #include <chrono>
 
 #include "measured.hpp"
+#include "slipfit/sweep.hpp"
+#include "sweep_checks.hpp"
 #include "verdict.hpp"
 
 namespace slipfit {
@@ -38,17 +40,26 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   Analysis analysis;
   analysis.verdict = judgement.verdict;
   analysis.verdict_reason = judgement.reason;
-  analysis.frequency = report_frequency(recording, signals.segmentation, signals.spectral, judgement.verdict);
+  analysis.frequency =
+      report_frequency(recording, signals.segmentation, signals.spectral, judgement.verdict, fit ? &*fit : nullptr);
   analysis.cycles = summarise_cycles(recording, signals.segmentation, fit ? &*fit : nullptr);
   analysis.cycle_table = fit ? fit->cycles : table_of(recording, signals.segmentation);
   if (fit && analysis.verdict != Verdict::StickSlip) withdraw_parameters(*fit);
   if (fit) analysis.derived = derive_from_model(*fit, recording.conditions());
+  if (!fit && recording.conditions().measured_spacing_m) {
+    analysis.derived.measured_spacing_En = Estimate{{}, {}, {}, "needs a fitted model"};
+  }
   add_measured_spacing(recording, analysis.frequency, analysis.cycles, analysis.derived);
   analysis.quality = std::move(signals.quality);
   analysis.fit = std::move(fit);
   analysis.warnings = collect_warnings(recording, analysis);
   analysis.timing.frequency_s = signals.seconds;
   return analysis;
+}
+
+SweepRole role_of(Verdict verdict) {
+  if (verdict == Verdict::StickSlip) return SweepRole::Cycles;
+  return verdict == Verdict::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
 }
 
 }  // namespace
@@ -69,6 +80,23 @@ Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) 
   Analysis analysis = conclude(recording, std::move(signals), std::move(judgement), std::move(fit));
   analysis.timing.fit_s = fit_s;
   return analysis;
+}
+
+SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options) {
+  SweepAnalysis sweep;
+  std::vector<Signals> signals;
+  std::vector<SweepRecording> recordings;
+  signals.reserve(entries.size());
+  for (const SweepEntry& entry : entries) {
+    sweep.recordings.push_back(analyze_and_fit(entry.recording, {}));
+    sweep.roles.push_back(role_of(sweep.recordings.back().verdict));
+    signals.push_back(look_at(entry.recording));
+    recordings.push_back({entry.recording, signals.back().quality, signals.back().segmentation, sweep.roles.back()});
+  }
+  sweep.joint = fit_jointly(recordings, options);
+  sweep.joint_reason = describe_roles(sweep.roles);
+  sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
+  return sweep;
 }
 
 }  // namespace slipfit

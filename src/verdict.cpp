@@ -83,7 +83,9 @@ std::optional<Judgement> judge_counts(const Recording& recording, const Quality&
 Judgement judge_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
                     const SpectralFrequency& spectral, const FitResult* fit) {
   if (auto early = judge_counts(recording, quality, segmentation, spectral)) return *early;
-  if (fit == nullptr) return {Verdict::Undetermined, "fewer than 3 cycles have enough samples on both ramps"};
+  if (fit == nullptr) {
+    return {Verdict::Undetermined, "fewer than 3 cycles have enough samples on both ramps and can be fitted"};
+  }
   const Evidence& e = fit->evidence;
   std::size_t used = 0;
   for (const Cycle& cycle : fit->cycles) used += cycle.used ? 1 : 0;

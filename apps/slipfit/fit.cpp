@@ -2,7 +2,9 @@
 
 #include "analysis_run.hpp"
 #include "commands.hpp"
+#include "failure.hpp"
 #include "fit_options.hpp"
+#include "joint_run.hpp"
 
 namespace {
 
@@ -10,7 +12,23 @@ struct FitArguments {
   AnalysisArguments analysis;
   std::string tier = "auto";
   std::vector<std::string> fixed;
+  std::optional<std::string> joint;
+  std::optional<std::string> group;
+  std::vector<std::string> only;
 };
+
+/// The recordings of a joint fit, their speeds and units stand in the manifest.
+JointArguments joint_arguments(const FitArguments& arguments, const CLI::App& command) {
+  for (const char* option : {"REC", "--speed", "--speed-uncertainty", "--radius", "--normal-force", "--zero",
+                             "--force-view", "--time-column", "--force-column", "--time-unit", "--force-unit",
+                             "--sample-rate", "--window", "--cycles", "--curve", "--timing"}) {
+    if (command.count(option) == 0) continue;
+    throw Failure(ExitCode::WrongUsage,
+                  std::string(option) + " does not go with --joint: the manifest says how each recording was made");
+  }
+  return {*arguments.joint,        arguments.group,          arguments.only,
+          arguments.analysis.json, arguments.analysis.quiet, arguments.analysis.out};
+}
 
 }  // namespace
 
@@ -19,12 +37,23 @@ void add_fit_command(CLI::App& program) {
       program.add_subcommand("fit", "The analysis, then the model fitted to it and what it predicts at this speed");
   const auto arguments = std::make_shared<FitArguments>();
   add_analysis_options(*command, arguments->analysis);
-  command->add_option("--tier", arguments->tier, "Model: auto, sawtooth, undamped, damped")->capture_default_str();
+  command->get_option("REC")->required(false);
+  command->add_option("--tier", arguments->tier, "Model: auto, sawtooth, undamped, damped, velocity (joint)")
+      ->capture_default_str();
   command->add_option("--fix", arguments->fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
       ->allow_extra_args(false);
   command->add_option("--curve", arguments->analysis.curve, "Write time, force, fitted force and residual (CSV)");
-  command->callback([arguments] {
-    slipfit::FitOptions options = fit_options_from(arguments->tier, arguments->fixed);
+  command->add_option("--joint", arguments->joint, "Manifest (CSV): one set of parameters for its recordings");
+  command->add_option("--group", arguments->group, "With --joint: this group of the manifest");
+  command->add_option("--only", arguments->only, "With --joint: these recordings (ID,ID,...)")->delimiter(',');
+  command->callback([arguments, command] {
+    const FitKind kind = arguments->joint ? FitKind::Joint : FitKind::Single;
+    slipfit::FitOptions options = fit_options_from(arguments->tier, arguments->fixed, kind);
+    if (arguments->joint) return run_joint(joint_arguments(*arguments, *command), options);
+    if (arguments->group || !arguments->only.empty()) {
+      throw Failure(ExitCode::WrongUsage, "--group and --only choose recordings of a manifest: give it with --joint");
+    }
+    if (arguments->analysis.recording.file.empty()) throw Failure(ExitCode::WrongUsage, "REC is required");
     options.curve = arguments->analysis.curve.has_value();
     run_analysis(arguments->analysis, [&options](const slipfit::Recording& recording) {
       return slipfit::analyze_and_fit(recording, options);

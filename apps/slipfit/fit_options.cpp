@@ -35,15 +35,20 @@ std::string known_names() {
   return names;
 }
 
-std::optional<slipfit::Tier> tier_from(const std::string& text) {
+std::optional<slipfit::Tier> tier_from(const std::string& text, FitKind kind) {
   if (text == "auto") return std::nullopt;
+  if (text == "damped") return slipfit::Tier::Damped;
+  if (kind == FitKind::Joint) {
+    if (text == "velocity") return slipfit::Tier::Velocity;
+    throw Failure(ExitCode::WrongUsage,
+                  fmt::format("--tier: '{}' is no tier of a joint fit, expected auto, damped or velocity", text));
+  }
   if (text == "sawtooth") return slipfit::Tier::Sawtooth;
   if (text == "undamped") return slipfit::Tier::Undamped;
-  if (text == "damped") return slipfit::Tier::Damped;
   if (text == "velocity") {
     throw Failure(ExitCode::WrongUsage,
-                  "--tier velocity needs a speed sweep: one speed cannot tell velocity dependence from damping, choose "
-                  "auto, sawtooth, undamped or damped");
+                  "--tier velocity needs a speed sweep (--joint): one speed cannot tell velocity dependence from "
+                  "damping, choose auto, sawtooth, undamped or damped");
   }
   throw Failure(ExitCode::WrongUsage,
                 fmt::format("--tier: unknown tier '{}', expected auto, sawtooth, undamped or damped", text));
@@ -72,9 +77,9 @@ std::pair<std::string, double> fixed_from(const std::string& text) {
 
 }  // namespace
 
-slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed) {
+slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed, FitKind kind) {
   slipfit::FitOptions options;
-  options.tier = tier_from(tier);
+  options.tier = tier_from(tier, kind);
   for (const std::string& text : fixed) {
     const auto parameter = fixed_from(text);
     const bool twice = std::any_of(options.fixed.begin(), options.fixed.end(),

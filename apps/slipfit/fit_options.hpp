@@ -5,5 +5,8 @@
 
 #include "slipfit/fit/fit.hpp"
 
+/// How many recordings a fit is of.
+enum class FitKind { Single, Joint };
+
 /// `--tier` and `--fix` as typed, into what the fit takes. Throws Failure(WrongUsage).
-slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed);
+slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed, FitKind kind);

@@ -3,6 +3,7 @@
 // Everything that a user of the library needs: read a recording, analyse or fit it, report the result.
 
 #include "slipfit/core/units.hpp"
+#include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"

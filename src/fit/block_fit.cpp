@@ -1,22 +1,15 @@
 #include "fit/block_fit.hpp"
 
 #include <ceres/ceres.h>
-#include <glog/logging.h>
 
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <utility>
+
+#include "fit/solver_log.hpp"
 
 namespace slipfit::fit {
 namespace {
-
-/// A start outside the model is an ordinary answer here; Ceres reports it on standard error, and this library never
-/// prints.
-void silence_solver_log() {
-  static std::once_flag once;
-  std::call_once(once, [] { FLAGS_minloglevel = google::GLOG_FATAL; });
-}
 
 /// Parameter blocks: shared, [level,] own.
 class CycleCost : public ceres::CostFunction {

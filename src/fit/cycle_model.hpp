@@ -71,6 +71,8 @@ class CycleModel {
   [[nodiscard]] std::size_t own_parameters() const { return level_.per_cycle ? 3 : 2; }
   [[nodiscard]] std::size_t level_parameters() const { return level_.columns(); }
   [[nodiscard]] const CycleData& data() const { return *data_; }
+  /// The level's columns at every residual row, the constant first; of slope rows their slopes.
+  [[nodiscard]] const std::vector<double>& basis() const { return basis_; }
 
   /// Empty slip (lambda <= 0) has no solution: false, outputs untouched.
   bool evaluate(const double* shared, const double* level, const double* own, double* residuals,

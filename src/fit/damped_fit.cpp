@@ -132,12 +132,13 @@ class Fitter {
     std::optional<BlockFit> fit = fit_from_starts(probe, level);
     if (!fit) return std::nullopt;
     start_ = fit->parameters.shared;
+    // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
+    if (!std::isfinite(fit->solve({held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
     if (!level.per_cycle && probe.size() > level.terms && reduced_chi2(*fit) > kSuspectChi2) {
       std::optional<BlockFit> wandering =
-          fit_from(probe, {true, 0, {}}, fit->parameters.shared, kQuickIterations, kRough);
+          fit_from(probe, {true, 0, {}}, fit->parameters.shared, kProbeIterations, kRough);
       if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
     }
-    if (!std::isfinite(fit->solve({held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
     refuse_negative_damping(*fit, kRough);
     return fit;
   }
@@ -269,11 +270,19 @@ class Fitter {
     return refit;
   }
 
-  DampedFit finish(BlockFit fit) const {
+  /// Empty where the normal equations are singular: the cycles do not tell the shared parameters apart.
+  std::optional<DampedFit> finish(BlockFit fit) const {
     DampedFit result{std::move(fit), false, held_, refused_damping_, excluded_, outliers_, {}};
     result.uncertainty = estimate_uncertainty(result.blocks, held_, false);
+    if (!is_regular(result.uncertainty)) return std::nullopt;
     if (!result.blocks.level().per_cycle && !result.uncertainty.from_cycles) join_ramps(result);
     return result;
+  }
+
+  bool is_regular(const Uncertainty& uncertainty) const {
+    const Eigen::MatrixXd& c = uncertainty.covariance;
+    return c.allFinite() && (held_.stiffness || c(kLogStiffness, kLogStiffness) > 0.0) &&
+           (held_.frequency || c(kLogFrequency, kLogFrequency) > 0.0) && (held_.damping || c(kDamping, kDamping) > 0.0);
   }
 
   /// Joined ramps halve the error of k where the data agree: F test, one degree of freedom a ramp.
@@ -289,6 +298,10 @@ class Fitter {
       const double freedom = std::max(1.0, result.uncertainty.degrees_of_freedom);
       const double ratio = (joined.chi2 - result.uncertainty.chi2) / ramps / (result.uncertainty.chi2 / freedom);
       const boost::math::fisher_f_distribution<double> chance(ramps, freedom);
+      if (!is_regular(joined)) {
+        result.blocks.parameters = before;
+        return;
+      }
       if (ratio <= 0.0 || boost::math::cdf(boost::math::complement(chance, ratio)) > 1e-3) {
         result.continuous = true;
         result.uncertainty = joined;

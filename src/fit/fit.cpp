@@ -6,6 +6,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "fit/contact_fit.hpp"
 #include "fit/damped_fit.hpp"
 #include "fit/parameters.hpp"
 #include "fit/tiers.hpp"
@@ -45,6 +46,7 @@ Evidence weigh(const Recording& recording, const DampedFit& damped, const fit::R
   Evidence evidence;
   evidence.relative_residual = damped.uncertainty.noise / std::abs(mean);
   evidence.onset_force_spread = damped.uncertainty.onset_force_sd * blocks.scales().force / std::abs(mean);
+  evidence.onset_force_error = damped.uncertainty.onset_force_error * blocks.scales().force / std::abs(mean);
   evidence.restick_share = restick;
   evidence.decay = signal::median({onset_forces.begin(), onset_forces.begin() + half}) /
                    signal::median({onset_forces.begin() + half, onset_forces.end()});
@@ -72,6 +74,7 @@ void tabulate(const Recording& recording, const Segmentation& segmentation, cons
     row.end_s = state.onset_s + state.slip.tau_end / state.omega_rad_per_s;
     row.level_force = blocks.model(c).level_at(state.onset_s, blocks.level_data(), own);
     row.onset_force = *row.level_force + state.onset_force;
+    row.recovery_s = (state.slip.z0 - state.after.intercept) / state.omega_rad_per_s;
     row.residual_rms = blocks.scales().noise *
                        std::sqrt(blocks.cycle_sum_of_squares(c) / static_cast<double>(blocks.data(c).residuals()));
   }
@@ -122,6 +125,8 @@ void withdraw_parameters(FitResult& fit) {
 
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
                                        const Segmentation& segmentation, const FitOptions& options) {
+  if (recording.conditions().force_view == ForceView::Contact)
+    return fit::fit_contact(recording, segmentation, options);
   std::optional<DampedFit> damped = fit::fit_damped(recording, quality, segmentation, held_values(options));
   if (!damped) return std::nullopt;
   std::optional<DampedFit> undamped;

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "fit/intervals.hpp"
 #include "fit/start.hpp"
 
 namespace slipfit::fit {
@@ -20,20 +19,6 @@ using Eigen::VectorXd;
 constexpr std::size_t kFewCycles = 5;          // below it a scatter says little: nothing is called identified
 constexpr double kSamplesForIdentified = 3.0;  // in a slip
 constexpr double kBendSigmas = 3.0;
-
-double t_quantile(double degrees_of_freedom) {
-  return boost::math::quantile(boost::math::students_t_distribution<double>(std::max(1.0, degrees_of_freedom)), 0.975);
-}
-
-/// zeta cannot be negative: the part of the estimate's distribution below 0 is cut off. Where 0 is inside the interval,
-/// the upper end leaves 5 % of the rest above it.
-Interval damping_interval(double zeta, double se, double quantile) {
-  if (zeta - quantile * se > 0.0) return {zeta - quantile * se, zeta + quantile * se};
-  const boost::math::normal_distribution<double> normal(zeta, se);
-  const double above_zero = boost::math::cdf(boost::math::complement(normal, 0.0));
-  if (!(above_zero > 1e-12)) return {0.0, se};
-  return {0.0, boost::math::quantile(boost::math::complement(normal, 0.05 * above_zero))};
-}
 
 /// A linear function of the fitted quantities near the solution, with what it owes to zeta.
 struct Linear {
@@ -125,15 +110,6 @@ class Reporter {
     return result;
   }
 
-  /// From a logarithm to the quantity itself.
-  static Estimate exponential(const Estimate& logarithm) {
-    Estimate result{std::exp(*logarithm.value),
-                    std::exp(*logarithm.value) * *logarithm.standard_error,
-                    Interval{std::exp(logarithm.ci95->low), std::exp(logarithm.ci95->high)},
-                    {}};
-    return result;
-  }
-
   static VectorXd unit(Eigen::Index i, double size = 1.0) {
     VectorXd gradient = VectorXd::Zero(kQuantities);
     gradient(i) = size;
@@ -179,10 +155,7 @@ class Reporter {
                          100.0 * std::abs(bend_->log_ratio), bend_->log_ratio > 0.0 ? "steeper" : "flatter");
       result_.warnings.push_back({"model_misfit", "the sticks are not straight: " + note});
     }
-    // A sensor at the contact jumps at both ends of a slip: samples beside the jumps bend the ramps.
-    const bool contact = recording_.conditions().force_view == ForceView::Contact;
-    add(name, exponential(estimate(y)), contact ? ParameterStatus::Weak : graded(y.se, 0.05),
-        contact ? "from the ramps of a contact sensor only" : note);
+    add(name, exponential(estimate(y)), graded(y.se, 0.05), note);
   }
 
   std::string few_cycles() const {

@@ -87,11 +87,6 @@ Resolution resolve(const Recording& recording, const TierFits& fits) {
   result.samples_per_slip = median_slip_s(blocks) / recording.sample_interval_s();
   result.damping_error = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
   const bool held = fits.damping_held();
-  if (recording.conditions().force_view == ForceView::Contact) {
-    result.reason =
-        "a sensor at the contact sees the friction itself, not the swing of the body; only the ramps are fitted";
-    return result;
-  }
   // Fewer than 1.5 samples in a slip leave w_n and zeta without a single minimum, unless scattering cycles pin zeta.
   const bool scatter_tells = !fits.damped.refused_damping && result.damping_error < 0.01;
   if (result.samples_per_slip < 1.5 && !held && !scatter_tells) {

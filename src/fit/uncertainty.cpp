@@ -237,6 +237,13 @@ void count_residuals(const BlockFit& fit, const std::vector<Normal>& normals, Un
   }
 }
 
+/// Root mean square over the cycles of the error that noise of variance 1 gives to an onset force.
+double error_of_onset_force(const std::vector<Normal>& normals) {
+  double square = 0.0;
+  for (const Normal& n : normals) square += n.own.inverse()(1, 1) / static_cast<double>(normals.size());
+  return std::sqrt(std::max(0.0, square));
+}
+
 double spread_of_onset_force(const BlockFit& fit) {
   double sum = 0.0;
   double square = 0.0;
@@ -281,6 +288,7 @@ Uncertainty estimate_uncertainty(const BlockFit& fit, const Held& held, bool con
       result.samples - static_cast<double>(common_size(fit)) - cycles * static_cast<double>(own_size(fit)) + ramps;
   const double variance = result.chi2 / std::max(1.0, white_freedom);
   result.noise = fit.scales().noise * std::sqrt(variance);
+  result.onset_force_error = error_of_onset_force(normals) * std::sqrt(variance);
 
   // White intervals hold where neighbouring residuals are uncorrelated; the bound is four times the error of a
   // correlation, and 0.08 where that is smaller (below it the intervals are short by less than 8 %).

@@ -21,7 +21,8 @@ struct Uncertainty {
   double lag1_pairs = 0.0;                   ///< how many pairs it is made of
   double chi2 = 0.0;  ///< sum of squares in units of Scales::noise^2, bins' inner scatter included
   double samples = 0.0;
-  double onset_force_sd = 0.0;  ///< spread of the onset force over cycles, in units of Scales::force
+  double onset_force_error = 0.0;  ///< of one cycle with the shared parameters known, white noise, same units
+  double onset_force_sd = 0.0;     ///< spread of the onset force over cycles, in units of Scales::force
 };
 
 /// Residual variance over the noise's, degrees of freedom counted: all that a quick look needs.

@@ -31,6 +31,17 @@ Estimate force_ratio(const FitResult& fit, const Conditions& conditions) {
   return {1.0 + excess, se, Interval{1.0 + std::max(0.0, excess - 1.96 * se), 1.0 + excess + 1.96 * se}, {}};
 }
 
+/// E_n as interlaboratory comparisons have it, (predicted - measured) / U with the 95 % reach U of the prediction.
+Estimate spacing_score(const Estimate& predicted_m, double measured_m) {
+  if (!predicted_m.value || !predicted_m.ci95) return unknown("needs a predicted spacing with its interval");
+  const double difference_m = *predicted_m.value - measured_m;
+  const double reach_m =
+      difference_m > 0.0 ? *predicted_m.value - predicted_m.ci95->low : predicted_m.ci95->high - *predicted_m.value;
+  if (!(reach_m > 0.0)) return unknown("the predicted spacing has no width");
+  return {difference_m / reach_m, std::nullopt, std::nullopt,
+          "the measured spacing counts as exact: its own uncertainty would make this smaller"};
+}
+
 }  // namespace
 
 Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
@@ -40,6 +51,7 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
     const Estimate reason = unknown("needs k, w_n, zeta and F_s - F_k, which this recording does not give");
     derived.lambda = derived.lambda_critical = derived.critical_speed_m_per_s = reason;
     derived.periodic_displacement_m = derived.micro_vibration_spacing_m = reason;
+    if (conditions.measured_spacing_m) derived.measured_spacing_En = reason;
     return derived;
   }
   const ModelEstimate& model = *fit.estimate;
@@ -60,6 +72,9 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   const std::optional<predict::CycleJets> cycle = predict::cycle_jets(model, speed);
   derived.periodic_displacement_m = cycle ? propagation.positive(cycle->periodic_displacement_m)
                                           : unknown("the fitted model has no stick-slip at this speed");
+  if (conditions.measured_spacing_m) {
+    derived.measured_spacing_En = spacing_score(derived.periodic_displacement_m, *conditions.measured_spacing_m);
+  }
   return derived;
 }
 

@@ -71,17 +71,19 @@ Json correlation_json(const FitResult& fit) {
 }
 
 Json derived_json(const Derived& derived) {
-  return Json{{"lambda", estimate(derived.lambda)},
-              {"gamma", estimate(derived.gamma)},
-              {"lambda_critical", estimate(derived.lambda_critical)},
-              {"critical_speed_m_per_s", estimate(derived.critical_speed_m_per_s)},
-              {"regime", derived.regime ? Json(*derived.regime) : Json(nullptr)},
-              {"bistable", derived.bistable ? Json(*derived.bistable) : Json(nullptr)},
-              {"periodic_displacement_m", estimate(derived.periodic_displacement_m)},
-              {"pattern_spacing_m", estimate(derived.pattern_spacing_m)},
-              {"pattern_spacing_sd_m", estimate(Estimate{derived.pattern_spacing_sd_m, {}, {}, {}})},
-              {"micro_vibration_spacing_m", estimate(derived.micro_vibration_spacing_m)},
-              {"impulse_rate_per_m", estimate(derived.impulse_rate_per_m)}};
+  Json json{{"lambda", estimate(derived.lambda)},
+            {"gamma", estimate(derived.gamma)},
+            {"lambda_critical", estimate(derived.lambda_critical)},
+            {"critical_speed_m_per_s", estimate(derived.critical_speed_m_per_s)},
+            {"regime", derived.regime ? Json(*derived.regime) : Json(nullptr)},
+            {"bistable", derived.bistable ? Json(*derived.bistable) : Json(nullptr)},
+            {"periodic_displacement_m", estimate(derived.periodic_displacement_m)},
+            {"pattern_spacing_m", estimate(derived.pattern_spacing_m)},
+            {"pattern_spacing_sd_m", estimate(Estimate{derived.pattern_spacing_sd_m, {}, {}, {}})},
+            {"micro_vibration_spacing_m", estimate(derived.micro_vibration_spacing_m)},
+            {"impulse_rate_per_m", estimate(derived.impulse_rate_per_m)}};
+  if (derived.measured_spacing_En) json["measured_spacing_En"] = estimate(*derived.measured_spacing_En);
+  return json;
 }
 
 }  // namespace slipfit

@@ -12,6 +12,8 @@ std::string_view name_of(Tier tier) {
       return "undamped";
     case Tier::Damped:
       return "damped";
+    case Tier::Velocity:
+      return "velocity";
   }
   return "unknown";
 }
@@ -62,19 +64,43 @@ std::string_view name_of(ParameterStatus status) {
   return "unidentified";
 }
 
+std::string_view name_of(SweepRole role) {
+  switch (role) {
+    case SweepRole::Cycles:
+      return "cycles";
+    case SweepRole::Steady:
+      return "steady";
+    case SweepRole::LeftOut:
+      return "left_out";
+  }
+  return "left_out";
+}
+
+namespace {
+
+/// Each once.
+void add_new(Warnings& all, const Warnings& warnings) {
+  for (const Warning& warning : warnings) {
+    const bool known = std::any_of(all.begin(), all.end(), [&warning](const Warning& other) {
+      return other.code == warning.code && other.message == warning.message;
+    });
+    if (!known) all.push_back(warning);
+  }
+}
+
+}  // namespace
+
 Warnings all_warnings(const Recording& recording, const Analysis& analysis) {
   Warnings all;
-  const auto add = [&all](const Warnings& warnings) {
-    for (const Warning& warning : warnings) {
-      const bool known = std::any_of(all.begin(), all.end(), [&warning](const Warning& other) {
-        return other.code == warning.code && other.message == warning.message;
-      });
-      if (!known) all.push_back(warning);
-    }
-  };
-  add(recording.provenance().warnings);
-  add(analysis.warnings);
-  if (analysis.fit) add(analysis.fit->warnings);
+  add_new(all, recording.provenance().warnings);
+  add_new(all, analysis.warnings);
+  if (analysis.fit) add_new(all, analysis.fit->warnings);
+  return all;
+}
+
+Warnings all_warnings(const SweepAnalysis& sweep) {
+  Warnings all = sweep.warnings;
+  if (sweep.joint) add_new(all, sweep.joint->fit.warnings);
   return all;
 }
 

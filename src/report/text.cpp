@@ -26,15 +26,6 @@ std::string plain_verdict(Verdict verdict) {
   return "cannot tell whether this is stick-slip";
 }
 
-std::string warnings_text(const Warnings& warnings) {
-  if (warnings.empty()) return {};
-  std::string text = "\nWarnings\n";
-  for (const Warning& warning : warnings) {
-    text += fmt::format("  ! {} [{}]\n", one_line(warning.message), one_line(warning.code));
-  }
-  return text;
-}
-
 std::string assumed_text(const std::vector<std::string>& assumed) {
   if (assumed.empty()) return {};
   std::string text = "\nAssumed\n";
@@ -43,6 +34,15 @@ std::string assumed_text(const std::vector<std::string>& assumed) {
 }
 
 }  // namespace
+
+std::string warnings_text(const Warnings& warnings) {
+  if (warnings.empty()) return {};
+  std::string text = "\nWarnings\n";
+  for (const Warning& warning : warnings) {
+    text += fmt::format("  ! {} [{}]\n", one_line(warning.message), one_line(warning.code));
+  }
+  return text;
+}
 
 std::string one_line(std::string_view text) {
   std::string line(text);

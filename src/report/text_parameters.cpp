@@ -69,8 +69,9 @@ std::string notes_text(const std::vector<Parameter>& parameters) {
 }
 
 std::string residual_text(const FitResult& fit, ForceQuantity quantity) {
-  std::string text = fmt::format("  fit: {} model, residual {} rms", name_of(fit.tier),
-                                 quantity_text(fit.residual.rms, force_unit(quantity)));
+  std::string text = fmt::format("  fit: {} model", name_of(fit.tier));
+  if (fit.residual.rms > 0.0)
+    text += fmt::format(", residual {} rms", quantity_text(fit.residual.rms, force_unit(quantity)));
   if (fit.residual.reduced_chi2) text += fmt::format(", reduced chi2 {:.3g}", *fit.residual.reduced_chi2);
   if (fit.residual.whiteness_p) text += fmt::format(", whiteness p {:.2g}", *fit.residual.whiteness_p);
   return text + "\n";
@@ -98,14 +99,7 @@ std::string conditions_text(const std::vector<std::string>& conditional_on) {
 
 }  // namespace
 
-std::string parameters_text(const Recording& recording, const Analysis& analysis) {
-  if (!analysis.fit) return {};
-  if (analysis.verdict == Verdict::SteadySliding) {
-    return "\nParameters\n  none: the model describes stick-slip, and this recording shows none\n";
-  }
-  const FitResult& fit = *analysis.fit;
-  const ForceQuantity quantity = recording.conditions().quantity;
-  const bool is_doubtful = analysis.verdict == Verdict::Undetermined;
+std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const std::string& caution) {
   Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
   table.add({"", "value", "unit", "95 % interval", "status"});
   for (const Parameter& parameter : fit.parameters) {
@@ -114,9 +108,18 @@ std::string parameters_text(const Recording& recording, const Analysis& analysis
     table.add({one_line(name.words), shown_value(parameter, row), row.unit, row.interval,
                std::string(name_of(parameter.status))});
   }
-  return fmt::format("\nParameters{}\n", is_doubtful ? " (not to rely on: this may be no stick-slip)" : "") +
-         table.text() + notes_text(fit.parameters) + residual_text(fit, quantity) + candidates_text(fit, quantity) +
-         conditions_text(fit.conditional_on);
+  return fmt::format("\nParameters{}\n", caution) + table.text() + notes_text(fit.parameters) +
+         residual_text(fit, quantity) + candidates_text(fit, quantity) + conditions_text(fit.conditional_on);
+}
+
+std::string parameters_text(const Recording& recording, const Analysis& analysis) {
+  if (!analysis.fit) return {};
+  if (analysis.verdict == Verdict::SteadySliding) {
+    return "\nParameters\n  none: the model describes stick-slip, and this recording shows none\n";
+  }
+  const bool is_doubtful = analysis.verdict == Verdict::Undetermined;
+  return parameters_text(*analysis.fit, recording.conditions().quantity,
+                         is_doubtful ? " (not to rely on: this may be no stick-slip)" : "");
 }
 
 }  // namespace slipfit

@@ -9,6 +9,9 @@ namespace slipfit {
 // One function a section of the report for people; each ends with a line break, or is empty.
 std::string judgement_text(const Recording& recording, const Analysis& analysis);
 std::string parameters_text(const Recording& recording, const Analysis& analysis);
+/// `caution` follows the heading.
+std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const std::string& caution);
+std::string warnings_text(const Warnings& warnings);
 std::string frequency_text(const FrequencyReport& frequency);
 std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity);
 std::string spacing_text(const Recording& recording, const Derived& derived);

@@ -167,6 +167,27 @@ TEST_CASE("at the recording's own speed a prediction is what the fit derives") {
   CHECK(prediction.rows[0].regime == *derived.regime);
 }
 
+TEST_CASE("a measured spacing is held against the predicted one in units of its 95 % reach") {
+  FitResult fit;
+  fit.estimate = example().estimate;
+  Conditions conditions;
+  conditions.speed_m_per_s = 0.03;
+  const auto score_at = [&](double measured_m) {
+    conditions.measured_spacing_m = measured_m;
+    return *derive_from_model(fit, conditions).measured_spacing_En;
+  };
+  CHECK_FALSE(derive_from_model(fit, conditions).measured_spacing_En);
+  const Estimate predicted = derive_from_model(fit, conditions).periodic_displacement_m;
+  CHECK(*score_at(predicted.ci95->low).value == Approx(1.0));
+  CHECK(*score_at(predicted.ci95->high).value == Approx(-1.0));
+  CHECK(*score_at(*predicted.value).value == 0.0);
+  CHECK(*score_at(0.5 * *predicted.value).value > 2.0);
+  CHECK_FALSE(score_at(*predicted.value).note.empty());
+  fit.estimate.reset();
+  CHECK_FALSE(score_at(1e-3).value);
+  CHECK_FALSE(score_at(1e-3).note.empty());
+}
+
 TEST_CASE("the regime changes at the critical speed, without intervals within its uncertainty") {
   const std::array<double, 4> speeds{0.3, 0.435, 0.443, 0.6};
   const Prediction prediction = predict_at(example(), speeds);

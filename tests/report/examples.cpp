@@ -69,8 +69,8 @@ slipfit::Analysis full_analysis() {
   analysis.cycles.period_s = 0.1841;
   analysis.cycles.peak_force = 6.25;
   analysis.cycles.peak_force_sd = 0.0625;
-  analysis.cycle_table = {{0.1, 0.12, 6.0, 3.0, true, 0.099, 0.121, 5.9, 4.0, 0.02},
-                          {0.3, 0.32, 6.5, 3.5, false, std::nullopt, std::nullopt, std::nullopt, std::nullopt, {}}};
+  analysis.cycle_table = {{0.1, 0.12, 6.0, 3.0, true, 0.099, 0.121, 5.9, 4.0, 0.02, 0.2},
+                          {0.3, 0.32, 6.5, 3.5, false, std::nullopt, std::nullopt, std::nullopt, std::nullopt, {}, {}}};
   analysis.fit = example_fit();
   analysis.derived.lambda = {4.0, 0.1, Interval{3.8, 4.2}, ""};
   analysis.derived.regime = "stick_slip_bistable";

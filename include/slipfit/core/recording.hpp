@@ -25,6 +25,7 @@ struct Conditions {
   ForceView force_view = ForceView::Spring;
   ForceQuantity quantity = ForceQuantity::Force_N;
   std::optional<double> zero_force_N;  ///< sensor reading at no force, already subtracted; absolute forces need it
+  std::optional<double> measured_spacing_m;  ///< > 0, of the worn surface: a prediction is held against it
 };
 
 /// Where the numbers came from and what the reader had to assume, count or leave out.

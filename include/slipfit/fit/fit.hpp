@@ -15,7 +15,7 @@
 namespace slipfit {
 
 /// Models from the poorest to the richest; each adds one idea to the one before.
-enum class Tier { Sawtooth, Undamped, Damped };
+enum class Tier { Sawtooth, Undamped, Damped, Velocity };
 
 struct FitOptions {
   std::optional<Tier> tier;                           ///< empty: chosen by the data
@@ -36,6 +36,7 @@ struct Cycle {
   std::optional<double> onset_force;  ///< spring force at the start of slip, F_s - c V
   std::optional<double> level_force;  ///< kinetic level F_k of this cycle
   std::optional<double> residual_rms;
+  std::optional<double> recovery_s;  ///< slip and the stick that makes good its drop: the period that it causes
 };
 
 /// A tier that was tried, and why it was taken or left.
@@ -69,6 +70,7 @@ struct CurvePoint {
 struct Evidence {
   double relative_residual = 0.0;   ///< residual rms over the mean onset force above F_k
   double onset_force_spread = 0.0;  ///< standard deviation over mean of the onset force above F_k
+  double onset_force_error = 0.0;   ///< white-noise error of one cycle's onset force, over the mean
   double restick_share = 0.0;       ///< share of the cycles whose slip ends in stick
   double decay = 1.0;               ///< median onset force, first half of the cycles over second half
   double span_share = 0.0;          ///< duration of the cycles over duration of the recording

@@ -20,9 +20,12 @@ struct Derived {
   std::optional<double> pattern_spacing_sd_m;  ///< spread over cycles
   Estimate micro_vibration_spacing_m;          ///< estimate only, see docs/model.md section 8
   Estimate impulse_rate_per_m;                 ///< 1 / spacing
+  std::optional<Estimate>
+      measured_spacing_En;  ///< where `Conditions` has a measured spacing: (predicted - measured) / U
 };
 
-/// What the fitted model says at the recording's own speed; the measured members are left empty.
+/// What the fitted model says at the recording's own speed; the members that are measured without a model are left
+/// empty.
 Derived derive_from_model(const FitResult& fit, const Conditions& conditions);
 
 }  // namespace slipfit

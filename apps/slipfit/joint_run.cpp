@@ -1,0 +1,75 @@
+#include "joint_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "failure.hpp"
+#include "output.hpp"
+#include "slipfit/io/manifest.hpp"
+#include "slipfit/io/recording_reader.hpp"
+#include "slipfit/report/sweep.hpp"
+
+namespace {
+
+using slipfit::ManifestEntry;
+
+std::vector<ManifestEntry> read_manifest(const JointArguments& arguments) {
+  auto entries = slipfit::read_manifest_group(arguments.manifest, arguments.group);
+  if (!entries) throw Failure(ExitCode::WrongUsage, entries.error().message);
+  std::vector<ManifestEntry> chosen;
+  for (const std::string& id : arguments.only) {
+    const auto entry = std::find_if(entries.value().begin(), entries.value().end(),
+                                    [&id](const ManifestEntry& candidate) { return candidate.id == id; });
+    if (entry == entries.value().end()) {
+      throw Failure(ExitCode::WrongUsage,
+                    fmt::format("{}: no recording '{}'{}, named by --only", arguments.manifest, id,
+                                arguments.group ? " in group '" + *arguments.group + "'" : ""));
+    }
+    chosen.push_back(*entry);
+  }
+  return arguments.only.empty() ? std::move(entries).value() : chosen;
+}
+
+std::vector<slipfit::SweepEntry> read_recordings(const std::vector<ManifestEntry>& manifest) {
+  std::vector<slipfit::SweepEntry> entries;
+  for (const ManifestEntry& entry : manifest) {
+    auto recording = slipfit::read_recording(entry.file.string(), entry.conditions, entry.options);
+    if (!recording) throw Failure(ExitCode::BadRecording, recording.error().message);
+    if (recording.value().conditions().quantity != slipfit::ForceQuantity::Force_N) {
+      throw Failure(ExitCode::BadRecording,
+                    fmt::format("{}: holds a friction coefficient; a joint fit needs forces: give normal_force_N in "
+                                "the manifest",
+                                entry.file.string()));
+    }
+    if (recording.value().conditions().force_view != slipfit::ForceView::Spring) {
+      throw Failure(ExitCode::WrongUsage,
+                    fmt::format("{}: a joint fit knows the spring force only (force_view spring); fit this one alone",
+                                entry.file.string()));
+    }
+    entries.push_back({entry.id, std::move(recording).value()});
+  }
+  return entries;
+}
+
+std::string name_of_fit(const JointArguments& arguments) {
+  return arguments.group ? *arguments.group : std::filesystem::path(arguments.manifest).stem().string();
+}
+
+}  // namespace
+
+void run_joint(const JointArguments& arguments, const slipfit::FitOptions& options) {
+  std::vector<OutputFile> outputs;
+  if (arguments.out) outputs.push_back({"--out", *arguments.out});
+  check_outputs(outputs, arguments.manifest);
+  const std::vector<slipfit::SweepEntry> entries = read_recordings(read_manifest(arguments));
+  const slipfit::SweepAnalysis sweep = slipfit::analyze_sweep(entries, options);
+  slipfit::JsonOptions layout;
+  layout.id = name_of_fit(arguments);
+  const std::string document =
+      arguments.json ? slipfit::to_json(entries, sweep, layout) + "\n" : slipfit::to_text(entries, sweep, layout.id);
+  if (!arguments.out) return write_standard_output(document);
+  write_file(outputs.front(), document);
+  if (!arguments.quiet) say(fmt::format("wrote '{}'", *arguments.out));
+}

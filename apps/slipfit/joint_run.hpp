@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfit/fit/fit.hpp"
+
+/// `fit --joint`: one parameter set for the recordings of a manifest's group.
+struct JointArguments {
+  std::string manifest;
+  std::optional<std::string> group;
+  std::vector<std::string> only;  ///< ids; empty: all of the group
+  bool json = false;
+  bool quiet = false;
+  std::optional<std::string> out;
+};
+
+/// Reads the recordings, fits them together, writes the result. Throws Failure.
+void run_joint(const JointArguments& arguments, const slipfit::FitOptions& options);

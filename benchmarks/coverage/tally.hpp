@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "families.hpp"
+
+namespace coverage {
+
+/// One parameter of one recording: truth against estimate.
+struct Row {
+  std::string family, note;
+  std::uint64_t seed = 0;
+  std::string parameter;
+  double truth = 0.0;
+  slipfit::Estimate estimate;
+  std::string status;           ///< of the parameter; "measured" for the spacing
+  std::string verdict;          ///< of the recording
+  std::optional<double> bound;  ///< Cramer-Rao bound of the standard deviation
+
+  /// In the 95 % interval; empty without one.
+  [[nodiscard]] std::optional<bool> covered() const;
+  /// Identified, and the truth is more than 4 standard errors and 2 % of itself away.
+  [[nodiscard]] bool confidently_wrong() const;
+};
+
+std::vector<Row> fit_scene(const Scene& scene);
+
+std::string to_csv(const std::vector<Row>& rows);
+
+/// A line for each family (and kind of defect, view, sparse) and parameter, one for each parameter pooled, verdicts.
+std::string summarise(const std::vector<Row>& rows);
+
+}  // namespace coverage

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "slipfit/report/json.hpp"
+#include "slipfit/sweep.hpp"
+
+namespace slipfit {
+
+/// The document of a joint fit: as that of one recording, with `recordings` in place of `recording`
+/// (docs/formats.md). `options.id` names the group.
+std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const JsonOptions& options);
+
+/// For people: shared parameters, the recordings over speed, what a fit without each of them predicts for it.
+std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name);
+
+}  // namespace slipfit

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/joint.hpp"
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+
+/// One recording of a sweep, by its name in the manifest.
+struct SweepEntry {
+  std::string id;
+  Recording recording;
+};
+
+/// Recordings of one sliding pair at several speeds (or loads), analysed one by one and then together.
+struct SweepAnalysis {
+  std::vector<Analysis> recordings;  ///< in the order of the entries; `fit` is each recording's own
+  std::vector<SweepRole> roles;      ///< what each was used for
+  std::optional<JointFit> joint;     ///< empty: fewer than two recordings with stick-slip cycles
+  std::string joint_reason;          ///< what it is made of, or why there is none
+  Derived derived;                   ///< critical speed; what belongs to one speed is empty
+  Warnings warnings;
+};
+
+/// Each recording on its own, then one set of parameters for all. Needs at least one entry.
+SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options);
+
+}  // namespace slipfit

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "slipfit/core/recording.hpp"
+#include "slipfit/signal/cycles.hpp"
+
+namespace slipfit::fit {
+
+/// One cycle as a sensor at the contact sees it: a ramp up to F_s, a fall to F_k within a step of the clock, a plateau
+/// while the body slips, a fall to the spring force (plus c V) within a step. Forces in the unit of the column.
+struct ContactCycle {
+  std::size_t slip = 0;     ///< index into the segmentation
+  std::size_t onset = 0;    ///< last sample of the ramp before the slip
+  std::size_t end = 0;      ///< last sample of the plateau
+  double onset_s = 0.0;     ///< middle of the step in which the slip starts
+  double end_s = 0.0;       ///< middle of the step in which it ends
+  double plateau = 0.0;     ///< mean force of the slip: F_k
+  double onset_jump = 0.0;  ///< ramp at the onset less the plateau: F_s - F_k
+  double end_jump = 0.0;    ///< plateau less the ramp at the end
+};
+
+struct ContactCycles {
+  std::vector<ContactCycle> cycles;
+  std::size_t without_edges = 0;  ///< slips without two clear falls; the first and the last may be cut off
+  double slope = 0.0;             ///< of the ramps, level's own slope taken off: k V
+  double slope_error = 0.0;
+  double noise = 0.0;  ///< rms of ramps and plateaus about their lines
+  double step_s = 0.0;
+};
+
+/// Empty below 3 cycles with both edges.
+std::optional<ContactCycles> find_contact_cycles(const Recording& recording, const Segmentation& segmentation);
+
+}  // namespace slipfit::fit

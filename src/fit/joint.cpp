@@ -1,0 +1,277 @@
+#include "slipfit/fit/joint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fit/joint_parameters.hpp"
+#include "fit/joint_quantities.hpp"
+#include "fit/joint_solution.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit {
+namespace {
+
+using fit::JointSolution;
+using fit::SweepData;
+using fit::SweepIntervals;
+using fit::SweepMatrix;
+using fit::SweepModel;
+using fit::SweepVector;
+
+/// Below it a sweep is one speed: damping and friction that depends on speed cannot be told apart.
+constexpr double kLeastSpeedRatio = 1.3;
+/// A recording left out moves a parameter by chance by this many standard errors of the shift in fewer than one sweep
+/// of 300 (5 recordings, 7 parameters).
+constexpr double kShiftSigmas = 4.5;
+
+/// Reduced chi2 of a model that leaves something unexplained (the noise is that of each recording's own fit).
+constexpr double kMisfitChi2 = 1.5;
+
+/// Fits without one recording each: their predictions, and how much the parameters move.
+struct LeftOut {
+  struct One {
+    SweepVector values;
+    SweepMatrix covariance;
+    double degrees_of_freedom = 1.0;
+  };
+  std::vector<std::optional<One>> each;  ///< in the order of SweepData::fitted
+
+  /// Delete-one-recording jackknife.
+  [[nodiscard]] SweepMatrix covariance() const {
+    SweepVector mean = SweepVector::Zero();
+    for (const auto& one : each) {
+      if (one) mean += one->values / count();
+    }
+    SweepMatrix sum = SweepMatrix::Zero();
+    for (const auto& one : each) {
+      if (one) sum += (count() - 1.0) / count() * (one->values - mean) * (one->values - mean).transpose();
+    }
+    return sum;
+  }
+
+  [[nodiscard]] double count() const {
+    return static_cast<double>(
+        std::count_if(each.begin(), each.end(), [](const auto& one) { return one.has_value(); }));
+  }
+};
+
+LeftOut leave_out_each(const SweepData& data, const JointSolution& solution) {
+  LeftOut result;
+  for (const std::size_t recording : data.fitted) {
+    result.each.emplace_back();
+    const std::optional<JointSolution> without = fit::leave_out(data, solution, recording);
+    if (!without) continue;
+    const fit::JointCovariance covariance = fit::covariance_of(data, *without);
+    result.each.back() = LeftOut::One{fit::sweep_values(*without), fit::sweep_covariance(*without, covariance),
+                                      covariance.degrees_of_freedom};
+  }
+  return result;
+}
+
+/// The recordings disagree by more than noise and the scatter of the cycles explain: the variance of the shift between
+/// an efficient estimate and one from fewer data is the difference of their variances (Hausman).
+bool recordings_disagree(const SweepVector& values, const SweepMatrix& covariance, const LeftOut& left_out) {
+  if (left_out.count() < 3.0) return false;
+  for (const auto& one : left_out.each) {
+    for (Eigen::Index i = 0; one && i < fit::kSweepValues; ++i) {
+      const double least = 0.05 * covariance(i, i);  // rounding and iteration: the difference may come out as nothing
+      const double variance = std::max(one->covariance(i, i) - covariance(i, i), least);
+      const double shift = one->values(i) - values(i);
+      if (variance > 0.0 && shift * shift > kShiftSigmas * kShiftSigmas * variance) return true;
+    }
+  }
+  return false;
+}
+
+/// A solution with the intervals that it deserves.
+struct Outcome {
+  const JointSolution& solution;
+  SweepVector values;
+  SweepMatrix covariance;
+  double degrees_of_freedom = 1.0;
+  LeftOut left_out;
+  bool disagree = false;  ///< the covariance is widened by what leaving out each recording changes
+};
+
+Outcome weigh(const SweepData& data, const JointSolution& solution) {
+  const fit::JointCovariance covariance = fit::covariance_of(data, solution);
+  Outcome outcome{solution, fit::sweep_values(solution), fit::sweep_covariance(solution, covariance),
+                  covariance.degrees_of_freedom, leave_out_each(data, solution)};
+  outcome.disagree = recordings_disagree(outcome.values, outcome.covariance, outcome.left_out);
+  if (outcome.disagree) {
+    outcome.covariance += outcome.left_out.covariance();
+    outcome.degrees_of_freedom = std::min(outcome.degrees_of_freedom, outcome.left_out.count() - 1.0);
+  }
+  return outcome;
+}
+
+/// Which friction law, and the sentence that says why.
+struct LawChoice {
+  bool velocity = false;
+  std::string reason;
+};
+
+double speed_ratio(std::span<const SweepRecording> recordings) {
+  double low = INFINITY;
+  double high = 0.0;
+  for (const SweepRecording& sweep : recordings) {
+    if (sweep.role == SweepRole::LeftOut) continue;
+    low = std::min(low, sweep.recording.conditions().speed_m_per_s);
+    high = std::max(high, sweep.recording.conditions().speed_m_per_s);
+  }
+  return high / low;
+}
+
+/// `velocity`: the outcome of that law.
+LawChoice choose_law(const fit::SweepFits& fits, const Outcome& velocity, double speeds, std::optional<Tier> forced) {
+  if (forced) return {*forced == Tier::Velocity, "asked for by --tier"};
+  if (speeds < kLeastSpeedRatio) {
+    return {false, fmt::format("the speeds span a factor of {:.2g} only: one speed cannot tell alpha", speeds)};
+  }
+  const std::string chance = fmt::format("chance of such a gain under Coulomb friction: {:.2g}", fits.p_value);
+  if (!fits.depends_on_speed) return {false, chance};
+  const double slope = velocity.values(fit::kFrictionSlope);
+  const double se = std::sqrt(velocity.covariance(fit::kFrictionSlope, fit::kFrictionSlope));
+  // Where residuals are larger than the noise and the recordings disagree, misfit pays for parameters too: what counts
+  // is whether they hold from one recording to the other.
+  const bool misfit = velocity.solution.chi2 > kMisfitChi2 * velocity.solution.degrees_of_freedom;
+  if (misfit && velocity.disagree && !(std::abs(slope) > 3.0 * se)) {
+    return {false, "the recordings disagree by more than the dependence on the speed"};
+  }
+  return {true, chance};
+}
+
+/// Speed-dependent friction has two parameters more, its mean slope and its rate.
+std::vector<Candidate> candidates_of(const fit::SweepFits& fits, const LawChoice& choice) {
+  const double noise2 = fits.velocity.chi2 / fits.velocity.degrees_of_freedom;
+  const auto cycles = static_cast<double>(fits.velocity.problem->cycle_count());
+  const auto aicc = [&](double chi2, double parameters) -> std::optional<double> {
+    if (!(cycles > parameters + 1.0) || !std::isfinite(chi2)) return std::nullopt;
+    return chi2 / noise2 + 2.0 * parameters + 2.0 * parameters * (parameters + 1.0) / (cycles - parameters - 1.0);
+  };
+  return {{Tier::Damped, 5, std::nullopt, aicc(fits.coulomb.chi2, 5.0), !choice.velocity, choice.reason},
+          {Tier::Velocity, 7, std::nullopt, aicc(fits.velocity.chi2, 7.0), choice.velocity, choice.reason}};
+}
+
+double samples_per_slip(std::span<const SweepRecording> recordings, const SweepData& data) {
+  std::vector<double> samples;
+  for (const std::size_t i : data.fitted) {
+    const fit::BlockFit& blocks = data.single[i]->blocks;
+    const fit::CycleState state = blocks.state(blocks.size() / 2);
+    samples.push_back(state.slip.tau_end / state.omega_rad_per_s / recordings[i].recording.sample_interval_s());
+  }
+  return signal::median(samples);
+}
+
+class Assembler {
+ public:
+  Assembler(std::span<const SweepRecording> recordings, const SweepData& data, const Outcome& outcome)
+      : recordings_(recordings),
+        data_(data),
+        outcome_(outcome),
+        model_(outcome.values, data.scales),
+        intervals_(outcome.covariance, outcome.degrees_of_freedom) {}
+
+  JointFit assemble(const LawChoice& choice) const {
+    JointFit joint;
+    const fit::JointProblem& problem = *outcome_.solution.problem;
+    joint.level_shared = problem.shares().level;
+    joint.difference_shared = problem.shares().difference;
+    joint.fit.tier = choice.velocity ? Tier::Velocity : Tier::Damped;
+    joint.fit.conditional_on.emplace_back(choice.velocity ? "F_k(v) = f0 + f1 exp(alpha v)" : "Coulomb friction");
+    joint.fit.residual.reduced_chi2 = outcome_.solution.chi2 / outcome_.solution.degrees_of_freedom;
+    add_warnings(joint);
+    fit::SweepEvidence evidence{outcome_.values, data_.scales, intervals_};
+    evidence.depends_on_speed = choice.velocity;
+    evidence.law_reason = choice.reason;
+    evidence.zero_known = std::all_of(recordings_.begin(), recordings_.end(), [](const SweepRecording& sweep) {
+      return sweep.recording.conditions().zero_force_N.has_value();
+    });
+    evidence.shares_all = joint.level_shared && joint.difference_shared;
+    evidence.held = outcome_.solution.held;
+    evidence.cycles = problem.cycle_count();
+    evidence.samples_per_slip = samples_per_slip(recordings_, data_);
+    if (data_.loads_known)
+      evidence.reference_normal_force_N = recordings_.front().recording.conditions().normal_force_N;
+    fit::report_sweep(evidence, joint.fit);
+    for (std::size_t i = 0; i < recordings_.size(); ++i) joint.points.push_back(point_of(i));
+    return joint;
+  }
+
+ private:
+  void add_warnings(JointFit& joint) const {
+    if (outcome_.disagree) {
+      joint.fit.warnings.push_back(
+          {"recordings_disagree",
+           "the recordings of the sweep do not agree on one set of parameters: intervals are widened to hold what "
+           "leaving out each recording changes"});
+    }
+    if (!joint.difference_shared) {
+      joint.fit.warnings.push_back({"static_friction_differs",
+                                    "static friction differs between the recordings (ageing, or another state of the "
+                                    "surface): F_s - F_k is their mean"});
+    }
+    if (!joint.level_shared) {
+      joint.fit.warnings.push_back({"level_differs",
+                                    "the force level differs between the recordings by more than friction that depends "
+                                    "on the speed would make it: a sensor's zero, or another state of the surface"});
+    }
+  }
+
+  [[nodiscard]] SweepPoint point_of(std::size_t i) const {
+    const double speed = recordings_[i].recording.conditions().speed_m_per_s;
+    const double load = data_.loads[i];
+    SweepPoint point;
+    point.kinetic_friction_N = intervals_.plain(load * (model_.level + model_.excess_friction(speed)));
+    if (const auto spacing = model_.spacing(speed, load)) point.spacing_m = intervals_.of_one_sign(*spacing);
+    const auto fitted = std::find(data_.fitted.begin(), data_.fitted.end(), i);
+    if (fitted != data_.fitted.end()) {
+      const auto run = static_cast<std::size_t>(fitted - data_.fitted.begin());
+      point.cycles_used = outcome_.solution.problem->recording(run).size();
+      point.rms = outcome_.solution.problem->run(run).noise;
+      point.spacing_left_out_m = spacing_without(outcome_.left_out.each[run], speed, load);
+    }
+    if (data_.steady_of[i]) {
+      const fit::SteadyRun& steady = data_.steady[*data_.steady_of[i]];
+      const double half = 2.26 * steady.standard_error;  // Student's t, 9 degrees of freedom
+      point.mean_steady_force_N = {
+          steady.mean_force, steady.standard_error, Interval{steady.mean_force - half, steady.mean_force + half}, {}};
+    }
+    return point;
+  }
+
+  [[nodiscard]] Estimate spacing_without(const std::optional<LeftOut::One>& one, double speed, double load) const {
+    if (!one) return {std::nullopt, std::nullopt, std::nullopt, "too few recordings to leave one out"};
+    const auto spacing = SweepModel(one->values, data_.scales).spacing(speed, load);
+    if (!spacing) return {std::nullopt, std::nullopt, std::nullopt, "no stick-slip at this speed by the others"};
+    return SweepIntervals(one->covariance, one->degrees_of_freedom).of_one_sign(*spacing);
+  }
+
+  std::span<const SweepRecording> recordings_;
+  const SweepData& data_;
+  const Outcome& outcome_;
+  SweepModel model_;
+  SweepIntervals intervals_;
+};
+
+}  // namespace
+
+std::optional<JointFit> fit_jointly(std::span<const SweepRecording> recordings, const FitOptions& options) {
+  const SweepData data = fit::prepare_sweep(recordings, options);
+  if (data.fitted.size() < 2) return std::nullopt;
+  const std::optional<fit::SweepFits> fits = fit::fit_sweep(data, options);
+  if (!fits) return std::nullopt;
+  const Outcome velocity = weigh(data, fits->velocity);
+  const LawChoice choice = choose_law(*fits, velocity, speed_ratio(recordings), options.tier);
+  const bool have_coulomb = std::isfinite(fits->coulomb.chi2);
+  JointFit joint = choice.velocity || !have_coulomb
+                       ? Assembler(recordings, data, velocity).assemble(choice)
+                       : Assembler(recordings, data, weigh(data, fits->coulomb)).assemble(choice);
+  joint.fit.candidates = candidates_of(*fits, choice);
+  return joint;
+}
+
+}  // namespace slipfit

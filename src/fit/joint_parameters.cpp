@@ -1,0 +1,168 @@
+#include "fit/joint_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace slipfit::fit {
+namespace {
+
+constexpr std::size_t kFewCycles = 5;
+constexpr double kSamplesForIdentified = 3.0;
+
+class SweepReporter {
+ public:
+  SweepReporter(const SweepEvidence& evidence, FitResult& result)
+      : evidence_(evidence),
+        model_(evidence.values, evidence.scales),
+        intervals_(evidence.intervals),
+        result_(result) {}
+
+  void report() {
+    add_positive("stiffness_N_per_m", model_.stiffness, 0.05, evidence_.held[kJointStiffness]);
+    add_positive("friction_difference_N", model_.difference, 0.1, false);
+    add_absolute("static_friction_N", model_.level + model_.difference);
+    add_absolute("kinetic_friction_N", model_.level);
+    add_positive("natural_frequency_rad_per_s", model_.omega, 0.05, evidence_.held[kJointFrequency]);
+    const bool both_held = evidence_.held[kJointStiffness] && evidence_.held[kJointFrequency];
+    add_positive("mass_kg", model_.stiffness / (model_.omega * model_.omega), 0.1, both_held);
+    add_damping();
+    add_friction_law();
+    correlate();
+  }
+
+ private:
+  [[nodiscard]] bool resolved() const {
+    return evidence_.samples_per_slip > kSamplesForIdentified && evidence_.cycles >= kFewCycles;
+  }
+
+  void add(std::string name, Estimate estimate, ParameterStatus status, std::string note = {}) {
+    estimate.note = std::move(note);
+    result_.parameters.push_back({std::move(name), std::move(estimate), status});
+  }
+
+  void add_positive(std::string name, const SweepJet& y, double bound, bool fixed) {
+    if (fixed) return add(std::move(name), {y.a, 0.0, Interval{y.a, y.a}, {}}, ParameterStatus::Fixed);
+    const bool good = intervals_.error(y) < bound * std::abs(y.a) && (resolved() || name == "stiffness_N_per_m");
+    add(std::move(name), intervals_.of_one_sign(y), good ? ParameterStatus::Identified : ParameterStatus::Weak,
+        good || resolved() ? "" : too_few_samples());
+  }
+
+  [[nodiscard]] std::string too_few_samples() const {
+    return fmt::format("the slips have {:.1f} samples", evidence_.samples_per_slip);
+  }
+
+  void add_absolute(std::string name, const SweepJet& y) {
+    const bool good = evidence_.zero_known && resolved() && intervals_.error(y) < 0.1 * std::abs(y.a);
+    add(std::move(name), intervals_.plain(y), good ? ParameterStatus::Identified : ParameterStatus::Weak,
+        evidence_.zero_known ? "" : "takes the sensor's zero as right; state it with --zero");
+  }
+
+  /// zeta cannot be negative: the interval is cut at 0.
+  void add_damping() {
+    if (evidence_.held[kJointDamping]) {
+      add("damping_ratio", {model_.zeta.a, 0.0, Interval{model_.zeta.a, model_.zeta.a}, {}}, ParameterStatus::Fixed);
+      return;
+    }
+    Estimate zeta = intervals_.plain(model_.zeta);
+    if (zeta.ci95->high <= 0.0) {
+      add("damping_ratio", {}, ParameterStatus::Unidentified,
+          "the best value is negative: the slips are not shaped like a damped oscillation");
+      return;
+    }
+    zeta.value = std::max(0.0, *zeta.value);
+    zeta.ci95->low = std::max(0.0, zeta.ci95->low);
+    // Only recordings with one level and one static friction tell damping from friction that depends on the speed.
+    const bool sharp = resolved() && evidence_.shares_all && *zeta.standard_error < 0.25 * *zeta.value;
+    add("damping_ratio", zeta, sharp ? ParameterStatus::Identified : ParameterStatus::Weak,
+        sharp                  ? ""
+        : evidence_.shares_all ? fmt::format("known to {:.2g}, from 0 it cannot be told well", *zeta.standard_error)
+                               : "holds for Coulomb friction only: the recordings share no level or static friction");
+    Estimate c = intervals_.plain(2.0 * model_.zeta * model_.stiffness / model_.omega);
+    c.value = std::max(0.0, *c.value);
+    c.ci95->low = std::max(0.0, c.ci95->low);
+    add("damping_coefficient_N_s_per_m", c, sharp ? ParameterStatus::Identified : ParameterStatus::Weak);
+  }
+
+  void add_friction_law() {
+    if (!evidence_.depends_on_speed)
+      return withhold_law("Coulomb friction explains the sweep: " + evidence_.law_reason);
+    const Estimate slope = intervals_.plain(model_.slope);
+    const double relative = intervals_.error(model_.alpha) / std::abs(model_.alpha.a);
+    if (!(relative < 0.5)) {
+      return withhold_law(
+          fmt::format("only the product f1 alpha can be told: {:.3g} N s/m, 95 % interval {:.3g} to {:.3g}",
+                      *slope.value, slope.ci95->low, slope.ci95->high));
+    }
+    const std::string bends = "the speeds show little of the curvature; f1 alpha is known better";
+    const std::string zero = evidence_.zero_known ? "" : "takes the sensor's zero as right; state it with --zero";
+    const auto graded = [&](double error) {
+      return error < 0.25 && resolved() ? ParameterStatus::Identified : ParameterStatus::Weak;
+    };
+    const auto noted = [&](ParameterStatus status) { return status == ParameterStatus::Weak ? bends : ""; };
+    add("alpha_s_per_m", intervals_.of_one_sign(model_.alpha), graded(relative), noted(graded(relative)));
+    const auto f1 = [](const SweepModel& model) { return model.slope / model.alpha; };
+    const auto f0 = [](const SweepModel& model) { return model.level - model.slope / model.alpha; };
+    const Estimate high_speed = through_rate(f0);
+    const Estimate strength = through_rate(f1);
+    const ParameterStatus status = graded(*strength.standard_error / std::abs(*strength.value));
+    add("f0_N", high_speed, evidence_.zero_known ? status : ParameterStatus::Weak, zero);
+    add("f1_N", strength, status, noted(status));
+    if (!evidence_.reference_normal_force_N) return;
+    add("mu0", over_load(high_speed), evidence_.zero_known ? status : ParameterStatus::Weak, zero);
+    add("mu1", over_load(strength), status, noted(status));
+  }
+
+  [[nodiscard]] Estimate through_rate(const std::function<SweepJet(const SweepModel&)>& quantity) const {
+    return intervals_.through_rate(evidence_.values, evidence_.scales, quantity);
+  }
+
+  [[nodiscard]] Estimate over_load(const Estimate& force) const {
+    const double load = *evidence_.reference_normal_force_N;
+    return {*force.value / load,
+            *force.standard_error / load,
+            Interval{force.ci95->low / load, force.ci95->high / load},
+            {}};
+  }
+
+  void withhold_law(const std::string& reason) {
+    for (const char* name : {"alpha_s_per_m", "f0_N", "f1_N"}) add(name, {}, ParameterStatus::Unidentified, reason);
+  }
+
+  void correlate() {
+    std::vector<std::pair<std::string, SweepJet>> all{{"stiffness_N_per_m", model_.stiffness},
+                                                      {"natural_frequency_rad_per_s", model_.omega},
+                                                      {"damping_ratio", model_.zeta},
+                                                      {"friction_difference_N", model_.difference}};
+    if (evidence_.depends_on_speed) {
+      all.emplace_back("alpha_s_per_m", model_.alpha);
+      all.emplace_back("f1_N", model_.slope / model_.alpha);
+    }
+    Correlation correlation;
+    for (const auto& [name, y] : all) {
+      correlation.names.push_back(name);
+      std::vector<double> row;
+      for (const auto& [other, x] : all) {
+        const double scale = intervals_.error(x) * intervals_.error(y);
+        row.push_back(other == name ? 1.0 : scale > 0.0 ? intervals_.covariance(x, y) / scale : 0.0);
+      }
+      correlation.matrix.push_back(std::move(row));
+    }
+    result_.correlation = std::move(correlation);
+  }
+
+  const SweepEvidence& evidence_;
+  SweepModel model_;
+  const SweepIntervals& intervals_;
+  FitResult& result_;
+};
+
+}  // namespace
+
+void report_sweep(const SweepEvidence& evidence, FitResult& result) {
+  SweepReporter(evidence, result).report();
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,368 @@
+#include "fit/joint_solution.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "signal/robust.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kRough = 0.1;
+constexpr double kFinal = 1e-4;
+constexpr int kQuickIterations = 10;
+constexpr int kMaxIterations = 50;
+/// What the recordings share is believed unless chance would hardly give such a disagreement.
+constexpr double kShareChance = 1e-3;
+/// Dependence on the speed is believed beyond this chance.
+constexpr double kLawChance = 0.01;
+
+double mean_onset_force(const DampedFit& fit) {
+  double sum = 0.0;
+  for (const Own& own : fit.blocks.parameters.cycles) sum += own[1];
+  return fit.blocks.scales().force * sum / static_cast<double>(fit.blocks.size());
+}
+
+double level_of(const DampedFit& fit) {
+  const BlockFit& blocks = fit.blocks;
+  if (!blocks.level().per_cycle) return blocks.scales().level + blocks.scales().force * blocks.parameters.level[0];
+  double sum = 0.0;
+  for (const Own& own : blocks.parameters.cycles) sum += own[2];
+  return blocks.scales().level + blocks.scales().force * sum / static_cast<double>(blocks.size());
+}
+
+double spread_of_levels(const DampedFit& fit) {
+  const double mean = (level_of(fit) - fit.blocks.scales().level) / fit.blocks.scales().force;
+  double square = 0.0;
+  for (const Own& own : fit.blocks.parameters.cycles) square += (own[2] - mean) * (own[2] - mean);
+  return fit.blocks.scales().force * std::sqrt(square / std::max(1.0, static_cast<double>(fit.blocks.size()) - 1.0));
+}
+
+/// Mean of a steady recording; its error from ten stretches, which see wander as well as noise.
+SteadyRun steady_run(const Recording& recording, double load) {
+  constexpr std::size_t kStretches = 10;
+  const auto force = recording.force();
+  std::vector<double> means;
+  for (std::size_t part = 0; part < kStretches; ++part) {
+    const std::size_t begin = part * force.size() / kStretches;
+    const std::size_t end = (part + 1) * force.size() / kStretches;
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) sum += force[i];
+    if (end > begin) means.push_back(sum / static_cast<double>(end - begin));
+  }
+  SteadyRun run{recording.conditions().speed_m_per_s, load, 0.0, 0.0};
+  const auto count = static_cast<double>(means.size());
+  for (const double mean : means) run.mean_force += mean / count;
+  double square = 0.0;
+  for (const double mean : means) square += (mean - run.mean_force) * (mean - run.mean_force);
+  run.standard_error = std::sqrt(square / (count * std::max(1.0, count - 1.0)));
+  return run;
+}
+
+JointRun joint_run(const DampedFit& fit, double load) {
+  JointRun run;
+  run.scales = fit.blocks.scales();
+  run.load = load;
+  run.noise = fit.uncertainty.noise;
+  const double mean = std::abs(mean_onset_force(fit));
+  // Cycles without any scatter still carry the error of their own onset force.
+  run.onset_sd = std::max(fit.uncertainty.onset_force_sd * run.scales.force, 1e-5 * mean);
+  if (fit.blocks.level().per_cycle) {
+    // A level that wanders is no independent draw in each cycle: all of them together count as one.
+    run.level_sd = std::max(spread_of_levels(fit), 1e-5 * mean) * std::sqrt(static_cast<double>(fit.blocks.size()));
+  }
+  return run;
+}
+
+std::unique_ptr<JointProblem> problem_of(const SweepData& data, Shares shares, const std::vector<std::size_t>& used) {
+  std::vector<const BlockFit*> blocks;
+  std::vector<JointRun> runs;
+  for (const std::size_t i : used) {
+    blocks.push_back(&data.single[i]->blocks);
+    runs.push_back(joint_run(*data.single[i], data.loads[i]));
+  }
+  return std::make_unique<JointProblem>(std::move(blocks), std::move(runs), data.steady, data.scales, shares);
+}
+
+/// Residual rows over parameters: each stick bin counts as its two rows, as it does in chi2.
+double residual_freedom(const JointProblem& problem, const JointHeld& held) {
+  double freedom = problem.rows() - static_cast<double>(problem.columns());
+  for (const bool is_held : held) freedom += is_held ? 1.0 : 0.0;
+  for (std::size_t r = 0; r < problem.size(); ++r) {
+    const BlockFit& recording = problem.recording(r);
+    freedom -= static_cast<double>(recording.size() * recording.model(0).own_parameters());
+  }
+  return std::max(1.0, freedom);
+}
+
+class SweepFitter {
+ public:
+  SweepFitter(const SweepData& data, const FitOptions& options) : data_(data), options_(options) {}
+
+  std::optional<SweepFits> fit() const {
+    std::optional<JointSolution> free = fit_velocity({false, false});
+    if (!free) return std::nullopt;
+    JointSolution velocity = with_shares(std::move(*free));
+    JointSolution coulomb = coulomb_like(velocity);
+    SweepFits fits{std::move(velocity), std::move(coulomb)};
+    const double extra = 2.0;  // slope and rate
+    fits.p_value = chance(fits.coulomb.chi2 - fits.velocity.chi2, extra, fits.velocity);
+    fits.depends_on_speed = fits.p_value < kLawChance;
+    return fits;
+  }
+
+ private:
+  /// Chance of such a gain in chi2 by `extra` parameters (or constraints taken off).
+  static double chance(double gain, double extra, const JointSolution& rich) {
+    if (!std::isfinite(gain)) return 0.0;
+    const double ratio = gain / extra / (rich.chi2 / rich.degrees_of_freedom);
+    if (!(ratio > 0.0)) return 1.0;
+    const boost::math::fisher_f_distribution<double> by_chance(extra, rich.degrees_of_freedom);
+    return boost::math::cdf(boost::math::complement(by_chance, ratio));
+  }
+
+  JointHeld held_parameters(SweepLaw law) const {
+    JointHeld held{};
+    for (const auto& [name, value] : options_.fixed) {
+      if (name == "stiffness_N_per_m") held[kJointStiffness] = true;
+      if (name == "natural_frequency_rad_per_s") held[kJointFrequency] = true;
+      if (name == "damping_ratio") held[kJointDamping] = true;
+    }
+    if (law == SweepLaw::Coulomb) held[kFrictionSlope] = held[kFrictionRate] = true;
+    return held;
+  }
+
+  /// Medians over the recordings, each recording's own cycles.
+  void set_start(JointProblem& problem, const std::vector<std::size_t>& used) const {
+    std::array<std::vector<double>, 3> values;
+    for (const std::size_t i : used) {
+      for (std::size_t p = 0; p < 3; ++p) values[p].push_back(data_.single[i]->blocks.parameters.shared[p]);
+    }
+    JointShared& shared = problem.parameters.shared;
+    shared = {signal::median(values[0]), signal::median(values[1]), std::clamp(signal::median(values[2]), 0.0, 0.3),
+              0.0, 0.0};
+    for (const auto& [name, value] : options_.fixed) {
+      if (name == "stiffness_N_per_m") shared[kJointStiffness] = std::log(value);
+      if (name == "natural_frequency_rad_per_s") shared[kJointFrequency] = std::log(value);
+      if (name == "damping_ratio") shared[kJointDamping] = value;
+    }
+    std::vector<double> levels;
+    std::vector<double> differences;
+    for (std::size_t r = 0; r < used.size(); ++r) {
+      const DampedFit& single = *data_.single[used[r]];
+      const double unit = data_.loads[used[r]] * data_.scales.force;
+      levels.push_back(level_of(single) / unit);
+      differences.push_back(mean_onset_force(single) / unit);
+      const auto& level = single.blocks.parameters.level;
+      const std::size_t skip = single.blocks.level().terms > 0 ? 1 : 0;
+      std::copy(level.begin() + static_cast<std::ptrdiff_t>(skip), level.end(), problem.parameters.drifts[r].begin());
+    }
+    if (problem.shares().level) levels = {signal::median(levels)};
+    if (problem.shares().difference) differences = {signal::median(differences)};
+    problem.parameters.levels = levels;
+    problem.parameters.differences = differences;
+  }
+
+  /// Several rates: a wrong sign of alpha is a minimum of its own.
+  std::optional<JointSolution> fit_velocity(Shares shares) const {
+    std::unique_ptr<JointProblem> problem = problem_of(data_, shares, data_.fitted);
+    JointHeld held = held_parameters(SweepLaw::Velocity);
+    JointProblem::Parameters best;
+    double best_chi2 = std::numeric_limits<double>::infinity();
+    for (const double rate : {-1.0, 1.0, -4.0}) {
+      set_start(*problem, data_.fitted);
+      problem->parameters.shared[kFrictionRate] = rate;
+      JointHeld quick = held;
+      quick[kFrictionRate] = true;
+      const double chi2 = problem->solve(quick, kQuickIterations, kRough);
+      if (chi2 >= best_chi2) continue;
+      best_chi2 = chi2;
+      best = problem->parameters;
+    }
+    if (!std::isfinite(best_chi2)) return std::nullopt;
+    problem->parameters = best;
+    return finish(std::move(problem), held);
+  }
+
+  std::optional<JointSolution> finish(std::unique_ptr<JointProblem> problem, const JointHeld& held) const {
+    const double chi2 = problem->solve(held, kMaxIterations, kFinal);
+    if (!std::isfinite(chi2)) return std::nullopt;
+    const double freedom = residual_freedom(*problem, held);
+    return JointSolution{std::move(problem), held, chi2, freedom};
+  }
+
+  /// Shares as much as the data agree with: both, then one of the two, else nothing.
+  JointSolution with_shares(JointSolution free) const {
+    const std::size_t runs = data_.fitted.size();
+    for (const Shares shares : {Shares{true, true}, Shares{false, true}, Shares{true, false}}) {
+      std::optional<JointSolution> shared = fit_velocity(shares);
+      if (!shared) continue;
+      // With more freedom no fit can be worse: where it is, it had ended in another minimum.
+      if (shared->chi2 < free.chi2) free = released(*shared, free);
+      const double steady = shares.level ? static_cast<double>(data_.steady.size()) : 0.0;
+      const double shared_kinds = (shares.level ? 1.0 : 0.0) + (shares.difference ? 1.0 : 0.0);
+      const double constraints = static_cast<double>(runs - 1) * shared_kinds + steady;
+      if (chance(shared->chi2 - free.chi2, constraints, free) > kShareChance) return std::move(*shared);
+    }
+    return free;
+  }
+
+  /// From a shared solution on with nothing shared; `otherwise` where that leads nowhere.
+  JointSolution released(const JointSolution& shared, JointSolution& otherwise) const {
+    std::unique_ptr<JointProblem> problem = problem_of(data_, {false, false}, data_.fitted);
+    const JointProblem::Parameters& from = shared.problem->parameters;
+    problem->parameters = from;
+    if (from.levels.size() == 1) problem->parameters.levels.assign(problem->size(), from.levels[0]);
+    if (from.differences.size() == 1) problem->parameters.differences.assign(problem->size(), from.differences[0]);
+    std::optional<JointSolution> solution = finish(std::move(problem), shared.held);
+    return solution && solution->chi2 < otherwise.chi2 ? std::move(*solution) : std::move(otherwise);
+  }
+
+  JointSolution coulomb_like(const JointSolution& velocity) const {
+    std::unique_ptr<JointProblem> problem = problem_of(data_, velocity.problem->shares(), data_.fitted);
+    set_start(*problem, data_.fitted);
+    const JointHeld held = held_parameters(SweepLaw::Coulomb);
+    std::optional<JointSolution> solution = finish(std::move(problem), held);
+    if (solution) return std::move(*solution);
+    JointSolution failed{problem_of(data_, velocity.problem->shares(), data_.fitted), held,
+                         std::numeric_limits<double>::infinity(), 1.0};
+    return failed;
+  }
+
+  const SweepData& data_;
+  const FitOptions& options_;
+};
+
+/// Held parameters: rows of the normal matrix become those of exactly known ones.
+void hold(MatrixXd& matrix, const JointHeld& held) {
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (!held[i]) continue;
+    matrix.row(static_cast<Index>(i)).setZero();
+    matrix.col(static_cast<Index>(i)).setZero();
+    matrix(static_cast<Index>(i), static_cast<Index>(i)) = 1.0;
+  }
+}
+
+MatrixXd inverse(const MatrixXd& matrix) {
+  return matrix.ldlt().solve(MatrixXd::Identity(matrix.rows(), matrix.cols()));
+}
+
+}  // namespace
+
+SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
+  SweepData data;
+  HeldValues held;
+  for (const auto& [name, value] : options.fixed) {
+    if (name == "stiffness_N_per_m") held.stiffness_N_per_m = value;
+    if (name == "natural_frequency_rad_per_s") held.omega_rad_per_s = value;
+    if (name == "damping_ratio") held.damping_ratio = value;
+  }
+  data.loads_known = std::all_of(recordings.begin(), recordings.end(), [](const SweepRecording& sweep) {
+    return sweep.recording.conditions().normal_force_N.has_value();
+  });
+  const double reference = data.loads_known ? *recordings.front().recording.conditions().normal_force_N : 1.0;
+  for (const SweepRecording& sweep : recordings) {
+    data.loads.push_back(data.loads_known ? *sweep.recording.conditions().normal_force_N / reference : 1.0);
+    data.single.emplace_back();
+    if (sweep.role == SweepRole::Cycles) {
+      data.single.back() = fit_damped(sweep.recording, sweep.quality, sweep.segmentation, held);
+    }
+    data.steady_of.emplace_back();
+    if (sweep.role == SweepRole::Steady) {
+      data.steady_of.back() = data.steady.size();
+      data.steady.push_back(steady_run(sweep.recording, data.loads.back()));
+    }
+    if (data.single.back()) data.fitted.push_back(data.single.size() - 1);
+  }
+  std::vector<double> forces;
+  std::vector<double> impedances;
+  for (const std::size_t i : data.fitted) {
+    const Shared& shared = data.single[i]->blocks.parameters.shared;
+    forces.push_back(std::abs(mean_onset_force(*data.single[i])) / data.loads[i]);
+    impedances.push_back(std::exp(shared[0] - shared[1]));
+  }
+  if (forces.empty()) return data;
+  data.scales.force = signal::median(forces);
+  data.scales.slip_speed_m_per_s = data.scales.force / signal::median(impedances);
+  return data;
+}
+
+std::optional<SweepFits> fit_sweep(const SweepData& data, const FitOptions& options) {
+  return SweepFitter(data, options).fit();
+}
+
+std::optional<JointSolution> leave_out(const SweepData& data, const JointSolution& solution, std::size_t recording) {
+  std::vector<std::size_t> used;
+  for (const std::size_t i : data.fitted) {
+    if (i != recording) used.push_back(i);
+  }
+  if (used.size() < 2) return std::nullopt;
+  std::unique_ptr<JointProblem> problem = problem_of(data, solution.problem->shares(), used);
+  const JointProblem::Parameters& from = solution.problem->parameters;
+  JointProblem::Parameters& to = problem->parameters;
+  to.shared = from.shared;
+  to.levels.clear();
+  to.differences.clear();
+  to.drifts.clear();
+  to.cycles.clear();
+  for (std::size_t r = 0; r < data.fitted.size(); ++r) {
+    if (data.fitted[r] == recording) continue;
+    if (from.levels.size() > 1 || to.levels.empty()) to.levels.push_back(from.levels[from.levels.size() > 1 ? r : 0]);
+    if (from.differences.size() > 1 || to.differences.empty()) {
+      to.differences.push_back(from.differences[from.differences.size() > 1 ? r : 0]);
+    }
+    to.drifts.push_back(from.drifts[r]);
+    to.cycles.push_back(from.cycles[r]);
+  }
+  const double chi2 = problem->solve(solution.held, kMaxIterations, kFinal);
+  if (!std::isfinite(chi2)) return std::nullopt;
+  const double freedom = residual_freedom(*problem, solution.held);
+  return JointSolution{std::move(problem), solution.held, chi2, freedom};
+}
+
+JointCovariance covariance_of(const SweepData& data, const JointSolution& solution) {
+  const std::vector<JointProblem::Normal> normals = solution.problem->normals();
+  const auto columns = static_cast<Index>(solution.problem->columns());
+  MatrixXd total = MatrixXd::Zero(columns, columns);
+  for (const JointProblem::Normal& normal : normals) total += normal.matrix;
+  JointCovariance result;
+  result.from_cycles = std::any_of(data.fitted.begin(), data.fitted.end(),
+                                   [&](std::size_t i) { return data.single[i]->uncertainty.from_cycles; });
+  if (!result.from_cycles) {
+    hold(total, solution.held);
+    const double variance = std::max(1.0, solution.chi2 / solution.degrees_of_freedom);
+    result.matrix = variance * inverse(total);
+    result.degrees_of_freedom = static_cast<double>(solution.problem->cycle_count());
+  } else {
+    // Delete-one-cycle jackknife, one Newton step each (CR3).
+    const auto count = static_cast<double>(normals.size());
+    MatrixXd steps(static_cast<Index>(normals.size()), columns);
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      MatrixXd remaining = total - normals[i].matrix;
+      VectorXd score = normals[i].score;
+      hold(remaining, solution.held);
+      for (std::size_t p = 0; p < kJointShared; ++p) {
+        if (solution.held[p]) score(static_cast<Index>(p)) = 0.0;
+      }
+      steps.row(static_cast<Index>(i)) = remaining.ldlt().solve(score).transpose();
+    }
+    const MatrixXd centred = steps.rowwise() - steps.colwise().mean();
+    result.matrix = (count - 1.0) / count * centred.transpose() * centred;
+    result.degrees_of_freedom = std::max(1.0, count - 1.0);
+  }
+  for (std::size_t i = 0; i < kJointShared; ++i) {
+    if (!solution.held[i]) continue;
+    result.matrix.row(static_cast<Index>(i)).setZero();
+    result.matrix.col(static_cast<Index>(i)).setZero();
+  }
+  return result;
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,119 @@
+#include "fitted_frequency.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace slipfit {
+namespace {
+
+struct Onset {
+  double index = 0.0;  ///< number of the cycle, missing ones counted
+  double time_s = 0.0;
+};
+
+std::vector<Onset> onsets_of(const FitResult& fit, double period_s) {
+  std::vector<Onset> onsets;
+  for (const Cycle& cycle : fit.cycles) {
+    if (!cycle.used) continue;
+    const double time_s = *cycle.onset_s;
+    const double since_first_s = onsets.empty() ? 0.0 : time_s - onsets.front().time_s;
+    onsets.push_back({std::round(since_first_s / period_s), time_s});
+  }
+  return onsets;
+}
+
+/// Slope of the least-squares line through the onsets, and its standard error: larger where neighbours err together
+/// (short sticks hand their errors on).
+struct Line {
+  double period_s = 0.0;
+  double standard_error_s = 0.0;
+};
+
+Line line_through(const std::vector<Onset>& onsets) {
+  const auto count = static_cast<double>(onsets.size());
+  double mean_index = 0.0, mean_s = 0.0, square = 0.0, cross = 0.0;
+  for (const Onset& onset : onsets) {
+    mean_index += onset.index / count;
+    mean_s += onset.time_s / count;
+  }
+  for (const Onset& onset : onsets) {
+    square += (onset.index - mean_index) * (onset.index - mean_index);
+    cross += (onset.index - mean_index) * (onset.time_s - mean_s);
+  }
+  const double period_s = cross / square;
+  double rest = 0.0, product = 0.0, previous_s = 0.0;
+  for (const Onset& onset : onsets) {
+    const double residual_s = onset.time_s - mean_s - period_s * (onset.index - mean_index);
+    rest += residual_s * residual_s;
+    product += residual_s * previous_s;
+    previous_s = residual_s;
+  }
+  const double correlation = rest > 0.0 ? std::clamp(product / rest, 0.0, 0.9) : 0.0;
+  const double fewer = (1.0 + correlation) / (1.0 - correlation);
+  return {period_s, std::sqrt(fewer * rest / (count - 2.0) / square)};
+}
+
+/// Whether onset forces differ no more than their errors, and neighbouring periods are correlated as those of even
+/// onsets, each timed with an error of its own, are
+/// (-1/2, with a standard error of 0.7 / sqrt(count)); where the static friction scatters they come near +1/2.
+bool is_regular(const Evidence& evidence, const std::vector<Onset>& onsets, double period_s) {
+  constexpr double kOrdinarySpread = 2.0;  // over its expectation: beyond chance from 10 cycles on
+  if (evidence.onset_force_spread > kOrdinarySpread * evidence.onset_force_error) return false;
+  double product = 0.0, square = 0.0, previous = 0.0, count = 0.0;
+  for (std::size_t i = 1; i < onsets.size(); ++i) {
+    const double steps = onsets[i].index - onsets[i - 1].index;
+    const double deviation = steps == 1.0 ? onsets[i].time_s - onsets[i - 1].time_s - period_s : 0.0;
+    square += deviation * deviation;
+    product += deviation * previous;
+    previous = deviation;
+    count += 1.0;
+  }
+  return product <= (-0.5 + 0.9 / std::sqrt(count)) * square;
+}
+
+/// Standard error over mean of the time that a slip's drop takes to build up again.
+double recovery_error(const FitResult& fit) {
+  double count = 0.0, mean = 0.0, square = 0.0;
+  for (const Cycle& cycle : fit.cycles) {
+    if (!cycle.used) continue;
+    count += 1.0;
+    const double step = *cycle.recovery_s - mean;
+    mean += step / count;
+    square += step * (*cycle.recovery_s - mean);
+  }
+  return std::sqrt(square / (count - 1.0) / count) / mean;
+}
+
+Estimate with_interval(double value, double relative_error, double degrees_of_freedom) {
+  const boost::math::students_t_distribution<double> student(degrees_of_freedom);
+  const double half = boost::math::quantile(student, 0.975) * relative_error * value;
+  return {value, relative_error * value, Interval{value - half, value + half}, {}};
+}
+
+}  // namespace
+
+std::optional<Estimate> fitted_frequency(const FitResult& fit, const Estimate& counted, const Recording& recording) {
+  constexpr std::size_t kFewest = 5;
+  constexpr double kSampled = 6.0;
+  if (!counted.value) return std::nullopt;
+  const std::vector<Onset> onsets = onsets_of(fit, 1.0 / *counted.value);
+  if (onsets.size() < kFewest) return std::nullopt;
+  const auto count = static_cast<double>(onsets.size());
+  const Line line = line_through(onsets);
+  // The first and the last slip are timed to a step of the clock, evenly distributed.
+  const double timing = recording.sample_interval_s() * *counted.value / std::sqrt(6.0) / count;
+  if (!is_regular(fit.evidence, onsets, line.period_s)) {
+    const double mean_Hz = onsets.back().index / (onsets.back().time_s - onsets.front().time_s);
+    return with_interval(mean_Hz, std::hypot(recovery_error(fit), timing), count - 1.0);
+  }
+  // Between two samples of a hardly sampled slip the errors of regular cycles are no chance: they repeat.
+  if (fit.evidence.samples_per_slip < kSampled) return std::nullopt;
+  // Jumps of a sensor at the contact are timed to a step, and the error of regular ones may repeat.
+  const double step = recording.conditions().force_view == ForceView::Contact ? timing : 0.0;
+  return with_interval(1.0 / line.period_s, std::hypot(line.standard_error_s / line.period_s, step), count - 2.0);
+}
+
+}  // namespace slipfit

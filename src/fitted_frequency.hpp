@@ -1,0 +1,15 @@
+#pragma once
+
+#include <optional>
+
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+
+/// Frequency (Hz) from the cycles of the fit, with an interval that knows why periods scatter: the stick after a slip
+/// lasts until the drop of that slip is made good, so that periods of neighbours are correlated, drops are not. Regular
+/// cycles: a line through the onsets; scattering ones: their mean period, with the error of the mean drop. `counted`
+/// numbers the cycles. Empty below 5 cycles, and where regular slips are not resolved.
+std::optional<Estimate> fitted_frequency(const FitResult& fit, const Estimate& counted, const Recording& recording);
+
+}  // namespace slipfit

@@ -1,0 +1,186 @@
+#include "slipfit/io/manifest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <set>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include "io/cells.hpp"
+#include "io/csv_fields.hpp"
+#include "io/line_reader.hpp"
+#include "io/manifest_columns.hpp"
+#include "io/message.hpp"
+#include "io/text_source.hpp"
+
+namespace slipfit {
+namespace {
+
+using namespace reading;
+
+bool is_comment_or_blank(std::string_view line) {
+  const std::string_view text = trim(line);
+  return text.empty() || text.front() == '#';
+}
+
+/// Of the names row: spreadsheets write semicolons where the comma is decimal.
+char delimiter_of(std::string_view names) {
+  for (const char delimiter : {',', ';', '\t'}) {
+    if (names.find(delimiter) != std::string_view::npos) return delimiter;
+  }
+  return ',';
+}
+
+}  // namespace
+
+class ManifestReader::Implementation {
+ public:
+  Implementation(const std::filesystem::path& file, std::unique_ptr<TextSource> source)
+      : name_(printable(file.string())), folder_(file.parent_path()), lines_(name_.c_str(), std::move(source)) {}
+
+  std::optional<Error> read_names() {
+    const auto line = next_line();
+    if (!line) return line.error();
+    if (line.value().data() == nullptr) {
+      return Error{"missing_column", name_ +
+                                         ": holds only blank lines and comments; expected a line of names such as "
+                                         "id,file,speed_m_per_s, then a line for each recording"};
+    }
+    delimiter_ = delimiter_of(line.value());
+    const auto names = csv_fields(line.value(), delimiter_);
+    if (!names) return open_quote();
+    auto columns = find_manifest_columns(*names, place());
+    if (!columns) return columns.error();
+    columns_ = std::move(columns).value();
+    return std::nullopt;
+  }
+
+  Result<std::optional<ManifestEntry>> next() {
+    const auto line = next_line();
+    if (!line) return line.error();
+    if (line.value().data() == nullptr) return std::optional<ManifestEntry>();
+    auto entry = entry_from(line.value());
+    if (!entry) return entry.error();
+    return std::optional(std::move(entry).value());
+  }
+
+  [[nodiscard]] const ManifestColumns& columns() const { return columns_; }
+
+ private:
+  [[nodiscard]] std::string place() const { return fmt::format("{}:{}", name_, lines_.get_file_line()); }
+
+  [[nodiscard]] Error open_quote() const {
+    return {"open_quote", place() +
+                              ": a quote is not closed, or text stands behind a closed one; expected \"...\" "
+                              "around a whole field, on one line"};
+  }
+
+  /// The next line that says something; without data at the end.
+  Result<std::string_view> next_line() {
+    try {
+      for (;;) {
+        const char* const line = lines_.next_line();
+        if (line == nullptr) return std::string_view();
+        if (!is_comment_or_blank(line)) return std::string_view(line);
+      }
+    } catch (const std::exception& error) {
+      return Error{"not_readable", fmt::format("{}: reading failed ({}); expected a text file with a line for each "
+                                               "recording",
+                                               place(), printable(error.what()))};
+    }
+  }
+
+  Result<ManifestEntry> entry_from(std::string_view line) {
+    ManifestEntry entry;
+    entry.row = ++row_;
+    entry.line = lines_.get_file_line();
+    const auto cells = csv_fields(line, delimiter_);
+    if (!cells) return open_quote();
+    if (cells->size() != columns_.count) {
+      return Error{"wrong_field_count",
+                   fmt::format("{}: {} in '{}', expected {} as in the line of names", place(),
+                               counted(cells->size(), "field"), printable(trim(line)), columns_.count)};
+    }
+    for (const ManifestColumn& column : columns_.read) {
+      const std::string& cell = (*cells)[column.index];
+      if (cell.empty() && !is_needed(column)) continue;
+      auto result = cell.empty() ? missing_value(column) : with_cell(std::move(entry), column, cell, delimiter_ == ';');
+      if (!result) return Error{result.error().code, fmt::format("{}: {}", place(), result.error().message)};
+      entry = std::move(result).value();
+    }
+    entry.file = folder_ / entry.file;
+    return entry;
+  }
+
+  static bool is_needed(const ManifestColumn& column) {
+    return column.field == ManifestField::Id || column.field == ManifestField::File ||
+           column.field == ManifestField::Speed;
+  }
+
+  static Result<ManifestEntry> missing_value(const ManifestColumn& column) {
+    return Error{"missing_value", fmt::format("column '{}': the field is empty, expected a value", column.name)};
+  }
+
+  std::string name_;
+  std::filesystem::path folder_;
+  ::io::LineReader lines_;
+  char delimiter_ = ',';
+  ManifestColumns columns_;
+  std::size_t row_ = 0;
+};
+
+ManifestReader::ManifestReader(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+ManifestReader::ManifestReader(ManifestReader&&) noexcept = default;
+ManifestReader& ManifestReader::operator=(ManifestReader&&) noexcept = default;
+ManifestReader::~ManifestReader() = default;
+
+Result<ManifestReader> ManifestReader::open(const std::filesystem::path& file) {
+  auto source = TextSource::open(file);
+  if (!source) return source.error();
+  auto implementation = std::make_unique<Implementation>(file, std::move(source).value());
+  if (const auto error = implementation->read_names()) return *error;
+  return ManifestReader(std::move(implementation));
+}
+
+Result<std::optional<ManifestEntry>> ManifestReader::next() {
+  return implementation_->next();
+}
+
+const std::vector<std::string>& ManifestReader::ignored_columns() const {
+  return implementation_->columns().ignored;
+}
+
+Result<std::vector<ManifestEntry>> read_manifest_group(const std::filesystem::path& file,
+                                                       const std::optional<std::string>& group) {
+  const std::string name = printable(file.string());
+  auto reader = ManifestReader::open(file);
+  if (!reader) return reader.error();
+  ManifestReader rows = std::move(reader).value();
+  std::vector<ManifestEntry> entries;
+  std::unordered_map<std::string, std::size_t> line_of_id;
+  std::set<std::string> groups;
+  for (;;) {
+    auto next = rows.next();
+    if (!next) return next.error();
+    std::optional<ManifestEntry> entry = std::move(next).value();
+    if (!entry) break;
+    if (!entry->group.empty()) groups.insert(entry->group);
+    if (group && entry->group != *group) continue;
+    const auto [first, is_new] = line_of_id.emplace(entry->id, entry->line);
+    if (!is_new) {
+      return Error{"duplicate_id", fmt::format("{}:{}: column 'id': '{}' stands in line {} too, expected another id",
+                                               name, entry->line, entry->id, first->second)};
+    }
+    entries.push_back(*std::move(entry));
+  }
+  if (!entries.empty()) return entries;
+  if (!group) return Error{"empty_manifest", name + ": holds no recordings; expected a line for each"};
+  return Error{"unknown_group", fmt::format("{}: no recording of group '{}', expected one of: {}", name,
+                                            printable(*group), fmt::join(groups, ", "))};
+}
+
+}  // namespace slipfit

@@ -1,0 +1,82 @@
+#include "sweep_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace slipfit {
+namespace {
+
+/// Speeds closer than this say nothing about how the frequency follows.
+constexpr double kLeastSpeedRatio = 1.3;
+/// A fall of fewer samples is as long as the clock makes it.
+constexpr double kSamplesOfFall = 4.0;
+
+struct Point {
+  double log_speed = 0.0;
+  double log_frequency = 0.0;
+  double log_frequency_se = 0.0;
+  double stick_share = 0.0;
+  std::optional<double> log_fall;  ///< where the sampling resolves it
+};
+
+std::optional<Point> point_of(const Recording& recording, const Analysis& analysis) {
+  const Estimate& frequency = analysis.frequency.quoted;
+  if (!frequency.value || !frequency.standard_error || !analysis.cycles.slip_time_s) return std::nullopt;
+  Point point;
+  point.log_speed = std::log(recording.conditions().speed_m_per_s);
+  point.log_frequency = std::log(*frequency.value);
+  point.log_frequency_se = *frequency.standard_error / *frequency.value;
+  point.stick_share = analysis.cycles.sticking_degree.value_or(0.0);
+  if (*analysis.cycles.slip_time_s > kSamplesOfFall * recording.sample_interval_s()) {
+    point.log_fall = std::log(*analysis.cycles.slip_time_s);
+  }
+  return point;
+}
+
+}  // namespace
+
+std::string describe_roles(const std::vector<SweepRole>& roles) {
+  const auto count = [&](SweepRole role) { return std::count(roles.begin(), roles.end(), role); };
+  return fmt::format("{} with stick-slip cycles, {} sliding steadily, {} left out", count(SweepRole::Cycles),
+                     count(SweepRole::Steady), count(SweepRole::LeftOut));
+}
+
+Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (const auto point = point_of(entries[i].recording, analyses[i])) points.push_back(*point);
+  }
+  if (points.size() < 2) return {};
+  const auto by_speed = [](const Point& a, const Point& b) { return a.log_speed < b.log_speed; };
+  const auto [slow, fast] = std::minmax_element(points.begin(), points.end(), by_speed);
+  const double span = fast->log_speed - slow->log_speed;
+  if (span < std::log(kLeastSpeedRatio)) return {};
+  const double power = (fast->log_frequency - slow->log_frequency) / span;
+  const double power_se = std::hypot(fast->log_frequency_se, slow->log_frequency_se) / span;
+  // The stick time goes as 1 / V, the slip time hardly changes: f goes as V to the power of the sticking degree.
+  const double expected = std::min(slow->stick_share, fast->stick_share);
+  if (expected > 0.3 && power + 2.0 * power_se < 0.5 * expected) {
+    return {{"frequency_does_not_follow_speed",
+             fmt::format("the frequency goes as the speed to the power {:.2f}; sticks this long would make it at least "
+                         "{:.2f}: a control loop or a resonance, not stick-slip",
+                         power, expected)}};
+  }
+  if (slow->log_fall && fast->log_fall) {
+    const double fall_power = (*fast->log_fall - *slow->log_fall) / span;
+    // A slip is half an oscillation at any speed. A shape that is fixed in space passes in a time as 1 / V.
+    if (fall_power < -0.5 && power > 0.5) {
+      const double spacing_mm = 1e3 * std::exp(fast->log_speed - fast->log_frequency);
+      return {
+          {"frequency_does_not_follow_speed",
+           fmt::format("frequency does not follow speed as in stick-slip: rise and fall both shorten with the speed "
+                       "and V / f stays {:.3g} mm: a pattern or a rotation passing by",
+                       spacing_mm)}};
+    }
+  }
+  return {};
+}
+
+}  // namespace slipfit

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "slipfit/sweep.hpp"
+
+namespace slipfit {
+
+/// "4 with stick-slip cycles, 1 sliding steadily, 1 left out".
+std::string describe_roles(const std::vector<SweepRole>& roles);
+
+/// What only several speeds can tell: that the repetition is geometry or a control loop, not stick-slip.
+Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
+
+}  // namespace slipfit

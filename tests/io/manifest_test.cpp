@@ -1,0 +1,188 @@
+#include "slipfit/io/manifest.hpp"
+
+#include "temp_file.hpp"
+
+using namespace io_test;
+using slipfit::ManifestEntry;
+using slipfit::ManifestReader;
+
+namespace {
+
+std::vector<ManifestEntry> entries_of(const std::filesystem::path& file) {
+  auto entries = slipfit::read_manifest_group(file, std::nullopt);
+  INFO((entries.ok() ? std::string() : entries.error().message));
+  REQUIRE(entries.ok());
+  return std::move(entries).value();
+}
+
+std::vector<ManifestEntry> entries_in(std::string_view content) {
+  const TempFile file(content, "runs.csv");
+  return entries_of(file.path());
+}
+
+/// The only recording of a manifest with these two lines behind `id,file,speed_m_per_s` and `a,a.csv,0.01`.
+ManifestEntry entry_with(const std::string& columns, const std::string& cells) {
+  return entries_in("id,file,speed_m_per_s," + columns + "\na,a.csv,0.01," + cells + "\n").at(0);
+}
+
+void check_error(std::string_view content, const std::string& code, const std::vector<std::string>& parts) {
+  const TempFile file(content, "runs.csv");
+  const auto entries = slipfit::read_manifest_group(file.path(), std::nullopt);
+  CAPTURE(content);
+  REQUIRE_FALSE(entries.ok());
+  const std::string& message = entries.error().message;
+  CHECK(entries.error().code == code);
+  CHECK_THAT(message, Catch::Contains("runs.csv:"));
+  CHECK(std::none_of(message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }));
+  for (const std::string& part : parts) CHECK_THAT(message, Catch::Contains(part));
+}
+
+}  // namespace
+
+TEST_CASE("a manifest gives ids, files beside it and speeds, in its own order") {
+  const TempFile file("id,file,speed_m_per_s\nb,runs/b.csv,0.02\na,/data/a.csv,1e-3\n", "runs.csv");
+  const auto entries = entries_of(file.path());
+  REQUIRE(entries.size() == 2);
+  CHECK(entries[0].id == "b");
+  CHECK(entries[0].file == file.path().parent_path() / "runs/b.csv");
+  CHECK(entries[0].conditions.speed_m_per_s == 0.02);
+  CHECK(entries[0].group.empty());
+  CHECK_FALSE(entries[0].conditions.measured_spacing_m);
+  CHECK(entries[0].row == 1);
+  CHECK(entries[0].line == 2);
+  CHECK(entries[1].file == "/data/a.csv");
+  CHECK(entries[1].row == 2);
+}
+
+TEST_CASE("every optional column of a manifest reaches the entry, and an empty cell says nothing") {
+  const std::string columns =
+      "normal_force_N,zero_force_N,speed_se_m_per_s,force_view,group,time_column,force_column,time_unit,force_unit,"
+      "sample_rate_Hz,window_s,measured_spacing_m";
+  const ManifestEntry full = entry_with(columns, "5,-0.5,1e-4,contact,rubber,t,Ft,ms,mN,1000,1.5:20,4e-4");
+  CHECK(full.conditions.normal_force_N == 5.0);
+  CHECK(full.conditions.zero_force_N == -0.5);
+  CHECK(full.conditions.speed_standard_error_m_per_s == 1e-4);
+  CHECK(full.conditions.force_view == slipfit::ForceView::Contact);
+  CHECK(full.group == "rubber");
+  CHECK(full.options.time_column == "t");
+  CHECK(full.options.force_column == "Ft");
+  CHECK(full.options.time_unit == "ms");
+  CHECK(full.options.force_unit == "mN");
+  CHECK(full.options.sample_rate_Hz == 1000.0);
+  REQUIRE(full.options.window);
+  CHECK(full.options.window->begin_s == 1.5);
+  CHECK(full.options.window->end_s == 20.0);
+  CHECK(full.conditions.measured_spacing_m == 4e-4);
+
+  const ManifestEntry empty = entry_with(columns, ",,,,,,,,,,,");
+  CHECK_FALSE(empty.conditions.normal_force_N);
+  CHECK_FALSE(empty.conditions.zero_force_N);
+  CHECK(empty.conditions.force_view == slipfit::ForceView::Spring);
+  CHECK_FALSE(empty.options.time_column);
+  CHECK_FALSE(empty.options.sample_rate_Hz);
+  CHECK_FALSE(empty.options.window);
+}
+
+TEST_CASE("a unit stands in the name of a manifest's column, or in the cell") {
+  const auto speed = [](const std::string& name, const std::string& cell) {
+    return entries_in("id,file," + name + "\na,a.csv," + cell + "\n").at(0).conditions.speed_m_per_s;
+  };
+  CHECK(speed("speed [mm/s]", "10") == Approx(0.01).epsilon(1e-15));
+  CHECK(speed("Speed (mm/min)", "600") == Approx(0.01).epsilon(1e-15));
+  CHECK(speed("speed_mm_per_s", "10") == Approx(0.01).epsilon(1e-15));
+  CHECK(speed("speed", "10 mm/s") == Approx(0.01).epsilon(1e-15));
+  CHECK(speed("speed", "0.01") == 0.01);
+  CHECK(entry_with("normal_force [gf]", "100").conditions.normal_force_N == Approx(0.980665).epsilon(1e-15));
+  CHECK(entry_with("window [ms]", "500:1500").options.window->end_s == Approx(1.5).epsilon(1e-15));
+  CHECK(entry_with("measured_spacing_um", "400").conditions.measured_spacing_m == Approx(4e-4).epsilon(1e-15));
+  CHECK(entry_with("sample_rate_kHz", "2").options.sample_rate_Hz == Approx(2000.0).epsilon(1e-15));
+}
+
+TEST_CASE("a manifest may have a byte order mark, CRLF, quotes, comments, blank lines, semicolons and tabs") {
+  const auto entries = entries_in(
+      "\xEF\xBB\xBF# made by hand\r\n\r\n\"id\",file , speed_m_per_s,group\r\n"
+      "\"a, \"\"first\"\"\",\"x,y.csv\",0.01,\r\n# left out\r\n b ,b.csv,0.02,g\r\n");
+  REQUIRE(entries.size() == 2);
+  CHECK(entries[0].id == "a, \"first\"");
+  CHECK(entries[0].file.filename() == "x,y.csv");
+  CHECK(entries[1].id == "b");
+  CHECK(entries[1].line == 6);
+  CHECK(entries_in("id;file;speed [mm/s]\na;a.csv;0,5\n").at(0).conditions.speed_m_per_s == Approx(5e-4));
+  CHECK(entries_in("id\tfile\tgroup\tspeed [mm/s]\na\ta.csv\t\t1\n").at(0).group.empty());
+}
+
+TEST_CASE("columns that mean nothing are named, not used") {
+  const TempFile file("id,operator,file,speed_m_per_s,speed_old\na,me,a.csv,1,x\n", "runs.csv");
+  const auto reader = ManifestReader::open(file.path());
+  REQUIRE(reader.ok());
+  CHECK(reader.value().ignored_columns() == std::vector<std::string>{"operator", "speed_old"});
+}
+
+TEST_CASE("each fault of a manifest is one line with file, line, column, value and what was expected") {
+  const std::string names = "id,file,speed_m_per_s\n";
+  check_error("id,file\na,a.csv\n", "missing_column", {"runs.csv:1", "speed_m_per_s", "expected"});
+  check_error("name,file,speed_m_per_s\n", "missing_column", {"'id'", "name"});
+  check_error("# nothing\n\n", "missing_column", {"blank lines"});
+  check_error(names, "empty_manifest", {"no recordings"});
+  check_error("id,file,speed_m_per_s,speed [mm/s]\n", "duplicate_column", {"'speed_m_per_s'", "'speed [mm/s]'"});
+  check_error("id,file,speed [furlong]\n", "unknown_unit", {"runs.csv:1", "speed [furlong]"});
+  check_error("id,file,speed_m_per_s,time_unit\na,a.csv,1,kg\n", "unknown_unit", {"runs.csv:2", "'time_unit'", "kg"});
+  check_error("id,file,speed\na,a.csv,1kg\n", "unknown_unit", {"runs.csv:2", "'speed'", "kg"});
+  check_error(names + "a,a.csv\n", "wrong_field_count", {"runs.csv:2", "2 fields", "a,a.csv", "3"});
+  check_error(names + "a,a.csv,1,2\n", "wrong_field_count", {"4 fields"});
+  check_error(names + "a,\"a.csv,1\n", "open_quote", {"runs.csv:2"});
+  check_error(names + "a,\"a\"x,1\n", "open_quote", {"runs.csv:2"});
+  check_error(names + "a,a.csv,fast\n", "bad_number", {"runs.csv:2", "'speed_m_per_s'", "'fast'", "number"});
+  check_error(names + "a,a.csv,10mm/s\n", "bad_number", {"'10mm/s'"});
+  check_error(names + "a,a.csv,nan\n", "bad_number", {"'nan'"});
+  check_error(names + "a,a.csv,0\n", "out_of_range", {"'0'", "above zero"});
+  check_error(names + "a,a.csv,\n", "missing_value", {"'speed_m_per_s'"});
+  check_error(names + ",a.csv,1\n", "missing_value", {"'id'"});
+  check_error(names + "a,,1\n", "missing_value", {"'file'"});
+  check_error(names + "x/y,a.csv,1\n", "bad_id", {"'x/y'", "slash"});
+  check_error(names + "group:x,a.csv,1\n", "bad_id", {"'group:x'"});
+  check_error(names + "\"x\ty\",a.csv,1\n", "bad_id", {"x\\ty"});
+  check_error(names + "a,a.csv,1\nb,b.csv,1\na,c.csv,1\n", "duplicate_id", {"runs.csv:4", "'a'", "line 2"});
+  check_error("id,file,speed_m_per_s,window_s\na,a.csv,1,3:1\n", "bad_window", {"'3:1'", "T0 < T1"});
+  check_error("id,file,speed_m_per_s,window_s\na,a.csv,1,3\n", "bad_window", {"'3'", "T0:T1"});
+  check_error("id,file,speed_m_per_s,force_view\na,a.csv,1,top\n", "unknown_force_view", {"'top'", "contact"});
+}
+
+TEST_CASE("a manifest that cannot be read is an error like that of a recording") {
+  const TempFile file("x");
+  const auto none = ManifestReader::open(file.path().parent_path() / "none.csv");
+  REQUIRE_FALSE(none.ok());
+  CHECK(none.error().code == "file_not_found");
+  const auto folder = ManifestReader::open(file.path().parent_path());
+  REQUIRE_FALSE(folder.ok());
+  CHECK(folder.error().code == "is_directory");
+}
+
+TEST_CASE("the recordings of one group of a manifest") {
+  const TempFile file("id,file,speed_m_per_s,group\na,a.csv,1,g\nb,b.csv,1,h\nc,c.csv,1,g\nd,d.csv,1,\n", "runs.csv");
+  const auto group = slipfit::read_manifest_group(file.path(), "g");
+  REQUIRE(group.ok());
+  REQUIRE(group.value().size() == 2);
+  CHECK(group.value()[1].id == "c");
+  CHECK(group.value()[1].row == 3);
+  const auto unknown = slipfit::read_manifest_group(file.path(), "x");
+  REQUIRE_FALSE(unknown.ok());
+  CHECK(unknown.error().code == "unknown_group");
+  CHECK_THAT(unknown.error().message, Catch::Contains("'x'") && Catch::Contains("g, h"));
+}
+
+TEST_CASE("an error in one row of a manifest leaves the next rows readable") {
+  const TempFile file("id,file,speed_m_per_s\na,a.csv,x\nb,b.csv,1\n", "runs.csv");
+  auto opened = ManifestReader::open(file.path());
+  REQUIRE(opened.ok());
+  ManifestReader reader = std::move(opened).value();
+  CHECK_FALSE(reader.next().ok());
+  const auto second = reader.next();
+  REQUIRE(second.ok());
+  REQUIRE(second.value());
+  CHECK(second.value()->id == "b");
+  CHECK(second.value()->row == 2);
+  const auto end = reader.next();
+  REQUIRE(end.ok());
+  CHECK_FALSE(end.value());
+}
