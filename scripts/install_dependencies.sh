@@ -4,7 +4,7 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
-  nlohmann-json3-dev libfmt-dev libudunits2-dev)
+  nlohmann-json3-dev libfmt-dev libssl-dev libjs-dygraphs libudunits2-dev)
 if [ "${1:-test}" = test ]; then
   packages+=(catch2 python3 python3-jsonschema)
 fi
