@@ -112,6 +112,10 @@ Exhibit cycles_exhibit(const Source& source) {
       "Every cycle moved so that its slip begins at time zero and its kinetic friction lies at zero force. A tight "
       "bundle means cycles alike; the spread at the top is the scatter of static friction. Above: whole cycles; below: "
       "the slip close up, where natural frequency and damping show.";
+  if (!shows_cycles(source.analysis)) {
+    exhibit.absent = "Steady sliding has no cycles.";
+    return exhibit;
+  }
   const Stack stack = stack_of(source.analysis);
   const CycleStatistics& cycles = source.analysis.cycles;
   if (stack.anchors.empty() || !cycles.period_s) {

@@ -18,6 +18,9 @@ struct Source {
   const Background& background;
 };
 
+/// False for steady sliding: cycles and fit are then those of noise, and no chart shows them.
+bool shows_cycles(const Analysis& analysis);
+
 /// One chart with its words, or the reason why there is none.
 struct Exhibit {
   std::string id;     ///< letters and '-': on the page, and the file's name

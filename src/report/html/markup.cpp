@@ -17,6 +17,15 @@ constexpr std::array<Replacement, 5> kMarkup{
 constexpr std::array<Replacement, 5> kScript{
     {{"<", "\\u003c"}, {">", "\\u003e"}, {"&", "\\u0026"}, {"\xE2\x80\xA8", "\\u2028"}, {"\xE2\x80\xA9", "\\u2029"}}};
 
+constexpr std::array<Replacement, 8> kSymbols{{{"F_s", "F<sub>s</sub>"},
+                                               {"F_k", "F<sub>k</sub>"},
+                                               {"w_n^2", "ω<sub>n</sub><sup>2</sup>"},
+                                               {"w_n", "ω<sub>n</sub>"},
+                                               {"zeta^2", "ζ<sup>2</sup>"},
+                                               {"zeta", "ζ"},
+                                               {"lambda", "λ"},
+                                               {"alpha", "α"}}};
+
 template <std::size_t count>
 std::string replaced(std::string_view content, const std::array<Replacement, count>& replacements) {
   std::string result;
@@ -36,6 +45,10 @@ std::string replaced(std::string_view content, const std::array<Replacement, cou
 
 std::string text(std::string_view content) {
   return replaced(one_line(content), kMarkup);
+}
+
+std::string formula_text(std::string_view content) {
+  return replaced(text(content), kSymbols);
 }
 
 std::string script_json(std::string_view json) {
@@ -60,11 +73,11 @@ std::string fact(std::string_view term, std::string_view content) {
   return fmt::format("<dt>{}</dt><dd>{}</dd>\n", text(term), text(content));
 }
 
-std::string list(const std::vector<std::string>& sentences) {
-  if (sentences.empty()) return {};
-  std::string items;
-  for (const std::string& sentence : sentences) items += fmt::format("<li>{}</li>\n", text(sentence));
-  return "<ul class=\"plain\">\n" + items + "</ul>\n";
+std::string list(const std::vector<std::string>& items) {
+  if (items.empty()) return {};
+  std::string lines;
+  for (const std::string& item : items) lines += "<li>" + item + "</li>\n";
+  return "<ul class=\"plain\">\n" + lines + "</ul>\n";
 }
 
 }  // namespace slipfit::html

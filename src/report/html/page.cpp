@@ -19,12 +19,14 @@ namespace {
 
 /// The chart, and the interactive trace that the script shows in its place where it can.
 std::string trace_part(const Exhibit& exhibit, const Source& source) {
-  const bool has_fit = source.analysis.fit && !source.analysis.fit->curve.empty();
-  return filled(assets::trace_part(), {{"title", text(exhibit.title)},
-                                       {"guide", text(exhibit.guide)},
-                                       {"label", text(exhibit.label)},
-                                       {"fit_key", has_fit ? "<span class=\"key fit\"></span>fit" : ""},
-                                       {"chart", to_page_svg(*exhibit.chart, {exhibit.id, exhibit.label})}});
+  const bool has_fit = shows_cycles(source.analysis) && source.analysis.fit && !source.analysis.fit->curve.empty();
+  return filled(assets::trace_part(),
+                {{"title", text(exhibit.title)},
+                 {"guide", formula_text(exhibit.guide)},
+                 {"label", text(exhibit.label)},
+                 {"slips_key", shows_cycles(source.analysis) ? "<span class=\"key slips\"></span>slips" : ""},
+                 {"fit_key", has_fit ? "<span class=\"key fit\"></span>fit" : ""},
+                 {"chart", to_page_svg(*exhibit.chart, {exhibit.id, exhibit.label})}});
 }
 
 std::string exhibits_part(const Source& source) {
@@ -36,7 +38,7 @@ std::string exhibits_part(const Source& source) {
 }
 
 std::string reason_of(const Analysis& analysis) {
-  std::string reason = text(analysis.verdict_reason);
+  std::string reason = formula_text(analysis.verdict_reason);
   if (!reason.empty()) reason.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(reason.front())));
   return reason;
 }
@@ -49,12 +51,17 @@ std::string numbers_part(const Source& source) {
     lines += text(std::string_view(numbers).substr(0, end)) + "\n";
     numbers.erase(0, end + 1);
   }
-  return "<section class=\"flows\">\n<h2>All numbers</h2>\n<details><summary>The text report, as printed by the "
+  return "<section class=\"flows\" id=\"numbers\">\n<h2>All numbers</h2>\n<details><summary>The text report, as "
+         "printed by the "
          "command line</summary>\n<pre>" +
          lines + "</pre></details>\n</section>\n";
 }
 
 }  // namespace
+
+bool shows_cycles(const Analysis& analysis) {
+  return analysis.verdict != Verdict::SteadySliding;
+}
 
 std::vector<Exhibit> exhibits_of(const Source& source) {
   return {trace_exhibit(source), spectrum_exhibit(source), cycles_exhibit(source), pairs_exhibit(source),
@@ -63,8 +70,9 @@ std::vector<Exhibit> exhibits_of(const Source& source) {
 
 std::string exhibit_part(const Exhibit& exhibit) {
   std::string part = fmt::format("<section id=\"{}-section\">\n<h2>{}</h2>\n", exhibit.id, text(exhibit.title));
-  if (!exhibit.chart) return part + fmt::format("<p class=\"absent\">{}</p>\n</section>\n", text(exhibit.absent));
-  return part + fmt::format("<p class=\"guide\">{}</p>\n<figure>{}</figure>\n</section>\n", text(exhibit.guide),
+  if (!exhibit.chart)
+    return part + fmt::format("<p class=\"absent\">{}</p>\n</section>\n", formula_text(exhibit.absent));
+  return part + fmt::format("<p class=\"guide\">{}</p>\n<figure>{}</figure>\n</section>\n", formula_text(exhibit.guide),
                             to_page_svg(*exhibit.chart, {exhibit.id, exhibit.label}));
 }
 

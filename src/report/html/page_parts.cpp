@@ -26,7 +26,7 @@ std::string words_for_status(const std::string& status) {
 std::string key_number(const std::string& name, const Estimate& estimate, const std::string& SI_unit) {
   const EstimateRow row = estimate_row(estimate, SI_unit);
   const std::string shown = row.value == "-" ? "not known" : row.value + (row.unit.empty() ? "" : " " + row.unit);
-  const std::string interval = row.interval == "-" ? "" : "<small>95 %: " + text(row.interval) + "</small>";
+  const std::string interval = row.interval == "-" ? "" : "<small>" + text(row.interval) + "</small>";
   return fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", text(name), text(shown), interval);
 }
 
@@ -40,12 +40,18 @@ Estimate parameter_named(const Analysis& analysis, const std::string& name) {
   return {};
 }
 
+std::vector<std::string> each(const std::vector<std::string>& sentences, std::string (*to_markup)(std::string_view)) {
+  std::vector<std::string> items;
+  for (const std::string& sentence : sentences) items.push_back(to_markup(sentence));
+  return items;
+}
+
 std::string candidates_table(const FitResult& fit, ForceQuantity quantity) {
   std::string rows;
   for (const Candidate& candidate : fit.candidates) {
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
                         text(name_of(candidate.tier)), candidate.chosen ? "taken" : "left",
-                        text(quantity_text(candidate.rms, force_unit(quantity))), text(candidate.reason));
+                        text(quantity_text(candidate.rms, force_unit(quantity))), formula_text(candidate.reason));
   }
   return "<h3>Models that were tried</h3>\n<div class=\"wide\"><table><thead><tr><th scope=\"col\">model</th><th "
          "scope=\"col\"></th><th scope=\"col\" class=\"number\">residual, rms</th><th scope=\"col\">why</th></tr>"
@@ -105,14 +111,14 @@ std::string key_numbers(const Source& source) {
                key_number("damping ratio", parameter_named(analysis, "damping_ratio"), "") +
                key_number("critical speed", analysis.derived.critical_speed_m_per_s, "m/s");
   }
-  return "<dl class=\"keys\">\n" + numbers + "</dl>\n";
+  return "<dl class=\"keys\">\n" + numbers + "</dl>\n<p class=\"guide\">In brackets: 95 % intervals.</p>\n";
 }
 
 std::string warnings_part(const Warnings& warnings) {
   if (warnings.empty()) return {};
   std::string items;
   for (const Warning& warning : warnings) {
-    std::string message = text(warning.message);
+    std::string message = formula_text(warning.message);
     if (!message.empty())
       message.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(message.front())));
     items += fmt::format("<li>{} <code>{}</code></li>\n", message, text(warning.code));
@@ -124,11 +130,12 @@ std::string warnings_part(const Warnings& warnings) {
 std::string parameter_table(const FitResult& fit) {
   std::string rows;
   for (const ShownParameter& parameter : shown_parameters(fit)) {
-    const std::string note = parameter.note.empty() ? "" : "<span class=\"note\">" + text(parameter.note) + "</span>";
+    const std::string note =
+        parameter.note.empty() ? "" : "<span class=\"note\">" + formula_text(parameter.note) + "</span>";
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"unit\">{}</td><td class=\"interval\">{}"
         "</td><td><span class=\"status {}\">{}</span>: {}{}</td></tr>\n",
-        text(parameter.words), text(parameter.numbers.value), text(parameter.numbers.unit),
+        formula_text(parameter.words), text(parameter.numbers.value), text(parameter.numbers.unit),
         text(parameter.numbers.interval), parameter.status, parameter.status, words_for_status(parameter.status), note);
   }
   return "<div class=\"wide\"><table class=\"parameters\"><thead><tr><th scope=\"col\">parameter</th><th scope=\"col\" "
@@ -149,7 +156,8 @@ std::string parameters_part(const Source& source) {
   if (analysis.verdict == Verdict::Undetermined) part += "<p>Not to rely on: this may be no stick-slip.</p>\n";
   const FitResult& fit = *analysis.fit;
   part += parameter_table(fit);
-  if (!fit.conditional_on.empty()) part += "<p class=\"guide\">The numbers hold if:</p>\n" + list(fit.conditional_on);
+  if (!fit.conditional_on.empty())
+    part += "<p class=\"guide\">The numbers hold if:</p>\n" + list(each(fit.conditional_on, formula_text));
   return part + candidates_table(fit, source.recording.conditions().quantity) + "</section>\n";
 }
 
@@ -164,14 +172,15 @@ std::string quality_part(const Source& source) {
   if (quality.quantisation_step)
     facts += fact("smallest step of the sensor", quantity_text(quality.quantisation_step, unit));
   facts += fact("clock jitter", quantity_text(100.0 * quality.clock_jitter, "") + " % of a step");
-  if (source.analysis.fit) {
+  if (source.analysis.fit && shows_cycles(source.analysis)) {
     const Residual& residual = source.analysis.fit->residual;
     facts += fact("residual of the fit, rms", quantity_text(residual.rms, unit));
     if (residual.reduced_chi2) facts += fact("residual over noise, squared", quantity_text(residual.reduced_chi2, ""));
   }
   const std::vector<std::string> defects = defects_of(recording, quality);
   return "<section id=\"quality\">\n<h2>Data quality</h2>\n<dl class=\"facts\">\n" + facts + "</dl>\n" +
-         (defects.empty() ? "<p>No gaps, no clipping, no impulses, no rows left out.</p>\n" : list(defects)) +
+         (defects.empty() ? "<p>No gaps, no clipping, no impulses, no rows left out.</p>\n"
+                          : list(each(defects, text))) +
          "</section>\n";
 }
 
@@ -180,7 +189,8 @@ std::string repeat_part(const Source& source, const ReportOrigin& origin) {
   const Provenance& provenance = source.recording.provenance();
   std::string facts = fact("program", fmt::format("slipfit {}", SLIPFIT_VERSION)) +
                       fact("file", provenance.file.empty() ? "not from a file" : provenance.file) +
-                      fact("SHA-256 of the file", origin.file_sha256.value_or("not known (no regular file)"));
+                      "<dt>SHA-256 of the file</dt><dd><code>" +
+                      text(origin.file_sha256.value_or("not known (no regular file)")) + "</code></dd>\n";
   if (!origin.command_line.empty()) {
     facts += "<dt>command</dt><dd><code>" + text(origin.command_line) + "</code></dd>\n";
   }
@@ -193,7 +203,7 @@ std::string repeat_part(const Source& source, const ReportOrigin& origin) {
   facts += fact("force that the sensor sees", name_of(conditions.force_view));
   facts += fact("sensor's zero",
                 conditions.zero_force_N ? stated_text(*conditions.zero_force_N, "N") : std::string("not given"));
-  const std::string assumed = list(provenance.assumed);
+  const std::string assumed = list(each(provenance.assumed, text));
   return "<section id=\"repeat\">\n<h2>To repeat this</h2>\n<dl class=\"facts\">\n" + facts + "</dl>\n" +
          (assumed.empty() ? "" : "<p>Assumed while reading:</p>\n" + assumed) + "</section>\n";
 }

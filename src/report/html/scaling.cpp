@@ -9,8 +9,9 @@
 namespace slipfit::html {
 namespace {
 
-constexpr double kRoom = 0.05;    // of the range, on both sides
-constexpr double kLogRoom = 1.3;  // factor on both sides
+constexpr double kRoom = 0.05;              // of the range, on both sides
+constexpr const char* kNoBreak = "\u00A0";  // a number and its unit stay on one line
+constexpr double kLogRoom = 1.3;            // factor on both sides
 
 }  // namespace
 
@@ -31,8 +32,11 @@ std::string label_with_unit(const std::string& name, const std::string& unit) {
 
 std::string quantity_of(const Estimate& estimate, const std::string& SI_unit) {
   const DisplayUnit unit = display_unit(SI_unit, estimate.value);
-  const std::string text = with_error(scaled(estimate, unit.per_SI));
-  return unit.unit.empty() || text == "-" ? text : text + " " + unit.unit;
+  std::string text = with_error(scaled(estimate, unit.per_SI));
+  for (std::size_t blank = text.find(' '); blank != std::string::npos; blank = text.find(' ')) {
+    text.replace(blank, 1, kNoBreak);
+  }
+  return unit.unit.empty() || text == "-" ? text : text + kNoBreak + unit.unit;
 }
 
 void Span::add(double value) {

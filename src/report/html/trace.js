@@ -133,6 +133,10 @@
     const move = share * (shown[1] - shown[0]);
     show([shown[0] + move, shown[1] + move]);
   }
+  function showAll() {
+    show(whole);
+    for (const graph of graphs) graph.updateOptions({ valueRange: [null, null] });  // a drag upwards sets it
+  }
   /** The next slip in a direction comes to the middle, with two or three periods around it. */
   function stepSlip(direction) {
     const number = slips.length / 2;
@@ -186,7 +190,7 @@
   }
   const common = {
     legend: "never", drawCallback: onDraw, highlightCallback: readOff, unhighlightCallback: leave, labelsKMB: false,
-    animatedZooms: false, strokeWidth: 1.2, highlightCircleSize: 3, axes: { y: { axisLabelWidth: 62 } },
+    animatedZooms: false, interactionModel: Dygraph.defaultInteractionModel, strokeWidth: 1.2, highlightCircleSize: 3, axes: { y: { axisLabelWidth: 62, pixelsPerLabel: 24 } },
   };
   function build() {
     section.classList.add("is-live");
@@ -209,8 +213,11 @@
   section.dataset.begin = shown[0];
   section.dataset.end = shown[1];
 
+  if (slips.length < 4) {
+    for (const button of section.querySelectorAll("[data-do=previous], [data-do=next]")) button.remove();
+  }
   const actions = {
-    "in": () => zoom(0.5), out: () => zoom(2), left: () => pan(-0.25), right: () => pan(0.25), all: () => show(whole),
+    "in": () => zoom(0.5), out: () => zoom(2), left: () => pan(-0.25), right: () => pan(0.25), all: showAll,
     previous: () => stepSlip(-1), next: () => stepSlip(1),
   };
   for (const button of section.querySelectorAll("button[data-do]")) {

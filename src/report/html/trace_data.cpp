@@ -41,7 +41,7 @@ std::string packed(const std::vector<Number>& numbers) {
   return base64(bytes.data(), bytes.size());
 }
 
-/// All samples, or the lowest and the highest of each group, in order.
+/// All samples, or the lowest and the highest of each group, in order: two a group, so that they lie evenly in time.
 std::vector<std::size_t> chosen_samples(std::span<const double> force) {
   std::vector<std::size_t> chosen;
   if (force.size() <= kMostSamples) {
@@ -55,7 +55,7 @@ std::vector<std::size_t> chosen_samples(std::span<const double> force) {
     const auto end = force.begin() + static_cast<std::ptrdiff_t>((group + 1) * force.size() / groups);
     const auto [lowest, highest] = std::minmax_element(begin, end);
     chosen.push_back(static_cast<std::size_t>(std::min(lowest, highest) - force.begin()));
-    if (lowest != highest) chosen.push_back(static_cast<std::size_t>(std::max(lowest, highest) - force.begin()));
+    chosen.push_back(static_cast<std::size_t>(std::max(lowest, highest) - force.begin()));
   }
   return chosen;
 }
@@ -99,6 +99,7 @@ bool is_even(std::span<const double> time_s) {
 
 std::vector<std::uint32_t> slip_ticks(const Analysis& analysis, const Clock& clock) {
   std::vector<std::uint32_t> ticks;
+  if (!shows_cycles(analysis)) return {};
   for (const Cycle& cycle : analysis.cycle_table) {
     ticks.push_back(clock.tick(cycle.onset_s.value_or(cycle.peak_s)));
     ticks.push_back(clock.tick(cycle.end_s.value_or(cycle.trough_s)));
@@ -124,14 +125,14 @@ std::string trace_data(const Source& source) {
             {"last_s", recording.time_s()[chosen.back()]},
             {"force", series_json(force)},
             {"slips", packed(slip_ticks(source.analysis, clock))}};
-  if (chosen.size() < recording.size() || !is_even(recording.time_s())) {
+  if (!is_even(recording.time_s())) {
     std::vector<std::uint32_t> ticks;
     for (const std::size_t i : chosen) ticks.push_back(clock.tick(recording.time_s()[i]));
     json["ticks"] = packed(ticks);
     json["first_s"] = recording.time_s().front();
     json["last_s"] = recording.time_s().back();
   }
-  if (source.analysis.fit && !source.analysis.fit->curve.empty()) {
+  if (shows_cycles(source.analysis) && source.analysis.fit && !source.analysis.fit->curve.empty()) {
     const std::vector<double> fitted = fitted_force(recording, source.analysis);
     std::vector<double> residual;
     residual.reserve(chosen.size());

@@ -110,15 +110,17 @@ Exhibit trace_exhibit(const Source& source) {
   const std::string unit = force_unit_of(recording).unit;
   const std::string label = label_with_unit(force_name_of(recording), unit);
   const std::vector<double> fitted = fitted_force(recording, source.analysis);
-  const bool has_fit = source.analysis.fit && !source.analysis.fit->curve.empty();
+  const bool has_fit = shows_cycles(source.analysis) && source.analysis.fit && !source.analysis.fit->curve.empty();
 
-  Exhibit exhibit{"trace", "The recording and the fit", {}, {}, {}, {}};
-  exhibit.guide =
-      "Measured force, the fitted force on it, and what the fit leaves over (residual: measured less fitted). A good "
-      "residual is noise without a shape; a pattern that repeats in every slip is something that the model lacks.";
+  Exhibit exhibit{"trace", has_fit ? "The recording and the fit" : "The recording", {}, {}, {}, {}};
+  exhibit.guide = !has_fit ? "Measured force; no fit is drawn on it."
+                           : "Measured force, the fitted force on it, and what the fit leaves over (residual: measured "
+                             "less fitted). A good "
+                             "residual is noise without a shape; a pattern that repeats in every slip is something "
+                             "that the model lacks.";
   chart::Chart chart{"Recording and fit", {}, {}};
   chart.panels.push_back(force_panel(cut(recording, fitted, {0, recording.size()}), label, 1.0));
-  const SampleRange close = middle_cycles(source);
+  const SampleRange close = shows_cycles(source.analysis) ? middle_cycles(source) : SampleRange{};
   if (close.last > close.first + 2) {
     const Piece piece = cut(recording, fitted, close);
     chart.panels.push_back(close_up(piece, source, label));
@@ -127,9 +129,11 @@ Exhibit trace_exhibit(const Source& source) {
   for (chart::Panel& panel : chart.panels) {
     if (!has_fit && panel.lines.size() > 1) panel.lines.pop_back();
   }
-  exhibit.label = fmt::format("{} over {}, {} slips marked{}", force_name_of(recording),
-                              quantity_text(recording.duration_s(), "s"), source.analysis.cycles.count,
-                              has_fit ? ", with the fitted force and the residual" : ", without a fit");
+  exhibit.label =
+      fmt::format("{} over {}, {}{}", force_name_of(recording), quantity_text(recording.duration_s(), "s"),
+                  shows_cycles(source.analysis) ? fmt::format("{} slips marked", source.analysis.cycles.count)
+                                                : std::string("steady sliding"),
+                  has_fit ? ", with the fitted force and the residual" : ", without a fit");
   exhibit.chart = std::move(chart);
   return exhibit;
 }
