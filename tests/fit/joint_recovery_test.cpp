@@ -1,0 +1,106 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "slipfit/sweep.hpp"
+#include "sweep_recordings.hpp"
+
+using namespace slipfit;
+using test::SweepScene;
+
+namespace {
+
+const std::vector<double> kSpeeds{0.005, 0.01, 0.02, 0.04};
+
+const Parameter& parameter(const SweepAnalysis& sweep, const std::string& name) {
+  for (const Parameter& p : sweep.joint->fit.parameters) {
+    if (p.name == name) return p;
+  }
+  FAIL("no parameter " << name);
+  return sweep.joint->fit.parameters.front();
+}
+
+bool warns(const Warnings& warnings, const std::string& code) {
+  return std::any_of(warnings.begin(), warnings.end(), [&](const Warning& warning) { return warning.code == code; });
+}
+
+/// Every parameter with a value lies within 4 standard errors of the truth.
+void check_recovery(const SweepAnalysis& sweep, const SweepScene& s) {
+  const std::map<std::string, double> truths{{"stiffness_N_per_m", s.stiffness_N_per_m},
+                                             {"natural_frequency_rad_per_s", s.natural_frequency_rad_per_s},
+                                             {"damping_ratio", s.damping_ratio},
+                                             {"friction_difference_N", s.static_friction_N - s.kinetic_friction_N()},
+                                             {"alpha_s_per_m", s.alpha_s_per_m},
+                                             {"f0_N", s.f0_N},
+                                             {"f1_N", s.f1_N}};
+  for (const auto& [name, truth] : truths) {
+    const Parameter& p = parameter(sweep, name);
+    if (!p.estimate.value) continue;
+    INFO(name << " = " << *p.estimate.value << " +- " << *p.estimate.standard_error << ", truth " << truth);
+    CHECK(std::abs(*p.estimate.value - truth) < 4.0 * *p.estimate.standard_error);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("joint: alpha and damping are told apart by a sweep, and each speed is predicted by the others") {
+  SweepScene scene;
+  for (const double scatter_N : {0.0, 0.02}) {
+    scene.scatter_N = scatter_N;
+    const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+    REQUIRE(sweep.joint);
+    CHECK(sweep.joint->fit.tier == Tier::Velocity);
+    CHECK(sweep.joint->level_shared);
+    CHECK(sweep.joint->difference_shared);
+    CHECK(parameter(sweep, "alpha_s_per_m").status == ParameterStatus::Identified);
+    CHECK(parameter(sweep, "damping_ratio").status == ParameterStatus::Identified);
+    check_recovery(sweep, scene);
+    for (std::size_t i = 0; i < kSpeeds.size(); ++i) {
+      const Estimate& spacing = sweep.joint->points[i].spacing_left_out_m;
+      REQUIRE(spacing.value);
+      const double truth = scene.spacing_m(kSpeeds[i]);
+      INFO("speed " << kSpeeds[i] << " predicted " << *spacing.value << " truth " << truth);
+      CHECK(std::abs(*spacing.value - truth) < 4.0 * *spacing.standard_error);
+      CHECK(*spacing.value == Approx(truth).epsilon(0.03));
+    }
+  }
+}
+
+TEST_CASE("joint: Coulomb friction needs no alpha") {
+  SweepScene scene;
+  scene.f1_N = 0.0;
+  scene.f0_N = 2.0;
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  REQUIRE(sweep.joint);
+  CHECK(sweep.joint->fit.tier == Tier::Damped);
+  CHECK(parameter(sweep, "alpha_s_per_m").status == ParameterStatus::Unidentified);
+  CHECK_THAT(parameter(sweep, "alpha_s_per_m").estimate.note, Catch::Contains("Coulomb friction explains the sweep"));
+  check_recovery(sweep, scene);
+}
+
+TEST_CASE("joint: one speed cannot tell alpha, and says so") {
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep({}, {0.01, 0.0105}), {});
+  REQUIRE(sweep.joint);
+  CHECK(sweep.joint->fit.tier == Tier::Damped);
+  CHECK_FALSE(parameter(sweep, "alpha_s_per_m").estimate.value);
+  CHECK_THAT(parameter(sweep, "alpha_s_per_m").estimate.note, Catch::Contains("one speed cannot tell alpha"));
+}
+
+TEST_CASE("joint: recordings with zeros of their own share no level; damping is then conditional") {
+  SweepScene scene;
+  scene.offset_N = 0.3;
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  REQUIRE(sweep.joint);
+  CHECK_FALSE(sweep.joint->level_shared);
+  CHECK(warns(sweep.joint->fit.warnings, "level_differs"));
+  CHECK(parameter(sweep, "damping_ratio").status != ParameterStatus::Identified);
+  const Parameter& stiffness = parameter(sweep, "stiffness_N_per_m");
+  CHECK(std::abs(*stiffness.estimate.value - scene.stiffness_N_per_m) < 4.0 * *stiffness.estimate.standard_error);
+}
+
+TEST_CASE("joint: one recording with cycles is no sweep") {
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep({}, {0.01}), {});
+  CHECK_FALSE(sweep.joint);
+  CHECK_THAT(sweep.joint_reason, Catch::Contains("1 with stick-slip cycles"));
+}

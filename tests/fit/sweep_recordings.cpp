@@ -1,0 +1,74 @@
+#include "sweep_recordings.hpp"
+
+#include <random>
+#include <stdexcept>
+
+#include "model/velocity_track.hpp"
+
+namespace test {
+namespace {
+
+using slipfit::model::VelocityTrack;
+
+double force_scale_N(const SweepScene& s, double speed_m_per_s) {
+  return s.stiffness_N_per_m * speed_m_per_s / s.natural_frequency_rad_per_s;
+}
+
+/// Onset above F_k(0+), scaled: F_s - cV.
+double scaled_onset(const SweepScene& s, double speed_m_per_s, double static_friction_N) {
+  return (static_friction_N - s.kinetic_friction_N()) / force_scale_N(s, speed_m_per_s) - 2.0 * s.damping_ratio;
+}
+
+VelocityTrack slip_of(const SweepScene& s, double speed_m_per_s, double static_friction_N) {
+  const double slope = s.f1_N * s.alpha_s_per_m * s.natural_frequency_rad_per_s / s.stiffness_N_per_m;
+  auto track = VelocityTrack::solve(scaled_onset(s, speed_m_per_s, static_friction_N), s.damping_ratio, slope,
+                                    s.alpha_s_per_m * speed_m_per_s);
+  if (!track || !track->resticks()) throw std::runtime_error("the scene has no stick-slip");
+  return *track;
+}
+
+slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offset_N, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  const double omega = s.natural_frequency_rad_per_s;
+  const double period_s = s.spacing_m(speed_m_per_s) / speed_m_per_s;
+  const double step_s = 3.14159 / omega / s.samples_per_half_period;
+  std::vector<double> time_s;
+  std::vector<double> force_N;
+  double onset_s = 0.4 * period_s;
+  VelocityTrack slip = slip_of(s, speed_m_per_s, s.static_friction_N);
+  double t = 0.0;
+  while (t < s.cycles * period_s) {
+    const double next_N = s.static_friction_N + s.scatter_N * normal(random);
+    const double next_s = onset_s + (scaled_onset(s, speed_m_per_s, next_N) - slip.after().intercept) / omega;
+    for (; t < next_s; t += step_s) {
+      time_s.push_back(t);
+      force_N.push_back(s.kinetic_friction_N() + force_scale_N(s, speed_m_per_s) * slip.at(omega * (t - onset_s)).z +
+                        offset_N + s.noise_N * normal(random));
+    }
+    onset_s = next_s;
+    slip = slip_of(s, speed_m_per_s, next_N);
+  }
+  slipfit::Conditions conditions;
+  conditions.speed_m_per_s = speed_m_per_s;
+  return slipfit::Recording::create(std::move(time_s), std::move(force_N), conditions).value();
+}
+
+}  // namespace
+
+double SweepScene::spacing_m(double speed_m_per_s) const {
+  const VelocityTrack slip = slip_of(*this, speed_m_per_s, static_friction_N);
+  return speed_m_per_s * (scaled_onset(*this, speed_m_per_s, static_friction_N) - slip.after().intercept) /
+         natural_frequency_rad_per_s;
+}
+
+std::vector<slipfit::SweepEntry> record_sweep(const SweepScene& scene, const std::vector<double>& speeds_m_per_s) {
+  std::vector<slipfit::SweepEntry> entries;
+  for (std::size_t i = 0; i < speeds_m_per_s.size(); ++i) {
+    entries.push_back({"v" + std::to_string(i),
+                       record(scene, speeds_m_per_s[i], static_cast<double>(i) * scene.offset_N, scene.seed + i)});
+  }
+  return entries;
+}
+
+}  // namespace test

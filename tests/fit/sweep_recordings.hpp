@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "slipfit/sweep.hpp"
+
+namespace test {
+
+/// A made-up pair of bodies with F_k(v) = f0 + f1 exp(alpha v), and how it is recorded.
+struct SweepScene {
+  double stiffness_N_per_m = 900.0;
+  double natural_frequency_rad_per_s = 150.0;
+  double damping_ratio = 0.06;
+  double static_friction_N = 3.0;
+  double f0_N = 1.6, f1_N = 0.4, alpha_s_per_m = -8.0;
+  double cycles = 20.0;
+  double samples_per_half_period = 25.0;
+  double scatter_N = 0.0;
+  double noise_N = 0.01;
+  double offset_N = 0.0;  ///< of the sensor, different in every recording: recording i reads i times this too much
+  std::uint64_t seed = 1;
+
+  [[nodiscard]] double kinetic_friction_N() const { return f0_N + f1_N; }
+  [[nodiscard]] double spacing_m(double speed_m_per_s) const;
+};
+
+std::vector<slipfit::SweepEntry> record_sweep(const SweepScene& scene, const std::vector<double>& speeds_m_per_s);
+
+}  // namespace test
