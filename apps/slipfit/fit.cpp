@@ -26,8 +26,14 @@ JointArguments joint_arguments(const FitArguments& arguments, const CLI::App& co
     throw Failure(ExitCode::WrongUsage,
                   std::string(option) + " does not go with --joint: the manifest says how each recording was made");
   }
-  return {*arguments.joint,        arguments.group,          arguments.only,
-          arguments.analysis.json, arguments.analysis.quiet, arguments.analysis.out};
+  return {*arguments.joint,
+          arguments.group,
+          arguments.only,
+          arguments.analysis.json,
+          arguments.analysis.quiet,
+          arguments.analysis.out,
+          arguments.analysis.report,
+          arguments.analysis.command_line};
 }
 
 }  // namespace

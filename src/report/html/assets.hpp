@@ -7,6 +7,7 @@ namespace slipfit::assets {
 // Files of src/report/html and of the chart library, embedded by cmake/SlipfitAssets.cmake.
 std::string_view recording_page();
 std::string_view batch_page();
+std::string_view sweep_page();
 std::string_view trace_part();
 std::string_view style();
 std::string_view trace_script();
