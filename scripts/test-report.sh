@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# test-report.sh [SLIPFIT]: opens HTML reports in a headless Chromium. Skips, saying so, where chromium or npm cannot be had.
+# test-report.sh [BUILD]: opens HTML reports in a headless Chromium. Skips, saying so, where chromium or npm cannot be had.
 # Screenshots to look at are left in build/report-test.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,7 +16,8 @@ command -v chromium >/dev/null 2>&1 || skip "no chromium"
 command -v npm >/dev/null 2>&1 || skip "no npm"
 (cd tests/browser && npm ci --silent --no-audit --no-fund) || skip "playwright-core cannot be had"
 
-program=$(realpath "${1:-build/release/apps/slipfit}")
+build=$(realpath "${1:-build/release}")
 shots="$PWD/build/report-test"
 rm -rf "$shots"
-SLIPFIT=$program CHROMIUM=$(command -v chromium) SHOTS=$shots node --test tests/browser/
+SLIPFIT="$build/apps/slipfit" BATCH_PAGE="$build/tests/batch_page" CHROMIUM=$(command -v chromium) SHOTS=$shots \
+  node --test tests/browser/

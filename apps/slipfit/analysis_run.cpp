@@ -74,7 +74,6 @@ std::string content_of(const OutputFile& output, const AnalysisArguments& argume
 }
 
 void write_pictures(const AnalysisArguments& arguments, const std::vector<slipfit::PictureFile>& pictures) {
-  make_folder({"--plots", *arguments.plots});
   for (const slipfit::PictureFile& picture : pictures) {
     write_file({"--plots", (std::filesystem::path(*arguments.plots) / picture.name).string()}, picture.content);
   }
@@ -112,6 +111,7 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
 void run_analysis(const AnalysisArguments& arguments,
                   const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis) {
   check_outputs(outputs_of(arguments), arguments.recording.file);
+  if (arguments.plots) make_folder({"--plots", *arguments.plots});
   const Clock::time_point start = Clock::now();
   const slipfit::Recording recording = read(arguments);
   const double read_s = seconds_since(start);

@@ -1,5 +1,5 @@
 // Opens pages of slipfit in a headless Chromium. Run by scripts/test-report.sh, which sets
-// SLIPFIT (the program), CHROMIUM (the browser), SHOTS (a folder for pages and screenshots).
+// SLIPFIT and BATCH_PAGE (programs of the build), CHROMIUM (the browser), SHOTS (a folder for pages and screenshots).
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";
@@ -159,4 +159,57 @@ test("screenshots: light, dark, narrow, paper", async () => {
     assert.deepEqual(page.faults, []);
     await page.close();
   }
+});
+
+/** A sweep of three speeds, each with its fit document; the file names begin with `prefix`. */
+function sweep(prefix) {
+  return [5, 10, 20].map((speed) => {
+    const name = `${prefix}-${speed}`;
+    const model = ["--stiffness", "5000", "--natural-frequency", "900", "--damping-ratio", "0.05", "--static-friction",
+      "4.2", "--kinetic-friction", "3.2"];
+    slipfit("simulate", ...model, "--speed", `${speed}mm/s`, "--duration", "2", "--sample-rate", "5kHz", "--noise", "0.02",
+      "--jitter", "0.05", "--seed", `${speed}`, "--out", shot(`${name}.csv`));
+    slipfit("fit", shot(`${name}.csv`), "--speed", `${speed}mm/s`, "--json", "--out", shot(`${name}.json`), "--report",
+      shot(`${name}.html`), "--quiet");
+    return { name, speed };
+  });
+}
+
+test("the batch's table sorts, filters and links", async () => {
+  const names = sweep("run").map((run) => run.name);
+  const file = shot("index.html");
+  execFileSync(process.env.BATCH_PAGE, [file, ...names.map((name) => shot(`${name}.json`))]);
+  const page = await open(file, { viewport: { width: 1280, height: 900 } });
+  const firstCells = () => page.locator("#recordings tbody tr:visible td.name").allTextContents();
+  const speed = page.getByRole("button", { name: /^speed/ });
+  await speed.click();
+  await speed.click();
+  assert.deepEqual(await firstCells(), ["run-20", "run-10", "run-5"], "falling speed");
+  await page.getByRole("button", { name: /^frequency/ }).click();
+  assert.deepEqual(await firstCells(), ["run-5", "run-10", "run-20"], "rising frequency, by number and not by text");
+  assert.equal(await page.locator("th[aria-sort]").count(), 1);
+  await page.getByLabel("Search").fill("run-1");
+  assert.deepEqual(await firstCells(), ["run-10"]);
+  assert.equal(await page.locator("#shown").textContent(), "1 of 3");
+  await page.getByLabel("Search").fill("");
+  await page.screenshot({ path: shot("batch.png"), fullPage: true });
+  assert.equal(await page.locator("svg.spark path").count(), 3);
+  assert.equal(await page.locator("#failures th[scope=row]").textContent(), "</script><script>alert(1)</script>");
+  await page.getByRole("link", { name: "run-10" }).click();
+  assert.match(await page.title(), /run-10\.csv$/);
+  assert.deepEqual(page.faults.filter((fault) => !fault.endsWith("/run-10.html")), []);
+  await page.close();
+});
+
+test("the sweep's page draws without script", async () => {
+  const rows = sweep("sweep").map((run) => `${run.name},${run.name}.csv,${run.speed},pair`);
+  fs.writeFileSync(shot("manifest.csv"), `id,file,speed [mm/s],group\n${rows.join("\n")}\n`);
+  slipfit("fit", "--joint", shot("manifest.csv"), "--group", "pair", "--report", shot("sweep.html"), "--quiet");
+  const page = await open(shot("sweep.html"));
+  assert.deepEqual(await page.locator("svg.chart").evaluateAll((all) => all.map((svg) => svg.id)),
+    ["sweep-spacing", "sweep-friction", "sweep-traces"]);
+  assert.equal(await page.locator(".plain-table tbody tr").count(), 3);
+  await page.screenshot({ path: shot("sweep.png"), fullPage: true });
+  assert.deepEqual(page.faults, []);
+  await page.close();
 });

@@ -27,7 +27,7 @@ std::string words_for_status(std::string status) {
 }
 
 std::string summary_of(const std::vector<BatchEntry>& entries, const StatusCounts& counts, std::size_t failures) {
-  std::string sentence = fmt::format("{} recordings", entries.size());
+  std::string sentence = fmt::format("{} {}", entries.size(), entries.size() == 1 ? "recording" : "recordings");
   const char* separator = ": ";
   for (const auto& [status, count] : counts) {
     sentence += fmt::format("{}{} {}", separator, count, words_for_status(status));
