@@ -12,11 +12,11 @@ using Catch::Contains;
 
 namespace {
 
-/// Two seconds of a saw-tooth at 1 kHz: rises for 90 samples, falls in 10.
-slipfit::Recording sawtooth(const std::string& file = "run.csv") {
+/// A saw-tooth at 1 kHz: rises for 90 samples, falls in 10.
+slipfit::Recording sawtooth(const std::string& file = "run.csv", int samples = 2000) {
   std::vector<double> time_s;
   std::vector<double> force;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < samples; ++i) {
     const int phase = i % 100;
     time_s.push_back(0.001 * i);
     force.push_back(1.0 + 0.01 * (phase < 90 ? phase : 9 * (100 - phase)));
@@ -182,5 +182,13 @@ TEST_CASE("recordings that show nothing still give a page, without a number that
       CAPTURE(picture.name);
       CHECK_THAT(picture.content, !Contains("nan") && !Contains("inf,") && !Contains(" inf"));
     }
+  }
+}
+
+TEST_CASE("any number of cycles gives a page (6 cycles once ended the program)") {
+  for (int cycles = 1; cycles <= 12; ++cycles) {
+    CAPTURE(cycles);
+    const slipfit::Recording recording = sawtooth("run.csv", 100 * cycles);
+    CHECK_THAT(section(page_of(recording, fitted(recording)), "trace-section"), Contains("<svg"));
   }
 }

@@ -63,9 +63,8 @@ SampleRange middle_cycles(const Source& source) {
   }
   if (cycles.size() < 3) return {};
   const std::size_t count = std::min(kCyclesClose, cycles.size() - 1);
-  const std::size_t first = (cycles.size() - count) / 2;
-  return samples_between(source.recording, cycles[first - 1]->trough_s,
-                         cycles[std::min(first + count, cycles.size()) - 1]->trough_s);
+  const std::size_t first = (cycles.size() - 1 - count) / 2;
+  return samples_between(source.recording, cycles[first]->trough_s, cycles[first + count]->trough_s);
 }
 
 /// Where slips begin and end by the fit, else the turning points.
