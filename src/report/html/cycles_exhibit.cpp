@@ -12,8 +12,8 @@ namespace {
 
 using chart::Colour, chart::Panel, chart::Point, chart::Stroke;
 
-constexpr std::size_t kMostCycles = 40;
-constexpr std::size_t kColumns = 160;  // of one cycle
+constexpr std::size_t kMostCycles = 30;
+constexpr std::size_t kColumns = 110;  // of one cycle
 constexpr double kBefore = 0.3;        // periods before the slip
 constexpr double kAfter = 0.8;         // periods after it
 constexpr double kSlipBefore = 1.0;    // slip times, close up
