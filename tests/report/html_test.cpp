@@ -115,7 +115,7 @@ TEST_CASE("steady sliding: words in place of cycles, parameters and pattern") {
     CHECK_THAT(section(page, id), !Contains("<svg") && Contains("class=\"absent\""));
   }
   CHECK_THAT(section(page, "parameters"), Contains("this recording shows none") && !Contains("<table"));
-  if (slipfit::has_interactive_trace()) CHECK_FALSE(trace_data_in(page).contains("residual"));
+  if (slipfit::has_interactive_trace()) CHECK_FALSE(trace_data_in(page).contains("residual_levels"));
 }
 
 TEST_CASE("what the fit does not know is said in words, with the reason") {
@@ -139,10 +139,10 @@ TEST_CASE("the packed trace gives every sample back to half a level") {
   if (!slipfit::has_interactive_trace()) return;
   const slipfit::Recording recording = sawtooth();
   const nlohmann::json data = trace_data_in(page_of(recording, fitted(recording)));
-  const std::vector<unsigned char> bytes = decoded(data["force"]["levels"]);
+  const std::vector<unsigned char> bytes = decoded(data["force_levels"]);
   REQUIRE(bytes.size() == 2 * recording.size());
-  const double low = data["force"]["low"];
-  const double step = (data["force"]["high"].get<double>() - low) / 65534.0;
+  const double low = data["force_low"];
+  const double step = (data["force_high"].get<double>() - low) / 65534.0;
   double worst = 0.0;
   for (std::size_t i = 0; i < recording.size(); ++i) {
     const double force = low + step * (bytes[2 * i] + 256.0 * bytes[2 * i + 1]);

@@ -65,14 +65,14 @@ struct Window {
 std::vector<Point> laid(const Source& source, std::span<const double> force, const Anchor& anchor, Window window) {
   const SampleRange range =
       samples_between(source.recording, anchor.time_s - window.before_s, anchor.time_s + window.after_s);
-  const double scale = force_unit_of(source.recording).per_SI;
+  const double scale = source.force_unit.per_SI;
   std::vector<Point> points = envelope(source.recording.time_s().subspan(range.first, range.last - range.first),
                                        force.subspan(range.first, range.last - range.first), kColumns);
   for (Point& point : points) point = {point.x - anchor.time_s, scale * (point.y - anchor.force)};
   return points;
 }
 
-Panel panel_of(const Source& source, const Stack& stack, std::span<const double> fitted, Window window) {
+Panel panel_of(const Source& source, const Stack& stack, Window window) {
   chart::Line measured{"measured cycles", Colour::Grey, Stroke::Solid, {}, 0.6};
   Span time;
   Span height;
@@ -85,7 +85,7 @@ Panel panel_of(const Source& source, const Stack& stack, std::span<const double>
   }
   const DisplayUnit unit = display_unit("s", window.after_s);
   chart::Line model{"fit of a typical cycle", Colour::Vermillion, Stroke::Solid,
-                    laid(source, fitted, stack.typical, window), 2.4};
+                    laid(source, source.fitted, stack.typical, window), 2.4};
   const bool has_model =
       std::any_of(model.points.begin(), model.points.end(), [](const Point& p) { return std::isfinite(p.y); });
   Panel panel;
@@ -99,8 +99,7 @@ Panel panel_of(const Source& source, const Stack& stack, std::span<const double>
   panel.x = {label_with_unit("time since the slip began", unit.unit), -window.before_s * unit.per_SI,
              window.after_s * unit.per_SI, chart::Scale::Linear};
   const char* above = stack.on_kinetic_level ? " above kinetic level" : " above trough";
-  panel.y = height.linear_axis(
-      label_with_unit(force_name_of(source.recording) + above, force_unit_of(source.recording).unit));
+  panel.y = height.linear_axis(label_with_unit(force_name_of(source.recording) + above, source.force_unit.unit));
   return panel;
 }
 
@@ -122,13 +121,12 @@ Exhibit cycles_exhibit(const Source& source) {
     exhibit.absent = "There are too few slips to lay cycles over each other.";
     return exhibit;
   }
-  const std::vector<double> fitted = fitted_force(source.recording, source.analysis);
   chart::Chart chart{"Cycles laid over each other", {}, {}};
-  chart.panels.push_back(panel_of(source, stack, fitted, {kBefore * *cycles.period_s, kAfter * *cycles.period_s}));
+  chart.panels.push_back(panel_of(source, stack, {kBefore * *cycles.period_s, kAfter * *cycles.period_s}));
   const double slip_s = cycles.slip_time_s.value_or(0.0);
   const bool is_resolved = slip_s > 2.0 * source.recording.sample_interval_s();
   if (is_resolved && kSlipAfter * slip_s < kAfter * *cycles.period_s) {
-    chart.panels.push_back(panel_of(source, stack, fitted, {kSlipBefore * slip_s, kSlipAfter * slip_s}));
+    chart.panels.push_back(panel_of(source, stack, {kSlipBefore * slip_s, kSlipAfter * slip_s}));
   }
   exhibit.chart = std::move(chart);
   exhibit.label = fmt::format("{} of {} cycles laid over each other, with the fit of a typical one",

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "chart/chart.hpp"
+#include "report/rounding.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/pipeline.hpp"
@@ -16,7 +17,10 @@ struct Source {
   const Recording& recording;
   const Analysis& analysis;
   const Background& background;
+  DisplayUnit force_unit;      ///< that suits the largest force; no unit for friction coefficients
+  std::vector<double> fitted;  ///< the fit at every sample, not a number where it does not reach
 };
+Source source_of(const Recording& recording, const Analysis& analysis, const Background& background);
 
 /// False for steady sliding: cycles and fit are then those of noise, and no chart shows them.
 bool shows_cycles(const Analysis& analysis);

@@ -26,11 +26,18 @@ constexpr std::array<Replacement, 8> kSymbols{{{"F_s", "F<sub>s</sub>"},
                                                {"lambda", "λ"},
                                                {"alpha", "α"}}};
 
+/// Runs without any of the first characters are copied at once: pages hold megabytes that need no replacement.
 template <std::size_t count>
 std::string replaced(std::string_view content, const std::array<Replacement, count>& replacements) {
+  std::string first_characters;
+  for (const Replacement& replacement : replacements) first_characters += replacement.first.front();
   std::string result;
   result.reserve(content.size());
   while (!content.empty()) {
+    const std::size_t plain = std::min(content.find_first_of(first_characters), content.size());
+    result += content.substr(0, plain);
+    content.remove_prefix(plain);
+    if (content.empty()) break;
     const auto* const found = std::find_if(replacements.begin(), replacements.end(), [content](const Replacement& r) {
       return content.substr(0, r.first.size()) == r.first;
     });

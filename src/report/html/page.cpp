@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cctype>
 
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "report/html/assets.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
+#include "report/html/scaling.hpp"
 #include "report/html/trace_data.hpp"
 #include "report/names.hpp"
 #include "slipfit/report/text.hpp"
@@ -59,6 +61,23 @@ std::string numbers_part(const Source& source) {
 
 }  // namespace
 
+namespace {
+
+std::vector<double> fitted_force(const Recording& recording, const Analysis& analysis) {
+  std::vector<double> fitted(recording.size(), std::numeric_limits<double>::quiet_NaN());
+  if (!analysis.fit) return fitted;
+  for (const CurvePoint& point : analysis.fit->curve) {
+    if (point.sample < fitted.size()) fitted[point.sample] = point.force;
+  }
+  return fitted;
+}
+
+}  // namespace
+
+Source source_of(const Recording& recording, const Analysis& analysis, const Background& background) {
+  return {recording, analysis, background, force_unit_of(recording), fitted_force(recording, analysis)};
+}
+
 bool shows_cycles(const Analysis& analysis) {
   return analysis.verdict != Verdict::SteadySliding;
 }
@@ -85,7 +104,7 @@ bool has_interactive_trace() {
 std::string to_html(const Recording& recording, const Analysis& analysis, const Background& background,
                     const ReportOrigin& origin) {
   using html::text;
-  const html::Source source{recording, analysis, background};
+  const html::Source source = html::source_of(recording, analysis, background);
   const std::string& file = recording.provenance().file;
   const std::string library(assets::dygraphs_script());
   return html::filled(assets::recording_page(),
@@ -103,7 +122,7 @@ std::string to_html(const Recording& recording, const Analysis& analysis, const 
                        {"repeat", html::repeat_part(source, origin)},
                        {"footer", fmt::format("Made by slipfit {}{}.", SLIPFIT_VERSION,
                                               library.empty() ? "" : "; interactive trace by dygraphs (MIT licence)")},
-                       {"trace_data", library.empty() ? std::string() : html::script_json(html::trace_data(source))},
+                       {"trace_data", library.empty() ? std::string() : html::trace_data(source)},
                        {"library_script", library},
                        {"script", library.empty() ? std::string() : std::string(assets::trace_script())}});
 }
@@ -111,7 +130,7 @@ std::string to_html(const Recording& recording, const Analysis& analysis, const 
 std::vector<PictureFile> report_pictures(const Recording& recording, const Analysis& analysis,
                                          const Background& background) {
   std::vector<PictureFile> files;
-  for (const html::Exhibit& exhibit : html::exhibits_of({recording, analysis, background})) {
+  for (const html::Exhibit& exhibit : html::exhibits_of(html::source_of(recording, analysis, background))) {
     if (exhibit.chart) files.push_back({exhibit.id + ".svg", to_svg(*exhibit.chart)});
   }
   return files;

@@ -15,7 +15,7 @@ constexpr std::size_t kMostPairs = 1000;
 /// Peak above F_k and trough relative to it, in the unit of the chart; evenly chosen where they are many.
 std::vector<Point> pairs_of(const Source& source) {
   std::vector<Point> pairs;
-  const double scale = force_unit_of(source.recording).per_SI;
+  const double scale = source.force_unit.per_SI;
   for (const Cycle& cycle : source.analysis.cycle_table) {
     if (!cycle.used || !cycle.level_force) continue;
     pairs.push_back(
@@ -28,7 +28,7 @@ std::vector<Point> pairs_of(const Source& source) {
 }
 
 chart::Panel panel_of(const Source& source, const std::vector<Point>& pairs) {
-  const std::string unit = force_unit_of(source.recording).unit;
+  const std::string unit = source.force_unit.unit;
   const Estimate& reflection = source.background.reflection;
   Span peaks;
   Span troughs;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace slipfit::html {
 namespace {
@@ -89,15 +90,6 @@ std::vector<chart::Point> envelope(std::span<const double> x, std::span<const do
     if (later != earlier) points.push_back({x[later], y[later]});
   }
   return points;
-}
-
-std::vector<double> fitted_force(const Recording& recording, const Analysis& analysis) {
-  std::vector<double> fitted(recording.size(), std::numeric_limits<double>::quiet_NaN());
-  if (!analysis.fit) return fitted;
-  for (const CurvePoint& point : analysis.fit->curve) {
-    if (point.sample < fitted.size()) fitted[point.sample] = point.force;
-  }
-  return fitted;
 }
 
 }  // namespace slipfit::html

@@ -8,7 +8,6 @@
 #include "chart/chart.hpp"
 #include "report/rounding.hpp"
 #include "slipfit/core/recording.hpp"
-#include "slipfit/pipeline.hpp"
 
 namespace slipfit::html {
 
@@ -49,8 +48,5 @@ SampleRange samples_between(const Recording& recording, double begin_s, double e
 /// At most 2 * `columns` points: the lowest and the highest of each column, in order of time; all where they are fewer.
 /// Not finite values are passed over.
 std::vector<chart::Point> envelope(std::span<const double> x, std::span<const double> y, std::size_t columns);
-
-/// The fit at every sample, not a number where it does not reach.
-std::vector<double> fitted_force(const Recording& recording, const Analysis& analysis);
 
 }  // namespace slipfit::html

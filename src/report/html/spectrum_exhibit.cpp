@@ -48,7 +48,7 @@ std::vector<Point> highest_bins(const Spectrum& spectrum, double low_Hz, double 
 }
 
 chart::Panel panel_of(const Source& source, const std::vector<Point>& points) {
-  const DisplayUnit unit = force_unit_of(source.recording);
+  const DisplayUnit unit = source.force_unit;
   const Spectrum& spectrum = source.background.spectrum;
   chart::Panel panel;
   panel.legend_at = chart::LegendAt::Above;
@@ -96,7 +96,7 @@ Exhibit spectrum_exhibit(const Source& source) {
   const double low_Hz =
       std::max(spectrum.bin_Hz, frequency.quoted.value ? *frequency.quoted.value / kBelowFundamental : spectrum.bin_Hz);
   if (spectrum.power.size() > 2) {
-    const std::vector<Point> points = highest_bins(spectrum, low_Hz, force_unit_of(source.recording).per_SI);
+    const std::vector<Point> points = highest_bins(spectrum, low_Hz, source.force_unit.per_SI);
     const bool has_force = std::any_of(points.begin(), points.end(), [](const Point& point) { return point.y > 0.0; });
     if (points.size() > 2 && has_force) exhibit.chart = chart::Chart{"Spectrum", {}, {panel_of(source, points)}};
   }

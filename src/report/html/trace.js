@@ -13,15 +13,16 @@
   const packed = JSON.parse(text);
   const bytesOf = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)).buffer;
   const ticksToSeconds = (tick) => packed.first_s + (tick / kTicks) * (packed.last_s - packed.first_s);
-  const force = unpack(packed.force);
-  const residual = packed.residual ? unpack(packed.residual) : null;
+  const force = unpack("force");
+  const residual = packed.residual_levels ? unpack("residual") : null;
   const count = force.levels.length;
   const ticks = packed.ticks ? new Uint32Array(bytesOf(packed.ticks)) : null;
   const slips = new Uint32Array(bytesOf(packed.slips));  // begin, end, begin, end, ...
   const step = count > 1 ? (packed.last_s - packed.first_s) / (count - 1) : 1;
 
-  function unpack(series) {
-    return { levels: new Uint16Array(bytesOf(series.levels)), low: series.low, scale: (series.high - series.low) / 65534 };
+  function unpack(name) {
+    const low = packed[`${name}_low`];
+    return { levels: new Uint16Array(bytesOf(packed[`${name}_levels`])), low, scale: (packed[`${name}_high`] - low) / 65534 };
   }
   function valueAt(series, i) {
     return series.levels[i] === kMissing ? null : series.low + series.scale * series.levels[i];

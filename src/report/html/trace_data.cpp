@@ -1,5 +1,6 @@
 #include "report/html/trace_data.hpp"
 
+#include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <numeric>
 #include <span>
 
+#include "report/html/markup.hpp"
 #include "report/html/scaling.hpp"
 #include "report/json_values.hpp"
 
@@ -60,7 +62,13 @@ std::vector<std::size_t> chosen_samples(std::span<const double> force) {
   return chosen;
 }
 
-Json series_json(const std::vector<double>& values) {
+/// A member with base64, which needs no escape in JSON, and would take as long as the fit in a JSON library.
+std::string packed_member(const std::string& name, const std::string& base64) {
+  return fmt::format(",\"{}\":\"{}\"", name, base64);
+}
+
+/// The series as `NAME_low`, `NAME_high` and `NAME_levels`.
+std::string series_members(const std::string& name, const std::vector<double>& values) {
   Span span;
   for (const double value : values) span.add(value);
   const double low = span.empty() ? 0.0 : span.low();
@@ -71,7 +79,8 @@ Json series_json(const std::vector<double>& values) {
   for (const double value : values) {
     levels.push_back(std::isfinite(value) ? static_cast<std::uint16_t>(per_unit * (value - low) + 0.5) : kMissing);
   }
-  return Json{{"low", low}, {"high", low + range}, {"levels", packed(levels)}};
+  return fmt::format(",\"{0}_low\":{1},\"{0}_high\":{2}", name, low, low + range) +
+         packed_member(name + "_levels", packed(levels));
 }
 
 /// Times as parts of the recording's duration.
@@ -111,35 +120,33 @@ std::vector<std::uint32_t> slip_ticks(const Analysis& analysis, const Clock& clo
 
 std::string trace_data(const Source& source) {
   const Recording& recording = source.recording;
-  const DisplayUnit unit = force_unit_of(recording);
+  const DisplayUnit& unit = source.force_unit;
   const Clock clock(recording);
   const std::vector<std::size_t> chosen = chosen_samples(recording.force());
   std::vector<double> force;
   force.reserve(chosen.size());
   for (const std::size_t i : chosen) force.push_back(unit.per_SI * recording.force()[i]);
 
-  Json json{{"label", label_with_unit(force_name_of(recording), unit.unit)},
-            {"residual_label", label_with_unit("residual", unit.unit)},
-            {"unit", unit.unit},
-            {"first_s", recording.time_s()[chosen.front()]},
-            {"last_s", recording.time_s()[chosen.back()]},
-            {"force", series_json(force)},
-            {"slips", packed(slip_ticks(source.analysis, clock))}};
+  const Json names{{"label", label_with_unit(force_name_of(recording), unit.unit)},
+                   {"residual_label", label_with_unit("residual", unit.unit)},
+                   {"unit", unit.unit},
+                   {"first_s", recording.time_s().front()},
+                   {"last_s", recording.time_s().back()}};
+  std::string json = script_json(names.dump(-1, ' ', false, Json::error_handler_t::replace));
+  json.pop_back();
+  json += series_members("force", force) + packed_member("slips", packed(slip_ticks(source.analysis, clock)));
   if (!is_even(recording.time_s())) {
     std::vector<std::uint32_t> ticks;
     for (const std::size_t i : chosen) ticks.push_back(clock.tick(recording.time_s()[i]));
-    json["ticks"] = packed(ticks);
-    json["first_s"] = recording.time_s().front();
-    json["last_s"] = recording.time_s().back();
+    json += packed_member("ticks", packed(ticks));
   }
   if (shows_cycles(source.analysis) && source.analysis.fit && !source.analysis.fit->curve.empty()) {
-    const std::vector<double> fitted = fitted_force(recording, source.analysis);
     std::vector<double> residual;
     residual.reserve(chosen.size());
-    for (const std::size_t i : chosen) residual.push_back(unit.per_SI * (recording.force()[i] - fitted[i]));
-    json["residual"] = series_json(residual);
+    for (const std::size_t i : chosen) residual.push_back(unit.per_SI * (recording.force()[i] - source.fitted[i]));
+    json += series_members("residual", residual);
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json + "}";
 }
 
 }  // namespace slipfit::html

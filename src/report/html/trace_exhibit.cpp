@@ -21,8 +21,10 @@ struct Piece {
   std::vector<double> time_s, force, fitted, residual;
 };
 
-Piece cut(const Recording& recording, const std::vector<double>& fitted, SampleRange range) {
-  const double scale = force_unit_of(recording).per_SI;
+Piece cut(const Source& source, SampleRange range) {
+  const Recording& recording = source.recording;
+  const std::vector<double>& fitted = source.fitted;
+  const double scale = source.force_unit.per_SI;
   Piece piece;
   for (std::size_t i = range.first; i < range.last; ++i) {
     piece.time_s.push_back(recording.time_s()[i]);
@@ -69,7 +71,7 @@ SampleRange middle_cycles(const Source& source) {
 
 /// Where slips begin and end by the fit, else the turning points.
 void add_cycle_marks(Panel& panel, const Source& source) {
-  const double scale = force_unit_of(source.recording).per_SI;
+  const double scale = source.force_unit.per_SI;
   chart::Markers begin{"slip begins", Colour::Blue, Shape::Ring, {}};
   chart::Markers end{"slip ends", Colour::Blue, Shape::Cross, {}};
   for (const Cycle& cycle : source.analysis.cycle_table) {
@@ -106,9 +108,8 @@ Panel residual_panel(const Piece& piece, const std::string& unit) {
 
 Exhibit trace_exhibit(const Source& source) {
   const Recording& recording = source.recording;
-  const std::string unit = force_unit_of(recording).unit;
+  const std::string unit = source.force_unit.unit;
   const std::string label = label_with_unit(force_name_of(recording), unit);
-  const std::vector<double> fitted = fitted_force(recording, source.analysis);
   const bool has_fit = shows_cycles(source.analysis) && source.analysis.fit && !source.analysis.fit->curve.empty();
 
   Exhibit exhibit{"trace", has_fit ? "The recording and the fit" : "The recording", {}, {}, {}, {}};
@@ -118,10 +119,10 @@ Exhibit trace_exhibit(const Source& source) {
                              "residual is noise without a shape; a pattern that repeats in every slip is something "
                              "that the model lacks.";
   chart::Chart chart{"Recording and fit", {}, {}};
-  chart.panels.push_back(force_panel(cut(recording, fitted, {0, recording.size()}), label, 1.0));
+  chart.panels.push_back(force_panel(cut(source, {0, recording.size()}), label, 1.0));
   const SampleRange close = shows_cycles(source.analysis) ? middle_cycles(source) : SampleRange{};
   if (close.last > close.first + 2) {
-    const Piece piece = cut(recording, fitted, close);
+    const Piece piece = cut(source, close);
     chart.panels.push_back(close_up(piece, source, label));
     if (has_fit) chart.panels.push_back(residual_panel(piece, unit));
   }
