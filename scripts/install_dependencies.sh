@@ -1,13 +1,18 @@
 #!/usr/bin/env bash
-# install_dependencies.sh [build|test]: what the build (or also the tests, the default) needs on Debian 12.
+# install_dependencies.sh [build|test|browser]: what the build needs on Debian 12, or also the tests (the default), or what
+# scripts/test-report.sh needs.
 # Installs only what is missing, as root or through sudo; says what it installs, and nothing when all is there.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
-  nlohmann-json3-dev libfmt-dev libudunits2-dev)
-if [ "${1:-test}" = test ]; then
-  packages+=(catch2 python3 python3-jsonschema slurm-wlm munge)
-fi
+  nlohmann-json3-dev libfmt-dev libssl-dev libjs-dygraphs libudunits2-dev)
+case "${1:-test}" in
+  test) packages+=(catch2 python3 python3-jsonschema slurm-wlm munge) ;;
+  browser)
+    packages=(chromium)
+    command -v npm >/dev/null 2>&1 || packages+=(nodejs npm)
+    ;;
+esac
 
 if ! command -v dpkg-query >/dev/null 2>&1; then
   echo "install_dependencies.sh: no Debian here; needed, by their Debian names: ${packages[*]}" >&2

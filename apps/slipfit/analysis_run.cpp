@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <vector>
 
 #include "failure.hpp"
 #include "output.hpp"
+#include "slipfit/background.hpp"
+#include "slipfit/io/file_hash.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/report/csv.hpp"
+#include "slipfit/report/html.hpp"
 #include "slipfit/report/json.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -40,6 +44,7 @@ std::vector<OutputFile> outputs_of(const AnalysisArguments& arguments) {
   if (arguments.out) outputs.push_back({"--out", *arguments.out});
   if (arguments.cycles) outputs.push_back({"--cycles", *arguments.cycles});
   if (arguments.curve) outputs.push_back({"--curve", *arguments.curve});
+  if (arguments.report) outputs.push_back({"--report", *arguments.report});
   return outputs;
 }
 
@@ -58,14 +63,34 @@ std::string document(const AnalysisArguments& arguments, const slipfit::Recordin
   return slipfit::to_json(recording, analysis, options) + "\n";
 }
 
+std::string content_of(const OutputFile& output, const AnalysisArguments& arguments,
+                       const slipfit::Recording& recording, const slipfit::Analysis& analysis,
+                       const slipfit::Background& background) {
+  if (output.option == "--cycles") return slipfit::cycles_to_csv(recording, analysis);
+  if (output.option == "--curve") return slipfit::curve_to_csv(recording, analysis);
+  if (output.option != "--report") return document(arguments, recording, analysis);
+  const slipfit::ReportOrigin origin{arguments.command_line, slipfit::sha256_of_file(arguments.recording.file)};
+  return slipfit::to_html(recording, analysis, background, origin);
+}
+
+void write_pictures(const AnalysisArguments& arguments, const std::vector<slipfit::PictureFile>& pictures) {
+  for (const slipfit::PictureFile& picture : pictures) {
+    write_file({"--plots", (std::filesystem::path(*arguments.plots) / picture.name).string()}, picture.content);
+  }
+  if (!arguments.quiet) say(fmt::format("wrote {} pictures to '{}'", pictures.size(), *arguments.plots));
+}
+
 void write_results(const AnalysisArguments& arguments, const slipfit::Recording& recording,
                    const slipfit::Analysis& analysis) {
+  slipfit::Background background;
+  if (arguments.report || arguments.plots) background = slipfit::gather_background(recording, analysis);
   for (const OutputFile& output : outputs_of(arguments)) {
-    const std::string content = output.option == "--cycles"  ? slipfit::cycles_to_csv(recording, analysis)
-                                : output.option == "--curve" ? slipfit::curve_to_csv(recording, analysis)
-                                                             : document(arguments, recording, analysis);
-    write_file(output, content);
+    write_file(output, content_of(output, arguments, recording, analysis, background));
     if (!arguments.quiet) say(fmt::format("wrote '{}'", output.file));
+  }
+  if (arguments.plots) write_pictures(arguments, slipfit::report_pictures(recording, analysis, background));
+  if (arguments.report && !slipfit::has_interactive_trace() && !arguments.quiet) {
+    say("this build has no chart library: the report's trace is a picture (build with libjs-dygraphs)");
   }
   if (!arguments.out) write_standard_output(document(arguments, recording, analysis));
 }
@@ -77,6 +102,8 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
   command.add_flag("--json", arguments.json, "One JSON document in place of the report");
   command.add_option("--out", arguments.out, "Write the report or the JSON document to this file");
   command.add_option("--cycles", arguments.cycles, "Write a table of the cycles (CSV)");
+  command.add_option("--report", arguments.report, "Write a page to look at and to print (HTML, one file)");
+  command.add_option("--plots", arguments.plots, "Write the report's charts into this folder (SVG)");
   command.add_flag("--timing", arguments.timing, "Add the seconds that each stage took");
   command.add_flag("--quiet", arguments.quiet, "No messages on standard error but errors");
 }
@@ -84,6 +111,7 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
 void run_analysis(const AnalysisArguments& arguments,
                   const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis) {
   check_outputs(outputs_of(arguments), arguments.recording.file);
+  if (arguments.plots) make_folder({"--plots", *arguments.plots});
   const Clock::time_point start = Clock::now();
   const slipfit::Recording recording = read(arguments);
   const double read_s = seconds_since(start);

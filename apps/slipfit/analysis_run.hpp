@@ -17,6 +17,9 @@ struct AnalysisArguments {
   std::optional<std::string> out;
   std::optional<std::string> cycles;
   std::optional<std::string> curve;
+  std::optional<std::string> report;  ///< HTML file
+  std::optional<std::string> plots;   ///< folder for SVG files
+  std::string command_line;           ///< as typed, for the report
 };
 
 void add_analysis_options(CLI::App& command, AnalysisArguments& arguments);

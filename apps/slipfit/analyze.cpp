@@ -3,9 +3,10 @@
 #include "analysis_run.hpp"
 #include "commands.hpp"
 
-void add_analyze_command(CLI::App& program) {
+void add_analyze_command(CLI::App& program, const std::string& command_line) {
   CLI::App* const command = program.add_subcommand("analyze", "Frequency, cycles and kind of sliding; no model fit");
   const auto arguments = std::make_shared<AnalysisArguments>();
+  arguments->command_line = command_line;
   add_analysis_options(*command, *arguments);
   command->callback([arguments] { run_analysis(*arguments, slipfit::analyze); });
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 // Each adds one command to the program; the command runs when the arguments name it, and throws Failure where it
 // cannot.
-void add_analyze_command(CLI::App& program);
+// `command_line`: as typed, for who wants to repeat it.
+void add_analyze_command(CLI::App& program, const std::string& command_line);
 void add_batch_command(CLI::App& program);
-void add_fit_command(CLI::App& program);
+void add_fit_command(CLI::App& program, const std::string& command_line);
 void add_figures_command(CLI::App& program);
 void add_simulate_command(CLI::App& program);
 void add_merge_command(CLI::App& program);

@@ -6,11 +6,9 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "commands.hpp"
-#include "failure.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 
@@ -23,21 +21,9 @@ struct FiguresArguments {
   bool quiet = false;
 };
 
-/// Made where it is missing, but not what it stands in: a slip of the pen makes no tree.
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  if (fs::is_directory(folder, error)) return;
-  if (fs::exists(folder, error)) {
-    throw Failure(ExitCode::WrongUsage, fmt::format("--out: '{}' is a file, expected a folder", folder));
-  }
-  fs::create_directory(folder, error);
-  if (!error) return;
-  throw Failure(ExitCode::WrongUsage, fmt::format("--out: cannot make the folder '{}': {}", folder, error.message()));
-}
-
 void run(const FiguresArguments& arguments) {
   const std::string& folder = required(arguments.folder, "--out", "the folder for the figures");
-  make_folder(folder);
+  make_folder({"--out", folder});
   const std::vector<slipfit::FigureFile> files = slipfit::paper_figures();
   for (const slipfit::FigureFile& file : files)
     write_file({"--out", (fs::path(folder) / file.name).string()}, file.content);

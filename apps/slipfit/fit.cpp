@@ -21,21 +21,28 @@ struct FitArguments {
 JointArguments joint_arguments(const FitArguments& arguments, const CLI::App& command) {
   for (const char* option : {"REC", "--speed", "--speed-uncertainty", "--radius", "--normal-force", "--zero",
                              "--force-view", "--time-column", "--force-column", "--time-unit", "--force-unit",
-                             "--sample-rate", "--window", "--cycles", "--curve", "--timing"}) {
+                             "--sample-rate", "--window", "--cycles", "--curve", "--plots", "--timing"}) {
     if (command.count(option) == 0) continue;
     throw Failure(ExitCode::WrongUsage,
                   std::string(option) + " does not go with --joint: the manifest says how each recording was made");
   }
-  return {*arguments.joint,        arguments.group,          arguments.only,
-          arguments.analysis.json, arguments.analysis.quiet, arguments.analysis.out};
+  return {*arguments.joint,
+          arguments.group,
+          arguments.only,
+          arguments.analysis.json,
+          arguments.analysis.quiet,
+          arguments.analysis.out,
+          arguments.analysis.report,
+          arguments.analysis.command_line};
 }
 
 }  // namespace
 
-void add_fit_command(CLI::App& program) {
+void add_fit_command(CLI::App& program, const std::string& command_line) {
   CLI::App* const command =
       program.add_subcommand("fit", "The analysis, then the model fitted to it and what it predicts at this speed");
   const auto arguments = std::make_shared<FitArguments>();
+  arguments->analysis.command_line = command_line;
   add_analysis_options(*command, arguments->analysis);
   command->get_option("REC")->required(false);
   command->add_option("--tier", arguments->tier, "Model: auto, sawtooth, undamped, damped, velocity (joint)")
@@ -54,7 +61,7 @@ void add_fit_command(CLI::App& program) {
       throw Failure(ExitCode::WrongUsage, "--group and --only choose recordings of a manifest: give it with --joint");
     }
     if (arguments->analysis.recording.file.empty()) throw Failure(ExitCode::WrongUsage, "REC is required");
-    options.curve = arguments->analysis.curve.has_value();
+    options.curve = arguments->analysis.curve || arguments->analysis.report || arguments->analysis.plots;
     run_analysis(arguments->analysis, [&options](const slipfit::Recording& recording) {
       return slipfit::analyze_and_fit(recording, options);
     });

@@ -7,8 +7,10 @@
 
 #include "failure.hpp"
 #include "output.hpp"
+#include "slipfit/io/file_hash.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/report/sweep.hpp"
+#include "slipfit/report/sweep_html.hpp"
 
 namespace {
 
@@ -41,11 +43,20 @@ std::string name_of_fit(const JointArguments& arguments) {
   return arguments.group ? *arguments.group : std::filesystem::path(arguments.manifest).stem().string();
 }
 
+slipfit::SweepOrigin origin_of(const JointArguments& arguments, const std::vector<slipfit::SweepEntry>& entries) {
+  slipfit::SweepOrigin origin{name_of_fit(arguments), arguments.command_line, {}};
+  for (const slipfit::SweepEntry& entry : entries) {
+    origin.file_sha256.push_back(slipfit::sha256_of_file(entry.recording.provenance().file));
+  }
+  return origin;
+}
+
 }  // namespace
 
 void run_joint(const JointArguments& arguments, const slipfit::FitOptions& options) {
   std::vector<OutputFile> outputs;
   if (arguments.out) outputs.push_back({"--out", *arguments.out});
+  if (arguments.report) outputs.push_back({"--report", *arguments.report});
   check_outputs(outputs, arguments.manifest);
   const std::vector<slipfit::SweepEntry> entries = read_recordings(read_manifest(arguments));
   const slipfit::SweepAnalysis sweep = slipfit::analyze_sweep(entries, options);
@@ -53,7 +64,10 @@ void run_joint(const JointArguments& arguments, const slipfit::FitOptions& optio
   layout.id = name_of_fit(arguments);
   const std::string document =
       arguments.json ? slipfit::to_json(entries, sweep, layout) + "\n" : slipfit::to_text(entries, sweep, layout.id);
-  if (!arguments.out) return write_standard_output(document);
-  write_file(outputs.front(), document);
-  if (!arguments.quiet) say(fmt::format("wrote '{}'", *arguments.out));
+  for (const OutputFile& output : outputs) {
+    const bool is_report = output.option == "--report";
+    write_file(output, is_report ? to_html(entries, sweep, origin_of(arguments, entries)) : document);
+    if (!arguments.quiet) say(fmt::format("wrote '{}'", output.file));
+  }
+  if (!arguments.out) write_standard_output(document);
 }

@@ -14,6 +14,8 @@ struct JointArguments {
   bool json = false;
   bool quiet = false;
   std::optional<std::string> out;
+  std::optional<std::string> report;
+  std::string command_line;  ///< as typed, for the report
 };
 
 /// Reads the recordings, fits them together, writes the result. Throws Failure.

@@ -77,6 +77,19 @@ void check_outputs(const std::vector<OutputFile>& outputs, const std::string& in
   }
 }
 
+void make_folder(const OutputFile& folder) {
+  std::error_code error;
+  if (fs::is_directory(folder.file, error)) return;
+  if (fs::exists(folder.file, error)) {
+    throw Failure(ExitCode::WrongUsage,
+                  fmt::format("{}: '{}' is a file, expected a folder", folder.option, folder.file));
+  }
+  fs::create_directory(folder.file, error);
+  if (!error) return;
+  throw Failure(ExitCode::WrongUsage,
+                fmt::format("{}: cannot make the folder '{}': {}", folder.option, folder.file, error.message()));
+}
+
 void write_file(const OutputFile& output, const std::string& content) {
   std::error_code error;
   const fs::path target = fs::exists(output.file, error) ? fs::canonical(output.file, error) : fs::path(output.file);

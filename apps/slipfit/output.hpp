@@ -14,6 +14,9 @@ struct OutputFile {
 /// folder.
 void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input);
 
+/// Made where it is missing, but not what it stands in: a slip of the pen makes no tree. Throws Failure(WrongUsage).
+void make_folder(const OutputFile& folder);
+
 /// Through a temporary file beside it and a rename: readers see the old content or the new, never a part.
 /// What is no regular file (a pipe, /dev/stdout) is written directly.
 void write_file(const OutputFile& output, const std::string& content);

@@ -12,8 +12,10 @@ namespace slipfit::chart {
 enum class Colour { Black, Orange, SkyBlue, Green, Yellow, Blue, Vermillion, Purple, Grey };
 enum class Stroke { Solid, Dashed, Dotted, DashDotted };
 enum class Fill { Plain, Hatched };
-enum class Shape { Dot, Ring, Triangle, Cross };
+enum class Shape { Dot, Speck, Ring, Triangle, Cross };
 enum class Scale { Linear, Logarithmic };
+/// Colours as they are, or as the variables --chart-black, --chart-blue, ... and --chart-paper of a page's style sheet.
+enum class Palette { File, Page };
 
 /// Not finite: a gap in a line.
 struct Point {
@@ -27,6 +29,7 @@ struct Line {
   Colour colour = Colour::Black;
   Stroke stroke = Stroke::Solid;
   std::vector<Point> points;
+  double width_px = 2.0;
 };
 
 struct Area {
@@ -54,7 +57,7 @@ struct Note {
 };
 
 struct Axis {
-  std::string label;  ///< with its unit
+  std::string label;  ///< with its unit; empty: an axis without values
   double low = 0.0;
   double high = 1.0;
   Scale scale = Scale::Linear;
@@ -66,6 +69,9 @@ struct Place {
   double up = 1.0;
 };
 
+/// Inside the axes at `Panel::legend`, or in rows above them.
+enum class LegendAt { Inside, Above };
+
 struct Panel {
   Axis x;
   Axis y;
@@ -75,6 +81,7 @@ struct Panel {
   std::vector<Line> lines;
   std::vector<Markers> markers;
   std::vector<Note> notes;
+  LegendAt legend_at = LegendAt::Inside;
 };
 
 /// Panels from top to bottom, about 700 px wide.
@@ -84,6 +91,17 @@ struct Chart {
   std::vector<Panel> panels;
 };
 
+/// A file of its own.
 std::string to_svg(const Chart& chart);
+
+/// How a page names a picture: `id` of its own on the page (letters, digits, '-'), `label` for who cannot see it.
+struct PagePlace {
+  std::string id;
+  std::string label;
+};
+
+/// An element <svg class="chart"> of a page, without title and remarks, as wide as its surroundings. Colours, grid and
+/// letters come from the page's style sheet (classes grid, axes, legend, label, value, note).
+std::string to_page_svg(const Chart& chart, const PagePlace& place);
 
 }  // namespace slipfit::chart

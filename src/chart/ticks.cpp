@@ -27,13 +27,19 @@ std::vector<Tick> linear_ticks(const Axis& axis) {
   return ticks;
 }
 
+/// Decades carry values; on a short axis 2 and 5 of each decade too, on a very short one every part.
+bool carries_value(const Axis& axis, int part) {
+  const double decades = std::log10(axis.high / axis.low);
+  return part == 1 || decades < 0.7 || (decades < 2.0 && (part == 2 || part == 5));
+}
+
 std::vector<Tick> logarithmic_ticks(const Axis& axis) {
   std::vector<Tick> ticks;
   for (double decade = std::floor(std::log10(axis.low) + kSlack); std::pow(10.0, decade) <= axis.high; ++decade) {
     for (int part = 1; part < 10; ++part) {
       const double value = part * std::pow(10.0, decade);
       if (value < axis.low * (1.0 - kSlack) || value > axis.high * (1.0 + kSlack)) continue;
-      ticks.push_back({value, part == 1 ? fmt::format("{:.6g}", value) : std::string()});
+      ticks.push_back({value, carries_value(axis, part) ? fmt::format("{:.6g}", value) : std::string()});
     }
   }
   return ticks;

@@ -46,13 +46,6 @@ ParameterName words_for(const Parameter& parameter) {
   return {parameter.name, parameter.name, ""};
 }
 
-/// A bounded parameter's middle is no estimate: people see the interval alone.
-std::string shown_value(const Parameter& parameter, const EstimateRow& row) {
-  const bool has_value =
-      parameter.status != ParameterStatus::Bounded && parameter.status != ParameterStatus::Unidentified;
-  return has_value ? row.value : "-";
-}
-
 /// Each note once, behind the names of the parameters that it is about.
 std::string notes_text(const std::vector<Parameter>& parameters) {
   std::string text;
@@ -99,14 +92,26 @@ std::string conditions_text(const std::vector<std::string>& conditional_on) {
 
 }  // namespace
 
+std::vector<ShownParameter> shown_parameters(const FitResult& fit) {
+  std::vector<ShownParameter> shown;
+  for (const Parameter& parameter : fit.parameters) {
+    const ParameterName name = words_for(parameter);
+    EstimateRow row = estimate_row(parameter.estimate, std::string(name.unit));
+    const bool has_value =
+        parameter.status != ParameterStatus::Bounded && parameter.status != ParameterStatus::Unidentified;
+    if (!has_value) row.value = "-";
+    shown.push_back(
+        {one_line(name.words), row, std::string(name_of(parameter.status)), one_line(parameter.estimate.note)});
+  }
+  return shown;
+}
+
 std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const std::string& caution) {
   Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
   table.add({"", "value", "unit", "95 % interval", "status"});
-  for (const Parameter& parameter : fit.parameters) {
-    const ParameterName name = words_for(parameter);
-    const EstimateRow row = estimate_row(parameter.estimate, std::string(name.unit));
-    table.add({one_line(name.words), shown_value(parameter, row), row.unit, row.interval,
-               std::string(name_of(parameter.status))});
+  for (const ShownParameter& parameter : shown_parameters(fit)) {
+    const EstimateRow& numbers = parameter.numbers;
+    table.add({parameter.words, numbers.value, numbers.unit, numbers.interval, parameter.status});
   }
   return fmt::format("\nParameters{}\n", caution) + table.text() + notes_text(fit.parameters) +
          residual_text(fit, quantity) + candidates_text(fit, quantity) + conditions_text(fit.conditional_on);

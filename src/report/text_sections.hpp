@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "slipfit/pipeline.hpp"
 
@@ -25,6 +26,15 @@ struct EstimateRow {
   std::string unit;
 };
 EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit);
+
+/// A parameter as people see it: a bounded one's middle is no estimate, they see the interval alone.
+struct ShownParameter {
+  std::string words;
+  EstimateRow numbers;
+  std::string status;
+  std::string note;
+};
+std::vector<ShownParameter> shown_parameters(const FitResult& fit);
 
 /// "1.234 mm": a number without an error.
 std::string quantity_text(std::optional<double> value, const std::string& SI_unit);

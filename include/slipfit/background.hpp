@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "slipfit/pipeline.hpp"
+#include "slipfit/predict/prediction.hpp"
+
+namespace slipfit {
+
+/// A point of the limit of stick-slip from rest, docs/model.md (6).
+struct LimitPoint {
+  double damping_ratio = 0.0;
+  double lambda = 0.0;
+};
+
+/// What a report draws behind the measured points.
+struct Background {
+  Spectrum spectrum;
+  std::optional<Prediction> prediction;  ///< over speed, ascending; empty: the fit gives no model to predict from
+  std::vector<LimitPoint> limit;         ///< by damping ratio, from 0.001 to just below 1
+  Estimate reflection;                   ///< trough below F_k over peak above F_k, exp(-pi zeta / sqrt(1 - zeta^2))
+};
+
+/// Beside the analysis, not in it: only reports need it (about a tenth of a fit's time).
+Background gather_background(const Recording& recording, const Analysis& analysis);
+
+}  // namespace slipfit

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "slipfit/sweep.hpp"
+
+namespace slipfit {
+
+/// What a reader needs to repeat a joint fit.
+struct SweepOrigin {
+  std::string name;                                     ///< of the group or the manifest
+  std::string command_line;                             ///< as typed; empty: not by command line
+  std::vector<std::optional<std::string>> file_sha256;  ///< of each recording's file, in the order of the entries
+};
+
+/// One self-contained page of a speed sweep: shared parameters, spacing and friction over speed, what a fit without
+/// each recording predicts for it, and every trace. Text from outside stays text.
+std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const SweepOrigin& origin);
+
+}  // namespace slipfit

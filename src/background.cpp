@@ -1,0 +1,77 @@
+#include "slipfit/background.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "slipfit/model/motion.hpp"
+
+namespace slipfit {
+namespace {
+
+constexpr double kSmallestZeta = 1e-3;
+constexpr double kLargestZeta = 0.995;  // lambda_c has no end towards 1
+constexpr int kLimitPoints = 80;
+constexpr int kSpeeds = 80;
+constexpr double kSpeedReach = 20.0;  // below the measured speed, and above where stick-slip has no known end
+constexpr double kBeyondCritical = 2.0;
+
+std::vector<double> in_equal_ratios(double low, double high, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(low * std::pow(high / low, i / (count - 1.0)));
+  return values;
+}
+
+/// Around the measured speed, and past the critical one where it is near enough to be drawn; the last speed with
+/// stick-slip is among them, so that curves reach their end.
+std::vector<double> speeds_around(double speed_m_per_s, const Estimate& critical_speed_m_per_s) {
+  double high = kSpeedReach * speed_m_per_s;
+  const double critical = critical_speed_m_per_s.value.value_or(0.0);
+  const bool is_near = critical > 0.0 && critical < kSpeedReach * kSpeedReach * speed_m_per_s;
+  if (is_near) high = std::max(kBeyondCritical * critical, kBeyondCritical * speed_m_per_s);
+  const double low = std::min(speed_m_per_s, is_near ? critical : speed_m_per_s) / kSpeedReach;
+  std::vector<double> speeds = in_equal_ratios(low, high, kSpeeds);
+  if (is_near) speeds.push_back(critical * (1.0 - 1e-9));
+  std::sort(speeds.begin(), speeds.end());
+  return speeds;
+}
+
+/// Half a damped period lies between peak and trough, docs/model.md (2).
+double reflection_at(double zeta) {
+  return std::exp(-std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta));
+}
+
+Estimate reflection_of(const FitResult& fit) {
+  Estimate reflection;
+  for (const Parameter& parameter : fit.parameters) {
+    const Estimate& zeta = parameter.estimate;
+    if (parameter.name != "damping_ratio") continue;
+    reflection.note = zeta.note;
+    if (!zeta.value || parameter.status == ParameterStatus::Bounded) continue;
+    reflection.value = reflection_at(*zeta.value);
+    if (zeta.ci95 && zeta.ci95->low >= 0.0 && zeta.ci95->high < 1.0) {
+      reflection.ci95 = Interval{reflection_at(zeta.ci95->high), reflection_at(zeta.ci95->low)};
+    }
+  }
+  return reflection;
+}
+
+}  // namespace
+
+Background gather_background(const Recording& recording, const Analysis& analysis) {
+  Background background;
+  background.spectrum = compute_spectrum(recording, analysis.quality.impulse_mask);
+  for (const double zeta : in_equal_ratios(kSmallestZeta, kLargestZeta, kLimitPoints)) {
+    background.limit.push_back({zeta, critical_lambda(zeta)});
+  }
+  if (analysis.fit) background.reflection = reflection_of(*analysis.fit);
+  if (analysis.fit && analysis.fit->estimate) {
+    const PredictionModel model{*analysis.fit->estimate, true, std::nullopt};
+    const std::vector<double> speeds =
+        speeds_around(recording.conditions().speed_m_per_s, analysis.derived.critical_speed_m_per_s);
+    background.prediction = predict_at(model, speeds);
+  }
+  return background;
+}
+
+}  // namespace slipfit

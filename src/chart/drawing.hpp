@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+#include "chart/chart.hpp"
+
+namespace slipfit::chart {
+
+/// SVG elements, one after the other, in the colours of the place where the picture stands.
+class Drawing {
+ public:
+  explicit Drawing(Palette palette) : palette_(palette) {}
+
+  /// `more`: further attributes, each with a blank before it.
+  void text(double x, double y, const std::string& content, const char* css_class, const std::string& more = {});
+  void line(double x1, double y1, double x2, double y2, const std::string& style);
+  void box(double x, double y, double width, double height, const std::string& style);
+  void path(const std::string& data, const std::string& style);
+  void marker(double x, double y, Colour colour, Shape shape);
+  void raw(const std::string& element) { svg_ += element; }
+
+  [[nodiscard]] const std::string& svg() const { return svg_; }
+  [[nodiscard]] std::string name_of(Colour colour) const;
+  [[nodiscard]] std::string stroke_style(const Line& line) const;
+  /// `id`: of the picture, before the names of its patterns.
+  [[nodiscard]] std::string area_style(const Area& area, const std::string& id) const;
+  /// The patterns that hatched areas name.
+  [[nodiscard]] std::string hatches(const std::string& id) const;
+
+ private:
+  Palette palette_;
+  std::string svg_;
+};
+
+/// Text from outside must stay text.
+std::string escaped(const std::string& text);
+
+/// Letters of a UTF-8 text, for the room that it takes.
+double letters_in(const std::string& text);
+
+}  // namespace slipfit::chart

@@ -1,0 +1,94 @@
+#include "chart/legend.hpp"
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+namespace slipfit::chart {
+namespace {
+
+// Pixels.
+constexpr double kLineHeight = 18.0;
+constexpr double kCharacter = 6.6;  // mean width of a letter at 12 px
+constexpr double kSample = 26.0;    // length of a line in the legend
+constexpr double kGap = 22.0;       // between two entries in a row
+
+struct Entry {
+  std::string name;
+  std::variant<const Line*, const Markers*, const Area*> what;
+
+  [[nodiscard]] double width() const { return kSample + kGap + kCharacter * letters_in(name); }
+};
+
+std::vector<Entry> entries_of(const Panel& panel) {
+  std::vector<Entry> entries;
+  for (const Line& line : panel.lines) entries.push_back({line.name, &line});
+  for (const Markers& markers : panel.markers) entries.push_back({markers.name, &markers});
+  for (const Area& area : panel.areas) entries.push_back({area.name, &area});
+  entries.erase(std::remove_if(entries.begin(), entries.end(), [](const Entry& entry) { return entry.name.empty(); }),
+                entries.end());
+  return entries;
+}
+
+struct Spot {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+/// `spot`: left end of the sample, middle of the row.
+void draw_entry(Drawing& drawing, const Entry& entry, Spot spot, const std::string& id) {
+  drawing.text(spot.x + kSample + 7.0, spot.y + 4.0, entry.name, "value");
+  if (const auto* line = std::get_if<const Line*>(&entry.what)) {
+    drawing.line(spot.x, spot.y, spot.x + kSample, spot.y, drawing.stroke_style(**line));
+  } else if (const auto* markers = std::get_if<const Markers*>(&entry.what)) {
+    drawing.marker(spot.x + 0.5 * kSample, spot.y, (*markers)->colour, (*markers)->shape);
+  } else if (const auto* area = std::get_if<const Area*>(&entry.what)) {
+    drawing.box(spot.x, spot.y - 6.0, kSample, 12.0, drawing.area_style(**area, id));
+  }
+}
+
+/// Where each entry of a legend above the axes stands, from the upper left corner; further rows where one is full.
+std::vector<Spot> rows_of(const std::vector<Entry>& entries, double width_px) {
+  std::vector<Spot> spots;
+  Spot next;
+  for (const Entry& entry : entries) {
+    if (next.x > 0.0 && next.x + entry.width() - kGap > width_px) next = {0.0, next.y + kLineHeight};
+    spots.push_back(next);
+    next.x += entry.width();
+  }
+  return spots;
+}
+
+void draw_box(Drawing& drawing, const Panel& panel, const Frame& frame, const std::vector<Entry>& entries,
+              const std::string& id) {
+  double longest = 0.0;
+  for (const Entry& entry : entries) longest = std::max(longest, letters_in(entry.name));
+  const double width = kSample + 22.0 + kCharacter * longest;
+  const double height = 10.0 + kLineHeight * static_cast<double>(entries.size());
+  const double left = frame.left + 8.0 + panel.legend.right * (frame.width - 16.0 - width);
+  double y = frame.top + 8.0 + (1.0 - panel.legend.up) * (frame.height - 16.0 - height);
+  drawing.box(left, y, width, height, "class=\"legend\"");
+  y += 5.0 - 0.5 * kLineHeight;
+  for (const Entry& entry : entries) draw_entry(drawing, entry, {left + 7.0, y += kLineHeight}, id);
+}
+
+}  // namespace
+
+double legend_height_px(const Panel& panel, double width_px) {
+  const std::vector<Entry> entries = entries_of(panel);
+  if (panel.legend_at == LegendAt::Inside || entries.empty()) return 0.0;
+  return rows_of(entries, width_px).back().y + kLineHeight + 6.0;
+}
+
+void draw_legend(Drawing& drawing, const Panel& panel, const Frame& frame, const std::string& id) {
+  const std::vector<Entry> entries = entries_of(panel);
+  if (entries.empty()) return;
+  if (panel.legend_at == LegendAt::Inside) return draw_box(drawing, panel, frame, entries, id);
+  const double top = frame.top - legend_height_px(panel, frame.width) + 0.5 * kLineHeight;
+  const std::vector<Spot> spots = rows_of(entries, frame.width);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    draw_entry(drawing, entries[i], {frame.left + spots[i].x, top + spots[i].y}, id);
+  }
+}
+
+}  // namespace slipfit::chart

@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "report/html/exhibit.hpp"
+#include "report/html/scaling.hpp"
+
+namespace slipfit::html {
+namespace {
+
+using chart::Colour, chart::Panel, chart::Point, chart::Stroke;
+
+constexpr std::size_t kMostCycles = 30;
+constexpr std::size_t kColumns = 110;  // of one cycle
+constexpr double kBefore = 0.3;        // periods before the slip
+constexpr double kAfter = 0.8;         // periods after it
+constexpr double kSlipBefore = 1.0;    // slip times, close up
+constexpr double kSlipAfter = 2.5;
+
+/// What each cycle is laid on: the onset and F_k by the fit, else the turning points.
+struct Anchor {
+  double time_s = 0.0;
+  double force = 0.0;
+  double height = 0.0;  ///< of the peak above it, for the typical cycle
+};
+
+Anchor anchor_of(const Cycle& cycle) {
+  const double force = cycle.level_force.value_or(cycle.trough_force);
+  return {cycle.onset_s.value_or(cycle.peak_s), force, cycle.onset_force.value_or(cycle.peak_force) - force};
+}
+
+struct Stack {
+  std::vector<Anchor> anchors;  ///< evenly chosen
+  Anchor typical;               ///< of median height
+  bool on_kinetic_level = false;
+};
+
+Stack stack_of(const Analysis& analysis) {
+  Stack stack;
+  std::vector<Anchor> all;
+  const bool is_fitted = analysis.cycles.used > 0;
+  for (const Cycle& cycle : analysis.cycle_table) {
+    if (!is_fitted || (cycle.used && cycle.level_force)) all.push_back(anchor_of(cycle));
+  }
+  if (all.empty()) return stack;
+  stack.on_kinetic_level = is_fitted;
+  const std::size_t count = std::min(kMostCycles, all.size());
+  for (std::size_t i = 0; i < count; ++i) stack.anchors.push_back(all[i * all.size() / count]);
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end(),
+                   [](const Anchor& a, const Anchor& b) { return a.height < b.height; });
+  stack.typical = *middle;
+  return stack;
+}
+
+/// Seconds around the slip.
+struct Window {
+  double before_s = 0.0;
+  double after_s = 0.0;
+};
+
+/// One cycle of `force`, laid on its anchor.
+std::vector<Point> laid(const Source& source, std::span<const double> force, const Anchor& anchor, Window window) {
+  const SampleRange range =
+      samples_between(source.recording, anchor.time_s - window.before_s, anchor.time_s + window.after_s);
+  const double scale = source.force_unit.per_SI;
+  std::vector<Point> points = envelope(source.recording.time_s().subspan(range.first, range.last - range.first),
+                                       force.subspan(range.first, range.last - range.first), kColumns);
+  for (Point& point : points) point = {point.x - anchor.time_s, scale * (point.y - anchor.force)};
+  return points;
+}
+
+Panel panel_of(const Source& source, const Stack& stack, Window window) {
+  chart::Line measured{"measured cycles", Colour::Grey, Stroke::Solid, {}, 0.6};
+  Span time;
+  Span height;
+  for (const Anchor& anchor : stack.anchors) {
+    for (const Point& point : laid(source, source.recording.force(), anchor, window)) {
+      measured.points.push_back(point);
+      height.add(point.y);
+    }
+    measured.points.push_back({0.0, std::numeric_limits<double>::quiet_NaN()});
+  }
+  const DisplayUnit unit = display_unit("s", window.after_s);
+  chart::Line model{"fit of a typical cycle", Colour::Vermillion, Stroke::Solid,
+                    laid(source, source.fitted, stack.typical, window), 2.4};
+  const bool has_model =
+      std::any_of(model.points.begin(), model.points.end(), [](const Point& p) { return std::isfinite(p.y); });
+  Panel panel;
+  panel.height_px = 240.0;
+  panel.legend_at = chart::LegendAt::Above;
+  panel.lines.push_back(std::move(measured));
+  if (has_model) panel.lines.push_back(std::move(model));
+  for (chart::Line& line : panel.lines) {
+    for (Point& point : line.points) point.x *= unit.per_SI;
+  }
+  panel.x = {label_with_unit("time since the slip began", unit.unit), -window.before_s * unit.per_SI,
+             window.after_s * unit.per_SI, chart::Scale::Linear};
+  const char* above = stack.on_kinetic_level ? " above kinetic level" : " above trough";
+  panel.y = height.linear_axis(label_with_unit(force_name_of(source.recording) + above, source.force_unit.unit));
+  return panel;
+}
+
+}  // namespace
+
+Exhibit cycles_exhibit(const Source& source) {
+  Exhibit exhibit{"cycles", "Cycles laid over each other", {}, {}, {}, {}};
+  exhibit.guide =
+      "Every cycle moved so that its slip begins at time zero and its kinetic friction lies at zero force. A tight "
+      "bundle means cycles alike; the spread at the top is the scatter of static friction. Above: whole cycles; below: "
+      "the slip close up, where natural frequency and damping show.";
+  if (!shows_cycles(source.analysis)) {
+    exhibit.absent = "Steady sliding has no cycles.";
+    return exhibit;
+  }
+  const Stack stack = stack_of(source.analysis);
+  const CycleStatistics& cycles = source.analysis.cycles;
+  if (stack.anchors.empty() || !cycles.period_s) {
+    exhibit.absent = "There are too few slips to lay cycles over each other.";
+    return exhibit;
+  }
+  chart::Chart chart{"Cycles laid over each other", {}, {}};
+  chart.panels.push_back(panel_of(source, stack, {kBefore * *cycles.period_s, kAfter * *cycles.period_s}));
+  const double slip_s = cycles.slip_time_s.value_or(0.0);
+  const bool is_resolved = slip_s > 2.0 * source.recording.sample_interval_s();
+  if (is_resolved && kSlipAfter * slip_s < kAfter * *cycles.period_s) {
+    chart.panels.push_back(panel_of(source, stack, {kSlipBefore * slip_s, kSlipAfter * slip_s}));
+  }
+  exhibit.chart = std::move(chart);
+  exhibit.label = fmt::format("{} of {} cycles laid over each other, with the fit of a typical one",
+                              stack.anchors.size(), cycles.count);
+  return exhibit;
+}
+
+}  // namespace slipfit::html

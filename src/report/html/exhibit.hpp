@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "chart/chart.hpp"
+#include "report/rounding.hpp"
+#include "slipfit/background.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit::html {
+
+/// What a report of one recording is made of.
+struct Source {
+  const Recording& recording;
+  const Analysis& analysis;
+  const Background& background;
+  DisplayUnit force_unit;      ///< that suits the largest force; no unit for friction coefficients
+  std::vector<double> fitted;  ///< the fit at every sample, not a number where it does not reach
+};
+Source source_of(const Recording& recording, const Analysis& analysis, const Background& background);
+
+/// False for steady sliding: cycles and fit are then those of noise, and no chart shows them.
+bool shows_cycles(const Analysis& analysis);
+
+/// One chart with its words, or the reason why there is none.
+struct Exhibit {
+  std::string id;     ///< letters and '-': on the page, and the file's name
+  std::string title;  ///< a few words
+  std::string guide;  ///< how to read it, plain text
+  std::string label;  ///< what there is to see, in words, for who cannot see it
+  std::optional<chart::Chart> chart;
+  std::string absent;  ///< a sentence, where there is no chart
+};
+
+Exhibit trace_exhibit(const Source& source);
+Exhibit spectrum_exhibit(const Source& source);
+Exhibit cycles_exhibit(const Source& source);
+Exhibit pairs_exhibit(const Source& source);
+Exhibit map_exhibit(const Source& source);
+Exhibit speed_exhibit(const Source& source);
+Exhibit pattern_exhibit(const Source& source);
+
+/// All of them, in the order of the page.
+std::vector<Exhibit> exhibits_of(const Source& source);
+
+}  // namespace slipfit::html

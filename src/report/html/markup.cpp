@@ -1,0 +1,90 @@
+#include "report/html/markup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "slipfit/report/text.hpp"
+
+namespace slipfit::html {
+namespace {
+
+using Replacement = std::pair<std::string_view, std::string_view>;
+
+constexpr std::array<Replacement, 5> kMarkup{
+    {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}}};
+constexpr std::array<Replacement, 5> kScript{
+    {{"<", "\\u003c"}, {">", "\\u003e"}, {"&", "\\u0026"}, {"\xE2\x80\xA8", "\\u2028"}, {"\xE2\x80\xA9", "\\u2029"}}};
+
+constexpr std::array<Replacement, 8> kSymbols{{{"F_s", "F<sub>s</sub>"},
+                                               {"F_k", "F<sub>k</sub>"},
+                                               {"w_n^2", "ω<sub>n</sub><sup>2</sup>"},
+                                               {"w_n", "ω<sub>n</sub>"},
+                                               {"zeta^2", "ζ<sup>2</sup>"},
+                                               {"zeta", "ζ"},
+                                               {"lambda", "λ"},
+                                               {"alpha", "α"}}};
+
+/// Runs without any of the first characters are copied at once: pages hold megabytes that need no replacement.
+template <std::size_t count>
+std::string replaced(std::string_view content, const std::array<Replacement, count>& replacements) {
+  std::string first_characters;
+  for (const Replacement& replacement : replacements) first_characters += replacement.first.front();
+  std::string result;
+  result.reserve(content.size());
+  while (!content.empty()) {
+    const std::size_t plain = std::min(content.find_first_of(first_characters), content.size());
+    result += content.substr(0, plain);
+    content.remove_prefix(plain);
+    if (content.empty()) break;
+    const auto* const found = std::find_if(replacements.begin(), replacements.end(), [content](const Replacement& r) {
+      return content.substr(0, r.first.size()) == r.first;
+    });
+    const bool is_plain = found == replacements.end();
+    result += is_plain ? content.substr(0, 1) : found->second;
+    content.remove_prefix(is_plain ? 1 : found->first.size());
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string text(std::string_view content) {
+  return replaced(one_line(content), kMarkup);
+}
+
+std::string formula_text(std::string_view content) {
+  return replaced(text(content), kSymbols);
+}
+
+std::string script_json(std::string_view json) {
+  return replaced(json, kScript);
+}
+
+std::string filled(std::string_view page, const std::vector<std::pair<std::string, std::string>>& values) {
+  std::string result;
+  while (true) {
+    const std::size_t open = page.find("{{");
+    const std::size_t close = page.find("}}", open == std::string_view::npos ? open : open + 2);
+    if (close == std::string_view::npos) return result += page;
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    const auto found = std::find_if(values.begin(), values.end(), [name](const auto& v) { return v.first == name; });
+    result += page.substr(0, open);
+    result += found == values.end() ? page.substr(open, close + 2 - open) : std::string_view(found->second);
+    page.remove_prefix(close + 2);
+  }
+}
+
+std::string fact(std::string_view term, std::string_view content) {
+  return fmt::format("<dt>{}</dt><dd>{}</dd>\n", text(term), text(content));
+}
+
+std::string list(const std::vector<std::string>& items) {
+  if (items.empty()) return {};
+  std::string lines;
+  for (const std::string& item : items) lines += "<li>" + item + "</li>\n";
+  return "<ul class=\"plain\">\n" + lines + "</ul>\n";
+}
+
+}  // namespace slipfit::html

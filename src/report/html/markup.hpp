@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace slipfit::html {
+
+/// Text as text: & < > " ' escaped, control characters as '?'. For content and for attributes in double quotes.
+std::string text(std::string_view content);
+
+/// The same with the symbols of our own sentences as people write them: F_s, F_k, w_n, zeta, lambda.
+std::string formula_text(std::string_view content);
+
+/// A template with {{name}} replaced by the value of that name, as it stands; inserted text is not searched again.
+/// A name without a value stays.
+std::string filled(std::string_view page, const std::vector<std::pair<std::string, std::string>>& values);
+
+/// JSON for an element <script>: < > & and the line separators U+2028 and U+2029 as \u escapes.
+std::string script_json(std::string_view json);
+
+/// <dt>term</dt><dd>text</dd>
+std::string fact(std::string_view term, std::string_view content);
+
+/// <ul> of items that are HTML already; empty text where there are none.
+std::string list(const std::vector<std::string>& items);
+
+}  // namespace slipfit::html

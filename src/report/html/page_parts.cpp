@@ -1,0 +1,211 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <vector>
+
+#include "report/html/markup.hpp"
+#include "report/html/page.hpp"
+#include "report/html/scaling.hpp"
+#include "report/names.hpp"
+#include "report/text_sections.hpp"
+
+namespace slipfit::html {
+namespace {
+
+/// What a status means to who has not read the documentation.
+std::string words_for_status(const std::string& status) {
+  if (status == "identified") return "the data fix it";
+  if (status == "weak") return "an estimate, not to rely on alone";
+  if (status == "bounded") return "only its interval is known";
+  if (status == "unidentified") return "the recording cannot tell";
+  return "held at the value that was given";
+}
+
+std::string key_number(const std::string& name, const Estimate& estimate, const std::string& SI_unit) {
+  const EstimateRow row = estimate_row(estimate, SI_unit);
+  const std::string shown = row.value == "-" ? "not known" : row.value + (row.unit.empty() ? "" : " " + row.unit);
+  const std::string interval = row.interval == "-" ? "" : "<small>" + text(row.interval) + "</small>";
+  return fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", text(name), text(shown), interval);
+}
+
+/// Empty where the fit does not have it, or only between bounds.
+Estimate parameter_named(const Analysis& analysis, const std::string& name) {
+  if (!analysis.fit) return {};
+  for (const Parameter& parameter : analysis.fit->parameters) {
+    const bool has_value = parameter.status != ParameterStatus::Bounded;
+    if (parameter.name == name) return has_value ? parameter.estimate : Estimate{{}, {}, parameter.estimate.ci95, {}};
+  }
+  return {};
+}
+
+std::vector<std::string> each(const std::vector<std::string>& sentences, std::string (*to_markup)(std::string_view)) {
+  std::vector<std::string> items;
+  for (const std::string& sentence : sentences) items.push_back(to_markup(sentence));
+  return items;
+}
+
+std::string candidates_table(const FitResult& fit, ForceQuantity quantity) {
+  std::string rows;
+  for (const Candidate& candidate : fit.candidates) {
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
+                        text(name_of(candidate.tier)), candidate.chosen ? "taken" : "left",
+                        text(quantity_text(candidate.rms, force_unit(quantity))), formula_text(candidate.reason));
+  }
+  return "<h3>Models that were tried</h3>\n<div class=\"wide\"><table><thead><tr><th scope=\"col\">model</th><th "
+         "scope=\"col\"></th><th scope=\"col\" class=\"number\">residual, rms</th><th scope=\"col\">why</th></tr>"
+         "</thead><tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+void add_count(std::vector<std::string>& found, std::size_t count, const char* what) {
+  if (count > 0) found.push_back(fmt::format("{} {}", count, what));
+}
+
+std::vector<std::string> defects_of(const Recording& recording, const Quality& quality) {
+  const Provenance& provenance = recording.provenance();
+  std::vector<std::string> found;
+  add_count(found, quality.clipped_samples, "samples at the end of the sensor's range");
+  add_count(found, quality.impulses, "isolated impulses, left out");
+  add_count(found, quality.gaps, "gaps");
+  if (quality.gaps > 0) found.back() += ", the longest " + quantity_text(quality.longest_gap_s, "s");
+  add_count(found, provenance.rows_without_number, "rows without a number, left out");
+  add_count(found, provenance.rows_backward_in_time, "rows backward in time, left out");
+  add_count(found, provenance.rows_repeating_time, "repeated time stamps, kept");
+  return found;
+}
+
+}  // namespace
+
+std::string verdict_sentence(const Source& source) {
+  const Analysis& analysis = source.analysis;
+  const Estimate& frequency = analysis.frequency.quoted;
+  const std::string rate = frequency.value ? with_error(frequency) + " Hz" : std::string();
+  const std::string speed = stated_text(source.recording.conditions().speed_m_per_s, "m/s");
+  switch (analysis.verdict) {
+    case Verdict::StickSlip: {
+      if (rate.empty()) return text("Stick-slip, but no frequency can be told.");
+      const Estimate& spacing = analysis.derived.pattern_spacing_m;
+      const std::string pattern =
+          spacing.value ? fmt::format(" a pattern of {} spacing at", quantity_of(spacing, "m")) : std::string(" at");
+      return text(fmt::format("Stick-slip at {}:{} {}.", rate, pattern, speed));
+    }
+    case Verdict::SteadySliding:
+      return text(fmt::format("Steady sliding at {}: no stick-slip, no pattern.", speed));
+    case Verdict::OscillatorySlip:
+      return text(fmt::format("Oscillatory slip{}: the body hardly sticks.", rate.empty() ? "" : " at " + rate));
+    case Verdict::Undetermined:
+      break;
+  }
+  return "It cannot be told whether this is stick-slip.";
+}
+
+std::string key_numbers(const Source& source) {
+  const Analysis& analysis = source.analysis;
+  if (analysis.verdict == Verdict::SteadySliding) return {};
+  std::string numbers = key_number("frequency", analysis.frequency.quoted, "Hz") +
+                        key_number("pattern spacing V/f", analysis.derived.pattern_spacing_m, "m");
+  if (analysis.fit) {
+    numbers += key_number("stiffness", parameter_named(analysis, "stiffness_N_per_m"), "N/m") +
+               key_number("damping ratio", parameter_named(analysis, "damping_ratio"), "") +
+               key_number("critical speed", analysis.derived.critical_speed_m_per_s, "m/s");
+  }
+  return "<dl class=\"keys\">\n" + numbers + "</dl>\n<p class=\"guide\">In brackets: 95 % intervals.</p>\n";
+}
+
+std::string warnings_part(const Warnings& warnings) {
+  if (warnings.empty()) return {};
+  std::string items;
+  for (const Warning& warning : warnings) {
+    std::string message = formula_text(warning.message);
+    if (!message.empty())
+      message.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(message.front())));
+    items += fmt::format("<li>{} <code>{}</code></li>\n", message, text(warning.code));
+  }
+  return "<div class=\"warnings\" role=\"note\"><strong>Before trusting the numbers</strong>\n<ul>\n" + items +
+         "</ul></div>\n";
+}
+
+std::string parameter_table(const FitResult& fit) {
+  std::string rows;
+  for (const ShownParameter& parameter : shown_parameters(fit)) {
+    const std::string note =
+        parameter.note.empty() ? "" : "<span class=\"note\">" + formula_text(parameter.note) + "</span>";
+    rows += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"unit\">{}</td><td class=\"interval\">{}"
+        "</td><td><span class=\"status {}\">{}</span>: {}{}</td></tr>\n",
+        formula_text(parameter.words), text(parameter.numbers.value), text(parameter.numbers.unit),
+        text(parameter.numbers.interval), parameter.status, parameter.status, words_for_status(parameter.status), note);
+  }
+  return "<div class=\"wide\"><table class=\"parameters\"><thead><tr><th scope=\"col\">parameter</th><th scope=\"col\" "
+         "class=\"number\">value</th><th scope=\"col\">unit</th><th scope=\"col\">95 % interval</th><th "
+         "scope=\"col\">what the data say</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+std::string parameters_part(const Source& source) {
+  const Analysis& analysis = source.analysis;
+  std::string part = "<section id=\"parameters\">\n<h2>Parameters of the model</h2>\n";
+  if (!analysis.fit || analysis.verdict == Verdict::SteadySliding) {
+    const char* why = analysis.verdict == Verdict::SteadySliding
+                          ? "None: the model describes stick-slip, and this recording shows none."
+                          : "None: the model was not fitted, or there are too few cycles to fit.";
+    return part + fmt::format("<p class=\"absent\">{}</p>\n</section>\n", why);
+  }
+  if (analysis.verdict == Verdict::Undetermined) part += "<p>Not to rely on: this may be no stick-slip.</p>\n";
+  const FitResult& fit = *analysis.fit;
+  part += parameter_table(fit);
+  if (!fit.conditional_on.empty())
+    part += "<p class=\"guide\">The numbers hold if:</p>\n" + list(each(fit.conditional_on, formula_text));
+  return part + candidates_table(fit, source.recording.conditions().quantity) + "</section>\n";
+}
+
+std::string quality_part(const Source& source) {
+  const Recording& recording = source.recording;
+  const Quality& quality = source.analysis.quality;
+  const std::string unit = force_unit(recording.conditions().quantity);
+  std::string facts = fact("samples", std::to_string(recording.size())) +
+                      fact("sampling rate", stated_text(1.0 / recording.sample_interval_s(), "Hz")) +
+                      fact("duration", quantity_text(recording.duration_s(), "s")) +
+                      fact("noise, rms", quantity_text(quality.noise_rms, unit));
+  if (quality.quantisation_step)
+    facts += fact("smallest step of the sensor", quantity_text(quality.quantisation_step, unit));
+  facts += fact("clock jitter", quantity_text(100.0 * quality.clock_jitter, "") + " % of a step");
+  if (source.analysis.fit && shows_cycles(source.analysis)) {
+    const Residual& residual = source.analysis.fit->residual;
+    facts += fact("residual of the fit, rms", quantity_text(residual.rms, unit));
+    if (residual.reduced_chi2) facts += fact("residual over noise, squared", quantity_text(residual.reduced_chi2, ""));
+  }
+  const std::vector<std::string> defects = defects_of(recording, quality);
+  return "<section id=\"quality\">\n<h2>Data quality</h2>\n<dl class=\"facts\">\n" + facts + "</dl>\n" +
+         (defects.empty() ? "<p>No gaps, no clipping, no impulses, no rows left out.</p>\n"
+                          : list(each(defects, text))) +
+         "</section>\n";
+}
+
+std::string repeat_part(const Source& source, const ReportOrigin& origin) {
+  const Conditions& conditions = source.recording.conditions();
+  const Provenance& provenance = source.recording.provenance();
+  std::string facts = fact("program", fmt::format("slipfit {}", SLIPFIT_VERSION)) +
+                      fact("file", provenance.file.empty() ? "not from a file" : provenance.file) +
+                      "<dt>SHA-256 of the file</dt><dd><code>" +
+                      text(origin.file_sha256.value_or("not known (no regular file)")) + "</code></dd>\n";
+  if (!origin.command_line.empty()) {
+    facts += "<dt>command</dt><dd><code>" + text(origin.command_line) + "</code></dd>\n";
+  }
+  facts += fact("driving speed", stated_text(conditions.speed_m_per_s, "m/s"));
+  if (conditions.speed_standard_error_m_per_s) {
+    facts += fact("its standard error", stated_text(*conditions.speed_standard_error_m_per_s, "m/s"));
+  }
+  facts += fact("normal force",
+                conditions.normal_force_N ? stated_text(*conditions.normal_force_N, "N") : std::string("not given"));
+  facts += fact("force that the sensor sees", name_of(conditions.force_view));
+  facts += fact("sensor's zero",
+                conditions.zero_force_N ? stated_text(*conditions.zero_force_N, "N") : std::string("not given"));
+  const std::string assumed = list(each(provenance.assumed, text));
+  return "<section id=\"repeat\">\n<h2>To repeat this</h2>\n<dl class=\"facts\">\n" + facts + "</dl>\n" +
+         (assumed.empty() ? "" : "<p>Assumed while reading:</p>\n" + assumed) + "</section>\n";
+}
+
+}  // namespace slipfit::html

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "chart/chart.hpp"
+#include "report/rounding.hpp"
+#include "slipfit/core/recording.hpp"
+
+namespace slipfit::html {
+
+/// The unit that suits the largest force of the recording; no unit for friction coefficients.
+DisplayUnit force_unit_of(const Recording& recording);
+/// "friction force", or "friction coefficient"
+std::string force_name_of(const Recording& recording);
+/// "force [mN]"; "[-]" for a pure number.
+std::string label_with_unit(const std::string& name, const std::string& unit);
+
+/// "407.1 ± 2.2 µm", "-" where it is not known.
+std::string quantity_of(const Estimate& estimate, const std::string& SI_unit);
+
+/// Lowest and highest number seen so far.
+class Span {
+ public:
+  void add(double value);
+  [[nodiscard]] bool empty() const { return !(low_ <= high_); }
+  [[nodiscard]] double low() const { return low_; }
+  [[nodiscard]] double high() const { return high_; }
+  /// With a twentieth of the range on both sides; never of no length.
+  [[nodiscard]] chart::Axis linear_axis(const std::string& label) const;
+  /// From the smallest to the largest with a little room; the numbers are positive.
+  [[nodiscard]] chart::Axis logarithmic_axis(const std::string& label) const;
+
+ private:
+  double low_ = 1.0;
+  double high_ = 0.0;
+};
+
+/// Samples first to last - 1 of a recording.
+struct SampleRange {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+SampleRange samples_between(const Recording& recording, double begin_s, double end_s);
+
+/// At most 2 * `columns` points: the lowest and the highest of each column, in order of time; all where they are fewer.
+/// Not finite values are passed over.
+std::vector<chart::Point> envelope(std::span<const double> x, std::span<const double> y, std::size_t columns);
+
+}  // namespace slipfit::html

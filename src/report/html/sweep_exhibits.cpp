@@ -1,0 +1,211 @@
+#include "report/html/sweep_exhibits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "report/html/scaling.hpp"
+#include "report/text_sections.hpp"
+
+namespace slipfit::html {
+namespace {
+
+using chart::Colour, chart::Panel, chart::Point, chart::Shape, chart::Stroke;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kColumns = 610;
+
+/// One quantity of the recordings over speed, in SI.
+struct Series {
+  std::vector<double> speeds_m_per_s;
+  std::vector<Estimate> estimates;
+};
+
+/// From the slowest to the fastest; recordings without the quantity are left out.
+template <class Pick>
+Series series_of(const SweepSource& source, Pick pick) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < source.entries.size(); ++i) order.push_back(i);
+  const auto speed = [&source](std::size_t i) { return source.entries[i].recording.conditions().speed_m_per_s; };
+  std::sort(order.begin(), order.end(), [&speed](std::size_t a, std::size_t b) { return speed(a) < speed(b); });
+  Series series;
+  for (const std::size_t i : order) {
+    const Estimate estimate = pick(i);
+    if (!estimate.value) continue;
+    series.speeds_m_per_s.push_back(speed(i));
+    series.estimates.push_back(estimate);
+  }
+  return series;
+}
+
+/// A panel over speed, filled series by series.
+class SpeedPanel {
+ public:
+  SpeedPanel(DisplayUnit speed_unit, DisplayUnit unit) : speed_unit_(std::move(speed_unit)), unit_(std::move(unit)) {}
+
+  void add_markers(const std::string& name, Colour colour, Shape shape, const Series& series) {
+    if (series.estimates.empty()) return;
+    chart::Markers markers{name, colour, shape, {}};
+    chart::Line bars{"", colour, Stroke::Solid, {}, 1.6};
+    for (std::size_t i = 0; i < series.estimates.size(); ++i) {
+      const double speed = at(series.speeds_m_per_s[i]);
+      markers.points.push_back(value_point(speed, *series.estimates[i].value));
+      if (!series.estimates[i].ci95) continue;
+      bars.points.push_back(point(speed, series.estimates[i].ci95->low));
+      bars.points.push_back(point(speed, series.estimates[i].ci95->high));
+      bars.points.push_back({kNone, kNone});
+    }
+    panel_.markers.push_back(std::move(markers));
+    panel_.lines.push_back(std::move(bars));
+  }
+
+  void add_curve(const std::string& name, Colour colour, const Series& series) {
+    if (series.estimates.empty()) return;
+    chart::Line line{name, colour, Stroke::Solid, {}};
+    std::vector<Point> low;
+    std::vector<Point> high;
+    for (std::size_t i = 0; i < series.estimates.size(); ++i) {
+      const double speed = at(series.speeds_m_per_s[i]);
+      line.points.push_back(value_point(speed, *series.estimates[i].value));
+      if (!series.estimates[i].ci95) continue;
+      low.push_back(point(speed, series.estimates[i].ci95->low));
+      high.push_back(point(speed, series.estimates[i].ci95->high));
+    }
+    low.insert(low.end(), high.rbegin(), high.rend());
+    if (!low.empty()) panel_.areas.push_back({"its 95 % band", colour, chart::Fill::Plain, low});
+    panel_.lines.push_back(std::move(line));
+  }
+
+  [[nodiscard]] Panel finished(const std::string& label, chart::Scale scale) const {
+    Panel panel = panel_;
+    panel.height_px = 300.0;
+    panel.legend_at = chart::LegendAt::Above;
+    panel.x = speeds_.logarithmic_axis(label_with_unit("driving speed", speed_unit_.unit));
+    const std::string full = label_with_unit(label, unit_.unit);
+    if (scale == chart::Scale::Logarithmic) {
+      panel.y = heights_.logarithmic_axis(full);
+      return panel;
+    }
+    Span heights = heights_;
+    for (const chart::Line& line : panel.lines) add_to(heights, line.points);
+    for (const chart::Area& area : panel.areas) add_to(heights, area.outline);
+    panel.y = heights.linear_axis(full);
+    return panel;
+  }
+
+ private:
+  double at(double speed_m_per_s) {
+    speeds_.add(speed_unit_.per_SI * speed_m_per_s);
+    return speed_unit_.per_SI * speed_m_per_s;
+  }
+  static void add_to(Span& heights, const std::vector<Point>& points) {
+    for (const Point& point : points) heights.add(point.y);
+  }
+  [[nodiscard]] Point point(double speed, double SI) const { return {speed, unit_.per_SI * SI}; }
+  /// On a logarithmic axis intervals may reach beyond it, values not: an interval over decades would hide all else.
+  Point value_point(double speed, double SI) {
+    heights_.add(unit_.per_SI * SI);
+    return point(speed, SI);
+  }
+
+  DisplayUnit speed_unit_;
+  DisplayUnit unit_;
+  Panel panel_;
+  Span speeds_;
+  Span heights_;
+};
+
+/// The unit that suits the fastest recording: the slower ones are decimals of it.
+DisplayUnit speed_unit_of(const SweepSource& source) {
+  double fastest = 0.0;
+  for (const SweepEntry& entry : source.entries)
+    fastest = std::max(fastest, entry.recording.conditions().speed_m_per_s);
+  return display_unit("m/s", fastest);
+}
+
+}  // namespace
+
+Exhibit sweep_spacing_exhibit(const SweepSource& source) {
+  Exhibit exhibit{"sweep-spacing", "Pattern spacing over speed", {}, {}, {}, {}};
+  exhibit.guide =
+      "Dots: measured, V/f. Rings: what a fit to all other recordings predicts for this one, with its 95 % interval; "
+      "this is the test of the model, because the recording had no say in it. Line: the fit to all.";
+  if (!source.sweep.joint) {
+    exhibit.absent = "There is no joint fit: " + source.sweep.joint_reason + ".";
+    return exhibit;
+  }
+  const std::vector<SweepPoint>& points = source.sweep.joint->points;
+  const Series measured =
+      series_of(source, [&source](std::size_t i) { return source.sweep.recordings[i].derived.pattern_spacing_m; });
+  const Series left_out = series_of(source, [&points](std::size_t i) { return points[i].spacing_left_out_m; });
+  const Series surface = series_of(source, [&points](std::size_t i) {
+    return Estimate{points[i].measured_spacing_m, {}, {}, {}};
+  });
+  const Series fitted = series_of(source, [&points](std::size_t i) { return points[i].spacing_m; });
+  if (measured.estimates.empty() && fitted.estimates.empty()) {
+    exhibit.absent = "No recording of the sweep shows a pattern.";
+    return exhibit;
+  }
+  const Series& typical = measured.estimates.empty() ? fitted : measured;
+  SpeedPanel panel(speed_unit_of(source), display_unit("m", typical.estimates.front().value));
+  panel.add_curve("joint fit", Colour::Blue, fitted);
+  panel.add_markers("measured (V/f)", Colour::Black, Shape::Dot, measured);
+  panel.add_markers("predicted without it", Colour::Vermillion, Shape::Ring, left_out);
+  panel.add_markers("measured on the surface", Colour::Purple, Shape::Triangle, surface);
+  exhibit.chart =
+      chart::Chart{"Pattern spacing over speed", {}, {panel.finished("spacing", chart::Scale::Logarithmic)}};
+  exhibit.label = fmt::format("pattern spacing over driving speed: {} measured, {} predicted by fits without them",
+                              measured.estimates.size(), left_out.estimates.size());
+  return exhibit;
+}
+
+Exhibit sweep_friction_exhibit(const SweepSource& source) {
+  Exhibit exhibit{"sweep-friction", "Friction over speed", {}, {}, {}, {}};
+  exhibit.guide =
+      "Kinetic friction by the fitted friction law at the speeds of the sweep, with its 95 % band (alpha's uncertainty "
+      "is in it). Dots: the mean force of recordings that slide steadily.";
+  const std::vector<SweepPoint> points = source.sweep.joint ? source.sweep.joint->points : std::vector<SweepPoint>{};
+  const Series law =
+      points.empty() ? Series{} : series_of(source, [&points](std::size_t i) { return points[i].kinetic_friction_N; });
+  if (law.estimates.empty()) {
+    exhibit.absent = "Kinetic friction over speed is not known.";
+    return exhibit;
+  }
+  SpeedPanel panel(speed_unit_of(source), display_unit("N", law.estimates.front().value));
+  panel.add_curve("kinetic friction by the fit", Colour::Blue, law);
+  panel.add_markers("steady sliding, mean force", Colour::Black, Shape::Dot,
+                    series_of(source, [&points](std::size_t i) { return points[i].mean_steady_force_N; }));
+  exhibit.chart = chart::Chart{"Friction over speed", {}, {panel.finished("friction force", chart::Scale::Linear)}};
+  exhibit.label = fmt::format("kinetic friction over driving speed at {} speeds", law.estimates.size());
+  return exhibit;
+}
+
+Exhibit sweep_traces_exhibit(const SweepSource& source) {
+  Exhibit exhibit{"sweep-traces", "The recordings", {}, {}, {}, {}};
+  exhibit.guide = "Each recording over its own time, with its own scale.";
+  chart::Chart chart{"Recordings of the sweep", {}, {}};
+  for (const SweepEntry& entry : source.entries) {
+    const Recording& recording = entry.recording;
+    const DisplayUnit unit = force_unit_of(recording);
+    std::vector<Point> points = envelope(recording.time_s(), recording.force(), kColumns);
+    Span heights;
+    for (Point& point : points) {
+      point.y *= unit.per_SI;
+      heights.add(point.y);
+    }
+    Panel panel;
+    panel.height_px = 80.0;
+    panel.legend_at = chart::LegendAt::Above;
+    panel.x = {"time [s]", recording.time_s().front(), recording.time_s().back(), chart::Scale::Linear};
+    panel.y = heights.linear_axis(label_with_unit("force", unit.unit));
+    panel.lines.push_back({fmt::format("{}, {}", entry.id, stated_text(recording.conditions().speed_m_per_s, "m/s")),
+                           Colour::Grey, Stroke::Solid, std::move(points), 1.0});
+    chart.panels.push_back(std::move(panel));
+  }
+  exhibit.label = fmt::format("force over time of {} recordings", source.entries.size());
+  exhibit.chart = std::move(chart);
+  return exhibit;
+}
+
+}  // namespace slipfit::html

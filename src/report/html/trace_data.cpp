@@ -1,0 +1,152 @@
+#include "report/html/trace_data.hpp"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <span>
+
+#include "report/html/markup.hpp"
+#include "report/html/scaling.hpp"
+#include "report/json_values.hpp"
+
+namespace slipfit::html {
+namespace {
+
+constexpr std::size_t kMostSamples = 1'000'000;  // 5.4 MB in the page
+constexpr double kLevels = 65534.0;
+constexpr std::uint16_t kMissing = 65535;
+constexpr double kTicks = 4294967295.0;
+constexpr double kEvenClock = 0.02;  // largest deviation, in steps: below what the eye can tell
+
+std::string base64(const void* bytes, std::size_t count) {
+  std::string text(4 * ((count + 2) / 3) + 1, '\0');  // and the ending zero that OpenSSL writes
+  const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                                     static_cast<const unsigned char*>(bytes), static_cast<int>(count));
+  text.resize(static_cast<std::size_t>(length));
+  return text;
+}
+
+/// Little-endian, as browsers hold numbers on every machine in use.
+template <class Number>
+std::string packed(const std::vector<Number>& numbers) {
+  std::vector<unsigned char> bytes;
+  bytes.reserve(numbers.size() * sizeof(Number));
+  for (const Number number : numbers) {
+    for (std::size_t byte = 0; byte < sizeof(Number); ++byte) {
+      bytes.push_back(static_cast<unsigned char>(number >> (8 * byte)));
+    }
+  }
+  return base64(bytes.data(), bytes.size());
+}
+
+/// All samples, or the lowest and the highest of each group, in order: two a group, so that they lie evenly in time.
+std::vector<std::size_t> chosen_samples(std::span<const double> force) {
+  std::vector<std::size_t> chosen;
+  if (force.size() <= kMostSamples) {
+    chosen.resize(force.size());
+    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+    return chosen;
+  }
+  const std::size_t groups = kMostSamples / 2;
+  for (std::size_t group = 0; group < groups; ++group) {
+    const auto begin = force.begin() + static_cast<std::ptrdiff_t>(group * force.size() / groups);
+    const auto end = force.begin() + static_cast<std::ptrdiff_t>((group + 1) * force.size() / groups);
+    const auto [lowest, highest] = std::minmax_element(begin, end);
+    chosen.push_back(static_cast<std::size_t>(std::min(lowest, highest) - force.begin()));
+    chosen.push_back(static_cast<std::size_t>(std::max(lowest, highest) - force.begin()));
+  }
+  return chosen;
+}
+
+/// A member with base64, which needs no escape in JSON, and would take as long as the fit in a JSON library.
+std::string packed_member(const std::string& name, const std::string& base64) {
+  return fmt::format(",\"{}\":\"{}\"", name, base64);
+}
+
+/// The series as `NAME_low`, `NAME_high` and `NAME_levels`.
+std::string series_members(const std::string& name, const std::vector<double>& values) {
+  Span span;
+  for (const double value : values) span.add(value);
+  const double low = span.empty() ? 0.0 : span.low();
+  const double range = span.empty() ? 0.0 : span.high() - low;
+  const double per_unit = range > 0.0 ? kLevels / range : 0.0;
+  std::vector<std::uint16_t> levels;
+  levels.reserve(values.size());
+  for (const double value : values) {
+    levels.push_back(std::isfinite(value) ? static_cast<std::uint16_t>(per_unit * (value - low) + 0.5) : kMissing);
+  }
+  return fmt::format(",\"{0}_low\":{1},\"{0}_high\":{2}", name, low, low + range) +
+         packed_member(name + "_levels", packed(levels));
+}
+
+/// Times as parts of the recording's duration.
+class Clock {
+ public:
+  explicit Clock(const Recording& recording)
+      : first_s_(recording.time_s().front()), per_second_(kTicks / recording.duration_s()) {}
+
+  [[nodiscard]] std::uint32_t tick(double time_s) const {
+    return static_cast<std::uint32_t>(std::clamp(per_second_ * (time_s - first_s_), 0.0, kTicks));
+  }
+
+ private:
+  double first_s_;
+  double per_second_;
+};
+
+bool is_even(std::span<const double> time_s) {
+  const double step_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    if (std::abs(time_s[i] - time_s.front() - static_cast<double>(i) * step_s) > kEvenClock * step_s) return false;
+  }
+  return true;
+}
+
+std::vector<std::uint32_t> slip_ticks(const Analysis& analysis, const Clock& clock) {
+  std::vector<std::uint32_t> ticks;
+  if (!shows_cycles(analysis)) return {};
+  for (const Cycle& cycle : analysis.cycle_table) {
+    ticks.push_back(clock.tick(cycle.onset_s.value_or(cycle.peak_s)));
+    ticks.push_back(clock.tick(cycle.end_s.value_or(cycle.trough_s)));
+  }
+  return ticks;
+}
+
+}  // namespace
+
+std::string trace_data(const Source& source) {
+  const Recording& recording = source.recording;
+  const DisplayUnit& unit = source.force_unit;
+  const Clock clock(recording);
+  const std::vector<std::size_t> chosen = chosen_samples(recording.force());
+  std::vector<double> force;
+  force.reserve(chosen.size());
+  for (const std::size_t i : chosen) force.push_back(unit.per_SI * recording.force()[i]);
+
+  const Json names{{"label", label_with_unit(force_name_of(recording), unit.unit)},
+                   {"residual_label", label_with_unit("residual", unit.unit)},
+                   {"unit", unit.unit},
+                   {"first_s", recording.time_s().front()},
+                   {"last_s", recording.time_s().back()}};
+  std::string json = script_json(names.dump(-1, ' ', false, Json::error_handler_t::replace));
+  json.pop_back();
+  json += series_members("force", force) + packed_member("slips", packed(slip_ticks(source.analysis, clock)));
+  if (!is_even(recording.time_s())) {
+    std::vector<std::uint32_t> ticks;
+    for (const std::size_t i : chosen) ticks.push_back(clock.tick(recording.time_s()[i]));
+    json += packed_member("ticks", packed(ticks));
+  }
+  if (shows_cycles(source.analysis) && source.analysis.fit && !source.analysis.fit->curve.empty()) {
+    std::vector<double> residual;
+    residual.reserve(chosen.size());
+    for (const std::size_t i : chosen) residual.push_back(unit.per_SI * (recording.force()[i] - source.fitted[i]));
+    json += series_members("residual", residual);
+  }
+  return json + "}";
+}
+
+}  // namespace slipfit::html

@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/html/exhibit.hpp"
+#include "report/html/scaling.hpp"
+#include "report/text_sections.hpp"
+
+namespace slipfit::html {
+namespace {
+
+using chart::Colour, chart::Panel, chart::Point, chart::Shape, chart::Stroke;
+
+constexpr std::size_t kColumns = 610;     // of the picture: one a pixel
+constexpr std::size_t kCyclesClose = 5;   // seen close up
+constexpr std::size_t kFewSamples = 150;  // of the close-up: so few are drawn one by one
+
+/// A piece of the recording in the units of the chart.
+struct Piece {
+  std::vector<double> time_s, force, fitted, residual;
+};
+
+Piece cut(const Source& source, SampleRange range) {
+  const Recording& recording = source.recording;
+  const std::vector<double>& fitted = source.fitted;
+  const double scale = source.force_unit.per_SI;
+  Piece piece;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    piece.time_s.push_back(recording.time_s()[i]);
+    piece.force.push_back(scale * recording.force()[i]);
+    piece.fitted.push_back(scale * fitted[i]);
+    piece.residual.push_back(scale * (recording.force()[i] - fitted[i]));
+  }
+  return piece;
+}
+
+chart::Axis axis_of(const std::vector<Point>& points, const std::string& label) {
+  Span span;
+  for (const Point& point : points) span.add(point.y);
+  return span.linear_axis(label);
+}
+
+chart::Axis time_axis(const Piece& piece, const std::string& label) {
+  return {label, piece.time_s.front(), piece.time_s.back(), chart::Scale::Linear};
+}
+
+Panel force_panel(const Piece& piece, const std::string& label, double width_px) {
+  Panel panel;
+  panel.height_px = 220.0;
+  panel.legend_at = chart::LegendAt::Above;
+  panel.lines = {
+      {"measured", Colour::Grey, Stroke::Solid, envelope(piece.time_s, piece.force, kColumns), width_px},
+      {"fit", Colour::Vermillion, Stroke::Solid, envelope(piece.time_s, piece.fitted, kColumns), width_px + 0.4}};
+  panel.x = time_axis(piece, "time [s]");
+  panel.y = axis_of(panel.lines.front().points, label);
+  return panel;
+}
+
+/// A few cycles in the middle of those that the fit uses (or of all).
+SampleRange middle_cycles(const Source& source) {
+  std::vector<const Cycle*> cycles;
+  for (const Cycle& cycle : source.analysis.cycle_table) {
+    if (cycle.used || source.analysis.cycles.used == 0) cycles.push_back(&cycle);
+  }
+  if (cycles.size() < 3) return {};
+  const std::size_t count = std::min(kCyclesClose, cycles.size() - 1);
+  const std::size_t first = (cycles.size() - 1 - count) / 2;
+  return samples_between(source.recording, cycles[first]->trough_s, cycles[first + count]->trough_s);
+}
+
+/// Where slips begin and end by the fit, else the turning points.
+void add_cycle_marks(Panel& panel, const Source& source) {
+  const double scale = source.force_unit.per_SI;
+  chart::Markers begin{"slip begins", Colour::Blue, Shape::Ring, {}};
+  chart::Markers end{"slip ends", Colour::Blue, Shape::Cross, {}};
+  for (const Cycle& cycle : source.analysis.cycle_table) {
+    const double begin_s = cycle.onset_s.value_or(cycle.peak_s);
+    const double end_s = cycle.end_s.value_or(cycle.trough_s);
+    if (begin_s < panel.x.low || end_s > panel.x.high) continue;
+    begin.points.push_back({begin_s, scale * cycle.onset_force.value_or(cycle.peak_force)});
+    end.points.push_back({end_s, scale * cycle.trough_force});
+  }
+  panel.markers.push_back(begin);
+  panel.markers.push_back(end);
+}
+
+Panel close_up(const Piece& piece, const Source& source, const std::string& label) {
+  Panel panel = force_panel(piece, label, 1.6);
+  panel.lines.front().name = "measured, close up";
+  if (piece.time_s.size() <= kFewSamples) {
+    panel.markers.push_back({"", Colour::Grey, Shape::Speck, panel.lines.front().points});
+  }
+  add_cycle_marks(panel, source);
+  return panel;
+}
+
+Panel residual_panel(const Piece& piece, const std::string& unit) {
+  Panel panel;
+  panel.height_px = 90.0;
+  panel.lines = {{"", Colour::Blue, Stroke::Solid, envelope(piece.time_s, piece.residual, kColumns), 1.2}};
+  panel.x = time_axis(piece, "time [s]");
+  panel.y = axis_of(panel.lines.front().points, label_with_unit("residual", unit));
+  return panel;
+}
+
+}  // namespace
+
+Exhibit trace_exhibit(const Source& source) {
+  const Recording& recording = source.recording;
+  const std::string unit = source.force_unit.unit;
+  const std::string label = label_with_unit(force_name_of(recording), unit);
+  const bool has_fit = shows_cycles(source.analysis) && source.analysis.fit && !source.analysis.fit->curve.empty();
+
+  Exhibit exhibit{"trace", has_fit ? "The recording and the fit" : "The recording", {}, {}, {}, {}};
+  exhibit.guide = !has_fit ? "Measured force; no fit is drawn on it."
+                           : "Measured force, the fitted force on it, and what the fit leaves over (residual: measured "
+                             "less fitted). A good "
+                             "residual is noise without a shape; a pattern that repeats in every slip is something "
+                             "that the model lacks.";
+  chart::Chart chart{"Recording and fit", {}, {}};
+  chart.panels.push_back(force_panel(cut(source, {0, recording.size()}), label, 1.0));
+  const SampleRange close = shows_cycles(source.analysis) ? middle_cycles(source) : SampleRange{};
+  if (close.last > close.first + 2) {
+    const Piece piece = cut(source, close);
+    chart.panels.push_back(close_up(piece, source, label));
+    if (has_fit) chart.panels.push_back(residual_panel(piece, unit));
+  }
+  for (chart::Panel& panel : chart.panels) {
+    if (!has_fit && panel.lines.size() > 1) panel.lines.pop_back();
+  }
+  exhibit.label =
+      fmt::format("{} over {}, {}{}", force_name_of(recording), quantity_text(recording.duration_s(), "s"),
+                  shows_cycles(source.analysis) ? fmt::format("{} slips marked", source.analysis.cycles.count)
+                                                : std::string("steady sliding"),
+                  has_fit ? ", with the fitted force and the residual" : ", without a fit");
+  exhibit.chart = std::move(chart);
+  return exhibit;
+}
+
+}  // namespace slipfit::html

@@ -1,0 +1,60 @@
+#include <catch2/catch.hpp>
+
+#include "recordings.hpp"
+#include "run_program.hpp"
+
+using Catch::Contains;
+using test::slipfit;
+
+namespace {
+
+struct Example {
+  test::TemporaryFolder folder;
+  std::string recording = folder.file("run.csv", test::simulated_csv("7"));
+  std::string page = folder.path("run.html");
+};
+
+}  // namespace
+
+TEST_CASE("--report writes one page, the same bytes every time, beside the usual output") {
+  const Example example;
+  const std::vector<std::string> arguments{"fit", example.recording, "--speed", "20mm/s", "--report", example.page};
+  const test::ProgramResult first = slipfit(arguments);
+  REQUIRE(first.exit_code == 0);
+  CHECK_THAT(first.out, Contains("stick-slip"));
+  CHECK_THAT(first.err, Contains("wrote '" + example.page + "'"));
+  const std::string page = test::content_of(example.page);
+  CHECK_THAT(page, Contains("<h1>Stick-slip at ") && Contains("--speed 20mm/s --report"));
+  REQUIRE(slipfit(arguments).exit_code == 0);
+  CHECK(test::content_of(example.page) == page);
+}
+
+TEST_CASE("--plots writes the charts as SVG into a folder that it makes") {
+  const Example example;
+  const std::string plots = example.folder.path("plots");
+  REQUIRE(slipfit({"fit", example.recording, "--speed", "20mm/s", "--plots", plots, "--quiet"}).exit_code == 0);
+  for (const char* name : {"trace", "spectrum", "cycles", "pairs", "map", "speed", "pattern"}) {
+    CAPTURE(name);
+    const std::string picture = test::content_of(plots + "/" + name + ".svg");
+    CHECK(picture.rfind("<svg xmlns=", 0) == 0);
+    CHECK_THAT(picture, Catch::EndsWith("</svg>\n") && !Contains("nan"));
+  }
+}
+
+TEST_CASE("analyze has a report too, without a fit") {
+  const Example example;
+  REQUIRE(slipfit({"analyze", example.recording, "--speed", "20mm/s", "--report", example.page}).exit_code == 0);
+  CHECK_THAT(test::content_of(example.page), Contains("the model was not fitted"));
+}
+
+TEST_CASE("a report over the recording, or into a file for a folder, is refused before any work") {
+  const Example example;
+  const test::ProgramResult itself =
+      slipfit({"fit", example.recording, "--speed", "20mm/s", "--report", example.recording});
+  CHECK(itself.exit_code == 2);
+  CHECK_THAT(itself.err, Contains("--report") && Contains("is the recording itself"));
+  const test::ProgramResult file =
+      slipfit({"fit", example.recording, "--speed", "20mm/s", "--plots", example.recording});
+  CHECK(file.exit_code == 2);
+  CHECK_THAT(file.err, Contains("--plots") && Contains("expected a folder"));
+}

@@ -1,0 +1,194 @@
+#include "slipfit/report/html.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "examples.hpp"
+#include "report/html/markup.hpp"
+
+using Catch::Contains;
+
+namespace {
+
+/// A saw-tooth at 1 kHz: rises for 90 samples, falls in 10.
+slipfit::Recording sawtooth(const std::string& file = "run.csv", int samples = 2000) {
+  std::vector<double> time_s;
+  std::vector<double> force;
+  for (int i = 0; i < samples; ++i) {
+    const int phase = i % 100;
+    time_s.push_back(0.001 * i);
+    force.push_back(1.0 + 0.01 * (phase < 90 ? phase : 9 * (100 - phase)));
+  }
+  slipfit::Conditions conditions;
+  conditions.speed_m_per_s = 0.01;
+  slipfit::Provenance provenance;
+  provenance.file = file;
+  return slipfit::Recording::create(std::move(time_s), std::move(force), conditions, std::move(provenance)).value();
+}
+
+std::string page_of(const slipfit::Recording& recording, const slipfit::Analysis& analysis) {
+  return to_html(recording, analysis, gather_background(recording, analysis), {"slipfit fit run.csv", "abcd"});
+}
+
+std::string section(const std::string& page, const std::string& id) {
+  const std::size_t begin = page.find("<section id=\"" + id);
+  REQUIRE(begin != std::string::npos);
+  return page.substr(begin, page.find("</section>", begin) - begin);
+}
+
+slipfit::Analysis fitted(const slipfit::Recording& recording) {
+  slipfit::FitOptions options;
+  options.curve = true;
+  return analyze_and_fit(recording, options);
+}
+
+/// The bytes of a base64 text.
+std::vector<unsigned char> decoded(const std::string& text) {
+  const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<unsigned char> bytes;
+  unsigned int bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = (bits << 6U) | static_cast<unsigned int>(alphabet.find(c));
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes.push_back(static_cast<unsigned char>((bits >> static_cast<unsigned int>(count)) & 0xFFU));
+  }
+  return bytes;
+}
+
+nlohmann::json trace_data_in(const std::string& page) {
+  const std::string opening = "id=\"trace-data\">";
+  const std::size_t begin = page.find(opening) + opening.size();
+  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+}  // namespace
+
+TEST_CASE("the page says the verdict in a sentence and each parameter's status in words") {
+  const slipfit::Recording recording = test::small_recording();
+  const std::string page = page_of(recording, test::full_analysis());
+  CHECK_THAT(page, Contains("<h1>Stick-slip at 5.432 ± 0.012 Hz: a pattern of 1.8409"));
+  const std::string table = section(page, "parameters");
+  CHECK_THAT(table, Contains("1002.3") && Contains("[999.9, 1004.8]"));
+  CHECK_THAT(table, Contains("only its interval is known") && Contains("the recording cannot tell") &&
+                        Contains("held at the value that was given") && Contains("needs --zero"));
+  CHECK_THAT(section(page, "repeat"), Contains("slipfit fit run.csv") && Contains("abcd"));
+}
+
+TEST_CASE("text from outside stays text") {
+  const std::string hostile = "</script><script>alert(1)</script>\"'&.csv";
+  const slipfit::Recording recording = sawtooth(hostile);
+  slipfit::Analysis analysis = fitted(recording);
+  analysis.warnings.push_back({"hostile", hostile});
+  const std::string page = page_of(recording, analysis);
+  CHECK_THAT(page, !Contains("<script>alert"));
+  CHECK_THAT(page, Contains("&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;&quot;&#39;&amp;.csv"));
+  for (const slipfit::PictureFile& picture :
+       report_pictures(recording, analysis, gather_background(recording, analysis))) {
+    CHECK_THAT(picture.content, !Contains("<script"));
+  }
+}
+
+TEST_CASE("JSON in a script element cannot end it") {
+  CHECK(slipfit::html::script_json("\"</script>&\xE2\x80\xA8\xE2\x80\xA9\"") ==
+        "\"\\u003c/script\\u003e\\u0026\\u2028\\u2029\"");
+}
+
+TEST_CASE("a template's values are not searched for names again") {
+  CHECK(slipfit::html::filled("a {{one}} b {{two}} {{three}}", {{"one", "{{two}}"}, {"two", "2"}}) ==
+        "a {{two}} b 2 {{three}}");
+}
+
+TEST_CASE("steady sliding: words in place of cycles, parameters and pattern") {
+  const slipfit::Recording recording = sawtooth();
+  slipfit::Analysis analysis = fitted(recording);
+  analysis.verdict = slipfit::Verdict::SteadySliding;
+  const std::string page = page_of(recording, analysis);
+  CHECK_THAT(page, Contains("<h1>Steady sliding at 10 mm/s: no stick-slip, no pattern.</h1>"));
+  for (const char* id : {"cycles-section", "pairs-section", "pattern-section"}) {
+    CAPTURE(id);
+    CHECK_THAT(section(page, id), !Contains("<svg") && Contains("class=\"absent\""));
+  }
+  CHECK_THAT(section(page, "parameters"), Contains("this recording shows none") && !Contains("<table"));
+  if (slipfit::has_interactive_trace()) CHECK_FALSE(trace_data_in(page).contains("residual_levels"));
+}
+
+TEST_CASE("what the fit does not know is said in words, with the reason") {
+  const slipfit::Recording recording = sawtooth();
+  slipfit::Analysis analysis = fitted(recording);
+  REQUIRE(analysis.fit);
+  analysis.verdict = slipfit::Verdict::StickSlip;
+  analysis.fit->estimate.reset();
+  analysis.fit->parameters = {
+      {"damping_ratio", {{}, {}, {}, "the slip is not resolved"}, slipfit::ParameterStatus::Unidentified}};
+  analysis.derived = {};
+  analysis.derived.lambda.note = "needs zeta";
+  const std::string page = page_of(recording, analysis);
+  CHECK_THAT(section(page, "pairs-section"), Contains("The damping ratio is not known: the slip is not resolved."));
+  CHECK_THAT(section(page, "map-section"), Contains("needs ζ") && !Contains("<svg"));
+  CHECK_THAT(section(page, "speed-section"), Contains("needs ζ") && !Contains("<svg"));
+  CHECK_THAT(page, Contains("<dt>damping ratio</dt><dd>not known</dd>"));
+}
+
+TEST_CASE("the packed trace gives every sample back to half a level") {
+  if (!slipfit::has_interactive_trace()) return;
+  const slipfit::Recording recording = sawtooth();
+  const nlohmann::json data = trace_data_in(page_of(recording, fitted(recording)));
+  const std::vector<unsigned char> bytes = decoded(data["force_levels"]);
+  REQUIRE(bytes.size() == 2 * recording.size());
+  const double low = data["force_low"];
+  const double step = (data["force_high"].get<double>() - low) / 65534.0;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < recording.size(); ++i) {
+    const double force = low + step * (bytes[2 * i] + 256.0 * bytes[2 * i + 1]);
+    worst = std::max(worst, std::abs(force - recording.force()[i]));
+  }
+  CHECK(worst <= 0.5 * step * (1.0 + 1e-9));
+  CHECK_FALSE(data.contains("ticks"));
+  CHECK(data["last_s"] == recording.time_s().back());
+}
+
+TEST_CASE("an uneven clock travels with the trace") {
+  if (!slipfit::has_interactive_trace()) return;
+  const std::vector<double> time_s{0.0, 0.1, 0.15, 0.4, 0.5};
+  const slipfit::Recording recording =
+      slipfit::Recording::create(time_s, {0.0, 1.0, 2.0, 1.0, 0.0}, sawtooth().conditions()).value();
+  const std::vector<unsigned char> bytes = decoded(trace_data_in(page_of(recording, analyze(recording)))["ticks"]);
+  REQUIRE(bytes.size() == 4 * time_s.size());
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    double tick = 0.0;
+    for (std::size_t byte = 4; byte-- > 0;) tick = 256.0 * tick + bytes[4 * i + byte];
+    CHECK(tick / 4294967295.0 * 0.5 == Approx(time_s[i]).margin(1e-9));
+  }
+}
+
+TEST_CASE("recordings that show nothing still give a page, without a number that is none") {
+  const slipfit::Conditions conditions = sawtooth().conditions();
+  const slipfit::Recording two = slipfit::Recording::create({0.0, 1.0}, {1.0, 1.0}, conditions).value();
+  slipfit::Conditions coefficient = conditions;
+  coefficient.quantity = slipfit::ForceQuantity::FrictionCoefficient;
+  const slipfit::Recording flat =
+      slipfit::Recording::create({0.0, 0.1, 0.2, 0.3, 0.4}, {0.0, 0.0, 0.0, 0.0, 0.0}, coefficient).value();
+  for (const slipfit::Recording* recording : {&two, &flat}) {
+    const slipfit::Analysis analysis = fitted(*recording);
+    CHECK_THAT(page_of(*recording, analysis), Contains("not from a file"));
+    for (const slipfit::PictureFile& picture :
+         report_pictures(*recording, analysis, gather_background(*recording, analysis))) {
+      CAPTURE(picture.name);
+      CHECK_THAT(picture.content, !Contains("nan") && !Contains("inf,") && !Contains(" inf"));
+    }
+  }
+}
+
+TEST_CASE("any number of cycles gives a page (6 cycles once ended the program)") {
+  for (int cycles = 1; cycles <= 12; ++cycles) {
+    CAPTURE(cycles);
+    const slipfit::Recording recording = sawtooth("run.csv", 100 * cycles);
+    CHECK_THAT(section(page_of(recording, fitted(recording)), "trace-section"), Contains("<svg"));
+  }
+}
