@@ -24,7 +24,7 @@ std::optional<double> median(std::vector<double> values) {
 
 /// Without a scatter of its own a recording says nothing about it.
 void add_scatter(const JsonNode& cycles, std::vector<double>& scatter) {
-  if (const std::optional<double> sd = cycles.member("peak_force_sd_N").number()) scatter.push_back(*sd);
+  if (const std::optional<double> sd = cycles.member("force_drop_sd_N").number()) scatter.push_back(*sd);
 }
 
 }  // namespace
@@ -38,9 +38,11 @@ RecordedConditions read_recorded_conditions(const std::string& file) {
     result.recordings = {conditions_of(document.member("recording"))};
     result.noise_rms_N = positive(document.member("model").member("residual").member("rms_N"));
     add_scatter(document.member("cycles"), scatter);
-    result.static_friction_sd_N = median(scatter);
+    result.force_drop_sd_N = median(scatter);
     return result;
   }
+  const std::optional<bool> shared = document.member("model").member("level_shared").flag();
+  if (shared.value_or(false)) result.levels = slipfit::LevelSharing::Shared;
   const JsonNode members = document.member("recordings");
   std::vector<double> noise;
   for (std::size_t i = 0; i < members.array_size(); ++i) {
@@ -53,6 +55,6 @@ RecordedConditions read_recorded_conditions(const std::string& file) {
   }
   if (noise.empty()) members.fail("recordings with cycles in the joint fit");
   result.noise_rms_N = *median(noise);
-  result.static_friction_sd_N = median(scatter);
+  result.force_drop_sd_N = median(scatter);
   return result;
 }

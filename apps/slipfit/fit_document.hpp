@@ -17,7 +17,8 @@ struct FitDocument {
 struct RecordedConditions {
   std::vector<slipfit::RecordingPlan> recordings;
   double noise_rms_N = 0.0;
-  std::optional<double> static_friction_sd_N;
+  std::optional<double> force_drop_sd_N;
+  slipfit::LevelSharing levels = slipfit::LevelSharing::Separate;
 };
 
 /// Throws Failure(WrongUsage) as read_fit_document(), and where the document has no residual in newtons.

@@ -90,6 +90,12 @@ std::optional<double> JsonNode::number(const std::string& expected) const {
   return content_.get<double>();
 }
 
+std::optional<bool> JsonNode::flag() const {
+  if (content_.is_null()) return std::nullopt;
+  if (!content_.is_boolean()) fail("true or false");
+  return content_.get<bool>();
+}
+
 void JsonNode::fail(const std::string& expected) const {
   std::string shown = content_.dump(-1, ' ', true, json::error_handler_t::replace);
   constexpr std::size_t kLongest = 40;

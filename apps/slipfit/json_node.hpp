@@ -26,6 +26,8 @@ class JsonNode {
   [[nodiscard]] std::string text() const;
   /// Empty where it is null.
   [[nodiscard]] std::optional<double> number(const std::string& expected = "a number or null") const;
+  /// Empty where it is null.
+  [[nodiscard]] std::optional<bool> flag() const;
   [[noreturn]] void fail(const std::string& expected) const;
 
  private:

@@ -46,7 +46,8 @@ slipfit::PlanBasis basis_from(const std::string& file, const FitDocument& docume
                   fmt::format("{}: has no covariance, and without one there is nothing to narrow", file));
   }
   RecordedConditions recorded = read_recorded_conditions(file);
-  return {document.model.estimate, std::move(recorded.recordings), recorded.noise_rms_N, recorded.static_friction_sd_N};
+  return {document.model.estimate, std::move(recorded.recordings), recorded.noise_rms_N, recorded.force_drop_sd_N,
+          recorded.levels};
 }
 
 void run(const PlanArguments& arguments) {

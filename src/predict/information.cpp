@@ -18,10 +18,10 @@ constexpr int kColumns = kValues + 3;
 using CycleJet = ceres::Jet<double, kColumns>;
 using CycleMatrix = Eigen::Matrix<double, kColumns, kColumns>;
 
-/// One cycle of the recording.
+/// One cycle of the recording, whose static friction is by `excess_N` above the mean.
 class Cycle {
  public:
-  Cycle(const ModelEstimate& model, double speed_m_per_s)
+  Cycle(const ModelEstimate& model, double speed_m_per_s, double excess_N)
       : stiffness_(exponential(model.stiffness_N_per_m, 0)),
         omega_(exponential(model.natural_frequency_rad_per_s, 1)),
         zeta_(model.damping_ratio, 2),
@@ -30,7 +30,7 @@ class Cycle {
     const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
     slope_ = CycleJet(law.slope_N_s_per_m, 4) * omega_ / stiffness_;
     rate_ = CycleJet(law.alpha_s_per_m, 5) * speed_m_per_s;
-    onset_force_ = CycleJet((difference_ - 2.0 * zeta_ * unit_).a, kOnsetForce);  // the slip starts from F_s - cV
+    onset_force_ = CycleJet((difference_ - 2.0 * zeta_ * unit_).a + excess_N, kOnsetForce);  // F_s - cV
     z0_ = onset_force_ / unit_;
     track_ = model::VelocityTrack::solve(z0_.a, zeta_.a, slope_.a, rate_.a);
   }
@@ -64,15 +64,12 @@ class Cycle {
   std::optional<model::VelocityTrack> track_;
 };
 
-/// Sum over the samples of one cycle, the clock being as likely in any phase; half a stick on either side.
-CycleMatrix normal_matrix(const Cycle& cycle, double tau_step, const Disturbance& disturbance) {
+/// Sum over the samples of one cycle, the first of the slip at `tau_first`; half a stick on either side.
+CycleMatrix normal_matrix(const Cycle& cycle, double tau_first, double tau_step, const Disturbance& disturbance) {
   CycleMatrix sum = CycleMatrix::Zero();
   const auto add = [&sum](const CycleJet& y, double weight) { sum += weight * y.v * y.v.transpose(); };
   const double precision = 1.0 / (disturbance.noise_rms_N * disturbance.noise_rms_N);
-  constexpr int kPhases = 8;
-  for (double tau = 0.5 * tau_step / kPhases; tau < cycle.tau_slip(); tau += tau_step / kPhases) {
-    add(cycle.force(tau), precision / kPhases);
-  }
+  for (double tau = tau_first; tau < cycle.tau_slip(); tau += tau_step) add(cycle.force(tau), precision);
   // Squares of straight lines: two Gauss points are exact.
   const double half = 0.5 * cycle.tau_stick();
   for (const double share : {0.5 - std::sqrt(1.0 / 12.0), 0.5 + std::sqrt(1.0 / 12.0)}) {
@@ -97,20 +94,34 @@ Eigen::MatrixXd marginal(const Eigen::MatrixXd& matrix, Eigen::Index kept) {
 
 std::optional<Information> information_of(const ModelEstimate& model, const RecordingPlan& recording,
                                           const Disturbance& disturbance) {
-  const Cycle cycle(model, recording.speed_m_per_s);
-  if (!cycle.sticks()) return std::nullopt;
-  const double tau_step = cycle.omega_rad_per_s() / recording.sample_rate_Hz;
   Information information;
-  information.cycles = recording.duration_s * cycle.omega_rad_per_s() / (cycle.tau_slip() + cycle.tau_stick());
-  information.samples_per_slip = cycle.tau_slip() / tau_step;
-  // Onsets are free in each cycle, the level in the recording.
-  const Eigen::MatrixXd one = marginal(normal_matrix(cycle, tau_step, disturbance), kOnsetForce);
-  information.matrix = information.cycles * marginal(one, kLevel);
+  // Slips of different size tell zeta from the force level: half of the cycles on either side of the mean.
+  for (const double side : {-1.0, 1.0}) {
+    const Cycle cycle(model, recording.speed_m_per_s, side * disturbance.static_friction_sd_N);
+    if (!cycle.sticks()) return std::nullopt;
+    const double tau_step = cycle.omega_rad_per_s() / recording.sample_rate_Hz;
+    const double cycles = 0.5 * recording.duration_s * cycle.omega_rad_per_s() / (cycle.tau_slip() + cycle.tau_stick());
+    information.cycles += cycles;
+    information.samples_per_slip += 0.5 * cycle.tau_slip() / tau_step;
+    // The clock is as likely in any phase of the slip; each cycle has one.
+    constexpr int kPhases = 8;
+    for (int phase = 0; phase < kPhases; ++phase) {
+      const double tau_first = (phase + 0.5) / kPhases * tau_step;
+      information.matrix +=
+          cycles / kPhases * marginal(normal_matrix(cycle, tau_first, tau_step, disturbance), kOnsetForce);
+    }
+  }
   return information;
 }
 
-ModelMatrix updated(const ModelMatrix& covariance, const ModelMatrix& information) {
-  const ModelMatrix system = ModelMatrix::Identity() + covariance * information;
+PlanMatrix without_level(const PlanMatrix& information) {
+  PlanMatrix result = PlanMatrix::Zero();
+  result.topLeftCorner(kLevel, kLevel) = marginal(information, kLevel);
+  return result;
+}
+
+PlanMatrix updated(const PlanMatrix& covariance, const PlanMatrix& information) {
+  const PlanMatrix system = PlanMatrix::Identity() + covariance * information;
   return system.partialPivLu().solve(covariance);
 }
 

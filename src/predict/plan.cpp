@@ -1,8 +1,8 @@
 #include "slipfit/predict/plan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "predict/delta.hpp"
@@ -14,7 +14,7 @@ namespace {
 using predict::Disturbance;
 using predict::Information;
 using predict::Jet;
-using predict::ModelMatrix;
+using predict::PlanMatrix;
 
 struct NamedJet {
   std::string name;
@@ -37,17 +37,19 @@ std::vector<NamedJet> parameters_of(const ModelEstimate& model) {
   return all;
 }
 
-double standard_error(const Jet& y, const ModelMatrix& covariance) {
-  return std::sqrt(std::max(0.0, y.v.dot(covariance * y.v)));
+Eigen::Matrix<double, predict::kPlanValues, 1> gradient_of(const Jet& y) {
+  Eigen::Matrix<double, predict::kPlanValues, 1> gradient = Eigen::Matrix<double, predict::kPlanValues, 1>::Zero();
+  gradient.head(static_cast<Eigen::Index>(kModelValues)) = y.v;
+  return gradient;
 }
 
-ModelMatrix covariance_of(const ModelEstimate& model) {
-  ModelMatrix matrix = ModelMatrix::Zero();
+/// Hardly anything known, but for what is held.
+PlanMatrix vague(const ModelEstimate& model) {
+  PlanMatrix matrix = PlanMatrix::Zero();
   for (std::size_t i = 0; i < kModelValues; ++i) {
-    for (std::size_t j = 0; j < kModelValues; ++j) {
-      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = model.covariance[i][j];
-    }
+    matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) = 1e4 * model.covariance[i][i];
   }
+  matrix(predict::kPlanValues - 1, predict::kPlanValues - 1) = 1e4 * std::pow(model.friction_difference_N, 2);
   return matrix;
 }
 
@@ -56,19 +58,30 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// Scatter of the static friction. The force falls from that of the onset to exp(-pi zeta / b) of it on the other side;
+/// the fall is free of drift.
+double scatter_N(const PlanBasis& basis) {
+  const double zeta = std::min(basis.estimate.damping_ratio, 0.9);
+  return basis.force_drop_sd_N.value_or(0.0) /
+         (1.0 + std::exp(-std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta)));
+}
+
 class Planner {
  public:
   explicit Planner(const PlanBasis& basis)
       : basis_(basis),
-        covariance_(covariance_of(basis.estimate)),
-        disturbance_{basis.noise_rms_N, basis.static_friction_sd_N.value_or(0.0)} {}
+        disturbance_{basis.noise_rms_N, scatter_N(basis)},
+        propagation_(basis.estimate),
+        before_(vague(basis.estimate)),
+        measured_(measured(disturbance_, 1.0)) {}
 
-  [[nodiscard]] double error_now(const Jet& y) const { return standard_error(y, covariance_); }
+  [[nodiscard]] double error_now(const Jet& y) const { return propagation_.standard_error(y); }
 
   [[nodiscard]] ParameterLimit limit_of(const NamedJet& parameter) const {
-    ParameterLimit result{parameter.name, parameter.value.a, error_now(parameter.value), Limit::Held};
+    ParameterLimit result{parameter.name, parameter.value.a, error_now(parameter.value), 0.0, Limit::Held};
     if (!(result.standard_error > 0.0)) return result;
-    const double expected = error_again(parameter.value, disturbance_, 1.0);
+    const double expected = error_by(parameter.value, measured_);
+    result.explained_error = expected;
     constexpr double kUnexplained = 2.0;
     result.limit =
         result.standard_error > kUnexplained * expected ? Limit::Misfit : most_helpful(parameter.value, expected);
@@ -85,36 +98,50 @@ class Planner {
     return all;
   }
 
-  /// Information grows as the duration.
-  [[nodiscard]] std::optional<double> halving_s(const Jet& target, RecordingPlan recording) const {
+  /// Information grows as the duration. At least as long as a few cycles.
+  [[nodiscard]] std::optional<double> halving_s(const Jet& target, const RecordingPlan& recording) const {
     const auto information = predict::information_of(basis_.estimate, recording, disturbance_);
-    const auto error = [&](double times) {
-      return standard_error(target, predict::updated(covariance_, times * information->matrix));
-    };
-    double low = 1e-3;
-    double high = kLongest;
+    if (!information) return std::nullopt;
+    const auto error = [&](double times) { return error_with(target, times * information->matrix); };
     const double wanted = 0.5 * error_now(target);
-    if (!information || !(error(high) <= wanted)) return std::nullopt;
+    double low = kLeastCycles / information->cycles;
+    double high = kLongest;
+    if (!(error(high) <= wanted)) return std::nullopt;
+    if (error(low) <= wanted) return low * recording.duration_s;
     while (high / low > 1.01) (error(std::sqrt(low * high)) > wanted ? low : high) = std::sqrt(low * high);
     return high * recording.duration_s;
   }
 
  private:
-  static constexpr double kLongest = 1e3;    // times as long as now: longer is no plan
-  static constexpr double kGood = 0.1;       // less disturbance, as good as none
-  static constexpr double kFastClock = 8.0;  // more samples
-  static constexpr double kHelpful = 0.7;    // below it a change pays by itself
+  static constexpr double kLeastCycles = 5.0;  // fewer are no fit
+  static constexpr double kLongest = 1e3;      // times as long as now: longer is no plan
+  static constexpr double kGood = 0.1;         // less disturbance, as good as none
+  static constexpr double kFastClock = 8.0;    // more samples
+  static constexpr double kHelpful = 0.7;      // below it a change pays by itself
 
-  /// The same recordings once more, with another disturbance and clock; hardly anything known before.
-  [[nodiscard]] double error_again(const Jet& y, const Disturbance& disturbance, double clock) const {
-    const ModelMatrix vague = 1e4 * ModelMatrix(covariance_.diagonal().asDiagonal());
-    ModelMatrix sum = ModelMatrix::Zero();
+  [[nodiscard]] PlanMatrix share_of(const PlanMatrix& information) const {
+    return basis_.levels == LevelSharing::Shared ? information : predict::without_level(information);
+  }
+
+  /// What the recordings of the fit tell, with another disturbance or clock.
+  [[nodiscard]] PlanMatrix measured(const Disturbance& disturbance, double clock) const {
+    PlanMatrix sum = PlanMatrix::Zero();
     for (RecordingPlan recording : basis_.recordings) {
       recording.sample_rate_Hz *= clock;
       const auto information = predict::information_of(basis_.estimate, recording, disturbance);
-      if (information) sum += information->matrix;
+      if (information) sum += share_of(information->matrix);
     }
-    return standard_error(y, predict::updated(vague, sum));
+    return sum;
+  }
+
+  [[nodiscard]] double error_by(const Jet& y, const PlanMatrix& information) const {
+    const auto gradient = gradient_of(y);
+    return std::sqrt(std::max(0.0, gradient.dot(predict::updated(before_, information) * gradient)));
+  }
+
+  /// The fit's own standard error with a recording more.
+  [[nodiscard]] double error_with(const Jet& y, const PlanMatrix& information) const {
+    return error_now(y) * error_by(y, measured_ + share_of(information)) / error_by(y, measured_);
   }
 
   [[nodiscard]] Limit most_helpful(const Jet& y, double now) const {
@@ -125,17 +152,15 @@ class Planner {
     // More samples, each with more noise, so that nothing is won by their number.
     Disturbance same_density = disturbance_;
     same_density.noise_rms_N *= std::sqrt(kFastClock);
-    const std::array<std::pair<Limit, double>, 3> changes{{{Limit::Sampling, error_again(y, same_density, kFastClock)},
-                                                           {Limit::Scatter, error_again(y, even, 1.0)},
-                                                           {Limit::Noise, error_again(y, quiet, 1.0)}}};
-    const auto& best = *std::min_element(changes.begin(), changes.end(),
-                                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    return best.second < kHelpful * now ? best.first : Limit::Cycles;
+    if (error_by(y, measured(same_density, kFastClock)) < kHelpful * now) return Limit::Sampling;
+    const double by_scatter = error_by(y, measured(even, 1.0));
+    const double by_noise = error_by(y, measured(quiet, 1.0));
+    if (std::min(by_scatter, by_noise) >= kHelpful * now) return Limit::Cycles;
+    return by_scatter < by_noise ? Limit::Scatter : Limit::Noise;
   }
 
   /// Around those measured, where the model sticks for sure.
   [[nodiscard]] std::vector<double> speeds() const {
-    const predict::Propagation propagation(basis_.estimate);
     const auto [slow, fast] = std::minmax_element(
         basis_.recordings.begin(), basis_.recordings.end(),
         [](const RecordingPlan& a, const RecordingPlan& b) { return a.speed_m_per_s < b.speed_m_per_s; });
@@ -145,7 +170,7 @@ class Planner {
       const predict::MotionJets motion = predict::motion_at(basis_.estimate, speed);
       if (!motion.cycle || !motion.restick_margin) continue;
       const Jet& margin = *motion.restick_margin;
-      if (margin.a > 2.0 * propagation.quantile() * propagation.standard_error(margin)) result.push_back(speed);
+      if (margin.a > 2.0 * propagation_.quantile() * propagation_.standard_error(margin)) result.push_back(speed);
     }
     return result;
   }
@@ -161,11 +186,12 @@ class Planner {
     std::vector<PlanOption> options;
     for (const double faster : {1.0, 4.0, 16.0}) {
       const RecordingPlan recording{speed_m_per_s, faster * median(rates), median(durations)};
-      const auto information = predict::information_of(basis_.estimate, recording, disturbance_);
-      constexpr double kLeastCycles = 5.0;  // fewer are no fit
+      // A sensor does not get quieter by asking it more often: the noise density stays.
+      const Disturbance disturbance{std::sqrt(faster) * disturbance_.noise_rms_N, disturbance_.static_friction_sd_N};
+      const auto information = predict::information_of(basis_.estimate, recording, disturbance);
       if (!information || information->cycles < kLeastCycles) return std::nullopt;
-      options.push_back({recording, information->cycles, information->samples_per_slip,
-                         standard_error(target, predict::updated(covariance_, information->matrix))});
+      options.push_back(
+          {recording, information->cycles, information->samples_per_slip, error_with(target, information->matrix)});
     }
     const double best = options.back().standard_error;
     return *std::find_if(options.begin(), options.end(),
@@ -173,8 +199,10 @@ class Planner {
   }
 
   const PlanBasis& basis_;
-  ModelMatrix covariance_;
   Disturbance disturbance_;
+  predict::Propagation propagation_;
+  PlanMatrix before_;
+  PlanMatrix measured_;
 };
 
 /// The parameter with the widest relative interval; held ones need nothing.

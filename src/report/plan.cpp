@@ -94,6 +94,7 @@ std::string to_json(const Plan& plan, const PredictionSource& source) {
     limits.push_back({{"name", limit.name},
                       {"value", number(limit.value)},
                       {"se", number(limit.standard_error)},
+                      {"explained_se", number(limit.explained_error)},
                       {"limited_by", name_of(limit.limit)}});
   }
   Json options = Json::array();

@@ -16,12 +16,16 @@ struct RecordingPlan {
   double duration_s = 0.0;
 };
 
+/// Whether recordings have one force level, F_k(0+) in the sensor's zero: then it tells F_k(V) too.
+enum class LevelSharing { Shared, Separate };
+
 /// What a plan starts from.
 struct PlanBasis {
-  ModelEstimate estimate;                      ///< with its covariance
-  std::vector<RecordingPlan> recordings;       ///< that it was fitted to; at least one
-  double noise_rms_N = 0.0;                    ///< of a sample, > 0
-  std::optional<double> static_friction_sd_N;  ///< scatter from cycle to cycle
+  ModelEstimate estimate;                 ///< with its covariance
+  std::vector<RecordingPlan> recordings;  ///< that it was fitted to; at least one
+  double noise_rms_N = 0.0;               ///< of a sample, > 0
+  std::optional<double> force_drop_sd_N;  ///< scatter of the fall of the force in a slip, from cycle to cycle
+  LevelSharing levels = LevelSharing::Separate;
 };
 
 /// What shall become narrower: a parameter, or the spacing at a speed.
@@ -44,6 +48,7 @@ struct ParameterLimit {
   std::string name;
   double value = 0.0;
   double standard_error = 0.0;
+  double explained_error = 0.0;  ///< that noise and scatter alone would leave
   Limit limit = Limit::Cycles;
 };
 
@@ -64,8 +69,9 @@ struct Plan {
   std::optional<double> halving_s;     ///< duration of the best option that halves the standard error
 };
 
-/// Which recording to make next, by Fisher information: the fit's own covariance, and white noise and scatter of the
-/// same size in the recording to come, whose force level, onsets and static frictions are its own. Errors: a target
+/// Which recording to make next. The fit's own standard errors fall in the ratio in which Fisher information narrows
+/// those calculated for its recordings: with white noise of the same density, scatter of the same size, and onset and
+/// static friction of each cycle for itself. Errors: a target
 /// that the model does not have, or a spacing at a speed without stick-slip.
 Result<Plan> plan_next(const PlanBasis& basis, const std::optional<PlanTarget>& target);
 
