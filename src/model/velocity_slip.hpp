@@ -1,0 +1,158 @@
+#pragma once
+
+// One slip with velocity-dependent friction, scaled (velocity_law.hpp), with or without its sensitivities.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "model/velocity_law.hpp"
+#include "model/velocity_steps.hpp"
+
+namespace slipfit::model {
+
+/// The scaled parameters in the order of the sensitivities: lambda, zeta, strength and rate of the law.
+inline constexpr std::size_t kScaledParameters = 4;
+inline constexpr std::size_t kIntegral = 2;                                 ///< of s over the slip
+inline constexpr std::size_t kPlain = 3;                                    ///< s, v, integral of s
+inline constexpr std::size_t kSensitive = kPlain + 2 * kScaledParameters;  ///< and ds/dp, dv/dp
+inline constexpr std::size_t kFirstDs = kPlain;
+inline constexpr std::size_t kFirstDv = kPlain + kScaledParameters;
+
+/// s' = 1 - v, v' = s - 2 zeta v - g(v), and beside them (N = kSensitive) the derivatives of both equations with respect
+/// to the four parameters. docs/model.md section 5.
+template <std::size_t N>
+struct SlipSystem {
+  ScaledSlip slip;
+
+  void operator()(const std::array<double, N>& x, std::array<double, N>& dx, double /*tau*/) const {
+    const double v = x[1];
+    const ExcessFriction friction = slip.law.at(v);
+    dx[0] = 1.0 - v;
+    dx[1] = x[0] - 2.0 * slip.zeta * v - friction.value;
+    dx[kIntegral] = x[0];
+    if constexpr (N == kSensitive) {
+      const double damping = 2.0 * slip.zeta + friction.slope;
+      const std::array<double, kScaledParameters> direct{0.0, 2.0 * v, friction.d_strength, friction.d_rate};
+      for (std::size_t p = 0; p < kScaledParameters; ++p) {
+        dx[kFirstDs + p] = -x[kFirstDv + p];
+        dx[kFirstDv + p] = x[kFirstDs + p] - damping * x[kFirstDv + p] - direct[p];
+      }
+    }
+  }
+};
+
+/// Local errors of 1e-13 (4 digits below the 1e-9 asked of the derivatives) add up to a few 1e-12 over a slip.
+template <std::size_t N>
+StepError<N> step_error(const ScaledSlip& slip) {
+  StepError<N> error{1e-13, {}};
+  const double size = 1.0 + slip.lambda;
+  error.floor[0] = error.floor[1] = error.floor[kIntegral] = size;
+  if constexpr (N == kSensitive) {
+    // Sizes of the sensitivities; those of the law fade where the friction has changed before the slip is under way.
+    const double reach = 1.0 + std::abs(slip.law.rate) * size;
+    const double tiny = 1e-200;  // a law without strength has no sensitivity to its rate: 0 / 0
+    const std::array<double, kScaledParameters> sizes{1.0, size, (reach - 1.0) / reach + tiny,
+                                                      std::abs(slip.law.strength) * size / (reach * reach) + tiny};
+    for (std::size_t p = 0; p < kScaledParameters; ++p) error.floor[kFirstDs + p] = error.floor[kFirstDv + p] = sizes[p];
+  }
+  return error;
+}
+
+template <std::size_t N>
+using SlipWalker = StepWalker<N, SlipSystem<N>>;
+
+/// A slip from stick. The first step must not jump over the layer in which the exponential dies out, 1 / |alpha V v|.
+template <std::size_t N>
+SlipWalker<N> walk_slip(const ScaledSlip& slip) {
+  constexpr double kLargestStep = 1.0;  // a third of the half turn in which the speed can turn once
+  std::array<double, N> start{};
+  start[0] = slip.lambda;
+  if constexpr (N == kSensitive) start[kFirstDs] = 1.0;  // s(0) = lambda
+  const double first_step = 0.1 / (1.0 + std::abs(slip.law.rate) * std::sqrt(1.0 + slip.lambda));
+  return {SlipSystem<N>{slip}, start, step_error<N>(slip), first_step, kLargestStep};
+}
+
+enum class SlipStatus { Resticks, SlidesOn, NotSolved };
+
+/// The instants that matter. Where the slip slides on, `end` is its slowest point or where the motion has settled.
+template <std::size_t N>
+struct SlipPath {
+  SlipStatus status = SlipStatus::NotSolved;
+  StepNode<N> peak, trough, end;  ///< s is largest and smallest where v = 1
+};
+
+/// Steady sliding is stable and so close that the linear motion about it cannot reach v = 0 any more.
+template <std::size_t N>
+bool has_settled(const ScaledSlip& slip, const StepNode<N>& node) {
+  const double distance = std::abs(node.x[1] - 1.0) + std::abs(node.x[0] - slip.steady_s());
+  return distance * (1.0 + std::abs(slip.law.rate)) < 1e-6 && slip.total_damping_ratio() > 0.0;
+}
+
+/// From stick until the mass is at rest again, or has turned back before, or has settled. One turn decides: orbits of
+/// two variables do not cross, so what has turned back once stays inside its own loop (docs/model.md section 5).
+template <std::size_t N>
+SlipPath<N> follow_slip(const ScaledSlip& slip) {
+  constexpr int kMaxSteps = 20000;  // an ordinary slip needs 20 to 60; 10 ms at most for a stiff one
+  SlipWalker<N> walker = walk_slip<N>(slip);
+  SlipPath<N> path;
+  for (int step = 0; step < kMaxSteps && walker.advance(); ++step) {
+    const double before = walker.from.x[kSpeed] - 1.0;
+    const double after = walker.to.x[kSpeed] - 1.0;
+    if (before < 0.0 && after >= 0.0) path.peak = locate_level(walker, 1.0, walker.to);
+    if (before >= 0.0 && after < 0.0) path.trough = locate_level(walker, 1.0, walker.to);
+    const SpeedEvent<N> event = speed_event(walker);
+    path.end = event.rest ? *event.rest : event.turn ? *event.turn : walker.to;
+    if (event.rest) path.status = SlipStatus::Resticks;
+    if (event.turn || has_settled(slip, walker.to)) path.status = SlipStatus::SlidesOn;
+    if (path.status != SlipStatus::NotSolved) return path;
+  }
+  return path;
+}
+
+/// As follow_slip, without the work where an overdamped slip cannot even slow down to the driving speed again.
+template <std::size_t N>
+SlipPath<N> first_slip(const ScaledSlip& slip) {
+  if (2.0 * slip.zeta + slip.law.smallest_slope_of_fast_slip() < 2.0) return follow_slip<N>(slip);
+  SlipPath<N> path;
+  path.status = SlipStatus::SlidesOn;
+  return path;
+}
+
+struct TracePoint {
+  double s = 0.0;
+  double v = 0.0;
+};
+
+/// One slip and the stick after it, asked at times that never decrease.
+class SlipTrace {
+ public:
+  explicit SlipTrace(const ScaledSlip& slip) : walker_(walk_slip<kPlain>(slip)) {}
+
+  /// Empty where the slip runs away or needs steps without end.
+  std::optional<TracePoint> at(double tau) {
+    while (!rest_ && walker_.to.tau < tau) {
+      if (++steps_ > kMaxSteps || !walker_.advance()) return std::nullopt;
+      rest_ = speed_event(walker_).rest;
+    }
+    if (rest_ && tau >= rest_->tau) return TracePoint{rest_->x[0] + (tau - rest_->tau), 0.0};
+    if (walker_.length() <= 0.0) return TracePoint{walker_.to.x[0], walker_.to.x[kSpeed]};  // before the first step
+    const StepNode<kPlain> node = walker_.inside(tau - walker_.from.tau);
+    return TracePoint{node.x[0], node.x[kSpeed]};
+  }
+
+  /// Known as soon as a time after it has been asked for.
+  [[nodiscard]] std::optional<double> tau_end() const { return rest_ ? std::optional(rest_->tau) : std::nullopt; }
+
+ private:
+  static constexpr std::int64_t kMaxSteps = 100'000'000;  // a minute: days of steady sliding
+
+  SlipWalker<kPlain> walker_;
+  std::optional<StepNode<kPlain>> rest_;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace slipfit::model
