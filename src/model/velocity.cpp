@@ -52,9 +52,8 @@ Result<Scaled> scaled(const Slider& slider, const VelocityFriction& friction, do
   const model::ScaledLaw law{friction.f1_N() / force_N, friction.alpha_s_per_m() * speed_m_per_s};
   if (!std::isfinite(lambda)) return out_of_range("lambda", lambda, "a finite number");
   if (!std::isfinite(law.strength)) return out_of_range("f1 w_n / (k V)", law.strength, "a finite number");
-  if (!std::isfinite(law.rate)) return out_of_range("alpha * speed", law.rate, "a finite number");
-  if (!std::isfinite(law.at(1.0).slope)) {
-    return out_of_range("slope of the friction at the driving speed (k / w_n)", law.at(1.0).slope, "a finite number");
+  if (!(std::isfinite(law.rate) && std::isfinite(law.at(1.0).slope))) {
+    return out_of_range("alpha * speed", law.rate, "a number whose exponential is finite");
   }
   return Scaled{force_N, {lambda, slider.damping_ratio(), law}};
 }
@@ -100,8 +99,7 @@ LimitCycle limit_cycle(const Scaled& scaled, const model::SlipPath<model::kPlain
 std::optional<double> stability_speed_m_per_s(const Slider& slider, const VelocityFriction& friction) {
   const double slope_at_rest = friction.alpha_s_per_m() * friction.f1_N();
   // c + alpha f1 exp(alpha V) = 0
-  const double speed_m_per_s =
-      std::log(-slider.damping_N_s_per_m() / slope_at_rest) / friction.alpha_s_per_m();
+  const double speed_m_per_s = std::log(-slider.damping_N_s_per_m() / slope_at_rest) / friction.alpha_s_per_m();
   return is_positive(speed_m_per_s) ? std::optional(speed_m_per_s) : std::nullopt;
 }
 

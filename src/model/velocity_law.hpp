@@ -1,6 +1,7 @@
 #pragma once
 
-// Velocity-dependent friction in scaled form (docs/model.md section 5): forces in k V / w_n, speeds in V, times in 1/w_n.
+// Velocity-dependent friction in scaled form (docs/model.md section 5): forces in k V / w_n, speeds in V, times in
+// 1/w_n.
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +22,9 @@ struct ScaledLaw {
   double rate = 0.0;
 
   [[nodiscard]] ExcessFriction at(double v) const {
-    // A trial stage of a step may overshoot far: exp(600) is finite and makes the error control reject the step.
-    const double growth = std::expm1(std::min(rate * v, 600.0));
+    // Overflow stays infinite: the error control rejects a step that meets it, but would believe in a large plateau.
+    const double growth = std::expm1(rate * v);
+    if (strength == 0.0) return {0.0, 0.0, growth, 0.0};  // not 0 * infinity
     const double slope = strength * (growth + 1.0);
     return {strength * growth, slope * rate, growth, slope * v};
   }

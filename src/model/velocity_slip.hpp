@@ -16,14 +16,14 @@ namespace slipfit::model {
 
 /// The scaled parameters in the order of the sensitivities: lambda, zeta, strength and rate of the law.
 inline constexpr std::size_t kScaledParameters = 4;
-inline constexpr std::size_t kIntegral = 2;                                 ///< of s over the slip
-inline constexpr std::size_t kPlain = 3;                                    ///< s, v, integral of s
+inline constexpr std::size_t kIntegral = 2;                                ///< of s over the slip
+inline constexpr std::size_t kPlain = 3;                                   ///< s, v, integral of s
 inline constexpr std::size_t kSensitive = kPlain + 2 * kScaledParameters;  ///< and ds/dp, dv/dp
 inline constexpr std::size_t kFirstDs = kPlain;
 inline constexpr std::size_t kFirstDv = kPlain + kScaledParameters;
 
-/// s' = 1 - v, v' = s - 2 zeta v - g(v), and beside them (N = kSensitive) the derivatives of both equations with respect
-/// to the four parameters. docs/model.md section 5.
+/// s' = 1 - v, v' = s - 2 zeta v - g(v), and beside them (N = kSensitive) the derivatives of both equations with
+/// respect to the four parameters. docs/model.md section 5.
 template <std::size_t N>
 struct SlipSystem {
   ScaledSlip slip;
@@ -57,7 +57,8 @@ StepError<N> step_error(const ScaledSlip& slip) {
     const double tiny = 1e-200;  // a law without strength has no sensitivity to its rate: 0 / 0
     const std::array<double, kScaledParameters> sizes{1.0, size, (reach - 1.0) / reach + tiny,
                                                       std::abs(slip.law.strength) * size / (reach * reach) + tiny};
-    for (std::size_t p = 0; p < kScaledParameters; ++p) error.floor[kFirstDs + p] = error.floor[kFirstDv + p] = sizes[p];
+    for (std::size_t p = 0; p < kScaledParameters; ++p)
+      error.floor[kFirstDs + p] = error.floor[kFirstDv + p] = sizes[p];
   }
   return error;
 }
@@ -78,6 +79,14 @@ SlipWalker<N> walk_slip(const ScaledSlip& slip) {
 
 enum class SlipStatus { Resticks, SlidesOn, NotSolved };
 
+/// Only a slip that has been faster than the drive and falls below its speed can stick or turn back: below it the
+/// spring gains force, so that what accelerates goes on accelerating. Before that a creeping body only seems to, by
+/// round-off.
+template <class Walker>
+bool falls_below_drive(const Walker& walker) {
+  return walker.from.x[kSpeed] >= 1.0 && walker.to.x[kSpeed] < 1.0;
+}
+
 /// The instants that matter. Where the slip slides on, `end` is its slowest point or where the motion has settled.
 template <std::size_t N>
 struct SlipPath {
@@ -96,15 +105,17 @@ bool has_settled(const ScaledSlip& slip, const StepNode<N>& node) {
 /// two variables do not cross, so what has turned back once stays inside its own loop (docs/model.md section 5).
 template <std::size_t N>
 SlipPath<N> follow_slip(const ScaledSlip& slip) {
-  constexpr int kMaxSteps = 20000;  // an ordinary slip needs 20 to 60; 10 ms at most for a stiff one
+  constexpr int kMaxSteps = 5000;  // an ordinary slip needs 10 to 60; a stiff one gets 10 ms at most
   SlipWalker<N> walker = walk_slip<N>(slip);
   SlipPath<N> path;
+  bool slows_down = false;
   for (int step = 0; step < kMaxSteps && walker.advance(); ++step) {
-    const double before = walker.from.x[kSpeed] - 1.0;
-    const double after = walker.to.x[kSpeed] - 1.0;
-    if (before < 0.0 && after >= 0.0) path.peak = locate_level(walker, 1.0, walker.to);
-    if (before >= 0.0 && after < 0.0) path.trough = locate_level(walker, 1.0, walker.to);
-    const SpeedEvent<N> event = speed_event(walker);
+    if (walker.from.x[kSpeed] < 1.0 && walker.to.x[kSpeed] >= 1.0) path.peak = locate_level(walker, 1.0, walker.to);
+    if (falls_below_drive(walker)) {
+      path.trough = locate_level(walker, 1.0, walker.to);
+      slows_down = true;
+    }
+    const SpeedEvent<N> event = slows_down ? speed_event(walker) : SpeedEvent<N>();
     path.end = event.rest ? *event.rest : event.turn ? *event.turn : walker.to;
     if (event.rest) path.status = SlipStatus::Resticks;
     if (event.turn || has_settled(slip, walker.to)) path.status = SlipStatus::SlidesOn;
@@ -136,7 +147,8 @@ class SlipTrace {
   std::optional<TracePoint> at(double tau) {
     while (!rest_ && walker_.to.tau < tau) {
       if (++steps_ > kMaxSteps || !walker_.advance()) return std::nullopt;
-      rest_ = speed_event(walker_).rest;
+      slows_down_ = slows_down_ || falls_below_drive(walker_);
+      if (slows_down_) rest_ = speed_event(walker_).rest;
     }
     if (rest_ && tau >= rest_->tau) return TracePoint{rest_->x[0] + (tau - rest_->tau), 0.0};
     if (walker_.length() <= 0.0) return TracePoint{walker_.to.x[0], walker_.to.x[kSpeed]};  // before the first step
@@ -151,6 +163,7 @@ class SlipTrace {
   static constexpr std::int64_t kMaxSteps = 100'000'000;  // a minute: days of steady sliding
 
   SlipWalker<kPlain> walker_;
+  bool slows_down_ = false;
   std::optional<StepNode<kPlain>> rest_;
   std::int64_t steps_ = 0;
 };

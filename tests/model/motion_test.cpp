@@ -1,46 +1,18 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <map>
 #include <numbers>
 #include <random>
-#include <sstream>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "model/slip.hpp"
+#include "reference_table.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
 
 namespace {
 
 using slipfit::damped_motion;
-
-/// Rows of a reference table by column name; empty where the folder is absent.
-std::vector<std::map<std::string, double>> reference_rows(const std::string& name) {
-  std::ifstream file(std::filesystem::path(SLIPFIT_SHARED_DIR) / "reference" / name);
-  std::vector<std::string> names;
-  std::vector<std::map<std::string, double>> rows;
-  for (std::string line; std::getline(file, line);) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty() || line[0] == '#') continue;
-    std::stringstream fields(line);
-    std::map<std::string, double> row;
-    std::size_t column = 0;
-    for (std::string field; std::getline(fields, field, ','); ++column) {
-      if (rows.empty() && names.size() == column && std::isalpha(static_cast<unsigned char>(field[0])) != 0 &&
-          field != "nan") {
-        names.push_back(field);
-      } else {
-        row[names.at(column)] = std::strtod(field.c_str(), nullptr);
-      }
-    }
-    if (!row.empty()) rows.push_back(row);
-  }
-  if (rows.empty()) WARN("skipped: no " << name << " beside the checkout");
-  return rows;
-}
 
 /// Unit slider: w_n = 1, k = 1, V = 1, so times are tau and forces are in k V / w_n.
 slipfit::Motion unit_motion(double lambda, double zeta) {
@@ -51,7 +23,7 @@ slipfit::Motion unit_motion(double lambda, double zeta) {
 }  // namespace
 
 TEST_CASE("undamped cycle agrees with the independent table") {
-  for (auto& row : reference_rows("undamped.csv")) {
+  for (auto& row : test::reference_rows("undamped.csv")) {
     if (row["lambda"] == 0.0) continue;
     const auto motion = unit_motion(row["lambda"], 0.0);
     INFO("lambda " << row["lambda"]);
@@ -63,7 +35,7 @@ TEST_CASE("undamped cycle agrees with the independent table") {
 }
 
 TEST_CASE("damped cycle agrees with the independent table, existence included") {
-  for (auto& row : reference_rows("damped_exact.csv")) {
+  for (auto& row : test::reference_rows("damped_exact.csv")) {
     const auto motion = unit_motion(row["lambda"], row["zeta"]);
     INFO("lambda " << row["lambda"] << " zeta " << row["zeta"]);
     REQUIRE(motion.cycle.has_value() == (row["sticks"] == 1.0));
@@ -76,7 +48,7 @@ TEST_CASE("damped cycle agrees with the independent table, existence included") 
 }
 
 TEST_CASE("critical lambda agrees with the independent table") {
-  for (auto& row : reference_rows("stick_slip_boundary.csv")) {
+  for (auto& row : test::reference_rows("stick_slip_boundary.csv")) {
     INFO("zeta " << row["zeta"]);
     CHECK(slipfit::critical_lambda(row["zeta"]) == Approx(row["lambda_c"]).epsilon(1e-13));
   }
@@ -133,7 +105,7 @@ TEST_CASE("overdamped bodies slip continuously, without overflow") {
 }
 
 TEST_CASE("the paper's approximation agrees with the independent table, unsolvable rows included") {
-  for (auto& row : reference_rows("damped_paper.csv")) {
+  for (auto& row : test::reference_rows("damped_paper.csv")) {
     const auto cycle = slipfit::paper_cycle(slipfit::Slider::create(1.0, 1.0, row["zeta"]).value(),
                                             slipfit::Friction::create(row["lambda"], 0.0).value(), 1.0);
     INFO("lambda " << row["lambda"] << " zeta " << row["zeta"]);

@@ -11,9 +11,9 @@
 
 namespace slipfit {
 
-/// Kinetic friction that depends on the sliding speed v: F_k(v) = f0 + f1 exp(alpha v), [Paper] eq. (41) with the normal
-/// force multiplied in (docs/model.md section 5). The law is taken as it stands: with f0 < 0 or f1 < 0 it may fall below
-/// zero at high speed.
+/// Kinetic friction that depends on the sliding speed v: F_k(v) = f0 + f1 exp(alpha v), [Paper] eq. (41) with the
+/// normal force multiplied in (docs/model.md section 5). The law is taken as it stands: with f0 < 0 or f1 < 0 it may
+/// fall below zero at high speed.
 class VelocityFriction {
  public:
   /// All finite, f0 + f1 >= 0, static >= f0 + f1; alpha of either sign. Errors name parameter, value and range.
@@ -38,16 +38,16 @@ class VelocityFriction {
 /// Motion with velocity-dependent friction. `motion.regime` says StickSlipBistable where steady sliding is stable too,
 /// UnstableSteady where it is not and the slip that starts from stick does not stick again either.
 struct VelocityMotion {
-  Motion motion;                    ///< lambda with F_k(0+)
+  Motion motion;                     ///< lambda with F_k(0+)
   double total_damping_ratio = 0.0;  ///< zeta + slope of F_k at V / (2 sqrt(k m)): < 0 where steady sliding is unstable
   /// Speed at which steady sliding changes stability, ln(-c / (alpha f1)) / alpha; empty where it never does.
   std::optional<double> stability_speed_m_per_s;
 };
 
-/// The limit cycle that is reached from rest. Times and forces hold to 1e-10 relative for lambda from 1e-4 to 1e8;
-/// whether the slip sticks again is decided to 1e-11 of V in the smallest sliding speed.
-/// Errors: parameter_out_of_range (speed <= 0 or not finite; lambda or alpha * speed that overflows), no_convergence (the
-/// slip runs away, or is so stiff that the bounded work does not reach its end).
+/// The limit cycle that is reached from rest. Times and forces hold to 1e-10 relative for lambda from 0.02 to 1e8;
+/// below, where the slip only just sticks, to 1e-13 / lambda^2. Whether it sticks again is decided to 1e-11 of V in the
+/// smallest sliding speed. Errors: parameter_out_of_range (speed <= 0 or not finite; lambda or alpha * speed that
+/// overflows), no_convergence (the slip runs away, or is so stiff that the bounded work does not reach its end).
 Result<VelocityMotion> velocity_motion(const Slider& slider, const VelocityFriction& friction, double speed_m_per_s);
 
 /// The parameters of a velocity-dependent slip, in the order of every gradient.
