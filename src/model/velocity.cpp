@@ -8,6 +8,7 @@
 
 #include "model/parameter_error.hpp"
 #include "model/velocity_slip.hpp"
+#include "model/velocity_units.hpp"
 
 namespace slipfit {
 
@@ -38,33 +39,6 @@ double VelocityFriction::kinetic_N(double speed_m_per_s) const {
 
 namespace {
 
-/// Force of k V / w_n, and the slip in these units.
-struct Scaled {
-  double force_N = 0.0;
-  model::ScaledSlip slip;
-};
-
-Result<Scaled> scaled(const Slider& slider, const VelocityFriction& friction, double speed_m_per_s) {
-  if (!is_positive(speed_m_per_s)) return out_of_range("speed (m/s)", speed_m_per_s, "a number > 0");
-  const double force_N = slider.stiffness_N_per_m() * speed_m_per_s / slider.natural_frequency_rad_per_s();
-  if (!is_positive(force_N)) return out_of_range("k V / w_n (N)", force_N, "a number > 0");
-  const double lambda = (friction.static_N() - friction.onset_N()) / force_N;
-  const model::ScaledLaw law{friction.f1_N() / force_N, friction.alpha_s_per_m() * speed_m_per_s};
-  if (!std::isfinite(lambda)) return out_of_range("lambda", lambda, "a finite number");
-  if (!std::isfinite(law.strength)) return out_of_range("f1 w_n / (k V)", law.strength, "a finite number");
-  if (!(std::isfinite(law.rate) && std::isfinite(law.at(1.0).slope))) {
-    return out_of_range("alpha * speed", law.rate, "a number whose exponential is finite");
-  }
-  return Scaled{force_N, {lambda, slider.damping_ratio(), law}};
-}
-
-Error no_convergence(const model::ScaledSlip& slip) {
-  const auto text = [](double value) { return model::short_text(value); };
-  return {"no_convergence", "the slip with lambda " + text(slip.lambda) + ", damping ratio " + text(slip.zeta) +
-                                ", f1 w_n / (k V) " + text(slip.law.strength) + ", alpha V " + text(slip.law.rate) +
-                                " runs away or is too stiff to be followed, expected friction that changes less"};
-}
-
 Regime regime_of(const model::ScaledSlip& slip, model::SlipStatus status) {
   const double total = slip.total_damping_ratio();
   if (status == model::SlipStatus::Resticks) return total > 0.0 ? Regime::StickSlipBistable : Regime::StickSlip;
@@ -72,23 +46,23 @@ Regime regime_of(const model::ScaledSlip& slip, model::SlipStatus status) {
   return total < 1.0 ? Regime::OscillatorySlip : Regime::ContinuousSlip;
 }
 
-LimitCycle limit_cycle(const Scaled& scaled, const model::SlipPath<model::kPlain>& path, const Slider& slider,
+LimitCycle limit_cycle(const model::SpeedUnits& units, const model::SlipPath<model::kPlain>& path, const Slider& slider,
                        const VelocityFriction& friction, double speed_m_per_s) {
   const double w_n = slider.natural_frequency_rad_per_s();
   const double zeta = slider.damping_ratio();
   const double s_end = path.end.x[0];
-  const double tau_stick = scaled.slip.lambda - s_end;
+  const double tau_stick = units.slip.lambda - s_end;
   const double tau_period = path.end.tau + tau_stick;
   // s = z + 2 zeta; the integral of s over the stick, a straight line from s_end to lambda
-  const double stick_integral = 0.5 * tau_stick * (scaled.slip.lambda + s_end);
-  const auto force_N = [&](double s) { return friction.onset_N() + scaled.force_N * (s - 2.0 * zeta); };
+  const double stick_integral = 0.5 * tau_stick * (units.slip.lambda + s_end);
+  const auto force_N = [&](double s) { return friction.onset_N() + units.force_N * (s - 2.0 * zeta); };
   LimitCycle cycle;
   cycle.slip_s = path.end.tau / w_n;
   cycle.stick_s = tau_stick / w_n;
   cycle.period_s = tau_period / w_n;
   cycle.sticking_degree = tau_stick / tau_period;
   cycle.periodic_displacement_m = speed_m_per_s * cycle.period_s;
-  cycle.onset_force_N = force_N(scaled.slip.lambda);
+  cycle.onset_force_N = force_N(units.slip.lambda);
   cycle.end_force_N = force_N(s_end);
   cycle.force_peak_N = force_N(path.peak.x[0]);
   cycle.force_trough_N = force_N(path.trough.x[0]);
@@ -106,11 +80,11 @@ std::optional<double> stability_speed_m_per_s(const Slider& slider, const Veloci
 }  // namespace
 
 Result<VelocityMotion> velocity_motion(const Slider& slider, const VelocityFriction& friction, double speed_m_per_s) {
-  const Result<Scaled> in_units = scaled(slider, friction, speed_m_per_s);
+  const Result<model::SpeedUnits> in_units = model::in_speed_units(slider, friction, speed_m_per_s);
   if (!in_units) return in_units.error();
   const model::ScaledSlip& slip = in_units.value().slip;
   const auto path = model::first_slip<model::kPlain>(slip);
-  if (path.status == model::SlipStatus::NotSolved) return no_convergence(slip);
+  if (path.status == model::SlipStatus::NotSolved) return model::no_convergence(slip);
   VelocityMotion result;
   result.motion.lambda = slip.lambda;
   result.motion.regime = regime_of(slip, path.status);
@@ -171,10 +145,10 @@ class ChainRule {
 Result<std::optional<VelocityDerivatives>> velocity_derivatives(const Slider& slider, const VelocityFriction& friction,
                                                                 double speed_m_per_s) {
   using Answer = std::optional<VelocityDerivatives>;
-  const Result<Scaled> in_units = scaled(slider, friction, speed_m_per_s);
+  const Result<model::SpeedUnits> in_units = model::in_speed_units(slider, friction, speed_m_per_s);
   if (!in_units) return in_units.error();
   const auto path = model::first_slip<model::kSensitive>(in_units.value().slip);
-  if (path.status == model::SlipStatus::NotSolved) return no_convergence(in_units.value().slip);
+  if (path.status == model::SlipStatus::NotSolved) return model::no_convergence(in_units.value().slip);
   if (path.status == model::SlipStatus::SlidesOn) return Answer();
 
   const ChainRule chain(slider, friction, speed_m_per_s);
@@ -197,7 +171,7 @@ Result<std::optional<VelocityDerivatives>> velocity_derivatives(const Slider& sl
 
 Result<VelocityWaveform> velocity_waveform(const Slider& slider, const VelocityFriction& friction, double speed_m_per_s,
                                            std::span<const double> slip_time_s) {
-  const Result<Scaled> in_units = scaled(slider, friction, speed_m_per_s);
+  const Result<model::SpeedUnits> in_units = model::in_speed_units(slider, friction, speed_m_per_s);
   if (!in_units) return in_units.error();
   const double w_n = slider.natural_frequency_rad_per_s();
   model::SlipTrace trace(in_units.value().slip);
@@ -210,7 +184,7 @@ Result<VelocityWaveform> velocity_waveform(const Slider& slider, const VelocityF
     }
     last_s = time_s;
     const std::optional<model::TracePoint> point = trace.at(w_n * time_s);
-    if (!point) return no_convergence(in_units.value().slip);
+    if (!point) return model::no_convergence(in_units.value().slip);
     waveform.spring_force_N.push_back(friction.onset_N() +
                                       in_units.value().force_N * (point->s - 2.0 * slider.damping_ratio()));
     waveform.sliding_speed_m_per_s.push_back(speed_m_per_s * point->v);
