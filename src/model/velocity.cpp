@@ -42,7 +42,7 @@ namespace {
 Regime regime_of(const model::ScaledSlip& slip, model::SlipStatus status) {
   const double total = slip.total_damping_ratio();
   if (status == model::SlipStatus::Resticks) return total > 0.0 ? Regime::StickSlipBistable : Regime::StickSlip;
-  if (total < 0.0) return Regime::UnstableSteady;
+  if (total < 0.0) return Regime::UnstableSteady;  // by round-off at best: docs/model.md (17)
   return total < 1.0 ? Regime::OscillatorySlip : Regime::ContinuousSlip;
 }
 

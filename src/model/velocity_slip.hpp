@@ -21,11 +21,24 @@ inline constexpr std::size_t kSensitive = kPlain + 2 * kScaledParameters;  ///< 
 inline constexpr std::size_t kFirstDs = kPlain;
 inline constexpr std::size_t kFirstDv = kPlain + kScaledParameters;
 
+/// Weakening friction (rate < 0) soars within 1 / |rate| above rest: a step from v may end at v / 2 or inside this
+/// layer, but must not fall into it from far above. Without the layer, 1: a third of the half turn in which v turns
+/// once.
+inline double longest_slip_step(const ScaledLaw& law, double v, double acceleration) {
+  constexpr double kLongest = 1.0;
+  if (law.rate >= 0.0 || acceleration >= 0.0) return kLongest;
+  return std::min(kLongest, (0.5 * v - 1.0 / law.rate) / -acceleration);
+}
+
 /// s' = 1 - v, v' = s - 2 zeta v - g(v), and beside them (N = kSensitive) the derivatives of both equations with
 /// respect to the four parameters. docs/model.md section 5.
 template <std::size_t N>
 struct SlipSystem {
   ScaledSlip slip;
+
+  [[nodiscard]] double longest_step(const StepNode<N>& node) const {
+    return longest_slip_step(slip.law, node.x[kSpeed], node.dx[kSpeed]);
+  }
 
   void operator()(const std::array<double, N>& x, std::array<double, N>& dx, double /*tau*/) const {
     const double v = x[1];
@@ -65,15 +78,14 @@ StepError<N> step_error(const ScaledSlip& slip) {
 template <std::size_t N>
 using SlipWalker = StepWalker<N, SlipSystem<N>>;
 
-/// A slip from stick. The first step must not jump over the layer in which the exponential dies out, 1 / |alpha V v|.
+/// A slip from stick. The first step must not jump over the layer at rest either; v grows as lambda tau.
 template <std::size_t N>
 SlipWalker<N> walk_slip(const ScaledSlip& slip) {
-  constexpr double kLargestStep = 1.0;  // a third of the half turn in which the speed can turn once
   std::array<double, N> start{};
   start[0] = slip.lambda;
   if constexpr (N == kSensitive) start[kFirstDs] = 1.0;  // s(0) = lambda
-  const double first_step = 0.1 / (1.0 + std::abs(slip.law.rate) * std::sqrt(1.0 + slip.lambda));
-  return {SlipSystem<N>{slip}, start, step_error<N>(slip), first_step, kLargestStep};
+  const double first_step = 0.1 / (1.0 + std::abs(slip.law.rate) * (1.0 + slip.lambda));
+  return {SlipSystem<N>{slip}, start, step_error<N>(slip), first_step};
 }
 
 enum class SlipStatus { Resticks, SlidesOn, NotSolved };
@@ -101,7 +113,7 @@ bool has_settled(const ScaledSlip& slip, const StepNode<N>& node) {
 }
 
 /// From stick until the mass is at rest again, or has turned back before, or has settled. One turn decides: orbits of
-/// two variables do not cross, so what has turned back once stays inside its own loop (docs/model.md section 5).
+/// two variables do not cross, so what has turned back once stays inside its own loop, docs/model.md (16).
 template <std::size_t N>
 SlipPath<N> follow_slip(const ScaledSlip& slip) {
   constexpr int kMaxSteps = 5000;  // an ordinary slip needs 10 to 60; a stiff one gets 10 ms at most

@@ -4,6 +4,7 @@
 // speed reaches a level or comes to rest. Boost.odeint's Fehlberg 7(8) steps; an event is found by repeating the step
 // with the length that ends on it, so that it is as exact as the integration itself.
 
+#include <algorithm>
 #include <array>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <boost/numeric/odeint/algebra/array_algebra.hpp>
@@ -49,20 +50,19 @@ struct StepError {
   static constexpr double kHopeless = 1e30;
 };
 
-/// Walks a system forward; `from` and `to` are the ends of the last step.
+/// Walks a system forward. `System::longest_step(node)` bounds the step from there, so that the speed turns at most
+/// once in it and that nothing happens which only the last stage sees: the error estimate of these steps is blind to
+/// that. The nodes `from` and `to` are the ends of the last step.
 template <std::size_t N, class System>
 class StepWalker {
   using State = std::array<double, N>;
   using Fehlberg = boost::numeric::odeint::runge_kutta_fehlberg78<State, double, State, double,
                                                                   boost::numeric::odeint::array_algebra>;
   using Controlled = boost::numeric::odeint::controlled_runge_kutta<Fehlberg, StepError<N>>;
-  using Adjuster = typename Controlled::step_adjuster_type;
 
  public:
-  /// At most one turn of the speed fits into a step of `largest_step` < pi.
-  StepWalker(const System& system, const State& start, const StepError<N>& error, double first_step,
-             double largest_step)
-      : system_(system), controlled_(error, Adjuster(largest_step)), step_(first_step) {
+  StepWalker(const System& system, const State& start, const StepError<N>& error, double first_step)
+      : system_(system), controlled_(error), step_(first_step) {
     to.x = start;
     system_(to.x, to.dx, to.tau);
   }
@@ -72,6 +72,7 @@ class StepWalker {
   /// False where no step length serves: the solution runs away.
   bool advance() {
     from = to;
+    step_ = std::min(step_, system_.longest_step(from));
     constexpr int kMaxRejections = 60;  // each shortens the step, at best by a factor 5: 60 reach round-off of tau
     for (int attempt = 0; attempt < kMaxRejections; ++attempt) {
       const auto result = controlled_.try_step(std::cref(system_), from.x, from.dx, to.tau, to.x, step_);

@@ -4,10 +4,11 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/velocity_slip.hpp"
@@ -108,7 +109,8 @@ TEST_CASE("derivatives of velocity-dependent cycles agree with eighth-order diff
     REQUIRE(exact);
     const LimitCycle cycle = cycle_at(p);
     for (std::size_t quantity = 0; quantity < kQuantities.size(); ++quantity) {
-      const auto& [derivative, member] = kQuantities[quantity];
+      const auto derivative = kQuantities[quantity].first;
+      const auto member = kQuantities[quantity].second;
       const double size = std::abs(cycle.*member);
       CHECK(((*exact).*derivative).value == Approx(cycle.*member).epsilon(1e-11).margin(1e-11 * cycle.force_peak_N));
       for (std::size_t i = 0; i < kVelocityParameters; ++i) {
@@ -188,7 +190,7 @@ TEST_CASE("a slip that does not stick again rings down to steady sliding") {
 }
 
 TEST_CASE("where steady sliding is unstable a slip from stick sticks again, whatever the parameters") {
-  // docs/model.md (16). Runs away, if at all, where the friction falls ever faster.
+  // docs/model.md (17). Runs away, if at all, where the friction falls ever faster.
   std::mt19937_64 random(73);
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -233,9 +235,10 @@ TEST_CASE("impossible velocity-dependent friction is refused by name, value and 
     return friction ? std::string() : friction.error().message;
   };
   const double nan = std::nan("");
+  const double infinite = std::numeric_limits<double>::infinity();
   CHECK(message(2.0, nan, 1.0, -1.0) == "f0 (N) is nan, expected a finite number");
-  CHECK(message(2.0, 1.0, INFINITY, -1.0) == "f1 (N) is inf, expected a finite number");
-  CHECK(message(2.0, 1.0, 0.5, -INFINITY) == "alpha (s/m) is -inf, expected a finite number");
+  CHECK(message(2.0, 1.0, infinite, -1.0) == "f1 (N) is inf, expected a finite number");
+  CHECK(message(2.0, 1.0, 0.5, -infinite) == "alpha (s/m) is -inf, expected a finite number");
   CHECK(message(2.0, 1.0, -1.5, -1.0) == "f0 + f1 (N) is -0.5, expected a number >= 0");
   CHECK(message(1.4, 1.0, 0.5, -1.0) == "static friction (N) is 1.4, expected a number not below f0 + f1");
   CHECK(message(nan, 1.0, 0.5, -1.0) == "static friction (N) is nan, expected a number not below f0 + f1");

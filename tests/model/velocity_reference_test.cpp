@@ -86,6 +86,7 @@ struct HalfSwing {
     dx[0] = direction * x[1];  // x[1] is the speed along `direction`, so that it comes to rest from above
     dx[1] = -direction * x[0] - 1.0;
   }
+  double longest_step(const model::StepNode<2>& /*from*/) const { return 1.0; }
 };
 
 }  // namespace
@@ -97,7 +98,7 @@ TEST_CASE("free oscillator with Coulomb friction comes to rest where and when th
   double time = 0.0;
   for (bool moves = true; moves; direction = -direction) {
     const model::StepError<2> error{1e-13, {1.0, 1.0}};
-    model::StepWalker<2, HalfSwing> walker(HalfSwing{direction}, {x, speed}, error, 0.1, 1.0);
+    model::StepWalker<2, HalfSwing> walker(HalfSwing{direction}, {x, speed}, error, 0.1);
     std::optional<model::StepNode<2>> rest;
     while (!rest) {
       REQUIRE(walker.advance());

@@ -80,6 +80,36 @@ TEST_CASE("track: end of slip, waveform and derivatives agree with the exact vel
   CHECK(worst_derivative < 1e-6);
 }
 
+TEST_CASE("track: far from ordinary parameters it agrees with the exact tier or gives nothing") {
+  // Thin layers at rest (rate -20) and friction that runs away (rate > 0, strength < 0) have given wrong ends of slip.
+  std::mt19937_64 random(89);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int compared = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const double lambda = std::exp(uniform(std::log(0.3), std::log(1e4)));
+    const double zeta = uniform(0.0, 0.5);
+    const double strength = uniform(-1.0, 1.0) * std::exp(uniform(-3.0, 5.0));
+    const double rate = (trial % 7 == 0 ? 1.0 : -1.0) * std::exp(uniform(-7.0, 3.0));
+    const double onset_N = std::abs(strength) + 1.0;
+    const auto friction = VelocityFriction::create(onset_N + lambda, onset_N - strength, strength, rate).value();
+    const auto exact = velocity_motion(Slider::create(1.0, 1.0, zeta).value(), friction, 1.0);
+    const auto track = VelocityTrack::solve(lambda - 2.0 * zeta, zeta, strength * rate, rate);
+    INFO("lambda " << lambda << " zeta " << zeta << " strength " << strength << " rate " << rate);
+    const bool runs_away = !exact && strength < 0.0 && rate > 0.0;
+    if (runs_away && track) CHECK_FALSE(track->resticks());
+    if (!exact || !exact.value().motion.cycle) continue;
+    const LimitCycle& cycle = *exact.value().motion.cycle;
+    REQUIRE(track);
+    CHECK(track->resticks());
+    if (cycle.sticking_degree < 0.2) continue;
+    ++compared;
+    CHECK(track->tau_end() == Approx(cycle.slip_s).epsilon(2e-6));
+  }
+  CHECK(compared > 1000);
+}
+
 TEST_CASE("track: friction linear in the speed agrees with the closed form of viscous damping") {
   std::mt19937_64 random(83);
   double worst = 0.0;

@@ -35,8 +35,9 @@ class VelocityFriction {
   double alpha_s_per_m_ = 0.0;
 };
 
-/// Motion with velocity-dependent friction. `motion.regime` says StickSlipBistable where steady sliding is stable too,
-/// UnstableSteady where it is not and the slip that starts from stick does not stick again either.
+/// Motion with velocity-dependent friction. `motion.regime` says StickSlip where steady sliding is unstable, and
+/// StickSlipBistable where it is stable too. A slip from stick that does not stick at its first return never does, and
+/// where steady sliding is unstable it always sticks: docs/model.md (16), (17).
 struct VelocityMotion {
   Motion motion;                     ///< lambda with F_k(0+)
   double total_damping_ratio = 0.0;  ///< zeta + slope of F_k at V / (2 sqrt(k m)): < 0 where steady sliding is unstable
@@ -77,8 +78,8 @@ struct VelocityDerivatives {
   VelocityDerivative onset_force_N, end_force_N, force_peak_N, force_trough_N;
 };
 
-/// Values and derivatives of the limit cycle; empty where the slip does not stick again. Relative accuracy 1e-9.
-/// Errors as velocity_motion.
+/// Values and derivatives of the limit cycle; empty where the slip does not stick again. Good to 1e-9 of quantity /
+/// parameter. Errors as velocity_motion.
 Result<std::optional<VelocityDerivatives>> velocity_derivatives(const Slider& slider, const VelocityFriction& friction,
                                                                 double speed_m_per_s);
 
