@@ -3,12 +3,15 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
+#include "model/velocity_track.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
 #include "slipfit/model/sensitivity.hpp"
+#include "slipfit/model/velocity.hpp"
 #include "slipfit/model/waveform.hpp"
 
 namespace {
@@ -20,7 +23,8 @@ struct Scene {
   Friction friction;
 };
 
-/// lambda 2 to 200, zeta 0.005 to 0.12: laboratory rubber and the paper's figures; the paper's equations have a root in all.
+/// lambda 2 to 200, zeta 0.005 to 0.12: laboratory rubber and the paper's figures; the paper's equations have a root in
+/// all.
 std::vector<Scene> scenes() {
   std::mt19937_64 random(5);
   std::vector<Scene> result;
@@ -52,15 +56,77 @@ void paper_approximation(benchmark::State& state) {
   over_scenes(state, [](const Scene& s) { return paper_cycle(s.slider, s.friction, 1.0); });
 }
 
+struct VelocityScene {
+  Slider slider;
+  VelocityFriction friction;
+};
+
+/// The same lambda and zeta, friction that falls by up to 5 k V / w_n at speeds between V / 3 and 20 V.
+std::vector<VelocityScene> velocity_scenes() {
+  std::mt19937_64 random(7);
+  std::vector<VelocityScene> result;
+  for (const Scene& scene : scenes()) {
+    const double f1_N = std::uniform_real_distribution<double>(0.0, 5.0)(random);
+    const double alpha = -std::exp(std::uniform_real_distribution<double>(std::log(0.05), std::log(3.0))(random));
+    result.push_back(
+        {scene.slider, VelocityFriction::create(f1_N + scene.friction.static_N(), 0.0, f1_N, alpha).value()});
+  }
+  return result;
+}
+
+template <class Solve>
+void over_velocity_scenes(benchmark::State& state, const Solve& solve) {
+  const std::vector<VelocityScene> all = velocity_scenes();
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const VelocityScene& scene = all[i++ % all.size()];
+    benchmark::DoNotOptimize(solve(scene));
+  }
+}
+
+void velocity_cycle(benchmark::State& state) {
+  over_velocity_scenes(state, [](const VelocityScene& s) { return velocity_motion(s.slider, s.friction, 1.0); });
+}
+void velocity_cycle_with_derivatives(benchmark::State& state) {
+  over_velocity_scenes(state, [](const VelocityScene& s) { return velocity_derivatives(s.slider, s.friction, 1.0); });
+}
+
+std::optional<model::VelocityTrack> track_of(const VelocityScene& s) {
+  const double zeta = s.slider.damping_ratio();
+  const double lambda = s.friction.static_N() - s.friction.onset_N();
+  const double rate = s.friction.alpha_s_per_m();
+  return model::VelocityTrack::solve(lambda - 2.0 * zeta, zeta, s.friction.f1_N() * rate, rate);
+}
+void velocity_track_solved(benchmark::State& state) {
+  over_velocity_scenes(state, track_of);
+}
+/// One sample of a slip of which all derivatives are asked.
+void velocity_track_sample(benchmark::State& state) {
+  const auto track = track_of(velocity_scenes().front());
+  const double step = track->tau_end() / 1000.0;
+  std::size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(track->at(step * static_cast<double>(++i % 1000)));
+}
+/// One sample of a slip in the waveform of the exact tier.
+void velocity_waveform_sample(benchmark::State& state) {
+  const VelocityScene scene = velocity_scenes().front();
+  const double slip_s = velocity_motion(scene.slider, scene.friction, 1.0).value().motion.cycle->slip_s;
+  std::vector<double> time_s;
+  for (int i = 0; i < 1000; ++i) time_s.push_back(slip_s * i / 1000.0);
+  for (auto _ : state) benchmark::DoNotOptimize(velocity_waveform(scene.slider, scene.friction, 1.0, time_s));
+  state.counters["per_sample"] = benchmark::Counter(1000.0 * static_cast<double>(state.iterations()),
+                                                    benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 constexpr std::size_t kSamples = 100000;
 
 Scene waveform_scene(benchmark::State& state) {
   return {Slider::create(1.0, 1.0, 0.05).value(), Friction::create(static_cast<double>(state.range(0)), 0.0).value()};
 }
 void count_samples(benchmark::State& state) {
-  state.counters["per_sample"] = benchmark::Counter(
-      static_cast<double>(kSamples) * static_cast<double>(state.iterations()),
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["per_sample"] =
+      benchmark::Counter(static_cast<double>(kSamples) * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 void waveform(benchmark::State& state) {
@@ -81,6 +147,11 @@ void waveform_with_derivatives(benchmark::State& state) {
 BENCHMARK(exact_cycle);
 BENCHMARK(paper_approximation);
 BENCHMARK(exact_cycle_with_derivatives);
+BENCHMARK(velocity_cycle);
+BENCHMARK(velocity_cycle_with_derivatives);
+BENCHMARK(velocity_track_solved);
+BENCHMARK(velocity_track_sample);
+BENCHMARK(velocity_waveform_sample);
 BENCHMARK(waveform)->Arg(2)->Arg(20);
 BENCHMARK(waveform_with_derivatives)->Arg(2)->Arg(20);
 

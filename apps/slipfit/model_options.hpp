@@ -5,6 +5,7 @@
 #include <string>
 
 #include "slipfit/model/motion.hpp"
+#include "slipfit/model/velocity.hpp"
 
 /// The model on the command line, as typed.
 struct ModelArguments {
@@ -14,11 +15,15 @@ struct ModelArguments {
   std::string damping_ratio = "0";
   std::optional<std::string> static_friction;
   std::optional<std::string> kinetic_friction;
+  std::optional<std::string> f0;
+  std::optional<std::string> f1;
+  std::optional<std::string> alpha;
 };
 
 struct Model {
   slipfit::Slider slider;
-  slipfit::Friction friction;
+  slipfit::Friction friction;  ///< with velocity-dependent friction: its F_k(0+)
+  std::optional<slipfit::VelocityFriction> velocity_friction;
 };
 
 void add_model_options(CLI::App& command, ModelArguments& arguments);

@@ -139,6 +139,9 @@ Basis basis_from(const PredictArguments& arguments, const CLI::App& command) {
                   "--natural-frequency, --damping-ratio, --static-friction and --kinetic-friction");
   }
   const Model model = model_from(arguments.model);
+  if (model.velocity_friction) {
+    throw Failure(ExitCode::WrongUsage, "--f0, --f1 and --alpha: a prediction needs the FIT.json of a joint fit");
+  }
   return {slipfit::stated_model(model.slider, model.friction), {"command line", {}}};
 }
 

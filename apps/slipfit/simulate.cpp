@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "commands.hpp"
 #include "failure.hpp"
@@ -78,11 +79,22 @@ slipfit::SimulationOptions options_from(const SimulateArguments& arguments) {
 }
 
 std::string comment_for(const Model& model, double speed_m_per_s, const slipfit::SimulationOptions& options) {
+  const auto& by_speed = model.velocity_friction;
+  const std::string kinetic = by_speed ? fmt::format("f0 {} N, f1 {} N, alpha {} s/m", by_speed->f0_N(),
+                                                     by_speed->f1_N(), by_speed->alpha_s_per_m())
+                                       : fmt::format("kinetic friction {} N", model.friction.kinetic_N());
   return fmt::format(
-      "slipfit simulate: stiffness {} N/m, natural frequency {} rad/s, damping ratio {}, static friction {} N, kinetic "
-      "friction {} N, speed {} m/s, seed {}",
+      "slipfit simulate: stiffness {} N/m, natural frequency {} rad/s, damping ratio {}, static friction {} N, {}, "
+      "speed {} m/s, seed {}",
       model.slider.stiffness_N_per_m(), model.slider.natural_frequency_rad_per_s(), model.slider.damping_ratio(),
-      model.friction.static_N(), model.friction.kinetic_N(), speed_m_per_s, options.seed);
+      model.friction.static_N(), kinetic, speed_m_per_s, options.seed);
+}
+
+slipfit::SimulatedTrace simulated(const Model& model, double speed_m_per_s, const slipfit::SimulationOptions& options) {
+  if (!model.velocity_friction) return slipfit::simulate(model.slider, model.friction, speed_m_per_s, options);
+  auto trace = slipfit::simulate(model.slider, *model.velocity_friction, speed_m_per_s, options);
+  if (!trace) throw Failure(ExitCode::WrongUsage, trace.error().message);
+  return std::move(trace).value();
 }
 
 void run(const SimulateArguments& arguments) {
@@ -91,7 +103,7 @@ void run(const SimulateArguments& arguments) {
       required(arguments.speed, "--speed", "the driving speed, for example --speed 10mm/s"), arguments.radius);
   const slipfit::SimulationOptions options = options_from(arguments);
   if (arguments.out) check_outputs({{"--out", *arguments.out}}, "");
-  const slipfit::SimulatedTrace trace = slipfit::simulate(model.slider, model.friction, speed_m_per_s, options);
+  const slipfit::SimulatedTrace trace = simulated(model, speed_m_per_s, options);
   const std::string csv = slipfit::trace_to_csv(trace, comment_for(model, speed_m_per_s, options));
   if (!arguments.out) {
     write_standard_output(csv);

@@ -10,6 +10,7 @@
 #include "slipfit/model/paper.hpp"
 #include "slipfit/model/sensitivity.hpp"
 #include "slipfit/model/simulation.hpp"
+#include "slipfit/model/velocity.hpp"
 #include "slipfit/model/waveform.hpp"
 #include "slipfit/pipeline.hpp"
 #include "slipfit/predict/plan.hpp"

@@ -3,22 +3,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string>
 
+#include "model/parameter_error.hpp"
 #include "model/slip.hpp"
 
 namespace slipfit {
-namespace {
 
-Error out_of_range(const std::string& name, double value, const std::string& expected) {
-  return {"parameter_out_of_range", name + " is " + std::to_string(value) + ", expected " + expected};
-}
-
-bool is_positive(double value) {
-  return std::isfinite(value) && value > 0.0;
-}
-
-}  // namespace
+using model::is_positive;
+using model::out_of_range;
 
 Result<Slider> Slider::create(double stiffness_N_per_m, double natural_frequency_rad_per_s, double damping_ratio) {
   if (!is_positive(stiffness_N_per_m)) return out_of_range("stiffness (N/m)", stiffness_N_per_m, "a number > 0");

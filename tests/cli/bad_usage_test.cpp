@@ -108,6 +108,12 @@ TEST_CASE("a simulation that makes no sense is refused") {
   refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--damping-ratio", "-0.1"}, "damping");
   refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--noise", "-1"}, "--noise");
   refused({"1000", "--kinetic-friction", "4", "--mass", "1", "--seed", "x"}, "--seed");
+  refused({"1000", "--mass", "1", "--f0", "3", "--f1", "1"}, "--alpha is missing");
+  refused({"1000", "--mass", "1", "--f0", "3", "--f1", "1", "--alpha", "x"}, "--alpha");
+  refused({"1000", "--mass", "1", "--f0", "3", "--f1", "-4", "--alpha", "-1"}, "f0 + f1 (N) is -1");
+  refused({"1000", "--mass", "1", "--f0", "3", "--f1", "9", "--alpha", "-1"}, "static friction");
+  refused({"1000", "--mass", "1", "--f0", "3", "--f1", "1", "--alpha", "1e9"}, "alpha * speed");
+  refused({"1000", "--mass", "1", "--f0", "3", "--f1", "1", "--alpha", "-1", "--kinetic-friction", "4"}, "not both");
   refused({"0", "--kinetic-friction", "4", "--mass", "1"}, "--sample-rate");
   refused({"1e15", "--kinetic-friction", "4", "--mass", "1"}, "samples");
 }

@@ -1,46 +1,21 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <map>
 #include <numbers>
 #include <random>
-#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/slip.hpp"
+#include "reference_table.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
+#include "slipfit/model/velocity.hpp"
+#include "slipfit/model/waveform.hpp"
 
 namespace {
 
 using slipfit::damped_motion;
-
-/// Rows of a reference table by column name; empty where the folder is absent.
-std::vector<std::map<std::string, double>> reference_rows(const std::string& name) {
-  std::ifstream file(std::filesystem::path(SLIPFIT_SHARED_DIR) / "reference" / name);
-  std::vector<std::string> names;
-  std::vector<std::map<std::string, double>> rows;
-  for (std::string line; std::getline(file, line);) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty() || line[0] == '#') continue;
-    std::stringstream fields(line);
-    std::map<std::string, double> row;
-    std::size_t column = 0;
-    for (std::string field; std::getline(fields, field, ','); ++column) {
-      if (rows.empty() && names.size() == column && std::isalpha(static_cast<unsigned char>(field[0])) != 0 &&
-          field != "nan") {
-        names.push_back(field);
-      } else {
-        row[names.at(column)] = std::strtod(field.c_str(), nullptr);
-      }
-    }
-    if (!row.empty()) rows.push_back(row);
-  }
-  if (rows.empty()) WARN("skipped: no " << name << " beside the checkout");
-  return rows;
-}
 
 /// Unit slider: w_n = 1, k = 1, V = 1, so times are tau and forces are in k V / w_n.
 slipfit::Motion unit_motion(double lambda, double zeta) {
@@ -51,7 +26,7 @@ slipfit::Motion unit_motion(double lambda, double zeta) {
 }  // namespace
 
 TEST_CASE("undamped cycle agrees with the independent table") {
-  for (auto& row : reference_rows("undamped.csv")) {
+  for (auto& row : test::reference_rows("undamped.csv")) {
     if (row["lambda"] == 0.0) continue;
     const auto motion = unit_motion(row["lambda"], 0.0);
     INFO("lambda " << row["lambda"]);
@@ -63,7 +38,7 @@ TEST_CASE("undamped cycle agrees with the independent table") {
 }
 
 TEST_CASE("damped cycle agrees with the independent table, existence included") {
-  for (auto& row : reference_rows("damped_exact.csv")) {
+  for (auto& row : test::reference_rows("damped_exact.csv")) {
     const auto motion = unit_motion(row["lambda"], row["zeta"]);
     INFO("lambda " << row["lambda"] << " zeta " << row["zeta"]);
     REQUIRE(motion.cycle.has_value() == (row["sticks"] == 1.0));
@@ -76,7 +51,7 @@ TEST_CASE("damped cycle agrees with the independent table, existence included") 
 }
 
 TEST_CASE("critical lambda agrees with the independent table") {
-  for (auto& row : reference_rows("stick_slip_boundary.csv")) {
+  for (auto& row : test::reference_rows("stick_slip_boundary.csv")) {
     INFO("zeta " << row["zeta"]);
     CHECK(slipfit::critical_lambda(row["zeta"]) == Approx(row["lambda_c"]).epsilon(1e-13));
   }
@@ -133,7 +108,7 @@ TEST_CASE("overdamped bodies slip continuously, without overflow") {
 }
 
 TEST_CASE("the paper's approximation agrees with the independent table, unsolvable rows included") {
-  for (auto& row : reference_rows("damped_paper.csv")) {
+  for (auto& row : test::reference_rows("damped_paper.csv")) {
     const auto cycle = slipfit::paper_cycle(slipfit::Slider::create(1.0, 1.0, row["zeta"]).value(),
                                             slipfit::Friction::create(row["lambda"], 0.0).value(), 1.0);
     INFO("lambda " << row["lambda"] << " zeta " << row["zeta"]);
@@ -162,6 +137,58 @@ TEST_CASE("undamped closed form holds for random lambda") {
     CHECK(cycle.slip_s == Approx(2.0 * (std::numbers::pi - std::atan(lambda))).epsilon(1e-12));
     CHECK(cycle.stick_s == Approx(2.0 * lambda).epsilon(1e-10));
     CHECK(cycle.force_peak_N == Approx(std::hypot(1.0, lambda)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("undamped elastic force and velocity ratio are [Paper] eqs (18), (26) and (27)") {
+  const double lambda = 2.0;
+  const double kinetic_N = 3.0;
+  const auto slider = slipfit::Slider::create(1.0, 1.0, 0.0).value();
+  const auto friction = slipfit::Friction::create(kinetic_N + lambda, kinetic_N).value();
+  const double slip_s = 2.0 * (std::numbers::pi - std::atan(lambda));
+  constexpr std::size_t kCount = 400;
+  const double step_s = (slip_s + 2.0 * lambda) / kCount;
+  const auto force_N =
+      slipfit::damped_waveform(slider, friction, 1.0, slipfit::ForceView::Spring, {0.0, step_s, kCount});
+  std::vector<double> time_s;
+  for (std::size_t i = 0; i < kCount; ++i) time_s.push_back(static_cast<double>(i) * step_s);
+  const auto by_speed = slipfit::VelocityFriction::create(kinetic_N + lambda, kinetic_N, 0.0, 0.0).value();
+  const auto waveform = slipfit::velocity_waveform(slider, by_speed, 1.0, time_s).value();
+  REQUIRE(force_N);
+  const double phase = std::atan(lambda) - std::numbers::pi;  // docs/errata.md, eq. (14)
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const double tau = time_s[i];
+    INFO("tau " << tau);
+    const bool slips = tau < slip_s;
+    const double v = slips ? 1.0 + std::hypot(1.0, lambda) * std::cos(tau + phase) : 0.0;
+    const double above_kinetic_N = slips ? lambda * std::cos(tau) + std::sin(tau) : tau - slip_s - lambda;
+    CHECK(force_N->at(i) == Approx(kinetic_N + above_kinetic_N).epsilon(1e-13));
+    CHECK(waveform.spring_force_N[i] == Approx(kinetic_N + above_kinetic_N).epsilon(1e-11));
+    CHECK(waveform.sliding_speed_m_per_s[i] == Approx(v).margin(1e-11));
+  }
+}
+
+TEST_CASE("the paper's equations have solutions below the exact limit, but far above the limits printed for figure 7") {
+  struct Limits {
+    double zeta, printed, first_solvable;
+  };
+  for (const Limits& limits : {Limits{0.015, 0.2, 0.4385}, Limits{0.05, 0.5, 0.8617}, Limits{0.1, 0.9, 1.3770}}) {
+    const auto solvable = [&](double lambda) {
+      return slipfit::paper_cycle(slipfit::Slider::create(1.0, 1.0, limits.zeta).value(),
+                                  slipfit::Friction::create(lambda, 0.0).value(), 1.0)
+          .ok();
+    };
+    double none = limits.printed;
+    double some = slipfit::critical_lambda(limits.zeta);
+    INFO("zeta " << limits.zeta);
+    CHECK_FALSE(solvable(none));
+    REQUIRE(solvable(some));
+    for (int halving = 0; halving < 50; ++halving) {
+      const double middle = 0.5 * (none + some);
+      (solvable(middle) ? some : none) = middle;
+    }
+    CHECK(some == Approx(limits.first_solvable).margin(5e-5));
+    CHECK(some > 1.5 * limits.printed);
   }
 }
 

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "slipfit/core/recording.hpp"
+#include "slipfit/core/result.hpp"
 #include "slipfit/model/motion.hpp"
+#include "slipfit/model/velocity.hpp"
 
 namespace slipfit {
 
@@ -31,5 +33,9 @@ struct SimulatedTrace {
 /// the motion rings down to steady sliding. Same options, same numbers on every platform (own normal deviates).
 SimulatedTrace simulate(const Slider& slider, const Friction& friction, double speed_m_per_s,
                         const SimulationOptions& options);
+
+/// The same with friction that depends on the speed. Errors as velocity_motion.
+Result<SimulatedTrace> simulate(const Slider& slider, const VelocityFriction& friction, double speed_m_per_s,
+                                const SimulationOptions& options);
 
 }  // namespace slipfit

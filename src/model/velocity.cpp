@@ -1,0 +1,196 @@
+#include "slipfit/model/velocity.hpp"
+
+#include <ceres/jet.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "model/parameter_error.hpp"
+#include "model/velocity_slip.hpp"
+#include "model/velocity_units.hpp"
+
+namespace slipfit {
+
+using model::is_positive;
+using model::out_of_range;
+
+Result<VelocityFriction> VelocityFriction::create(double static_N, double f0_N, double f1_N, double alpha_s_per_m) {
+  if (!std::isfinite(f0_N)) return out_of_range("f0 (N)", f0_N, "a finite number");
+  if (!std::isfinite(f1_N)) return out_of_range("f1 (N)", f1_N, "a finite number");
+  if (!std::isfinite(alpha_s_per_m)) return out_of_range("alpha (s/m)", alpha_s_per_m, "a finite number");
+  const double onset_N = f0_N + f1_N;
+  if (!(std::isfinite(onset_N) && onset_N >= 0.0)) return out_of_range("f0 + f1 (N)", onset_N, "a number >= 0");
+  if (!(std::isfinite(static_N) && static_N >= onset_N)) {
+    return out_of_range("static friction (N)", static_N, "a number not below f0 + f1");
+  }
+  VelocityFriction friction;
+  friction.static_N_ = static_N;
+  friction.f0_N_ = f0_N;
+  friction.f1_N_ = f1_N;
+  friction.alpha_s_per_m_ = alpha_s_per_m;
+  return friction;
+}
+
+double VelocityFriction::kinetic_N(double speed_m_per_s) const {
+  // From F_k(0+), not f0: exact at rest, and 0 * exp(overflow) does not turn into NaN at f1 = 0.
+  return f1_N_ == 0.0 ? f0_N_ : onset_N() + f1_N_ * std::expm1(alpha_s_per_m_ * speed_m_per_s);
+}
+
+namespace {
+
+Regime regime_of(const model::ScaledSlip& slip, model::SlipStatus status) {
+  const double total = slip.total_damping_ratio();
+  if (status == model::SlipStatus::Resticks) return total > 0.0 ? Regime::StickSlipBistable : Regime::StickSlip;
+  if (total < 0.0) return Regime::UnstableSteady;  // by round-off at best: docs/model.md (17)
+  return total < 1.0 ? Regime::OscillatorySlip : Regime::ContinuousSlip;
+}
+
+LimitCycle limit_cycle(const model::SpeedUnits& units, const model::SlipPath<model::kPlain>& path, const Slider& slider,
+                       const VelocityFriction& friction, double speed_m_per_s) {
+  const double w_n = slider.natural_frequency_rad_per_s();
+  const double zeta = slider.damping_ratio();
+  const double s_end = path.end.x[0];
+  const double tau_stick = units.slip.lambda - s_end;
+  const double tau_period = path.end.tau + tau_stick;
+  // s = z + 2 zeta; the integral of s over the stick, a straight line from s_end to lambda
+  const double stick_integral = 0.5 * tau_stick * (units.slip.lambda + s_end);
+  const auto force_N = [&](double s) { return friction.onset_N() + units.force_N * (s - 2.0 * zeta); };
+  LimitCycle cycle;
+  cycle.slip_s = path.end.tau / w_n;
+  cycle.stick_s = tau_stick / w_n;
+  cycle.period_s = tau_period / w_n;
+  cycle.sticking_degree = tau_stick / tau_period;
+  cycle.periodic_displacement_m = speed_m_per_s * cycle.period_s;
+  cycle.onset_force_N = force_N(units.slip.lambda);
+  cycle.end_force_N = force_N(s_end);
+  cycle.force_peak_N = force_N(path.peak.x[0]);
+  cycle.force_trough_N = force_N(path.trough.x[0]);
+  cycle.mean_force_N = force_N((path.end.x[model::kIntegral] + stick_integral) / tau_period);
+  return cycle;
+}
+
+std::optional<double> stability_speed_m_per_s(const Slider& slider, const VelocityFriction& friction) {
+  const double slope_at_rest = friction.alpha_s_per_m() * friction.f1_N();
+  // c + alpha f1 exp(alpha V) = 0
+  const double speed_m_per_s = std::log(-slider.damping_N_s_per_m() / slope_at_rest) / friction.alpha_s_per_m();
+  return is_positive(speed_m_per_s) ? std::optional(speed_m_per_s) : std::nullopt;
+}
+
+}  // namespace
+
+Result<VelocityMotion> velocity_motion(const Slider& slider, const VelocityFriction& friction, double speed_m_per_s) {
+  const Result<model::SpeedUnits> in_units = model::in_speed_units(slider, friction, speed_m_per_s);
+  if (!in_units) return in_units.error();
+  const model::ScaledSlip& slip = in_units.value().slip;
+  const auto path = model::first_slip<model::kPlain>(slip);
+  if (path.status == model::SlipStatus::NotSolved) return model::no_convergence(slip);
+  VelocityMotion result;
+  result.motion.lambda = slip.lambda;
+  result.motion.regime = regime_of(slip, path.status);
+  if (path.status == model::SlipStatus::Resticks) {
+    result.motion.cycle = limit_cycle(in_units.value(), path, slider, friction, speed_m_per_s);
+  }
+  result.total_damping_ratio = slip.total_damping_ratio();
+  result.stability_speed_m_per_s = stability_speed_m_per_s(slider, friction);
+  return result;
+}
+
+namespace {
+
+using Jet = ceres::Jet<double, static_cast<int>(kVelocityParameters)>;
+
+Jet jet(double value, VelocityParameter parameter) {
+  return {value, static_cast<int>(parameter)};
+}
+
+VelocityDerivative derivative(const Jet& x) {
+  VelocityDerivative result;
+  result.value = x.a;
+  std::copy_n(x.v.data(), kVelocityParameters, result.gradient.begin());
+  return result;
+}
+
+/// Derivatives with respect to the scaled parameters become ones with respect to the model's.
+class ChainRule {
+ public:
+  ChainRule(const Slider& slider, const VelocityFriction& friction, double speed_m_per_s)
+      : w_n(jet(slider.natural_frequency_rad_per_s(), VelocityParameter::NaturalFrequency)),
+        zeta(jet(slider.damping_ratio(), VelocityParameter::DampingRatio)),
+        speed(jet(speed_m_per_s, VelocityParameter::Speed)),
+        scale_N(jet(slider.stiffness_N_per_m(), VelocityParameter::Stiffness) * speed / w_n) {
+    const Jet f0 = jet(friction.f0_N(), VelocityParameter::F0);
+    const Jet f1 = jet(friction.f1_N(), VelocityParameter::F1);
+    onset_N = f0 + f1;
+    lambda = (jet(friction.static_N(), VelocityParameter::StaticFriction) - onset_N) / scale_N;
+    scaled_ = {lambda, zeta, f1 / scale_N, jet(friction.alpha_s_per_m(), VelocityParameter::Alpha) * speed};
+  }
+
+  /// A scaled quantity by its value and its derivatives.
+  [[nodiscard]] Jet quantity(double value, const double* by_scaled) const {
+    Jet result(value);
+    for (std::size_t p = 0; p < model::kScaledParameters; ++p) result.v += by_scaled[p] * scaled_[p].v;
+    return result;
+  }
+  [[nodiscard]] Jet force_N(const Jet& s) const { return onset_N + scale_N * (s - 2.0 * zeta); }
+
+  Jet w_n, zeta, speed, scale_N, onset_N, lambda;
+
+ private:
+  std::array<Jet, model::kScaledParameters> scaled_;
+};
+
+}  // namespace
+
+Result<std::optional<VelocityDerivatives>> velocity_derivatives(const Slider& slider, const VelocityFriction& friction,
+                                                                double speed_m_per_s) {
+  using Answer = std::optional<VelocityDerivatives>;
+  const Result<model::SpeedUnits> in_units = model::in_speed_units(slider, friction, speed_m_per_s);
+  if (!in_units) return in_units.error();
+  const auto path = model::first_slip<model::kSensitive>(in_units.value().slip);
+  if (path.status == model::SlipStatus::NotSolved) return model::no_convergence(in_units.value().slip);
+  if (path.status == model::SlipStatus::SlidesOn) return Answer();
+
+  const ChainRule chain(slider, friction, speed_m_per_s);
+  const auto s_at = [&](const model::StepNode<model::kSensitive>& node) {
+    return chain.quantity(node.x[0], node.x.data() + model::kFirstDs);
+  };
+  // v(tau, p) = 0 moves the end by -dv/dp / v'; s' = 1 there, so s moves with it one to one.
+  const Jet v_end = chain.quantity(0.0, path.end.x.data() + model::kFirstDv);
+  const Jet tau_end = Jet(path.end.tau) - v_end / path.end.dx[model::kSpeed];
+  const Jet s_end = s_at(path.end) - v_end / path.end.dx[model::kSpeed];
+  const Jet slip_s = tau_end / chain.w_n;
+  const Jet stick_s = (chain.lambda - s_end) / chain.w_n;
+  const Jet period_s = slip_s + stick_s;
+  return Answer(VelocityDerivatives{
+      derivative(slip_s), derivative(stick_s), derivative(period_s), derivative(chain.speed * period_s),
+      derivative(chain.force_N(chain.lambda)), derivative(chain.force_N(s_end)),
+      derivative(chain.force_N(s_at(path.peak))),  // s' = 0 at both extremes: their times add nothing
+      derivative(chain.force_N(s_at(path.trough)))});
+}
+
+Result<VelocityWaveform> velocity_waveform(const Slider& slider, const VelocityFriction& friction, double speed_m_per_s,
+                                           std::span<const double> slip_time_s) {
+  const Result<model::SpeedUnits> in_units = model::in_speed_units(slider, friction, speed_m_per_s);
+  if (!in_units) return in_units.error();
+  const double w_n = slider.natural_frequency_rad_per_s();
+  model::SlipTrace trace(in_units.value().slip);
+  VelocityWaveform waveform;
+  double last_s = 0.0;
+  for (const double time_s : slip_time_s) {
+    if (!(std::isfinite(time_s) && time_s >= last_s)) {
+      return Error{"times_not_ascending", "time " + model::short_text(time_s) + " s follows " +
+                                              model::short_text(last_s) + " s, expected finite, ascending times >= 0"};
+    }
+    last_s = time_s;
+    const std::optional<model::TracePoint> point = trace.at(w_n * time_s);
+    if (!point) return model::no_convergence(in_units.value().slip);
+    waveform.spring_force_N.push_back(friction.onset_N() +
+                                      in_units.value().force_N * (point->s - 2.0 * slider.damping_ratio()));
+    waveform.sliding_speed_m_per_s.push_back(speed_m_per_s * point->v);
+  }
+  if (trace.tau_end()) waveform.slip_s = *trace.tau_end() / w_n;
+  return waveform;
+}
+
+}  // namespace slipfit

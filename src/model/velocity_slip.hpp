@@ -1,0 +1,181 @@
+#pragma once
+
+// One slip with velocity-dependent friction, scaled (velocity_law.hpp), with or without its sensitivities.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "model/velocity_law.hpp"
+#include "model/velocity_steps.hpp"
+
+namespace slipfit::model {
+
+/// The scaled parameters in the order of the sensitivities: lambda, zeta, strength and rate of the law.
+inline constexpr std::size_t kScaledParameters = 4;
+inline constexpr std::size_t kIntegral = 2;                                ///< of s over the slip
+inline constexpr std::size_t kPlain = 3;                                   ///< s, v, integral of s
+inline constexpr std::size_t kSensitive = kPlain + 2 * kScaledParameters;  ///< and ds/dp, dv/dp
+inline constexpr std::size_t kFirstDs = kPlain;
+inline constexpr std::size_t kFirstDv = kPlain + kScaledParameters;
+
+/// Weakening friction (rate < 0) soars within 1 / |rate| above rest: a step from v may end at v / 2 or inside this
+/// layer, but must not fall into it from far above. Without the layer, 1: a third of the half turn in which v turns
+/// once.
+inline double longest_slip_step(const ScaledLaw& law, double v, double acceleration) {
+  constexpr double kLongest = 1.0;
+  if (law.rate >= 0.0 || acceleration >= 0.0) return kLongest;
+  return std::min(kLongest, (0.5 * v - 1.0 / law.rate) / -acceleration);
+}
+
+/// s' = 1 - v, v' = s - 2 zeta v - g(v), and beside them (N = kSensitive) the derivatives of both equations with
+/// respect to the four parameters. docs/model.md section 5.
+template <std::size_t N>
+struct SlipSystem {
+  ScaledSlip slip;
+
+  [[nodiscard]] double longest_step(const StepNode<N>& node) const {
+    return longest_slip_step(slip.law, node.x[kSpeed], node.dx[kSpeed]);
+  }
+
+  void operator()(const std::array<double, N>& x, std::array<double, N>& dx, double /*tau*/) const {
+    const double v = x[1];
+    const ExcessFriction friction = slip.law.at(v);
+    dx[0] = 1.0 - v;
+    dx[1] = x[0] - 2.0 * slip.zeta * v - friction.value;
+    dx[kIntegral] = x[0];
+    if constexpr (N == kSensitive) {
+      const double damping = 2.0 * slip.zeta + friction.slope;
+      const std::array<double, kScaledParameters> direct{0.0, 2.0 * v, friction.d_strength, friction.d_rate};
+      for (std::size_t p = 0; p < kScaledParameters; ++p) {
+        dx[kFirstDs + p] = -x[kFirstDv + p];
+        dx[kFirstDv + p] = x[kFirstDs + p] - damping * x[kFirstDv + p] - direct[p];
+      }
+    }
+  }
+};
+
+/// Local errors of 1e-13 (4 digits below the 1e-9 asked of the derivatives) add up to a few 1e-12 over a slip.
+template <std::size_t N>
+StepError<N> step_error(const ScaledSlip& slip) {
+  StepError<N> error{1e-13, {}};
+  const double size = 1.0 + slip.lambda;
+  error.floor[0] = error.floor[1] = error.floor[kIntegral] = size;
+  if constexpr (N == kSensitive) {
+    // Sizes of the sensitivities; those of the law fade where the friction has changed before the slip is under way.
+    const double reach = 1.0 + std::abs(slip.law.rate) * size;
+    const double tiny = 1e-200;  // a law without strength has no sensitivity to its rate: 0 / 0
+    const std::array<double, kScaledParameters> sizes{1.0, size, (reach - 1.0) / reach + tiny,
+                                                      std::abs(slip.law.strength) * size / (reach * reach) + tiny};
+    for (std::size_t p = 0; p < kScaledParameters; ++p)
+      error.floor[kFirstDs + p] = error.floor[kFirstDv + p] = sizes[p];
+  }
+  return error;
+}
+
+template <std::size_t N>
+using SlipWalker = StepWalker<N, SlipSystem<N>>;
+
+/// A slip from stick. The first step must not jump over the layer at rest either; v grows as lambda tau.
+template <std::size_t N>
+SlipWalker<N> walk_slip(const ScaledSlip& slip) {
+  std::array<double, N> start{};
+  start[0] = slip.lambda;
+  if constexpr (N == kSensitive) start[kFirstDs] = 1.0;  // s(0) = lambda
+  const double first_step = 0.1 / (1.0 + std::abs(slip.law.rate) * (1.0 + slip.lambda));
+  return {SlipSystem<N>{slip}, start, step_error<N>(slip), first_step};
+}
+
+enum class SlipStatus { Resticks, SlidesOn, NotSolved };
+
+/// Only a slip that has been faster than the drive and falls below its speed can stick or turn back: below it the
+/// spring gains force, so that what accelerates goes on accelerating. Before that a creeping body only seems to, by
+/// round-off.
+template <class Walker>
+bool falls_below_drive(const Walker& walker) {
+  return walker.from.x[kSpeed] >= 1.0 && walker.to.x[kSpeed] < 1.0;
+}
+
+/// The instants that matter. Where the slip slides on, `end` is its slowest point or where the motion has settled.
+template <std::size_t N>
+struct SlipPath {
+  SlipStatus status = SlipStatus::NotSolved;
+  StepNode<N> peak, trough, end;  ///< s is largest and smallest where v = 1
+};
+
+/// Steady sliding is stable and so close that the linear motion about it cannot reach v = 0 any more.
+template <std::size_t N>
+bool has_settled(const ScaledSlip& slip, const StepNode<N>& node) {
+  const double distance = std::abs(node.x[1] - 1.0) + std::abs(node.x[0] - slip.steady_s());
+  return distance * (1.0 + std::abs(slip.law.rate)) < 1e-6 && slip.total_damping_ratio() > 0.0;
+}
+
+/// From stick until the mass is at rest again, or has turned back before, or has settled. One turn decides: orbits of
+/// two variables do not cross, so what has turned back once stays inside its own loop, docs/model.md (16).
+template <std::size_t N>
+SlipPath<N> follow_slip(const ScaledSlip& slip) {
+  constexpr int kMaxSteps = 5000;  // an ordinary slip needs 10 to 60; a stiff one gets 10 ms at most
+  SlipWalker<N> walker = walk_slip<N>(slip);
+  SlipPath<N> path;
+  bool slows_down = false;
+  for (int step = 0; step < kMaxSteps && walker.advance(); ++step) {
+    if (walker.from.x[kSpeed] < 1.0 && walker.to.x[kSpeed] >= 1.0) path.peak = locate_level(walker, 1.0, walker.to);
+    if (falls_below_drive(walker)) {
+      path.trough = locate_level(walker, 1.0, walker.to);
+      slows_down = true;
+    }
+    const SpeedEvent<N> event = slows_down ? speed_event(walker) : SpeedEvent<N>();
+    path.end = event.rest ? *event.rest : event.turn ? *event.turn : walker.to;
+    if (event.rest) path.status = SlipStatus::Resticks;
+    if (event.turn || has_settled(slip, walker.to)) path.status = SlipStatus::SlidesOn;
+    if (path.status != SlipStatus::NotSolved) return path;
+  }
+  return path;
+}
+
+/// As follow_slip, without the work where an overdamped slip cannot even slow down to the driving speed again.
+template <std::size_t N>
+SlipPath<N> first_slip(const ScaledSlip& slip) {
+  if (2.0 * slip.zeta + slip.law.smallest_slope_of_fast_slip() < 2.0) return follow_slip<N>(slip);
+  SlipPath<N> path;
+  path.status = SlipStatus::SlidesOn;
+  return path;
+}
+
+struct TracePoint {
+  double s = 0.0;
+  double v = 0.0;
+};
+
+/// One slip and the stick after it, asked at times that never decrease.
+class SlipTrace {
+ public:
+  explicit SlipTrace(const ScaledSlip& slip) : walker_(walk_slip<kPlain>(slip)) {}
+
+  /// Empty where the slip runs away or needs steps without end.
+  std::optional<TracePoint> at(double tau) {
+    while (!rest_ && walker_.to.tau < tau) {
+      // Steps of 0.01 on average: too stiff.
+      if (++steps_ > 5000.0 + 100.0 * tau || !walker_.advance()) return std::nullopt;
+      slows_down_ = slows_down_ || falls_below_drive(walker_);
+      if (slows_down_) rest_ = speed_event(walker_).rest;
+    }
+    if (rest_ && tau >= rest_->tau) return TracePoint{rest_->x[0] + (tau - rest_->tau), 0.0};
+    if (walker_.length() <= 0.0) return TracePoint{walker_.to.x[0], walker_.to.x[kSpeed]};  // before the first step
+    const StepNode<kPlain> node = walker_.inside(tau - walker_.from.tau);
+    return TracePoint{node.x[0], node.x[kSpeed]};
+  }
+
+  /// Known as soon as a time after it has been asked for.
+  [[nodiscard]] std::optional<double> tau_end() const { return rest_ ? std::optional(rest_->tau) : std::nullopt; }
+
+ private:
+  SlipWalker<kPlain> walker_;
+  bool slows_down_ = false;
+  std::optional<StepNode<kPlain>> rest_;
+  double steps_ = 0.0;
+};
+
+}  // namespace slipfit::model
