@@ -6,6 +6,10 @@
 
 namespace atlas {
 
+/// F_k(0+) over F_s - F_k, where the whole friction matters: smoothing acts on it, and it turns where the body slides
+/// back.
+inline constexpr double kKineticShare = 2.0;
+
 /// Classical Runge-Kutta with a fixed step; a sliding speed below zero at the end of a step means stick.
 Answer run_sign_switching(const ForwardScene& scene, const WaveTimes& times, double step);
 
@@ -19,7 +23,7 @@ Answer run_event_location(const ForwardScene& scene, const WaveTimes& times, dou
 /// Leine's switch model: a band of sliding speeds of this half width (in V) counts as stick and draws the body to rest.
 Answer run_switch_model(const ForwardScene& scene, const WaveTimes& times, double band);
 
-/// Friction times tanh(v / width), static peak decaying over 30 widths; Rosenbrock 4(3), as it is stiff.
+/// Friction times tanh(v / width), static peak decaying over sqrt(width) in V; Rosenbrock 4(3), as it is stiff.
 Answer run_smoothed(const ForwardScene& scene, const WaveTimes& times, double width);
 
 /// slipfit's tiers, friction as each of them knows it.

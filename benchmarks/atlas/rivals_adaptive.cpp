@@ -82,8 +82,10 @@ Answer run_switch_model(const ForwardScene& scene, const WaveTimes& times, doubl
     const double speed = 1.0 - x[1];
     const double push = x[0] + 2.0 * scene.zeta * x[1];
     double acceleration = push - scene.lambda;  // leaving the band
-    if (std::abs(speed) > band) {
+    if (speed > band) {
       acceleration = push - friction_above(scene, speed);
+    } else if (speed < -band) {
+      acceleration = push + 2.0 * kKineticShare * scene.lambda + friction_above(scene, -speed);
     } else if (push <= scene.lambda) {
       acceleration = -speed;  // stick: drawn to rest
     }

@@ -74,6 +74,11 @@ void add_series(chart::Panel& panel, const Look& look, const std::vector<chart::
   panel.markers.push_back({look.name, look.colour, look.shape, points});
 }
 
+void strip_legend(chart::Panel& panel) {
+  for (chart::Line& line : panel.lines) line.name.clear();
+  for (chart::Markers& markers : panel.markers) markers.name.clear();
+}
+
 std::string cell(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string();
 }

@@ -52,6 +52,9 @@ std::vector<double> log_spaced(double low, double high, std::size_t count);
 /// Marks at, and a line through, the points of one method.
 void add_series(chart::Panel& panel, const Look& look, const std::vector<chart::Point>& points);
 
+/// The same series as in the panel above: no second legend.
+void strip_legend(chart::Panel& panel);
+
 /// "" for what is not finite.
 std::string cell(double value);
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/rosenbrock4.hpp>
 #include <boost/numeric/odeint/stepper/rosenbrock4_controller.hpp>
@@ -16,22 +17,24 @@ namespace odeint = boost::numeric::odeint;
 using Vector = boost::numeric::ublas::vector<double>;
 using Matrix = boost::numeric::ublas::matrix<double>;
 
-constexpr double kKineticShare = 2.0;  // F_k(0+) over F_s - F_k: smoothing acts on the whole friction
-constexpr double kPeakWidths = 30.0;   // wide enough for tanh to reach the static peak, narrow enough to leave the slip
-constexpr double kStuckWidths = 5.0;   // creep slower than this is what smoothing makes of stick
-constexpr double kTolerance = 1e-6;
+constexpr double kStuckWidths = 5.0;  // creep slower than this is what smoothing makes of stick
 
 struct SmoothedFriction {
   double value = 0.0, d_speed = 0.0;
 };
 
+/// Sliding speed over which the static peak decays: many widths, for tanh to reach the peak, and yet small.
+double peak_speed(double width) {
+  return std::sqrt(width);
+}
+
 /// Above F_k(0+).
 SmoothedFriction smoothed(const ForwardScene& scene, double v, double width) {
   const double kinetic = kKineticShare * scene.lambda;
   const double turn = std::tanh(v / width);
-  const double peak = scene.lambda * std::exp(-std::abs(v) / (kPeakWidths * width));
+  const double peak = scene.lambda * std::exp(-std::abs(v) / peak_speed(width));
   const double whole = kinetic + peak + friction_above(scene, std::abs(v));
-  const double d_whole = std::copysign(1.0, v) * (-peak / (kPeakWidths * width) +
+  const double d_whole = std::copysign(1.0, v) * (-peak / peak_speed(width) +
                                                   scene.slope * std::exp(scene.rate * std::abs(v)));
   return {whole * turn - kinetic, d_whole * turn + whole * (1.0 - turn * turn) / width};
 }
@@ -50,10 +53,11 @@ Answer run_smoothed(const ForwardScene& scene, const WaveTimes& times, double wi
     j(1, 1) = -2.0 * scene.zeta - smoothed(scene, 1.0 - x[1], width).d_speed;
     by_time[0] = by_time[1] = 0.0;
   };
-  auto stepper = odeint::make_dense_output(kTolerance, kTolerance, odeint::rosenbrock4<double>());
+  const double tolerance = std::min(1e-6, 0.01 * width);
+  auto stepper = odeint::make_dense_output(tolerance, tolerance, odeint::rosenbrock4<double>());
   Vector state(2);
   state[0] = scene.lambda - 2.0 * scene.zeta;
-  state[1] = 1.0 - kPeakWidths * width;  // over the peak: at rest it would creep up to it first
+  state[1] = 1.0 - peak_speed(width);  // over the peak: at rest it would creep up to it first
   stepper.initialize(state, 0.0, width);
   Track track(times);
   try {
