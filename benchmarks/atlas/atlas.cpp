@@ -13,7 +13,8 @@
 
 int main(int argc, char** argv) {
   using Study = std::vector<atlas::File> (*)(atlas::Effort);
-  const std::map<std::string, Study> studies{{"forward", atlas::study_forward}, {"frequency", atlas::study_frequency}};
+  const std::map<std::string, Study> studies{
+      {"forward", atlas::study_forward}, {"frequency", atlas::study_frequency}, {"fits", atlas::study_fits}};
   bool quick = false;
   std::string out = "atlas_out";
   std::vector<std::string> chosen;

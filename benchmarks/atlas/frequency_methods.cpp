@@ -108,8 +108,12 @@ std::optional<double> counted_slips(const Recording& recording) {
   return slipfit::count_frequency(recording, slipfit::find_slips(recording, quality)).value;
 }
 
-std::optional<double> quoted(const Recording& recording) {
+std::optional<double> quoted_by_analyze(const Recording& recording) {
   return slipfit::analyze(recording).frequency.quoted.value;
+}
+
+std::optional<double> quoted_by_fit(const Recording& recording) {
+  return slipfit::analyze_and_fit(recording, {}).frequency.quoted.value;
 }
 
 }  // namespace
@@ -122,7 +126,8 @@ std::vector<FrequencyMethod> frequency_methods() {
           {{"autocorrelation peak", Colour::Orange, Shape::Ring, Stroke::Solid}, autocorrelation_peak},
           {{"slip counting (slipfit)", Colour::Green, Shape::Triangle, Stroke::Solid}, counted_slips},
           {{"harmonic least squares (slipfit)", Colour::Blue, Shape::Dot, Stroke::DashDotted}, harmonic_comb},
-          {{"what slipfit quotes", Colour::Black, Shape::Dot, Stroke::Solid}, quoted}};
+          {{"what slipfit analyze quotes", Colour::Vermillion, Shape::Ring, Stroke::Solid}, quoted_by_analyze},
+          {{"what slipfit fit quotes", Colour::Black, Shape::Dot, Stroke::Solid}, quoted_by_fit}};
 }
 
 }  // namespace atlas

@@ -97,7 +97,7 @@ Measured run_sweeps(Effort effort, std::size_t trials) {
   Measured all;
   for (const Sweep& sweep : sweeps_of(effort)) {
     Panel panel = error_panel(sweep);
-    chart::Line bound{"Cramér-Rao bound and scatter of the periods", chart::Colour::Vermillion, chart::Stroke::Dashed, {}};
+    chart::Line bound{"Cramér-Rao bound and scatter of the periods", chart::Colour::Black, chart::Stroke::Dashed, {}};
     std::vector<std::vector<Point>> points(frequency_methods().size());
     for (const double value : sweep.values) {
       Factors factors;
@@ -124,8 +124,8 @@ Measured run_sweeps(Effort effort, std::size_t trials) {
 Panel time_panel(Effort effort, std::size_t trials) {
   Panel panel;
   panel.height_px = 400.0;
-  panel.x = {"CPU time for one recording of about 6000 samples  [µs]", 30.0, 1e5, Scale::Logarithmic};
-  panel.y = {"relative error of the frequency  [-]", 1e-6, 1.0, Scale::Logarithmic};
+  panel.x = {"CPU time for one recording of 40 cycles, about 4000 samples  [µs]", 20.0, 1e6, Scale::Logarithmic};
+  panel.y = {"relative error of the frequency  [-]", 1e-7, 1.0, Scale::Logarithmic};
   panel.legend = {1.0, 1.0};
   const std::vector<std::pair<double, std::string>> noises{{0.002, "0.002"}, {0.02, "0.02"}, {0.2, "0.2"}};
   std::vector<Point> usual;
@@ -140,7 +140,7 @@ Panel time_panel(Effort effort, std::size_t trials) {
     }
     add_series(panel, method.look, points);
   }
-  panel.lines.push_back(draw_front(usual, 1e5));
+  panel.lines.push_back(draw_front(usual, 1e6));
   return panel;
 }
 
