@@ -13,9 +13,14 @@
 namespace atlas {
 namespace {
 
+using slipfit::Estimate;
 using slipfit::Recording;
 
 constexpr std::size_t kPadding = 16;
+
+Estimate bare(double frequency_Hz) {
+  return {frequency_Hz, {}, {}, {}};
+}
 
 /// Vertex of the parabola through three neighbours, as an offset from the middle one.
 double vertex(double before, double at, double after) {
@@ -28,27 +33,27 @@ std::size_t largest_bin(const std::vector<double>& power) {
   return static_cast<std::size_t>(std::max_element(power.begin() + 2, power.end() - 1) - power.begin());
 }
 
-std::optional<double> spectral_peak(const Recording& recording) {
+Estimate spectral_peak(const Recording& recording) {
   const slipfit::Spectrum spectrum = slipfit::compute_spectrum(recording);
-  return spectrum.bin_Hz * static_cast<double>(largest_bin(spectrum.power));
+  return bare(spectrum.bin_Hz * static_cast<double>(largest_bin(spectrum.power)));
 }
 
-std::optional<double> interpolated_peak(const Recording& recording) {
+Estimate interpolated_peak(const Recording& recording) {
   const slipfit::Spectrum spectrum = slipfit::compute_spectrum(recording);
   const std::size_t peak = largest_bin(spectrum.power);
   const auto log_power = [&](std::size_t bin) { return std::log(spectrum.power[bin] + 1e-300); };
   const double offset = vertex(log_power(peak - 1), log_power(peak), log_power(peak + 1));
-  return spectrum.bin_Hz * (static_cast<double>(peak) + offset);
+  return bare(spectrum.bin_Hz * (static_cast<double>(peak) + offset));
 }
 
-std::optional<double> zero_padded_peak(const Recording& recording) {
+Estimate zero_padded_peak(const Recording& recording) {
   const std::size_t length = slipfit::signal::good_length(kPadding * recording.size());
   std::vector<double> power = slipfit::signal::hann_power(recording.force(), length);
   std::fill_n(power.begin(), 2 * kPadding, 0.0);
   const std::size_t peak = largest_bin(power);
   const double offset = vertex(power[peak - 1], power[peak], power[peak + 1]);
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
-  return (static_cast<double>(peak) + offset) / (step_s * static_cast<double>(length));
+  return bare((static_cast<double>(peak) + offset) / (step_s * static_cast<double>(length)));
 }
 
 std::vector<double> without_line(std::span<const double> force) {
@@ -86,7 +91,7 @@ std::vector<double> autocorrelation(std::vector<double> values) {
   return values;
 }
 
-std::optional<double> autocorrelation_peak(const Recording& recording) {
+Estimate autocorrelation_peak(const Recording& recording) {
   const std::vector<double> sums = autocorrelation(without_line(recording.force()));
   const std::size_t half = recording.size() / 2;
   std::size_t first = 1;
@@ -94,26 +99,30 @@ std::optional<double> autocorrelation_peak(const Recording& recording) {
   const auto begin = sums.begin();
   const auto highest = std::max_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(half));
   const auto lag = static_cast<std::size_t>(highest - begin);
-  if (first + 1 >= half || lag <= first) return std::nullopt;
+  if (first + 1 >= half || lag <= first) return {};
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
-  return 1.0 / (step_s * (static_cast<double>(lag) + vertex(sums[lag - 1], sums[lag], sums[lag + 1])));
+  return bare(1.0 / (step_s * (static_cast<double>(lag) + vertex(sums[lag - 1], sums[lag], sums[lag + 1]))));
 }
 
-std::optional<double> harmonic_comb(const Recording& recording) {
-  return slipfit::find_frequency(recording, slipfit::compute_spectrum(recording), std::nullopt).value_Hz;
+Estimate harmonic_comb(const Recording& recording) {
+  const auto found = slipfit::find_frequency(recording, slipfit::compute_spectrum(recording), std::nullopt);
+  if (!found.value_Hz || !found.standard_error_Hz) return {found.value_Hz, {}, {}, {}};
+  const double half_Hz = 1.96 * *found.standard_error_Hz;
+  return {found.value_Hz, found.standard_error_Hz,
+          slipfit::Interval{*found.value_Hz - half_Hz, *found.value_Hz + half_Hz}, {}};
 }
 
-std::optional<double> counted_slips(const Recording& recording) {
+Estimate counted_slips(const Recording& recording) {
   const slipfit::Quality quality = slipfit::assess_quality(recording);
-  return slipfit::count_frequency(recording, slipfit::find_slips(recording, quality)).value;
+  return slipfit::count_frequency(recording, slipfit::find_slips(recording, quality));
 }
 
-std::optional<double> quoted_by_analyze(const Recording& recording) {
-  return slipfit::analyze(recording).frequency.quoted.value;
+Estimate quoted_by_analyze(const Recording& recording) {
+  return slipfit::analyze(recording).frequency.quoted;
 }
 
-std::optional<double> quoted_by_fit(const Recording& recording) {
-  return slipfit::analyze_and_fit(recording, {}).frequency.quoted.value;
+Estimate quoted_by_fit(const Recording& recording) {
+  return slipfit::analyze_and_fit(recording, {}).frequency.quoted;
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ Cell measure(const FrequencyMethod& method, const Factors& factors, std::size_t 
   for (std::size_t i = 0; i < trials; ++i) {
     const Scene scene = make_scene(factors, 1000 + i);
     const double start_s = cpu_now_s();
-    const std::optional<double> found_Hz = method.find_Hz(scene.recording);
+    const std::optional<double> found_Hz = method.find(scene.recording).value;
     times_us.push_back(1e6 * (cpu_now_s() - start_s));
     if (!found_Hz) {
       result.none += 1.0 / static_cast<double>(trials);
