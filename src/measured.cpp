@@ -80,9 +80,11 @@ FrequencyReport report_frequency(const Recording& recording, const Segmentation&
     }
   }
   const MeanAndSpread interval = describe(intervals_s(recording, segmentation));
-  const bool cycles_seen = verdict == Verdict::StickSlip || verdict == Verdict::OscillatorySlip;
   const bool agree =
       spectral.value_Hz && report.counted.value && std::abs(*spectral.value_Hz / *report.counted.value - 1.0) < 0.05;
+  // Without sticks, what was counted may be the noise or the hum on a slower repetition.
+  const bool cycles_seen =
+      verdict == Verdict::StickSlip || (verdict == Verdict::OscillatorySlip && (agree || !spectral.value_Hz));
   const bool regular = interval.count >= 2.0 && interval.sd < kRegular * interval.mean;
   if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || !cycles_seen)) {
     report.method = "harmonic_least_squares";

@@ -30,8 +30,11 @@ Signals look_at(const Recording& recording) {
   signals.quality = assess_quality(recording);
   signals.segmentation = find_slips(recording, signals.quality);
   const std::vector<bool>& impulses = signals.quality.impulse_mask;
-  const Estimate counted = count_frequency(recording, signals.segmentation);
-  signals.spectral = find_frequency(recording, compute_spectrum(recording, impulses), counted.value, impulses);
+  std::optional<double> hint_Hz;
+  if (slips_stand_out(signals.quality, signals.segmentation)) {
+    hint_Hz = count_frequency(recording, signals.segmentation).value;
+  }
+  signals.spectral = find_frequency(recording, compute_spectrum(recording, impulses), hint_Hz, impulses);
   signals.seconds = seconds_since(start);
   return signals;
 }

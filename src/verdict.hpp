@@ -12,6 +12,9 @@ struct Judgement {
   std::string reason;
 };
 
+/// Falls well above the noise and quicker than a sine's: counting them gives the frequency of slips, not of noise or hum.
+bool slips_stand_out(const Quality& quality, const Segmentation& segmentation);
+
 /// What the fitted cycles show. `fit` empty: too few cycles could be fitted.
 Judgement judge_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
                     const SpectralFrequency& spectral, const FitResult* fit);
