@@ -30,10 +30,12 @@ Signals look_at(const Recording& recording) {
   signals.quality = assess_quality(recording);
   signals.segmentation = find_slips(recording, signals.quality);
   const std::vector<bool>& impulses = signals.quality.impulse_mask;
-  std::optional<double> hint_Hz;
-  if (slips_stand_out(signals.quality, signals.segmentation)) {
-    hint_Hz = count_frequency(recording, signals.segmentation).value;
-  }
+  // A count that scatters may be of noise or hum: it would draw the spectrum to its own multiple.
+  constexpr double kSureCount = 0.01;
+  const Estimate counted = count_frequency(recording, signals.segmentation);
+  const bool sure = slips_stand_out(signals.quality, signals.segmentation) && counted.standard_error &&
+                    *counted.standard_error < kSureCount * *counted.value;
+  const std::optional<double> hint_Hz = sure ? counted.value : std::nullopt;
   signals.spectral = find_frequency(recording, compute_spectrum(recording, impulses), hint_Hz, impulses);
   signals.seconds = seconds_since(start);
   return signals;

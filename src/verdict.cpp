@@ -149,8 +149,8 @@ Judgement judge_shape(const Recording& recording, const Quality& quality, const 
   if (is_faint(quality, segmentation)) {
     return {Verdict::Undetermined, "the falls are not much larger than the noise: only a fit can tell"};
   }
-  const double ratio = fall_share(segmentation) / 0.6;
-  if (ratio < 0.3) return {Verdict::StickSlip, "the force falls much faster than it rises (no model fitted)"};
+  if (!is_sine_like(segmentation))
+    return {Verdict::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   return {Verdict::Undetermined, "the force falls about as slowly as it rises: only a fit can tell"};
 }
 

@@ -12,7 +12,8 @@ struct Judgement {
   std::string reason;
 };
 
-/// Falls well above the noise and quicker than a sine's: counting them gives the frequency of slips, not of noise or hum.
+/// Falls well above the noise and quicker than a sine's: counting them gives the frequency of slips, not of noise or
+/// hum.
 bool slips_stand_out(const Quality& quality, const Segmentation& segmentation);
 
 /// What the fitted cycles show. `fit` empty: too few cycles could be fitted.

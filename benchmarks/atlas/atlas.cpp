@@ -13,8 +13,10 @@
 
 int main(int argc, char** argv) {
   using Study = std::vector<atlas::File> (*)(atlas::Effort);
-  const std::map<std::string, Study> studies{
-      {"forward", atlas::study_forward}, {"frequency", atlas::study_frequency}, {"fits", atlas::study_fits}, {"failures", atlas::map_failures}};
+  const std::map<std::string, Study> studies{{"forward", atlas::study_forward},
+                                             {"frequency", atlas::study_frequency},
+                                             {"fits", atlas::study_fits},
+                                             {"failures", atlas::map_failures}};
   bool quick = false;
   std::string out = "atlas_out";
   std::vector<std::string> chosen;

@@ -37,7 +37,8 @@ Mark judge(const FitMethod& method, const Factors& factors, std::size_t trials) 
 chart::Chart over(const std::string& title, const Plane& plane, double Factors::*x, double Factors::*y,
                   const std::vector<std::size_t>& methods, std::size_t trials) {
   chart::Chart chart{title, explain_marks({Mark::Silent, Mark::Doubtful, Mark::Wrong}), {}};
-  chart.remarks.emplace_back("wrong: more than a tenth of the fits claim a parameter that is 4 standard errors and 2 % off");
+  chart.remarks.emplace_back(
+      "wrong: more than a tenth of the fits claim a parameter that is 4 standard errors and 2 % off");
   for (const std::size_t i : methods) {
     const FitMethod method = fit_methods()[i];
     chart.panels.push_back(draw_plane(plane, method.look.name, [&](double at_x, double at_y) {
@@ -80,15 +81,14 @@ std::vector<File> map_fit_failures(Effort effort) {
   const PlaneAxis jitter{"scatter of the static friction over the drop  [-]", log_spaced(0.001, 0.3, full ? 9 : 4)};
   const PlaneAxis cycles{"cycles  [-]", log_spaced(6.0, 100.0, full ? 6 : 3)};
   const PlaneAxis hum{"amplitude of the 50 Hz hum over the drop  [-]", log_spaced(0.02, 4.0, full ? 10 : 4)};
-  return {{"failures_fit_start.svg", to_svg(false_minima(effort, trials))},
-          {"failures_fit_sampling.svg",
-           to_svg(over("Where fits fail: few samples and noise", {samples, noise, 200.0, {}}, &Factors::samples_per_slip,
-                       &Factors::noise, {0, 1, 4}, trials))},
-          {"failures_fit_scatter.svg",
-           to_svg(over("Where fits fail: scatter and few cycles", {jitter, cycles, 200.0, {}}, &Factors::jitter,
-                       &Factors::cycles, {0, 1, 4, 5}, full ? 12 : 2))},
-          {"failures_fit_hum.svg", to_svg(over("Where fits fail: hum and noise", {hum, noise, 200.0, {}}, &Factors::hum,
-                                               &Factors::noise, {0, 1, 4}, trials))}};
+  return {
+      {"failures_fit_start.svg", to_svg(false_minima(effort, trials))},
+      {"failures_fit_sampling.svg", to_svg(over("Where fits fail: few samples and noise", {samples, noise, 200.0, {}},
+                                                &Factors::samples_per_slip, &Factors::noise, {0, 1, 4}, trials))},
+      {"failures_fit_scatter.svg", to_svg(over("Where fits fail: scatter and few cycles", {jitter, cycles, 200.0, {}},
+                                               &Factors::jitter, &Factors::cycles, {0, 1, 4, 5}, full ? 12 : 2))},
+      {"failures_fit_hum.svg", to_svg(over("Where fits fail: hum and noise", {hum, noise, 200.0, {}}, &Factors::hum,
+                                           &Factors::noise, {0, 1, 4}, trials))}};
 }
 
 }  // namespace atlas

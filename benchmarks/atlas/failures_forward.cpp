@@ -76,7 +76,8 @@ chart::Chart grazing(Effort effort) {
                     {"damping ratio ζ  [-]", log_spaced(0.005, 0.8, 5 * fineness + 1)},
                     190.0,
                     {}};
-  chart::Chart chart{"Grazing: does the slip come to rest?", explain_marks({Mark::Silent, Mark::Missed, Mark::Invented}), {}};
+  chart::Chart chart{
+      "Grazing: does the slip come to rest?", explain_marks({Mark::Silent, Mark::Missed, Mark::Invented}), {}};
   chart.remarks.emplace_back("both sides of the limit are asked; the mark is that of the side that goes wrong");
   for (const ForwardMethod& method : chosen({{"RK4, sign switching", {"0.01", "0.001"}},
                                              {"time stepping (Moreau)", {"0.001"}},
@@ -109,9 +110,8 @@ chart::Chart friction_of_speed(Effort effort) {
                      {}};
   chart.remarks.emplace_back("wrong: the period is off by more than 1 %");
   for (const double sign : {-1.0, 1.0}) {
-    for (const ForwardMethod& method : chosen({{"exact damped", {""}},
-                                               {"ODE 5(4), event location", {"1e-05"}},
-                                               {"velocity tier", {""}}})) {
+    for (const ForwardMethod& method :
+         chosen({{"exact damped", {""}}, {"ODE 5(4), event location", {"1e-05"}}, {"velocity tier", {""}}})) {
       const std::string title = title_of(method) + (sign < 0.0 ? ", weakening (α < 0)" : ", strengthening (α > 0)");
       chart.panels.push_back(draw_plane(plane, title, [&](double bend, double strength) {
         constexpr double kLambda = 20.0;

@@ -14,7 +14,8 @@ constexpr double kTolerated = 0.11;  // share of wrong trials below which a cell
 /// Close to 1/5 ... 1/2 or 2 ... 5 times the truth, or the mains' 50 Hz.
 bool is_multiple(double ratio, double frequency_Hz) {
   const double whole = ratio > 1.0 ? ratio : 1.0 / ratio;
-  const bool octave = std::round(whole) >= 2.0 && std::round(whole) <= 5.0 && std::abs(whole / std::round(whole) - 1.0) < 0.02;
+  const bool octave =
+      std::round(whole) >= 2.0 && std::round(whole) <= 5.0 && std::abs(whole / std::round(whole) - 1.0) < 0.02;
   return octave || std::abs(frequency_Hz / 50.0 - 1.0) < 0.01;
 }
 
@@ -63,12 +64,12 @@ std::vector<File> map_frequency_failures(Effort effort) {
   const PlaneAxis hum{"amplitude of the 50 Hz hum over the drop  [-]", log_spaced(0.02, 4.0, full ? 13 : 6)};
   const PlaneAxis jitter{"scatter of F_s over the drop  [-]", log_spaced(0.003, 0.3, full ? 7 : 4)};
   const PlaneAxis cycles{"cycles  [-]", log_spaced(4.0, 100.0, full ? 8 : 4)};
-  return {{"failures_frequency_noise.svg", to_svg(over("Where frequency methods fail: noise and few cycles",
-                                                       {noise, cycles, 170.0, {}}, &Factors::noise, &Factors::cycles,
-                                                       trials))},
-          {"failures_frequency_hum.svg", to_svg(over("Where frequency methods fail: hum and scatter",
-                                                     {hum, jitter, 170.0, {}}, &Factors::hum, &Factors::jitter,
-                                                     trials))}};
+  return {
+      {"failures_frequency_noise.svg",
+       to_svg(over("Where frequency methods fail: noise and few cycles", {noise, cycles, 170.0, {}}, &Factors::noise,
+                   &Factors::cycles, trials))},
+      {"failures_frequency_hum.svg", to_svg(over("Where frequency methods fail: hum and scatter",
+                                                 {hum, jitter, 170.0, {}}, &Factors::hum, &Factors::jitter, trials))}};
 }
 
 }  // namespace atlas

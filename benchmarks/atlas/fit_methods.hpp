@@ -20,8 +20,8 @@ struct FitAnswer {
   std::array<bool, kFitParameters> sure{};                  ///< claims to know it ("identified")
 };
 
-/// A way to get parameters from a recording of these factors. It makes what it needs from the seed and says how long the
-/// fit itself took.
+/// A way to get parameters from a recording of these factors. It makes what it needs from the seed and says how long
+/// the fit itself took.
 struct TimedFit {
   FitAnswer answer;
   double time_s = 0.0;
@@ -35,8 +35,8 @@ std::vector<FitMethod> fit_methods();
 
 std::array<double, kFitParameters> truth_of(const Scene& scene);
 
-/// Least squares of all samples at once, by Levenberg-Marquardt with exact derivatives: k, w_n, zeta, F_s - F_k, F_k and
-/// the time of the first onset. Starts off by `start_error` (relative, signs by the seed), the time true.
+/// Least squares of all samples at once, by Levenberg-Marquardt with exact derivatives: k, w_n, zeta, F_s - F_k, F_k
+/// and the time of the first onset. Starts off by `start_error` (relative, signs by the seed), the time true.
 FitAnswer fit_whole_trace(const Scene& scene, double start_error, std::uint64_t seed);
 
 /// Medians over the detected slips: slopes of the ramps, drops, times of fall. No damping.

@@ -19,10 +19,11 @@ struct Sweep {
 
 std::vector<Sweep> sweeps_of(Effort effort) {
   const std::size_t count = effort == Effort::Full ? 7 : 3;
-  return {{"noise", "noise, rms over the friction drop  [-]", &Factors::noise, log_spaced(1e-3, 0.3, count)},
-          {"jitter", "scatter of the static friction over the drop  [-]", &Factors::jitter, log_spaced(1e-3, 0.3, count)},
-          {"samples", "samples in a slip  [-]", &Factors::samples_per_slip, log_spaced(1.0, 60.0, count)},
-          {"cycles", "cycles in the recording(s)  [-]", &Factors::cycles, log_spaced(5.0, 150.0, count)}};
+  return {
+      {"noise", "noise, rms over the friction drop  [-]", &Factors::noise, log_spaced(1e-3, 0.3, count)},
+      {"jitter", "scatter of the static friction over the drop  [-]", &Factors::jitter, log_spaced(1e-3, 0.3, count)},
+      {"samples", "samples in a slip  [-]", &Factors::samples_per_slip, log_spaced(1.0, 60.0, count)},
+      {"cycles", "cycles in the recording(s)  [-]", &Factors::cycles, log_spaced(5.0, 150.0, count)}};
 }
 
 /// One parameter over the trials of one cell.
@@ -62,7 +63,7 @@ Score score_of(const std::vector<FitAnswer>& answers, std::size_t parameter,
   }
   score.covered = intervals > 0.0 ? score.covered / intervals : std::nan("");
   score.error = 2.0 * static_cast<double>(errors.size()) >= static_cast<double>(answers.size()) ? robust_size(errors)
-                                                                                               : std::nan("");
+                                                                                                : std::nan("");
   score.excess = score.error / bound;
   return score;
 }
@@ -142,9 +143,10 @@ void run_sweep(const Sweep& sweep, std::size_t trials, Measured& all) {
       all.csv += csv_rows(sweep.name, value, method, trials, result);
       errors.push_back({value, result.scores[kFrequencyOf].error});
       coverage.push_back({value, result.scores[kFrequencyOf].covered});
-      wrong.push_back({value, std::max_element(result.scores.begin(), result.scores.end(),
-                                               [](const Score& a, const Score& b) { return a.wrong < b.wrong; })
-                                  ->wrong});
+      wrong.push_back(
+          {value, std::max_element(result.scores.begin(), result.scores.end(), [](const Score& a, const Score& b) {
+                    return a.wrong < b.wrong;
+                  })->wrong});
     }
     add_series(drawn.error, method.look, errors);
     add_series(drawn.coverage, method.look, coverage);
@@ -199,9 +201,10 @@ std::vector<File> study_fits(Effort effort) {
   const chart::Chart time{"Fits: error over the bound against time",
                           {"Three markers a method: 10, 40 and 160 cycles; the front is that of 40 cycles.", usual},
                           time_panels(trials)};
-  const chart::Chart errors{"Fits: error of the natural frequency",
-                            {usual, "Robust size (68 %) of the errors; no mark: no value in more than half of the trials."},
-                            all.errors};
+  const chart::Chart errors{
+      "Fits: error of the natural frequency",
+      {usual, "Robust size (68 %) of the errors; no mark: no value in more than half of the trials."},
+      all.errors};
   const chart::Chart coverage{"Fits: how often the 95 % interval holds the truth", {usual}, all.coverage};
   const chart::Chart wrong{"Fits: confidently wrong",
                            {usual, "Share of fits that claim to know, and are more than 4 standard errors and 2 % off,",

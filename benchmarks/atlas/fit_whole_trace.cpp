@@ -20,8 +20,7 @@ class WholeTrace {
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = kUnknowns };
 
   explicit WholeTrace(const slipfit::Recording& recording)
-      : recording_(recording),
-        step_s_(recording.duration_s() / static_cast<double>(recording.size() - 1)) {}
+      : recording_(recording), step_s_(recording.duration_s() / static_cast<double>(recording.size() - 1)) {}
 
   [[nodiscard]] int NumResiduals() const { return static_cast<int>(recording_.size()); }
 

@@ -9,7 +9,8 @@
 
 #include "study.hpp"
 
-// Ways to compute one stick-slip cycle, in scaled form: times are w_n t, forces are above F_k(0+) in units of k V / w_n.
+// Ways to compute one stick-slip cycle, in scaled form: times are w_n t, forces are above F_k(0+) in units of k V /
+// w_n.
 
 namespace atlas {
 

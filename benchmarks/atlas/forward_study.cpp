@@ -68,11 +68,11 @@ std::string to_csv(const std::vector<Row>& rows) {
   std::string csv =
       "method,setting,lambda,damping_ratio,slope,alpha_V,expected,outcome,period_error,waveform_error,cpu_us\n";
   for (const Row& row : rows) {
-    csv += fmt::format("\"{}\",{},{:g},{:g},{:g},{:g},{},{},{},{},{}\n", row.method->family, row.method->setting,
-                       row.scene.lambda, row.scene.zeta, row.scene.slope, row.scene.rate,
-                       kOutcomes[static_cast<std::size_t>(row.expected)],
-                       kOutcomes[static_cast<std::size_t>(row.outcome)], cell(row.period_error), cell(row.wave_error),
-                       cell(1e6 * row.time_s));
+    csv +=
+        fmt::format("\"{}\",{},{:g},{:g},{:g},{:g},{},{},{},{},{}\n", row.method->family, row.method->setting,
+                    row.scene.lambda, row.scene.zeta, row.scene.slope, row.scene.rate,
+                    kOutcomes[static_cast<std::size_t>(row.expected)], kOutcomes[static_cast<std::size_t>(row.outcome)],
+                    cell(row.period_error), cell(row.wave_error), cell(1e6 * row.time_s));
   }
   return csv;
 }
@@ -185,10 +185,13 @@ std::vector<File> study_forward(Effort effort) {
   const std::vector<std::string> remarks{
       "Medians over a grid of λ and ζ; several markers of one kind: its steps, tolerances or widths.",
       "The reference is Runge-Kutta-Fehlberg 7(8) in long double."};
-  const chart::Chart constant{"Forward methods, constant friction (αV = 0)", remarks,
-                              {pareto_panel(coulomb, &Summary::period_error, "relative error of the period  [-]"),
-                               pareto_panel(coulomb, &Summary::wave_error, "rms error of the waveform / its rms  [-]")}};
-  const chart::Chart varying{"Forward methods, friction that depends on the speed", remarks,
+  const chart::Chart constant{
+      "Forward methods, constant friction (αV = 0)",
+      remarks,
+      {pareto_panel(coulomb, &Summary::period_error, "relative error of the period  [-]"),
+       pareto_panel(coulomb, &Summary::wave_error, "rms error of the waveform / its rms  [-]")}};
+  const chart::Chart varying{"Forward methods, friction that depends on the speed",
+                             remarks,
                              {pareto_panel(speed, &Summary::period_error, "relative error of the period  [-]"),
                               pareto_panel(speed, &Summary::wave_error, "rms error of the waveform / its rms  [-]")}};
   const chart::Chart over_lambda{"Forward methods over λ, constant friction, ζ = 0.05",

@@ -97,7 +97,8 @@ Estimate autocorrelation_peak(const Recording& recording) {
   std::size_t first = 1;
   while (first < half && sums[first] > 0.0) ++first;
   const auto begin = sums.begin();
-  const auto highest = std::max_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(half));
+  const auto highest =
+      std::max_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(half));
   const auto lag = static_cast<std::size_t>(highest - begin);
   if (first + 1 >= half || lag <= first) return {};
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
@@ -108,8 +109,10 @@ Estimate harmonic_comb(const Recording& recording) {
   const auto found = slipfit::find_frequency(recording, slipfit::compute_spectrum(recording), std::nullopt);
   if (!found.value_Hz || !found.standard_error_Hz) return {found.value_Hz, {}, {}, {}};
   const double half_Hz = 1.96 * *found.standard_error_Hz;
-  return {found.value_Hz, found.standard_error_Hz,
-          slipfit::Interval{*found.value_Hz - half_Hz, *found.value_Hz + half_Hz}, {}};
+  return {found.value_Hz,
+          found.standard_error_Hz,
+          slipfit::Interval{*found.value_Hz - half_Hz, *found.value_Hz + half_Hz},
+          {}};
 }
 
 Estimate counted_slips(const Recording& recording) {

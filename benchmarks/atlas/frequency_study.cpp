@@ -26,11 +26,12 @@ struct Sweep {
 
 std::vector<Sweep> sweeps_of(Effort effort) {
   const std::size_t count = effort == Effort::Full ? 11 : 5;
-  return {{"noise", "noise, rms over the friction drop  [-]", &Factors::noise, log_spaced(1e-3, 3.0, count)},
-          {"jitter", "scatter of the static friction over the drop  [-]", &Factors::jitter, log_spaced(1e-3, 0.3, count)},
-          {"drift", "drift over the recording, in drops  [-]", &Factors::drift, log_spaced(0.1, 100.0, count)},
-          {"hum", "amplitude of the 50 Hz hum over the drop  [-]", &Factors::hum, log_spaced(0.01, 3.0, count)},
-          {"cycles", "cycles in the recording  [-]", &Factors::cycles, log_spaced(4.0, 400.0, count)}};
+  return {
+      {"noise", "noise, rms over the friction drop  [-]", &Factors::noise, log_spaced(1e-3, 3.0, count)},
+      {"jitter", "scatter of the static friction over the drop  [-]", &Factors::jitter, log_spaced(1e-3, 0.3, count)},
+      {"drift", "drift over the recording, in drops  [-]", &Factors::drift, log_spaced(0.1, 100.0, count)},
+      {"hum", "amplitude of the 50 Hz hum over the drop  [-]", &Factors::hum, log_spaced(0.01, 3.0, count)},
+      {"cycles", "cycles in the recording  [-]", &Factors::cycles, log_spaced(4.0, 400.0, count)}};
 }
 
 /// Cramer-Rao bound of the relative error of the frequency for a waveform of known shape in white noise, and what
@@ -46,7 +47,8 @@ double bound_of(const Scene& scene, const Factors& factors) {
   }
   const auto samples = static_cast<double>(recording.size());
   const double cycles = recording.duration_s() / scene.cycle.period_s;
-  const double white = scene.noise_N * std::sqrt(12.0 / (square * cycles * cycles)) * std::sqrt(samples / (samples - 1));
+  const double white =
+      scene.noise_N * std::sqrt(12.0 / (square * cycles * cycles)) * std::sqrt(samples / (samples - 1));
   return std::hypot(white, factors.jitter * period_by_friction(scene) / std::sqrt(cycles));
 }
 
@@ -108,9 +110,9 @@ Measured run_sweeps(Effort effort, std::size_t trials) {
       for (const FrequencyMethod& method : frequency_methods()) {
         const Cell result = measure(method, factors, trials);
         points[column++].push_back({value, result.error});
-        all.csv += fmt::format("{},{:.4g},\"{}\",{},{},{:.3g},{:.3g},{:.4g},{:.4g}\n", sweep.name, value,
-                               method.look.name, trials, cell(result.error), result.none, result.gross, least,
-                               result.time_us);
+        all.csv +=
+            fmt::format("{},{:.4g},\"{}\",{},{},{:.3g},{:.3g},{:.4g},{:.4g}\n", sweep.name, value, method.look.name,
+                        trials, cell(result.error), result.none, result.gross, least, result.time_us);
       }
     }
     panel.lines.push_back(bound);
@@ -149,14 +151,16 @@ Panel time_panel(Effort effort, std::size_t trials) {
 std::vector<File> study_frequency(Effort effort) {
   const std::size_t trials = effort == Effort::Full ? 60 : 9;
   const Measured all = run_sweeps(effort, trials);
-  const chart::Chart time{"Frequency: error against time",
-                          {"Three markers a method: noise of 0.2 (top), 0.02 and 0.002 of the friction drop; 40 cycles.",
-                           "The front is that of the middle noise."},
-                          {time_panel(effort, trials)}};
-  const chart::Chart factors{"Frequency: error against what spoils a recording",
-                             {"Usual: 40 cycles, 20 samples a slip, noise 0.02 of the friction drop, nothing else.",
-                              "Robust size (68 %) of the errors; no mark: it finds none in more than half of the trials."},
-                             all.panels};
+  const chart::Chart time{
+      "Frequency: error against time",
+      {"Three markers a method: noise of 0.2 (top), 0.02 and 0.002 of the friction drop; 40 cycles.",
+       "The front is that of the middle noise."},
+      {time_panel(effort, trials)}};
+  const chart::Chart factors{
+      "Frequency: error against what spoils a recording",
+      {"Usual: 40 cycles, 20 samples a slip, noise 0.02 of the friction drop, nothing else.",
+       "Robust size (68 %) of the errors; no mark: it finds none in more than half of the trials."},
+      all.panels};
   return {{"frequency.csv",
            "factor,value,method,trials,relative_error,share_none,share_gross,bound,median_cpu_us\n" + all.csv},
           {"frequency_time.svg", to_svg(time)},

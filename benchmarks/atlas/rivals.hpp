@@ -2,7 +2,8 @@
 
 #include "forward_methods.hpp"
 
-// What people use instead of a closed form. Each starts at the onset of a slip and runs to the second fall of the force.
+// What people use instead of a closed form. Each starts at the onset of a slip and runs to the second fall of the
+// force.
 
 namespace atlas {
 

@@ -52,7 +52,11 @@ Scene make_scene(const Factors& factors, std::uint64_t seed) {
   conditions.speed_m_per_s = speed_m_per_s;
   auto recording = slipfit::Recording::create(std::move(time_s), std::move(force_N), conditions);
   const double onset_s = first_onset_s - 2.0 * kZeta / omega;  // F_s - cV
-  return {std::move(recording).value(),        slider, friction, cycle, options.noise_rms_N,
+  return {std::move(recording).value(),
+          slider,
+          friction,
+          cycle,
+          options.noise_rms_N,
           std::fmod(trace.time_s[first] - onset_s, cycle.period_s)};
 }
 
@@ -60,8 +64,8 @@ double period_by_friction(const Scene& scene) {
   constexpr double kStep = 1e-4;
   const double speed_m_per_s = scene.recording.conditions().speed_m_per_s;
   const double difference_N = scene.friction.difference_N();
-  const auto changed = slipfit::Friction::create(scene.friction.static_N() + kStep * difference_N,
-                                                 scene.friction.kinetic_N());
+  const auto changed =
+      slipfit::Friction::create(scene.friction.static_N() + kStep * difference_N, scene.friction.kinetic_N());
   const slipfit::Motion motion = slipfit::damped_motion(scene.slider, changed.value(), speed_m_per_s);
   return (motion.cycle->period_s / scene.cycle.period_s - 1.0) / kStep;
 }

@@ -132,6 +132,7 @@ std::optional<VelocityTrack> VelocityTrack::solve(double z0, double zeta, double
     if (!comes_to_rest && !turns) continue;
     const double tau_end = comes_to_rest ? last_time(from.tau, slowest, slides) : slowest;
     track.finish(integrator.node_at(from, to, tau_end), comes_to_rest);
+    if (!std::isfinite(track.after_.intercept)) return std::nullopt;  // ran away within the step
     return track;
   }
   return std::nullopt;

@@ -34,8 +34,8 @@ SmoothedFriction smoothed(const ForwardScene& scene, double v, double width) {
   const double turn = std::tanh(v / width);
   const double peak = scene.lambda * std::exp(-std::abs(v) / peak_speed(width));
   const double whole = kinetic + peak + friction_above(scene, std::abs(v));
-  const double d_whole = std::copysign(1.0, v) * (-peak / peak_speed(width) +
-                                                  scene.slope * std::exp(scene.rate * std::abs(v)));
+  const double d_whole =
+      std::copysign(1.0, v) * (-peak / peak_speed(width) + scene.slope * std::exp(scene.rate * std::abs(v)));
   return {whole * turn - kinetic, d_whole * turn + whole * (1.0 - turn * turn) / width};
 }
 
