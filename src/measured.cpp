@@ -54,6 +54,12 @@ Estimate with_interval(double value, double se, double degrees_of_freedom) {
   return {value, se, Interval{value - half, value + half}, {}};
 }
 
+/// Of the two frequencies; empty where one of them is.
+std::optional<double> relative_difference(const SpectralFrequency& spectral, const Estimate& counted) {
+  if (!spectral.value_Hz || !counted.value) return std::nullopt;
+  return std::abs(*spectral.value_Hz / *counted.value - 1.0);
+}
+
 }  // namespace
 
 Estimate count_frequency(const Recording& recording, const Segmentation& segmentation) {
@@ -80,20 +86,29 @@ FrequencyReport report_frequency(const Recording& recording, const Segmentation&
     }
   }
   const MeanAndSpread interval = describe(intervals_s(recording, segmentation));
-  const bool cycles_seen = verdict == Verdict::StickSlip || verdict == Verdict::OscillatorySlip;
-  const bool agree =
-      spectral.value_Hz && report.counted.value && std::abs(*spectral.value_Hz / *report.counted.value - 1.0) < 0.05;
+  const std::optional<double> difference = relative_difference(spectral, report.counted);
+  const bool agree = difference && *difference < 0.05;
+  // Without sticks, what was counted may be the noise or the hum on a slower repetition.
+  const bool cycles_seen =
+      verdict == Verdict::StickSlip || (verdict == Verdict::OscillatorySlip && (agree || !spectral.value_Hz));
   const bool regular = interval.count >= 2.0 && interval.sd < kRegular * interval.mean;
   if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || !cycles_seen)) {
     report.method = "harmonic_least_squares";
     report.quoted = with_interval(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
     if (agree || verdict != Verdict::Undetermined) return report;
   }
-  if (report.counted.value && (cycles_seen || agree)) {
+  // Scatter of the cycles explains less than this; another repetition (hum, noise) explains more.
+  constexpr double kContradiction = 0.3;
+  const bool contradict = difference && *difference > kContradiction;
+  if (report.counted.value && (cycles_seen || agree) && !contradict) {
     report.method = "slip_counting";
     report.quoted = report.counted;
   }
-  if (!report.quoted.value) report.quoted.note = "no repetition stands out of the noise";
+  if (!report.quoted.value) {
+    report.quoted.note = contradict ? fmt::format("counting slips gives {:.4g} Hz, the spectrum {:.4g} Hz",
+                                                  *report.counted.value, *spectral.value_Hz)
+                                    : "no repetition stands out of the noise";
+  }
   return report;
 }
 

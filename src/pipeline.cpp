@@ -31,8 +31,13 @@ Signals look_at(const Recording& recording, Quality quality, Segmentation slips)
   const auto start = Clock::now();
   Signals signals{std::move(quality), std::move(slips), {}, 0.0};
   const std::vector<bool>& impulses = signals.quality.impulse_mask;
+  // A count that scatters may be of noise or hum: it would draw the spectrum to its own multiple.
+  constexpr double kSureCount = 0.01;
   const Estimate counted = count_frequency(recording, signals.segmentation);
-  signals.spectral = find_frequency(recording, compute_spectrum(recording, impulses), counted.value, impulses);
+  const bool sure = slips_stand_out(signals.quality, signals.segmentation) && counted.standard_error &&
+                    *counted.standard_error < kSureCount * *counted.value;
+  const std::optional<double> hint_Hz = sure ? counted.value : std::nullopt;
+  signals.spectral = find_frequency(recording, compute_spectrum(recording, impulses), hint_Hz, impulses);
   signals.seconds = seconds_since(start);
   return signals;
 }

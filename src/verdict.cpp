@@ -47,6 +47,20 @@ double fall_share(const Segmentation& segmentation) {
   return signal::median(shares);
 }
 
+/// Noise alone makes turning points of this size.
+bool is_faint(const Quality& quality, const Segmentation& segmentation) {
+  return median_drop(segmentation) < kNoiseDrop * quality.noise_rms;
+}
+
+bool is_sine_like(const Segmentation& segmentation) {
+  return fall_share(segmentation) > kSineFall;
+}
+
+bool hum_was_fitted(const FitResult& fit) {
+  return std::any_of(fit.warnings.begin(), fit.warnings.end(),
+                     [](const Warning& warning) { return warning.code == "hum_fitted"; });
+}
+
 bool no_repetition(const SpectralFrequency& spectral) {
   return !spectral.value_Hz;
 }
@@ -61,7 +75,7 @@ std::optional<Judgement> judge_counts(const Recording& recording, const Quality&
                                       const Segmentation& segmentation, const SpectralFrequency& spectral) {
   const std::size_t count = segmentation.slips.size();
   if (count == 0) return Judgement{Verdict::SteadySliding, "the force has no falls beyond its noise"};
-  if (median_drop(segmentation) < kNoiseDrop * quality.noise_rms && no_repetition(spectral)) {
+  if (is_faint(quality, segmentation) && no_repetition(spectral)) {
     return Judgement{Verdict::SteadySliding, "the force moves no more than its noise, without repetition"};
   }
   if (count < 3) {
@@ -94,6 +108,10 @@ double mains_share(const Segmentation& segmentation) {
   return std::abs(at_50 - 1.0) < std::abs(at_60 - 1.0) ? at_50 : at_60;
 }
 
+bool slips_stand_out(const Quality& quality, const Segmentation& segmentation) {
+  return !is_faint(quality, segmentation) && !is_sine_like(segmentation);
+}
+
 Judgement judge_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
                     const SpectralFrequency& spectral, const FitResult* fit) {
   if (auto early = judge_counts(recording, quality, segmentation, spectral)) return *early;
@@ -105,6 +123,11 @@ Judgement judge_fit(const Recording& recording, const Quality& quality, const Se
   for (const Cycle& cycle : fit->cycles) used += cycle.used ? 1 : 0;
   if (used < 5 && (e.onset_force_spread > 0.2 || e.relative_residual > 0.04)) {
     return {Verdict::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
+  }
+  const bool sine_like = is_sine_like(segmentation);
+  // Hum as large as the drop is what the detector sees, and the fit that follows it finds wrong slips good.
+  if (sine_like && hum_was_fitted(*fit)) {
+    return {Verdict::Undetermined, "the swings are as round as the mains hum in them: it hides what else there is"};
   }
   const bool close = e.relative_residual < kCloseFit && e.onset_force_spread < kWideSpread;
   const bool loose = e.relative_residual < kLooseFit && e.onset_force_spread < kModestSpread;
@@ -118,9 +141,11 @@ Judgement judge_fit(const Recording& recording, const Quality& quality, const Se
         fmt::format("the swings are no stick-slip cycles: residual {:.0f} % of the friction drop, its spread {:.0f} %",
                     100.0 * e.relative_residual, 100.0 * e.onset_force_spread)};
   }
-  const bool sine_like = fall_share(segmentation) > kSineFall;
   if (sine_like && std::abs(mains_share(segmentation) - 1.0) < kMainsRhythm) {
     return {Verdict::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
+  }
+  if ((sine_like || e.restick_share < kRestickShare) && is_faint(quality, segmentation)) {
+    return {Verdict::Undetermined, "the swings are not much larger than the noise: no sticks can be told from it"};
   }
   if (sine_like && (e.restick_share < kSineRestickShare || e.relative_residual > kSineFit)) {
     return {Verdict::OscillatorySlip, "nearly sinusoidal: no straight sticks can be told from an oscillation"};
@@ -138,8 +163,11 @@ Judgement judge_fit(const Recording& recording, const Quality& quality, const Se
 Judgement judge_shape(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
                       const SpectralFrequency& spectral) {
   if (auto early = judge_counts(recording, quality, segmentation, spectral)) return *early;
-  const double ratio = fall_share(segmentation) / 0.6;
-  if (ratio < 0.3) return {Verdict::StickSlip, "the force falls much faster than it rises (no model fitted)"};
+  if (is_faint(quality, segmentation)) {
+    return {Verdict::Undetermined, "the falls are not much larger than the noise: only a fit can tell"};
+  }
+  if (!is_sine_like(segmentation))
+    return {Verdict::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   return {Verdict::Undetermined, "the force falls about as slowly as it rises: only a fit can tell"};
 }
 

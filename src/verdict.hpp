@@ -15,6 +15,10 @@ struct Judgement {
 /// Median interval between slips in periods of the mains, 50 or 60 Hz, whichever is nearer; 0 below 2 slips.
 double mains_share(const Segmentation& segmentation);
 
+/// Falls well above the noise and quicker than a sine's: counting them gives the frequency of slips, not of noise or
+/// hum.
+bool slips_stand_out(const Quality& quality, const Segmentation& segmentation);
+
 /// What the fitted cycles show. `fit` empty: too few cycles could be fitted.
 Judgement judge_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
                     const SpectralFrequency& spectral, const FitResult* fit);

@@ -166,6 +166,7 @@ std::optional<VelocityTrack> VelocityTrack::solve(double z0, double zeta, double
     const double tau_end = comes_to_rest ? last_time(from.tau, slowest, slides) : slowest;
     const Node end = integrator.node_at(from, to, tau_end);
     track.finish(end, integrator.third_derivative(end), comes_to_rest);
+    if (!std::isfinite(track.after_.intercept)) return std::nullopt;  // ran away within the step
     return track;
   }
   return std::nullopt;

@@ -1,0 +1,207 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "forward_methods.hpp"
+
+namespace atlas {
+namespace {
+
+using chart::Panel, chart::Point, chart::Scale;
+
+constexpr std::size_t kSamples = 200;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kRoundOff = 1e-16;  // no error at all stands here: a logarithmic axis has no 0
+
+struct Row {
+  ForwardScene scene;
+  const ForwardMethod* method = nullptr;
+  Outcome expected = Outcome::NoCycle, outcome = Outcome::GaveUp;
+  double period_error = kNone, wave_error = kNone, time_s = kNone;
+};
+
+/// Friction that weakens (alpha V < 0) by 0.3 or strengthens by 0.05 of F_s - F_k at most over the speeds of a slip.
+std::vector<ForwardScene> scenes_of(Effort effort) {
+  const bool full = effort == Effort::Full;
+  const std::vector<double> lambdas =
+      full ? std::vector<double>{0.5, 1, 2, 5, 10, 20, 50, 100} : std::vector<double>{1, 5, 20};
+  const std::vector<double> zetas =
+      full ? std::vector<double>{0, 0.005, 0.02, 0.05, 0.1, 0.2} : std::vector<double>{0.02, 0.1};
+  std::vector<ForwardScene> scenes;
+  for (const double lambda : lambdas) {
+    for (const double zeta : zetas) {
+      scenes.push_back({lambda, zeta, 0.0, 0.0});
+      for (const double rate : {-1.0, -0.1, -0.01}) scenes.push_back({lambda, zeta, 0.3 * lambda * rate, rate});
+      const double rate = 0.5 / lambda;
+      scenes.push_back({lambda, zeta, 0.05 * lambda * rate, rate});
+    }
+  }
+  return scenes;
+}
+
+double wave_error(const std::vector<double>& z, const std::vector<double>& truth) {
+  double error = 0.0;
+  double size = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    error += (z[i] - truth[i]) * (z[i] - truth[i]);
+    size += truth[i] * truth[i];
+  }
+  return std::sqrt(error / size);
+}
+
+Row measure(const ForwardScene& scene, const ForwardMethod& method, const Reference& reference, Effort effort) {
+  const Answer answer = method.run(scene, reference.times);
+  Row row{scene, &method, reference.answer.outcome, answer.outcome, kNone, kNone, kNone};
+  if (answer.outcome == Outcome::Cycle && row.expected == Outcome::Cycle) {
+    row.period_error = std::max(kRoundOff, std::abs(answer.period / reference.answer.period - 1.0));
+    row.wave_error = std::max(kRoundOff, wave_error(answer.z, reference.answer.z));
+    row.time_s = time_call_s([&] { (void)method.run(scene, reference.times); }, effort == Effort::Full ? 7 : 3);
+  }
+  return row;
+}
+
+std::string to_csv(const std::vector<Row>& rows) {
+  constexpr std::array<const char*, 3> kOutcomes{"cycle", "no_cycle", "gave_up"};
+  std::string csv =
+      "method,setting,lambda,damping_ratio,slope,alpha_V,expected,outcome,period_error,waveform_error,cpu_us\n";
+  for (const Row& row : rows) {
+    csv +=
+        fmt::format("\"{}\",{},{:g},{:g},{:g},{:g},{},{},{},{},{}\n", row.method->family, row.method->setting,
+                    row.scene.lambda, row.scene.zeta, row.scene.slope, row.scene.rate,
+                    kOutcomes[static_cast<std::size_t>(row.expected)], kOutcomes[static_cast<std::size_t>(row.outcome)],
+                    cell(row.period_error), cell(row.wave_error), cell(1e6 * row.time_s));
+  }
+  return csv;
+}
+
+using Choice = std::function<bool(const ForwardScene&)>;
+
+struct Summary {
+  const ForwardMethod* method = nullptr;
+  double time_us = kNone, period_error = kNone, wave_error = kNone;
+  std::size_t scenes = 0, wrong = 0;
+};
+
+std::vector<Summary> summarise(const std::vector<Row>& rows, const std::vector<ForwardMethod>& methods,
+                               const Choice& choice) {
+  std::vector<Summary> summaries;
+  for (const ForwardMethod& method : methods) {
+    std::vector<double> times, periods, waves;
+    Summary summary{&method, kNone, kNone, kNone, 0, 0};
+    for (const Row& row : rows) {
+      if (row.method != &method || !choice(row.scene)) continue;
+      ++summary.scenes;
+      summary.wrong += row.outcome != row.expected ? 1U : 0U;
+      if (!std::isfinite(row.time_s)) continue;
+      times.push_back(1e6 * row.time_s);
+      periods.push_back(row.period_error);
+      waves.push_back(row.wave_error);
+    }
+    summary.time_us = median_of(times);
+    summary.period_error = median_of(periods);
+    summary.wave_error = median_of(waves);
+    summaries.push_back(summary);
+  }
+  return summaries;
+}
+
+Panel pareto_panel(const std::vector<Summary>& summaries, double Summary::*error, const std::string& label) {
+  Panel panel;
+  panel.height_px = 430.0;
+  panel.x = {"CPU time for one cycle with 200 samples of its waveform  [µs]", 0.1, 1e5, Scale::Logarithmic};
+  panel.y = {label, 1e-17, 10.0, Scale::Logarithmic};
+  panel.legend = {1.0, 0.15};
+  std::map<std::string, std::vector<Point>> families;
+  std::vector<std::string> order;
+  std::vector<Point> all;
+  for (const Summary& summary : summaries) {
+    if (!std::isfinite(summary.*error)) continue;
+    const std::string& family = summary.method->family;
+    if (families[family].empty()) order.push_back(family);
+    families[family].push_back({summary.time_us, summary.*error});
+    all.push_back(families[family].back());
+  }
+  panel.lines.push_back(draw_front(all, 1e5));
+  for (const std::string& family : order) add_series(panel, forward_look(family), families[family]);
+  return panel;
+}
+
+std::string summary_csv(const std::vector<std::pair<std::string, std::vector<Summary>>>& groups) {
+  std::string csv =
+      "friction,method,setting,scenes,wrong_or_gave_up,median_cpu_us,median_period_error,median_waveform_error\n";
+  for (const auto& [name, summaries] : groups) {
+    for (const Summary& s : summaries) {
+      csv += fmt::format("{},\"{}\",{},{},{},{},{},{}\n", name, s.method->family, s.method->setting, s.scenes, s.wrong,
+                         cell(s.time_us), cell(s.period_error), cell(s.wave_error));
+    }
+  }
+  return csv;
+}
+
+/// Error of the period against lambda at zeta 0.05, one setting a family.
+Panel lambda_panel(Effort effort) {
+  Panel panel;
+  panel.height_px = 430.0;
+  panel.x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", 0.3, 3e4, Scale::Logarithmic};
+  panel.y = {"relative error of the period  [-]", 1e-17, 10.0, Scale::Logarithmic};
+  panel.legend = {1.0, 0.5};
+  const std::map<std::string, std::string> settings{{"RK4, sign switching", "0.01"},
+                                                    {"time stepping (Moreau)", "0.01"},
+                                                    {"ODE 5(4), event location", "1e-07"},
+                                                    {"switch model (Leine)", "0.0001"},
+                                                    {"tanh-smoothed", "0.001"}};
+  for (const ForwardMethod& method : forward_methods()) {
+    const auto setting = settings.find(method.family);
+    if (!method.setting.empty() && (setting == settings.end() || setting->second != method.setting)) continue;
+    std::vector<Point> points;
+    for (const double lambda : log_spaced(0.3, 300.0, effort == Effort::Full ? 19 : 6)) {
+      const ForwardScene scene{lambda, 0.05, 0.0, 0.0};
+      const Reference reference = solve_reference(scene, kSamples);
+      const Answer answer = method.run(scene, reference.times);
+      if (answer.outcome != Outcome::Cycle || reference.answer.outcome != Outcome::Cycle) continue;
+      points.push_back({lambda, std::max(kRoundOff, std::abs(answer.period / reference.answer.period - 1.0))});
+    }
+    Look look = forward_look(method.family);
+    if (!method.setting.empty()) look.name += ", " + method.setting;
+    add_series(panel, look, points);
+  }
+  return panel;
+}
+
+}  // namespace
+
+std::vector<File> study_forward(Effort effort) {
+  const std::vector<ForwardMethod> methods = forward_methods();
+  std::vector<Row> rows;
+  for (const ForwardScene& scene : scenes_of(effort)) {
+    const Reference reference = solve_reference(scene, kSamples);
+    for (const ForwardMethod& method : methods) rows.push_back(measure(scene, method, reference, effort));
+  }
+  const auto coulomb = summarise(rows, methods, [](const ForwardScene& s) { return s.rate == 0.0; });
+  const auto speed = summarise(rows, methods, [](const ForwardScene& s) { return s.rate != 0.0; });
+  const std::vector<std::string> remarks{
+      "Medians over a grid of λ and ζ; several markers of one kind: its steps, tolerances or widths.",
+      "The reference is Runge-Kutta-Fehlberg 7(8) in long double."};
+  const chart::Chart constant{
+      "Forward methods, constant friction (αV = 0)",
+      remarks,
+      {pareto_panel(coulomb, &Summary::period_error, "relative error of the period  [-]"),
+       pareto_panel(coulomb, &Summary::wave_error, "rms error of the waveform / its rms  [-]")}};
+  const chart::Chart varying{"Forward methods, friction that depends on the speed",
+                             remarks,
+                             {pareto_panel(speed, &Summary::period_error, "relative error of the period  [-]"),
+                              pareto_panel(speed, &Summary::wave_error, "rms error of the waveform / its rms  [-]")}};
+  const chart::Chart over_lambda{"Forward methods over λ, constant friction, ζ = 0.05",
+                                 {"One setting a family. Left of λ = 0.83 there is no stick-slip."},
+                                 {lambda_panel(effort)}};
+  return {{"forward.csv", to_csv(rows)},
+          {"forward_summary.csv", summary_csv({{"constant", coulomb}, {"of_speed", speed}})},
+          {"forward_constant.svg", to_svg(constant)},
+          {"forward_speed.svg", to_svg(varying)},
+          {"forward_lambda.svg", to_svg(over_lambda)}};
+}
+
+}  // namespace atlas

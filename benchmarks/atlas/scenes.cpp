@@ -1,0 +1,73 @@
+#include "scenes.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "slipfit/model/simulation.hpp"
+
+namespace atlas {
+namespace {
+
+constexpr double kLambda = 10.0;
+constexpr double kZeta = 0.05;
+constexpr double kStiffness_N_per_m = 5000.0;
+constexpr double kDifference_N = 1.0;
+constexpr double kUsualFrequency_Hz = 17.3;
+
+double uniform(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1.0p-53;
+}
+
+}  // namespace
+
+Scene make_scene(const Factors& factors, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto usual = slipfit::damped_motion(slipfit::Slider::create(1.0, 1.0, kZeta).value(),
+                                            slipfit::Friction::create(kLambda, 0.0).value(), 1.0);
+  const double omega = usual.cycle->period_s * kUsualFrequency_Hz * uniform(random, 0.95, 1.05);
+  const auto slider = slipfit::Slider::create(kStiffness_N_per_m, omega, kZeta).value();
+  const auto friction = slipfit::Friction::create(3.0 * kDifference_N, 2.0 * kDifference_N).value();
+  const double speed_m_per_s = factors.speedup * omega * kDifference_N / (kStiffness_N_per_m * kLambda);
+  const slipfit::LimitCycle cycle = *slipfit::damped_motion(slider, friction, speed_m_per_s).cycle;
+
+  const double first_onset_s = (friction.static_N() / kStiffness_N_per_m) / speed_m_per_s;
+  const double begin_s = first_onset_s + cycle.period_s * uniform(random, 0.1, 1.1);
+  slipfit::SimulationOptions options;
+  options.sample_rate_Hz = factors.samples_per_slip / cycle.slip_s;
+  options.duration_s = begin_s + factors.cycles * cycle.period_s;
+  options.static_friction_sd_N = factors.jitter * kDifference_N;
+  options.noise_rms_N = factors.noise * kDifference_N;
+  options.drift_N_per_s = factors.drift * kDifference_N / (factors.cycles * cycle.period_s);
+  options.hum_N = factors.hum * kDifference_N;
+  // Recordings of one seed at several speeds share the body, not the noise.
+  options.seed = 64 * seed + static_cast<std::uint64_t>(8.0 * factors.speedup);
+  const slipfit::SimulatedTrace trace = slipfit::simulate(slider, friction, speed_m_per_s, options);
+  std::size_t first = 0;
+  while (trace.time_s[first] < begin_s) ++first;
+  std::vector<double> time_s, force_N(trace.force_N.begin() + static_cast<std::ptrdiff_t>(first), trace.force_N.end());
+  for (std::size_t i = first; i < trace.time_s.size(); ++i) time_s.push_back(trace.time_s[i] - trace.time_s[first]);
+  slipfit::Conditions conditions;
+  conditions.speed_m_per_s = speed_m_per_s;
+  auto recording = slipfit::Recording::create(std::move(time_s), std::move(force_N), conditions);
+  const double onset_s = first_onset_s - 2.0 * kZeta / omega;  // F_s - cV
+  return {std::move(recording).value(),
+          slider,
+          friction,
+          cycle,
+          options.noise_rms_N,
+          std::fmod(trace.time_s[first] - onset_s, cycle.period_s)};
+}
+
+double period_by_friction(const Scene& scene) {
+  constexpr double kStep = 1e-4;
+  const double speed_m_per_s = scene.recording.conditions().speed_m_per_s;
+  const double difference_N = scene.friction.difference_N();
+  const auto changed =
+      slipfit::Friction::create(scene.friction.static_N() + kStep * difference_N, scene.friction.kinetic_N());
+  const slipfit::Motion motion = slipfit::damped_motion(scene.slider, changed.value(), speed_m_per_s);
+  return (motion.cycle->period_s / scene.cycle.period_s - 1.0) / kStep;
+}
+
+}  // namespace atlas

@@ -1,0 +1,91 @@
+// The regions of docs/accuracy/failures_fit_start.svg, failures_fit_sampling.svg, failures_fit_scatter.svg and
+// failures_fit_hum.svg.
+
+#include <catch2/catch.hpp>
+
+#include "scoring.hpp"
+
+namespace {
+
+constexpr std::uint64_t kSeeds = 6;
+
+template <class Check>
+void for_each_fit(const atlas::Factors& factors, const Check& check) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const atlas::Scene scene = atlas::make_scene(factors, seed);
+    const slipfit::Analysis analysis = slipfit::analyze_and_fit(scene.recording, {});
+    INFO("seed " << seed << " noise " << factors.noise << " hum " << factors.hum << " jitter " << factors.jitter
+                 << " samples a slip " << factors.samples_per_slip << " cycles " << factors.cycles << ": "
+                 << analysis.verdict_reason);
+    check(analysis, scene);
+  }
+}
+
+void check_nothing_claimed(const slipfit::Analysis& analysis, const atlas::Scene&) {
+  CHECK(analysis.verdict != slipfit::Verdict::StickSlip);
+  CHECK_FALSE(failures::any_parameter(analysis));
+}
+
+void check_not_confidently_wrong(const slipfit::Analysis& analysis, const atlas::Scene& scene) {
+  CHECK_FALSE(failures::any_confidently_wrong(analysis, scene));
+}
+
+}  // namespace
+
+TEST_CASE("false minimum: long regular recordings are fitted from slipfit's own start") {
+  for (const double cycles : {40.0, 200.0}) {
+    atlas::Factors factors;
+    factors.cycles = cycles;
+    for_each_fit(factors, [](const slipfit::Analysis& analysis, const atlas::Scene& scene) {
+      const auto omega = failures::parameter(analysis, "natural_frequency_rad_per_s");
+      REQUIRE(omega);
+      CHECK(omega->status == slipfit::ParameterStatus::Identified);
+      check_not_confidently_wrong(analysis, scene);
+    });
+  }
+}
+
+TEST_CASE("overconfidence: static friction that scatters widens the intervals") {
+  for (const double jitter : {0.01, 0.1, 0.3}) {
+    atlas::Factors factors;
+    factors.jitter = jitter;
+    for_each_fit(factors, check_not_confidently_wrong);
+  }
+}
+
+TEST_CASE("no resolution: a slip between two samples gives no natural frequency, with a reason") {
+  for (const double samples_per_slip : {0.5, 1.0}) {
+    atlas::Factors factors;
+    factors.samples_per_slip = samples_per_slip;
+    for_each_fit(factors, [](const slipfit::Analysis& analysis, const atlas::Scene& scene) {
+      const auto omega = failures::parameter(analysis, "natural_frequency_rad_per_s");
+      if (omega) CHECK((omega->status != slipfit::ParameterStatus::Identified || omega->estimate.ci95));
+      check_not_confidently_wrong(analysis, scene);
+      if (omega && !omega->estimate.value) CHECK_FALSE(omega->estimate.note.empty());
+    });
+  }
+}
+
+TEST_CASE("noise as large as the slips: no parameters") {
+  for (const double noise : {0.5, 1.0, 3.0}) {
+    atlas::Factors factors;
+    factors.noise = noise;
+    for_each_fit(factors, check_nothing_claimed);
+  }
+}
+
+TEST_CASE("hum as large as the slips: no parameters (once k was claimed five times too large)") {
+  for (const double hum : {0.7, 1.0, 1.5, 3.0}) {
+    atlas::Factors factors;
+    factors.hum = hum;
+    for_each_fit(factors, check_nothing_claimed);
+  }
+}
+
+TEST_CASE("hum smaller than the slips is fitted beside them") {
+  for (const double hum : {0.1, 0.3}) {
+    atlas::Factors factors;
+    factors.hum = hum;
+    for_each_fit(factors, check_not_confidently_wrong);
+  }
+}
