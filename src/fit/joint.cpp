@@ -115,7 +115,7 @@ struct LawChoice {
 };
 
 double speed_ratio(std::span<const SweepRecording> recordings) {
-  double low = INFINITY;
+  double low = HUGE_VAL;
   double high = 0.0;
   for (const SweepRecording& sweep : recordings) {
     if (sweep.role == SweepRole::LeftOut) continue;
@@ -192,6 +192,10 @@ class Assembler {
     joint.fit.tier = choice.velocity ? Tier::Velocity : Tier::Damped;
     joint.fit.conditional_on.emplace_back(choice.velocity ? "F_k(v) = f0 + f1 exp(alpha v)" : "Coulomb friction");
     joint.fit.residual.rms = residual_rms(problem);
+    if (std::any_of(data_.loads.begin(), data_.loads.end(), [](double load) { return load != 1.0; })) {
+      joint.fit.conditional_on.push_back(
+          fmt::format("normal force {:g} N", *recordings_.front().recording.conditions().normal_force_N));
+    }
     joint.fit.residual.reduced_chi2 = outcome_.solution.chi2 / outcome_.solution.degrees_of_freedom;
     add_warnings(joint);
     fit::SweepEvidence evidence{fit::with_damping_cut(outcome_.values, outcome_.covariance), data_.scales, intervals_,

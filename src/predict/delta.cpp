@@ -78,6 +78,11 @@ Estimate Propagation::positive(const Jet& y) const {
   return {y.a, relative * y.a, Interval{y.a / factor, y.a * factor}, {}};
 }
 
+bool Propagation::law_is_open_at(double speed_m_per_s) const {
+  constexpr double kStraight = 0.7;
+  return quantile_ * standard_error(jets_of(model_).alpha_s_per_m) * speed_m_per_s > kStraight;
+}
+
 Estimate unknown(std::string reason) {
   return {std::nullopt, std::nullopt, std::nullopt, std::move(reason)};
 }

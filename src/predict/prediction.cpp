@@ -39,7 +39,7 @@ class Predictor {
       withdraw_intervals(row,
                          "within the uncertainty of the critical speed: the data cannot tell whether there is "
                          "stick-slip at this speed");
-    } else if (law_is_open(speed_m_per_s)) {
+    } else if (model_.has_covariance && propagation_.law_is_open_at(speed_m_per_s)) {
       withdraw_intervals(row, "alpha is not known well enough for an interval at this speed");
     } else if (model_.has_covariance && model_.estimate.speed_dependence && may_be_either(motion.total_damping_ratio)) {
       row.note = "the data cannot tell whether steady sliding is stable at this speed";
@@ -102,14 +102,6 @@ class Predictor {
   /// Its sign is within the uncertainty.
   [[nodiscard]] bool may_be_either(const Jet& y) const {
     return std::abs(y.a) <= propagation_.quantile() * propagation_.standard_error(y);
-  }
-
-  /// Linear propagation takes exp(alpha V) for straight over the interval of alpha. Up to this reach of alpha V bands
-  /// hold 93 % or more of the motions that the covariance allows; at 1.6 it is 88 %, at 2.4 84 % (tests/predict).
-  [[nodiscard]] bool law_is_open(double speed_m_per_s) const {
-    constexpr double kStraight = 0.7;
-    const double reach = propagation_.quantile() * propagation_.standard_error(jets_.alpha_s_per_m);
-    return model_.has_covariance && reach * speed_m_per_s > kStraight;
   }
 
   static void withdraw_intervals(PredictedMotion& row, std::string note) {

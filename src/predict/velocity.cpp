@@ -162,7 +162,8 @@ CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagat
   const double by_speed = (-first.d_z0 * (slip.z0.a + 2.0 * slip.zeta.a) + first.d_rate * slip.rate.a) / critical;
   Jet speed_jet(critical);
   speed_jet.v = -slip.jet(first).v / by_speed;
-  if (propagation.quantile() * propagation.standard_error(speed_jet) > kWidest * critical) {
+  if (propagation.quantile() * propagation.standard_error(speed_jet) > kWidest * critical ||
+      propagation.law_is_open_at(critical)) {
     return both(unknown("damping and friction law are not known well enough to tell where stick-slip ends"));
   }
   const Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed_jet);

@@ -50,7 +50,8 @@ std::string_view words_of(Limit limit) {
 }
 
 std::string percent(double part, double whole) {
-  return whole == 0.0 ? "-" : fmt::format("{:.2g} %", 100.0 * part / std::abs(whole));
+  // Of a value at 0 (zeta at its bound) the error itself.
+  return whole == 0.0 ? fmt::format("{:.2g}", part) : fmt::format("{:.2g} %", 100.0 * part / std::abs(whole));
 }
 
 std::string options_text(const Plan& plan) {
