@@ -20,7 +20,6 @@ constexpr std::size_t kFewCycles = 5;          // below it a scatter says little
 constexpr double kSamplesForIdentified = 3.0;  // in a slip
 constexpr double kBendSigmas = 3.0;
 constexpr double kDriftMatters = 0.02;
-constexpr double kMisshapen = 0.03;  // systematic residual over the onset force: simulated slips stay below 0.01
 
 /// A linear function of the fitted quantities near the solution, with what it owes to zeta.
 struct Linear {
@@ -70,8 +69,8 @@ class Reporter {
     trend_ = level_trend(blocks);
     const std::optional<RampBend> bend = ramp_bend(blocks);
     if (bend && std::abs(bend->log_ratio) > kBendSigmas * bend->standard_error) bend_ = bend;
-    const auto& misfit = fits.damped.misfit;
-    shape_refused_ = fits.damped.refused_damping || (misfit && std::abs(misfit->size) > kMisshapen);
+    // A sensor that lags, or creep, moves w_n more than leaving out parts of the slip shows.
+    shape_refused_ = fits.damped.refused_damping || fits.damped.misfit;
     damping_se_ = std::sqrt(std::max(0.0, uncertainty_.covariance(kDamping, kDamping)));
     damping_ci_ = fits.damped.held.damping
                       ? Interval{zeta_, zeta_}
