@@ -21,13 +21,16 @@ inline constexpr std::size_t kSensitive = kPlain + 2 * kScaledParameters;  ///< 
 inline constexpr std::size_t kFirstDs = kPlain;
 inline constexpr std::size_t kFirstDv = kPlain + kScaledParameters;
 
-/// Weakening friction (rate < 0) soars within 1 / |rate| above rest: a step from v may end at v / 2 or inside this
-/// layer, but must not fall into it from far above. Without the layer, 1: a third of the half turn in which v turns
-/// once.
+/// With rate < 0 the friction changes within 1 / |rate| above rest. The error estimate of Fehlberg's steps is blind to
+/// what only the last stage sees, and to friction that matters little for the motion: steps resolve this layer by
+/// themselves, and none falls into it from far above. Without it 1: a third of the half turn in which v turns once.
 inline double longest_slip_step(const ScaledLaw& law, double v, double acceleration) {
   constexpr double kLongest = 1.0;
-  if (law.rate >= 0.0 || acceleration >= 0.0) return kLongest;
-  return std::min(kLongest, (0.5 * v - 1.0 / law.rate) / -acceleration);
+  constexpr double kLayer = 40.0;  // exp(-40) is below round-off
+  constexpr double kShare = 0.3;   // with 0.5 the end of slip was good to 2e-10 only
+  const bool leaves = acceleration >= 0.0 && law.rate * v < -kLayer;
+  if (law.rate >= 0.0 || leaves) return kLongest;
+  return std::min(kLongest, kShare * (v - 1.0 / law.rate) / std::abs(acceleration));
 }
 
 /// s' = 1 - v, v' = s - 2 zeta v - g(v), and beside them (N = kSensitive) the derivatives of both equations with
@@ -69,8 +72,9 @@ StepError<N> step_error(const ScaledSlip& slip) {
     const double tiny = 1e-200;  // a law without strength has no sensitivity to its rate: 0 / 0
     const std::array<double, kScaledParameters> sizes{1.0, size, (reach - 1.0) / reach + tiny,
                                                       std::abs(slip.law.strength) * size / (reach * reach) + tiny};
-    for (std::size_t p = 0; p < kScaledParameters; ++p)
+    for (std::size_t p = 0; p < kScaledParameters; ++p) {
       error.floor[kFirstDs + p] = error.floor[kFirstDv + p] = sizes[p];
+    }
   }
   return error;
 }

@@ -125,7 +125,7 @@ namespace {
 class ChainRule {
  public:
   ChainRule(const Periodic& p, const Slider& slider, const Friction& friction, double speed_m_per_s)
-      : scale_N_(p.scale_N), z0_(p.slip.z0), w_n_(p.w_n) {
+      : scale_N_(p.scale_N), w_n_(p.w_n) {
     const CycleSensitivity cycle = *damped_sensitivity(slider, friction, speed_m_per_s);
     period_ = cycle.period_s.gradient;
     const double k = slider.stiffness_N_per_m();
@@ -153,7 +153,7 @@ class ChainRule {
   }
 
  private:
-  double scale_N_, z0_, w_n_;
+  double scale_N_, w_n_;
   std::array<double, kModelParameters> period_{};
   std::array<double, kModelParameters> log_scale_{};
   std::array<double, kModelParameters> z0_gradient_{};

@@ -154,18 +154,23 @@ TEST_CASE("energy: what the drive gives, velocity-dependent friction and the dam
   CHECK(cycles > 100);
 }
 
-TEST_CASE("a slip that falls into a thin layer of friction at rest ends where its neighbours end") {
-  // The error estimate of Fehlberg's steps is blind to what only the last stage sees: this one has ended 2 % late.
-  const auto slip_s = [](double lambda) {
-    const double f1_N = -0.073254892396799526;
-    const auto friction = VelocityFriction::create(1.0 + lambda, 1.0 - f1_N, f1_N, -9.818675884804934).value();
-    const Slider slider = Slider::create(1.0, 1.0, 0.033360605557159959).value();
-    return velocity_motion(slider, friction, 1.0).value().motion.cycle->slip_s;
-  };
-  CHECK(slip_s(4330.673488324529) == Approx(3.14382966787).epsilon(1e-9));
-  for (double lambda = 4000.0; lambda < 4500.0; lambda *= 1.0007) {
-    INFO("lambda " << lambda);
-    CHECK(slip_s(lambda) == Approx(3.14383).epsilon(1e-4));
+TEST_CASE("a slip that falls into a thin layer of friction at rest ends at the same time whatever its steps") {
+  // The error estimate of Fehlberg's steps is blind to what only the last stage sees: slips have ended 2 % late. With
+  // derivatives the steps are others.
+  Dice dice(59);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const double lambda = dice.log_uniform(100.0, 1e4);
+    const double f1_N = dice.sign() * dice.log_uniform(0.05, 20.0);
+    const double rate = -dice.log_uniform(3.0, 20.0);
+    const Slider slider = Slider::create(1.0, 1.0, dice.uniform(0.0, 0.1)).value();
+    const auto friction = VelocityFriction::create(21.0 + lambda, 21.0 - f1_N, f1_N, rate).value();
+    INFO("lambda " << lambda << " f1 " << f1_N << " rate " << rate);
+    const auto motion = velocity_motion(slider, friction, 1.0);
+    const auto derivatives = velocity_derivatives(slider, friction, 1.0);
+    if (!motion || !derivatives) continue;
+    REQUIRE(motion.value().motion.cycle.has_value() == derivatives.value().has_value());
+    if (!motion.value().motion.cycle) continue;
+    CHECK(motion.value().motion.cycle->slip_s == Approx(derivatives.value()->slip_s.value).epsilon(1e-11));
   }
 }
 
