@@ -16,7 +16,7 @@ struct Example {
 
 }  // namespace
 
-TEST_CASE("--report writes one page, the same bytes every time, beside the usual output") {
+TEST_CASE("fit --report writes one page, the same bytes every time, beside the usual output") {
   const Example example;
   const std::vector<std::string> arguments{"fit", example.recording, "--speed", "20mm/s", "--report", example.page};
   const test::ProgramResult first = slipfit(arguments);
@@ -29,7 +29,7 @@ TEST_CASE("--report writes one page, the same bytes every time, beside the usual
   CHECK(test::content_of(example.page) == page);
 }
 
-TEST_CASE("--plots writes the charts as SVG into a folder that it makes") {
+TEST_CASE("fit --plots writes the charts as SVG into a folder that it makes") {
   const Example example;
   const std::string plots = example.folder.path("plots");
   REQUIRE(slipfit({"fit", example.recording, "--speed", "20mm/s", "--plots", plots, "--quiet"}).exit_code == 0);

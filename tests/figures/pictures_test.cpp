@@ -76,5 +76,7 @@ TEST_CASE("ticks are round numbers inside the axis") {
   CHECK(texts({"", 0.0, 1.0, chart::Scale::Linear}) == " 0 0.2 0.4 0.6 0.8 1");
   CHECK(texts({"", -1.0, 8.0, chart::Scale::Linear}) == " 0 2 4 6 8");
   CHECK(texts({"", 0.0, 0.35, chart::Scale::Linear}) == " 0 0.05 0.1 0.15 0.2 0.25 0.3 0.35");
-  CHECK(texts({"", 0.5, 30.0, chart::Scale::Logarithmic}) == "..... 1........ 10..");
+  CHECK(texts({"", 0.5, 60.0, chart::Scale::Logarithmic}) == "..... 1........ 10.....");
+  CHECK(texts({"", 0.5, 30.0, chart::Scale::Logarithmic}) == " 0.5.... 1 2.. 5.... 10 20.");
+  CHECK(texts({"", 3.0, 8.0, chart::Scale::Logarithmic}) == " 3 4 5 6 7 8");
 }

@@ -74,7 +74,6 @@ std::vector<Point> laid(const Source& source, std::span<const double> force, con
 
 Panel panel_of(const Source& source, const Stack& stack, Window window) {
   chart::Line measured{"measured cycles", Colour::Grey, Stroke::Solid, {}, 0.6};
-  Span time;
   Span height;
   for (const Anchor& anchor : stack.anchors) {
     for (const Point& point : laid(source, source.recording.force(), anchor, window)) {
