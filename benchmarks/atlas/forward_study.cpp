@@ -63,25 +63,11 @@ Row measure(const ForwardScene& scene, const ForwardMethod& method, const Refere
   return row;
 }
 
-std::string to_csv(const std::vector<Row>& rows) {
-  constexpr std::array<const char*, 3> kOutcomes{"cycle", "no_cycle", "gave_up"};
-  std::string csv =
-      "method,setting,lambda,damping_ratio,slope,alpha_V,expected,outcome,period_error,waveform_error,cpu_us\n";
-  for (const Row& row : rows) {
-    csv +=
-        fmt::format("\"{}\",{},{:g},{:g},{:g},{:g},{},{},{},{},{}\n", row.method->family, row.method->setting,
-                    row.scene.lambda, row.scene.zeta, row.scene.slope, row.scene.rate,
-                    kOutcomes[static_cast<std::size_t>(row.expected)], kOutcomes[static_cast<std::size_t>(row.outcome)],
-                    cell(row.period_error), cell(row.wave_error), cell(1e6 * row.time_s));
-  }
-  return csv;
-}
-
 using Choice = std::function<bool(const ForwardScene&)>;
 
 struct Summary {
   const ForwardMethod* method = nullptr;
-  double time_us = kNone, period_error = kNone, wave_error = kNone;
+  double time_us = kNone, period_error = kNone, worst_period_error = kNone, wave_error = kNone;
   std::size_t scenes = 0, wrong = 0;
 };
 
@@ -90,7 +76,7 @@ std::vector<Summary> summarise(const std::vector<Row>& rows, const std::vector<F
   std::vector<Summary> summaries;
   for (const ForwardMethod& method : methods) {
     std::vector<double> times, periods, waves;
-    Summary summary{&method, kNone, kNone, kNone, 0, 0};
+    Summary summary{&method, kNone, kNone, kNone, kNone, 0, 0};
     for (const Row& row : rows) {
       if (row.method != &method || !choice(row.scene)) continue;
       ++summary.scenes;
@@ -102,6 +88,7 @@ std::vector<Summary> summarise(const std::vector<Row>& rows, const std::vector<F
     }
     summary.time_us = median_of(times);
     summary.period_error = median_of(periods);
+    if (!periods.empty()) summary.worst_period_error = *std::max_element(periods.begin(), periods.end());
     summary.wave_error = median_of(waves);
     summaries.push_back(summary);
   }
@@ -131,11 +118,13 @@ Panel pareto_panel(const std::vector<Summary>& summaries, double Summary::*error
 
 std::string summary_csv(const std::vector<std::pair<std::string, std::vector<Summary>>>& groups) {
   std::string csv =
-      "friction,method,setting,scenes,wrong_or_gave_up,median_cpu_us,median_period_error,median_waveform_error\n";
+      "friction,method,setting,scenes,wrong_or_gave_up,median_cpu_us,median_period_error,largest_period_error,median_"
+      "waveform_error\n";
   for (const auto& [name, summaries] : groups) {
     for (const Summary& s : summaries) {
-      csv += fmt::format("{},\"{}\",{},{},{},{},{},{}\n", name, s.method->family, s.method->setting, s.scenes, s.wrong,
-                         cell(s.time_us), cell(s.period_error), cell(s.wave_error));
+      csv +=
+          fmt::format("{},\"{}\",{},{},{},{},{},{},{}\n", name, s.method->family, s.method->setting, s.scenes, s.wrong,
+                      cell(s.time_us), cell(s.period_error), cell(s.worst_period_error), cell(s.wave_error));
     }
   }
   return csv;
@@ -197,8 +186,7 @@ std::vector<File> study_forward(Effort effort) {
   const chart::Chart over_lambda{"Forward methods over λ, constant friction, ζ = 0.05",
                                  {"One setting a family. Left of λ = 0.83 there is no stick-slip."},
                                  {lambda_panel(effort)}};
-  return {{"forward.csv", to_csv(rows)},
-          {"forward_summary.csv", summary_csv({{"constant", coulomb}, {"of_speed", speed}})},
+  return {{"forward.csv", summary_csv({{"constant", coulomb}, {"of_speed", speed}})},
           {"forward_constant.svg", to_svg(constant)},
           {"forward_speed.svg", to_svg(varying)},
           {"forward_lambda.svg", to_svg(over_lambda)}};
