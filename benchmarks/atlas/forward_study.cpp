@@ -6,6 +6,7 @@
 #include <map>
 
 #include "forward_methods.hpp"
+#include "slipfit/model/motion.hpp"
 
 namespace atlas {
 namespace {
@@ -98,7 +99,7 @@ std::vector<Summary> summarise(const std::vector<Row>& rows, const std::vector<F
 Panel pareto_panel(const std::vector<Summary>& summaries, double Summary::*error, const std::string& label) {
   Panel panel;
   panel.height_px = 430.0;
-  panel.x = {"CPU time for one cycle with 200 samples of its waveform  [µs]", 0.1, 1e5, Scale::Logarithmic};
+  panel.x = {"CPU time for one cycle with 200 samples of its waveform  [µs]", 0.1, 1e6, Scale::Logarithmic};
   panel.y = {label, 1e-17, 10.0, Scale::Logarithmic};
   panel.legend = {1.0, 0.15};
   std::map<std::string, std::vector<Point>> families;
@@ -111,7 +112,7 @@ Panel pareto_panel(const std::vector<Summary>& summaries, double Summary::*error
     families[family].push_back({summary.time_us, summary.*error});
     all.push_back(families[family].back());
   }
-  panel.lines.push_back(draw_front(all, 1e5));
+  panel.lines.push_back(draw_front(all, 1e6));
   for (const std::string& family : order) add_series(panel, forward_look(family), families[family]);
   return panel;
 }
@@ -134,7 +135,7 @@ std::string summary_csv(const std::vector<std::pair<std::string, std::vector<Sum
 Panel lambda_panel(Effort effort) {
   Panel panel;
   panel.height_px = 430.0;
-  panel.x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", 0.3, 3e4, Scale::Logarithmic};
+  panel.x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", 0.3, 2e5, Scale::Logarithmic};
   panel.y = {"relative error of the period  [-]", 1e-17, 10.0, Scale::Logarithmic};
   panel.legend = {1.0, 0.5};
   const std::map<std::string, std::string> settings{{"RK4, sign switching", "0.01"},
@@ -183,9 +184,10 @@ std::vector<File> study_forward(Effort effort) {
                              remarks,
                              {pareto_panel(speed, &Summary::period_error, "relative error of the period  [-]"),
                               pareto_panel(speed, &Summary::wave_error, "rms error of the waveform / its rms  [-]")}};
-  const chart::Chart over_lambda{"Forward methods over λ, constant friction, ζ = 0.05",
-                                 {"One setting a family. Left of λ = 0.83 there is no stick-slip."},
-                                 {lambda_panel(effort)}};
+  const chart::Chart over_lambda{
+      "Forward methods over λ, constant friction, ζ = 0.05",
+      {fmt::format("One setting a family. Left of λ = {:.2f} there is no stick-slip.", slipfit::critical_lambda(0.05))},
+      {lambda_panel(effort)}};
   return {{"forward.csv", summary_csv({{"constant", coulomb}, {"of_speed", speed}})},
           {"forward_constant.svg", to_svg(constant)},
           {"forward_speed.svg", to_svg(varying)},
