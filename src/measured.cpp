@@ -13,6 +13,10 @@ namespace slipfit {
 namespace {
 
 constexpr double kGapSteps = 3.5;
+/// Above this scatter of the intervals the harmonic fit is no better than the count (docs/accuracy.md).
+constexpr double kRegular = 0.01;
+/// Scatter of the cycles sets spectrum and count less far apart than this; another repetition (hum, noise) farther.
+constexpr double kContradiction = 0.3;
 
 struct MeanAndSpread {
   double mean = 0.0;
@@ -72,8 +76,6 @@ Estimate count_frequency(const Recording& recording, const Segmentation& segment
 
 FrequencyReport report_frequency(const Recording& recording, const Segmentation& segmentation,
                                  const SpectralFrequency& spectral, Verdict verdict, const FitResult* fit) {
-  // Above this scatter of the intervals the harmonic fit is no better than the count (docs/accuracy.md).
-  constexpr double kRegular = 0.01;
   FrequencyReport report;
   report.spectral = spectral;
   report.counted = count_frequency(recording, segmentation);
@@ -97,8 +99,6 @@ FrequencyReport report_frequency(const Recording& recording, const Segmentation&
     report.quoted = with_interval(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
     if (agree || verdict != Verdict::Undetermined) return report;
   }
-  // Scatter of the cycles explains less than this; another repetition (hum, noise) explains more.
-  constexpr double kContradiction = 0.3;
   const bool contradict = difference && *difference > kContradiction;
   if (report.counted.value && (cycles_seen || agree) && !contradict) {
     report.method = "slip_counting";

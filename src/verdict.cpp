@@ -95,6 +95,25 @@ std::optional<Judgement> judge_counts(const Recording& recording, const Quality&
   return std::nullopt;
 }
 
+/// Swings without sticks that can be told; empty where slips come to rest.
+std::optional<Judgement> judge_round_swings(const Quality& quality, const Segmentation& segmentation,
+                                            const Evidence& e) {
+  const bool sine_like = is_sine_like(segmentation);
+  if ((sine_like || e.restick_share < kRestickShare) && is_faint(quality, segmentation)) {
+    return Judgement{Verdict::Undetermined,
+                     "the swings are not much larger than the noise: no sticks can be told from it"};
+  }
+  if (sine_like && (e.restick_share < kSineRestickShare || e.relative_residual > kSineFit)) {
+    return Judgement{Verdict::OscillatorySlip, "nearly sinusoidal: no straight sticks can be told from an oscillation"};
+  }
+  if (e.restick_share < kRestickShare) {
+    return Judgement{Verdict::OscillatorySlip,
+                     fmt::format("{:.0f} % of the slips do not come to rest: oscillation without straight sticks",
+                                 100.0 * (1.0 - e.restick_share))};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 double mains_share(const Segmentation& segmentation) {
@@ -124,9 +143,8 @@ Judgement judge_fit(const Recording& recording, const Quality& quality, const Se
   if (used < 5 && (e.onset_force_spread > 0.2 || e.relative_residual > 0.04)) {
     return {Verdict::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
   }
-  const bool sine_like = is_sine_like(segmentation);
   // Hum as large as the drop is what the detector sees, and the fit that follows it finds wrong slips good.
-  if (sine_like && hum_was_fitted(*fit)) {
+  if (is_sine_like(segmentation) && hum_was_fitted(*fit)) {
     return {Verdict::Undetermined, "the swings are as round as the mains hum in them: it hides what else there is"};
   }
   const bool close = e.relative_residual < kCloseFit && e.onset_force_spread < kWideSpread;
@@ -144,17 +162,7 @@ Judgement judge_fit(const Recording& recording, const Quality& quality, const Se
   if (sine_like && std::abs(mains_share(segmentation) - 1.0) < kMainsRhythm) {
     return {Verdict::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
   }
-  if ((sine_like || e.restick_share < kRestickShare) && is_faint(quality, segmentation)) {
-    return {Verdict::Undetermined, "the swings are not much larger than the noise: no sticks can be told from it"};
-  }
-  if (sine_like && (e.restick_share < kSineRestickShare || e.relative_residual > kSineFit)) {
-    return {Verdict::OscillatorySlip, "nearly sinusoidal: no straight sticks can be told from an oscillation"};
-  }
-  if (e.restick_share < kRestickShare) {
-    return {Verdict::OscillatorySlip,
-            fmt::format("{:.0f} % of the slips do not come to rest: oscillation without straight sticks",
-                        100.0 * (1.0 - e.restick_share))};
-  }
+  if (auto round = judge_round_swings(quality, segmentation, e)) return *round;
   return {Verdict::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
                       100.0 * e.relative_residual)};
@@ -166,8 +174,9 @@ Judgement judge_shape(const Recording& recording, const Quality& quality, const 
   if (is_faint(quality, segmentation)) {
     return {Verdict::Undetermined, "the falls are not much larger than the noise: only a fit can tell"};
   }
-  if (!is_sine_like(segmentation))
+  if (!is_sine_like(segmentation)) {
     return {Verdict::StickSlip, "the force falls much faster than it rises (no model fitted)"};
+  }
   return {Verdict::Undetermined, "the force falls about as slowly as it rises: only a fit can tell"};
 }
 

@@ -37,14 +37,18 @@ chart::Panel draw_plane(const Plane& plane, const std::string& method, const Jud
   panel.y = axis_around(plane.y);
   panel.lines = plane.lines;
   for (const Kind& kind : kKinds) panel.markers.push_back({"", kind.colour, kind.shape, {}});
+  bool all_fine = true;
   for (const double x : plane.x.values) {
     for (const double y : plane.y.values) {
       const Mark mark = judge(x, y);
+      if (mark != Mark::Fine) all_fine = false;
       for (std::size_t i = 0; i < kKinds.size(); ++i) {
         if (kKinds[i].mark == mark) panel.markers[i].points.push_back({x, y});
       }
     }
   }
+  const chart::Point middle{std::sqrt(panel.x.low * panel.x.high), std::sqrt(panel.y.low * panel.y.high)};
+  if (all_fine) panel.notes.push_back({middle, "right at every point asked", chart::Colour::Black, 0.0, -1.0});
   return panel;
 }
 

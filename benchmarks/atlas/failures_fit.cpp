@@ -75,7 +75,7 @@ chart::Chart false_minima(Effort effort, std::size_t trials) {
 
 std::vector<File> map_fit_failures(Effort effort) {
   const bool full = effort == Effort::Full;
-  const std::size_t trials = full ? 18 : 3;
+  const std::size_t trials = full ? 12 : 3;
   const PlaneAxis samples{"samples in a slip  [-]", log_spaced(0.5, 50.0, full ? 9 : 4)};
   const PlaneAxis noise{"noise over the drop  [-]", log_spaced(0.002, 0.6, full ? 8 : 4)};
   const PlaneAxis jitter{"scatter of the static friction over the drop  [-]", log_spaced(0.001, 0.3, full ? 9 : 4)};
@@ -86,7 +86,7 @@ std::vector<File> map_fit_failures(Effort effort) {
       {"failures_fit_sampling.svg", to_svg(over("Where fits fail: few samples and noise", {samples, noise, 200.0, {}},
                                                 &Factors::samples_per_slip, &Factors::noise, {0, 1, 4}, trials))},
       {"failures_fit_scatter.svg", to_svg(over("Where fits fail: scatter and few cycles", {jitter, cycles, 200.0, {}},
-                                               &Factors::jitter, &Factors::cycles, {0, 1, 4, 5}, full ? 12 : 2))},
+                                               &Factors::jitter, &Factors::cycles, {0, 1, 4, 5}, full ? 8 : 2))},
       {"failures_fit_hum.svg", to_svg(over("Where fits fail: hum and noise", {hum, noise, 200.0, {}}, &Factors::hum,
                                            &Factors::noise, {0, 1, 4}, trials))}};
 }

@@ -59,7 +59,7 @@ chart::Chart over(const std::string& title, const Plane& plane, double Factors::
 
 std::vector<File> map_frequency_failures(Effort effort) {
   const bool full = effort == Effort::Full;
-  const std::size_t trials = full ? 18 : 5;
+  const std::size_t trials = full ? 14 : 5;
   const PlaneAxis noise{"noise, rms over the friction drop  [-]", log_spaced(0.02, 4.0, full ? 13 : 6)};
   const PlaneAxis hum{"amplitude of the 50 Hz hum over the drop  [-]", log_spaced(0.02, 4.0, full ? 13 : 6)};
   const PlaneAxis jitter{"scatter of F_s over the drop  [-]", log_spaced(0.003, 0.3, full ? 7 : 4)};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "frequency_methods.hpp"
 #include "scenes.hpp"
@@ -149,7 +148,7 @@ Panel time_panel(Effort effort, std::size_t trials) {
 }  // namespace
 
 std::vector<File> study_frequency(Effort effort) {
-  const std::size_t trials = effort == Effort::Full ? 60 : 9;
+  const std::size_t trials = effort == Effort::Full ? 40 : 9;
   const Measured all = run_sweeps(effort, trials);
   const chart::Chart time{
       "Frequency: error against time",

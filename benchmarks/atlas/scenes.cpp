@@ -1,7 +1,6 @@
 #include "scenes.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
