@@ -159,7 +159,7 @@ Judgement judge_fit(const Recording& recording, const Quality& quality, const Se
         fmt::format("the swings are no stick-slip cycles: residual {:.0f} % of the friction drop, its spread {:.0f} %",
                     100.0 * e.relative_residual, 100.0 * e.onset_force_spread)};
   }
-  if (sine_like && std::abs(mains_share(segmentation) - 1.0) < kMainsRhythm) {
+  if (is_sine_like(segmentation) && std::abs(mains_share(segmentation) - 1.0) < kMainsRhythm) {
     return {Verdict::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
   }
   if (auto round = judge_round_swings(quality, segmentation, e)) return *round;
