@@ -35,8 +35,9 @@ std::vector<ManifestEntry> read_manifest(const JointArguments& arguments) {
 
 std::vector<slipfit::SweepEntry> read_recordings(const std::vector<ManifestEntry>& manifest) {
   auto entries = slipfit::read_sweep(manifest);
-  if (!entries) throw Failure(ExitCode::BadRecording, entries.error().message);
-  return std::move(entries).value();
+  if (entries) return std::move(entries).value();
+  const bool manifest_asks_for_it = entries.error().code == "view_not_spring";
+  throw Failure(manifest_asks_for_it ? ExitCode::WrongUsage : ExitCode::BadRecording, entries.error().message);
 }
 
 std::string name_of_fit(const JointArguments& arguments) {

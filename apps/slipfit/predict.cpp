@@ -139,10 +139,13 @@ Basis basis_from(const PredictArguments& arguments, const CLI::App& command) {
                   "--natural-frequency, --damping-ratio, --static-friction and --kinetic-friction");
   }
   const Model model = model_from(arguments.model);
+  slipfit::PredictionModel prediction = slipfit::stated_model(model.slider, model.friction);
   if (model.velocity_friction) {
-    throw Failure(ExitCode::WrongUsage, "--f0, --f1 and --alpha: a prediction needs the FIT.json of a joint fit");
+    const slipfit::VelocityFriction& law = *model.velocity_friction;
+    prediction.estimate.speed_dependence =
+        slipfit::SpeedDependence{law.f1_N() * law.alpha_s_per_m(), law.alpha_s_per_m()};
   }
-  return {slipfit::stated_model(model.slider, model.friction), {"command line", {}}};
+  return {std::move(prediction), {"command line", {}}};
 }
 
 void run(const PredictArguments& arguments, const CLI::App& command) {

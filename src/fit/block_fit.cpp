@@ -139,8 +139,9 @@ double BlockFit::solve(const SolveOptions& options) {
     problem.AddResidualBlock(new CycleCost(models_[i]), loss, blocks);
     ordering->AddElementToGroup(parameters.cycles[i].data(), 0);
   }
+  // Inside a group Ceres orders blocks by their address: one block a group gives the same rounding in every run.
   ordering->AddElementToGroup(shared, 1);
-  if (level_.columns() > 0) ordering->AddElementToGroup(parameters.level.data(), 1);
+  if (level_.columns() > 0) ordering->AddElementToGroup(parameters.level.data(), 2);
   for (std::size_t i = 0; options.continuous && i + 1 < models_.size(); ++i) {
     if (!cycles_[i].continuous_with_next) continue;
     problem.AddResidualBlock(new RampCost(*this, i), nullptr, shared, parameters.cycles[i].data(),

@@ -30,6 +30,9 @@ constexpr double kShiftSigmas = 4.5;
 /// Reduced chi2 of a model that leaves something unexplained (the noise is that of each recording's own fit).
 constexpr double kMisfitChi2 = 1.5;
 
+/// A first-order band wider than this says nothing.
+constexpr double kWidestFactor = 2.0;
+
 /// Fits without one recording each: their predictions, and how much the parameters move.
 struct LeftOut {
   struct One {
@@ -175,6 +178,16 @@ double residual_rms(const fit::JointProblem& problem) {
   return std::sqrt(square / static_cast<double>(problem.cycle_count()));
 }
 
+/// Empty, with a reason, where there is none or where it is known to worse than a factor.
+Estimate spacing_of(const std::optional<fit::SweepJet>& spacing, const SweepIntervals& intervals,
+                    const std::string& why_none) {
+  if (!spacing) return {std::nullopt, std::nullopt, std::nullopt, why_none};
+  if (!(intervals.quantile() * intervals.error(*spacing) < std::log(kWidestFactor) * spacing->a)) {
+    return {std::nullopt, std::nullopt, std::nullopt, "the interval reaches beyond a factor of 2 either way"};
+  }
+  return intervals.of_one_sign(*spacing);
+}
+
 class Assembler {
  public:
   Assembler(std::span<const SweepRecording> recordings, const SweepData& data, const Outcome& outcome)
@@ -241,7 +254,7 @@ class Assembler {
     const double load = data_.loads[i];
     SweepPoint point;
     point.kinetic_friction_N = intervals_.plain(load * (model_.level + model_.excess_friction(speed)));
-    if (const auto spacing = model_.spacing(speed, load)) point.spacing_m = intervals_.of_one_sign(*spacing);
+    point.spacing_m = spacing_of(model_.spacing(speed, load), intervals_, "no stick-slip at this speed");
     const auto fitted = std::find(data_.fitted.begin(), data_.fitted.end(), i);
     if (fitted != data_.fitted.end()) {
       const auto run = static_cast<std::size_t>(fitted - data_.fitted.begin());
@@ -261,9 +274,9 @@ class Assembler {
   [[nodiscard]] Estimate spacing_without(const std::optional<LeftOut::One>& one, double speed, double load) const {
     if (!one) return {std::nullopt, std::nullopt, std::nullopt, "too few recordings to leave one out"};
     const SweepVector values = fit::with_damping_cut(one->values, one->covariance);
-    const auto spacing = SweepModel(values, data_.scales).spacing(speed, load);
-    if (!spacing) return {std::nullopt, std::nullopt, std::nullopt, "no stick-slip at this speed by the others"};
-    return SweepIntervals(one->covariance, one->degrees_of_freedom).of_one_sign(*spacing);
+    return spacing_of(SweepModel(values, data_.scales).spacing(speed, load),
+                      SweepIntervals(one->covariance, one->degrees_of_freedom),
+                      "no stick-slip at this speed by the others");
   }
 
   std::span<const SweepRecording> recordings_;

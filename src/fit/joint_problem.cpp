@@ -91,6 +91,12 @@ double JointProblem::solve(const JointHeld& held, int max_iterations, double tol
   silence_solver_log();
   ceres::Problem problem;
   double* shared = parameters.shared.data();
+  // Inside a group Ceres orders blocks by their address: cycles stand in one array and every other block is a group, so
+  // that the same input gives the same rounding.
+  std::vector<Own> owns;
+  for (const std::vector<Own>& run : parameters.cycles) owns.insert(owns.end(), run.begin(), run.end());
+  std::size_t next = 0;
+  int group = 1;
   auto* ordering = new ceres::ParameterBlockOrdering;
   std::size_t residuals = 0;
   for (std::size_t r = 0; r < size(); ++r) {
@@ -98,7 +104,7 @@ double JointProblem::solve(const JointHeld& held, int max_iterations, double tol
     double* difference = &parameters.differences[shares_.difference ? 0 : r];
     double* drift = parameters.drifts[r].empty() ? nullptr : parameters.drifts[r].data();
     for (std::size_t c = 0; c < cycles_[r].size(); ++c) {
-      double* own = parameters.cycles[r][c].data();
+      double* own = owns[next++].data();
       std::vector<double*> blocks{shared, level, difference};
       if (drift != nullptr) blocks.push_back(drift);
       blocks.push_back(own);
@@ -109,10 +115,10 @@ double JointProblem::solve(const JointHeld& held, int max_iterations, double tol
       residuals += cycles_[r][c].residuals();
     }
     for (double* block : {level, difference, drift}) {
-      if (block != nullptr) ordering->AddElementToGroup(block, 1);
+      if (block != nullptr && !ordering->IsMember(block)) ordering->AddElementToGroup(block, group++);
     }
   }
-  ordering->AddElementToGroup(shared, 1);
+  ordering->AddElementToGroup(shared, group);
   for (std::size_t i = 0; shares_.level && i < steady_.size(); ++i) {
     problem.AddResidualBlock(new SteadyCost(*this, steady_[i]), nullptr, shared, parameters.levels.data());
   }
@@ -136,6 +142,10 @@ double JointProblem::solve(const JointHeld& held, int max_iterations, double tol
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  next = 0;
+  for (std::vector<Own>& run : parameters.cycles) {
+    for (Own& own : run) own = owns[next++];
+  }
   if (!summary.IsSolutionUsable()) return std::numeric_limits<double>::infinity();
   return 2.0 * summary.final_cost;
 }

@@ -45,7 +45,6 @@ std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   json["warnings"] = warnings_json(all_warnings(sweep));
   if (sweep.joint) {
     json["model"] = model_json(sweep.joint->fit, ForceQuantity::Force_N);
-    json["model"]["residual"]["rms_N"] = nullptr;  // each recording has its own, see `joint`
     json["model"]["level_shared"] = sweep.joint->level_shared;
     json["model"]["static_friction_shared"] = sweep.joint->difference_shared;
     json["parameters"] = parameters_json(sweep.joint->fit);

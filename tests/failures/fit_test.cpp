@@ -74,16 +74,10 @@ TEST_CASE("noise as large as the slips: no parameters") {
   }
 }
 
-TEST_CASE("hum as large as the slips: no parameters (once k was claimed five times too large)") {
-  for (const double hum : {0.7, 1.0, 1.5, 3.0}) {
-    atlas::Factors factors;
-    factors.hum = hum;
-    for_each_fit(factors, check_nothing_claimed);
-  }
-}
-
-TEST_CASE("hum smaller than the slips is fitted beside them") {
-  for (const double hum : {0.1, 0.3}) {
+TEST_CASE(
+    "hum smaller or larger than the slips: fitted beside them, or nothing is claimed (once k was five times too "
+    "large)") {
+  for (const double hum : {0.1, 0.3, 0.7, 1.0, 1.5, 3.0}) {
     atlas::Factors factors;
     factors.hum = hum;
     for_each_fit(factors, check_not_confidently_wrong);
