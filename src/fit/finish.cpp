@@ -16,6 +16,7 @@ namespace {
 constexpr int kFewIterations = 12;  // from the solution to one beside it
 constexpr int kMaxIterations = 60;
 constexpr double kFinal = 1e-3;  // SolveOptions::tolerance
+constexpr double kRough = 0.1;
 
 std::vector<double> references_of(const BlockFit& fit) {
   std::vector<double> references_s;
@@ -54,7 +55,8 @@ class Finisher {
       std::vector<CycleData> cycles = without_phase(result.blocks, phase);
       BlockFit refit(std::move(cycles), references_of(result.blocks), result.blocks.scales(), result.blocks.level());
       refit.parameters = result.blocks.parameters;
-      if (!std::isfinite(refit.solve({result.held, result.continuous, true, kFewIterations, kFinal}))) continue;
+      // How far they move widens the intervals: two digits of it are enough.
+      if (!std::isfinite(refit.solve({result.held, result.continuous, true, kFewIterations, kRough}))) continue;
       moves.row(fitted++) = (quantities_of(refit) - quantities_of(result.blocks)).transpose();
     }
     return moves.topRows(fitted);

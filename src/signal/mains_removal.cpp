@@ -17,12 +17,18 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 std::complex<double> amplitude_of(const std::vector<double>& values, double mean, double step_s, double frequency_Hz) {
   std::complex<double> sum = 0.0;
   double weights = 0.0;
+  // Turned from sample to sample: after 10^7 of them the phase is still good to 1e-9.
   const auto count = static_cast<double>(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto at = static_cast<double>(i);
-    const double weight = 0.5 - 0.5 * std::cos(kTurn * (at + 0.5) / count);
-    sum += weight * (values[i] - mean) * std::polar(1.0, -kTurn * frequency_Hz * step_s * at);
+  const std::complex<double> turn = std::polar(1.0, -kTurn * frequency_Hz * step_s);
+  const std::complex<double> window_turn = std::polar(1.0, kTurn / count);
+  std::complex<double> wave = 1.0;
+  std::complex<double> window = std::polar(1.0, 0.5 * kTurn / count);
+  for (const double value : values) {
+    const double weight = 0.5 - 0.5 * window.real();
+    sum += weight * (value - mean) * wave;
     weights += weight;
+    wave *= turn;
+    window *= window_turn;
   }
   return 2.0 * sum / weights;
 }
@@ -41,9 +47,11 @@ Dehummed without_mains(const Recording& recording) {
   for (const MainsLine& line :
        find_mains(power, 1.0 / (static_cast<double>(length) * step_s), 1.0 / recording.duration_s())) {
     const std::complex<double> amplitude = amplitude_of(result.force, mean, step_s, line.frequency_Hz);
-    for (std::size_t i = 0; i < result.force.size(); ++i) {
-      const double phase = kTurn * line.frequency_Hz * step_s * static_cast<double>(i);
-      result.force[i] -= std::real(amplitude * std::polar(1.0, phase));
+    const std::complex<double> turn = std::polar(1.0, kTurn * line.frequency_Hz * step_s);
+    std::complex<double> wave = amplitude;
+    for (double& force : result.force) {
+      force -= wave.real();
+      wave *= turn;
     }
     result.lines_Hz.push_back(line.frequency_Hz);
     result.swing = std::max(result.swing, 2.0 * std::abs(amplitude));
