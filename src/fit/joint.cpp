@@ -89,6 +89,10 @@ bool recordings_disagree(const SweepVector& values, const SweepMatrix& covarianc
   return false;
 }
 
+bool is_misfit(const JointSolution& solution) {
+  return solution.chi2 > kMisfitChi2 * solution.degrees_of_freedom;
+}
+
 /// A solution with the intervals that it deserves.
 struct Outcome {
   const JointSolution& solution;
@@ -135,13 +139,12 @@ LawChoice choose_law(const fit::SweepFits& fits, const Outcome& velocity, double
     return {false, fmt::format("the speeds span a factor of {:.2g} only: one speed cannot tell alpha", speeds)};
   }
   const std::string chance = fmt::format("chance of such a gain under Coulomb friction: {:.2g}", fits.p_value);
-  if (!fits.depends_on_speed) return {false, chance};
+  if (!fits.depends_on_speed) return {false, "Coulomb friction explains the sweep; " + chance};
   const double slope = velocity.values(fit::kFrictionSlope);
   const double se = std::sqrt(velocity.covariance(fit::kFrictionSlope, fit::kFrictionSlope));
   // Where residuals are larger than the noise and the recordings disagree, misfit pays for parameters too: what counts
   // is whether they hold from one recording to the other.
-  const bool misfit = velocity.solution.chi2 > kMisfitChi2 * velocity.solution.degrees_of_freedom;
-  if (misfit && velocity.disagree && !(std::abs(slope) > 3.0 * se)) {
+  if (is_misfit(velocity.solution) && velocity.disagree && !(std::abs(slope) > 3.0 * se)) {
     return {false, "the recordings disagree by more than the dependence on the speed"};
   }
   return {true, chance};
@@ -219,6 +222,7 @@ class Assembler {
       return sweep.recording.conditions().zero_force_N.has_value();
     });
     evidence.shares_all = joint.level_shared && joint.difference_shared;
+    evidence.misfit = is_misfit(outcome_.solution);
     evidence.held = outcome_.solution.held;
     evidence.cycles = problem.cycle_count();
     evidence.samples_per_slip = samples_per_slip(recordings_, data_);

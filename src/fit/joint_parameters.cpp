@@ -35,7 +35,7 @@ class SweepReporter {
 
  private:
   [[nodiscard]] bool resolved() const {
-    return evidence_.samples_per_slip > kSamplesForIdentified && evidence_.cycles >= kFewCycles;
+    return evidence_.samples_per_slip > kSamplesForIdentified && evidence_.cycles >= kFewCycles && !evidence_.misfit;
   }
 
   void add(std::string name, Estimate estimate, ParameterStatus status, std::string note = {}) {
@@ -45,12 +45,14 @@ class SweepReporter {
 
   void add_positive(std::string name, const SweepJet& y, double bound, bool fixed) {
     if (fixed) return add(std::move(name), {y.a, 0.0, Interval{y.a, y.a}, {}}, ParameterStatus::Fixed);
-    const bool good = intervals_.error(y) < bound * std::abs(y.a) && (resolved() || name == "stiffness_N_per_m");
+    const bool good = intervals_.error(y) < bound * std::abs(y.a) &&
+                      (resolved() || (name == "stiffness_N_per_m" && !evidence_.misfit));
     add(std::move(name), intervals_.of_one_sign(y), good ? ParameterStatus::Identified : ParameterStatus::Weak,
-        good || resolved() ? "" : too_few_samples());
+        good || resolved() ? "" : what_is_missing());
   }
 
-  [[nodiscard]] std::string too_few_samples() const {
+  [[nodiscard]] std::string what_is_missing() const {
+    if (evidence_.misfit) return "residuals are well above the noise: the interval cannot hold what the model lacks";
     return fmt::format("the slips have {:.1f} samples", evidence_.samples_per_slip);
   }
 
@@ -89,8 +91,7 @@ class SweepReporter {
   }
 
   void add_friction_law() {
-    if (!evidence_.depends_on_speed)
-      return withhold_law("Coulomb friction explains the sweep: " + evidence_.law_reason);
+    if (!evidence_.depends_on_speed) return withhold_law("not needed or not told: " + evidence_.law_reason);
     const Estimate slope = intervals_.plain(model_.slope);
     const bool steep = resolved() && intervals_.error(model_.slope) < 0.25 * std::abs(model_.slope.a);
     add("friction_slope_N_s_per_m", slope, steep ? ParameterStatus::Identified : ParameterStatus::Weak);

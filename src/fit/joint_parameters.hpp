@@ -16,6 +16,7 @@ struct SweepEvidence {
   std::string law_reason{};         ///< why it is, or not
   bool zero_known = false;
   bool shares_all = false;  ///< level and static friction are the same in all recordings
+  bool misfit = false;      ///< residuals well above the noise: no interval holds what the model lacks
   JointHeld held{};
   std::size_t cycles = 0;
   double samples_per_slip = 0.0;
