@@ -1,12 +1,12 @@
 #include "fitted_frequency.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "fit/intervals.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -97,10 +97,8 @@ double recovery_error(const FitResult& fit) {
   return std::sqrt(square / (count - 1.0) / count) / mean;
 }
 
-Estimate with_interval(double value, double relative_error, double degrees_of_freedom) {
-  const boost::math::students_t_distribution<double> student(degrees_of_freedom);
-  const double half = boost::math::quantile(student, 0.975) * relative_error * value;
-  return {value, relative_error * value, Interval{value - half, value + half}, {}};
+Estimate with_relative_error(double value, double relative_error, double degrees_of_freedom) {
+  return fit::symmetric(value, relative_error * value, degrees_of_freedom);
 }
 
 }  // namespace
@@ -116,13 +114,13 @@ std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& 
   const double mean_s = (onsets.back().time_s - onsets.front().time_s) / onsets.back().index;
   const double timing = recording.sample_interval_s() / mean_s / std::sqrt(6.0) / count;
   if (!is_regular(fit.evidence, onsets, line.period_s)) {
-    return with_interval(1.0 / mean_s, std::hypot(recovery_error(fit), timing), count - 1.0);
+    return with_relative_error(1.0 / mean_s, std::hypot(recovery_error(fit), timing), count - 1.0);
   }
   // Between two samples of a hardly sampled slip the errors of regular cycles are no chance: they repeat.
   if (fit.evidence.samples_per_slip < kSampled) return std::nullopt;
   // Jumps of a sensor at the contact are timed to a step, and the error of regular ones may repeat.
   const double step = recording.conditions().force_view == ForceView::Contact ? 0.5 * timing : 0.0;
-  return with_interval(1.0 / line.period_s, std::hypot(line.standard_error_s / line.period_s, step), count - 2.0);
+  return with_relative_error(1.0 / line.period_s, std::hypot(line.standard_error_s / line.period_s, step), count - 2.0);
 }
 
 }  // namespace slipfit

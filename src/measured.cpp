@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
+#include "fit/intervals.hpp"
 #include "fitted_frequency.hpp"
 #include "signal/robust.hpp"
 
@@ -49,15 +49,6 @@ std::vector<double> intervals_s(const Recording& recording, const Segmentation& 
   return intervals;
 }
 
-double t_quantile(double degrees_of_freedom) {
-  return boost::math::quantile(boost::math::students_t_distribution<double>(std::max(1.0, degrees_of_freedom)), 0.975);
-}
-
-Estimate with_interval(double value, double se, double degrees_of_freedom) {
-  const double half = t_quantile(degrees_of_freedom) * se;
-  return {value, se, Interval{value - half, value + half}, {}};
-}
-
 /// Of the two frequencies; empty where one of them is.
 std::optional<double> relative_difference(const SpectralFrequency& spectral, const Estimate& counted) {
   if (!spectral.value_Hz || !counted.value) return std::nullopt;
@@ -71,7 +62,7 @@ Estimate count_frequency(const Recording& recording, const Segmentation& segment
   if (interval.count < 1.0) return {std::nullopt, std::nullopt, std::nullopt, "fewer than 3 slips"};
   const double value = 1.0 / interval.mean;
   if (interval.count < 2.0) return {value, std::nullopt, std::nullopt, "one interval tells no error"};
-  return with_interval(value, value * interval.sd / interval.mean / std::sqrt(interval.count), interval.count - 1.0);
+  return fit::symmetric(value, value * interval.sd / interval.mean / std::sqrt(interval.count), interval.count - 1.0);
 }
 
 FrequencyReport report_frequency(const Recording& recording, const Segmentation& segmentation,
@@ -96,7 +87,8 @@ FrequencyReport report_frequency(const Recording& recording, const Segmentation&
   const bool regular = interval.count >= 2.0 && interval.sd < kRegular * interval.mean;
   if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || !cycles_seen)) {
     report.method = "harmonic_least_squares";
-    report.quoted = with_interval(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
+    report.quoted =
+        fit::symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
     if (agree || verdict != Verdict::Undetermined) return report;
   }
   const bool contradict = difference && *difference > kContradiction;
@@ -151,19 +143,6 @@ CycleStatistics summarise_cycles(const Recording& recording, const Segmentation&
   return result;
 }
 
-std::vector<Cycle> table_of(const Recording& recording, const Segmentation& segmentation) {
-  std::vector<Cycle> table;
-  for (const DetectedSlip& slip : segmentation.slips) {
-    Cycle row;
-    row.peak_s = recording.time_s()[slip.peak];
-    row.trough_s = recording.time_s()[slip.trough];
-    row.peak_force = slip.peak_force;
-    row.trough_force = slip.trough_force;
-    table.push_back(row);
-  }
-  return table;
-}
-
 void add_measured_spacing(const Recording& recording, const FrequencyReport& frequency, const CycleStatistics& cycles,
                           Derived& derived) {
   if (!frequency.quoted.value) {
@@ -180,9 +159,9 @@ void add_measured_spacing(const Recording& recording, const FrequencyReport& fre
   const double of_speed = recording.conditions().speed_standard_error_m_per_s.value_or(0.0) / speed;
   const double relative = std::hypot(of_frequency, of_speed);
   const double freedom = std::max(1.0, static_cast<double>(cycles.count) - 3.0);
-  derived.pattern_spacing_m = with_interval(spacing, spacing * relative, freedom);
+  derived.pattern_spacing_m = fit::symmetric(spacing, spacing * relative, freedom);
   derived.pattern_spacing_m.note = "V / f at the measured speed";
-  derived.impulse_rate_per_m = with_interval(1.0 / spacing, relative / spacing, freedom);
+  derived.impulse_rate_per_m = fit::symmetric(1.0 / spacing, relative / spacing, freedom);
 }
 
 Warnings collect_warnings(const Recording& recording, const Analysis& analysis) {

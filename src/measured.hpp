@@ -16,9 +16,6 @@ FrequencyReport report_frequency(const Recording& recording, const Segmentation&
 
 CycleStatistics summarise_cycles(const Recording& recording, const Segmentation& segmentation, const FitResult* fit);
 
-/// Detected cycles without a fit.
-std::vector<Cycle> table_of(const Recording& recording, const Segmentation& segmentation);
-
 /// Spacing V/f and impulse rate from the quoted frequency; uncertainty of the speed included where it is given.
 void add_measured_spacing(const Recording& recording, const FrequencyReport& frequency, const CycleStatistics& cycles,
                           Derived& derived);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "fit/cycle_table.hpp"
 #include "measured.hpp"
 #include "slipfit/sweep.hpp"
 #include "sweep_checks.hpp"
@@ -71,7 +72,7 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   analysis.frequency =
       report_frequency(recording, signals.segmentation, signals.spectral, judgement.verdict, fit ? &*fit : nullptr);
   analysis.cycles = summarise_cycles(recording, signals.segmentation, fit ? &*fit : nullptr);
-  analysis.cycle_table = fit ? fit->cycles : table_of(recording, signals.segmentation);
+  analysis.cycle_table = fit ? fit->cycles : fit::detected_cycles(recording, signals.segmentation);
   if (fit && analysis.verdict != Verdict::StickSlip) withdraw_parameters(*fit);
   if (fit) analysis.derived = derive_from_model(*fit, recording.conditions());
   if (!fit && recording.conditions().measured_spacing_m) {

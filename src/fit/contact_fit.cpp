@@ -8,6 +8,7 @@
 
 #include "fit/contact_cycles.hpp"
 #include "fit/contact_moments.hpp"
+#include "fit/cycle_table.hpp"
 #include "fit/intervals.hpp"
 #include "signal/robust.hpp"
 
@@ -212,14 +213,7 @@ std::optional<FitResult> fit_contact(const Recording& recording, const Segmentat
                         "a sensor at the contact: slope of the ramps, both jumps and the slip time give all of it"}};
   result.conditional_on.emplace_back(
       "Coulomb friction (one speed cannot tell zeta and F_s - F_k from friction that depends on speed)");
-  for (const DetectedSlip& slip : segmentation.slips) {
-    Cycle row;
-    row.peak_s = recording.time_s()[slip.peak];
-    row.trough_s = recording.time_s()[slip.trough];
-    row.peak_force = slip.peak_force;
-    row.trough_force = slip.trough_force;
-    result.cycles.push_back(row);
-  }
+  result.cycles = detected_cycles(recording, segmentation);
   ContactReporter(recording, *found, moments, *solution, result).report();
   if (!options.fixed.empty() || options.tier) {
     result.warnings.push_back({"option_ignored", "--fix and --tier do not apply to a sensor at the contact"});

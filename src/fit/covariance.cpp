@@ -74,7 +74,8 @@ std::vector<Index> held_rows(const Held& held) {
   return rows;
 }
 
-/// A held parameter: its row and column of the normal matrix become those of an exactly known one.
+}  // namespace
+
 void hold_rows(MatrixXd& matrix, const std::vector<Index>& rows) {
   for (const Index row : rows) {
     matrix.row(row).setZero();
@@ -82,8 +83,6 @@ void hold_rows(MatrixXd& matrix, const std::vector<Index>& rows) {
     matrix(row, row) = 1.0;
   }
 }
-
-}  // namespace
 
 MatrixXd white_covariance(const BlockFit& fit, const std::vector<Normal>& normals, const Held& held, bool continuous) {
   const Index own = own_size(fit);

@@ -32,6 +32,9 @@ Normal normal_of(const BlockFit& fit, std::size_t cycle);
 /// Means over all cycles of the fit.
 Selection select(const BlockFit& fit);
 
+/// Held parameters: their rows and columns of a normal matrix become those of exactly known ones.
+void hold_rows(Eigen::MatrixXd& matrix, const std::vector<Eigen::Index>& rows);
+
 /// Inverse normal matrix seen through the quantities: S' H^-1 S, with the ramps' coupling of neighbours where
 /// continuous.
 Eigen::MatrixXd white_covariance(const BlockFit& fit, const std::vector<Normal>& normals, const Held& held,

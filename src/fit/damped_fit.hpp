@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fit/block_fit.hpp"
+#include "fit/held_values.hpp"
 #include "fit/misfit.hpp"
 #include "fit/uncertainty.hpp"
 #include "slipfit/signal/cycles.hpp"
@@ -22,13 +23,6 @@ struct DampedFit {
   std::size_t outliers = 0;    ///< of `excluded`, found by the fit
   Uncertainty uncertainty;
   std::optional<PhaseMisfit> misfit;  ///< slips are not shaped like the model's; the covariances allow for it
-};
-
-/// Values (natural parameters, zeta itself) at which shared parameters are held.
-struct HeldValues {
-  std::optional<double> stiffness_N_per_m;
-  std::optional<double> omega_rad_per_s;
-  std::optional<double> damping_ratio;
 };
 
 /// The per-cycle block fit with all that makes it stand real recordings: several starts in zeta, a level that may

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fit/contact_fit.hpp"
+#include "fit/cycle_table.hpp"
 #include "fit/damped_fit.hpp"
 #include "fit/parameters.hpp"
 #include "fit/tiers.hpp"
@@ -20,12 +21,7 @@ using fit::CycleState;
 using fit::DampedFit;
 
 fit::HeldValues held_values(const FitOptions& options) {
-  fit::HeldValues held;
-  for (const auto& [name, value] : options.fixed) {
-    if (name == "stiffness_N_per_m") held.stiffness_N_per_m = value;
-    if (name == "natural_frequency_rad_per_s") held.omega_rad_per_s = value;
-    if (name == "damping_ratio") held.damping_ratio = value;
-  }
+  fit::HeldValues held = fit::fixed_values(options);
   if (options.tier == Tier::Undamped) held.damping_ratio = 0.0;
   return held;
 }
@@ -57,14 +53,7 @@ Evidence weigh(const Recording& recording, const DampedFit& damped, const fit::R
 
 /// The table of all detected cycles, with what the fit says of those that it uses.
 void tabulate(const Recording& recording, const Segmentation& segmentation, const BlockFit& blocks, FitResult& result) {
-  for (const DetectedSlip& slip : segmentation.slips) {
-    Cycle row;
-    row.peak_s = recording.time_s()[slip.peak];
-    row.trough_s = recording.time_s()[slip.trough];
-    row.peak_force = slip.peak_force;
-    row.trough_force = slip.trough_force;
-    result.cycles.push_back(row);
-  }
+  result.cycles = fit::detected_cycles(recording, segmentation);
   for (std::size_t c = 0; c < blocks.size(); ++c) {
     const CycleState state = blocks.state(c);
     const double* own = blocks.parameters.cycles[c].data();

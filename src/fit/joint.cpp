@@ -132,22 +132,21 @@ double speed_ratio(std::span<const SweepRecording> recordings) {
   return high / low;
 }
 
-/// `velocity`: the outcome of that law.
-LawChoice choose_law(const fit::SweepFits& fits, const Outcome& velocity, double speeds, std::optional<Tier> forced) {
-  if (forced) return {*forced == Tier::Velocity, "asked for by --tier"};
+LawChoice choose_by_chance(const fit::SweepFits& fits, double speeds) {
   if (speeds < kLeastSpeedRatio) {
     return {false, fmt::format("the speeds span a factor of {:.2g} only: one speed cannot tell alpha", speeds)};
   }
   const std::string chance = fmt::format("chance of such a gain under Coulomb friction: {:.2g}", fits.p_value);
   if (!fits.depends_on_speed) return {false, "Coulomb friction explains the sweep; " + chance};
+  return {true, chance};
+}
+
+/// Where residuals are larger than the noise and the recordings disagree, misfit pays for parameters too: what counts
+/// is whether they hold from one recording to the other.
+bool only_misfit_pays(const Outcome& velocity) {
   const double slope = velocity.values(fit::kFrictionSlope);
   const double se = std::sqrt(velocity.covariance(fit::kFrictionSlope, fit::kFrictionSlope));
-  // Where residuals are larger than the noise and the recordings disagree, misfit pays for parameters too: what counts
-  // is whether they hold from one recording to the other.
-  if (is_misfit(velocity.solution) && velocity.disagree && !(std::abs(slope) > 3.0 * se)) {
-    return {false, "the recordings disagree by more than the dependence on the speed"};
-  }
-  return {true, chance};
+  return is_misfit(velocity.solution) && velocity.disagree && !(std::abs(slope) > 3.0 * se);
 }
 
 /// Speed-dependent friction has two parameters more, its mean slope and its rate.
@@ -297,12 +296,18 @@ std::optional<JointFit> fit_jointly(std::span<const SweepRecording> recordings, 
   if (data.fitted.size() < 2) return std::nullopt;
   const std::optional<fit::SweepFits> fits = fit::fit_sweep(data, options);
   if (!fits) return std::nullopt;
-  const Outcome velocity = weigh(data, fits->velocity);
-  const LawChoice choice = choose_law(*fits, velocity, speed_ratio(recordings), options.tier);
+  LawChoice choice = options.tier ? LawChoice{*options.tier == Tier::Velocity, "asked for by --tier"}
+                                  : choose_by_chance(*fits, speed_ratio(recordings));
   const bool have_coulomb = std::isfinite(fits->coulomb.chi2);
-  JointFit joint = choice.velocity || !have_coulomb
-                       ? Assembler(recordings, data, velocity).assemble(choice)
-                       : Assembler(recordings, data, weigh(data, fits->coulomb)).assemble(choice);
+  // Weighing fits once without each recording: not for a law that is left.
+  std::optional<Outcome> outcome;
+  if (choice.velocity || !have_coulomb) outcome.emplace(weigh(data, fits->velocity));
+  if (choice.velocity && !options.tier && only_misfit_pays(*outcome)) {
+    choice = {false, "the recordings disagree by more than the dependence on the speed"};
+    if (have_coulomb) outcome.reset();
+  }
+  if (!outcome) outcome.emplace(weigh(data, fits->coulomb));
+  JointFit joint = Assembler(recordings, data, *outcome).assemble(choice);
   joint.fit.candidates = candidates_of(*fits, choice);
   return joint;
 }

@@ -1,10 +1,10 @@
 #include "fit/joint_quantities.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
+#include "fit/intervals.hpp"
 #include "model/velocity_track.hpp"
 
 namespace slipfit::fit {
@@ -102,7 +102,7 @@ std::optional<SweepJet> SweepModel::spacing(double speed_m_per_s, double load) c
 SweepIntervals::SweepIntervals(const SweepMatrix& covariance, double degrees_of_freedom)
     : matrix_(covariance),
       degrees_of_freedom_(std::max(1.0, degrees_of_freedom)),
-      quantile_(boost::math::quantile(boost::math::students_t_distribution<double>(degrees_of_freedom_), 0.975)) {}
+      quantile_(t_quantile(degrees_of_freedom_)) {}
 
 double SweepIntervals::error(const SweepJet& y) const {
   return std::sqrt(std::max(0.0, covariance(y, y)));

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "fit/covariance.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -104,7 +105,7 @@ double residual_freedom(const JointProblem& problem, const JointHeld& held) {
 
 class SweepFitter {
  public:
-  SweepFitter(const SweepData& data, const FitOptions& options) : data_(data), options_(options) {}
+  SweepFitter(const SweepData& data, const FitOptions& options) : data_(data), fixed_(fixed_values(options)) {}
 
   std::optional<SweepFits> fit() const {
     std::optional<JointSolution> free = fit_velocity({false, false});
@@ -130,11 +131,9 @@ class SweepFitter {
 
   JointHeld held_parameters(SweepLaw law) const {
     JointHeld held{};
-    for (const auto& [name, value] : options_.fixed) {
-      if (name == "stiffness_N_per_m") held[kJointStiffness] = true;
-      if (name == "natural_frequency_rad_per_s") held[kJointFrequency] = true;
-      if (name == "damping_ratio") held[kJointDamping] = true;
-    }
+    held[kJointStiffness] = fixed_.stiffness_N_per_m.has_value();
+    held[kJointFrequency] = fixed_.omega_rad_per_s.has_value();
+    held[kJointDamping] = fixed_.damping_ratio.has_value();
     if (law == SweepLaw::Coulomb) held[kFrictionSlope] = held[kFrictionRate] = true;
     return held;
   }
@@ -148,11 +147,9 @@ class SweepFitter {
     JointShared& shared = problem.parameters.shared;
     shared = {signal::median(values[0]), signal::median(values[1]), std::clamp(signal::median(values[2]), 0.0, 0.3),
               0.0, 0.0};
-    for (const auto& [name, value] : options_.fixed) {
-      if (name == "stiffness_N_per_m") shared[kJointStiffness] = std::log(value);
-      if (name == "natural_frequency_rad_per_s") shared[kJointFrequency] = std::log(value);
-      if (name == "damping_ratio") shared[kJointDamping] = value;
-    }
+    if (fixed_.stiffness_N_per_m) shared[kJointStiffness] = std::log(*fixed_.stiffness_N_per_m);
+    if (fixed_.omega_rad_per_s) shared[kJointFrequency] = std::log(*fixed_.omega_rad_per_s);
+    if (fixed_.damping_ratio) shared[kJointDamping] = *fixed_.damping_ratio;
     std::vector<double> levels;
     std::vector<double> differences;
     for (std::size_t r = 0; r < used.size(); ++r) {
@@ -237,17 +234,15 @@ class SweepFitter {
   }
 
   const SweepData& data_;
-  const FitOptions& options_;
+  HeldValues fixed_;
 };
 
-/// Held parameters: rows of the normal matrix become those of exactly known ones.
-void hold(MatrixXd& matrix, const JointHeld& held) {
+std::vector<Index> held_rows(const JointHeld& held) {
+  std::vector<Index> rows;
   for (std::size_t i = 0; i < held.size(); ++i) {
-    if (!held[i]) continue;
-    matrix.row(static_cast<Index>(i)).setZero();
-    matrix.col(static_cast<Index>(i)).setZero();
-    matrix(static_cast<Index>(i), static_cast<Index>(i)) = 1.0;
+    if (held[i]) rows.push_back(static_cast<Index>(i));
   }
+  return rows;
 }
 
 MatrixXd inverse(const MatrixXd& matrix) {
@@ -258,12 +253,7 @@ MatrixXd inverse(const MatrixXd& matrix) {
 
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
   SweepData data;
-  HeldValues held;
-  for (const auto& [name, value] : options.fixed) {
-    if (name == "stiffness_N_per_m") held.stiffness_N_per_m = value;
-    if (name == "natural_frequency_rad_per_s") held.omega_rad_per_s = value;
-    if (name == "damping_ratio") held.damping_ratio = value;
-  }
+  const HeldValues held = fixed_values(options);
   data.loads_known = std::all_of(recordings.begin(), recordings.end(), [](const SweepRecording& sweep) {
     return sweep.recording.conditions().normal_force_N.has_value();
   });
@@ -332,11 +322,12 @@ JointCovariance covariance_of(const SweepData& data, const JointSolution& soluti
   const auto columns = static_cast<Index>(solution.problem->columns());
   MatrixXd total = MatrixXd::Zero(columns, columns);
   for (const JointProblem::Normal& normal : normals) total += normal.matrix;
+  const std::vector<Index> held = held_rows(solution.held);
   JointCovariance result;
   result.from_cycles = std::any_of(data.fitted.begin(), data.fitted.end(),
                                    [&](std::size_t i) { return data.single[i]->uncertainty.from_cycles; });
   if (!result.from_cycles) {
-    hold(total, solution.held);
+    hold_rows(total, held);
     const double variance = std::max(1.0, solution.chi2 / solution.degrees_of_freedom);
     result.matrix = variance * inverse(total);
     result.degrees_of_freedom = static_cast<double>(solution.problem->cycle_count());
@@ -347,20 +338,17 @@ JointCovariance covariance_of(const SweepData& data, const JointSolution& soluti
     for (std::size_t i = 0; i < normals.size(); ++i) {
       MatrixXd remaining = total - normals[i].matrix;
       VectorXd score = normals[i].score;
-      hold(remaining, solution.held);
-      for (std::size_t p = 0; p < kJointShared; ++p) {
-        if (solution.held[p]) score(static_cast<Index>(p)) = 0.0;
-      }
+      hold_rows(remaining, held);
+      for (const Index row : held) score(row) = 0.0;
       steps.row(static_cast<Index>(i)) = remaining.ldlt().solve(score).transpose();
     }
     const MatrixXd centred = steps.rowwise() - steps.colwise().mean();
     result.matrix = (count - 1.0) / count * centred.transpose() * centred;
     result.degrees_of_freedom = std::max(1.0, count - 1.0);
   }
-  for (std::size_t i = 0; i < kJointShared; ++i) {
-    if (!solution.held[i]) continue;
-    result.matrix.row(static_cast<Index>(i)).setZero();
-    result.matrix.col(static_cast<Index>(i)).setZero();
+  for (const Index row : held) {
+    result.matrix.row(row).setZero();
+    result.matrix.col(row).setZero();
   }
   return result;
 }

@@ -1,12 +1,12 @@
 #include "predict/delta.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "fit/intervals.hpp"
 #include "model/slip.hpp"
 #include "predict/velocity.hpp"
 #include "slipfit/model/sensitivity.hpp"
@@ -57,10 +57,8 @@ ModelJets jets_of(const ModelEstimate& model) {
           Jet(law.alpha_s_per_m, 5)};
 }
 
-Propagation::Propagation(const ModelEstimate& model) : model_(model) {
-  const boost::math::students_t_distribution<double> student(std::max(1.0, model.degrees_of_freedom));
-  quantile_ = boost::math::quantile(student, 0.975);
-}
+Propagation::Propagation(const ModelEstimate& model)
+    : model_(model), quantile_(fit::t_quantile(model.degrees_of_freedom)) {}
 
 double Propagation::standard_error(const Jet& y) const {
   double variance = 0.0;
