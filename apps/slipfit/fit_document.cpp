@@ -29,8 +29,9 @@ constexpr std::array<Needed, 4> kNeeded{{
     {"friction_difference_N", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
 }};
 
-constexpr const char* kSlope = "friction_slope_N_s_per_m";
-constexpr const char* kAlpha = "alpha_s_per_m";
+constexpr const char* kSlope = slipfit::kModelValueNames[4];
+constexpr const char* kAlpha = slipfit::kModelValueNames[5];
+constexpr const char* kAgeing = slipfit::kModelValueNames[6];
 
 bool is_known(const std::string& status) {
   return status == "identified" || status == "weak" || status == "fixed";
@@ -83,12 +84,13 @@ bool damping_identified(const JsonNode& damping) {
   return low && *low > 0.0;
 }
 
-/// Coulomb friction: the four. Friction that depends on the speed: its slope and rate beside them.
-std::vector<std::string> names_of(const slipfit::ModelEstimate& estimate) {
-  std::vector<std::string> names;
-  for (const Needed& needed : kNeeded) names.emplace_back(needed.name);
-  if (estimate.speed_dependence) names.insert(names.end(), {kSlope, kAlpha});
-  return names;
+/// Rows of ModelEstimate::covariance that the model has: the four, of friction that depends on the speed its slope and
+/// rate, of static friction that ages its rate.
+std::vector<std::size_t> places_of(const slipfit::ModelEstimate& estimate) {
+  std::vector<std::size_t> places{0, 1, 2, 3};
+  if (estimate.speed_dependence) places.insert(places.end(), {4, 5});
+  if (estimate.ageing) places.push_back(6);
+  return places;
 }
 
 /// Standard errors of (ln k, ln w_n, zeta, ln dF) from those of the parameters; empty where one is null.
@@ -113,9 +115,9 @@ std::size_t row_of(const JsonNode& names, const std::string& name) {
 }
 
 /// Rows in the correlation's matrix.
-std::vector<std::size_t> rows_of(const JsonNode& names, const std::vector<std::string>& wanted) {
+std::vector<std::size_t> rows_of(const JsonNode& names, const std::vector<std::size_t>& places) {
   std::vector<std::size_t> rows;
-  for (const std::string& name : wanted) rows.push_back(row_of(names, name));
+  for (const std::size_t place : places) rows.push_back(row_of(names, slipfit::kModelValueNames[place]));
   return rows;
 }
 
@@ -141,7 +143,7 @@ std::optional<std::vector<double>> standard_errors(const JsonNode& document, con
   const JsonNode correlation = document.member("correlation");
   const std::size_t size = correlation.member("names").array_size();
   const bool scaled = correlation.has("scaled_se") && correlation.member("scaled_se").array_size() == size;
-  if (!estimate.speed_dependence) {
+  if (!estimate.speed_dependence && !estimate.ageing) {
     std::optional<std::vector<double>> errors = parameter_errors(document.member("parameters"), estimate);
     if (!errors || !scaled) return errors;
   }
@@ -161,7 +163,8 @@ void read_covariance(const JsonNode& document, slipfit::PredictionModel& model) 
   if (!document.has("correlation") || document.member("correlation").is_null()) return;
   const JsonNode correlation = document.member("correlation");
   const JsonNode names = correlation.member("names");
-  const std::vector<std::size_t> rows = rows_of(names, names_of(model.estimate));
+  const std::vector<std::size_t> places = places_of(model.estimate);
+  const std::vector<std::size_t> rows = rows_of(names, places);
   const JsonNode matrix = correlation.member("matrix");
   const std::size_t size = names.array_size();
   if (matrix.array_size() != size) matrix.fail(fmt::format("{} rows", size));
@@ -169,30 +172,41 @@ void read_covariance(const JsonNode& document, slipfit::PredictionModel& model) 
   if (!errors) return;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (std::size_t j = 0; j < rows.size(); ++j) {
-      model.estimate.covariance[i][j] =
+      model.estimate.covariance[places[i]][places[j]] =
           (*errors)[i] * (*errors)[j] * correlation_between(matrix, rows[i], rows[j], size);
     }
   }
   model.has_covariance = true;
 }
 
-/// Slope and rate stand in the correlation: there they have a value also where the data tell only one of them.
-std::optional<slipfit::SpeedDependence> speed_dependence(const std::string& file, const JsonNode& document) {
-  if (!document.has("model") || document.member("model").member("tier").text() != "velocity") return std::nullopt;
+/// From the correlation: there it has a value also where the data tell it only together with others.
+double working_value(const std::string& file, const JsonNode& document, const char* name) {
   if (!document.has("correlation") || document.member("correlation").is_null()) {
     refuse_document(file,
-                    "cannot predict: friction depends on the speed, and correlation (with its values) is missing");
+                    fmt::format("cannot predict: {} needs correlation (with its values), which is missing", name));
   }
   const JsonNode correlation = document.member("correlation");
   const JsonNode values = correlation.member("values");
   if (values.array_size() != correlation.member("names").array_size()) values.fail("as many numbers as names");
-  const auto value_of = [&](const char* name) {
-    const JsonNode node = values.element(row_of(correlation.member("names"), name));
-    const std::optional<double> value = node.number("a number");
-    if (!value) node.fail("a number");
-    return *value;
-  };
-  return slipfit::SpeedDependence{value_of(kSlope), value_of(kAlpha)};
+  const JsonNode node = values.element(row_of(correlation.member("names"), name));
+  const std::optional<double> value = node.number("a number");
+  if (!value) node.fail("a number");
+  return *value;
+}
+
+std::optional<slipfit::SpeedDependence> speed_dependence(const std::string& file, const JsonNode& document) {
+  if (!document.has("model") || document.member("model").member("tier").text() != "velocity") return std::nullopt;
+  return slipfit::SpeedDependence{working_value(file, document, kSlope), working_value(file, document, kAlpha)};
+}
+
+std::optional<slipfit::Ageing> ageing(const std::string& file, const JsonNode& document) {
+  if (!document.has("model") || !document.member("model").has("ageing_reference_s")) return std::nullopt;
+  const JsonNode reference = document.member("model").member("ageing_reference_s");
+  const std::optional<double> stick_s = reference.number("a number > 0");
+  if (!stick_s || !(*stick_s > 0.0)) reference.fail("a number > 0");
+  const double rate_N = working_value(file, document, kAgeing);
+  if (!(rate_N > 0.0)) refuse_document(file, "cannot predict: ageing_N is not above 0");
+  return slipfit::Ageing{rate_N, *stick_s};
 }
 
 std::optional<slipfit::Estimate> kinetic_friction_N(const JsonNode& parameters) {
@@ -241,6 +255,7 @@ FitDocument read_fit_document(const std::string& file) {
     *targets[i] = checked_value(parameters.member(kNeeded[i].name), kNeeded[i]);
   }
   estimate.speed_dependence = speed_dependence(file, document);
+  estimate.ageing = ageing(file, document);
   estimate.damping_identified = damping_identified(parameters.member(kNeeded[kDamping].name));
   estimate.degrees_of_freedom = degrees_of_freedom(document);
   read_covariance(document, result.model);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fit/joint_ageing.hpp"
 #include "fit/joint_parameters.hpp"
 #include "fit/joint_quantities.hpp"
 #include "fit/joint_solution.hpp"
@@ -15,6 +16,7 @@ namespace slipfit {
 namespace {
 
 using fit::JointSolution;
+using fit::StaticFriction;
 using fit::SweepData;
 using fit::SweepIntervals;
 using fit::SweepMatrix;
@@ -61,15 +63,22 @@ struct LeftOut {
   }
 };
 
-LeftOut leave_out_each(const SweepData& data, const JointSolution& solution) {
+/// A line through few recordings counts for fewer than the cycles do.
+double degrees_of_freedom(const fit::JointCovariance& covariance, const JointSolution& solution, StaticFriction kind) {
+  if (kind == StaticFriction::Constant) return covariance.degrees_of_freedom;
+  return std::min(covariance.degrees_of_freedom, std::max(1.0, static_cast<double>(solution.problem->size()) - 2.0));
+}
+
+LeftOut leave_out_each(const SweepData& data, const JointSolution& solution, StaticFriction kind) {
   LeftOut result;
   for (const std::size_t recording : data.fitted) {
     result.each.emplace_back();
     const std::optional<JointSolution> without = fit::leave_out(data, solution, recording);
     if (!without) continue;
     const fit::JointCovariance covariance = fit::covariance_of(data, *without);
-    result.each.back() = LeftOut::One{fit::sweep_values(*without), fit::sweep_covariance(*without, covariance),
-                                      covariance.degrees_of_freedom};
+    result.each.back() =
+        LeftOut::One{fit::sweep_values(*without, kind), fit::sweep_covariance(*without, covariance, kind),
+                     degrees_of_freedom(covariance, *without, kind)};
   }
   return result;
 }
@@ -96,6 +105,7 @@ bool is_misfit(const JointSolution& solution) {
 /// A solution with the intervals that it deserves.
 struct Outcome {
   const JointSolution& solution;
+  StaticFriction static_friction = StaticFriction::Constant;
   SweepVector values;
   SweepMatrix covariance;
   double degrees_of_freedom = 1.0;
@@ -105,8 +115,13 @@ struct Outcome {
 
 Outcome weigh(const SweepData& data, const JointSolution& solution) {
   const fit::JointCovariance covariance = fit::covariance_of(data, solution);
-  Outcome outcome{solution, fit::sweep_values(solution), fit::sweep_covariance(solution, covariance),
-                  covariance.degrees_of_freedom, leave_out_each(data, solution)};
+  const StaticFriction kind = fit::static_friction_of(solution);
+  Outcome outcome{solution,
+                  kind,
+                  fit::sweep_values(solution, kind),
+                  fit::sweep_covariance(solution, covariance, kind),
+                  degrees_of_freedom(covariance, solution, kind),
+                  leave_out_each(data, solution, kind)};
   outcome.disagree = recordings_disagree(outcome.values, outcome.covariance, outcome.left_out);
   if (outcome.disagree) {
     outcome.covariance += outcome.left_out.covariance();
@@ -141,12 +156,30 @@ LawChoice choose_by_chance(const fit::SweepFits& fits, double speeds) {
   return {true, chance};
 }
 
-/// Where residuals are larger than the noise and the recordings disagree, misfit pays for parameters too: what counts
-/// is whether they hold from one recording to the other.
-bool only_misfit_pays(const Outcome& velocity) {
-  const double slope = velocity.values(fit::kFrictionSlope);
-  const double se = std::sqrt(velocity.covariance(fit::kFrictionSlope, fit::kFrictionSlope));
-  return is_misfit(velocity.solution) && velocity.disagree && !(std::abs(slope) > 3.0 * se);
+/// Root mean square of ln (spacing predicted without a recording / its own); no prediction counts as a factor of 2.
+double left_out_error(const SweepData& data, const Outcome& outcome) {
+  double square = 0.0;
+  for (std::size_t run = 0; run < data.fitted.size(); ++run) {
+    const fit::BlockFit& blocks = outcome.solution.problem->recording(run);
+    const double speed = blocks.scales().speed_m_per_s;
+    double error = std::log(kWidestFactor);
+    if (const auto& one = outcome.left_out.each[run]) {
+      const SweepModel model(fit::with_damping_cut(one->values, one->covariance), data.scales);
+      const auto spacing = model.spacing(speed, outcome.solution.problem->run(run).load);
+      if (spacing) error = std::min(error, std::abs(std::log(spacing->a / (speed * fit::median_period_s(blocks)))));
+    }
+    square += error * error;
+  }
+  return std::sqrt(square / static_cast<double>(data.fitted.size()));
+}
+
+/// Where residuals are larger than the noise, misfit pays for parameters too: what counts is whether the law holds from
+/// one recording to the other.
+LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
+  return {velocity_error < coulomb_error,
+          fmt::format("residuals are well above the noise; spacing predicted without each recording is off by {:.2g} % "
+                      "with F_k(v), by {:.2g} % under Coulomb friction",
+                      100.0 * std::expm1(velocity_error), 100.0 * std::expm1(coulomb_error))};
 }
 
 /// Speed-dependent friction has two parameters more, its mean slope and its rate.
@@ -223,6 +256,7 @@ class Assembler {
     evidence.shares_all = joint.level_shared && joint.difference_shared;
     evidence.misfit = is_misfit(outcome_.solution);
     evidence.held = outcome_.solution.held;
+    evidence.static_friction = outcome_.static_friction;
     evidence.cycles = problem.cycle_count();
     evidence.samples_per_slip = samples_per_slip(recordings_, data_);
     if (data_.loads_known)
@@ -240,7 +274,11 @@ class Assembler {
            "the recordings of the sweep do not agree on one set of parameters: intervals are widened to hold what "
            "leaving out each recording changes"});
     }
-    if (!joint.difference_shared) {
+    if (outcome_.static_friction == StaticFriction::Ages) {
+      joint.fit.warnings.push_back({"static_friction_ages",
+                                    "static friction is larger after longer sticks: predictions take it to grow with "
+                                    "the logarithm of the stick time (ageing_N)"});
+    } else if (!joint.difference_shared) {
       joint.fit.warnings.push_back({"static_friction_differs",
                                     "static friction differs between the recordings (ageing, or another state of the "
                                     "surface): F_s - F_k is their mean"});
@@ -302,9 +340,10 @@ std::optional<JointFit> fit_jointly(std::span<const SweepRecording> recordings, 
   // Weighing fits once without each recording: not for a law that is left.
   std::optional<Outcome> outcome;
   if (choice.velocity || !have_coulomb) outcome.emplace(weigh(data, fits->velocity));
-  if (choice.velocity && !options.tier && only_misfit_pays(*outcome)) {
-    choice = {false, "the recordings disagree by more than the dependence on the speed"};
-    if (have_coulomb) outcome.reset();
+  if (choice.velocity && !options.tier && have_coulomb && is_misfit(fits->velocity)) {
+    Outcome coulomb = weigh(data, fits->coulomb);
+    choice = choose_by_left_out(left_out_error(data, *outcome), left_out_error(data, coulomb));
+    if (!choice.velocity) outcome.emplace(std::move(coulomb));
   }
   if (!outcome) outcome.emplace(weigh(data, fits->coulomb));
   JointFit joint = Assembler(recordings, data, *outcome).assemble(choice);

@@ -34,6 +34,7 @@ SlopeRatio slope_ratio(double a);
 struct JointScales {
   double force = 1.0;               ///< of F_k(0+) and of F_s - F_k
   double slip_speed_m_per_s = 1.0;  ///< typical fastest sliding, (F_s - F_k) w_n / k
+  double stick_s = 1.0;             ///< typical stick time: static friction that ages is stated for it
 };
 
 /// What a recording of the sweep has of its own.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -23,6 +24,7 @@ class SweepReporter {
   void report() {
     add_positive("stiffness_N_per_m", model_.stiffness, 0.05, evidence_.held[kJointStiffness]);
     add_positive("friction_difference_N", model_.difference, 0.1, false);
+    if (ages()) add_ageing();
     add_absolute("static_friction_N", model_.level + model_.difference);
     add_absolute("kinetic_friction_N", model_.level);
     add_positive("natural_frequency_rad_per_s", model_.omega, 0.05, evidence_.held[kJointFrequency]);
@@ -49,6 +51,17 @@ class SweepReporter {
                       (resolved() || (name == "stiffness_N_per_m" && !evidence_.misfit));
     add(std::move(name), intervals_.of_one_sign(y), good ? ParameterStatus::Identified : ParameterStatus::Weak,
         good || resolved() ? "" : what_is_missing());
+  }
+
+  [[nodiscard]] bool ages() const { return evidence_.static_friction == StaticFriction::Ages; }
+
+  void add_ageing() {
+    result_.parameters.back().estimate.note +=
+        fmt::format("{}at a stick time of {:.3g} s", result_.parameters.back().estimate.note.empty() ? "" : "; ",
+                    evidence_.scales.stick_s);
+    const bool good = resolved() && intervals_.error(model_.ageing) < 0.25 * std::abs(model_.ageing.a);
+    add("ageing_N", intervals_.plain(model_.ageing), good ? ParameterStatus::Identified : ParameterStatus::Weak,
+        resolved() ? "" : what_is_missing());
   }
 
   [[nodiscard]] std::string what_is_missing() const {
@@ -141,23 +154,22 @@ class SweepReporter {
     const bool damping_known = evidence_.held[kJointDamping] || damping_high() > 0.0;
     if (!damping_known || !(model_.difference.a > 0.0)) return;
     // In the order of ModelEstimate::covariance; of the positive ones the logarithm.
-    std::vector<std::pair<std::string, SweepJet>> all{{"stiffness_N_per_m", log(model_.stiffness)},
-                                                      {"natural_frequency_rad_per_s", log(model_.omega)},
-                                                      {"damping_ratio", model_.zeta},
-                                                      {"friction_difference_N", log(model_.difference)}};
+    const std::array<SweepJet, kModelValues> all{log(model_.stiffness),  log(model_.omega), model_.zeta,
+                                                 log(model_.difference), model_.slope,      model_.alpha,
+                                                 model_.ageing};
     ModelEstimate estimate{model_.stiffness.a, model_.omega.a, model_.zeta.a, model_.difference.a};
-    if (evidence_.depends_on_speed) {
-      all.emplace_back("friction_slope_N_s_per_m", model_.slope);
-      all.emplace_back("alpha_s_per_m", model_.alpha);
-      estimate.speed_dependence = SpeedDependence{model_.slope.a, model_.alpha.a};
-    }
+    if (evidence_.depends_on_speed) estimate.speed_dependence = SpeedDependence{model_.slope.a, model_.alpha.a};
+    if (ages()) estimate.ageing = Ageing{model_.ageing.a, evidence_.scales.stick_s};
+    std::vector<std::size_t> used{0, 1, 2, 3};
+    if (evidence_.depends_on_speed) used.insert(used.end(), {4, 5});
+    if (ages()) used.push_back(6);
     Correlation correlation;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      correlation.names.push_back(all[i].first);
+    for (const std::size_t i : used) {
+      correlation.names.emplace_back(kModelValueNames[i]);
       correlation.matrix.emplace_back();
-      for (std::size_t j = 0; j < all.size(); ++j) {
-        const double covariance = intervals_.covariance(all[i].second, all[j].second);
-        const double scale = intervals_.error(all[i].second) * intervals_.error(all[j].second);
+      for (const std::size_t j : used) {
+        const double covariance = intervals_.covariance(all[i], all[j]);
+        const double scale = intervals_.error(all[i]) * intervals_.error(all[j]);
         estimate.covariance[i][j] = covariance;
         correlation.matrix.back().push_back(i == j ? 1.0 : scale > 0.0 ? covariance / scale : 0.0);
       }

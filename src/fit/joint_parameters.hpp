@@ -18,6 +18,7 @@ struct SweepEvidence {
   bool shares_all = false;  ///< level and static friction are the same in all recordings
   bool misfit = false;      ///< residuals well above the noise: no interval holds what the model lacks
   JointHeld held{};
+  StaticFriction static_friction = StaticFriction::Constant;
   std::size_t cycles = 0;
   double samples_per_slip = 0.0;
   std::optional<double> reference_normal_force_N{};  ///< known for all recordings

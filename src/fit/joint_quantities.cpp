@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "fit/intervals.hpp"
+#include "fit/joint_ageing.hpp"
+#include "model/ageing.hpp"
 #include "model/velocity_track.hpp"
 
 namespace slipfit::fit {
 namespace {
-
-constexpr int kLevelValue = 5;
-constexpr int kDifferenceValue = 6;
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -27,34 +27,57 @@ double variance_of_mean(const std::vector<double>& values) {
   return square / (count * (count - 1.0));
 }
 
+/// F_s - F_k(0+) and rate of ageing as sums over the recordings' own F_s - F_k(0+).
+struct DifferenceWeights {
+  Eigen::VectorXd difference, rate;
+  double residual_variance = 0.0;  ///< of one recording around the line
+};
+
+DifferenceWeights weights_of(const JointSolution& solution, StaticFriction kind) {
+  const std::vector<double>& differences = solution.problem->parameters.differences;
+  if (kind == StaticFriction::Ages) {
+    AgeingLine line = ageing_line(solution);
+    return {std::move(line.difference_weights), std::move(line.rate_weights), line.residual_variance};
+  }
+  const auto count = static_cast<Eigen::Index>(differences.size());
+  return {Eigen::VectorXd::Constant(count, 1.0 / static_cast<double>(count)), Eigen::VectorXd::Zero(count),
+          static_cast<double>(count) * variance_of_mean(differences)};
+}
+
 }  // namespace
 
-SweepVector sweep_values(const JointSolution& solution) {
+SweepVector sweep_values(const JointSolution& solution, StaticFriction kind) {
   const JointProblem::Parameters& parameters = solution.problem->parameters;
+  const DifferenceWeights weights = weights_of(solution, kind);
+  const Eigen::Map<const Eigen::VectorXd> differences(parameters.differences.data(), weights.rate.size());
   SweepVector values;
   for (std::size_t i = 0; i < kJointShared; ++i) values(static_cast<Eigen::Index>(i)) = parameters.shared[i];
   values(kLevelValue) = mean(parameters.levels);
-  values(kDifferenceValue) = mean(parameters.differences);
+  values(kDifferenceValue) = weights.difference.dot(differences);
+  values(kAgeingValue) = weights.rate.dot(differences);
   return values;
 }
 
-SweepMatrix sweep_covariance(const JointSolution& solution, const JointCovariance& covariance) {
+SweepMatrix sweep_covariance(const JointSolution& solution, const JointCovariance& covariance, StaticFriction kind) {
   const JointProblem& problem = *solution.problem;
+  const DifferenceWeights weights = weights_of(solution, kind);
   Eigen::MatrixXd selection = Eigen::MatrixXd::Zero(covariance.matrix.rows(), kSweepValues);
   for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(kJointShared); ++i) selection(i, i) = 1.0;
   const auto& levels = problem.parameters.levels;
-  const auto& differences = problem.parameters.differences;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     selection(static_cast<Eigen::Index>(problem.level_column(i)), kLevelValue) =
         1.0 / static_cast<double>(levels.size());
   }
-  for (std::size_t i = 0; i < differences.size(); ++i) {
-    selection(static_cast<Eigen::Index>(problem.difference_column(i)), kDifferenceValue) =
-        1.0 / static_cast<double>(differences.size());
+  for (Eigen::Index i = 0; i < weights.rate.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(problem.difference_column(static_cast<std::size_t>(i)));
+    selection(row, kDifferenceValue) = weights.difference(i);
+    selection(row, kAgeingValue) = weights.rate(i);
   }
   SweepMatrix matrix = selection.transpose() * covariance.matrix * selection;
   matrix(kLevelValue, kLevelValue) += variance_of_mean(levels);
-  matrix(kDifferenceValue, kDifferenceValue) += variance_of_mean(differences);
+  Eigen::MatrixXd scatter(weights.rate.size(), 2);
+  scatter << weights.difference, weights.rate;
+  matrix.block<2, 2>(kDifferenceValue, kDifferenceValue) += weights.residual_variance * scatter.transpose() * scatter;
   return matrix;
 }
 
@@ -78,6 +101,8 @@ SweepModel::SweepModel(const SweepVector& values, const JointScales& scales) {
   alpha = jet(kFrictionRate) / scales.slip_speed_m_per_s;
   level = scales.force * jet(kLevelValue);
   difference = scales.force * jet(kDifferenceValue);
+  ageing = scales.force * jet(kAgeingValue);
+  reference_stick_s_ = scales.stick_s;
 }
 
 SweepJet SweepModel::excess_friction(double speed_m_per_s) const {
@@ -87,16 +112,52 @@ SweepJet SweepModel::excess_friction(double speed_m_per_s) const {
 }
 
 std::optional<SweepJet> SweepModel::spacing(double speed_m_per_s, double load) const {
+  const std::optional<SweepJet> aged_N = aged_difference_N(speed_m_per_s, load);
+  if (!aged_N) return std::nullopt;
+  const std::optional<Cycle> limit = cycle(speed_m_per_s, load, *aged_N);
+  if (!limit) return std::nullopt;
+  return speed_m_per_s * limit->period_s;
+}
+
+std::optional<SweepModel::Cycle> SweepModel::cycle(double speed_m_per_s, double load,
+                                                   const SweepJet& difference_N) const {
   const SweepJet u = stiffness * speed_m_per_s / omega;
-  const SweepJet z0 = load * difference / u - 2.0 * zeta;  // the slip starts from F_s - cV
+  const SweepJet z0 = load * difference_N / u - 2.0 * zeta;  // the slip starts from F_s - cV
   const SweepJet scaled_slope = load * slope * omega / stiffness;
   const SweepJet rate = alpha * speed_m_per_s;
   const auto track = model::VelocityTrack::solve(z0.a, zeta.a, scaled_slope.a, rate.a);
   if (!track || !track->resticks()) return std::nullopt;
+  const auto jet = [&](double value, const auto& p) {
+    SweepJet y(value);
+    y.v = p.d_z0 * z0.v + p.d_zeta * zeta.v + p.d_slope * scaled_slope.v + p.d_rate * rate.v;
+    return y;
+  };
   const model::TrackLine line = track->after();
-  SweepJet intercept(line.intercept);
-  intercept.v = line.d_z0 * z0.v + line.d_zeta * zeta.v + line.d_slope * scaled_slope.v + line.d_rate * rate.v;
-  return speed_m_per_s * (z0 - intercept) / omega;
+  const SweepJet tau_period = z0 - jet(line.intercept, line);
+  const model::TrackEnd& end = track->end();
+  SweepJet tau_slip(end.tau);
+  tau_slip.v = -jet(end.first.value, end.first).v / end.second.value;  // z'(tau) = 1 holds at the end
+  return Cycle{tau_period / omega, (tau_period - tau_slip) / omega};
+}
+
+std::optional<SweepJet> SweepModel::aged_difference_N(double speed_m_per_s, double load) const {
+  if (ageing.a == 0.0) return difference;
+  const auto stick_of = [&](double difference_N) -> std::optional<SweepJet> {
+    SweepJet held_N(difference_N, kDifferenceValue);
+    const std::optional<Cycle> limit = cycle(speed_m_per_s, load, held_N);
+    return limit ? std::optional(limit->stick_s) : std::nullopt;
+  };
+  const model::AgeingLaw law{difference.a, ageing.a, reference_stick_s_};
+  const std::optional<double> solution_N =
+      model::aged_difference_N(law, [&](double difference_N) -> std::optional<model::StickTime> {
+        const std::optional<SweepJet> stick_s = stick_of(difference_N);
+        if (!stick_s) return std::nullopt;
+        return model::StickTime{stick_s->a, stick_s->v(kDifferenceValue)};
+      });
+  if (!solution_N) return std::nullopt;
+  SweepJet stick_s = *stick_of(*solution_N);
+  const double by_difference = std::exchange(stick_s.v(kDifferenceValue), 0.0);
+  return model::aged_difference_N(*solution_N, difference, ageing, stick_s, by_difference, reference_stick_s_);
 }
 
 SweepIntervals::SweepIntervals(const SweepMatrix& covariance, double degrees_of_freedom)

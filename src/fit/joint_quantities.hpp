@@ -11,15 +11,22 @@
 
 namespace slipfit::fit {
 
-/// ln k, ln w_n, zeta, beta, rate (JointShared), then F_k(0+) and F_s - F_k(0+) at the reference load, both over
-/// JointScales::force and means over the recordings where each has its own.
-inline constexpr int kSweepValues = 7;
+/// ln k, ln w_n, zeta, beta, rate (JointShared), then at the reference load and over JointScales::force: F_k(0+) and
+/// F_s
+/// - F_k(0+), means over the recordings where each has its own, and the rate of ageing. Where static friction ages F_s
+/// - F_k(0+) is that after a stick of JointScales::stick_s.
+inline constexpr int kLevelValue = static_cast<int>(kJointShared);
+inline constexpr int kDifferenceValue = kLevelValue + 1;
+inline constexpr int kAgeingValue = kLevelValue + 2;
+inline constexpr int kSweepValues = kLevelValue + 3;
 using SweepJet = ceres::Jet<double, kSweepValues>;
 using SweepVector = Eigen::Matrix<double, kSweepValues, 1>;
 using SweepMatrix = Eigen::Matrix<double, kSweepValues, kSweepValues>;
 
-SweepVector sweep_values(const JointSolution& solution);
-SweepMatrix sweep_covariance(const JointSolution& solution, const JointCovariance& covariance);
+/// Of a solution; static friction constant, or ageing as its recordings say.
+enum class StaticFriction { Constant, Ages };
+SweepVector sweep_values(const JointSolution& solution, StaticFriction kind);
+SweepMatrix sweep_covariance(const JointSolution& solution, const JointCovariance& covariance, StaticFriction kind);
 
 /// zeta cannot be negative: where its best value is, the best values given zeta = 0 (by the covariance, to second
 /// order).
@@ -27,7 +34,7 @@ SweepVector with_damping_cut(const SweepVector& values, const SweepMatrix& covar
 
 /// The sweep's parameters in SI with their derivatives.
 struct SweepModel {
-  SweepJet stiffness, omega, zeta, slope, alpha, level, difference;
+  SweepJet stiffness, omega, zeta, slope, alpha, level, difference, ageing;
 
   SweepModel(const SweepVector& values, const JointScales& scales);
 
@@ -35,6 +42,18 @@ struct SweepModel {
   [[nodiscard]] SweepJet excess_friction(double speed_m_per_s) const;
   /// V times the period of the limit cycle; empty where there is none.
   [[nodiscard]] std::optional<SweepJet> spacing(double speed_m_per_s, double load) const;
+
+  /// The limit cycle of a given F_s - F_k(0+) at the reference load; empty where there is none.
+  struct Cycle {
+    SweepJet period_s, stick_s;
+  };
+  [[nodiscard]] std::optional<Cycle> cycle(double speed_m_per_s, double load, const SweepJet& difference_N) const;
+
+ private:
+  /// After the sticks of this speed.
+  [[nodiscard]] std::optional<SweepJet> aged_difference_N(double speed_m_per_s, double load) const;
+
+  double reference_stick_s_ = 1.0;
 };
 
 /// Student's t interval of a function of the sweep's parameters.

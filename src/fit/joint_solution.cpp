@@ -46,6 +46,13 @@ double spread_of_levels(const DampedFit& fit) {
   return fit.blocks.scales().force * std::sqrt(square / std::max(1.0, static_cast<double>(fit.blocks.size()) - 1.0));
 }
 
+/// From the end of a slip to the next onset, roughly.
+double typical_stick_s(const BlockFit& blocks) {
+  const double period_s = median_period_s(blocks);
+  const CycleState state = blocks.state(blocks.size() / 2);
+  return std::max(0.05 * period_s, period_s - state.slip.tau_end / state.omega_rad_per_s);
+}
+
 /// Mean of a steady recording; its error from ten stretches, which see wander as well as noise.
 SteadyRun steady_run(const Recording& recording, double load) {
   constexpr std::size_t kStretches = 10;
@@ -251,6 +258,14 @@ MatrixXd inverse(const MatrixXd& matrix) {
 
 }  // namespace
 
+double median_period_s(const BlockFit& blocks) {
+  std::vector<double> intervals_s;
+  for (std::size_t c = 1; c < blocks.size(); ++c) {
+    intervals_s.push_back(blocks.reference_s(c) - blocks.reference_s(c - 1));
+  }
+  return signal::median(intervals_s);
+}
+
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
   SweepData data;
   const HeldValues held = fixed_values(options);
@@ -273,7 +288,9 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
   }
   std::vector<double> forces;
   std::vector<double> impedances;
+  std::vector<double> sticks_s;
   for (const std::size_t i : data.fitted) {
+    sticks_s.push_back(typical_stick_s(data.single[i]->blocks));
     const Shared& shared = data.single[i]->blocks.parameters.shared;
     forces.push_back(std::abs(mean_onset_force(*data.single[i])) / data.loads[i]);
     impedances.push_back(std::exp(shared[0] - shared[1]));
@@ -281,6 +298,7 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
   if (forces.empty()) return data;
   data.scales.force = signal::median(forces);
   data.scales.slip_speed_m_per_s = data.scales.force / signal::median(impedances);
+  data.scales.stick_s = signal::median(sticks_s);
   return data;
 }
 

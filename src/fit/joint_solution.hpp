@@ -32,6 +32,9 @@ struct SweepData {
   std::vector<std::size_t> fitted;  ///< recordings with cycles
 };
 
+/// From onset to onset; a cycle that could not be fitted makes one interval long.
+double median_period_s(const BlockFit& blocks);
+
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options);
 
 /// What is tried: friction that depends on the speed, or Coulomb friction.

@@ -8,6 +8,7 @@
 
 #include "fit/intervals.hpp"
 #include "model/slip.hpp"
+#include "predict/ageing.hpp"
 #include "predict/velocity.hpp"
 #include "slipfit/model/sensitivity.hpp"
 
@@ -54,7 +55,8 @@ ModelJets jets_of(const ModelEstimate& model) {
           Jet(model.damping_ratio, 2),
           positive_parameter(model.friction_difference_N, 3),
           Jet(law.slope_N_s_per_m, 4),
-          Jet(law.alpha_s_per_m, 5)};
+          Jet(law.alpha_s_per_m, 5),
+          Jet(model.ageing.value_or(Ageing{}).rate_N, 6)};
 }
 
 Propagation::Propagation(const ModelEstimate& model)
@@ -86,6 +88,7 @@ Estimate unknown(std::string reason) {
 }
 
 CriticalPoint critical_point(const ModelEstimate& model, const Propagation& propagation) {
+  if (model.ageing) return ageing_critical_point(model, propagation);
   if (model.speed_dependence) return velocity_critical_point(model, propagation);
   if (!model.damping_identified) {
     const Estimate reason = unknown("the damping ratio cannot be told from 0");
@@ -110,6 +113,7 @@ CriticalPoint critical_point(const ModelEstimate& model, const Propagation& prop
 }
 
 MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s) {
+  if (model.ageing) return ageing_motion_at(model, speed_m_per_s);
   if (model.speed_dependence) return velocity_motion_at(model, speed_m_per_s);
   const auto [slider, friction] = body_of(model);
   const ModelJets p = jets_of(model);

@@ -13,11 +13,11 @@
 
 namespace slipfit::predict {
 
-/// Numbers that know their derivatives with respect to (ln k, ln w_n, zeta, ln dF, b, alpha).
+/// Numbers that know their derivatives with respect to (ln k, ln w_n, zeta, ln dF, b, alpha, rate of ageing).
 using Jet = ceres::Jet<double, static_cast<int>(kModelValues)>;
 
 struct ModelJets {
-  Jet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N, slope_N_s_per_m, alpha_s_per_m;
+  Jet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N, slope_N_s_per_m, alpha_s_per_m, ageing_N;
 };
 
 ModelJets jets_of(const ModelEstimate& model);
@@ -59,11 +59,13 @@ struct CycleJets {
 /// The motion at one speed.
 struct MotionJets {
   Regime regime = Regime::ContinuousSlip;
-  std::optional<CycleJets> cycle;     ///< empty: no stick-slip
-  std::optional<Jet> restick_margin;  ///< > 0 where the slip sticks again, nearly linear around 0; empty: not known
+  std::optional<Jet> aged_difference_N;  ///< F_s - F_k(0+) after the sticks of this speed, where it ages
+  std::optional<CycleJets> cycle;        ///< empty: no stick-slip
+  std::optional<Jet> restick_margin;     ///< > 0 where the slip sticks again, nearly linear around 0; empty: not known
   Jet total_damping_ratio;  ///< of small oscillations around steady sliding, which is unstable where it is < 0
 };
-/// By the Coulomb tier, or the velocity tier where `model` has a `speed_dependence`. speed > 0.
+/// By the Coulomb tier, or the velocity tier where `model` has a `speed_dependence`; where static friction ages, with
+/// that of the limit cycle. speed > 0.
 MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s);
 
 /// Spacing of the free oscillation inside a slip, an estimate only: V 2 pi / w. docs/model.md section 8

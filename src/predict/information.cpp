@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/velocity_track.hpp"
+#include "predict/ageing.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -27,6 +28,12 @@ class Cycle {
         zeta_(model.damping_ratio, 2),
         difference_(exponential(model.friction_difference_N, 3)),
         unit_(stiffness_ * speed_m_per_s / omega_) {
+    if (model.ageing) {
+      // After the sticks of this speed; that these follow F_s - F_k is a small part of what they tell of the rate.
+      const double aged_N = aged_difference_N(model, speed_m_per_s).value_or(0.0);
+      const double log_stick = (aged_N - model.friction_difference_N) / model.ageing->rate_N;
+      difference_ += CycleJet(model.ageing->rate_N, 6) * log_stick;
+    }
     const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
     slope_ = CycleJet(law.slope_N_s_per_m, 4) * omega_ / stiffness_;
     rate_ = CycleJet(law.alpha_s_per_m, 5) * speed_m_per_s;

@@ -34,6 +34,7 @@ std::vector<NamedJet> parameters_of(const ModelEstimate& model) {
     all.push_back({"friction_slope_N_s_per_m", p.slope_N_s_per_m});
     all.push_back({"alpha_s_per_m", p.alpha_s_per_m});
   }
+  if (model.ageing) all.push_back({"ageing_N", p.ageing_N});
   return all;
 }
 

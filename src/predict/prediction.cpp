@@ -29,9 +29,9 @@ class Predictor {
   [[nodiscard]] PredictedMotion motion_at(double speed_m_per_s) const {
     PredictedMotion row;
     row.speed_m_per_s = speed_m_per_s;
-    const Jet lambda = jets_.omega_rad_per_s * jets_.difference_N / (jets_.stiffness_N_per_m * speed_m_per_s);
-    row.lambda = positive(lambda);
     const predict::MotionJets motion = predict::motion_at(model_.estimate, speed_m_per_s);
+    const Jet difference_N = motion.aged_difference_N.value_or(jets_.difference_N);
+    row.lambda = positive(jets_.omega_rad_per_s * difference_N / (jets_.stiffness_N_per_m * speed_m_per_s));
     row.regime = predict::name_of(motion.regime);
     row.bistable = motion.regime == Regime::StickSlipBistable;
     if (motion.cycle) add_cycle(*motion.cycle, row);

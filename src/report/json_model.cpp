@@ -19,22 +19,33 @@ Json candidate_json(const Candidate& candidate, ForceQuantity quantity) {
   return json;
 }
 
+/// Its place in ModelEstimate::covariance.
+std::size_t place_of(const std::string& name) {
+  return static_cast<std::size_t>(std::find(kModelValueNames.begin(), kModelValueNames.end(), name) -
+                                  kModelValueNames.begin());
+}
+
 /// What the covariance belongs to, in the order of Correlation::names. A value that the data hardly tell alone, and
 /// whose parameter is therefore null, still stands here: together with the others it predicts.
 Json working_values_json(const Correlation& correlation, const ModelEstimate& estimate) {
   const SpeedDependence law = estimate.speed_dependence.value_or(SpeedDependence{});
-  const std::array<double, kModelValues> values{estimate.stiffness_N_per_m, estimate.natural_frequency_rad_per_s,
-                                                estimate.damping_ratio,     estimate.friction_difference_N,
-                                                law.slope_N_s_per_m,        law.alpha_s_per_m};
+  const std::array<double, kModelValues> values{estimate.stiffness_N_per_m,
+                                                estimate.natural_frequency_rad_per_s,
+                                                estimate.damping_ratio,
+                                                estimate.friction_difference_N,
+                                                law.slope_N_s_per_m,
+                                                law.alpha_s_per_m,
+                                                estimate.ageing.value_or(Ageing{}).rate_N};
   Json json = Json::array();
-  for (std::size_t i = 0; i < std::min(correlation.names.size(), values.size()); ++i) json.push_back(number(values[i]));
+  for (const std::string& name : correlation.names) json.push_back(number(values[place_of(name)]));
   return json;
 }
 
 /// With the matrix this is the whole covariance. Where zeta lies at 0 the se of the parameters is wider.
 Json scaled_errors_json(const Correlation& correlation, const ModelEstimate& estimate) {
   Json errors = Json::array();
-  for (std::size_t i = 0; i < correlation.names.size() && i < estimate.covariance.size(); ++i) {
+  for (const std::string& name : correlation.names) {
+    const std::size_t i = place_of(name);
     errors.push_back(number(std::sqrt(std::max(0.0, estimate.covariance[i][i]))));
   }
   return errors;

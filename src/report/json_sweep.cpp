@@ -47,6 +47,9 @@ std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sw
     json["model"] = model_json(sweep.joint->fit, ForceQuantity::Force_N);
     json["model"]["level_shared"] = sweep.joint->level_shared;
     json["model"]["static_friction_shared"] = sweep.joint->difference_shared;
+    if (const auto& model = sweep.joint->fit.estimate; model && model->ageing) {
+      json["model"]["ageing_reference_s"] = number(model->ageing->reference_stick_s);
+    }
     json["parameters"] = parameters_json(sweep.joint->fit);
     json["correlation"] = correlation_json(sweep.joint->fit);
   }

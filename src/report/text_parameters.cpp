@@ -19,9 +19,10 @@ struct ParameterName {
   std::string_view unit;
 };
 
-constexpr std::array<ParameterName, 17> kParameterNames{{
+constexpr std::array<ParameterName, 18> kParameterNames{{
     {"stiffness_N_per_m", "tangential stiffness k", "N/m"},
     {"friction_difference_N", "static minus kinetic friction", "N"},
+    {"ageing_N", "static friction's growth with ln stick time", "N"},
     {"static_friction_N", "static friction F_s", "N"},
     {"kinetic_friction_N", "kinetic friction F_k", "N"},
     {"natural_frequency_rad_per_s", "natural frequency w_n", "rad/s"},

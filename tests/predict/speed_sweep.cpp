@@ -1,5 +1,6 @@
 #include "speed_sweep.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -74,24 +75,57 @@ SlipEnd slide(const SpeedSweep& model, double speed_m_per_s, double extension_m)
   }
 }
 
+/// F_s after a stick, never below F_k.
+double aged_N(const SpeedSweep& model, double static_friction_N, double stick_s) {
+  if (model.ageing_N == 0.0) return static_friction_N;
+  return std::max(static_friction_N + model.ageing_N * std::log(stick_s), model.f0_N + model.f1_N);
+}
+
 /// The spring is stretched until F_s - cV pulls.
 double onset_extension_m(const SpeedSweep& model, double static_friction_N, double speed_m_per_s) {
   return (static_friction_N - Mass(model, speed_m_per_s).damping_N_s_per_m() * speed_m_per_s) / model.stiffness_N_per_m;
+}
+
+/// Stick after many cycles that begin with a stick of 10 s; 0 where it dies out.
+struct LimitCycle {
+  double stick_s = 0.0, slip_s = 0.0;
+};
+
+LimitCycle limit_cycle(const SpeedSweep& model, double speed_m_per_s) {
+  constexpr int kCycles = 300;
+  LimitCycle cycle{10.0, 0.0};
+  for (int i = 0; i < (model.ageing_N == 0.0 ? 1 : kCycles); ++i) {
+    const auto onset_m = [&](double stick_s) {
+      return onset_extension_m(model, aged_N(model, model.static_friction_N, stick_s), speed_m_per_s);
+    };
+    const SlipEnd end = slide(model, speed_m_per_s, onset_m(cycle.stick_s));
+    const double slip_s = end.duration_s;
+    // The ramp meets F_s(t) from below: iterated from a stick that is too long.
+    double stick_s = cycle.stick_s;
+    for (int j = 0; j < kCycles; ++j) stick_s = (onset_m(stick_s) - end.extension_m) / speed_m_per_s;
+    const double swing_s = 2.0 * std::acos(-1.0) / model.omega_rad_per_s;
+    if (slip_s > 1.2 * swing_s || !(stick_s > 1e-3 * swing_s)) return {};
+    cycle = {stick_s, slip_s};
+  }
+  return cycle;
+}
+
+double typical_stick_s(const SpeedSweep& model, double speed_m_per_s) {
+  return limit_cycle(model, speed_m_per_s).stick_s;
 }
 
 std::vector<double> forces_N(const SpeedSweep& model, double speed_m_per_s, double dt_s, std::size_t samples,
                              std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   const Mass mass(model, speed_m_per_s);
-  const auto draw = [&] {
-    const double static_N = model.static_friction_N + model.static_friction_sd_N * normal(random);
-    return onset_extension_m(model, static_N, speed_m_per_s);
-  };
+  const auto draw = [&] { return model.static_friction_N + model.static_friction_sd_N * normal(random); };
   const int substeps = static_cast<int>(std::ceil(dt_s * model.omega_rad_per_s / kStep));
   const double h = dt_s / substeps;
-  State state{0.9 * onset_extension_m(model, model.static_friction_N, speed_m_per_s), speed_m_per_s};
+  double static_N = draw();
+  double stick_s = 0.9 * typical_stick_s(model, speed_m_per_s);
+  const double first_N = aged_N(model, model.static_friction_N, stick_s);
+  State state{0.9 * onset_extension_m(model, first_N, speed_m_per_s), speed_m_per_s};
   bool sticks = true;
-  double onset_m = draw();
   std::vector<double> forces;
   for (std::size_t i = 0; i < samples; ++i) {
     forces.push_back(model.stiffness_N_per_m * state.extension_m + model.noise_rms_N * normal(random));
@@ -99,8 +133,13 @@ std::vector<double> forces_N(const SpeedSweep& model, double speed_m_per_s, doub
       if (!sticks) {
         state = mass.step(state, h);
         sticks = state.rate_m_per_s >= speed_m_per_s;
-        if (sticks) state.rate_m_per_s = speed_m_per_s, onset_m = draw();
-      } else if ((state.extension_m += speed_m_per_s * h) >= onset_m) {
+        if (sticks) state.rate_m_per_s = speed_m_per_s, static_N = draw(), stick_s = 0.0;
+        continue;
+      }
+      stick_s += h;
+      state.extension_m += speed_m_per_s * h;
+      const double onset_m = onset_extension_m(model, aged_N(model, static_N, stick_s), speed_m_per_s);
+      if (state.extension_m >= onset_m) {
         state = mass.step({onset_m, speed_m_per_s}, (state.extension_m - onset_m) / speed_m_per_s + 1e-3 * h);
         sticks = false;
       }
@@ -112,9 +151,8 @@ std::vector<double> forces_N(const SpeedSweep& model, double speed_m_per_s, doub
 }  // namespace
 
 double spacing_m(const SpeedSweep& model, double speed_m_per_s) {
-  const double onset_m = onset_extension_m(model, model.static_friction_N, speed_m_per_s);
-  const SlipEnd end = slide(model, speed_m_per_s, onset_m);
-  return speed_m_per_s * end.duration_s + (onset_m - end.extension_m);
+  const LimitCycle cycle = limit_cycle(model, speed_m_per_s);
+  return speed_m_per_s * (cycle.stick_s + cycle.slip_s);
 }
 
 double slip_s(const SpeedSweep& model, double speed_m_per_s) {

@@ -12,7 +12,8 @@ struct SpeedSweep {
   double stiffness_N_per_m = 1000.0;
   double omega_rad_per_s = 200.0;
   double damping_ratio = 0.08;
-  double static_friction_N = 6.0;
+  double static_friction_N = 6.0;  ///< after 1 s of stick
+  double ageing_N = 0.0;           ///< what ln (stick time / 1 s) adds to it
   double f0_N = 3.5;
   double f1_N = 0.5;
   double alpha_s_per_m = -8.0;
@@ -25,7 +26,7 @@ slipfit::SweepEntry record(const SpeedSweep& model, double speed_m_per_s, std::u
 std::vector<slipfit::SweepEntry> record(const SpeedSweep& model, const std::vector<double>& speeds_m_per_s,
                                         std::uint64_t seed);
 
-/// V times the period at the mean static friction.
+/// V times the period at the mean static friction, after many cycles; 0 where the slips die out.
 double spacing_m(const SpeedSweep& model, double speed_m_per_s);
 /// Duration of the first slip at the mean static friction.
 double slip_s(const SpeedSweep& model, double speed_m_per_s);

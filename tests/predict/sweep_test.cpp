@@ -70,7 +70,7 @@ TEST_CASE("a joint fit carries slope and alpha, and where stick-slip ends") {
   CHECK(estimate.covariance[4][4] > 0.0);
   CHECK(estimate.covariance[5][5] > 0.0);
   const Correlation& correlation = *sweep.joint->fit.correlation;
-  CHECK(correlation.names.size() == kModelValues);
+  CHECK(correlation.names.size() == 6);
   REQUIRE(sweep.derived.critical_speed_m_per_s.ci95);
   CHECK_FALSE(sweep.derived.lambda.value);
   CHECK_FALSE(sweep.derived.lambda.note.empty());

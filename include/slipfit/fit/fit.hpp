@@ -84,7 +84,22 @@ struct SpeedDependence {
   double alpha_s_per_m = 0.0;
 };
 
-inline constexpr std::size_t kModelValues = 6;
+/// Static friction that grows with the stick time before the slip (contact ageing): F_s - F_k(0+) = D + rate
+/// ln(stick / reference), D being ModelEstimate::friction_difference_N. docs/model.md (18)
+struct Ageing {
+  double rate_N = 0.0;
+  double reference_stick_s = 1.0;
+};
+
+/// JSON keys of what a model's covariance is of, in its order.
+inline constexpr std::array kModelValueNames{"stiffness_N_per_m",
+                                             "natural_frequency_rad_per_s",
+                                             "damping_ratio",
+                                             "friction_difference_N",
+                                             "friction_slope_N_s_per_m",
+                                             "alpha_s_per_m",
+                                             "ageing_N"};
+inline constexpr std::size_t kModelValues = kModelValueNames.size();
 
 /// The fitted model as one point with its covariance, for everything that is computed from it.
 struct ModelEstimate {
@@ -92,12 +107,13 @@ struct ModelEstimate {
   double natural_frequency_rad_per_s = 0.0;
   double damping_ratio = 0.0;          ///< >= 0
   double friction_difference_N = 0.0;  ///< F_s - F_k(0+)
-  /// Of (ln k, ln w_n, zeta, ln (F_s - F_k(0+)), b, alpha), scatter of the cycles included; b and alpha are exactly 0
-  /// under Coulomb friction.
+  /// Of (ln k, ln w_n, zeta, ln (F_s - F_k(0+)), b, alpha, rate of ageing), scatter of the cycles included; b and alpha
+  /// are exactly 0 under Coulomb friction, the last without ageing.
   std::array<std::array<double, kModelValues>, kModelValues> covariance{};
   double degrees_of_freedom = 1.0;                    ///< of Student's t
   bool damping_identified = false;                    ///< zeta is known well enough to ask for critical speeds
   std::optional<SpeedDependence> speed_dependence{};  ///< empty: Coulomb friction
+  std::optional<Ageing> ageing{};                     ///< empty: the same static friction after every stick
 };
 
 struct FitResult {

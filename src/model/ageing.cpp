@@ -1,0 +1,38 @@
+#include "model/ageing.hpp"
+
+#include <algorithm>
+
+namespace slipfit::model {
+
+// The stick time is nearly proportional to F_s - F_k, so that h(D) = D_ref + rate ln(t(D) / ref) - D is concave: Newton
+// from above its larger root comes down to it from one side, and finds h rising before it finds a root where there is
+// none.
+std::optional<double> aged_difference_N(const AgeingLaw& law, const StickTimeOf& stick_time) {
+  constexpr int kMaxSteps = 200;
+  constexpr double kSharp = 1e-10;
+  struct Excess {
+    double value_N, slope;
+  };
+  const auto excess_at = [&](double difference_N) -> std::optional<Excess> {
+    const std::optional<StickTime> stick = stick_time(difference_N);
+    if (!stick || !(stick->seconds > 0.0)) return std::nullopt;
+    return Excess{law.difference_N + law.rate_N * std::log(stick->seconds / law.reference_s) - difference_N,
+                  law.rate_N * stick->by_difference_s_per_N / stick->seconds - 1.0};
+  };
+  double difference_N = std::max(law.difference_N, law.rate_N);
+  std::optional<Excess> excess = excess_at(difference_N);
+  for (int i = 0; i < kMaxSteps && !(excess && excess->value_N <= 0.0 && excess->slope < 0.0); ++i) {
+    difference_N *= 2.0;
+    excess = excess_at(difference_N);
+  }
+  for (int i = 0; i < kMaxSteps && excess && excess->slope < 0.0; ++i) {
+    const double step_N = excess->value_N / excess->slope;
+    if (std::abs(step_N) <= kSharp * difference_N) return difference_N;
+    difference_N -= step_N;
+    if (!(difference_N > 0.0)) break;
+    excess = excess_at(difference_N);
+  }
+  return std::nullopt;
+}
+
+}  // namespace slipfit::model

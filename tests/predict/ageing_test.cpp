@@ -1,0 +1,194 @@
+// Static friction that grows with the stick time: the limit cycle, what the fit finds, what it predicts.
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "model/ageing.hpp"
+#include "slipfit/predict/prediction.hpp"
+#include "slipfit/sweep.hpp"
+#include "speed_sweep.hpp"
+
+using namespace slipfit;
+
+namespace {
+
+PredictionModel example() {
+  PredictionModel model;
+  model.estimate = {350.0, 26.0, 0.03, 0.14, {}, 1e9, true, std::nullopt, Ageing{0.03, 0.5}};
+  const std::array<double, kModelValues> se{0.01, 0.01, 0.005, 0.02, 0.0, 0.0, 0.002};
+  for (std::size_t i = 0; i < se.size(); ++i) {
+    for (std::size_t j = 0; j < se.size(); ++j) model.estimate.covariance[i][j] = se[i] * se[j] * (i == j ? 1.0 : 0.2);
+  }
+  model.has_covariance = true;
+  return model;
+}
+
+/// Moved by `step` in parameter i of ModelEstimate's values.
+PredictionModel moved(PredictionModel model, std::size_t i, double step) {
+  ModelEstimate& e = model.estimate;
+  if (i == 0) e.stiffness_N_per_m *= std::exp(step);
+  if (i == 1) e.natural_frequency_rad_per_s *= std::exp(step);
+  if (i == 2) e.damping_ratio += step;
+  if (i == 3) e.friction_difference_N *= std::exp(step);
+  if (i == 6) e.ageing->rate_N += step;
+  return model;
+}
+
+template <class Function>
+double standard_error_by_differences(const PredictionModel& model, double relative_step, const Function& quantity) {
+  std::array<double, kModelValues> gradient{};
+  for (std::size_t i = 0; i < gradient.size(); ++i) {
+    const double step = relative_step * (i == 6 ? 0.03 : 1.0);
+    gradient[i] = (quantity(moved(model, i, step)) - quantity(moved(model, i, -step))) / (2.0 * step);
+  }
+  double variance = 0.0;
+  for (std::size_t i = 0; i < gradient.size(); ++i) {
+    for (std::size_t j = 0; j < gradient.size(); ++j) {
+      variance += gradient[i] * model.estimate.covariance[i][j] * gradient[j];
+    }
+  }
+  return std::sqrt(variance);
+}
+
+PredictedMotion predicted(const PredictionModel& model, double speed_m_per_s) {
+  const std::array<double, 1> speeds{speed_m_per_s};
+  return predict_at(model, speeds).rows.front();
+}
+
+Estimate critical_speed(const PredictionModel& model) {
+  return predict_at(model, std::vector<double>{}).critical_speed_m_per_s;
+}
+
+/// Under Coulomb friction that ages.
+test::SpeedSweep ageing_slider() {
+  test::SpeedSweep truth;
+  truth.f0_N = 4.0;
+  truth.f1_N = 0.0;
+  truth.static_friction_N = 6.5;
+  truth.ageing_N = 0.25;
+  return truth;
+}
+
+const std::vector<double> kSpeeds{0.01, 0.02, 0.04, 0.08, 0.16};
+
+bool warns(const SweepAnalysis& sweep, const std::string& code) {
+  const Warnings& all = sweep.joint->fit.warnings;
+  return std::any_of(all.begin(), all.end(), [&](const Warning& warning) { return warning.code == code; });
+}
+
+bool holds(const Estimate& estimate, double truth) {
+  return estimate.ci95 && estimate.ci95->low <= truth && truth <= estimate.ci95->high;
+}
+
+/// Where the slips of the test's own integration die out.
+double end_of_stick_slip(const test::SpeedSweep& truth) {
+  double sticks = 0.1;
+  double slides = 0.4;
+  while (slides - sticks > 1e-4) {
+    const double middle = 0.5 * (sticks + slides);
+    (test::spacing_m(truth, middle) > 0.0 ? sticks : slides) = middle;
+  }
+  return sticks;
+}
+
+}  // namespace
+
+TEST_CASE("ageing: the limit cycle is the one with the longer stick, and there is none beyond the fold") {
+  // With t = a D the law is D = D0 + B ln(a D / t0): roots where D0 >= B - B ln(a B / t0), the stable one above B.
+  const double rate_N = 0.05;
+  const double per_N = 3.0;
+  const auto stick = [&](double difference_N) { return std::optional(model::StickTime{per_N * difference_N, per_N}); };
+  const double fold_N = rate_N - rate_N * std::log(per_N * rate_N / 2.0);
+  for (const double above : {1e-8, 1e-4, 0.1, 10.0}) {
+    const model::AgeingLaw law{fold_N * (1.0 + above), rate_N, 2.0};
+    const std::optional<double> difference_N = model::aged_difference_N(law, stick);
+    REQUIRE(difference_N);
+    CHECK(*difference_N > rate_N);
+    CHECK(law.difference_N + rate_N * std::log(per_N * *difference_N / 2.0) == Approx(*difference_N).epsilon(1e-9));
+  }
+  for (const double below : {1e-6, 0.1, 0.9}) {
+    CHECK_FALSE(model::aged_difference_N({fold_N * (1.0 - below), rate_N, 2.0}, stick));
+  }
+}
+
+TEST_CASE("ageing: without damping stick-slip ends at the speed of docs/model.md (20)") {
+  PredictionModel model = example();
+  model.estimate.damping_ratio = 0.0;
+  model.estimate.natural_frequency_rad_per_s = 1e6;  // F_s - F_k >> k V / w_n
+  const ModelEstimate& e = model.estimate;
+  const double expected = 2.0 * e.ageing->rate_N / (e.stiffness_N_per_m * e.ageing->reference_stick_s) *
+                          std::exp(e.friction_difference_N / e.ageing->rate_N - 1.0);
+  CHECK(*critical_speed(model).value == Approx(expected).epsilon(1e-3));
+}
+
+TEST_CASE("ageing: intervals follow from derivatives that agree with differences") {
+  const PredictionModel model = example();
+  for (const double speed : {0.0005, 0.001, 0.003}) {
+    CAPTURE(speed);
+    for (const auto quantity :
+         {&PredictedMotion::period_s, &PredictedMotion::stick_time_s, &PredictedMotion::slip_time_s,
+          &PredictedMotion::periodic_displacement_m, &PredictedMotion::lambda}) {
+      const double expected = standard_error_by_differences(
+          model, 1e-4, [&](const PredictionModel& at) { return *(predicted(at, speed).*quantity).value; });
+      CHECK(*(predicted(model, speed).*quantity).standard_error == Approx(expected).epsilon(1e-4));
+    }
+  }
+  const double expected =
+      standard_error_by_differences(model, 1e-3, [](const PredictionModel& at) { return *critical_speed(at).value; });
+  CHECK(*critical_speed(model).standard_error == Approx(expected).epsilon(0.01));
+  const double end = *critical_speed(model).value;
+  CHECK(predicted(model, 0.999 * end).period_s.value);
+  CHECK_FALSE(predicted(model, 1.001 * end).period_s.value);
+}
+
+TEST_CASE("ageing: a sweep tells it, and predicts the spacing between and beyond its speeds") {
+  const test::SpeedSweep truth = ageing_slider();
+  int inside = 0;
+  int all = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const SweepAnalysis sweep = analyze_sweep(test::record(truth, kSpeeds, 100 * seed), {});
+    REQUIRE(sweep.joint);
+    REQUIRE(sweep.joint->fit.estimate);
+    const ModelEstimate& estimate = *sweep.joint->fit.estimate;
+    REQUIRE(estimate.ageing);
+    CHECK(warns(sweep, "static_friction_ages"));
+    CHECK(estimate.ageing->rate_N == Approx(truth.ageing_N).epsilon(0.1));
+    for (std::size_t i = 0; i < kSpeeds.size(); ++i) {
+      const Estimate& spacing = sweep.joint->points[i].spacing_left_out_m;
+      const double expected = test::spacing_m(truth, kSpeeds[i]);
+      CAPTURE(seed, kSpeeds[i], expected);
+      REQUIRE(spacing.value);
+      CHECK(*spacing.value == Approx(expected).epsilon(0.03));
+      inside += holds(spacing, expected) ? 1 : 0;
+      ++all;
+    }
+    const PredictionModel model{estimate, true, std::nullopt};
+    CHECK(predicted(model, 0.18).periodic_displacement_m.value.value_or(0.0) ==
+          Approx(test::spacing_m(truth, 0.18)).epsilon(0.03));
+    CHECK(holds(critical_speed(model), end_of_stick_slip(truth)));
+    CHECK(*critical_speed(model).value == Approx(end_of_stick_slip(truth)).epsilon(0.1));
+  }
+  CAPTURE(inside, all);
+  CHECK(inside >= 11);  // of 15 at 95 %
+}
+
+TEST_CASE("ageing: static friction that differs for another reason is not taken for it") {
+  int taken = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    test::SpeedSweep truth = ageing_slider();
+    truth.ageing_N = 0.0;
+    std::vector<SweepEntry> entries;
+    for (std::size_t i = 0; i < kSpeeds.size(); ++i) {
+      truth.static_friction_N = 6.0 + 0.3 * std::sin(static_cast<double>(7 * seed + 3 * i * i));  // no trend
+      entries.push_back(test::record(truth, kSpeeds[i], 1000 * seed + i));
+    }
+    const SweepAnalysis sweep = analyze_sweep(entries, {});
+    REQUIRE(sweep.joint);
+    CHECK_FALSE(sweep.joint->difference_shared);
+    taken += sweep.joint->fit.estimate && sweep.joint->fit.estimate->ageing ? 1 : 0;
+  }
+  CHECK(taken <= 1);  // of 8 at 1 %
+}
