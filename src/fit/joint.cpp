@@ -6,128 +6,29 @@
 #include <cmath>
 #include <utility>
 
-#include "fit/joint_ageing.hpp"
+#include "fit/joint_outcome.hpp"
 #include "fit/joint_parameters.hpp"
-#include "fit/joint_quantities.hpp"
-#include "fit/joint_solution.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
 namespace {
 
 using fit::JointSolution;
+using fit::LeftOut;
+using fit::Outcome;
 using fit::StaticFriction;
 using fit::SweepData;
 using fit::SweepIntervals;
-using fit::SweepMatrix;
 using fit::SweepModel;
 using fit::SweepVector;
 
 /// Below it a sweep is one speed: damping and friction that depends on speed cannot be told apart.
 constexpr double kLeastSpeedRatio = 1.3;
-/// A recording left out moves a parameter by chance by this many standard errors of the shift in fewer than one sweep
-/// of 300 (5 recordings, 7 parameters).
-constexpr double kShiftSigmas = 4.5;
-
 /// Reduced chi2 of a model that leaves something unexplained (the noise is that of each recording's own fit).
 constexpr double kMisfitChi2 = 1.5;
 
-/// A first-order band wider than this says nothing.
-constexpr double kWidestFactor = 2.0;
-
-/// Fits without one recording each: their predictions, and how much the parameters move.
-struct LeftOut {
-  struct One {
-    SweepVector values;
-    SweepMatrix covariance;
-    double degrees_of_freedom = 1.0;
-  };
-  std::vector<std::optional<One>> each;  ///< in the order of SweepData::fitted
-
-  /// Delete-one-recording jackknife.
-  [[nodiscard]] SweepMatrix covariance() const {
-    SweepVector mean = SweepVector::Zero();
-    for (const auto& one : each) {
-      if (one) mean += one->values / count();
-    }
-    SweepMatrix sum = SweepMatrix::Zero();
-    for (const auto& one : each) {
-      if (one) sum += (count() - 1.0) / count() * (one->values - mean) * (one->values - mean).transpose();
-    }
-    return sum;
-  }
-
-  [[nodiscard]] double count() const {
-    return static_cast<double>(
-        std::count_if(each.begin(), each.end(), [](const auto& one) { return one.has_value(); }));
-  }
-};
-
-/// A line through few recordings counts for fewer than the cycles do.
-double degrees_of_freedom(const fit::JointCovariance& covariance, const JointSolution& solution, StaticFriction kind) {
-  if (kind == StaticFriction::Constant) return covariance.degrees_of_freedom;
-  return std::min(covariance.degrees_of_freedom, std::max(1.0, static_cast<double>(solution.problem->size()) - 2.0));
-}
-
-LeftOut leave_out_each(const SweepData& data, const JointSolution& solution, StaticFriction kind) {
-  LeftOut result;
-  for (const std::size_t recording : data.fitted) {
-    result.each.emplace_back();
-    const std::optional<JointSolution> without = fit::leave_out(data, solution, recording);
-    if (!without) continue;
-    const fit::JointCovariance covariance = fit::covariance_of(data, *without);
-    result.each.back() =
-        LeftOut::One{fit::sweep_values(*without, kind), fit::sweep_covariance(*without, covariance, kind),
-                     degrees_of_freedom(covariance, *without, kind)};
-  }
-  return result;
-}
-
-/// The recordings disagree by more than noise and the scatter of the cycles explain: the variance of the shift between
-/// an efficient estimate and one from fewer data is the difference of their variances (Hausman).
-bool recordings_disagree(const SweepVector& values, const SweepMatrix& covariance, const LeftOut& left_out) {
-  if (left_out.count() < 3.0) return false;
-  for (const auto& one : left_out.each) {
-    for (Eigen::Index i = 0; one && i < fit::kSweepValues; ++i) {
-      const double least = 0.05 * covariance(i, i);  // rounding and iteration: the difference may come out as nothing
-      const double variance = std::max(one->covariance(i, i) - covariance(i, i), least);
-      const double shift = one->values(i) - values(i);
-      if (variance > 0.0 && shift * shift > kShiftSigmas * kShiftSigmas * variance) return true;
-    }
-  }
-  return false;
-}
-
 bool is_misfit(const JointSolution& solution) {
   return solution.chi2 > kMisfitChi2 * solution.degrees_of_freedom;
-}
-
-/// A solution with the intervals that it deserves.
-struct Outcome {
-  const JointSolution& solution;
-  StaticFriction static_friction = StaticFriction::Constant;
-  SweepVector values;
-  SweepMatrix covariance;
-  double degrees_of_freedom = 1.0;
-  LeftOut left_out;
-  bool disagree = false;  ///< the covariance is widened by what leaving out each recording changes
-};
-
-Outcome weigh(const SweepData& data, const JointSolution& solution) {
-  const fit::JointCovariance covariance = fit::covariance_of(data, solution);
-  const StaticFriction kind = fit::static_friction_of(solution);
-  Outcome outcome{solution,
-                  kind,
-                  fit::sweep_values(solution, kind),
-                  fit::sweep_covariance(solution, covariance, kind),
-                  degrees_of_freedom(covariance, solution, kind),
-                  leave_out_each(data, solution, kind)};
-  outcome.disagree = recordings_disagree(outcome.values, outcome.covariance, outcome.left_out);
-  if (outcome.disagree) {
-    outcome.covariance += outcome.left_out.covariance();
-    outcome.degrees_of_freedom = std::min(outcome.degrees_of_freedom, outcome.left_out.count() - 1.0);
-  }
-  return outcome;
 }
 
 /// Which friction law, and the sentence that says why.
@@ -154,23 +55,6 @@ LawChoice choose_by_chance(const fit::SweepFits& fits, double speeds) {
   const std::string chance = fmt::format("chance of such a gain under Coulomb friction: {:.2g}", fits.p_value);
   if (!fits.depends_on_speed) return {false, "Coulomb friction explains the sweep; " + chance};
   return {true, chance};
-}
-
-/// Root mean square of ln (spacing predicted without a recording / its own); no prediction counts as a factor of 2.
-double left_out_error(const SweepData& data, const Outcome& outcome) {
-  double square = 0.0;
-  for (std::size_t run = 0; run < data.fitted.size(); ++run) {
-    const fit::BlockFit& blocks = outcome.solution.problem->recording(run);
-    const double speed = blocks.scales().speed_m_per_s;
-    double error = std::log(kWidestFactor);
-    if (const auto& one = outcome.left_out.each[run]) {
-      const SweepModel model(fit::with_damping_cut(one->values, one->covariance), data.scales);
-      const auto spacing = model.spacing(speed, outcome.solution.problem->run(run).load);
-      if (spacing) error = std::min(error, std::abs(std::log(spacing->a / (speed * fit::median_period_s(blocks)))));
-    }
-    square += error * error;
-  }
-  return std::sqrt(square / static_cast<double>(data.fitted.size()));
 }
 
 /// Where residuals are larger than the noise, misfit pays for parameters too: what counts is whether the law holds from
@@ -217,7 +101,7 @@ double residual_rms(const fit::JointProblem& problem) {
 Estimate spacing_of(const std::optional<fit::SweepJet>& spacing, const SweepIntervals& intervals,
                     const std::string& why_none) {
   if (!spacing) return {std::nullopt, std::nullopt, std::nullopt, why_none};
-  if (!(intervals.quantile() * intervals.error(*spacing) < std::log(kWidestFactor) * spacing->a)) {
+  if (!(intervals.quantile() * intervals.error(*spacing) < std::log(fit::kWidestFactor) * spacing->a)) {
     return {std::nullopt, std::nullopt, std::nullopt, "the interval reaches beyond a factor of 2 either way"};
   }
   return intervals.of_one_sign(*spacing);
@@ -339,13 +223,13 @@ std::optional<JointFit> fit_jointly(std::span<const SweepRecording> recordings, 
   const bool have_coulomb = std::isfinite(fits->coulomb.chi2);
   // Weighing fits once without each recording: not for a law that is left.
   std::optional<Outcome> outcome;
-  if (choice.velocity || !have_coulomb) outcome.emplace(weigh(data, fits->velocity));
+  if (choice.velocity || !have_coulomb) outcome.emplace(fit::weigh(data, fits->velocity));
   if (choice.velocity && !options.tier && have_coulomb && is_misfit(fits->velocity)) {
-    Outcome coulomb = weigh(data, fits->coulomb);
-    choice = choose_by_left_out(left_out_error(data, *outcome), left_out_error(data, coulomb));
+    Outcome coulomb = fit::weigh(data, fits->coulomb);
+    choice = choose_by_left_out(fit::left_out_error(data, *outcome), fit::left_out_error(data, coulomb));
     if (!choice.velocity) outcome.emplace(std::move(coulomb));
   }
-  if (!outcome) outcome.emplace(weigh(data, fits->coulomb));
+  if (!outcome) outcome.emplace(fit::weigh(data, fits->coulomb));
   JointFit joint = Assembler(recordings, data, *outcome).assemble(choice);
   joint.fit.candidates = candidates_of(*fits, choice);
   return joint;

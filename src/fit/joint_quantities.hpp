@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "fit/joint_solution.hpp"
+#include "fit/joint_covariance.hpp"
 #include "slipfit/core/estimate.hpp"
 
 namespace slipfit::fit {
