@@ -120,7 +120,9 @@ Analysis conclude(const Recording& recording, Fitted fitted) {
   return analysis;
 }
 
-SweepRole role_of(Verdict verdict) {
+SweepRole role_of(const Recording& recording, Verdict verdict) {
+  // At the contact the sensor sees F_k(v) itself in a slip, and jumps: no force to fit together with the others.
+  if (recording.conditions().force_view == ForceView::Contact) return SweepRole::LeftOut;
   if (verdict == Verdict::StickSlip) return SweepRole::Cycles;
   return verdict == Verdict::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
 }
@@ -147,7 +149,7 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
     Fitted fitted = look_and_fit(entry.recording, {});
     signals.push_back(fitted.signals);
     sweep.recordings.push_back(conclude(entry.recording, std::move(fitted)));
-    sweep.roles.push_back(role_of(sweep.recordings.back().verdict));
+    sweep.roles.push_back(role_of(entry.recording, sweep.recordings.back().verdict));
     recordings.push_back({entry.recording, signals.back().quality, signals.back().segmentation, sweep.roles.back()});
   }
   sweep.joint = fit_jointly(recordings, options);

@@ -131,7 +131,8 @@ bool JointCycle::evaluate(const JointValues& values, double* residuals, const Jo
   const double u = s->force_scale;
   const double w = s->omega_rad_per_s;
   const double ramp = u * w;  // k V
-  // F = level + u z(tau; z0, zeta, slope, rate), tau = w_n (t - onset), z0 = A / u, u = k V / w_n
+  // F = level + u z(tau; z0, zeta, slope, rate), transmitted + 2 zeta u z', tau = w_n (t - onset), z0 = A / u, u = k V
+  // / w_n
   const double slope_unit = 2.0 * run_->load * u;
   const double rate_unit = u * scales.speed_m_per_s / scales_.slip_speed_m_per_s;
   const auto gradient_at = [&](const model::TrackPoint& p, double tau) {
@@ -145,19 +146,22 @@ bool JointCycle::evaluate(const JointValues& values, double* residuals, const Jo
         -u * p.d_tau * w * scales.half_period_s,
         scales.force * p.d_z0};
   };
+  const auto force_at = [&](double tau) {
+    return run_->scales.view == ForceView::Transmitted ? s->track.transmitted_at(tau) : s->track.at(tau);
+  };
   Rows rows(*this, values, residuals, jacobians);
   const double* basis = model_->basis().data();
   const std::size_t columns = level_->columns();
   const CycleData& data = model_->data();
   for (std::size_t i = 0; i < data.time_s.size(); ++i, basis += columns) {
     const double tau = w * (data.time_s[i] - s->onset_s);
-    const model::TrackPoint p = s->track.at(tau);
+    const model::TrackPoint p = force_at(tau);
     rows.put(1.0 / run_->noise, data.force[i], u * p.z, gradient_at(p, tau), basis, 1.0);
   }
   for (const auto* bins : {&data.bins_before, &data.bins_after}) {
     for (const StickBin& bin : *bins) {
       const double tau = w * (bin.time_s - s->onset_s);
-      const model::TrackPoint p = s->track.at(tau);
+      const model::TrackPoint p = force_at(tau);
       rows.put(std::sqrt(bin.count) / run_->noise, bin.force, u * p.z, gradient_at(p, tau), basis, 1.0);
       basis += columns;
       rows.put(std::sqrt(bin.time_spread) / run_->noise, bin.slope, ramp, {ramp}, basis, 0.0);

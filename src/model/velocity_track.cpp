@@ -142,6 +142,9 @@ std::optional<VelocityTrack> VelocityTrack::solve(double z0, double zeta, double
   if (!finite || !(z0 + 2.0 * zeta > 0.0) || !(std::abs(zeta) < 1.0)) return std::nullopt;
   VelocityTrack track;
   track.z0_ = z0;
+  track.zeta_ = zeta;
+  track.slope_ = slope;
+  track.rate_ = rate;
   Integrator integrator(z0, zeta, slope, rate);
   track.nodes_.reserve(32);
   track.nodes_.push_back(integrator.node());
@@ -217,18 +220,52 @@ double VelocityTrack::Quintic::slope(const Node& from, const Node& to, std::size
 }
 
 TrackPoint VelocityTrack::inside(double tau) const {
-  const auto to = std::lower_bound(nodes_.begin() + 1, nodes_.end() - 1, tau,
-                                   [](const Node& node, double time) { return node.tau < time; });
+  const auto to = node_after(tau);
   const Node& from = *(to - 1);
   const Quintic quintic(from, *to, tau);
   return {quintic.value(from, *to, 0), quintic.slope(from, *to, 0), quintic.value(from, *to, 1),
           quintic.value(from, *to, 2), quintic.value(from, *to, 3), quintic.value(from, *to, 4)};
 }
 
+/// z' and its derivatives.
+TrackPoint VelocityTrack::slope_inside(double tau) const {
+  const auto to = node_after(tau);
+  const Node& from = *(to - 1);
+  const Quintic quintic(from, *to, tau);
+  const double first = quintic.slope(from, *to, 0);
+  const double second =
+      -quintic.value(from, *to, 0) - 2.0 * zeta_ * first + friction_at(1.0 - first, slope_, rate_).value;
+  return {first,
+          second,
+          quintic.slope(from, *to, 1),
+          quintic.slope(from, *to, 2),
+          quintic.slope(from, *to, 3),
+          quintic.slope(from, *to, 4)};
+}
+
+std::vector<VelocityTrack::Node>::const_iterator VelocityTrack::node_after(double tau) const {
+  return std::lower_bound(nodes_.begin() + 1, nodes_.end() - 1, tau,
+                          [](const Node& node, double time) { return node.tau < time; });
+}
+
 TrackPoint VelocityTrack::at(double tau) const {
   if (tau <= 0.0) return {z0_ + tau, 1.0, 1.0, 0.0, 0.0, 0.0};
   if (tau <= tau_end_) return inside(tau);
   return {after_.intercept + tau, 1.0, after_.d_z0, after_.d_zeta, after_.d_slope, after_.d_rate};
+}
+
+TrackPoint VelocityTrack::transmitted_at(double tau) const {
+  TrackPoint point = at(tau);
+  const bool slips = tau > 0.0 && tau <= tau_end_;
+  const TrackPoint slope = slips ? slope_inside(tau) : TrackPoint{1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const double drag = 2.0 * zeta_;
+  point.z += drag * slope.z;
+  point.d_tau += drag * slope.d_tau;
+  point.d_z0 += drag * slope.d_z0;
+  point.d_zeta += drag * slope.d_zeta + 2.0 * slope.z;
+  point.d_slope += drag * slope.d_slope;
+  point.d_rate += drag * slope.d_rate;
+  return point;
 }
 
 }  // namespace slipfit::model

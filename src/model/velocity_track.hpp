@@ -41,6 +41,8 @@ class VelocityTrack {
 
   /// The whole cycle: tau < 0 is the stick before, tau > tau_end() the stick after.
   [[nodiscard]] TrackPoint at(double tau) const;
+  /// What spring and damper carry together, z + 2 zeta z'.
+  [[nodiscard]] TrackPoint transmitted_at(double tau) const;
   [[nodiscard]] bool resticks() const { return resticks_; }
   [[nodiscard]] double tau_end() const { return tau_end_; }
   [[nodiscard]] TrackLine after() const { return after_; }
@@ -70,10 +72,12 @@ class VelocityTrack {
 
   class Integrator;
 
+  [[nodiscard]] std::vector<Node>::const_iterator node_after(double tau) const;
   [[nodiscard]] TrackPoint inside(double tau) const;
+  [[nodiscard]] TrackPoint slope_inside(double tau) const;
   void finish(const Node& end, double third, bool resticks);
 
-  double z0_ = 0.0;
+  double z0_ = 0.0, zeta_ = 0.0, slope_ = 0.0, rate_ = 0.0;
   double tau_end_ = 0.0;
   bool resticks_ = false;
   TrackLine after_;

@@ -41,13 +41,18 @@ JointRun example_run() {
 
 }  // namespace
 
-TEST_CASE("joint: residual derivatives agree with central differences, level common or per cycle") {
+TEST_CASE(
+    "joint: residual derivatives agree with central differences, level common or per cycle, spring or transmitted") {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> near(-0.1, 0.1);
   const CycleData data = example_cycle();
-  const JointRun run = example_run();
   const JointScales scales{1.1, 0.12};
-  for (const LevelModel& level : {LevelModel{false, 3, {}}, LevelModel{true, 0, {}}}) {
+  const LevelModel polynomial{false, 3, {}};
+  const LevelModel own_levels{true, 0, {}};
+  for (const auto& [level, view] : {std::pair{polynomial, ForceView::Spring}, std::pair{own_levels, ForceView::Spring},
+                                    std::pair{polynomial, ForceView::Transmitted}}) {
+    JointRun run = example_run();
+    run.scales.view = view;
     const CycleModel model(data, run.scales, 0.05, level);
     const JointCycle cycle(model, level, 0.05, run, scales);
     const std::size_t drifts = cycle.drift_parameters();

@@ -67,6 +67,28 @@ TEST_CASE("joint: alpha and damping are told apart by a sweep, and each speed is
   }
 }
 
+TEST_CASE("joint: the force that spring and damper transmit together") {
+  SweepScene scene;
+  scene.view = ForceView::Transmitted;
+  scene.damping_ratio = 0.12;
+  scene.scatter_N = 0.02;
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  REQUIRE(sweep.joint);
+  CHECK(sweep.joint->fit.tier == Tier::Velocity);
+  CHECK(*sweep.joint->fit.residual.reduced_chi2 == Approx(1.0).margin(0.1));
+  CHECK(parameter(sweep, "damping_ratio").status == ParameterStatus::Identified);
+  check_recovery(sweep, scene);
+}
+
+TEST_CASE("joint: a sensor at the contact is left out") {
+  SweepScene scene;
+  std::vector<SweepEntry> entries = test::record_sweep(scene, {0.005, 0.01});
+  scene.view = ForceView::Contact;
+  entries.push_back(test::record_sweep(scene, {0.02}).front());
+  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  CHECK(sweep.roles[2] == SweepRole::LeftOut);
+}
+
 TEST_CASE("joint: Coulomb friction needs no alpha") {
   SweepScene scene;
   scene.f1_N = 0.0;

@@ -43,14 +43,17 @@ slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offs
     const double next_s = onset_s + (scaled_onset(s, speed_m_per_s, next_N) - slip.after().intercept) / omega;
     for (; t < next_s; t += step_s) {
       time_s.push_back(t);
-      force_N.push_back(s.kinetic_friction_N() + force_scale_N(s, speed_m_per_s) * slip.at(omega * (t - onset_s)).z +
-                        offset_N + s.noise_N * normal(random));
+      const slipfit::model::TrackPoint point = slip.at(omega * (t - onset_s));
+      const double drag = s.view == slipfit::ForceView::Transmitted ? 2.0 * s.damping_ratio * point.d_tau : 0.0;
+      force_N.push_back(s.kinetic_friction_N() + force_scale_N(s, speed_m_per_s) * (point.z + drag) + offset_N +
+                        s.noise_N * normal(random));
     }
     onset_s = next_s;
     slip = slip_of(s, speed_m_per_s, next_N);
   }
   slipfit::Conditions conditions;
   conditions.speed_m_per_s = speed_m_per_s;
+  conditions.force_view = s.view;
   return slipfit::Recording::create(std::move(time_s), std::move(force_N), conditions).value();
 }
 

@@ -20,6 +20,7 @@ struct SweepScene {
   double scatter_N = 0.0;
   double noise_N = 0.01;
   double offset_N = 0.0;  ///< of the sensor, different in every recording: recording i reads i times this too much
+  slipfit::ForceView view = slipfit::ForceView::Spring;  ///< or Transmitted
   std::uint64_t seed = 1;
 
   [[nodiscard]] double kinetic_friction_N() const { return f0_N + f1_N; }
