@@ -125,7 +125,9 @@ class SweepReporter {
     const auto f0 = [](const SweepModel& model) { return model.level - model.slope / model.alpha; };
     const Estimate high_speed = through_rate(f0);
     const Estimate strength = through_rate(f1);
-    const ParameterStatus status = graded(*strength.standard_error / std::abs(*strength.value));
+    // f1 = slope / alpha bends with alpha: where alpha is not sharp, the tails reach further than the interval shows.
+    const ParameterStatus status =
+        graded(std::max(2.0 * relative, *strength.standard_error / std::abs(*strength.value)));
     add("f0_N", high_speed, evidence_.zero_known ? status : ParameterStatus::Weak, zero);
     add("f1_N", strength, status, noted(status));
     if (!evidence_.reference_normal_force_N) return;
