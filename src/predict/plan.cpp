@@ -167,13 +167,25 @@ class Planner {
         [](const RecordingPlan& a, const RecordingPlan& b) { return a.speed_m_per_s < b.speed_m_per_s; });
     std::vector<double> result;
     constexpr double kBeyond = 8.0;
+    const double end = end_of_stick_slip().value_or(fast->speed_m_per_s);
     for (double speed = slow->speed_m_per_s / kBeyond; speed < fast->speed_m_per_s * kBeyond * 1.01; speed *= 2.0) {
-      const predict::MotionJets motion = predict::motion_at(basis_.estimate, speed);
-      if (!motion.cycle || !motion.restick_margin) continue;
-      const Jet& margin = *motion.restick_margin;
-      if (margin.a > 2.0 * propagation_.quantile() * propagation_.standard_error(margin)) result.push_back(speed);
+      if (basis_.estimate.ageing ? speed < end : sticks_for_sure(speed)) result.push_back(speed);
     }
     return result;
+  }
+
+  /// The lower end of its interval, where static friction ages: the margin of the single slip says nothing there.
+  [[nodiscard]] std::optional<double> end_of_stick_slip() const {
+    if (!basis_.estimate.ageing) return std::nullopt;
+    const Estimate critical = predict::critical_point(basis_.estimate, propagation_).speed_m_per_s;
+    return critical.ci95 ? std::optional(critical.ci95->low) : std::nullopt;
+  }
+
+  [[nodiscard]] bool sticks_for_sure(double speed_m_per_s) const {
+    const predict::MotionJets motion = predict::motion_at(basis_.estimate, speed_m_per_s);
+    if (!motion.cycle || !motion.restick_margin) return false;
+    const Jet& margin = *motion.restick_margin;
+    return margin.a > 2.0 * propagation_.quantile() * propagation_.standard_error(margin);
   }
 
   /// The slowest clock that is within a tenth of the best; the present one, or faster.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/ageing.hpp"
+#include "slipfit/predict/plan.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
 #include "speed_sweep.hpp"
@@ -142,6 +143,18 @@ TEST_CASE("ageing: intervals follow from derivatives that agree with differences
   const double end = *critical_speed(model).value;
   CHECK(predicted(model, 0.999 * end).period_s.value);
   CHECK_FALSE(predicted(model, 1.001 * end).period_s.value);
+}
+
+TEST_CASE("ageing: a plan for its rate stays below the end of stick-slip and narrows it") {
+  const PredictionModel model = example();
+  PlanBasis basis{model.estimate, {{0.0005, 50.0, 60.0}, {0.002, 50.0, 60.0}}, 0.003, 0.01, LevelSharing::Separate};
+  const Result<Plan> plan = plan_next(basis, PlanTarget{"ageing_N", std::nullopt});
+  REQUIRE(plan);
+  REQUIRE_FALSE(plan.value().options.empty());
+  for (const PlanOption& option : plan.value().options) {
+    CHECK(option.recording.speed_m_per_s < critical_speed(model).ci95->low);
+    CHECK(option.standard_error < plan.value().standard_error);
+  }
 }
 
 TEST_CASE("ageing: a sweep tells it, and predicts the spacing between and beyond its speeds") {
