@@ -17,7 +17,7 @@ struct BatchPageRow {
   std::string status;                   ///< as in the document: stick_slip, ...
   std::optional<double> speed_m_per_s;  ///< empty for a group
   Estimate frequency_Hz, spacing_m, stiffness_N_per_m, damping_ratio;
-  std::size_t warnings = 0;
+  std::string warnings;     ///< their codes, each once
   std::string report_file;  ///< of its own page, relative to the batch's; empty: none
   std::string sparkline;    ///< of `sparkline_of`; empty: none
 };

@@ -9,6 +9,7 @@
 #include "report/html/assets.hpp"
 #include "report/html/batch_row.hpp"
 #include "report/html/markup.hpp"
+#include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
 #include "slipfit/report/batch_html.hpp"
 
@@ -20,21 +21,19 @@ constexpr std::size_t kMostRows = 10000;
 constexpr std::size_t kRowsAtOnce = 500;  // laid out; the script shows more of them on demand
 constexpr std::size_t kFewest = 5;        // values that make a distribution
 
-using StatusCounts = std::map<std::string, std::size_t>;
-
-std::string words_for_status(std::string status) {
-  std::replace(status.begin(), status.end(), '_', '-');
-  return status;
-}
+/// From the most frequent to the rarest.
+using StatusCounts = std::vector<std::pair<std::string, std::size_t>>;
 
 bool is_group(const BatchPageRow& row) {
   return row.id.starts_with("group:");
 }
 
 StatusCounts statuses_of(const std::vector<BatchPageRow>& rows) {
-  StatusCounts counts;
+  std::map<std::string, std::size_t> counts;
   for (const BatchPageRow& row : rows) counts[row.status] += is_group(row) ? 0U : 1U;
-  return counts;
+  StatusCounts sorted(counts.begin(), counts.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  return sorted;
 }
 
 std::string counted(std::size_t count, const char* what) {
@@ -47,7 +46,7 @@ std::string summary_of(const BatchPage& page, const StatusCounts& counts) {
   const char* separator = ": ";
   for (const auto& [status, count] : counts) {
     if (count == 0) continue;
-    sentence += fmt::format("{}{} {}", separator, count, words_for_status(status));
+    sentence += fmt::format("{}{} {}", separator, count, status_words(status));
     separator = ", ";
   }
   if (groups > 0) sentence += "; " + counted(groups, "group");
@@ -69,7 +68,7 @@ std::optional<chart::Panel> histogram(std::vector<double> values, const std::str
     counts[std::min(bins - 1, static_cast<std::size_t>(std::log(value / first) / step))] += 1.0;
   }
   chart::Panel panel;
-  panel.height_px = 110.0;
+  panel.height_px = 160.0;
   panel.x = {label, first, first * std::exp(step * static_cast<double>(bins)), chart::Scale::Logarithmic};
   panel.y = {"recordings", 0.0, 1.1 * *std::max_element(counts.begin(), counts.end()), chart::Scale::Linear};
   for (std::size_t i = 0; i < bins; ++i) {
@@ -91,20 +90,21 @@ std::string distributions(const std::vector<BatchPageRow>& rows) {
     }
     return found;
   };
-  chart::Chart chart{"Distributions", {}, {}};
-  const auto add = [&chart](std::optional<chart::Panel> panel) {
-    if (panel) chart.panels.push_back(std::move(*panel));
+  std::string figures;
+  const auto add = [&figures](const char* id, const std::string& label, std::vector<double> numbers) {
+    const auto panel = histogram(std::move(numbers), label);
+    if (!panel) return;
+    figures +=
+        "<figure>" + to_page_svg(chart::Chart{"", {}, {*panel}}, {id, "histogram of the " + label}) + "</figure>\n";
   };
-  add(histogram(values(&BatchPageRow::spacing_m, 1e3), "pattern spacing V/f [mm]"));
-  add(histogram(values(&BatchPageRow::frequency_Hz, 1.0), "frequency [Hz]"));
-  add(histogram(values(&BatchPageRow::stiffness_N_per_m, 1.0), "stiffness [N/m]"));
-  add(histogram(values(&BatchPageRow::damping_ratio, 1.0), "damping ratio [-]"));
-  if (chart.panels.empty()) return {};
+  add("spacings", "pattern spacing V/f [mm]", values(&BatchPageRow::spacing_m, 1e3));
+  add("frequencies", "frequency [Hz]", values(&BatchPageRow::frequency_Hz, 1.0));
+  add("stiffnesses", "stiffness [N/m]", values(&BatchPageRow::stiffness_N_per_m, 1.0));
+  add("damping-ratios", "damping ratio [-]", values(&BatchPageRow::damping_ratio, 1.0));
+  if (figures.empty()) return {};
   return "<section>\n<h2>Distributions</h2>\n<p class=\"guide\">How many recordings show which value; only those in "
-         "which "
-         "it is known.</p>\n<figure>" +
-         to_page_svg(chart, {"distributions", "histograms of spacing, frequency, stiffness and damping ratio"}) +
-         "</figure>\n</section>\n";
+         "which it is known.</p>\n<div class=\"grid\">\n" +
+         figures + "</div>\n</section>\n";
 }
 
 /// Of a table that holds the first rows alone.
@@ -139,8 +139,7 @@ std::string table_of(const std::vector<BatchPageRow>& rows) {
 std::string options_of(const StatusCounts& counts) {
   std::string options;
   for (const auto& [status, count] : counts) {
-    options +=
-        fmt::format("<option value=\"{}\">{} ({})</option>", text(status), text(words_for_status(status)), count);
+    options += fmt::format("<option value=\"{}\">{} ({})</option>", text(status), text(status_words(status)), count);
   }
   return options;
 }
@@ -150,16 +149,17 @@ std::string options_of(const StatusCounts& counts) {
 
 std::string to_html(const BatchPage& page) {
   const html::StatusCounts counts = html::statuses_of(page.rows);
-  return html::filled(assets::batch_page(), {{"title", html::text(page.title)},
-                                             {"style", std::string(assets::style())},
-                                             {"summary", html::summary_of(page, counts)},
-                                             {"statuses", html::options_of(counts)},
-                                             {"table", html::table_of(page.rows)},
-                                             {"left_out", html::left_out_part(page.rows.size(), "results.jsonl")},
-                                             {"distributions", html::distributions(page.rows)},
-                                             {"failures", html::failures_part(page.failures)},
-                                             {"footer", fmt::format("Made by slipfit {}.", SLIPFIT_VERSION)},
-                                             {"script", std::string(assets::table_script())}});
+  html::PageParts parts;
+  parts.title = page.title;
+  parts.kind = "batch";
+  parts.headline = html::summary_of(page, counts);
+  parts.main =
+      html::filled(assets::table_part(), {{"statuses", html::options_of(counts)},
+                                          {"table", html::table_of(page.rows)},
+                                          {"left_out", html::left_out_part(page.rows.size(), "results.jsonl")}}) +
+      html::distributions(page.rows) + html::failures_part(page.failures);
+  parts.scripts = html::script_element(assets::table_script());
+  return html::page_from(parts);
 }
 
 }  // namespace slipfit

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "report/html/markup.hpp"
+#include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
 #include "report/json_values.hpp"
 #include "report/rounding.hpp"
@@ -60,6 +61,15 @@ Estimate estimate_in(const Json& json, const char* value, const char* error, con
   return estimate;
 }
 
+std::string codes_in(const Json& warnings) {
+  std::vector<std::string> codes;
+  for (const Json& warning : warnings) {
+    std::string code = text_in(warning, "code");
+    if (std::find(codes.begin(), codes.end(), code) == codes.end()) codes.push_back(std::move(code));
+  }
+  return fmt::format("{}", fmt::join(codes, " "));
+}
+
 /// Empty where it is absent; a bounded parameter keeps its interval alone.
 Estimate member(const Json& document, const char* section, const char* name) {
   const Json quantity = child(child(document, section), name);
@@ -87,15 +97,10 @@ std::string spark(const std::string& path) {
          text(path) + "\"/></svg>";
 }
 
-std::string quantity_cell(const Estimate& SI, double per_SI) {
-  const RoundedEstimate shown = rounded(scaled(SI, per_SI));
-  const std::string interval = shown.interval == "-" ? "" : "<small>" + text(shown.interval) + "</small>";
-  const std::string value = SI.value ? fmt::format("{}", *SI.value) : std::string();
-  return fmt::format("<td class=\"number\" data-value=\"{}\">{}{}</td>", value, text(shown.value), interval);
-}
-
 std::string heading(const std::string& words, const char* css_class) {
-  return fmt::format("<th scope=\"col\" class=\"{}\"><button type=\"button\">{}</button></th>", css_class, text(words));
+  // data-words: no browser prints a button again on the next page
+  return fmt::format("<th scope=\"col\" class=\"{}\" data-words=\"{}\"><button type=\"button\">{}</button></th>",
+                     css_class, text(words), text(words));
 }
 
 }  // namespace
@@ -104,21 +109,19 @@ std::string batch_headings() {
   std::string cells = heading("recording", "") + "<th scope=\"col\">trace</th>" + heading("shows", "") +
                       heading("speed [mm/s]", "number");
   for (const Column& column : kColumns) cells += heading(fmt::format("{} [{}]", column.heading, column.unit), "number");
-  return "<thead><tr>" + cells + heading("warnings", "number") + "</tr></thead>\n";
+  return "<thead><tr>" + cells + heading("warnings", "") + "</tr></thead>\n";
 }
 
 std::string batch_row(const BatchPageRow& row) {
   std::string name = text(row.id);
   if (!row.report_file.empty()) name = fmt::format("<a href=\"{}\">{}</a>", address(row.report_file), name);
-  std::string words = row.status;
-  std::replace(words.begin(), words.end(), '_', '-');
   const std::string speed = row.speed_m_per_s ? fmt::format("{}", *row.speed_m_per_s) : std::string();
   std::string cells =
       fmt::format("<td class=\"name\">{}</td><td>{}</td><td>{}</td><td class=\"number\" data-value=\"{}\">{}</td>",
-                  name, spark(row.sparkline), text(words), speed,
+                  name, spark(row.sparkline), text(status_words(row.status)), speed,
                   row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
   for (const Column& column : kColumns) cells += quantity_cell(row.*column.quantity, column.per_SI);
-  cells += fmt::format("<td class=\"number\" data-value=\"{0}\">{0}</td>", row.warnings);
+  cells += fmt::format("<td class=\"codes\">{}</td>", text(row.warnings));
   return fmt::format("<tr data-status=\"{}\">{}</tr>\n", text(row.status), cells);
 }
 
@@ -139,7 +142,7 @@ Result<BatchPageRow> batch_page_row(const std::string& document) {
   row.spacing_m = member(json, "derived", "pattern_spacing_m");
   row.stiffness_N_per_m = member(json, "parameters", "stiffness_N_per_m");
   row.damping_ratio = member(json, "parameters", "damping_ratio");
-  row.warnings = child(json, "warnings").size();
+  row.warnings = codes_in(child(json, "warnings"));
   return row;
 }
 
