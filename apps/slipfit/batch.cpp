@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@ struct BatchArguments {
   bool joint_groups = false;
   std::string tier = "auto";
   std::vector<std::string> fixed;
+  std::optional<std::string> report;
   bool quiet = false;
 };
 
@@ -41,6 +43,8 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
   command.add_option("--tier", arguments.tier, "Model: auto, sawtooth, undamped, damped")->capture_default_str();
   command.add_option("--fix", arguments.fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
       ->allow_extra_args(false);
+  command.add_option("--report", arguments.report,
+                     "Page of the batch (HTML, such as DIR/index.html); those of the recordings stand beside it");
   command.add_flag("--quiet", arguments.quiet, "No messages on standard error but errors");
 }
 
@@ -62,6 +66,19 @@ std::size_t jobs_from(const std::optional<std::size_t>& jobs) {
   throw Failure(ExitCode::WrongUsage, fmt::format("--jobs: {} is out of range, expected 1 to {}", *jobs, kMostJobs));
 }
 
+/// The command on the pages: what changes the results, so that the pages do not depend on the rest.
+slipfit::BatchReport report_from(const BatchArguments& arguments) {
+  if (std::filesystem::path(*arguments.report).extension() != ".html") {
+    throw Failure(
+        ExitCode::WrongUsage,
+        fmt::format("--report: '{}' is no page's name, expected one such as DIR/index.html", *arguments.report));
+  }
+  std::vector<std::string> words{"slipfit", "batch", arguments.manifest};
+  if (arguments.tier != "auto") words.insert(words.end(), {"--tier", arguments.tier});
+  for (const std::string& fixed : arguments.fixed) words.insert(words.end(), {"--fix", fixed});
+  return {*arguments.report, shell_line(words)};
+}
+
 slipfit::BatchOptions options_from(const BatchArguments& arguments) {
   slipfit::BatchOptions options;
   options.manifest = arguments.manifest;
@@ -70,7 +87,8 @@ slipfit::BatchOptions options_from(const BatchArguments& arguments) {
   options.jobs = jobs_from(arguments.jobs);
   options.resume = arguments.resume;
   if (arguments.shard) options.shard = shard_from(*arguments.shard);
-  if (arguments.joint_groups) options.fit_group = slipfit::group_fit(options.fit);
+  if (arguments.report) options.report = report_from(arguments);
+  if (arguments.joint_groups) options.fit_group = slipfit::group_fit(options.fit, options.report);
   return options;
 }
 

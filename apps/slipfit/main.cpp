@@ -40,20 +40,6 @@ void check_command(const CLI::App& program, const std::string& first_argument) {
   throw Failure(ExitCode::WrongUsage, "unknown command '" + first_argument + "', expected one of " + known);
 }
 
-/// The arguments as a shell takes them.
-std::string typed_line(int argc, char** argv) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
-  std::string line = "slipfit";
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const bool is_plain = !word.empty() && word.find_first_not_of(kPlain) == std::string::npos;
-    std::string quoted;
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += is_plain ? " " + word : " '" + quoted + "'";
-  }
-  return line;
-}
-
 int run(int argc, char** argv) {
   CLI::App program("Fits a stick-slip friction model to tribometer recordings", "slipfit");
   program.set_version_flag("--version", std::string("slipfit ") + SLIPFIT_VERSION);
@@ -61,8 +47,9 @@ int run(int argc, char** argv) {
   program.footer(
       "Exit codes: 0 analysed, 1 some recordings of a batch failed, 2 wrong usage, 3 recording unreadable or without "
       "anything usable.");
-  add_analyze_command(program, typed_line(argc, argv));
-  add_fit_command(program, typed_line(argc, argv));
+  const std::string typed_line = shell_line({argv, argv + argc});
+  add_analyze_command(program, typed_line);
+  add_fit_command(program, typed_line);
   add_simulate_command(program);
   add_predict_command(program);
   add_plan_command(program);

@@ -121,3 +121,16 @@ void say(const std::string& message) {
   const std::string line = "slipfit: " + slipfit::one_line(message) + "\n";
   (void)std::fwrite(line.data(), 1, line.size(), stderr);
 }
+
+std::string shell_line(const std::vector<std::string>& words) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
+  std::string line = "slipfit";
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    const bool is_plain = !word.empty() && word.find_first_not_of(kPlain) == std::string::npos;
+    std::string quoted;
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += is_plain ? " " + word : " '" + quoted + "'";
+  }
+  return line;
+}

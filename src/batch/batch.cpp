@@ -9,6 +9,7 @@
 #include "batch/final_files.hpp"
 #include "batch/folder_lock.hpp"
 #include "batch/ledger.hpp"
+#include "batch/pages.hpp"
 #include "batch/run.hpp"
 #include "batch/run_file.hpp"
 #include "batch/work_list.hpp"
@@ -78,6 +79,9 @@ std::optional<Error> close(const BatchOptions& options, const WorkList& list, Ru
   if (!run.stopped()) {
     if (auto error = check_unchanged(options, list)) return error;
     if (auto error = write_final_files(options.folder, options.manifest, list, ledger)) return error;
+    if (options.report) {
+      if (auto error = write_index(*options.report, options.manifest, list, ledger)) return error;
+    }
   }
   record.progress = run.progress();
   record.finished = !run.stopped();
@@ -91,6 +95,9 @@ Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& ho
   if (!list) return list.error();
   const auto lock = FolderLock::take(options.folder);
   if (!lock) return lock.error();
+  if (options.report) {
+    if (auto error = prepare_pages(*options.report)) return *error;
+  }
   const RunRecord record = begin_record(options, list.value().manifest_digest, list.value().rows);
   auto opened = open_ledger(options, list.value(), record);
   if (!opened) return opened.error();

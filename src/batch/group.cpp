@@ -1,17 +1,31 @@
 #include "slipfit/batch/batch.hpp"
+#include "slipfit/io/file_hash.hpp"
 #include "slipfit/report/sweep.hpp"
+#include "slipfit/report/sweep_html.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit {
+namespace {
 
-GroupFit group_fit(const FitOptions& options) {
-  return [options](const std::string& id, const std::vector<ManifestEntry>& members) -> Result<std::string> {
+SweepOrigin origin_of(const std::string& id, const std::vector<ManifestEntry>& members, const BatchReport& report) {
+  SweepOrigin origin{id, report.command_line, {}};
+  for (const ManifestEntry& entry : members) origin.file_sha256.push_back(sha256_of_file(entry.file.string()));
+  return origin;
+}
+
+}  // namespace
+
+GroupFit group_fit(const FitOptions& options, const std::optional<BatchReport>& report) {
+  return [options, report](const std::string& id, const std::vector<ManifestEntry>& members) -> Result<BatchFit> {
     const auto entries = read_sweep(members);
     if (!entries) return entries.error();
     JsonOptions layout;
     layout.id = id;
     layout.layout = JsonLayout::OneLine;
-    return to_json(entries.value(), analyze_sweep(entries.value(), options), layout);
+    const SweepAnalysis sweep = analyze_sweep(entries.value(), options);
+    BatchFit fit{to_json(entries.value(), sweep, layout), {}, {}};
+    if (report) fit.page = to_html(entries.value(), sweep, origin_of(id, members, *report));
+    return fit;
   };
 }
 

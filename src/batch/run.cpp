@@ -6,7 +6,11 @@
 #include <unordered_map>
 #include <utility>
 
+#include "slipfit/background.hpp"
+#include "slipfit/io/file_hash.hpp"
 #include "slipfit/pipeline.hpp"
+#include "slipfit/report/batch_html.hpp"
+#include "slipfit/report/html.hpp"
 #include "slipfit/report/json.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -16,17 +20,26 @@ namespace {
 constexpr std::chrono::seconds kSyncInterval{1};
 constexpr std::size_t kGroupsAtATime = 1000;  // whose entries are in memory: a few megabytes
 
-Result<std::string> fit_recording_of(const ManifestEntry& entry, const FitOptions& options) {
-  const auto recording = read_recording(entry.file, entry.conditions, entry.options);
-  if (!recording) return recording.error();
+Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions& options) {
+  const auto read = read_recording(entry.file, entry.conditions, entry.options);
+  if (!read) return read.error();
+  const Recording& recording = read.value();
+  FitOptions fit = options.fit;
+  fit.curve = options.report.has_value();
+  const Analysis analysis = analyze_and_fit(recording, fit);
   JsonOptions layout;
   layout.id = entry.id;
   layout.layout = JsonLayout::OneLine;
-  return to_json(recording.value(), analyze_and_fit(recording.value(), options), layout);
+  BatchFit result{to_json(recording, analysis, layout), {}, {}};
+  if (!options.report) return result;
+  const ReportOrigin origin{options.report->command_line, sha256_of_file(entry.file.string())};
+  result.page = to_html(recording, analysis, gather_background(recording, analysis), origin);
+  result.sparkline = sparkline_of(recording);
+  return result;
 }
 
 /// One recording's trouble stays its own.
-Result<std::string> guarded(const std::string& name, const std::function<Result<std::string>()>& fit) {
+Result<BatchFit> guarded(const std::string& name, const std::function<Result<BatchFit>()>& fit) {
   try {
     return fit();
   } catch (const std::bad_alloc&) {
@@ -80,8 +93,12 @@ BatchProgress Run::progress() const {
   return {total_, before_, fitted_, failed_, std::chrono::duration<double>(Clock::now() - start_).count()};
 }
 
-bool Run::is_to_do(std::size_t slot) const {
-  return list_.is_mine[slot] && ledger_.kind_of(slot) == Ledger::Kind::Nothing;
+bool Run::is_to_do(const PageKey& key) const {
+  if (!list_.is_mine[key.slot]) return false;
+  const Ledger::Kind kind = ledger_.kind_of(key.slot);
+  if (kind != Ledger::Kind::Result || !options_.report) return kind == Ledger::Kind::Nothing;
+  const auto line = ledger_.line_of(key.slot);
+  return line && !sparkline_on_page(*options_.report, key, line.value());
 }
 
 std::optional<Task> Run::next_recording(ManifestReader& reader) {
@@ -89,21 +106,19 @@ std::optional<Task> Run::next_recording(ManifestReader& reader) {
     auto next = reader.next();
     if (!next) keep(next.error());
     if (!next || !next.value() || next.value()->row > list_.rows) return std::nullopt;
-    if (!is_to_do(next.value()->row - 1)) continue;
+    if (!is_to_do({next.value()->row - 1, next.value()->id})) continue;
     return [this, entry = *std::move(next).value()] {
-      take_in(entry.row - 1, entry.id,
-              guarded(entry.file.string(), [&] { return fit_recording_of(entry, options_.fit); }));
+      take_in({entry.row - 1, entry.id},
+              guarded(entry.file.string(), [&] { return fit_recording_of(entry, options_); }));
     };
   }
   return std::nullopt;
 }
 
 std::optional<Task> Run::task_for_group(std::size_t group, const Members& members) {
-  const std::size_t slot = list_.slot_of_group(group);
-  if (!is_to_do(slot)) return std::nullopt;
-  return [this, slot, id = id_of_group(list_.groups[group].name), &members] {
-    take_in(slot, id, guarded(id, [&] { return options_.fit_group(id, members); }));
-  };
+  const PageKey key{list_.slot_of_group(group), id_of_group(list_.groups[group].name)};
+  if (!is_to_do(key)) return std::nullopt;
+  return [this, key, &members] { take_in(key, guarded(key.id, [&] { return options_.fit_group(key.id, members); })); };
 }
 
 Result<std::vector<Run::Members>> Run::members_of(std::size_t first_group, std::size_t count) const {
@@ -119,10 +134,17 @@ Result<std::vector<Run::Members>> Run::members_of(std::size_t first_group, std::
   return members;
 }
 
-void Run::take_in(std::size_t slot, const std::string& id, const Result<std::string>& document) {
-  auto error = document ? ledger_.add_result(slot, document.value()) : ledger_.add_failure(slot, id, document.error());
+void Run::take_in(const PageKey& key, const Result<BatchFit>& fit) {
+  const bool had_result = ledger_.kind_of(key.slot) == Ledger::Kind::Result;  // its page alone was missing
+  if (fit && options_.report && !fit.value().page.empty()) {
+    const BatchFit& kept = fit.value();
+    if (auto error = write_page(*options_.report, key, kept.document, kept.page, kept.sparkline)) keep(*error);
+  }
+  if (had_result) return;
+  auto error =
+      fit ? ledger_.add_result(key.slot, fit.value().document) : ledger_.add_failure(key.slot, key.id, fit.error());
   if (error) return keep(*std::move(error));
-  ++(document ? fitted_ : failed_);
+  ++(fit ? fitted_ : failed_);
 }
 
 void Run::keep(Error error) {

@@ -9,6 +9,7 @@
 
 #include "batch/crew.hpp"
 #include "batch/ledger.hpp"
+#include "batch/pages.hpp"
 #include "batch/work_list.hpp"
 #include "slipfit/batch/batch.hpp"
 #include "slipfit/core/result.hpp"
@@ -32,12 +33,13 @@ class Run {
   using Clock = std::chrono::steady_clock;
   using Members = std::vector<ManifestEntry>;
 
-  [[nodiscard]] bool is_to_do(std::size_t slot) const;
+  /// No result yet, or no page where there shall be one.
+  [[nodiscard]] bool is_to_do(const PageKey& key) const;
   std::optional<Task> next_recording(ManifestReader& reader);
   std::optional<Task> task_for_group(std::size_t group, const Members& members);
   /// Of some groups, in the order of the work list.
   [[nodiscard]] Result<std::vector<Members>> members_of(std::size_t first_group, std::size_t count) const;
-  void take_in(std::size_t slot, const std::string& id, const Result<std::string>& document);
+  void take_in(const PageKey& key, const Result<BatchFit>& fit);
   void keep(Error error);
   [[nodiscard]] std::optional<Error> first_error();
   Watch watch();

@@ -23,6 +23,7 @@ constexpr double kWidth = 610.0;  // of the axes
 constexpr double kRight = 16.0;
 constexpr double kAxisRoom = 52.0;  // below the axes: values and label
 constexpr double kLineHeight = 18.0;
+constexpr double kLeastStep = 18.0;  // between values of the axis at the left
 
 /// One panel: from values to pixels.
 class PanelDrawing {
@@ -77,7 +78,8 @@ class PanelDrawing {
       drawing_.line(x, top_, x, bottom_, "class=\"grid\"");
       if (!tick.text.empty()) drawing_.text(x, bottom_ + 17.0, tick.text, "value", " text-anchor=\"middle\"");
     }
-    for (const Tick& tick : panel_.y.label.empty() ? std::vector<Tick>{} : ticks_of(panel_.y)) {
+    const int most_steps = std::clamp(static_cast<int>(panel_.height_px / kLeastStep), 3, 8);
+    for (const Tick& tick : panel_.y.label.empty() ? std::vector<Tick>{} : ticks_of(panel_.y, most_steps)) {
       const double y = y_of(tick.value);
       drawing_.line(kLeft, y, kLeft + kWidth, y, "class=\"grid\"");
       if (!tick.text.empty()) drawing_.text(kLeft - 7.0, y + 4.0, tick.text, "value", " text-anchor=\"end\"");

@@ -9,16 +9,16 @@ namespace {
 
 constexpr double kSlack = 1e-9;  // of a step: a tick on the end of the axis counts in spite of rounding
 
-double step_for(double range) {
-  const double power = std::pow(10.0, std::floor(std::log10(range / 8.0)));
+double step_for(double range, int most_steps) {
+  const double power = std::pow(10.0, std::floor(std::log10(range / most_steps)));
   for (const double step : {power, 2.0 * power, 5.0 * power}) {
-    if (range / step <= 8.0 + kSlack) return step;
+    if (range / step <= most_steps + kSlack) return step;
   }
   return 10.0 * power;
 }
 
-std::vector<Tick> linear_ticks(const Axis& axis) {
-  const double step = step_for(axis.high - axis.low);
+std::vector<Tick> linear_ticks(const Axis& axis, int most_steps) {
+  const double step = step_for(axis.high - axis.low, most_steps);
   std::vector<Tick> ticks;
   for (double n = std::ceil(axis.low / step - kSlack); n * step <= axis.high + kSlack * step; ++n) {
     const double value = n * step + 0.0;  // not -0
@@ -47,8 +47,8 @@ std::vector<Tick> logarithmic_ticks(const Axis& axis) {
 
 }  // namespace
 
-std::vector<Tick> ticks_of(const Axis& axis) {
-  return axis.scale == Scale::Linear ? linear_ticks(axis) : logarithmic_ticks(axis);
+std::vector<Tick> ticks_of(const Axis& axis, int most_steps) {
+  return axis.scale == Scale::Linear ? linear_ticks(axis, most_steps) : logarithmic_ticks(axis);
 }
 
 }  // namespace slipfit::chart

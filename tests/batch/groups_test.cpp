@@ -5,6 +5,7 @@
 #include "manifests.hpp"
 #include "slipfit/batch/batch.hpp"
 
+using slipfit::BatchFit;
 using slipfit::BatchOptions;
 using slipfit::ManifestEntry;
 using slipfit::Result;
@@ -15,10 +16,10 @@ using test::lines_of;
 namespace {
 
 /// Stands in for a joint fit: a document that lists the members.
-Result<std::string> list_members(const std::string& id, const std::vector<ManifestEntry>& members) {
+Result<BatchFit> list_members(const std::string& id, const std::vector<ManifestEntry>& members) {
   nlohmann::ordered_json document{{"id", id}, {"status", "stick_slip"}, {"members", nlohmann::json::array()}};
   for (const ManifestEntry& member : members) document["members"].push_back(member.id);
-  return document.dump();
+  return BatchFit{document.dump(), {}, {}};
 }
 
 BatchOptions options_for(const BatchScene& scene, const std::string& out) {
@@ -77,7 +78,7 @@ TEST_CASE("a group stays on one shard, and merged shards are the files of one ma
 TEST_CASE("a group that fails is a row of failures.csv under its id, and is tried again") {
   const BatchScene scene(6);
   BatchOptions options = options_for(scene, "out");
-  options.fit_group = [](const std::string& id, const std::vector<ManifestEntry>& members) -> Result<std::string> {
+  options.fit_group = [](const std::string& id, const std::vector<ManifestEntry>& members) -> Result<BatchFit> {
     if (id == "group:g1") return slipfit::Error{"too_few_recordings", "one speed only"};
     return list_members(id, members);
   };
@@ -93,7 +94,7 @@ TEST_CASE("a group that fails is a row of failures.csv under its id, and is trie
 TEST_CASE("a fit that throws is that recording's failure") {
   const BatchScene scene(3);
   BatchOptions options = options_for(scene, "out");
-  options.fit_group = [](const std::string&, const std::vector<ManifestEntry>&) -> Result<std::string> {
+  options.fit_group = [](const std::string&, const std::vector<ManifestEntry>&) -> Result<BatchFit> {
     throw std::bad_alloc();
   };
   run_ok(options, 2);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <sstream>
 
 #include "examples.hpp"
 #include "slipfit/report/json.hpp"
@@ -10,49 +11,80 @@ using Catch::Contains;
 
 namespace {
 
-std::string document(const std::string& id) {
+slipfit::BatchPageRow row(const std::string& id) {
   slipfit::JsonOptions options;
   options.id = id;
   options.layout = slipfit::JsonLayout::OneLine;
-  return to_json(test::small_recording(), test::full_analysis(), options);
+  return slipfit::batch_page_row(to_json(test::small_recording(), test::full_analysis(), options)).value();
+}
+
+/// "1-2 3" as "1 -2 3"
+std::string spaced(std::string path) {
+  for (std::size_t at = path.find('-'); at != std::string::npos; at = path.find('-', at + 2)) path.insert(at, " ");
+  return path;
 }
 
 }  // namespace
 
 TEST_CASE("a batch's page has a row a recording, sortable by value, with a link and a sparkline") {
-  const slipfit::BatchPage batch{"batch",
-                                 {{document("run 7"), "reports/run 7#.html", {0.0, 1.0, 0.5}}},
-                                 {{"run8", "no_force_column", "no force"}}};
-  const auto page = to_html(batch);
-  REQUIRE(page);
-  CHECK_THAT(page.value(), Contains("1 recording: 1 stick-slip; 1 more could not be read."));
-  CHECK_THAT(page.value(), Contains("<a href=\"./reports/run%207%23.html\">run 7</a>"));
-  CHECK_THAT(page.value(), Contains("data-value=\"5.4321\">5.432<small>[5.408, 5.456]</small>"));
-  CHECK_THAT(page.value(), Contains("M0.0 28.0L60.0 2.0L120.0 15.0"));
-  CHECK_THAT(page.value(), Contains("no_force_column"));
+  slipfit::BatchPage batch{"batch", {row("run 7")}, {{"run8", "no_force_column", "no force"}}};
+  batch.rows[0].report_file = "reports/run 7#.html";
+  batch.rows[0].sparkline = "M0 26l60-26 60 13";
+  const std::string page = to_html(batch);
+  CHECK_THAT(page, Contains("1 recording: 1 stick-slip; 1 failed."));
+  CHECK_THAT(page, Contains("<a href=\"./reports/run%207%23.html\">run 7</a>"));
+  CHECK_THAT(page, Contains("data-value=\"5.4321\">5.432<small>[5.408, 5.456]</small>"));
+  CHECK_THAT(page, Contains("M0 26l60-26 60 13"));
+  CHECK_THAT(page, Contains("no_force_column"));
 }
 
 TEST_CASE("a batch's page keeps text from outside text") {
   const std::string hostile = "</script><script>alert(1)</script>";
-  const auto page =
-      to_html(slipfit::BatchPage{hostile, {{document(hostile), "x\"><script>", {}}}, {{hostile, hostile, hostile}}});
-  REQUIRE(page);
-  CHECK_THAT(page.value(), !Contains("<script>alert") && !Contains("\"><script>"));
+  slipfit::BatchPage batch{hostile, {row(hostile)}, {{hostile, hostile, hostile}}};
+  batch.rows[0].report_file = "x\"><script>";
+  batch.rows[0].sparkline = "\"><script>";
+  batch.rows[0].status = hostile;
+  CHECK_THAT(to_html(batch), !Contains("<script>alert") && !Contains("\"><script>"));
 }
 
 TEST_CASE("what is no fit document is refused, what a document leaves out is a dash") {
   for (const char* line :
        {"", "{", "[]", "null", "{\"schema\":1}", "{\"schema\":\"slipfit.predict/1\",\"id\":\"a\"}"}) {
     CAPTURE(line);
-    const auto page = to_html(slipfit::BatchPage{"batch", {{line, "", {}}}, {}});
-    REQUIRE_FALSE(page);
-    CHECK(page.error().code == "bad_document");
+    const auto bad = slipfit::batch_page_row(line);
+    REQUIRE_FALSE(bad);
+    CHECK(bad.error().code == "bad_document");
   }
   const char* bare = R"({"schema":"slipfit.fit/1","id":"a","status":"undetermined","parameters":null,"derived":3,)"
                      R"("frequency":{"value_Hz":"x","ci95_Hz":[1]},"recording":[]})";
-  const auto page = to_html(slipfit::BatchPage{"batch", {{bare, "", {}}}, {}});
-  REQUIRE(page);
-  CHECK_THAT(page.value(), Contains("<td class=\"number\" data-value=\"\">-</td>"));
+  const auto read = slipfit::batch_page_row(bare);
+  REQUIRE(read);
+  CHECK_THAT(to_html(slipfit::BatchPage{"batch", {read.value()}, {}}),
+             Contains("<td class=\"number\" data-value=\"\">-</td>"));
+}
+
+TEST_CASE("a group is counted on its own and stays out of the distributions") {
+  slipfit::BatchPage batch{"batch", {6, row("run")}, {}};
+  for (std::size_t i = 0; i < 2; ++i) batch.rows[i].id = "group:" + std::to_string(i);
+  const std::string page = to_html(batch);
+  CHECK_THAT(page, Contains("4 recordings: 4 stick-slip; 2 groups."));
+  CHECK_THAT(page, !Contains("<h2>Distributions</h2>"));  // of five recordings at least
+}
+
+TEST_CASE("a long table lays out its first rows at once, keeps more for the script, and says what it leaves out") {
+  const slipfit::BatchPage batch{"batch", {10001, row("run")}, {10002, {"bad", "empty", "no data"}}};
+  const std::string page = to_html(batch);
+  const auto rows_before = [&page](const char* what) {
+    std::size_t count = 0;
+    for (std::size_t at = page.find("<tr data-status"); at < page.find(what);
+         at = page.find("<tr data-status", at + 1)) {
+      ++count;
+    }
+    return count;
+  };
+  CHECK(rows_before("<template id=\"later\"") == 500);
+  CHECK(rows_before("</template>") == 10000);
+  CHECK_THAT(page, Contains("1 more are in results.jsonl") && Contains("2 more are in failures.csv"));
 }
 
 TEST_CASE("a sparkline is short and keeps the extremes") {
@@ -65,8 +97,21 @@ TEST_CASE("a sparkline is short and keeps the extremes") {
   slipfit::Conditions conditions;
   conditions.speed_m_per_s = 0.01;
   const auto recording = slipfit::Recording::create(time_s, force, conditions);
-  const std::vector<double> line = slipfit::sparkline_of(recording.value());
-  CHECK(line.size() <= 120);
-  CHECK(*std::max_element(line.begin(), line.end()) == 7.0);
-  CHECK(*std::min_element(line.begin(), line.end()) == -3.0);
+  const std::string line = slipfit::sparkline_of(recording.value());
+  CHECK(line.size() <= 1024);
+  CHECK(line.find_first_not_of("Ml0123456789 -") == std::string::npos);
+  std::istringstream numbers(line.substr(1, line.find('l') - 1) + " " + spaced(line.substr(line.find('l') + 1)));
+  double x = 0.0;
+  double y = 0.0;
+  double lowest = 26.0;
+  double highest = 0.0;
+  for (double dx = 0.0, dy = 0.0; numbers >> dx >> dy;) {
+    x += dx;
+    y += dy;
+    lowest = std::min(lowest, y);
+    highest = std::max(highest, y);
+  }
+  CHECK(x == 120.0);
+  CHECK(lowest == 0.0);
+  CHECK(highest == 26.0);
 }

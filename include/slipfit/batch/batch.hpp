@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,24 @@ struct Shard {
   std::size_t count = 1;
 };
 
-/// Fits the recordings of a group together: one document on one line whose id is `id`. Called from several threads.
-using GroupFit = std::function<Result<std::string>(const std::string& id, const std::vector<ManifestEntry>& members)>;
+/// A page of the batch, and in the folder `recordings` beside it one of each recording and group (docs/report.md).
+struct BatchReport {
+  std::filesystem::path file;  ///< in a folder that is there, or can be made
+  std::string command_line;    ///< that the pages show: how to repeat them
+};
 
-/// The joint fit (slipfit/sweep.hpp) as `slipfit fit --joint --json` writes it.
-GroupFit group_fit(const FitOptions& options);
+/// What a batch keeps of a recording or a group.
+struct BatchFit {
+  std::string document;   ///< schema slipfit.fit/1, on one line
+  std::string page;       ///< HTML; empty: none
+  std::string sparkline;  ///< of `sparkline_of`; empty: none
+};
+
+/// Fits the recordings of a group together; the document's id is `id`. Called from several threads.
+using GroupFit = std::function<Result<BatchFit>(const std::string& id, const std::vector<ManifestEntry>& members)>;
+
+/// The joint fit (slipfit/sweep.hpp) as `slipfit fit --joint --json` writes it, with its page where there is a report.
+GroupFit group_fit(const FitOptions& options, const std::optional<BatchReport>& report);
 
 struct BatchOptions {
   std::filesystem::path manifest;
@@ -32,6 +46,7 @@ struct BatchOptions {
   bool resume = false;   ///< go on with what the folder holds
   Shard shard;
   GroupFit fit_group;  ///< empty: recordings on their own only
+  std::optional<BatchReport> report;
 };
 
 struct BatchProgress {
@@ -58,9 +73,9 @@ struct BatchOutcome {
 
 /// Fits every recording of a manifest on its own (and every group together) and writes results.jsonl, summary.csv,
 /// failures.csv and run.json as docs/formats.md says. A recording that fails is a row of failures.csv and no error.
-/// Memory: the recordings in flight and at most 60 bytes a row. After a stop, an error or a kill at any moment, `resume`
-/// goes on. Errors: those of ManifestReader, duplicate_id, empty_manifest, folder_in_use, folder_of_another_batch,
-/// results_present, manifest_changed, cannot_write.
+/// Memory: the recordings in flight and at most 60 bytes a row, with a report 1.5 kB. After a stop, an error or a kill
+/// at any moment, `resume` goes on. Errors: those of ManifestReader, duplicate_id, empty_manifest, folder_in_use,
+/// folder_of_another_batch, results_present, manifest_changed, not_a_page, cannot_write.
 Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& hooks = {});
 
 /// Puts the finished shards of one batch together, in the manifest's order: the files that one machine would have

@@ -1,19 +1,30 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"
 
 namespace slipfit {
 
-/// One recording of a batch.
+/// What the page of a batch shows of one recording or group.
 struct BatchPageRow {
-  std::string document;           ///< schema slipfit.fit/1, one line of results.jsonl
-  std::string report_file;        ///< of its own page, relative to the batch's; empty: none
-  std::vector<double> sparkline;  ///< of `sparkline_of`; empty: none
+  std::string id;
+  std::string status;                   ///< as in the document: stick_slip, ...
+  std::optional<double> speed_m_per_s;  ///< empty for a group
+  Estimate frequency_Hz, spacing_m, stiffness_N_per_m, damping_ratio;
+  std::string warnings;     ///< their codes, each once
+  std::string report_file;  ///< of its own page, relative to the batch's; empty: none
+  std::string sparkline;    ///< of `sparkline_of`; empty: none
 };
+
+/// From a document of schema slipfit.fit/1, one line of results.jsonl; without page and sparkline. What the document
+/// does not know is empty. Error: bad_document.
+Result<BatchPageRow> batch_page_row(const std::string& document);
 
 /// One row of failures.csv.
 struct BatchPageFailure {
@@ -28,12 +39,11 @@ struct BatchPage {
   std::vector<BatchPageFailure> failures;
 };
 
-/// The trace as 120 numbers at most: the lowest and the highest of each piece.
-std::vector<double> sparkline_of(const Recording& recording);
+/// The trace in 60 columns as an SVG path, 120 wide and 26 high: at most 1 kB of digits, 'M', 'l', '-' and blanks.
+std::string sparkline_of(const Recording& recording);
 
-/// One self-contained page: a table to sort and to filter, distributions, failures. The table holds the first 5000 rows
-/// and says so; the distributions hold all. Text from outside stays text. Error `bad_document` where a row is no fit
-/// document.
-Result<std::string> to_html(const BatchPage& page);
+/// One self-contained page: a table to sort and to filter, distributions, failures. The tables hold the first 10 000
+/// rows and say so; the distributions hold all. Text from outside stays text.
+std::string to_html(const BatchPage& page);
 
 }  // namespace slipfit

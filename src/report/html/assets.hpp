@@ -5,10 +5,9 @@
 namespace slipfit::assets {
 
 // Files of src/report/html and of the chart library, embedded by cmake/SlipfitAssets.cmake.
-std::string_view recording_page();
-std::string_view batch_page();
-std::string_view sweep_page();
+std::string_view page();
 std::string_view trace_part();
+std::string_view table_part();
 std::string_view style();
 std::string_view trace_script();
 std::string_view table_script();

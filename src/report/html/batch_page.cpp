@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "chart/chart.hpp"
 #include "report/html/assets.hpp"
 #include "report/html/batch_row.hpp"
 #include "report/html/markup.hpp"
+#include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
 #include "slipfit/report/batch_html.hpp"
 
@@ -15,25 +17,40 @@ namespace slipfit {
 namespace html {
 namespace {
 
-constexpr std::size_t kMostRows = 5000;
-constexpr std::size_t kSparkColumns = 60;
-constexpr std::size_t kFewest = 5;  // values that make a distribution
+constexpr std::size_t kMostRows = 10000;
+constexpr std::size_t kRowsAtOnce = 500;  // laid out; the script shows more of them on demand
+constexpr std::size_t kFewest = 5;        // values that make a distribution
 
-using StatusCounts = std::map<std::string, std::size_t>;
+/// From the most frequent to the rarest.
+using StatusCounts = std::vector<std::pair<std::string, std::size_t>>;
 
-std::string words_for_status(std::string status) {
-  std::replace(status.begin(), status.end(), '_', '-');
-  return status;
+bool is_group(const BatchPageRow& row) {
+  return row.id.starts_with("group:");
 }
 
-std::string summary_of(const std::vector<BatchEntry>& entries, const StatusCounts& counts, std::size_t failures) {
-  std::string sentence = fmt::format("{} {}", entries.size(), entries.size() == 1 ? "recording" : "recordings");
+StatusCounts statuses_of(const std::vector<BatchPageRow>& rows) {
+  std::map<std::string, std::size_t> counts;
+  for (const BatchPageRow& row : rows) counts[row.status] += is_group(row) ? 0U : 1U;
+  StatusCounts sorted(counts.begin(), counts.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  return sorted;
+}
+
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string summary_of(const BatchPage& page, const StatusCounts& counts) {
+  const auto groups = static_cast<std::size_t>(std::count_if(page.rows.begin(), page.rows.end(), is_group));
+  std::string sentence = counted(page.rows.size() - groups, "recording");
   const char* separator = ": ";
   for (const auto& [status, count] : counts) {
-    sentence += fmt::format("{}{} {}", separator, count, words_for_status(status));
+    if (count == 0) continue;
+    sentence += fmt::format("{}{} {}", separator, count, status_words(status));
     separator = ", ";
   }
-  if (failures > 0) sentence += fmt::format("; {} more could not be read", failures);
+  if (groups > 0) sentence += "; " + counted(groups, "group");
+  if (!page.failures.empty()) sentence += fmt::format("; {} failed", page.failures.size());
   return text(sentence + ".");
 }
 
@@ -51,7 +68,7 @@ std::optional<chart::Panel> histogram(std::vector<double> values, const std::str
     counts[std::min(bins - 1, static_cast<std::size_t>(std::log(value / first) / step))] += 1.0;
   }
   chart::Panel panel;
-  panel.height_px = 110.0;
+  panel.height_px = 160.0;
   panel.x = {label, first, first * std::exp(step * static_cast<double>(bins)), chart::Scale::Logarithmic};
   panel.y = {"recordings", 0.0, 1.1 * *std::max_element(counts.begin(), counts.end()), chart::Scale::Linear};
   for (std::size_t i = 0; i < bins; ++i) {
@@ -65,89 +82,84 @@ std::optional<chart::Panel> histogram(std::vector<double> values, const std::str
   return panel;
 }
 
-std::string distributions(const std::vector<BatchEntry>& entries) {
-  const auto values = [&entries](Estimate BatchEntry::*quantity, double per_SI) {
+std::string distributions(const std::vector<BatchPageRow>& rows) {
+  const auto values = [&rows](Estimate BatchPageRow::*quantity, double per_SI) {
     std::vector<double> found;
-    for (const BatchEntry& entry : entries) {
-      if ((entry.*quantity).value) found.push_back(per_SI * *(entry.*quantity).value);
+    for (const BatchPageRow& row : rows) {
+      if (!is_group(row) && (row.*quantity).value) found.push_back(per_SI * *(row.*quantity).value);
     }
     return found;
   };
-  chart::Chart chart{"Distributions", {}, {}};
-  const auto add = [&chart](std::optional<chart::Panel> panel) {
-    if (panel) chart.panels.push_back(std::move(*panel));
+  std::string figures;
+  const auto add = [&figures](const char* id, const std::string& label, std::vector<double> numbers) {
+    const auto panel = histogram(std::move(numbers), label);
+    if (!panel) return;
+    figures +=
+        "<figure>" + to_page_svg(chart::Chart{"", {}, {*panel}}, {id, "histogram of the " + label}) + "</figure>\n";
   };
-  add(histogram(values(&BatchEntry::spacing_m, 1e3), "pattern spacing V/f [mm]"));
-  add(histogram(values(&BatchEntry::frequency_Hz, 1.0), "frequency [Hz]"));
-  add(histogram(values(&BatchEntry::stiffness_N_per_m, 1.0), "stiffness [N/m]"));
-  add(histogram(values(&BatchEntry::damping_ratio, 1.0), "damping ratio [-]"));
-  if (chart.panels.empty()) return {};
+  add("spacings", "pattern spacing V/f [mm]", values(&BatchPageRow::spacing_m, 1e3));
+  add("frequencies", "frequency [Hz]", values(&BatchPageRow::frequency_Hz, 1.0));
+  add("stiffnesses", "stiffness [N/m]", values(&BatchPageRow::stiffness_N_per_m, 1.0));
+  add("damping-ratios", "damping ratio [-]", values(&BatchPageRow::damping_ratio, 1.0));
+  if (figures.empty()) return {};
   return "<section>\n<h2>Distributions</h2>\n<p class=\"guide\">How many recordings show which value; only those in "
-         "which "
-         "it is known.</p>\n<figure>" +
-         to_page_svg(chart, {"distributions", "histograms of spacing, frequency, stiffness and damping ratio"}) +
-         "</figure>\n</section>\n";
+         "which it is known.</p>\n<div class=\"grid\">\n" +
+         figures + "</div>\n</section>\n";
+}
+
+/// Of a table that holds the first rows alone.
+std::string left_out_part(std::size_t rows, const char* file) {
+  return rows <= kMostRows ? ""
+                           : fmt::format("<p>{} more are in {} and not in this table.</p>\n", rows - kMostRows, file);
 }
 
 std::string failures_part(const std::vector<BatchPageFailure>& failures) {
   if (failures.empty()) return {};
   std::string rows;
-  for (const BatchPageFailure& failure : failures) {
+  for (const BatchPageFailure& failure : std::span(failures).first(std::min(kMostRows, failures.size()))) {
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td><code>{}</code></td></tr>\n", text(failure.id),
                         text(failure.message), text(failure.code));
   }
   return "<section class=\"flows\">\n<h2>Failures</h2>\n<div class=\"wide\"><table id=\"failures\"><thead><tr><th "
          "scope=\"col\">recording</th><th scope=\"col\">what is wrong</th><th "
          "scope=\"col\">code</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n</section>\n";
+         rows + "</tbody></table></div>\n" + left_out_part(failures.size(), "failures.csv") + "</section>\n";
 }
 
-std::string table_of(const std::vector<BatchEntry>& entries) {
-  std::string rows;
-  for (std::size_t i = 0; i < std::min(kMostRows, entries.size()); ++i) rows += batch_row(entries[i]);
-  return "<table id=\"recordings\">" + batch_headings() + "<tbody>\n" + rows + "</tbody></table>\n";
+std::string table_of(const std::vector<BatchPageRow>& rows) {
+  std::string at_once;
+  std::string later;
+  for (std::size_t i = 0; i < std::min(kMostRows, rows.size()); ++i) {
+    (i < kRowsAtOnce ? at_once : later) += batch_row(rows[i]);
+  }
+  return "<table id=\"recordings\">" + batch_headings() + "<tbody>\n" + at_once + "</tbody></table>\n<template " +
+         "id=\"later\">" + later + "</template>\n";
+}
+
+std::string options_of(const StatusCounts& counts) {
+  std::string options;
+  for (const auto& [status, count] : counts) {
+    options += fmt::format("<option value=\"{}\">{} ({})</option>", text(status), text(status_words(status)), count);
+  }
+  return options;
 }
 
 }  // namespace
 }  // namespace html
 
-std::vector<double> sparkline_of(const Recording& recording) {
-  std::vector<double> heights;
-  for (const chart::Point& point : html::envelope(recording.time_s(), recording.force(), html::kSparkColumns)) {
-    heights.push_back(point.y);
-  }
-  return heights;
-}
-
-Result<std::string> to_html(const BatchPage& page) {
-  std::vector<html::BatchEntry> entries;
-  html::StatusCounts counts;
-  for (const BatchPageRow& row : page.rows) {
-    Result<html::BatchEntry> entry = html::batch_entry(row);
-    if (!entry) return entry.error();
-    entries.push_back(std::move(entry).value());
-    ++counts[entries.back().status];
-  }
-  std::string statuses;
-  for (const auto& [status, count] : counts) {
-    statuses += fmt::format("<option value=\"{}\">{} ({})</option>", html::text(status),
-                            html::text(html::words_for_status(status)), count);
-  }
-  const std::size_t left_out = entries.size() > html::kMostRows ? entries.size() - html::kMostRows : 0;
-  return html::filled(
-      assets::batch_page(),
-      {{"title", html::text(page.title)},
-       {"style", std::string(assets::style())},
-       {"summary", html::summary_of(entries, counts, page.failures.size())},
-       {"statuses", statuses},
-       {"table", html::table_of(entries)},
-       {"left_out", left_out > 0
-                        ? fmt::format("<p>{} more recordings are in results.jsonl and not in this table.</p>", left_out)
-                        : ""},
-       {"distributions", html::distributions(entries)},
-       {"failures", html::failures_part(page.failures)},
-       {"footer", fmt::format("Made by slipfit {}.", SLIPFIT_VERSION)},
-       {"script", std::string(assets::table_script())}});
+std::string to_html(const BatchPage& page) {
+  const html::StatusCounts counts = html::statuses_of(page.rows);
+  html::PageParts parts;
+  parts.title = page.title;
+  parts.kind = "batch";
+  parts.headline = html::summary_of(page, counts);
+  parts.main =
+      html::filled(assets::table_part(), {{"statuses", html::options_of(counts)},
+                                          {"table", html::table_of(page.rows)},
+                                          {"left_out", html::left_out_part(page.rows.size(), "results.jsonl")}}) +
+      html::distributions(page.rows) + html::failures_part(page.failures);
+  parts.scripts = html::script_element(assets::table_script());
+  return html::page_from(parts);
 }
 
 }  // namespace slipfit

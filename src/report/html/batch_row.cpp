@@ -8,11 +8,14 @@
 #include <cmath>
 
 #include "report/html/markup.hpp"
+#include "report/html/page.hpp"
+#include "report/html/scaling.hpp"
 #include "report/json_values.hpp"
 #include "report/rounding.hpp"
 #include "report/text_sections.hpp"
 
-namespace slipfit::html {
+namespace slipfit {
+namespace html {
 namespace {
 
 /// One SI unit a column: rows compare by eye.
@@ -20,13 +23,17 @@ struct Column {
   const char* heading;
   const char* unit;
   double per_SI;
-  Estimate BatchEntry::*quantity;
+  Estimate BatchPageRow::*quantity;
 };
 
-constexpr std::array<Column, 4> kColumns{{{"frequency", "Hz", 1.0, &BatchEntry::frequency_Hz},
-                                          {"spacing V/f", "mm", 1e3, &BatchEntry::spacing_m},
-                                          {"stiffness", "N/m", 1.0, &BatchEntry::stiffness_N_per_m},
-                                          {"damping ratio", "-", 1.0, &BatchEntry::damping_ratio}}};
+constexpr std::array<Column, 4> kColumns{{{"frequency", "Hz", 1.0, &BatchPageRow::frequency_Hz},
+                                          {"spacing V/f", "mm", 1e3, &BatchPageRow::spacing_m},
+                                          {"stiffness", "N/m", 1.0, &BatchPageRow::stiffness_N_per_m},
+                                          {"damping ratio", "-", 1.0, &BatchPageRow::damping_ratio}}};
+
+constexpr std::size_t kSparkColumns = 60;
+constexpr double kSparkWidth = 120.0;
+constexpr double kSparkHeight = 26.0;
 
 /// null where it is absent, or `json` is no object: documents come from files.
 Json child(const Json& json, const char* key) {
@@ -54,6 +61,15 @@ Estimate estimate_in(const Json& json, const char* value, const char* error, con
   return estimate;
 }
 
+std::string codes_in(const Json& warnings) {
+  std::vector<std::string> codes;
+  for (const Json& warning : warnings) {
+    std::string code = text_in(warning, "code");
+    if (std::find(codes.begin(), codes.end(), code) == codes.end()) codes.push_back(std::move(code));
+  }
+  return fmt::format("{}", fmt::join(codes, " "));
+}
+
 /// Empty where it is absent; a bounded parameter keeps its interval alone.
 Estimate member(const Json& document, const char* section, const char* name) {
   const Json quantity = child(child(document, section), name);
@@ -74,77 +90,80 @@ std::string address(const std::string& file) {
   return result;
 }
 
-std::string spark(const std::vector<double>& heights) {
-  if (heights.size() < 2) return {};
-  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-  const double scale = *high > *low ? 26.0 / (*high - *low) : 0.0;
-  std::string path;
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    path += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L",
-                        120.0 * static_cast<double>(i) / static_cast<double>(heights.size() - 1),
-                        28.0 - scale * (heights[i] - *low));
-  }
-  return "<svg class=\"spark\" viewBox=\"0 0 120 30\" preserveAspectRatio=\"none\" role=\"img\" "
-         "aria-label=\"trace\"><path "
-         "d=\"" +
-         path + "\"/></svg>";
-}
-
-std::string quantity_cell(const Estimate& SI, double per_SI) {
-  const RoundedEstimate shown = rounded(scaled(SI, per_SI));
-  const std::string interval = shown.interval == "-" ? "" : "<small>" + text(shown.interval) + "</small>";
-  const std::string value = SI.value ? fmt::format("{}", *SI.value) : std::string();
-  return fmt::format("<td class=\"number\" data-value=\"{}\">{}{}</td>", value, text(shown.value), interval);
+std::string spark(const std::string& path) {
+  if (path.empty()) return {};
+  return "<svg class=\"spark\" viewBox=\"0 -2 120 30\" preserveAspectRatio=\"none\" role=\"img\" "
+         "aria-label=\"trace\"><path d=\"" +
+         text(path) + "\"/></svg>";
 }
 
 std::string heading(const std::string& words, const char* css_class) {
-  return fmt::format("<th scope=\"col\" class=\"{}\"><button type=\"button\">{}</button></th>", css_class, text(words));
+  // data-words: no browser prints a button again on the next page
+  return fmt::format("<th scope=\"col\" class=\"{}\" data-words=\"{}\"><button type=\"button\">{}</button></th>",
+                     css_class, text(words), text(words));
 }
 
 }  // namespace
-
-Result<BatchEntry> batch_entry(const BatchPageRow& row) {
-  const Json document = Json::parse(row.document, nullptr, false);
-  const bool is_fit = text_in(document, "schema") == "slipfit.fit/1" && !text_in(document, "id").empty() &&
-                      !text_in(document, "status").empty();
-  if (!is_fit) {
-    return Error{"bad_document",
-                 fmt::format("'{}': no fit document, expected one line of results.jsonl", row.document.substr(0, 60))};
-  }
-  BatchEntry entry;
-  entry.id = text_in(document, "id");
-  entry.status = text_in(document, "status");
-  entry.speed_m_per_s = number_in(child(document, "recording"), "speed_m_per_s");
-  entry.frequency_Hz = estimate_in(child(document, "frequency"), "value_Hz", "se_Hz", "ci95_Hz");
-  entry.spacing_m = member(document, "derived", "pattern_spacing_m");
-  entry.stiffness_N_per_m = member(document, "parameters", "stiffness_N_per_m");
-  entry.damping_ratio = member(document, "parameters", "damping_ratio");
-  entry.warnings = child(document, "warnings").size();
-  entry.report_file = row.report_file;
-  entry.sparkline = row.sparkline;
-  return entry;
-}
 
 std::string batch_headings() {
   std::string cells = heading("recording", "") + "<th scope=\"col\">trace</th>" + heading("shows", "") +
                       heading("speed [mm/s]", "number");
   for (const Column& column : kColumns) cells += heading(fmt::format("{} [{}]", column.heading, column.unit), "number");
-  return "<thead><tr>" + cells + heading("warnings", "number") + "</tr></thead>\n";
+  return "<thead><tr>" + cells + heading("warnings", "") + "</tr></thead>\n";
 }
 
-std::string batch_row(const BatchEntry& entry) {
-  std::string name = text(entry.id);
-  if (!entry.report_file.empty()) name = fmt::format("<a href=\"{}\">{}</a>", address(entry.report_file), name);
-  std::string words = entry.status;
-  std::replace(words.begin(), words.end(), '_', '-');
-  const std::string speed = entry.speed_m_per_s ? fmt::format("{}", *entry.speed_m_per_s) : std::string();
+std::string batch_row(const BatchPageRow& row) {
+  std::string name = text(row.id);
+  if (!row.report_file.empty()) name = fmt::format("<a href=\"{}\">{}</a>", address(row.report_file), name);
+  const std::string speed = row.speed_m_per_s ? fmt::format("{}", *row.speed_m_per_s) : std::string();
   std::string cells =
       fmt::format("<td class=\"name\">{}</td><td>{}</td><td>{}</td><td class=\"number\" data-value=\"{}\">{}</td>",
-                  name, spark(entry.sparkline), text(words), speed,
-                  entry.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *entry.speed_m_per_s) : std::string("-"));
-  for (const Column& column : kColumns) cells += quantity_cell(entry.*column.quantity, column.per_SI);
-  cells += fmt::format("<td class=\"number\" data-value=\"{0}\">{0}</td>", entry.warnings);
-  return fmt::format("<tr data-status=\"{}\">{}</tr>\n", text(entry.status), cells);
+                  name, spark(row.sparkline), text(status_words(row.status)), speed,
+                  row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
+  for (const Column& column : kColumns) cells += quantity_cell(row.*column.quantity, column.per_SI);
+  cells += fmt::format("<td class=\"codes\">{}</td>", text(row.warnings));
+  return fmt::format("<tr data-status=\"{}\">{}</tr>\n", text(row.status), cells);
 }
 
-}  // namespace slipfit::html
+}  // namespace html
+
+Result<BatchPageRow> batch_page_row(const std::string& document) {
+  using namespace html;
+  const Json json = Json::parse(document, nullptr, false);
+  BatchPageRow row;
+  row.id = text_in(json, "id");
+  row.status = text_in(json, "status");
+  if (text_in(json, "schema") != "slipfit.fit/1" || row.id.empty() || row.status.empty()) {
+    return Error{"bad_document",
+                 fmt::format("'{}': no fit document, expected one line of results.jsonl", document.substr(0, 60))};
+  }
+  row.speed_m_per_s = number_in(child(json, "recording"), "speed_m_per_s");
+  row.frequency_Hz = estimate_in(child(json, "frequency"), "value_Hz", "se_Hz", "ci95_Hz");
+  row.spacing_m = member(json, "derived", "pattern_spacing_m");
+  row.stiffness_N_per_m = member(json, "parameters", "stiffness_N_per_m");
+  row.damping_ratio = member(json, "parameters", "damping_ratio");
+  row.warnings = codes_in(child(json, "warnings"));
+  return row;
+}
+
+std::string sparkline_of(const Recording& recording) {
+  const std::vector<chart::Point> points = html::envelope(recording.time_s(), recording.force(), html::kSparkColumns);
+  if (points.size() < 2) return {};
+  const auto is_lower = [](const chart::Point& a, const chart::Point& b) { return a.y < b.y; };
+  const auto [low, high] = std::minmax_element(points.begin(), points.end(), is_lower);
+  const double scale = high->y > low->y ? html::kSparkHeight / (high->y - low->y) : 0.0;
+  std::string path;
+  long last_x = 0;
+  long last_y = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const long x = std::lround(html::kSparkWidth * static_cast<double>(i) / static_cast<double>(points.size() - 1));
+    const long y = std::lround(html::kSparkHeight - scale * (points[i].y - low->y));
+    const char* const step = i == 0 ? "M" : i == 1 ? "l" : " ";
+    path += fmt::format("{}{}{}{}", step, x - last_x, y < last_y ? "" : " ", y - last_y);
+    last_x = x;
+    last_y = y;
+  }
+  return path;
+}
+
+}  // namespace slipfit

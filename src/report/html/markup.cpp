@@ -17,14 +17,16 @@ constexpr std::array<Replacement, 5> kMarkup{
 constexpr std::array<Replacement, 5> kScript{
     {{"<", "\\u003c"}, {">", "\\u003e"}, {"&", "\\u0026"}, {"\xE2\x80\xA8", "\\u2028"}, {"\xE2\x80\xA9", "\\u2029"}}};
 
-constexpr std::array<Replacement, 8> kSymbols{{{"F_s", "F<sub>s</sub>"},
-                                               {"F_k", "F<sub>k</sub>"},
-                                               {"w_n^2", "ω<sub>n</sub><sup>2</sup>"},
-                                               {"w_n", "ω<sub>n</sub>"},
-                                               {"zeta^2", "ζ<sup>2</sup>"},
-                                               {"zeta", "ζ"},
-                                               {"lambda", "λ"},
-                                               {"alpha", "α"}}};
+constexpr std::array<Replacement, 10> kSymbols{{{"F_s", "F<sub>s</sub>"},
+                                                {"F_k", "F<sub>k</sub>"},
+                                                {"w_n^2", "ω<sub>n</sub><sup>2</sup>"},
+                                                {"w_n", "ω<sub>n</sub>"},
+                                                {"zeta^2", "ζ<sup>2</sup>"},
+                                                {"zeta", "ζ"},
+                                                {"lambda", "λ"},
+                                                {"alpha", "α"},
+                                                {"--zero", "<code class=\"option\">--zero</code>"},
+                                                {"--normal-force", "<code class=\"option\">--normal-force</code>"}}};
 
 /// Runs without any of the first characters are copied at once: pages hold megabytes that need no replacement.
 template <std::size_t count>

@@ -10,7 +10,8 @@ namespace slipfit::html {
 /// Text as text: & < > " ' escaped, control characters as '?'. For content and for attributes in double quotes.
 std::string text(std::string_view content);
 
-/// The same with the symbols of our own sentences as people write them: F_s, F_k, w_n, zeta, lambda.
+/// The same with the symbols of our own sentences as people write them: F_s, F_k, w_n, zeta, lambda; options on one
+/// line.
 std::string formula_text(std::string_view content);
 
 /// A template with {{name}} replaced by the value of that name, as it stands; inserted text is not searched again.

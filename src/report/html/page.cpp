@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-
 #include <limits>
 #include <string>
 #include <vector>
@@ -31,18 +29,20 @@ std::string trace_part(const Exhibit& exhibit, const Source& source) {
                  {"chart", to_page_svg(*exhibit.chart, {exhibit.id, exhibit.label})}});
 }
 
+/// Charts in their order; what the recording does not allow stands behind them, in a few lines.
 std::string exhibits_part(const Source& source) {
   std::string parts;
+  std::string absent;
   for (const Exhibit& exhibit : exhibits_of(source)) {
-    parts += exhibit.id == "trace" && exhibit.chart ? trace_part(exhibit, source) : exhibit_part(exhibit);
+    if (!exhibit.chart) {
+      absent += "<dt>" + text(exhibit.title) + "</dt><dd>" + formula_text(exhibit.absent) + "</dd>\n";
+      continue;
+    }
+    parts += exhibit.id == "trace" ? trace_part(exhibit, source) : exhibit_part(exhibit);
   }
-  return parts;
-}
-
-std::string reason_of(const Analysis& analysis) {
-  std::string reason = formula_text(analysis.verdict_reason);
-  if (!reason.empty()) reason.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(reason.front())));
-  return reason;
+  if (absent.empty()) return parts;
+  return parts + "<section id=\"absent\">\n<h2>What this recording cannot show</h2>\n<dl class=\"facts\">\n" + absent +
+         "</dl>\n</section>\n";
 }
 
 std::string numbers_part(const Source& source) {
@@ -58,10 +58,6 @@ std::string numbers_part(const Source& source) {
          "command line</summary>\n<pre>" +
          lines + "</pre></details>\n</section>\n";
 }
-
-}  // namespace
-
-namespace {
 
 std::vector<double> fitted_force(const Recording& recording, const Analysis& analysis) {
   std::vector<double> fitted(recording.size(), std::numeric_limits<double>::quiet_NaN());
@@ -87,6 +83,22 @@ std::vector<Exhibit> exhibits_of(const Source& source) {
           map_exhibit(source),   speed_exhibit(source),    pattern_exhibit(source)};
 }
 
+std::string page_from(const PageParts& parts) {
+  return filled(assets::page(), {{"title", text(parts.title)},
+                                 {"style", parts.library_style + std::string(assets::style())},
+                                 {"kind", parts.kind},
+                                 {"headline", parts.headline},
+                                 {"summary", parts.summary},
+                                 {"main", parts.main},
+                                 {"version", SLIPFIT_VERSION},
+                                 {"credits", text(parts.credits)},
+                                 {"scripts", parts.scripts}});
+}
+
+std::string script_element(std::string_view script) {
+  return "<script>" + std::string(script) + "</script>\n";
+}
+
 std::string exhibit_part(const Exhibit& exhibit) {
   std::string part = fmt::format("<section id=\"{}-section\">\n<h2>{}</h2>\n", exhibit.id, text(exhibit.title));
   if (!exhibit.chart)
@@ -103,28 +115,23 @@ bool has_interactive_trace() {
 
 std::string to_html(const Recording& recording, const Analysis& analysis, const Background& background,
                     const ReportOrigin& origin) {
-  using html::text;
   const html::Source source = html::source_of(recording, analysis, background);
   const std::string& file = recording.provenance().file;
-  const std::string library(assets::dygraphs_script());
-  return html::filled(assets::recording_page(),
-                      {{"title", text(file.empty() ? "recording" : file)},
-                       {"library_style", std::string(assets::dygraphs_style())},
-                       {"style", std::string(assets::style())},
-                       {"verdict", html::verdict_sentence(source)},
-                       {"reason", html::reason_of(analysis)},
-                       {"key_numbers", html::key_numbers(source)},
-                       {"warnings", html::warnings_part(all_warnings(recording, analysis))},
-                       {"parameters", html::parameters_part(source)},
-                       {"exhibits", html::exhibits_part(source)},
-                       {"quality", html::quality_part(source)},
-                       {"numbers", html::numbers_part(source)},
-                       {"repeat", html::repeat_part(source, origin)},
-                       {"footer", fmt::format("Made by slipfit {}{}.", SLIPFIT_VERSION,
-                                              library.empty() ? "" : "; interactive trace by dygraphs (MIT licence)")},
-                       {"trace_data", library.empty() ? std::string() : html::trace_data(source)},
-                       {"library_script", library},
-                       {"script", library.empty() ? std::string() : std::string(assets::trace_script())}});
+  html::PageParts page;
+  page.title = file.empty() ? "recording" : file;
+  page.kind = "recording";
+  page.headline = html::verdict_sentence(source);
+  page.summary = "<p class=\"reason\">" + html::capitalised(html::formula_text(analysis.verdict_reason)) + "</p>\n" +
+                 html::key_numbers(source) + html::warnings_part(all_warnings(recording, analysis));
+  page.main = html::parameters_part(source) + html::exhibits_part(source) + html::quality_part(source) +
+              html::numbers_part(source) + html::repeat_part(source, origin);
+  if (has_interactive_trace()) {
+    page.library_style = assets::dygraphs_style();
+    page.credits = "; interactive trace by dygraphs (MIT licence)";
+    page.scripts = "<script type=\"application/json\" id=\"trace-data\">" + html::trace_data(source) + "</script>\n" +
+                   html::script_element(assets::dygraphs_script()) + html::script_element(assets::trace_script());
+  }
+  return html::page_from(page);
 }
 
 std::vector<PictureFile> report_pictures(const Recording& recording, const Analysis& analysis,

@@ -1,11 +1,35 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "report/html/exhibit.hpp"
 #include "slipfit/report/html.hpp"
 
 namespace slipfit::html {
+
+/// What differs between the pages: HTML, but for the title, which is text. Empty parts are left out.
+struct PageParts {
+  std::string title;
+  std::string kind;  ///< "recording", "sweep" or "batch": for the style sheet
+  std::string headline;
+  std::string summary;  ///< under the headline
+  std::string main;
+  std::string library_style;
+  std::string credits;  ///< behind the program's version, as text
+  std::string scripts;  ///< elements <script>
+};
+std::string page_from(const PageParts& parts);
+std::string script_element(std::string_view script);
+
+/// <td> with a quantity rounded by its uncertainty, its interval, and the value to sort by.
+std::string quantity_cell(const Estimate& SI, double per_SI);
+/// A status of the document in words: "stick-slip", "steady sliding".
+std::string status_words(std::string_view status);
+/// A sentence with a capital at its beginning.
+std::string capitalised(std::string sentence);
+/// "command" with what was typed, for <dl>; empty where nothing was.
+std::string command_fact(const std::string& command_line);
 
 // Parts of the page of one recording, as HTML.
 std::string verdict_sentence(const Source& source);

@@ -59,6 +59,13 @@ std::string candidates_table(const FitResult& fit, ForceQuantity quantity) {
          rows + "</tbody></table></div>\n";
 }
 
+/// A quantity that a line does not end in.
+std::string unbroken(const std::string& quantity) {
+  std::string result;
+  for (const char c : quantity) result += c == ' ' ? std::string("\u00a0") : std::string(1, c);
+  return result;
+}
+
 void add_count(std::vector<std::string>& found, std::size_t count, const char* what) {
   if (count > 0) found.push_back(fmt::format("{} {}", count, what));
 }
@@ -78,17 +85,42 @@ std::vector<std::string> defects_of(const Recording& recording, const Quality& q
 
 }  // namespace
 
+std::string quantity_cell(const Estimate& SI, double per_SI) {
+  const RoundedEstimate shown = rounded(scaled(SI, per_SI));
+  const std::string interval = shown.interval == "-" ? "" : "<small>" + text(shown.interval) + "</small>";
+  const std::string value = SI.value ? fmt::format("{}", *SI.value) : std::string();
+  return fmt::format("<td class=\"number\" data-value=\"{}\">{}{}</td>", value, text(shown.value), interval);
+}
+
+std::string status_words(std::string_view status) {
+  if (status == "stick_slip") return "stick-slip";
+  std::string words(status);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string capitalised(std::string sentence) {
+  if (!sentence.empty())
+    sentence.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence.front())));
+  return sentence;
+}
+
+std::string command_fact(const std::string& command_line) {
+  return command_line.empty() ? "" : "<dt>command</dt><dd><code>" + text(command_line) + "</code></dd>\n";
+}
+
 std::string verdict_sentence(const Source& source) {
   const Analysis& analysis = source.analysis;
   const Estimate& frequency = analysis.frequency.quoted;
-  const std::string rate = frequency.value ? with_error(frequency) + " Hz" : std::string();
-  const std::string speed = stated_text(source.recording.conditions().speed_m_per_s, "m/s");
+  const std::string rate = frequency.value ? unbroken(with_error(frequency) + " Hz") : std::string();
+  const std::string speed = unbroken(stated_text(source.recording.conditions().speed_m_per_s, "m/s"));
   switch (analysis.verdict) {
     case Verdict::StickSlip: {
       if (rate.empty()) return text("Stick-slip, but no frequency can be told.");
       const Estimate& spacing = analysis.derived.pattern_spacing_m;
-      const std::string pattern =
-          spacing.value ? fmt::format(" a pattern of {} spacing at", quantity_of(spacing, "m")) : std::string(" at");
+      const std::string pattern = spacing.value
+                                      ? fmt::format(" a pattern of {} spacing at", unbroken(quantity_of(spacing, "m")))
+                                      : std::string(" at");
       return text(fmt::format("Stick-slip at {}:{} {}.", rate, pattern, speed));
     }
     case Verdict::SteadySliding:
@@ -118,10 +150,8 @@ std::string warnings_part(const Warnings& warnings) {
   if (warnings.empty()) return {};
   std::string items;
   for (const Warning& warning : warnings) {
-    std::string message = formula_text(warning.message);
-    if (!message.empty())
-      message.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(message.front())));
-    items += fmt::format("<li>{} <code>{}</code></li>\n", message, text(warning.code));
+    items +=
+        fmt::format("<li>{} <code>{}</code></li>\n", capitalised(formula_text(warning.message)), text(warning.code));
   }
   return "<div class=\"warnings\" role=\"note\"><strong>Before trusting the numbers</strong>\n<ul>\n" + items +
          "</ul></div>\n";
@@ -191,9 +221,7 @@ std::string repeat_part(const Source& source, const ReportOrigin& origin) {
                       fact("file", provenance.file.empty() ? "not from a file" : provenance.file) +
                       "<dt>SHA-256 of the file</dt><dd><code>" +
                       text(origin.file_sha256.value_or("not known (no regular file)")) + "</code></dd>\n";
-  if (!origin.command_line.empty()) {
-    facts += "<dt>command</dt><dd><code>" + text(origin.command_line) + "</code></dd>\n";
-  }
+  facts += command_fact(origin.command_line);
   facts += fact("driving speed", stated_text(conditions.speed_m_per_s, "m/s"));
   if (conditions.speed_standard_error_m_per_s) {
     facts += fact("its standard error", stated_text(*conditions.speed_standard_error_m_per_s, "m/s"));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "report/html/assets.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
@@ -32,46 +31,59 @@ std::string parameters_of(const SweepAnalysis& sweep) {
   return part + parameter_table(sweep.joint->fit) + "</section>\n";
 }
 
-std::string estimate_cell(const Estimate& estimate, const std::string& SI_unit) {
-  const EstimateRow row = estimate_row(estimate, SI_unit);
-  const std::string interval = row.interval == "-" ? "" : "<small>" + text(row.interval) + "</small>";
-  return fmt::format("<td class=\"number\">{} {}{}</td>", text(row.value), text(row.value == "-" ? "" : row.unit),
-                     interval);
-}
-
 std::string off_by(const Estimate& predicted, const Estimate& measured) {
   if (!predicted.value || !measured.value) return "-";
   return fmt::format("{:+.1f} %", 100.0 * (*predicted.value / *measured.value - 1.0));
 }
 
-std::string recordings_of(const SweepSource& source) {
-  std::string rows;
+/// One unit a column: rows compare by eye.
+struct SweepUnits {
+  DisplayUnit speed;
+  DisplayUnit spacing;
+};
+
+SweepUnits units_of(const SweepSource& source) {
+  double fastest_m_per_s = 0.0;
+  double widest_m = 0.0;
   for (std::size_t i = 0; i < source.entries.size(); ++i) {
-    const Analysis& analysis = source.sweep.recordings[i];
-    const Estimate& measured = analysis.derived.pattern_spacing_m;
-    const Estimate predicted = source.sweep.joint ? source.sweep.joint->points[i].spacing_left_out_m : Estimate{};
-    std::string shows(name_of(analysis.verdict));
-    std::replace(shows.begin(), shows.end(), '_', '-');
-    if (source.sweep.roles[i] == SweepRole::LeftOut) shows += ", left out";
-    rows += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td>{}</td>{}{}<td class=\"number\">{}"
-        "</td></tr>\n",
-        text(source.entries[i].id), text(stated_text(source.entries[i].recording.conditions().speed_m_per_s, "m/s")),
-        text(shows), estimate_cell(measured, "m"), estimate_cell(predicted, "m"), text(off_by(predicted, measured)));
+    fastest_m_per_s = std::max(fastest_m_per_s, source.entries[i].recording.conditions().speed_m_per_s);
+    widest_m = std::max(widest_m, source.sweep.recordings[i].derived.pattern_spacing_m.value.value_or(0.0));
   }
+  return {display_unit("m/s", fastest_m_per_s), display_unit("m", widest_m)};
+}
+
+std::string recording_row(const SweepSource& source, std::size_t i, const SweepUnits& units) {
+  const Analysis& analysis = source.sweep.recordings[i];
+  const double speed = units.speed.per_SI * source.entries[i].recording.conditions().speed_m_per_s;
+  const Estimate& measured = analysis.derived.pattern_spacing_m;
+  const Estimate predicted = source.sweep.joint ? source.sweep.joint->points[i].spacing_left_out_m : Estimate{};
+  const bool is_left_out = source.sweep.roles[i] == SweepRole::LeftOut;
+  return fmt::format(
+      "<tr><th scope=\"row\">{}</th><td class=\"number\">{:.4g}</td><td>{}{}</td>{}{}<td "
+      "class=\"number\">{}</td></tr>\n",
+      text(source.entries[i].id), speed, status_words(name_of(analysis.verdict)), is_left_out ? ", left out" : "",
+      quantity_cell(measured, units.spacing.per_SI), quantity_cell(predicted, units.spacing.per_SI),
+      text(off_by(predicted, measured)));
+}
+
+std::string recordings_of(const SweepSource& source) {
+  const SweepUnits units = units_of(source);
+  std::string headings;
+  for (const std::string& words :
+       {label_with_unit("speed", units.speed.unit), std::string("shows"),
+        label_with_unit("spacing measured, V/f", units.spacing.unit),
+        label_with_unit("predicted without it", units.spacing.unit), std::string("off by")}) {
+    headings += fmt::format("<th scope=\"col\" class=\"{}\">{}</th>", words == "shows" ? "" : "number", text(words));
+  }
+  std::string rows;
+  for (std::size_t i = 0; i < source.entries.size(); ++i) rows += recording_row(source, i, units);
   return "<section class=\"flows\">\n<h2>Each recording, predicted without it</h2>\n<div class=\"wide\"><table "
-         "class=\"plain-table\"><thead><tr><th scope=\"col\">recording</th><th scope=\"col\" "
-         "class=\"number\">speed</th><th scope=\"col\">shows</th><th scope=\"col\" class=\"number\">spacing measured "
-         "(V/f)</th><th scope=\"col\" class=\"number\">predicted without it</th><th scope=\"col\" class=\"number\">off "
-         "by</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n</section>\n";
+         "class=\"plain-table\"><thead><tr><th scope=\"col\">recording</th>" +
+         headings + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n</section>\n";
 }
 
 std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
-  std::string facts = fact("program", fmt::format("slipfit {}", SLIPFIT_VERSION));
-  if (!origin.command_line.empty()) {
-    facts += "<dt>command</dt><dd><code>" + text(origin.command_line) + "</code></dd>\n";
-  }
+  std::string facts = fact("program", fmt::format("slipfit {}", SLIPFIT_VERSION)) + command_fact(origin.command_line);
   for (std::size_t i = 0; i < source.entries.size(); ++i) {
     const bool has_hash = i < origin.file_sha256.size() && origin.file_sha256[i];
     facts += fmt::format("<dt>{}</dt><dd>{}<br><code>{}</code></dd>\n", text(source.entries[i].id),
@@ -87,18 +99,16 @@ std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
 
 std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const SweepOrigin& origin) {
   const html::SweepSource source{entries, sweep};
-  const std::string exhibits = html::exhibit_part(html::sweep_spacing_exhibit(source)) +
-                               html::exhibit_part(html::sweep_friction_exhibit(source)) + html::recordings_of(source) +
-                               html::exhibit_part(html::sweep_traces_exhibit(source));
-  return html::filled(assets::sweep_page(), {{"title", html::text(origin.name)},
-                                             {"style", std::string(assets::style())},
-                                             {"verdict", html::verdict_of(source)},
-                                             {"reason", html::formula_text(sweep.joint_reason)},
-                                             {"warnings", html::warnings_part(all_warnings(sweep))},
-                                             {"parameters", html::parameters_of(sweep)},
-                                             {"exhibits", exhibits},
-                                             {"repeat", html::repeat_of(source, origin)},
-                                             {"footer", fmt::format("Made by slipfit {}.", SLIPFIT_VERSION)}});
+  html::PageParts page;
+  page.title = origin.name;
+  page.kind = "sweep";
+  page.headline = html::verdict_of(source);
+  page.summary = "<p class=\"reason\">" + html::formula_text(sweep.joint_reason) + "</p>\n" +
+                 html::warnings_part(all_warnings(sweep));
+  page.main = html::parameters_of(sweep) + html::exhibit_part(html::sweep_spacing_exhibit(source)) +
+              html::exhibit_part(html::sweep_friction_exhibit(source)) + html::recordings_of(source) +
+              html::exhibit_part(html::sweep_traces_exhibit(source)) + html::repeat_of(source, origin);
+  return html::page_from(page);
 }
 
 }  // namespace slipfit

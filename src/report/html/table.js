@@ -3,20 +3,27 @@
   "use strict";
   const table = document.getElementById("recordings");
   const body = table.tBodies[0];
-  const rows = [...body.rows];
+  const rows = [...body.rows, ...document.getElementById("later").content.querySelectorAll("tr")];
+  const wordsOf = new Map(rows.map((row) => [row, row.textContent.toLowerCase()]));
   const search = document.getElementById("search");
   const status = document.getElementById("status");
   const shown = document.getElementById("shown");
+  const more = document.getElementById("more");
+  const kAtOnce = 500;  // rows that are laid out: ten thousand make every key stroke slow
+  let most = kAtOnce;
 
-  function filter() {
-    const words = search.value.toLowerCase();
-    let count = 0;
-    for (const row of rows) {
-      const fits = (!status.value || row.dataset.status === status.value) && row.textContent.toLowerCase().includes(words);
-      row.hidden = !fits;
-      count += fits ? 1 : 0;
-    }
-    shown.textContent = `${count} of ${rows.length}`;
+  function show() {
+    const sought = search.value.toLowerCase();
+    const fits = (row) => (!status.value || row.dataset.status === status.value) && wordsOf.get(row).includes(sought);
+    const found = rows.filter(fits);
+    body.replaceChildren(...found.slice(0, most));
+    shown.textContent = `${found.length} of ${rows.length}`;
+    more.hidden = found.length <= most;
+    more.textContent = `Show ${Math.min(kAtOnce, found.length - most)} more`;
+  }
+  function showAnew() {
+    most = kAtOnce;
+    show();
   }
 
   /** Numbers by value, what is not known last in either direction; other cells by their text. */
@@ -36,10 +43,14 @@
       for (const other of table.tHead.querySelectorAll("th")) other.removeAttribute("aria-sort");
       heading.setAttribute("aria-sort", rising ? "ascending" : "descending");
       rows.sort((a, b) => compare(a, b, heading.cellIndex, rising ? 1 : -1));
-      body.append(...rows);
+      showAnew();
     });
   }
-  search.addEventListener("input", filter);
-  status.addEventListener("change", filter);
-  filter();
+  search.addEventListener("input", showAnew);
+  status.addEventListener("change", showAnew);
+  more.addEventListener("click", () => {
+    most += kAtOnce;
+    show();
+  });
+  show();
 })();

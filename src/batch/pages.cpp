@@ -1,0 +1,143 @@
+#include "batch/pages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "batch/digest.hpp"
+#include "batch/files.hpp"
+#include "io/csv_fields.hpp"
+#include "slipfit/report/batch_html.hpp"
+#include "slipfit/report/text.hpp"
+
+namespace slipfit::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFolder = "recordings";
+constexpr std::string_view kBegin = "<!DOCTYPE html>";
+constexpr std::size_t kLongestLastLine = 4096;
+
+/// The slot makes it unique (in a folder that shards share, too), the id's harmless letters make it readable.
+std::string page_name(const PageKey& key) {
+  constexpr std::size_t kLongestName = 80;
+  std::string name = key.id.substr(0, kLongestName);
+  for (char& c : name) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
+    if (!is_plain) c = '_';
+  }
+  return fmt::format("{:05}-{}.html", key.slot + 1, name);
+}
+
+fs::path page_file(const BatchReport& report, const PageKey& key) {
+  return report.file.parent_path() / kFolder / page_name(key);
+}
+
+std::string mark_of(std::string_view document) {
+  return fmt::format("<!-- slipfit.page/1 {:016x} ", digest(document));
+}
+
+/// Replaces no file but a page: an input stays as it is.
+std::optional<Error> replace_page(const fs::path& file, std::string_view content) {
+  std::error_code ignored;
+  if (fs::exists(file, ignored)) {
+    std::string begin(kBegin.size(), '\0');
+    std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    if (begin != kBegin) {
+      return Error{"not_a_page",
+                   one_line(file.string()) + ": is no page of slipfit and is not replaced; choose another --report"};
+    }
+  }
+  return content.empty() ? std::nullopt : replace_file(file, content);
+}
+
+std::optional<Error> make_folder(const fs::path& folder) {
+  std::error_code error;
+  if (!folder.empty() && !fs::is_directory(folder, error) && !fs::create_directory(folder, error)) {
+    return cannot_write(folder, error ? error.value() : ENOTDIR);
+  }
+  return std::nullopt;
+}
+
+std::string last_line_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::streamoff>(stream.tellg());
+  const std::streamoff count = std::min(size, static_cast<std::streamoff>(kLongestLastLine));
+  std::string end(static_cast<std::size_t>(std::max(count, std::streamoff{0})), '\0');
+  stream.seekg(size - count);
+  stream.read(end.data(), count);
+  if (!stream || !end.ends_with('\n')) return {};
+  end.pop_back();
+  return end.substr(end.rfind('\n') + 1);
+}
+
+BatchPageFailure failure_of(const std::string& line) {
+  auto cells = reading::csv_fields(line, ',').value_or(std::vector<std::string>());
+  cells.resize(3);
+  return {cells[0], cells[1], cells[2]};
+}
+
+std::optional<Error> add_slot(BatchPage& page, const BatchReport& report, const Ledger& ledger, const PageKey& key) {
+  const Ledger::Kind kind = ledger.kind_of(key.slot);
+  if (kind == Ledger::Kind::Nothing) return std::nullopt;
+  const auto line = ledger.line_of(key.slot);
+  if (!line) return line.error();
+  if (kind == Ledger::Kind::Failure) {
+    page.failures.push_back(failure_of(line.value()));
+    return std::nullopt;
+  }
+  auto read = batch_page_row(line.value());
+  if (!read) return read.error();
+  BatchPageRow row = std::move(read).value();
+  if (auto sparkline = sparkline_on_page(report, key, line.value())) {
+    row.report_file = std::string(kFolder) + "/" + page_name(key);
+    row.sparkline = *std::move(sparkline);
+  }
+  page.rows.push_back(std::move(row));
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Error> prepare_pages(const BatchReport& report) {
+  const fs::path folder = report.file.parent_path();
+  if (auto error = make_folder(folder)) return error;
+  if (auto error = make_folder(folder / kFolder)) return error;
+  return replace_page(report.file, {});
+}
+
+std::optional<Error> write_page(const BatchReport& report, const PageKey& key, std::string_view document,
+                                std::string_view page, std::string_view sparkline) {
+  return replace_page(page_file(report, key), fmt::format("{}{}{} -->\n", page, mark_of(document), sparkline));
+}
+
+std::optional<std::string> sparkline_on_page(const BatchReport& report, const PageKey& key, std::string_view document) {
+  constexpr std::string_view kEnd = " -->";
+  const std::string line = last_line_of(page_file(report, key));
+  const std::string mark = mark_of(document);
+  if (!line.starts_with(mark) || !line.ends_with(kEnd) || line.size() < mark.size() + kEnd.size()) return std::nullopt;
+  return line.substr(mark.size(), line.size() - mark.size() - kEnd.size());
+}
+
+std::optional<Error> write_index(const BatchReport& report, const fs::path& manifest, const WorkList& list,
+                                 const Ledger& ledger) {
+  BatchPage page{manifest.filename().string(), {}, {}};
+  std::size_t group = 0;
+  auto failed = for_each_entry(manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
+    if (auto error = add_slot(page, report, ledger, {entry.row - 1, entry.id})) return error;
+    for (; group < list.groups.size() && list.groups[group].last_row == entry.row; ++group) {
+      const PageKey key{list.slot_of_group(group), id_of_group(list.groups[group].name)};
+      if (auto error = add_slot(page, report, ledger, key)) return error;
+    }
+    return std::nullopt;
+  });
+  return failed ? failed : replace_page(report.file, to_html(page));
+}
+
+}  // namespace slipfit::batch

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "batch/ledger.hpp"
+#include "batch/work_list.hpp"
+#include "slipfit/batch/batch.hpp"
+#include "slipfit/core/result.hpp"
+
+// The pages of a batch. That of a recording is written when it is fitted; its last line says to which document it
+// belongs and holds the sparkline, so that the index can be made at any time from results.jsonl and the pages at hand.
+
+namespace slipfit::batch {
+
+/// Errors: cannot_write; not_a_page where the index would replace a file that is none.
+std::optional<Error> prepare_pages(const BatchReport& report);
+
+/// Whose page it is.
+struct PageKey {
+  std::size_t slot = 0;  ///< of the work list
+  std::string id;
+};
+
+/// Errors: as above.
+std::optional<Error> write_page(const BatchReport& report, const PageKey& key, std::string_view document,
+                                std::string_view page, std::string_view sparkline);
+
+/// From the page at hand; nothing where there is none that belongs to the document.
+std::optional<std::string> sparkline_on_page(const BatchReport& report, const PageKey& key, std::string_view document);
+
+/// Of what the ledger holds, in the manifest's order. Errors: those of ManifestReader, cannot_write, not_a_page.
+std::optional<Error> write_index(const BatchReport& report, const std::filesystem::path& manifest, const WorkList& list,
+                                 const Ledger& ledger);
+
+}  // namespace slipfit::batch
