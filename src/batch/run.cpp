@@ -18,7 +18,7 @@ constexpr std::size_t kGroupsAtATime = 1000;  // whose entries are in memory: a 
 
 Result<std::string> fit_recording_of(const ManifestEntry& entry, const FitOptions& options) {
   const auto recording = read_recording(entry.file, entry.conditions, entry.options);
-  if (!recording) return recording.error();
+  if (!recording) return in_words_of_manifest(recording.error());
   JsonOptions layout;
   layout.id = entry.id;
   layout.layout = JsonLayout::OneLine;
