@@ -29,10 +29,17 @@ if(SLIPFIT_BUILD_TESTS)
     add_test(NAME lint/layers
       COMMAND "${Python3_EXECUTABLE}" "${PROJECT_SOURCE_DIR}/scripts/check_layers.py" "${PROJECT_SOURCE_DIR}")
   endif()
+  set(consumer_settings
+    "-DSLIPFIT_BUILD_DIR=${PROJECT_BINARY_DIR}" "-DCONSUMER_SOURCE_DIR=${PROJECT_SOURCE_DIR}/tests/consumer"
+    "-DCXX_COMPILER=${CMAKE_CXX_COMPILER}" "-DCXX_FLAGS=${CMAKE_CXX_FLAGS}" "-DBUILD_TYPE=${CMAKE_BUILD_TYPE}"
+    "-DGENERATOR=${CMAKE_GENERATOR}" "-DCMAKE_CPACK_COMMAND=${CMAKE_CPACK_COMMAND}")
+  set(consumer_script "${PROJECT_SOURCE_DIR}/tests/consumer/run.cmake")
   add_test(NAME consumer/find_package
-    COMMAND "${CMAKE_COMMAND}"
-      "-DSLIPFIT_BUILD_DIR=${PROJECT_BINARY_DIR}" "-DCONSUMER_SOURCE_DIR=${PROJECT_SOURCE_DIR}/tests/consumer"
-      "-DWORK_DIR=${PROJECT_BINARY_DIR}/consumer" "-DCXX_COMPILER=${CMAKE_CXX_COMPILER}"
-      "-DCXX_FLAGS=${CMAKE_CXX_FLAGS}" "-DBUILD_TYPE=${CMAKE_BUILD_TYPE}" "-DGENERATOR=${CMAKE_GENERATOR}"
-      -P "${PROJECT_SOURCE_DIR}/tests/consumer/run.cmake")
+    COMMAND "${CMAKE_COMMAND}" ${consumer_settings} "-DWORK_DIR=${PROJECT_BINARY_DIR}/consumer" -P "${consumer_script}")
+  find_program(SLIPFIT_SHLIBDEPS dpkg-shlibdeps)
+  if(SLIPFIT_SHLIBDEPS)
+    add_test(NAME consumer/debian_package
+      COMMAND "${CMAKE_COMMAND}" ${consumer_settings} "-DWORK_DIR=${PROJECT_BINARY_DIR}/consumer-package" -DFROM_PACKAGE=ON
+        -P "${consumer_script}")
+  endif()
 endif()

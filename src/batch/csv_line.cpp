@@ -23,4 +23,9 @@ std::string csv_line(const std::vector<std::string>& cells) {
   return line;
 }
 
+std::string text_cell(const std::string& text) {
+  const bool runs = !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
+  return runs ? "'" + text : text;
+}
+
 }  // namespace slipfit::batch

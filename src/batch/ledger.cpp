@@ -83,7 +83,7 @@ std::optional<Error> Ledger::add_result(std::size_t slot, std::string_view docum
 
 std::optional<Error> Ledger::add_failure(std::size_t slot, const std::string& id, const Error& failure) {
   const std::lock_guard lock(mutex_);
-  const auto offset = failures_.append(csv_line({id, failure.code, one_line(failure.message)}));
+  const auto offset = failures_.append(csv_line({text_cell(id), failure.code, text_cell(one_line(failure.message))}));
   if (!offset) return offset.error();
   offsets_[slot] = offset.value();
   kinds_[slot] = Kind::Failure;

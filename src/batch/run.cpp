@@ -22,7 +22,7 @@ constexpr std::size_t kGroupsAtATime = 1000;  // whose entries are in memory: a 
 
 Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions& options) {
   const auto read = read_recording(entry.file, entry.conditions, entry.options);
-  if (!read) return read.error();
+  if (!read) return in_words_of_manifest(read.error());
   const Recording& recording = read.value();
   FitOptions fit = options.fit;
   fit.curve = options.report.has_value();

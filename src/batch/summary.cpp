@@ -35,7 +35,13 @@ constexpr auto kParameters = std::to_array<Quantity>({{"stiffness", "_N_per_m"},
                                                       {"damping_coefficient", "_N_s_per_m"},
                                                       {"friction_coefficient_difference", ""},
                                                       {"static_friction_coefficient", ""},
-                                                      {"kinetic_friction_coefficient", ""}});
+                                                      {"kinetic_friction_coefficient", ""},
+                                                      {"friction_slope", "_N_s_per_m"},
+                                                      {"alpha", "_s_per_m"},
+                                                      {"f0", "_N"},
+                                                      {"f1", "_N"},
+                                                      {"mu0", ""},
+                                                      {"mu1", ""}});
 
 constexpr auto kDerived = std::to_array<Quantity>(
     {{"pattern_spacing", "_m"}, {"periodic_displacement", "_m"}, {"critical_speed", "_m_per_s"}});
@@ -98,7 +104,7 @@ std::vector<std::string> names() {
 }
 
 std::vector<std::string> key_cells(const SummaryKey& key, const std::string& status) {
-  return {std::to_string(key.row), key.id, key.group, key.file, status};
+  return {std::to_string(key.row), text_cell(key.id), text_cell(key.group), text_cell(key.file), status};
 }
 
 }  // namespace

@@ -300,7 +300,7 @@ class Fitter {
     std::copy_n(fit.parameters.level.begin(), level.terms, refit.parameters.level.begin());
     std::size_t old = 0;
     for (std::size_t i = 0; i < refit.size(); ++i) {
-      while (fit.data(old).slip < refit.data(i).slip) ++old;
+      while (old + 1 < fit.size() && fit.data(old).slip < refit.data(i).slip) ++old;  // a last slip may be new
       refit.parameters.cycles[i] = fit.parameters.cycles[old];
     }
     if (!std::isfinite(refit.solve({held_, false, true, kMaxIterations, kFinal}))) return std::nullopt;

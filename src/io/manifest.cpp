@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <set>
 #include <string_view>
@@ -181,6 +182,23 @@ Result<std::vector<ManifestEntry>> read_manifest_group(const std::filesystem::pa
   if (!group) return Error{"empty_manifest", name + ": holds no recordings; expected a line for each"};
   return Error{"unknown_group", fmt::format("{}: no recording of group '{}', expected one of: {}", name,
                                             printable(*group), fmt::join(groups, ", "))};
+}
+
+Error in_words_of_manifest(Error error) {
+  constexpr auto kColumns =
+      std::to_array<std::pair<std::string_view, std::string_view>>({{"--time-column", "time_column"},
+                                                                    {"--force-column", "force_column"},
+                                                                    {"--time-unit", "time_unit"},
+                                                                    {"--force-unit", "force_unit"},
+                                                                    {"--sample-rate", "sample_rate_Hz"},
+                                                                    {"--window", "window_s"}});
+  for (const auto& [option, column] : kColumns) {
+    const std::string words = fmt::format("the manifest's {}", column);
+    for (std::size_t at = 0; (at = error.message.find(option, at)) != std::string::npos; at += words.size()) {
+      error.message.replace(at, option.size(), words);
+    }
+  }
+  return error;
 }
 
 }  // namespace slipfit

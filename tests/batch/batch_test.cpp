@@ -93,6 +93,35 @@ TEST_CASE("one recording's failure is a row of failures.csv with its code, and t
   CHECK(files.results == files_in(scene.path("alone")).results);
 }
 
+TEST_CASE("what the manifest calls its recordings never runs as a formula in a spreadsheet") {
+  const BatchScene scene(1);
+  const std::string manifest = scene.file("formulas.csv",
+                                          "id,file,speed_m_per_s,group\n=1+1,r0.csv,0.02,@g\n+a,none.csv,0.02,-g\n"
+                                          "\"=HYPERLINK(\"\"x\"\")\",none.csv,0.02,\nplain-1,none.csv,0.02,\n");
+  CHECK(batch(manifest, scene.path("out")).exit_code == 1);
+  const auto files = files_in(scene.path("out"));
+  const auto summary = lines_of(files.summary);
+  REQUIRE(summary.size() == 5);
+  CHECK_THAT(summary[1], Catch::StartsWith("1,'=1+1,'@g,"));
+  CHECK_THAT(summary[2], Catch::StartsWith("2,'+a,'-g,"));
+  CHECK_THAT(summary[3], Catch::StartsWith("3,\"'=HYPERLINK(\"\"x\"\")\",,"));
+  CHECK_THAT(summary[4], Catch::StartsWith("4,plain-1,,"));
+  const auto failures = lines_of(files.failures);
+  REQUIRE(failures.size() == 4);
+  CHECK_THAT(failures[1], Catch::StartsWith("'+a,file_not_found,"));
+  CHECK(nlohmann::json::parse(files.results)["id"] == "=1+1");
+}
+
+TEST_CASE("a remedy names the column of the manifest, not the option of slipfit fit") {
+  const BatchScene scene(1);
+  (void)scene.file("two.csv", "time_s,force_a_N,force_b_N\n0,1,2\n1,2,3\n2,3,4\n3,1,2\n");
+  const std::string manifest = scene.file("two_forces.csv", "id,file,speed_m_per_s\na,two.csv,0.02\n");
+  CHECK(batch(manifest, scene.path("out")).exit_code == 1);
+  const auto failures = lines_of(files_in(scene.path("out")).failures);
+  CAPTURE(failures);
+  CHECK_THAT(failures.at(1), Catch::Contains("the manifest's force_column") && !Catch::Contains("--force-column"));
+}
+
 TEST_CASE("a recording that may not be read is a failure, too") {
   const BatchScene scene(2);
   std::filesystem::permissions(scene.path("r1.csv"), std::filesystem::perms::none);

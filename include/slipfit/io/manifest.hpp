@@ -57,4 +57,7 @@ class ManifestReader {
 Result<std::vector<ManifestEntry>> read_manifest_group(const std::filesystem::path& file,
                                                        const std::optional<std::string>& group);
 
+/// The error of a recording whose manifest must say more: the remedy names the manifest's columns in place of options.
+Error in_words_of_manifest(Error error);
+
 }  // namespace slipfit
