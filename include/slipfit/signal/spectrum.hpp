@@ -24,6 +24,8 @@ Spectrum compute_spectrum(const Recording& recording, const std::vector<bool>& h
 struct SuspiciousLine {
   double frequency_Hz = 0.0;
   std::string reason;  ///< "mains 50 Hz", "3rd harmonic of 50 Hz mains", ...
+  double swing =
+      0.0;  ///< peak to peak of a sine with the line's power (what stands beneath it counts in), unit of force
 };
 
 /// The repetition frequency that the spectrum shows.
