@@ -176,7 +176,8 @@ signal::TrackedFrequency refine(const Recording& recording, const Comb& comb, do
   if (cycles < 2.0 * kFewCycles) {
     if (const auto fitted = signal::fit_harmonics(recording, comb.frequency_Hz, harmonics)) return *fitted;
   }
-  return {comb.frequency_Hz, std::max(0.3 * resolution_Hz, 0.5 * comb.relative_width * comb.frequency_Hz)};
+  const double error = std::max(0.3 * resolution_Hz, 0.5 * comb.relative_width * comb.frequency_Hz);
+  return {comb.frequency_Hz, error, std::nullopt};
 }
 
 /// Relative error of the frequency by sampling: harmonics beyond the Nyquist frequency come back next to the lines that
@@ -236,8 +237,11 @@ void measure(const Recording& recording, const Bands& bands, const Comb& chosen,
     return;
   }
   found.value_Hz = refined.frequency_Hz;
-  found.standard_error_Hz =
-      std::hypot(refined.standard_error_Hz, refined.frequency_Hz * aliasing_error(bands.whole, refined.frequency_Hz));
+  const double aliasing_Hz = refined.frequency_Hz * aliasing_error(bands.whole, refined.frequency_Hz);
+  found.standard_error_Hz = std::hypot(refined.standard_error_Hz, aliasing_Hz);
+  if (refined.regular_standard_error_Hz) {
+    found.regular_standard_error_Hz = std::hypot(*refined.regular_standard_error_Hz, aliasing_Hz);
+  }
   found.harmonics_Hz = line_centres(used, comb, refined.frequency_Hz);
 }
 
