@@ -1,6 +1,7 @@
 #include "slipfit/pipeline.hpp"
 
 #include <chrono>
+#include <future>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -28,33 +29,52 @@ struct Signals {
   double seconds = 0.0;
 };
 
-Signals look_at(const Recording& recording, Quality quality, Segmentation slips) {
+Signals look_at_slips(const Recording& recording) {
   const auto start = Clock::now();
-  Signals signals{std::move(quality), std::move(slips), {}, 0.0};
-  const std::vector<bool>& impulses = signals.quality.impulse_mask;
-  // A count that scatters may be of noise or hum: it would draw the spectrum to its own multiple.
-  constexpr double kSureCount = 0.01;
-  const Estimate counted = count_frequency(recording, signals.segmentation);
-  const bool sure = slips_stand_out(signals.quality, signals.segmentation) && counted.standard_error &&
-                    *counted.standard_error < kSureCount * *counted.value;
-  const std::optional<double> hint_Hz = sure ? counted.value : std::nullopt;
-  signals.spectral = find_frequency(recording, compute_spectrum(recording, impulses), hint_Hz, impulses);
+  Signals signals;
+  signals.quality = assess_quality(recording);
+  signals.segmentation = find_slips(recording, signals.quality);
   signals.seconds = seconds_since(start);
   return signals;
+}
+
+/// The spectrum's frequency, and the seconds that it took.
+struct Timed {
+  SpectralFrequency spectral;
+  double seconds = 0.0;
+};
+
+Timed look_at_spectrum(const Recording& recording, const Quality& quality, const Segmentation& segmentation) {
+  const auto start = Clock::now();
+  // A count that scatters may be of noise or hum: it would draw the spectrum to its own multiple.
+  constexpr double kSureCount = 0.01;
+  const Estimate counted = count_frequency(recording, segmentation);
+  const bool sure = slips_stand_out(quality, segmentation) && counted.standard_error &&
+                    *counted.standard_error < kSureCount * *counted.value;
+  const std::optional<double> hint_Hz = sure ? counted.value : std::nullopt;
+  const std::vector<bool>& impulses = quality.impulse_mask;
+  SpectralFrequency spectral = find_frequency(recording, compute_spectrum(recording, impulses), hint_Hz, impulses);
+  return {std::move(spectral), seconds_since(start)};
+}
+
+void add_spectrum(Signals& signals, Timed look) {
+  signals.spectral = std::move(look.spectral);
+  signals.seconds += look.seconds;
 }
 
 Signals look_at(const Recording& recording) {
-  const auto start = Clock::now();
-  Quality quality = assess_quality(recording);
-  Segmentation slips = find_slips(recording, quality);
-  Signals signals = look_at(recording, std::move(quality), std::move(slips));
-  signals.seconds = seconds_since(start);
+  Signals signals = look_at_slips(recording);
+  add_spectrum(signals, look_at_spectrum(recording, signals.quality, signals.segmentation));
   return signals;
 }
 
-/// A line of the mains stands out, or the slips counted may be its swings: worth a second look beneath it.
+/// A line of the mains stands out and may move turning points, or the slips counted may be its swings: worth a second
+/// look beneath it.
 bool may_be_hum(const Signals& signals) {
-  if (!signals.spectral.suspicious_lines.empty()) return true;
+  const double drop = median_drop(signals.segmentation);
+  for (const SuspiciousLine& line : signals.spectral.suspicious_lines) {
+    if (line.swing >= kHarmlessHum * drop) return true;
+  }
   const double share = mains_share(signals.segmentation);
   return share > 0.9 && share < 1.1;
 }
@@ -93,20 +113,28 @@ struct Fitted {
   double seconds = 0.0;
 };
 
-Fitted look_and_fit(const Recording& recording, const FitOptions& options) {
-  Fitted fitted{look_at(recording), std::nullopt, 0.0};
+/// Another fit where hum of the mains may have hidden slips or made some.
+void look_beneath_hum(const Recording& recording, const FitOptions& options, Fitted& fitted) {
   Signals& signals = fitted.signals;
+  std::optional<Segmentation> beneath = find_slips_beneath_hum(recording, signals.quality, signals.segmentation);
+  if (!beneath) return;
+  std::optional<FitResult> other = fit_recording(recording, signals.quality, *beneath, options);
+  if (!(misfit_of(other) < misfit_of(fitted.fit))) return;
+  signals.segmentation = std::move(*beneath);
+  add_spectrum(signals, look_at_spectrum(recording, signals.quality, signals.segmentation));
+  fitted.fit = std::move(other);
+}
+
+Fitted look_and_fit(const Recording& recording, const FitOptions& options) {
+  Fitted fitted{look_at_slips(recording), std::nullopt, 0.0};
+  Signals& signals = fitted.signals;
+  // The fit does not need the spectrum: side by side where a thread is to be had, else one after the other.
+  std::future<Timed> look =
+      std::async([&] { return look_at_spectrum(recording, signals.quality, signals.segmentation); });
   const auto start = Clock::now();
   fitted.fit = fit_recording(recording, signals.quality, signals.segmentation, options);
-  std::optional<Segmentation> beneath;
-  if (may_be_hum(signals)) beneath = find_slips_beneath_hum(recording, signals.quality, signals.segmentation);
-  if (beneath) {
-    std::optional<FitResult> other = fit_recording(recording, signals.quality, *beneath, options);
-    if (misfit_of(other) < misfit_of(fitted.fit)) {
-      signals = look_at(recording, std::move(signals.quality), std::move(*beneath));
-      fitted.fit = std::move(other);
-    }
-  }
+  add_spectrum(signals, look.get());
+  if (may_be_hum(signals)) look_beneath_hum(recording, options, fitted);
   fitted.seconds = seconds_since(start);
   return fitted;
 }

@@ -30,12 +30,6 @@ constexpr double kMainsRhythm =
     5e-3;                            // the mains keeps its frequency to 0.1 %, intervals of few samples are less exact
 constexpr double kNoiseDrop = 14.0;  // drop over noise below which turning points may be noise alone
 
-double median_drop(const Segmentation& segmentation) {
-  std::vector<double> drops;
-  for (const DetectedSlip& slip : segmentation.slips) drops.push_back(slip.drop());
-  return signal::median(drops);
-}
-
 /// Time of the fall from 80 % to 20 % over the period, median: 0.205 for a sine, 0.3 for an even triangle, less for
 /// slips.
 double fall_share(const Segmentation& segmentation) {
@@ -115,6 +109,12 @@ std::optional<Judgement> judge_round_swings(const Quality& quality, const Segmen
 }
 
 }  // namespace
+
+double median_drop(const Segmentation& segmentation) {
+  std::vector<double> drops;
+  for (const DetectedSlip& slip : segmentation.slips) drops.push_back(slip.drop());
+  return signal::median(drops);
+}
 
 double mains_share(const Segmentation& segmentation) {
   std::vector<double> periods_s;

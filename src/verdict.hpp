@@ -15,6 +15,9 @@ struct Judgement {
 /// Median interval between slips in periods of the mains, 50 or 60 Hz, whichever is nearer; 0 below 2 slips.
 double mains_share(const Segmentation& segmentation);
 
+/// Of the detected slips; 0 where there are none.
+double median_drop(const Segmentation& segmentation);
+
 /// Falls well above the noise and quicker than a sine's: counting them gives the frequency of slips, not of noise or
 /// hum.
 bool slips_stand_out(const Quality& quality, const Segmentation& segmentation);

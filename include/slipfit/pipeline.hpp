@@ -21,7 +21,7 @@ enum class Verdict { StickSlip, SteadySliding, OscillatorySlip, Undetermined };
 /// Spectral and counted frequency beside each other, and the one to quote.
 struct FrequencyReport {
   Estimate quoted;     ///< Hz; empty where neither method finds one
-  std::string method;  ///< "harmonic_least_squares", "slip_counting" or "none"
+  std::string method;  ///< "fitted_cycles", "harmonic_least_squares", "slip_counting" or "none"
   SpectralFrequency spectral;
   Estimate counted;  ///< Hz, from the mean interval between slips
 };

@@ -106,6 +106,10 @@ RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const double*
   return ramp;
 }
 
+double huber_bound(std::size_t residuals) {
+  return 3.0 * std::sqrt(static_cast<double>(residuals));
+}
+
 BlockFit::BlockFit(std::vector<CycleData> cycles, std::vector<double> reference_s, Scales scales, LevelModel level)
     : cycles_(std::move(cycles)), reference_s_(std::move(reference_s)), scales_(scales), level_(std::move(level)) {
   parameters.level.assign(level_.columns(), 0.0);
@@ -135,7 +139,7 @@ double BlockFit::solve(const SolveOptions& options) {
     if (level_.columns() > 0) blocks.push_back(parameters.level.data());
     blocks.push_back(parameters.cycles[i].data());
     ceres::LossFunction* loss = nullptr;
-    if (options.robust) loss = new ceres::HuberLoss(3.0 * std::sqrt(static_cast<double>(models_[i].residuals())));
+    if (options.robust) loss = new ceres::HuberLoss(huber_bound(models_[i].residuals()));
     problem.AddResidualBlock(new CycleCost(models_[i]), loss, blocks);
     ordering->AddElementToGroup(parameters.cycles[i].data(), 0);
   }

@@ -25,6 +25,9 @@ struct SolveOptions {
   double tolerance = 1e-3;
 };
 
+/// SolveOptions::robust: a cycle whose residuals' root of the sum of squares is beyond it counts linearly.
+double huber_bound(std::size_t residuals);
+
 /// Cycles as blocks beside the shared parameters: a bundle adjustment. Owns data, models and the current solution.
 class BlockFit {
  public:

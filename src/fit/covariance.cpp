@@ -3,6 +3,7 @@
 #include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fit/uncertainty.hpp"
 
@@ -20,24 +21,32 @@ Index own_size(const BlockFit& fit) {
   return fit.level().per_cycle ? 3 : 2;
 }
 
-Normal normal_of(const BlockFit& fit, std::size_t cycle) {
+Linearised linearise(const BlockFit& fit, std::size_t cycle) {
   const CycleModel& model = fit.model(cycle);
   const auto rows = static_cast<Index>(model.residuals());
   const auto terms = static_cast<Index>(fit.level().columns());
-  Normal normal;
-  normal.residuals.resize(rows);
+  Linearised result;
+  result.residuals.resize(rows);
   RowMajor shared(rows, static_cast<Index>(kShared));
   RowMajor level(rows, terms);
   RowMajor own(rows, own_size(fit));
   model.evaluate(fit.parameters.shared.data(), fit.level_data(), fit.parameters.cycles[cycle].data(),
-                 normal.residuals.data(), {shared.data(), terms > 0 ? level.data() : nullptr, own.data()});
-  MatrixXd common(rows, common_size(fit));
-  common << shared, level;
-  normal.common = common.transpose() * common;
-  normal.cross = common.transpose() * own;
-  normal.own = own.transpose() * own;
-  normal.score = common.transpose() * normal.residuals;
-  normal.own_score = own.transpose() * normal.residuals;
+                 result.residuals.data(), {shared.data(), terms > 0 ? level.data() : nullptr, own.data()});
+  result.common.resize(rows, common_size(fit));
+  result.common << shared, level;
+  result.own = own;
+  return result;
+}
+
+Normal normal_of(const BlockFit& fit, std::size_t cycle) {
+  Linearised lines = linearise(fit, cycle);
+  Normal normal;
+  normal.common = lines.common.transpose() * lines.common;
+  normal.cross = lines.common.transpose() * lines.own;
+  normal.own = lines.own.transpose() * lines.own;
+  normal.score = lines.common.transpose() * lines.residuals;
+  normal.own_score = lines.own.transpose() * lines.residuals;
+  normal.residuals = std::move(lines.residuals);
   return normal;
 }
 
@@ -64,8 +73,6 @@ Selection select(const BlockFit& fit) {
   return selection;
 }
 
-namespace {
-
 std::vector<Index> held_rows(const Held& held) {
   std::vector<Index> rows;
   if (held.stiffness) rows.push_back(0);
@@ -73,8 +80,6 @@ std::vector<Index> held_rows(const Held& held) {
   if (held.damping) rows.push_back(2);
   return rows;
 }
-
-}  // namespace
 
 void hold_rows(MatrixXd& matrix, const std::vector<Index>& rows) {
   for (const Index row : rows) {

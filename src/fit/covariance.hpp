@@ -8,6 +8,13 @@
 
 namespace slipfit::fit {
 
+/// One cycle's residuals r and their derivatives J at the solution; the samples around the slip come first.
+struct Linearised {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd common;  // rows x common
+  Eigen::MatrixXd own;     // rows x own
+};
+
 /// One cycle's part of the normal equations; `common` are the shared parameters and the level's columns.
 struct Normal {
   Eigen::MatrixXd common;  // common x common
@@ -27,10 +34,14 @@ struct Selection {
 Eigen::Index common_size(const BlockFit& fit);
 Eigen::Index own_size(const BlockFit& fit);
 
+Linearised linearise(const BlockFit& fit, std::size_t cycle);
 Normal normal_of(const BlockFit& fit, std::size_t cycle);
 
 /// Means over all cycles of the fit.
 Selection select(const BlockFit& fit);
+
+/// Rows of the common parameters that are held.
+std::vector<Eigen::Index> held_rows(const Held& held);
 
 /// Held parameters: their rows and columns of a normal matrix become those of exactly known ones.
 void hold_rows(Eigen::MatrixXd& matrix, const std::vector<Eigen::Index>& rows);

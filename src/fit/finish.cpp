@@ -8,6 +8,7 @@
 
 #include "fit/misfit.hpp"
 #include "fit/outliers.hpp"
+#include "fit/phase_moves.hpp"
 #include "fit/rounding.hpp"
 
 namespace slipfit::fit {
@@ -16,7 +17,6 @@ namespace {
 constexpr int kFewIterations = 12;  // from the solution to one beside it
 constexpr int kMaxIterations = 60;
 constexpr double kFinal = 1e-3;  // SolveOptions::tolerance
-constexpr double kRough = 0.1;
 
 std::vector<double> references_of(const BlockFit& fit) {
   std::vector<double> references_s;
@@ -41,27 +41,12 @@ class Finisher {
       result.uncertainty = with_rounding(result.uncertainty, moves, result.held);
     }
     if ((result.misfit = find_misfit(result.blocks, 0.5 * quality_.quantisation_step.value_or(0.0)))) {
-      result.uncertainty = with_misfit(result.uncertainty, moves_by_phase(result));
+      result.uncertainty = with_misfit(result.uncertainty, moves_by_phase(result.blocks, result.held));
     }
     return result;
   }
 
  private:
-  /// What refits without one phase of the slips each move the quantities by.
-  Eigen::MatrixXd moves_by_phase(const DampedFit& result) const {
-    Eigen::MatrixXd moves(kPhases, kQuantities);
-    Eigen::Index fitted = 0;
-    for (int phase = 0; phase < kPhases; ++phase) {
-      std::vector<CycleData> cycles = without_phase(result.blocks, phase);
-      BlockFit refit(std::move(cycles), references_of(result.blocks), result.blocks.scales(), result.blocks.level());
-      refit.parameters = result.blocks.parameters;
-      // How far they move widens the intervals: two digits of it are enough.
-      if (!std::isfinite(refit.solve({result.held, result.continuous, true, kFewIterations, kRough}))) continue;
-      moves.row(fitted++) = (quantities_of(refit) - quantities_of(result.blocks)).transpose();
-    }
-    return moves.topRows(fitted);
-  }
-
   /// What refits to rounded copies of the model move the quantities by.
   Eigen::MatrixXd moves_by_rounding(const DampedFit& result) const {
     const Residuals residuals = residuals_of(recording_, result.blocks, {});

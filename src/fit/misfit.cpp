@@ -12,13 +12,6 @@ constexpr double kSigmas = 4.5;
 constexpr double kMatters = 0.01;
 constexpr std::size_t kFewCycles = 5;
 
-/// Stretch of a sample, -1 outside all.
-int phase_of(const CycleState& state, double time_s) {
-  const double share = (time_s - state.onset_s) * state.omega_rad_per_s / state.slip.tau_end;
-  const double place = (share + kMargin) / (1.0 + 2.0 * kMargin) * kPhases;
-  return place >= 0.0 && place < kPhases ? static_cast<int>(place) : -1;
-}
-
 struct Stack {
   double count = 0.0, mean = 0.0, square = 0.0;
 
@@ -57,6 +50,12 @@ Means means_of(const BlockFit& fit, std::size_t cycle) {
 
 }  // namespace
 
+int phase_of(const CycleState& state, double time_s) {
+  const double share = (time_s - state.onset_s) * state.omega_rad_per_s / state.slip.tau_end;
+  const double place = (share + kMargin) / (1.0 + 2.0 * kMargin) * kPhases;
+  return place >= 0.0 && place < kPhases ? static_cast<int>(place) : -1;
+}
+
 std::optional<PhaseMisfit> find_misfit(const BlockFit& fit, double tolerated) {
   std::array<Stack, kPhases> stacks;
   double onset_force = 0.0;
@@ -78,20 +77,6 @@ std::optional<PhaseMisfit> find_misfit(const BlockFit& fit, double tolerated) {
     worst = PhaseMisfit{phase, stack.mean / onset_force};
   }
   return worst;
-}
-
-std::vector<CycleData> without_phase(const BlockFit& fit, int phase) {
-  std::vector<CycleData> cycles;
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    CycleData cycle = fit.data(i);
-    const CycleState state = fit.state(i);
-    if (cycle.weight.empty()) cycle.weight.assign(cycle.time_s.size(), 1.0);
-    for (std::size_t j = 0; j < cycle.time_s.size(); ++j) {
-      if (phase_of(state, cycle.time_s[j]) == phase) cycle.weight[j] = 0.0;
-    }
-    cycles.push_back(std::move(cycle));
-  }
-  return cycles;
 }
 
 Uncertainty with_misfit(Uncertainty uncertainty, const Eigen::MatrixXd& moves) {

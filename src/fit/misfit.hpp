@@ -17,12 +17,12 @@ struct PhaseMisfit {
   double size = 0.0;   ///< mean residual there over the mean onset force, signed
 };
 
+/// Stretch of a sample, -1 outside all.
+int phase_of(const CycleState& state, double time_s);
+
 /// Residuals stacked over the phase of the slip. Empty where no stretch has a mean that is beyond chance (4.5 standard
 /// errors over the cycles) and matters (1 % of the onset force, `tolerated` on top); below 5 cycles.
 std::optional<PhaseMisfit> find_misfit(const BlockFit& fit, double tolerated);
-
-/// The cycles of a fit with the samples of one stretch left out.
-std::vector<CycleData> without_phase(const BlockFit& fit, int phase);
 
 /// Adds the jackknife over the stretches: what the estimates owe to one part of the slip alone. Each row of `moves`:
 /// what a refit without one stretch moves the quantities by.

@@ -12,10 +12,13 @@ constexpr double kOutlierSigmas = 4.5;      // one false alarm in 150 000 normal
 constexpr double kUnexplainedRatio = 25.0;  // 5 standard deviations on average over a whole cycle
 
 void append_outliers(const Residuals& residuals, Phase phase, double noise, std::vector<std::size_t>& outliers) {
+  const auto count = static_cast<std::size_t>(std::count(residuals.phase.begin(), residuals.phase.end(), phase));
+  const std::size_t stride = signal::stride_for(count);
   std::vector<double> sizes;
-  sizes.reserve(residuals.value.size());
+  sizes.reserve(count / stride + 1);
+  std::size_t seen = 0;
   for (std::size_t i = 0; i < residuals.value.size(); ++i) {
-    if (residuals.phase[i] == phase) sizes.push_back(std::abs(residuals.value[i]));
+    if (residuals.phase[i] == phase && seen++ % stride == 0) sizes.push_back(std::abs(residuals.value[i]));
   }
   const double bound = kOutlierSigmas * std::max(1.4826 * signal::median(std::move(sizes)), noise);
   for (std::size_t i = 0; i < residuals.value.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -45,12 +46,16 @@ class RowReader {
         displacement_column_(plan.choice.displacement ? plan.choice.displacement->column : kNoColumn),
         last_column_(std::max(
             {plan.choice.time ? time_column_ : 0, force_column_, plan.choice.displacement ? displacement_column_ : 0})),
-        time_scale_(plan.choice.time ? plan.choice.time->scale : 1.0) {
+        time_scale_(plan.choice.time ? plan.choice.time->scale : 1.0),
+        force_scale_(plan.choice.force.scale) {
     rows_.time_s.reserve(plan.expected_rows);
     rows_.force.reserve(plan.expected_rows);
   }
 
   void add(const char* line, unsigned number) {
+    if (displacement_column_ == kNoColumn && has_clock() && dialect_.delimiter != ' ') {
+      if (const std::optional<Reading> plain = read_plain(line)) return keep(*plain, {}, number);
+    }
     const Wanted wanted = locate(line);
     Reading reading{has_clock() ? wanted.time.value : 0.0, wanted.force.value};
     if (!reading.is_complete()) reading = read_carefully(wanted);
@@ -59,7 +64,7 @@ class RowReader {
       return;
     }
     const double time_s = has_clock() ? reading.time * time_scale_ : next_count_s();
-    keep({time_s, reading.force * plan_.choice.force.scale}, wanted, number);
+    keep({time_s, reading.force * force_scale_}, wanted, number);
   }
 
   Rows finish() {
@@ -69,6 +74,7 @@ class RowReader {
 
  private:
   [[nodiscard]] bool has_clock() const { return time_column_ != kNoColumn; }
+  [[nodiscard]] std::optional<Reading> read_plain(const char* cell) const;
   [[nodiscard]] Wanted locate(const char* line) const;
   [[nodiscard]] NumberCell read_cell_at(const char* cell) const;
   [[nodiscard]] double number_in(std::string_view text, std::size_t column) const;
@@ -86,12 +92,31 @@ class RowReader {
   std::size_t displacement_column_;
   std::size_t last_column_;
   double time_scale_;
+  double force_scale_;
   double latest_s_ = -std::numeric_limits<double>::infinity();
   double low_s_ = std::numeric_limits<double>::infinity();
   double high_s_ = -std::numeric_limits<double>::infinity();
   std::size_t counted_ = 0;
   Rows rows_;
 };
+
+/// Nearly all lines of a recording: time and force are plain numbers. Empty where anything is not.
+std::optional<Reading> RowReader::read_plain(const char* cell) const {
+  const char point = dialect_.decimal_comma ? ',' : '.';
+  Reading reading;
+  for (std::size_t column = 0;; ++column) {
+    if (column == time_column_ || column == force_column_) {
+      const ShortDecimal number = read_short_decimal(cell, nullptr, point);
+      if (!number.is_number || (*number.end != dialect_.delimiter && *number.end != '\0')) return std::nullopt;
+      (column == time_column_ ? reading.time : reading.force) = number.value;
+      cell = number.end;
+    } else {
+      cell = end_of_cell(cell, dialect_.delimiter);
+    }
+    if (column == last_column_) return Reading{reading.time * time_scale_, reading.force * force_scale_};
+    if (*cell++ == '\0') return std::nullopt;
+  }
+}
 
 /// Reading the number and finding the end of its cell in one go, where the number is a plain one.
 NumberCell RowReader::read_cell_at(const char* cell) const {

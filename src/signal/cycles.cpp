@@ -16,15 +16,15 @@ using signal::find_falls;
 
 /// Median of three neighbours, impulses held at the last good value before.
 std::vector<double> smooth(std::span<const double> force, const std::vector<bool>& impulses) {
-  std::vector<double> held(force.begin(), force.end());
-  for (std::size_t i = 1; i < held.size() && !impulses.empty(); ++i) {
-    if (impulses[i]) held[i] = held[i - 1];
+  std::vector<double> smoothed(force.begin(), force.end());
+  for (std::size_t i = 1; i < smoothed.size() && !impulses.empty(); ++i) {
+    if (impulses[i]) smoothed[i] = smoothed[i - 1];
   }
-  std::vector<double> smoothed = held;
-  for (std::size_t i = 1; i + 1 < held.size(); ++i) {
-    const double low = std::min(held[i - 1], held[i + 1]);
-    const double high = std::max(held[i - 1], held[i + 1]);
-    smoothed[i] = std::clamp(held[i], low, high);
+  double before = smoothed.empty() ? 0.0 : smoothed.front();
+  for (std::size_t i = 1; i + 1 < smoothed.size(); ++i) {
+    const double here = smoothed[i];
+    smoothed[i] = std::clamp(here, std::min(before, smoothed[i + 1]), std::max(before, smoothed[i + 1]));
+    before = here;
   }
   return smoothed;
 }
@@ -138,13 +138,11 @@ Segmentation find_slips(const Recording& recording, const Quality& quality) {
 
 std::optional<Segmentation> find_slips_beneath_hum(const Recording& recording, const Quality& quality,
                                                    const Segmentation& seen) {
-  // Hum below a tenth of a drop moves no turning point beyond the hysteresis; the fit finds it in the residuals.
-  constexpr double kHarmless = 0.1;
   const signal::Dehummed clean = signal::without_mains(recording);
   if (clean.lines_Hz.empty()) return std::nullopt;
   std::vector<double> drops;
   for (const DetectedSlip& slip : seen.slips) drops.push_back(slip.drop());
-  if (clean.swing < kHarmless * signal::median(drops)) return std::nullopt;
+  if (clean.swing < kHarmlessHum * signal::median(drops)) return std::nullopt;
   Segmentation beneath = find_slips_in(clean.force, recording, quality);
   if (beneath.slips.empty()) return std::nullopt;
   beneath.mains_Hz = clean.lines_Hz;

@@ -176,7 +176,8 @@ signal::TrackedFrequency refine(const Recording& recording, const Comb& comb, do
   if (cycles < 2.0 * kFewCycles) {
     if (const auto fitted = signal::fit_harmonics(recording, comb.frequency_Hz, harmonics)) return *fitted;
   }
-  return {comb.frequency_Hz, std::max(0.3 * resolution_Hz, 0.5 * comb.relative_width * comb.frequency_Hz)};
+  const double error = std::max(0.3 * resolution_Hz, 0.5 * comb.relative_width * comb.frequency_Hz);
+  return {comb.frequency_Hz, error, std::nullopt};
 }
 
 /// Relative error of the frequency by sampling: harmonics beyond the Nyquist frequency come back next to the lines that
@@ -236,8 +237,11 @@ void measure(const Recording& recording, const Bands& bands, const Comb& chosen,
     return;
   }
   found.value_Hz = refined.frequency_Hz;
-  found.standard_error_Hz =
-      std::hypot(refined.standard_error_Hz, refined.frequency_Hz * aliasing_error(bands.whole, refined.frequency_Hz));
+  const double aliasing_Hz = refined.frequency_Hz * aliasing_error(bands.whole, refined.frequency_Hz);
+  found.standard_error_Hz = std::hypot(refined.standard_error_Hz, aliasing_Hz);
+  if (refined.regular_standard_error_Hz) {
+    found.regular_standard_error_Hz = std::hypot(*refined.regular_standard_error_Hz, aliasing_Hz);
+  }
   found.harmonics_Hz = line_centres(used, comb, refined.frequency_Hz);
 }
 
@@ -249,8 +253,17 @@ bool belongs(double line_Hz, const SpectralFrequency& found, double resolution_H
   return order >= 1.0 && off < std::min(known, 0.1 * *found.value_Hz);
 }
 
-std::vector<SuspiciousLine> suspicious(const std::vector<MainsLine>& lines, const SpectralFrequency& found,
-                                       double resolution_Hz, double sample_rate_Hz) {
+double swing_of(const Spectrum& spectrum, const MainsLine& line) {
+  const double top = static_cast<double>(spectrum.power.size()) - 1.0;
+  const double low = std::clamp(std::ceil((line.frequency_Hz - line.width_Hz) / spectrum.bin_Hz), 0.0, top);
+  const double high = std::clamp(std::floor((line.frequency_Hz + line.width_Hz) / spectrum.bin_Hz), 0.0, top);
+  double power = 0.0;
+  for (double i = low; i <= high; i += 1.0) power += spectrum.power[static_cast<std::size_t>(i)];
+  return 2.0 * std::sqrt(2.0 * power);
+}
+
+std::vector<SuspiciousLine> suspicious(const Spectrum& spectrum, const std::vector<MainsLine>& lines,
+                                       const SpectralFrequency& found, double resolution_Hz, double sample_rate_Hz) {
   std::vector<SuspiciousLine> result;
   for (const MainsLine& line : lines) {
     bool own = false;
@@ -258,7 +271,7 @@ std::vector<SuspiciousLine> suspicious(const std::vector<MainsLine>& lines, cons
       own = belongs(line.frequency_Hz, found, resolution_Hz) ||
             belongs(sample_rate_Hz - line.frequency_Hz, found, resolution_Hz);  // come back from beyond Nyquist
     }
-    if (!own) result.push_back({line.frequency_Hz, signal::describe(line)});
+    if (!own) result.push_back({line.frequency_Hz, signal::describe(line), swing_of(spectrum, line)});
   }
   return result;
 }
@@ -280,7 +293,7 @@ SpectralFrequency find_frequency(const Recording& recording, const Spectrum& spe
   }
   found.false_alarm_probability = comb.false_alarm_probability;
   if (comb.false_alarm_probability <= kSignificant) measure(recording, bands, comb, found);
-  found.suspicious_lines = suspicious(mains, found, resolution_Hz, 1.0 / step_s);
+  found.suspicious_lines = suspicious(spectrum, mains, found, resolution_Hz, 1.0 / step_s);
   return found;
 }
 

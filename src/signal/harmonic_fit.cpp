@@ -125,7 +125,8 @@ std::optional<TrackedFrequency> fit_harmonics(const Recording& recording, double
     if (!std::isfinite(frequency) || std::abs(frequency - near_Hz) > 0.7 * resolution_Hz) return std::nullopt;
     if (std::abs(change) < 1e-5 * resolution_Hz) {
       const double per_period = static_cast<double>(points.time_s.size()) * resolution_Hz / frequency;
-      return TrackedFrequency{frequency, std::sqrt(variance(step, frequency / resolution_Hz, per_period))};
+      const double error = std::sqrt(variance(step, frequency / resolution_Hz, per_period));
+      return TrackedFrequency{frequency, error, std::nullopt};
     }
   }
   return std::nullopt;

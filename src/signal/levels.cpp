@@ -36,15 +36,22 @@ std::optional<double> step_of(const std::vector<double>& distinct) {
   return (distinct.back() - distinct.front()) / steps;
 }
 
+/// As std::round up to 2^51, without its call (SSE2 has no instruction for it).
+double nearest_whole(double value) {
+  constexpr double kShift = 0x1.8p52;
+  return (value + kShift) - kShift;
+}
+
 /// All values on the lattice, and how many places of it they take.
 bool fills_lattice(std::span<const double> values, double origin, double lowest, double highest, double step) {
   const double places = (highest - lowest) / step + 2.0;
   if (!(places < static_cast<double>(values.size()))) return false;
-  const double first = std::round((lowest - origin) / step);
+  const double per_step = 1.0 / step;
+  const double first = nearest_whole((lowest - origin) * per_step);
   std::vector<bool> taken(static_cast<std::size_t>(places) + 1, false);
   for (const double value : values) {
-    const double place = (value - origin) / step;
-    const double nearest = std::round(place);
+    const double place = (value - origin) * per_step;
+    const double nearest = nearest_whole(place);
     if (std::abs(place - nearest) > kOffLattice) return false;
     taken[static_cast<std::size_t>(std::clamp(nearest - first, 0.0, places))] = true;
   }

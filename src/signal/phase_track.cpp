@@ -14,8 +14,8 @@ namespace slipfit::signal {
 namespace {
 
 constexpr std::size_t kMostSegments = 1024;
-constexpr double kTemper = 0.5;
 constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kChance = 1.0;  // even phases gain more by a walk in one recording of seven
 
 /// A phase in every segment, in radians of the fundamental, and the place of the segment.
 struct PhasePoint {
@@ -123,32 +123,40 @@ Slope slope_at(const std::vector<PhasePoint>& points, Walk kind, double walk, do
   return {xy / xx, scale / xx, -0.5 * (freedom * std::log(scale) + log_det + std::log(xx))};
 }
 
-/// The slope averaged over the ratios by the root of their likelihood (the phases of neighbours are not quite as
-/// independent as the likelihood has it): few increments do not tell a weak walk from none, and the standard error has
-/// to say so. It contains Student's factor, so that 1.96 of it cover 95 %.
-Slope averaged_slope(const std::vector<PhasePoint>& points) {
-  std::vector<Slope> slopes{slope_at(points, Walk::Stepped, 0.0, 1.0)};
-  for (const Walk kind : {Walk::Stepped, Walk::Averaged}) {
-    slopes.push_back(slope_at(points, kind, 1.0, 0.0));
-    for (double ratio = 1e-4; ratio < 1e3; ratio *= 4.0) slopes.push_back(slope_at(points, kind, ratio, 1.0));
-  }
+/// Slopes for every walk-to-noise ratio of a kind of walk.
+std::vector<Slope> slopes_of(const std::vector<PhasePoint>& points, Walk kind) {
+  std::vector<Slope> slopes{slope_at(points, kind, 1.0, 0.0)};
+  for (double ratio = 1e-4; ratio < 1e3; ratio *= 4.0) slopes.push_back(slope_at(points, kind, ratio, 1.0));
+  return slopes;
+}
+
+/// The slopes averaged by a power of their likelihood: few increments do not tell a weak walk from none, and the
+/// standard error has to say so. It contains Student's factor, so that 1.96 of it cover 95 %.
+Slope average(const std::vector<Slope>& slopes, double power, std::size_t points) {
   double best = -1e300;
   for (const Slope& slope : slopes) best = std::max(best, slope.log_likelihood);
   Slope mean;
   double total = 0.0;
   for (const Slope& slope : slopes) {
-    const double weight = std::exp(kTemper * (slope.log_likelihood - best));
+    const double weight = std::exp(power * (slope.log_likelihood - best));
     total += weight;
     mean.value += weight * slope.value;
   }
   mean.value /= total;
   for (const Slope& slope : slopes) {
     const double off = slope.value - mean.value;
-    mean.variance += std::exp(kTemper * (slope.log_likelihood - best)) / total * (slope.variance + off * off);
+    mean.variance += std::exp(power * (slope.log_likelihood - best)) / total * (slope.variance + off * off);
   }
-  const double widened = students_factor(static_cast<double>(points.size()) - 2.0);
+  const double widened = students_factor(static_cast<double>(points) - 2.0);
   mean.variance *= widened * widened;
   return mean;
+}
+
+/// Logarithm of the likelihood that the best walk gains over none.
+double evidence_of_walk(const std::vector<Slope>& slopes, const Slope& none) {
+  double best = none.log_likelihood;
+  for (const Slope& slope : slopes) best = std::max(best, slope.log_likelihood);
+  return best - none.log_likelihood;
 }
 
 std::optional<TrackedFrequency> track_once(const Recording& recording, double near_Hz, std::size_t harmonics) {
@@ -167,9 +175,19 @@ std::optional<TrackedFrequency> track_once(const Recording& recording, double ne
   std::vector<PhasePoint> points = unwrap(segments, advance.radians);
   if (points.size() < 6) return std::nullopt;
   refine_by_harmonics(segments, harmonics, points);
-  const Slope slope = averaged_slope(points);
+  const Slope none = slope_at(points, Walk::Stepped, 0.0, 1.0);
+  std::vector<Slope> slopes = slopes_of(points, Walk::Stepped);
+  slopes.push_back(none);
+  const Slope regular = average(slopes, 0.7, points.size());
+  const std::vector<Slope> averaged = slopes_of(points, Walk::Averaged);
+  slopes.insert(slopes.end(), averaged.begin(), averaged.end());
+  // By the root only: the phases of neighbours are not quite as independent as the likelihood has it.
+  const Slope slope = average(slopes, 0.5, points.size());
   const double per_radian = near_Hz / (kTurn * per_segment);
-  return TrackedFrequency{near_Hz + slope.value * per_radian, std::sqrt(slope.variance) * per_radian};
+  TrackedFrequency found{near_Hz + slope.value * per_radian, std::sqrt(slope.variance) * per_radian, std::nullopt};
+  if (evidence_of_walk(slopes, none) < kChance)
+    found.regular_standard_error_Hz = std::sqrt(regular.variance) * per_radian;
+  return found;
 }
 
 }  // namespace

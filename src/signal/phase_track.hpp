@@ -10,6 +10,9 @@ namespace slipfit::signal {
 struct TrackedFrequency {
   double frequency_Hz = 0.0;
   double standard_error_Hz = 0.0;
+  /// The same where the phases show no scatter of the periods, for that case: smaller, since what few cycles can hide
+  /// is all that it allows for. Empty where they do, or where nobody looked.
+  std::optional<double> regular_standard_error_Hz;
 };
 
 /// Mean frequency of a trace that repeats at about `near_Hz`, from the phase of its cycles. The phase is taken as a

@@ -15,19 +15,14 @@ namespace {
 
 constexpr double kToSigma = 1.4826;  // median of |x| to standard deviation, normal distribution
 constexpr double kGapSteps = 3.5;
-constexpr double kCoarse = 0.3;         // a step below this share of the noise does not matter
-constexpr std::size_t kEnough = 40000;  // values that a median is taken of: it is known to 1 % then
-
-std::size_t stride_for(std::size_t count) {
-  return 1 + count / kEnough;
-}
+constexpr double kCoarse = 0.3;  // a step below this share of the noise does not matter
 
 /// Noise from differences of one order, their coefficients and the root of the sum of their squares given.
 template <std::size_t N>
 double difference_noise(std::span<const double> force, const std::array<double, N>& coefficients, double norm) {
   std::vector<double> sizes;
   if (force.size() < N) return 0.0;
-  const std::size_t stride = stride_for(force.size());
+  const std::size_t stride = signal::stride_for(force.size());
   sizes.reserve(force.size() / stride + 1);
   for (std::size_t i = 0; i + N <= force.size(); i += stride) {
     double difference = 0.0;
@@ -59,7 +54,7 @@ double noise_of_held(std::span<const double> force) {
 void assess_clock(const Recording& recording, Quality& quality) {
   const std::span<const double> time = recording.time_s();
   const double usual = recording.sample_interval_s();
-  const std::size_t stride = stride_for(time.size());
+  const std::size_t stride = signal::stride_for(time.size());
   std::vector<double> deviations;
   for (std::size_t i = 1; i < time.size(); ++i) {
     const double step = time[i] - time[i - 1];

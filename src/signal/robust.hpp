@@ -7,6 +7,12 @@
 
 namespace slipfit::signal {
 
+/// Every so many values are enough for a median: of 40 000 of them it is known to 1 %.
+inline std::size_t stride_for(std::size_t count) {
+  constexpr std::size_t kEnough = 40000;
+  return 1 + count / kEnough;
+}
+
 /// Upper median; 0 for no values. Takes a copy to sort in.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0.0;

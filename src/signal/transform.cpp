@@ -1,9 +1,11 @@
 #include "signal/transform.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <memory>
+#include <mutex>
 #include <numbers>
 
 #include "signal/fftw.hpp"
@@ -71,15 +73,19 @@ ComplexTransform::Buffer windowed(std::span<const double> values, std::size_t pa
   return buffer;
 }
 
-/// The plan of this thread for this length; the last two lengths are kept (a batch meets the same ones again).
-const ComplexTransform& transform_of(std::size_t length) {
-  thread_local std::unique_ptr<ComplexTransform> latest;
-  thread_local std::unique_ptr<ComplexTransform> previous;
-  if (!latest || latest->length() != length) {
-    std::swap(latest, previous);
-    if (!latest || latest->length() != length) latest = std::make_unique<ComplexTransform>(length);
-  }
-  return *latest;
+/// The plan for this length. The latest ones are kept for all threads: a recording is transformed several times, and a
+/// batch meets the same lengths again.
+std::shared_ptr<const ComplexTransform> transform_of(std::size_t length) {
+  static std::mutex lock;
+  static std::array<std::shared_ptr<const ComplexTransform>, 4> latest;
+  const std::lock_guard guard(lock);
+  const auto known =
+      std::find_if(latest.begin(), latest.end(), [&](const auto& plan) { return plan && plan->length() == length; });
+  const bool is_new = known == latest.end();
+  const auto first = is_new ? known - 1 : known;
+  std::rotate(latest.begin(), first, first + 1);
+  if (is_new) latest.front() = std::make_shared<ComplexTransform>(length);
+  return latest.front();
 }
 
 /// |X_k|^2 of the real series of length 2 M whose even and odd values are the parts of the M complex ones in z.
@@ -180,7 +186,7 @@ std::vector<double> hann_power(std::span<const double> values, std::size_t padde
   const std::size_t half = padded_length / 2;
   const ComplexTransform::Buffer in = windowed(values, padded_length);
   const ComplexTransform::Buffer out = ComplexTransform::allocate(half);
-  transform_of(half).run(in, out);
+  transform_of(half)->run(in, out);
   const double window_energy = 0.375 * static_cast<double>(values.size());  // sum of squares of the Hann window
   std::vector<double> power = real_power(out.get(), half, 2.0 / (static_cast<double>(padded_length) * window_energy));
   power[0] = 0.0;

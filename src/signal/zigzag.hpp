@@ -19,21 +19,28 @@ std::vector<Fall> find_falls(const Values& values, double hysteresis) {
   if (values.size() < 2) return falls;
   std::size_t high = 0;
   std::size_t low = 0;
+  double highest = values[0];
+  double lowest = values[0];
   bool falling = false;
   for (std::size_t i = 1; i < values.size(); ++i) {
+    const double value = values[i];
     if (falling) {
-      if (values[i] < values[low]) low = i;
-      if (values[i] > values[low] + hysteresis) {
+      if (value < lowest) {
+        lowest = value;
+        low = i;
+      } else if (value > lowest + hysteresis) {
         falls.push_back({high, low});
         falling = false;
+        highest = value;
         high = i;
       }
-    } else {
-      if (values[i] > values[high]) high = i;
-      if (values[i] < values[high] - hysteresis) {
-        falling = true;
-        low = i;
-      }
+    } else if (value > highest) {
+      highest = value;
+      high = i;
+    } else if (value < highest - hysteresis) {
+      falling = true;
+      lowest = value;
+      low = i;
     }
   }
   return falls;

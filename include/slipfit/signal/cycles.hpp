@@ -33,6 +33,10 @@ struct Segmentation {
 /// nothing, isolated impulses are passed over. Fewer than one fall larger than the noise: no slips.
 Segmentation find_slips(const Recording& recording, const Quality& quality);
 
+/// Hum whose swing is below this share of a drop moves no turning point beyond the hysteresis; the fit finds it in the
+/// residuals.
+inline constexpr double kHarmlessHum = 0.1;
+
 /// The same on the recording without its mains lines, where they are large enough to hide slips or to pass for them
 /// (`seen`: the slips as it stands). Empty otherwise, and where nothing is left.
 std::optional<Segmentation> find_slips_beneath_hum(const Recording& recording, const Quality& quality,
