@@ -356,6 +356,8 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped) {
   blocks.parameters.shared[2] = 0.0;
   Held held = damped.held;
   held.damping = true;
+  // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
+  if (damped.continuous && !std::isfinite(blocks.solve({held, false, true}))) return std::nullopt;
   if (!std::isfinite(blocks.solve({held, damped.continuous, true}))) return std::nullopt;
   DampedFit result{std::move(blocks), damped.continuous, held, damped.refused_damping,
                    damped.excluded,   damped.outliers,   {},   damped.misfit};
