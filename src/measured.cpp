@@ -7,6 +7,7 @@
 
 #include "fit/intervals.hpp"
 #include "fitted_frequency.hpp"
+#include "recording_checks.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -208,6 +209,7 @@ Warnings collect_warnings(const Recording& recording, const Analysis& analysis) 
     warn("frequencies_disagree",
          fmt::format("the spectrum shows {:.4g} Hz, counting slips {:.4g} Hz", *spectral, *counted));
   }
+  for (Warning& warning : warn_of(analysis.tests)) warnings.push_back(std::move(warning));
   if (analysis.fit) warnings.insert(warnings.end(), analysis.fit->warnings.begin(), analysis.fit->warnings.end());
   return warnings;
 }

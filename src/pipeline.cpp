@@ -8,6 +8,7 @@
 
 #include "fit/cycle_table.hpp"
 #include "measured.hpp"
+#include "recording_checks.hpp"
 #include "slipfit/sweep.hpp"
 #include "sweep_checks.hpp"
 #include "verdict.hpp"
@@ -101,6 +102,7 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   add_measured_spacing(recording, analysis.frequency, analysis.cycles, analysis.derived);
   analysis.quality = std::move(signals.quality);
   analysis.fit = std::move(fit);
+  analysis.tests = run_short_tests(recording, analysis);
   analysis.warnings = collect_warnings(recording, analysis);
   analysis.timing.frequency_s = signals.seconds;
   return analysis;

@@ -26,6 +26,7 @@ constexpr double kSineRestickShare = 0.95;
 constexpr double kSineFit = 0.05;
 constexpr double kDecay = 1.7;      // onset force, first half over second half: a ring-down
 constexpr double kSpanShare = 0.5;  // cycles cover less of the recording: they died out
+constexpr double kMuchHum = 0.1;    // hum over the onset force: less cannot pass for a slip
 constexpr double kMainsRhythm =
     5e-3;                            // the mains keeps its frequency to 0.1 %, intervals of few samples are less exact
 constexpr double kNoiseDrop = 14.0;  // drop over noise below which turning points may be noise alone
@@ -48,11 +49,6 @@ bool is_faint(const Quality& quality, const Segmentation& segmentation) {
 
 bool is_sine_like(const Segmentation& segmentation) {
   return fall_share(segmentation) > kSineFall;
-}
-
-bool hum_was_fitted(const FitResult& fit) {
-  return std::any_of(fit.warnings.begin(), fit.warnings.end(),
-                     [](const Warning& warning) { return warning.code == "hum_fitted"; });
 }
 
 bool no_repetition(const SpectralFrequency& spectral) {
@@ -144,7 +140,7 @@ Judgement judge_fit(const Recording& recording, const Quality& quality, const Se
     return {Verdict::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
   }
   // Hum as large as the drop is what the detector sees, and the fit that follows it finds wrong slips good.
-  if (is_sine_like(segmentation) && hum_was_fitted(*fit)) {
+  if (is_sine_like(segmentation) && e.hum_share > kMuchHum) {
     return {Verdict::Undetermined, "the swings are as round as the mains hum in them: it hides what else there is"};
   }
   const bool close = e.relative_residual < kCloseFit && e.onset_force_spread < kWideSpread;

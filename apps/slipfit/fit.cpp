@@ -19,9 +19,26 @@ struct FitArguments {
 
 /// The recordings of a joint fit, their speeds and units stand in the manifest.
 JointArguments joint_arguments(const FitArguments& arguments, const CLI::App& command) {
-  for (const char* option : {"REC", "--speed", "--speed-uncertainty", "--radius", "--normal-force", "--zero",
-                             "--force-view", "--time-column", "--force-column", "--time-unit", "--force-unit",
-                             "--sample-rate", "--window", "--cycles", "--curve", "--plots", "--timing"}) {
+  for (const char* option : {"REC",
+                             "--speed",
+                             "--speed-uncertainty",
+                             "--radius",
+                             "--normal-force",
+                             "--zero",
+                             "--mass",
+                             "--sensor-bandwidth",
+                             "--sensor-resonance",
+                             "--force-view",
+                             "--time-column",
+                             "--force-column",
+                             "--time-unit",
+                             "--force-unit",
+                             "--sample-rate",
+                             "--window",
+                             "--cycles",
+                             "--curve",
+                             "--plots",
+                             "--timing"}) {
     if (command.count(option) == 0) continue;
     throw Failure(ExitCode::WrongUsage,
                   std::string(option) + " does not go with --joint: the manifest says how each recording was made");

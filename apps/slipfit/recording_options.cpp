@@ -31,6 +31,11 @@ void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
   command.add_option("--radius", arguments.radius, "Distance of the contact from the axis: 12mm");
   command.add_option("--normal-force", arguments.normal_force, "Normal force: 5 (N), '41 gf'");
   command.add_option("--zero", arguments.zero, "Sensor reading at no force (N); absolute forces need it");
+  command.add_option("--mass", arguments.mass, "Moving mass: 0.0307 (kg), '30.7 g'; held against k / w_n^2");
+  command.add_option("--sensor-bandwidth", arguments.sensor_bandwidth,
+                     "Bandwidth (-3 dB) of the sensor, first order: 500 (Hz), 2kHz; the fit lets its model lag by it");
+  command.add_option("--sensor-resonance", arguments.sensor_resonance,
+                     "Natural frequency of the load cell: 800 (Hz), 2kHz");
   command.add_option("--force-view", arguments.force_view, "Force that the sensor sees: spring, transmitted, contact")
       ->capture_default_str();
   command.add_option("--time-column", arguments.time_column, "Name or 1-based number");
@@ -54,6 +59,15 @@ slipfit::Conditions conditions_from(const RecordingArguments& arguments) {
   }
   if (arguments.normal_force) {
     conditions.normal_force_N = positive_quantity("--normal-force", *arguments.normal_force, Dimension::Force);
+  }
+  if (arguments.mass) conditions.mass_kg = positive_quantity("--mass", *arguments.mass, Dimension::Mass);
+  if (arguments.sensor_bandwidth) {
+    conditions.sensor_bandwidth_Hz =
+        positive_quantity("--sensor-bandwidth", *arguments.sensor_bandwidth, Dimension::Frequency);
+  }
+  if (arguments.sensor_resonance) {
+    conditions.sensor_resonance_Hz =
+        positive_quantity("--sensor-resonance", *arguments.sensor_resonance, Dimension::Frequency);
   }
   if (arguments.zero) conditions.zero_force_N = quantity("--zero", *arguments.zero, Dimension::Force);
   conditions.force_view = force_view(arguments.force_view);

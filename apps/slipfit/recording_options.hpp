@@ -15,6 +15,9 @@ struct RecordingArguments {
   std::optional<std::string> radius;
   std::optional<std::string> normal_force;
   std::optional<std::string> zero;
+  std::optional<std::string> sensor_bandwidth;
+  std::optional<std::string> sensor_resonance;
+  std::optional<std::string> mass;
   std::string force_view = "spring";
   std::optional<std::string> time_column;
   std::optional<std::string> force_column;

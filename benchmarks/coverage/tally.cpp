@@ -6,6 +6,8 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <map>
+#include <set>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -107,6 +109,19 @@ std::string verdict_lines(const std::vector<Row>& rows) {
   return text;
 }
 
+std::string warning_lines(const std::vector<Row>& rows) {
+  std::map<std::pair<std::string, std::string>, int> counts;
+  for (const Row& row : rows) {
+    std::istringstream codes(row.warnings);
+    for (std::string code; codes >> code;) {
+      ++counts[{row.family + (row.note.empty() ? "" : " " + row.note), code}];
+    }
+  }
+  std::string text = "\nwarnings\n";
+  for (const auto& [key, count] : counts) text += fmt::format("{:20s} {:24s} {:5d}\n", key.first, key.second, count);
+  return text;
+}
+
 }  // namespace
 
 std::optional<bool> Row::covered() const {
@@ -150,6 +165,9 @@ std::vector<Row> fit_scene(const Scene& scene) {
   spacing.parameter = "spacing";
   spacing.truth = scene.truth.spacing_m;
   spacing.status = "measured";
+  std::set<std::string> codes;
+  for (const slipfit::Warning& warning : analysis.warnings) codes.insert(warning.code);
+  spacing.warnings = fmt::format("{}", fmt::join(codes, " "));
   if (analysis.verdict == Verdict::StickSlip) spacing.estimate = analysis.derived.pattern_spacing_m;
   rows.push_back(spacing);
   return rows;
@@ -157,13 +175,13 @@ std::vector<Row> fit_scene(const Scene& scene) {
 
 std::string to_csv(const std::vector<Row>& rows) {
   const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.9g}", *value) : ""; };
-  std::string text = "family,note,seed,parameter,truth,value,se,lo,hi,status,verdict,cramer_rao\n";
+  std::string text = "family,note,seed,parameter,truth,value,se,lo,hi,status,verdict,cramer_rao,warnings\n";
   for (const Row& row : rows) {
     const Estimate& e = row.estimate;
-    text +=
-        fmt::format("{},{},{},{},{:.9g},{},{},{},{},{},{},{}\n", row.family, row.note, row.seed, row.parameter,
-                    row.truth, cell(e.value), cell(e.standard_error), e.ci95 ? fmt::format("{:.9g}", e.ci95->low) : "",
-                    e.ci95 ? fmt::format("{:.9g}", e.ci95->high) : "", row.status, row.verdict, cell(row.bound));
+    text += fmt::format(
+        "{},{},{},{},{:.9g},{},{},{},{},{},{},{},{}\n", row.family, row.note, row.seed, row.parameter, row.truth,
+        cell(e.value), cell(e.standard_error), e.ci95 ? fmt::format("{:.9g}", e.ci95->low) : "",
+        e.ci95 ? fmt::format("{:.9g}", e.ci95->high) : "", row.status, row.verdict, cell(row.bound), row.warnings);
   }
   return text;
 }
@@ -182,7 +200,7 @@ std::string summarise(const std::vector<Row>& rows) {
       "(p: binomial chance of so few inside, ! below 1 %; bias, z sd: of (value - truth) / se; wrong: confidently)\n";
   for (const auto& [key, tally] : kinds) text += tally.line(key.first, key.second);
   for (const auto& [name, tally] : pooled) text += tally.line("pooled", name);
-  return text + verdict_lines(rows);
+  return text + verdict_lines(rows) + warning_lines(rows);
 }
 
 }  // namespace coverage

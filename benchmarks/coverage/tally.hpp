@@ -17,6 +17,7 @@ struct Row {
   slipfit::Estimate estimate;
   std::string status;           ///< of the parameter; "measured" for the spacing
   std::string verdict;          ///< of the recording
+  std::string warnings;         ///< codes of the recording's, with blanks between; only in the row of the spacing
   std::optional<double> bound;  ///< Cramer-Rao bound of the standard deviation
 
   /// In the 95 % interval; empty without one.
@@ -29,7 +30,8 @@ std::vector<Row> fit_scene(const Scene& scene);
 
 std::string to_csv(const std::vector<Row>& rows);
 
-/// A line for each family (and kind of defect, view, sparse) and parameter, one for each parameter pooled, verdicts.
+/// A line for each family (and kind of defect, view, sparse) and parameter, one for each parameter pooled, verdicts,
+/// warnings.
 std::string summarise(const std::vector<Row>& rows);
 
 }  // namespace coverage

@@ -35,6 +35,16 @@ struct CycleStatistics {
   std::optional<double> peak_force, peak_force_sd, trough_force, force_drop, force_drop_sd;
 };
 
+/// A one-line test of what the fit takes for granted. `name`: period_drift (value: relative change over the recording),
+/// return_map (correlation), ageing (force for each factor e of time in stick), stated_mass (k / w_n^2 over it),
+/// sensor_resonance (w_n over it), sensor_lag (time in stick over it).
+struct ShortTest {
+  std::string name;
+  std::optional<double> value, standard_error;
+  std::optional<double> p_value;  ///< that chance alone shows as much
+  std::string finding;            ///< one sentence
+};
+
 /// Wall-clock seconds of the stages.
 struct Timing {
   double read_s = 0.0;  ///< filled by the caller that reads the file
@@ -54,6 +64,7 @@ struct Analysis {
   std::vector<Cycle> cycle_table;
   std::optional<FitResult> fit;  ///< empty: not asked for, or no cycles to fit
   Derived derived;
+  std::vector<ShortTest> tests;  ///< only where the verdict is stick-slip with a fit
   Timing timing;
 };
 

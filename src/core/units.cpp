@@ -36,6 +36,8 @@ DimensionName name_of(Dimension dimension) {
       return {"force", "N", "N, mN, gf"};
     case Dimension::Frequency:
       return {"frequency", "Hz", "Hz, kHz, 1/s"};
+    case Dimension::Mass:
+      return {"mass", "kg", "kg, g, mg"};
     case Dimension::AngularSpeed:
       return {"angular speed", "rad/s", "rad/s, rpm"};
     case Dimension::Dimensionless:

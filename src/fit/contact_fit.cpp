@@ -30,6 +30,7 @@ class ContactReporter {
         result_(result),
         count_(static_cast<double>(found.cycles.size())) {
     speed_m_per_s_ = recording.conditions().speed_m_per_s;
+    speed_error_ = recording.conditions().speed_standard_error_m_per_s.value_or(0.0) / speed_m_per_s_;
     zeta_ = std::max(0.0, value_(2));
     samples_per_slip_ = moments.mean(3) / found.step_s;
   }
@@ -79,9 +80,10 @@ class ContactReporter {
     return good ? ParameterStatus::Identified : ParameterStatus::Weak;
   }
 
-  /// ln of a product of powers of the four solved quantities, the speed taken off ln kV by the caller.
-  Estimate power(double logarithm, const Eigen::Vector4d& exponents) const {
-    const double se = std::sqrt(exponents.dot(covariance_ * exponents));
+  /// ln of a product of powers of the four solved quantities, the speed taken off ln kV by the caller: `speed_error` of
+  /// its logarithm is that of k.
+  Estimate power(double logarithm, const Eigen::Vector4d& exponents, double speed_error = 0.0) const {
+    const double se = std::hypot(std::sqrt(exponents.dot(covariance_ * exponents)), speed_error);
     return exponential(symmetric(logarithm, se, count_ - 1.0));
   }
 
@@ -95,7 +97,7 @@ class ContactReporter {
     const double log_k = value_(0) - std::log(speed_m_per_s_);
     const auto relative = [&](const Estimate& e) { return *e.standard_error / *e.value; };
     if (in_newtons) {
-      const Estimate k = power(log_k, {1.0, 0.0, 0.0, 0.0});
+      const Estimate k = power(log_k, {1.0, 0.0, 0.0, 0.0}, speed_error_);
       add("stiffness_N_per_m", k, graded(relative(k), 0.05));
     } else {
       add("stiffness_N_per_m", {}, ParameterStatus::Unidentified,
@@ -108,7 +110,7 @@ class ContactReporter {
     const Estimate omega = power(value_(1), {0.0, 1.0, 0.0, 0.0});
     add("natural_frequency_rad_per_s", omega, graded(relative(omega), 0.05));
     if (in_newtons) {
-      const Estimate mass = power(log_k - 2.0 * value_(1), {1.0, -2.0, 0.0, 0.0});
+      const Estimate mass = power(log_k - 2.0 * value_(1), {1.0, -2.0, 0.0, 0.0}, speed_error_);
       add("mass_kg", mass, graded(relative(mass), 0.1), "effective: k / w_n^2");
     }
     report_damping(in_newtons);
@@ -144,7 +146,8 @@ class ContactReporter {
     // c = 2 zeta k / w_n, [Paper] eq. (6)
     const double unit_c = 2.0 * std::exp(value_(0) - value_(1)) / speed_m_per_s_;
     const Eigen::Vector4d gradient(zeta_ * unit_c, -zeta_ * unit_c, unit_c, 0.0);
-    Estimate c = symmetric(zeta_ * unit_c, std::sqrt(gradient.dot(covariance_ * gradient)), count_ - 1.0);
+    const double se_c = std::hypot(std::sqrt(gradient.dot(covariance_ * gradient)), zeta_ * unit_c * speed_error_);
+    Estimate c = symmetric(zeta_ * unit_c, se_c, count_ - 1.0);
     c.ci95 = Interval{damping_.ci95->low * unit_c, std::max(damping_.ci95->high * unit_c, c.ci95->high)};
     add("damping_coefficient_N_s_per_m", c, status);
   }
@@ -158,14 +161,16 @@ class ContactReporter {
     model.friction_difference_N = std::exp(value_(3));
     model.degrees_of_freedom = count_ - 1.0;
     model.damping_identified = damping_.ci95->low > 0.0;
+    Eigen::Matrix4d covariance = covariance_;
+    covariance(0, 0) += speed_error_ * speed_error_;
     Correlation correlation{
         {"stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio", "friction_difference_N"}, {}};
     for (Eigen::Index i = 0; i < 4; ++i) {
       correlation.matrix.emplace_back();
       for (Eigen::Index j = 0; j < 4; ++j) {
-        model.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = covariance_(i, j);
-        correlation.matrix.back().push_back(
-            i == j ? 1.0 : covariance_(i, j) / std::sqrt(covariance_(i, i) * covariance_(j, j)));
+        model.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = covariance(i, j);
+        correlation.matrix.back().push_back(i == j ? 1.0
+                                                   : covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j)));
       }
     }
     result_.estimate = model;
@@ -179,7 +184,7 @@ class ContactReporter {
   Eigen::Matrix4d covariance_;
   FitResult& result_;
   double count_;
-  double speed_m_per_s_ = 0.0, zeta_ = 0.0, samples_per_slip_ = 0.0;
+  double speed_m_per_s_ = 0.0, speed_error_ = 0.0, zeta_ = 0.0, samples_per_slip_ = 0.0;
   Estimate damping_;
 };
 
@@ -217,6 +222,11 @@ std::optional<FitResult> fit_contact(const Recording& recording, const Segmentat
   ContactReporter(recording, *found, moments, *solution, result).report();
   if (!options.fixed.empty() || options.tier) {
     result.warnings.push_back({"option_ignored", "--fix and --tier do not apply to a sensor at the contact"});
+  }
+  if (recording.conditions().sensor_bandwidth_Hz) {
+    result.warnings.push_back({"option_ignored",
+                               "--sensor-bandwidth does not apply to a sensor at the contact: a lag longer than a "
+                               "sample rounds the jumps that are taken here, and w_n and zeta are then wrong"});
   }
   if (options.curve) result.curve = curve_of(recording, *found);
   return result;

@@ -20,7 +20,8 @@ struct Scales {
   double time_begin_s = 0.0;  ///< of the cycles in the fit: the drift polynomial lives on [begin, end]
   double time_end_s = 1.0;
   ForceView view = ForceView::Spring;  ///< spring or transmitted: what the samples show of a slip
-  double half_period_s = 1.0;          ///< from the largest to the smallest force of a slip, pi / (w_n b)
+  double sensor_lag_s = 0.0;   ///< T of a first-order sensor, 1 / (2 pi bandwidth); 0: it shows the force as it is
+  double half_period_s = 1.0;  ///< from the largest to the smallest force of a slip, pi / (w_n b)
 };
 
 /// What a bin keeps of a mains line: mean and least-squares slope of its cosine and sine over the bin's samples.

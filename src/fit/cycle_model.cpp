@@ -64,6 +64,7 @@ bool CycleModel::state(const double* shared, const double* own, CycleState& stat
   if (!(z0 + 2.0 * state.zeta > 0.0) || !(std::abs(state.zeta) < 1.0) || !std::isfinite(z0)) return false;
   state.slip = model::solve_slip(z0, state.zeta);
   state.after = model::stick_after(state.slip);
+  state.lag_tau = state.omega_rad_per_s * scales_.sensor_lag_s;
   return true;
 }
 
@@ -104,7 +105,7 @@ bool CycleModel::evaluate(const double* shared, const double* level, const doubl
   // F = level + u z(tau; z0, zeta), tau = w_n (t - onset), z0 = A / u, u = k V / w_n
   const auto gradient_of = [&](const model::WavePoint& p, double tau) {
     const double scale_part = u * (p.z - s.slip.z0 * p.d_z0);  // d / d ln u at fixed tau
-    return std::array<double, 5>{scale_part, -scale_part + u * p.d_tau * tau, u * p.d_zeta,
+    return std::array<double, 5>{scale_part, -scale_part + u * (p.d_tau * tau + p.d_log_omega), u * p.d_zeta,
                                  -u * p.d_tau * w * scales_.half_period_s, scales_.force * p.d_z0};
   };
   std::size_t row = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fit/cycle_data.hpp"
+#include "fit/sensor_lag.hpp"
 #include "model/slip.hpp"
 
 namespace slipfit::fit {
@@ -52,6 +53,7 @@ struct CycleState {
   double onset_force = 0.0;  ///< above the level, A
   model::Slip slip;
   model::StickLine after;
+  double lag_tau = 0.0;  ///< of the sensor, w_n T
 };
 
 /// Derivatives of residuals, row-major like Ceres; null where not wanted.
@@ -90,7 +92,7 @@ class CycleModel {
   [[nodiscard]] model::WavePoint wave_at(const CycleState& state, double tau) const;
   [[nodiscard]] model::WavePoint stick_before(const CycleState& state, double tau) const;
   [[nodiscard]] model::WavePoint stick_after(const CycleState& state, double tau) const;
-  [[nodiscard]] model::WavePoint with_drag(const CycleState& state, model::WavePoint stick) const;
+  [[nodiscard]] model::WavePoint as_shown(const CycleState& state, model::WavePoint stick) const;
   void put(std::size_t row, double weight, double data, double model, const std::array<double, 5>& gradient,
            const double* basis, double* residuals, const Jacobians& jacobians) const;
   void fill_basis();
@@ -133,6 +135,7 @@ inline double CycleModel::force_at(const CycleState& state, double time_s, const
 
 inline model::WavePoint CycleModel::wave_at(const CycleState& state, double tau) const {
   const bool transmitted = scales_.view == ForceView::Transmitted;
+  if (state.lag_tau > 0.0) return SensorLag{state.lag_tau, transmitted}.wave_at(state.slip, tau);
   if (tau > 0.0 && tau <= state.slip.tau_end) {
     return transmitted ? model::transmitted_wave(state.slip, tau) : model::slip_wave(state.slip, tau);
   }
@@ -140,18 +143,21 @@ inline model::WavePoint CycleModel::wave_at(const CycleState& state, double tau)
 }
 
 inline model::WavePoint CycleModel::stick_before(const CycleState& state, double tau) const {
-  return with_drag(state, {state.slip.z0 + tau, 1.0, 0.0, 1.0});
+  return as_shown(state, {state.slip.z0 + tau, 1.0, 0.0, 1.0});
 }
 
 inline model::WavePoint CycleModel::stick_after(const CycleState& state, double tau) const {
-  return with_drag(state, {state.after.intercept + tau, state.after.d_z0, state.after.d_zeta, 1.0});
+  return as_shown(state, {state.after.intercept + tau, state.after.d_z0, state.after.d_zeta, 1.0});
 }
 
-inline model::WavePoint CycleModel::with_drag(const CycleState& state, model::WavePoint stick) const {
+/// A straight ramp lags by T, and so by kV T.
+inline model::WavePoint CycleModel::as_shown(const CycleState& state, model::WavePoint stick) const {
   if (scales_.view == ForceView::Transmitted) {
     stick.z += 2.0 * state.zeta;
     stick.d_zeta += 2.0;
   }
+  stick.z -= state.lag_tau;
+  stick.d_log_omega -= state.lag_tau;
   return stick;
 }
 

@@ -42,6 +42,9 @@ class Fitter {
     excluded_ = initial_exclusions(recording, quality);
     scales_.speed_m_per_s = recording.conditions().speed_m_per_s;
     scales_.view = recording.conditions().force_view;
+    if (const auto bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz) {
+      scales_.sensor_lag_s = 1.0 / (2.0 * std::numbers::pi * *bandwidth_Hz);
+    }
     scales_.half_period_s = std::max(half_period_of(segmentation), 1e-3 * recording.sample_interval_s());
     std::vector<double> drops;
     std::vector<double> middles;
@@ -99,7 +102,9 @@ class Fitter {
   /// move its ends.
   double half_width_s() const {
     const double u = start_stiffness_ * scales_.speed_m_per_s * scales_.half_period_s / std::numbers::pi;
-    return scales_.half_period_s * (1.0 - std::atan2(scales_.force, u) / std::numbers::pi + 0.3);
+    constexpr double kForgotten = 8.0;  // e^-8: what the sensor still shows of the slip in the straight ramp
+    return scales_.half_period_s * (1.0 - std::atan2(scales_.force, u) / std::numbers::pi + 0.3) +
+           kForgotten * scales_.sensor_lag_s;
   }
 
   /// The level model to begin with: the polynomial that the middles pay for, or at once one level a cycle.
@@ -162,6 +167,7 @@ class Fitter {
     BlockFit fit(cycles, middles_s(cycles), scales_, level);
     std::vector<double> stretches{1.0};
     if (scales_.half_period_s < 6.0 * recording_.sample_interval_s()) stretches = {1.0, 1.6, 1.0 / 0.6};
+    if (scales_.sensor_lag_s > 0.05 * scales_.half_period_s) stretches = {1.0, 1.4, 2.0};  // it draws the fall out
     std::vector<double> dampings{0.05, 0.01, 0.15};
     if (level.per_cycle) dampings = {0.05};  // a level a cycle takes up what a wrong zeta does to the troughs
     if (held_values_.damping_ratio) dampings = {*held_values_.damping_ratio};
@@ -356,11 +362,15 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped) {
   blocks.parameters.shared[2] = 0.0;
   Held held = damped.held;
   held.damping = true;
+  // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
+  if (damped.continuous && !std::isfinite(blocks.solve({held, false, true}))) return std::nullopt;
   if (!std::isfinite(blocks.solve({held, damped.continuous, true}))) return std::nullopt;
   DampedFit result{std::move(blocks), damped.continuous, held, damped.refused_damping,
                    damped.excluded,   damped.outliers,   {},   damped.misfit};
   result.uncertainty = estimate_uncertainty(result.blocks, held, damped.continuous);
-  return result;
+  // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.
+  const bool is_false = from.parameters.shared[2] < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
+  return is_false ? std::nullopt : std::optional(std::move(result));
 }
 
 }  // namespace slipfit::fit

@@ -74,6 +74,19 @@ double refine(const std::vector<double>& residuals, double step_s, double freque
   return frequency_Hz + 0.25 * offset * resolution_Hz;
 }
 
+/// Amplitude^2 samples / (2 variance), which noise brings above 20 once in exp(10): the level beside a line, by which
+/// the spectrum judges, is too low where the cycles have taken up the noise around their harmonics.
+bool stands_out(const HumTerm& term, const std::vector<double>& residuals) {
+  constexpr double kSure = 20.0;
+  double used = 0.0;
+  double square = 0.0;
+  for (const double r : residuals) {
+    used += r != 0.0 ? 1.0 : 0.0;
+    square += r * r;
+  }
+  return 0.5 * power_of(term) * used * used > kSure * square;
+}
+
 }  // namespace
 
 std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, const Residuals& residuals,
@@ -93,8 +106,8 @@ std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, co
   }
   for (const signal::MainsLine& line : signal::find_mains(power, bin_Hz, resolution_Hz)) {
     const auto is_near = [&](double f) { return std::abs(f - line.frequency_Hz) < 2.0 * resolution_Hz; };
-    if (std::none_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near))
-      frequencies_Hz.push_back(line.frequency_Hz);
+    if (std::any_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near)) continue;
+    if (stands_out(fit_term(values, step_s, line.frequency_Hz), values)) frequencies_Hz.push_back(line.frequency_Hz);
   }
   return frequencies_Hz;
 }

@@ -160,7 +160,8 @@ void set_start(BlockFit& fit, const Segmentation& segmentation, const Shared& sh
     // Undamped: the force peaks at sqrt(A^2 + u^2), atan(u / A) after the onset.
     const double onset_force = std::sqrt(std::max(peak * peak - u * u, 0.09 * peak * peak));
     const double half_period_s = std::numbers::pi / (omega_rad_per_s * b);
-    const double onset_s = slip.middle_s - 0.5 * half_period_s - std::atan2(u, onset_force) / omega_rad_per_s;
+    const double onset_s =
+        slip.middle_s - 0.5 * half_period_s - std::atan2(u, onset_force) / omega_rad_per_s - scales.sensor_lag_s;
     fit.parameters.cycles[i] = {(onset_s - fit.reference_s(i)) / scales.half_period_s, onset_force / scales.force,
                                 (levels.back() - scales.level) / scales.force};
   }

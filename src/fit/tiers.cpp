@@ -59,7 +59,7 @@ SawtoothFit fit_sawtooth(const DampedFit& damped) {
     const double* own = blocks.parameters.cycles[i].data();
     for (std::size_t j = 0; j < data.time_s.size(); ++j) {
       const double tau = state.omega_rad_per_s * (data.time_s[j] - state.onset_s);
-      const double z = (data.time_s[j] < middle_s ? state.slip.z0 : state.after.intercept) + tau;
+      const double z = (data.time_s[j] < middle_s ? state.slip.z0 : state.after.intercept) + tau - state.lag_tau;
       const double level = blocks.model(i).level_at(data.time_s[j], blocks.level_data(), own);
       const double residual = data.force[j] - level - state.force_scale * z;
       sum += residual * residual;

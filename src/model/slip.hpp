@@ -62,8 +62,7 @@ inline double tau_of_fastest_slip(double z0, double zeta, double b) {
 /// G is all but straight in h, and y has full relative precision however short the stick.
 class SpiralEnd {
  public:
-  SpiralEnd(double z0, double zeta)
-      : zeta_(zeta), b_(std::sqrt(1.0 - zeta * zeta)), loss_angle_(std::asin(zeta)) {
+  SpiralEnd(double z0, double zeta) : zeta_(zeta), b_(std::sqrt(1.0 - zeta * zeta)), loss_angle_(std::asin(zeta)) {
     const double lambda = z0 + 2.0 * zeta;
     start_h_ = 0.5 * std::log1p(lambda * z0);
     start_angle_ = std::atan2(b_ * z0, 1.0 + zeta * z0);
@@ -181,6 +180,7 @@ T restick_margin(const T& lambda, const T& zeta) {
 /// with derivatives with respect to z0, zeta (at fixed tau) and tau. z' is the transmitted view's extra term / 2 zeta.
 struct WavePoint {
   double z = 0.0, d_z0 = 0.0, d_zeta = 0.0, d_tau = 0.0;
+  double d_log_omega = 0.0;  ///< at fixed tau: only where something else than the slip has a time of its own
 };
 
 /// The slip itself, 0 <= tau <= tau_end.

@@ -42,6 +42,23 @@ Estimate spacing_score(const Estimate& predicted_m, double measured_m) {
           "the measured spacing counts as exact: its own uncertainty would make this smaller"};
 }
 
+/// V, and with it every distance at the measured speed, has the error of the stated speed.
+Estimate with_speed_error(Estimate distance, double relative_se, double quantile) {
+  if (!distance.value || !distance.standard_error || relative_se == 0.0) return distance;
+  const double relative = std::hypot(*distance.standard_error / *distance.value, relative_se);
+  const double factor = std::exp(quantile * relative);
+  distance.standard_error = relative * *distance.value;
+  distance.ci95 = Interval{*distance.value / factor, *distance.value * factor};
+  return distance;
+}
+
+/// k V is what the data give: at the measured speed the error of V is none of the motion's.
+ModelEstimate at_the_measured_speed(ModelEstimate model, double relative_speed_se) {
+  double& variance = model.covariance[0][0];
+  variance = std::max(0.0, variance - relative_speed_se * relative_speed_se);
+  return model;
+}
+
 }  // namespace
 
 Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
@@ -54,23 +71,29 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
     if (conditions.measured_spacing_m) derived.measured_spacing_En = reason;
     return derived;
   }
-  const ModelEstimate& model = *fit.estimate;
   const double speed = conditions.speed_m_per_s;
+  const double speed_error = conditions.speed_standard_error_m_per_s.value_or(0.0) / speed;
+  const ModelEstimate model = at_the_measured_speed(*fit.estimate, speed_error);
   const predict::Propagation propagation(model);
   const predict::ModelJets p = predict::jets_of(model);
   const predict::Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed);  // [Paper] eq. (9)
   derived.lambda = propagation.positive(lambda);
   predict::CriticalPoint critical = predict::critical_point(model, propagation);
   derived.lambda_critical = std::move(critical.lambda);
-  derived.critical_speed_m_per_s = std::move(critical.speed_m_per_s);
-  derived.micro_vibration_spacing_m = propagation.positive(predict::micro_vibration_spacing_m(p, speed));
+  const auto at_uncertain_speed = [&](Estimate distance) {
+    return with_speed_error(std::move(distance), speed_error, propagation.quantile());
+  };
+  derived.critical_speed_m_per_s = at_uncertain_speed(std::move(critical.speed_m_per_s));
+  derived.micro_vibration_spacing_m =
+      at_uncertain_speed(propagation.positive(predict::micro_vibration_spacing_m(p, speed)));
   derived.micro_vibration_spacing_m.note = "estimate: the one-mass model has no micro-vibration inside a slip";
 
   const predict::MotionJets motion = predict::motion_at(model, speed);
   derived.regime = predict::name_of(motion.regime);
   derived.bistable = motion.regime == Regime::StickSlipBistable;
-  derived.periodic_displacement_m = motion.cycle ? propagation.positive(motion.cycle->periodic_displacement_m)
-                                                 : unknown("the fitted model has no stick-slip at this speed");
+  derived.periodic_displacement_m =
+      motion.cycle ? at_uncertain_speed(propagation.positive(motion.cycle->periodic_displacement_m))
+                   : unknown("the fitted model has no stick-slip at this speed");
   if (conditions.measured_spacing_m) {
     derived.measured_spacing_En = spacing_score(derived.periodic_displacement_m, *conditions.measured_spacing_m);
   }

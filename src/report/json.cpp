@@ -37,6 +37,7 @@ std::string to_json(const Recording& recording, const Analysis& analysis, const 
     json["correlation"] = correlation_json(*analysis.fit);
   }
   json["derived"] = derived_json(analysis.derived);
+  json["tests"] = tests_json(analysis.tests);
   if (options.timing) json["timing"] = timing_json(analysis.timing);
   const int indent = options.layout == JsonLayout::Indented ? 2 : -1;
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);

@@ -95,6 +95,18 @@ Json correlation_json(const FitResult& fit) {
   return json;
 }
 
+Json tests_json(const std::vector<ShortTest>& tests) {
+  Json json = Json::array();
+  for (const ShortTest& test : tests) {
+    json.push_back({{"name", test.name},
+                    {"value", number(test.value)},
+                    {"se", number(test.standard_error)},
+                    {"p_value", number(test.p_value)},
+                    {"finding", test.finding}});
+  }
+  return json;
+}
+
 Json derived_json(const Derived& derived) {
   Json json{{"lambda", estimate(derived.lambda)},
             {"gamma", estimate(derived.gamma)},

@@ -38,6 +38,9 @@ Json recording_json(const Recording& recording, const Quality& quality) {
               {"force_view", name_of(conditions.force_view)},
               {"force_quantity", name_of(conditions.quantity)},
               {"zero_force_N", number(conditions.zero_force_N)},
+              {"mass_kg", number(conditions.mass_kg)},
+              {"sensor_bandwidth_Hz", number(conditions.sensor_bandwidth_Hz)},
+              {"sensor_resonance_Hz", number(conditions.sensor_resonance_Hz)},
               {"assumed", recording.provenance().assumed},
               {"quality", quality_json(recording, quality)}};
 }

@@ -13,6 +13,7 @@ Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity);
 Json model_json(const FitResult& fit, ForceQuantity quantity);
 Json parameters_json(const FitResult& fit);
 Json correlation_json(const FitResult& fit);
+Json tests_json(const std::vector<ShortTest>& tests);
 Json derived_json(const Derived& derived);
 
 }  // namespace slipfit

@@ -44,6 +44,13 @@ std::string warnings_text(const Warnings& warnings) {
   return text;
 }
 
+std::string tests_text(const std::vector<ShortTest>& tests) {
+  if (tests.empty()) return {};
+  std::string text = "\nTests\n";
+  for (const ShortTest& test : tests) text += fmt::format("  - {}\n", one_line(test.finding));
+  return text;
+}
+
 std::string one_line(std::string_view text) {
   std::string line(text);
   for (char& c : line) {
@@ -99,6 +106,7 @@ std::string to_text(const Recording& recording, const Analysis& analysis) {
   text += spacing_text(recording, analysis.derived);
   const bool moves_like_model = analysis.verdict == Verdict::StickSlip || analysis.verdict == Verdict::OscillatorySlip;
   if (moves_like_model) text += predicted_text(analysis.derived);
+  text += tests_text(analysis.tests);
   text += recording_text(recording, analysis.quality);
   text += warnings_text(all_warnings(recording, analysis));
   text += assumed_text(recording.provenance().assumed);

@@ -17,6 +17,7 @@ std::string frequency_text(const FrequencyReport& frequency);
 std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity);
 std::string spacing_text(const Recording& recording, const Derived& derived);
 std::string predicted_text(const Derived& derived);
+std::string tests_text(const std::vector<ShortTest>& tests);
 std::string recording_text(const Recording& recording, const Quality& quality);
 
 /// "key   value ± error unit   [low, high]" for a table of estimates; SI_unit gets a prefix where that reads better.

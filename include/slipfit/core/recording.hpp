@@ -25,6 +25,11 @@ struct Conditions {
   ForceView force_view = ForceView::Spring;
   ForceQuantity quantity = ForceQuantity::Force_N;
   std::optional<double> zero_force_N;  ///< sensor reading at no force, already subtracted; absolute forces need it
+  /// > 0, of a first-order sensor, -3 dB: the fit of one recording lets its model lag by it. Joint fits do not.
+  std::optional<double> sensor_bandwidth_Hz;
+  std::optional<double>
+      sensor_resonance_Hz;                   ///< > 0, of the load cell as it is mounted: a frequency near it is doubted
+  std::optional<double> mass_kg;             ///< > 0, of the moving body: held against k / w_n^2, never forced
   std::optional<double> measured_spacing_m;  ///< > 0, of the worn surface: a prediction is held against it
 };
 

@@ -13,6 +13,7 @@ enum class Dimension {
   Speed,         ///< m/s
   Force,         ///< N
   Frequency,     ///< Hz
+  Mass,          ///< kg
   AngularSpeed,  ///< rad/s ("rpm" included)
   Dimensionless  ///< 1 ("%" included)
 };

@@ -75,6 +75,7 @@ struct Evidence {
   double decay = 1.0;               ///< median onset force, first half of the cycles over second half
   double span_share = 0.0;          ///< duration of the cycles over duration of the recording
   double samples_per_slip = 0.0;
+  double hum_share = 0.0;  ///< amplitude of the fitted mains hum over the mean onset force
 };
 
 /// Friction that depends on the sliding speed v: F_k(v) = F_k(0+) + b (exp(alpha v) - 1) / alpha, the law f0 + f1

@@ -1,0 +1,220 @@
+#include "recording_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace slipfit {
+namespace {
+
+constexpr double kChance = 1e-3;
+constexpr std::size_t kFewestPairs = 8;
+/// Onset forces that spread by less than this many errors of one of them tell of the noise, not of the cycles.
+constexpr double kStandsOut = 3.0;
+/// A sensor shows a frequency of 0.3 of its resonance 1 / (1 - 0.09), 10 %, too large.
+constexpr double kNearResonance = 0.3;
+
+/// A cycle and the one before it, both fitted.
+struct Pair {
+  double time_s = 0.0;
+  double period_s = 0.0;  ///< that the slip causes, and so a function of its own static friction alone
+  double force = 0.0;     ///< onset force above the level
+  double force_before = 0.0;
+  double log_stick = 0.0;  ///< ln of the time in stick between them
+};
+
+std::vector<Pair> pairs_of(const std::vector<Cycle>& cycles) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 1; i < cycles.size(); ++i) {
+    const Cycle& before = cycles[i - 1];
+    const Cycle& cycle = cycles[i];
+    if (!before.used || !cycle.used || !cycle.recovery_s) continue;
+    const double stick_s = *cycle.onset_s - *before.end_s;
+    if (!(stick_s > 0.0)) continue;
+    pairs.push_back({*cycle.onset_s, *cycle.recovery_s, *cycle.onset_force - *cycle.level_force,
+                     *before.onset_force - *before.level_force, std::log(stick_s)});
+  }
+  return pairs;
+}
+
+using Column = std::vector<double>;
+
+double product(const Column& a, const Column& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+Column centred(Column values) {
+  double mean = 0.0;
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  for (double& value : values) value -= mean;
+  return values;
+}
+
+Column column_of(const std::vector<Pair>& pairs, double Pair::*member) {
+  Column column;
+  for (const Pair& pair : pairs) column.push_back(pair.*member);
+  return centred(std::move(column));
+}
+
+/// Less its straight line over `time` (centred).
+Column without_trend(Column values, const Column& time) {
+  const double slope = product(values, time) / product(time, time);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= slope * time[i];
+  return values;
+}
+
+/// Two-sided, of a correlation r with this many degrees of freedom.
+double chance_of(double r, double freedom) {
+  const double t = std::abs(r) * std::sqrt(freedom / std::max(1e-12, 1.0 - r * r));
+  return 2.0 * boost::math::cdf(boost::math::complement(boost::math::students_t_distribution<double>(freedom), t));
+}
+
+std::string seen(double p) {
+  return p < kChance ? "beyond chance" : "no more than chance";
+}
+
+ShortTest test_drift(const std::vector<Pair>& pairs, double duration_s) {
+  const Column time = column_of(pairs, &Pair::time_s);
+  const Column period = column_of(pairs, &Pair::period_s);
+  const auto count = static_cast<double>(pairs.size());
+  double mean_s = 0.0;
+  for (const Pair& pair : pairs) mean_s += pair.period_s / count;
+  const double slope = product(period, time) / product(time, time);
+  const double r = slope * std::sqrt(product(time, time) / product(period, period));
+  const double change = slope * duration_s / mean_s;
+  const double p = chance_of(r, count - 2.0);
+  return {"period_drift", change, std::abs(change) * std::sqrt((1.0 / (r * r) - 1.0) / (count - 2.0)), p,
+          fmt::format("the period changes by {:+.2g} % from begin to end, {} (p {:.2g})", 100.0 * change, seen(p), p)};
+}
+
+ShortTest test_return_map(const std::vector<Pair>& pairs) {
+  const Column time = column_of(pairs, &Pair::time_s);
+  const Column force = without_trend(column_of(pairs, &Pair::force), time);
+  const Column before = without_trend(column_of(pairs, &Pair::force_before), time);
+  const double r = product(force, before) / std::sqrt(product(force, force) * product(before, before));
+  const double freedom = static_cast<double>(pairs.size()) - 3.0;
+  const double p = chance_of(r, freedom);
+  return {"return_map", r, std::sqrt((1.0 - r * r) / freedom), p,
+          fmt::format("a slip's static friction correlates by {:+.2f} with that of the slip before, {} (p {:.2g})", r,
+                      seen(p), p)};
+}
+
+/// F_s = a + b ln(time in stick). A large F_s makes its own stick long, so that the plain slope means nothing; the slip
+/// before decides how far the ramp has to rise and knows nothing of this F_s: it is the instrument.
+ShortTest test_ageing(const std::vector<Pair>& pairs, const std::string& unit) {
+  const Column time = column_of(pairs, &Pair::time_s);
+  const Column force = without_trend(column_of(pairs, &Pair::force), time);
+  const Column before = without_trend(column_of(pairs, &Pair::force_before), time);
+  const Column stick = without_trend(column_of(pairs, &Pair::log_stick), time);
+  const double slope = product(force, before) / product(stick, before);
+  double square = 0.0;
+  for (std::size_t i = 0; i < force.size(); ++i) square += std::pow(force[i] - slope * stick[i], 2);
+  const double freedom = static_cast<double>(pairs.size()) - 3.0;
+  const double se = std::sqrt(square / freedom * product(before, before)) / std::abs(product(stick, before));
+  const double r = product(force, before) / std::sqrt(product(force, force) * product(before, before));
+  const double p = chance_of(r, freedom);
+  return {"ageing", slope, se, p,
+          fmt::format("static friction changes by {:+.2g} ± {:.1g} {} with each factor e of time in stick, {} (p "
+                      "{:.2g}; the same evidence as the return map)",
+                      slope, se, unit, seen(p), p)};
+}
+
+const Parameter* parameter_of(const FitResult& fit, const std::string& name) {
+  for (const Parameter& parameter : fit.parameters) {
+    if (parameter.name == name && parameter.estimate.value && parameter.estimate.ci95) return &parameter;
+  }
+  return nullptr;
+}
+
+ShortTest test_mass(const FitResult& fit, double stated_kg) {
+  const Parameter* const mass = parameter_of(fit, "mass_kg");
+  if (mass == nullptr || !(*mass->estimate.standard_error > 0.0)) {
+    return {"stated_mass", {}, {}, {}, "k / w_n^2 is not known: the stated mass cannot be held against it"};
+  }
+  const double ratio = *mass->estimate.value / stated_kg;
+  const double relative_se = *mass->estimate.standard_error / *mass->estimate.value;
+  const boost::math::normal_distribution<double> normal;
+  const double p = 2.0 * boost::math::cdf(boost::math::complement(normal, std::abs(std::log(ratio)) / relative_se));
+  return {"stated_mass", ratio, ratio * relative_se, p,
+          fmt::format("k / w_n^2 is {:.3g} ± {:.1g} times the stated mass, {} (p {:.2g})", ratio, ratio * relative_se,
+                      seen(p), p)};
+}
+
+ShortTest test_resonance(const FitResult& fit, double resonance_Hz) {
+  const Parameter* const omega = parameter_of(fit, "natural_frequency_rad_per_s");
+  if (omega == nullptr) return {"sensor_resonance", {}, {}, {}, "w_n is not known"};
+  const double ratio = *omega->estimate.value / (2.0 * std::numbers::pi * resonance_Hz);
+  return {"sensor_resonance",
+          ratio,
+          *omega->estimate.standard_error / *omega->estimate.value * ratio,
+          {},
+          fmt::format("the slips move at {:.2g} of the load cell's resonance, which shows them {}", ratio,
+                      ratio < kNearResonance
+                          ? fmt::format("{:.1g} % too large", 100.0 * (1.0 / (1.0 - ratio * ratio) - 1.0))
+                          : "in its own rhythm: k, w_n and zeta may be the load cell's")};
+}
+
+/// The ramp before a slip counts as free of the slip before: half a stick of 10 lags leaves e^-5 of it.
+constexpr double kForgotten = 10.0;
+
+ShortTest test_lag(double stick_s, double bandwidth_Hz) {
+  const double lags = stick_s * 2.0 * std::numbers::pi * bandwidth_Hz;
+  return {
+      "sensor_lag",
+      lags,
+      {},
+      {},
+      fmt::format("the sensor's lag goes {:.3g} times into the time in stick{}", lags,
+                  lags < kForgotten ? ": it has not forgotten one slip when the next begins, which the fit takes for "
+                                      "granted"
+                                    : "")};
+}
+
+}  // namespace
+
+std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysis& analysis) {
+  std::vector<ShortTest> tests;
+  if (!analysis.fit || analysis.verdict != Verdict::StickSlip) return tests;
+  const FitResult& fit = *analysis.fit;
+  const Conditions& conditions = recording.conditions();
+  const std::vector<Pair> pairs = pairs_of(fit.cycles);
+  const bool scatters = fit.evidence.onset_force_spread > kStandsOut * fit.evidence.onset_force_error;
+  if (pairs.size() >= kFewestPairs) tests.push_back(test_drift(pairs, recording.duration_s()));
+  if (pairs.size() >= kFewestPairs && scatters) {
+    tests.push_back(test_return_map(pairs));
+    tests.push_back(test_ageing(pairs, conditions.quantity == ForceQuantity::Force_N ? "N" : ""));
+  }
+  if (conditions.mass_kg) tests.push_back(test_mass(fit, *conditions.mass_kg));
+  if (conditions.sensor_bandwidth_Hz && analysis.cycles.stick_time_s) {
+    tests.push_back(test_lag(*analysis.cycles.stick_time_s, *conditions.sensor_bandwidth_Hz));
+  }
+  if (conditions.sensor_resonance_Hz) tests.push_back(test_resonance(fit, *conditions.sensor_resonance_Hz));
+  return tests;
+}
+
+Warnings warn_of(const std::vector<ShortTest>& tests) {
+  Warnings warnings;
+  for (const ShortTest& test : tests) {
+    const bool by_chance = !test.p_value || *test.p_value > kChance;
+    if (test.name == "sensor_resonance" && test.value && *test.value > kNearResonance) {
+      warnings.push_back({"near_sensor_resonance", test.finding});
+    }
+    if (test.name == "sensor_lag" && *test.value < kForgotten) warnings.push_back({"sensor_too_slow", test.finding});
+    if (by_chance) continue;
+    if (test.name == "period_drift") warnings.push_back({"period_drifts", test.finding});
+    if (test.name == "return_map") warnings.push_back({"cycles_remember", test.finding});
+    if (test.name == "stated_mass") {
+      warnings.push_back({"mass_differs", test.finding +
+                                              ": springs and parts that move along, a contact that yields, or "
+                                              "slips that are not the model's; nothing is forced"});
+    }
+  }
+  return warnings;
+}
+
+}  // namespace slipfit
