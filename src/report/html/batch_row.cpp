@@ -61,13 +61,13 @@ Estimate estimate_in(const Json& json, const char* value, const char* error, con
   return estimate;
 }
 
-std::string codes_in(const Json& warnings) {
+std::vector<std::string> codes_in(const Json& warnings) {
   std::vector<std::string> codes;
   for (const Json& warning : warnings) {
     std::string code = text_in(warning, "code");
     if (std::find(codes.begin(), codes.end(), code) == codes.end()) codes.push_back(std::move(code));
   }
-  return fmt::format("{}", fmt::join(codes, " "));
+  return codes;
 }
 
 /// Empty where it is absent; a bounded parameter keeps its interval alone.
@@ -121,7 +121,9 @@ std::string batch_row(const BatchPageRow& row) {
                   name, spark(row.sparkline), text(status_words(row.status)), speed,
                   row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
   for (const Column& column : kColumns) cells += quantity_cell(row.*column.quantity, column.per_SI);
-  cells += fmt::format("<td class=\"codes\">{}</td>", text(row.warnings));
+  std::string codes;
+  for (const std::string& code : row.warnings) codes += "<span>" + text(code) + " </span>";
+  cells += fmt::format("<td class=\"codes\">{}</td>", codes);
   return fmt::format("<tr data-status=\"{}\">{}</tr>\n", text(row.status), cells);
 }
 
