@@ -59,10 +59,10 @@ std::optional<Error> replace_page(const fs::path& file, std::string_view content
 
 std::optional<Error> make_folder(const fs::path& folder) {
   std::error_code error;
-  if (!folder.empty() && !fs::is_directory(folder, error) && !fs::create_directory(folder, error)) {
-    return cannot_write(folder, error ? error.value() : ENOTDIR);
-  }
-  return std::nullopt;
+  fs::create_directory(folder, error);  // another shard may make it at the same moment
+  std::error_code ignored;
+  if (fs::is_directory(folder, ignored)) return std::nullopt;
+  return cannot_write(folder, error ? error.value() : ENOTDIR);
 }
 
 std::string last_line_of(const fs::path& file) {
@@ -107,7 +107,7 @@ std::optional<Error> add_slot(BatchPage& page, const BatchReport& report, const 
 
 std::optional<Error> prepare_pages(const BatchReport& report) {
   const fs::path folder = report.file.parent_path();
-  if (auto error = make_folder(folder)) return error;
+  if (auto error = make_folder(folder.empty() ? "." : folder)) return error;
   if (auto error = make_folder(folder / kFolder)) return error;
   return replace_page(report.file, {});
 }

@@ -230,6 +230,7 @@ test("a batch's page sorts, filters, finds and links to each recording's page", 
   await page.getByLabel("Show").selectOption("stick_slip");
   assert.deepEqual([...new Set(await rows.evaluateAll((all) => all.map((row) => row.dataset.status)))], ["stick_slip"]);
   await page.getByLabel("Show").selectOption("");
+  await page.screenshot({ path: shot("batch-top.png") });
   await page.screenshot({ path: shot("batch.png"), fullPage: true });
   await page.pdf({ path: shot("batch.pdf"), preferCSSPageSize: true });
   const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);

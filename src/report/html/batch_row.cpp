@@ -116,10 +116,10 @@ std::string batch_row(const BatchPageRow& row) {
   std::string name = text(row.id);
   if (!row.report_file.empty()) name = fmt::format("<a href=\"{}\">{}</a>", address(row.report_file), name);
   const std::string speed = row.speed_m_per_s ? fmt::format("{}", *row.speed_m_per_s) : std::string();
-  std::string cells =
-      fmt::format("<td class=\"name\">{}</td><td>{}</td><td>{}</td><td class=\"number\" data-value=\"{}\">{}</td>",
-                  name, spark(row.sparkline), text(status_words(row.status)), speed,
-                  row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
+  std::string cells = fmt::format(
+      "<td class=\"name\">{}</td><td>{}</td><td class=\"shows\">{}</td><td class=\"number\" data-value=\"{}\">{}</td>",
+      name, spark(row.sparkline), text(status_words(row.status)), speed,
+      row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
   for (const Column& column : kColumns) cells += quantity_cell(row.*column.quantity, column.per_SI);
   std::string codes;
   for (const std::string& code : row.warnings) codes += "<span>" + text(code) + " </span>";
