@@ -99,8 +99,8 @@ std::string spark(const std::string& path) {
 
 std::string heading(const std::string& words, const char* css_class) {
   // data-words: no browser prints a button again on the next page
-  return fmt::format("<th scope=\"col\" class=\"{}\" data-words=\"{}\"><button type=\"button\">{}</button></th>",
-                     css_class, text(words), text(words));
+  return fmt::format(R"(<th scope="col" class="{}" data-words="{}"><button type="button">{}</button></th>)", css_class,
+                     text(words), text(words));
 }
 
 }  // namespace
@@ -117,8 +117,8 @@ std::string batch_row(const BatchPageRow& row) {
   if (!row.report_file.empty()) name = fmt::format("<a href=\"{}\">{}</a>", address(row.report_file), name);
   const std::string speed = row.speed_m_per_s ? fmt::format("{}", *row.speed_m_per_s) : std::string();
   std::string cells = fmt::format(
-      "<td class=\"name\">{}</td><td>{}</td><td class=\"shows\">{}</td><td class=\"number\" data-value=\"{}\">{}</td>",
-      name, spark(row.sparkline), text(status_words(row.status)), speed,
+      R"(<td class="name">{}</td><td>{}</td><td class="shows">{}</td><td class="number" data-value="{}">{}</td>)", name,
+      spark(row.sparkline), text(status_words(row.status)), speed,
       row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
   for (const Column& column : kColumns) cells += quantity_cell(row.*column.quantity, column.per_SI);
   std::string codes;
@@ -160,7 +160,7 @@ std::string sparkline_of(const Recording& recording) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const long x = std::lround(html::kSparkWidth * static_cast<double>(i) / static_cast<double>(points.size() - 1));
     const long y = std::lround(html::kSparkHeight - scale * (points[i].y - low->y));
-    const char* const step = i == 0 ? "M" : i == 1 ? "l" : " ";
+    const char step = i == 0 ? 'M' : i == 1 ? 'l' : ' ';
     path += fmt::format("{}{}{}{}", step, x - last_x, y < last_y ? "" : " ", y - last_y);
     last_x = x;
     last_y = y;

@@ -89,7 +89,7 @@ std::string quantity_cell(const Estimate& SI, double per_SI) {
   const RoundedEstimate shown = rounded(scaled(SI, per_SI));
   const std::string interval = shown.interval == "-" ? "" : "<small>" + text(shown.interval) + "</small>";
   const std::string value = SI.value ? fmt::format("{}", *SI.value) : std::string();
-  return fmt::format("<td class=\"number\" data-value=\"{}\">{}{}</td>", value, text(shown.value), interval);
+  return fmt::format(R"(<td class="number" data-value="{}">{}{}</td>)", value, text(shown.value), interval);
 }
 
 std::string status_words(std::string_view status) {
