@@ -52,7 +52,8 @@ TEST_CASE("a batch's report is an index and a page a recording and group, the sa
   const std::string& index = pages.at("index.html");
   CHECK(index.find("00001-r0.html\">r0</a>") < index.find("00005-r4.html\">r4</a>"));
   CHECK_THAT(index, Contains("00006-group_g0.html\">group:g0</a>") && Contains("class=\"spark\""));
-  CHECK_THAT(pages.at("recordings/00002-r1.html"), Contains("r1.csv</p>") && Contains("runs.csv  # row 2: r1</code>"));
+  CHECK_THAT(pages.at("recordings/00002-r1.html"),
+             Contains("r1.csv</p>") && Contains("runs.csv --joint-groups  # row 2: r1</code>"));
   (void)batch(scene.manifest(), scene.path("plain"), {"--joint-groups"});
   CHECK(files_in(scene.path("a")) == files_in(scene.path("plain")));
 }

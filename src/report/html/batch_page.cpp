@@ -108,7 +108,7 @@ std::string distributions(const std::vector<BatchPageRow>& rows) {
   add("damping-ratios", "damping ratio [-]", values(&BatchPageRow::damping_ratio, 1.0));
   if (figures.empty()) return {};
   return "<section>\n<h2>Distributions</h2>\n<p class=\"guide\">How many recordings show which value; only those in "
-         "which it is known.</p>\n<div class=\"grid\">\n" +
+         "which it is known.</p>\n<div class=\"charts\">\n" +
          figures + "</div>\n</section>\n";
 }
 
