@@ -19,5 +19,5 @@ command -v npm >/dev/null 2>&1 || skip "no npm"
 build=$(realpath "${1:-build/release}")
 shots="$PWD/build/report-test"
 rm -rf "$shots"
-SLIPFIT="$build/apps/slipfit" BATCH_PAGE="$build/tests/batch_page" CHROMIUM=$(command -v chromium) SHOTS=$shots \
+SLIPFIT="$build/apps/slipfit" CHROMIUM=$(command -v chromium) SHOTS=$shots \
   node --test tests/browser/

@@ -76,6 +76,7 @@ slipfit::BatchReport report_from(const BatchArguments& arguments) {
   std::vector<std::string> words{"slipfit", "batch", arguments.manifest};
   if (arguments.tier != "auto") words.insert(words.end(), {"--tier", arguments.tier});
   for (const std::string& fixed : arguments.fixed) words.insert(words.end(), {"--fix", fixed});
+  if (arguments.joint_groups) words.emplace_back("--joint-groups");
   return {*arguments.report, shell_line(words)};
 }
 

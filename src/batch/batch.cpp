@@ -79,7 +79,7 @@ std::optional<Error> close(const BatchOptions& options, const WorkList& list, Ru
   if (!run.stopped()) {
     if (auto error = check_unchanged(options, list)) return error;
     if (auto error = write_final_files(options.folder, options.manifest, list, ledger)) return error;
-    if (options.report) {
+    if (options.report && options.shard.count == 1) {
       if (auto error = write_index(*options.report, options.manifest, list, ledger)) return error;
     }
   }

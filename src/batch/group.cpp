@@ -8,7 +8,7 @@ namespace slipfit {
 namespace {
 
 SweepOrigin origin_of(const std::string& id, const std::vector<ManifestEntry>& members, const BatchReport& report) {
-  SweepOrigin origin{id, report.command_line, {}};
+  SweepOrigin origin{id, report.command_line + "  # " + id, {}};
   for (const ManifestEntry& entry : members) origin.file_sha256.push_back(sha256_of_file(entry.file.string()));
   return origin;
 }

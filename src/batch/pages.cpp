@@ -43,33 +43,36 @@ std::string mark_of(std::string_view document) {
   return fmt::format("<!-- slipfit.page/1 {:016x} ", digest(document));
 }
 
-/// Replaces no file but a page: an input stays as it is.
-std::optional<Error> replace_page(const fs::path& file, std::string_view content) {
+/// Nothing but a page is replaced: an input stays as it is.
+std::optional<Error> check_replaceable(const fs::path& file) {
   std::error_code ignored;
-  if (fs::exists(file, ignored)) {
-    std::string begin(kBegin.size(), '\0');
-    std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    if (begin != kBegin) {
-      return Error{"not_a_page",
-                   one_line(file.string()) + ": is no page of slipfit and is not replaced; choose another --report"};
-    }
-  }
-  return content.empty() ? std::nullopt : replace_file(file, content);
+  if (!fs::exists(file, ignored)) return std::nullopt;
+  std::string begin(kBegin.size(), '\0');
+  std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (begin == kBegin) return std::nullopt;
+  return Error{"not_a_page",
+               one_line(file.string()) + ": is no page of slipfit and is not replaced; choose another --report"};
+}
+
+std::optional<Error> replace_page(const fs::path& file, std::string_view content) {
+  auto error = check_replaceable(file);
+  return error ? error : replace_file(file, content);
 }
 
 std::optional<Error> make_folder(const fs::path& folder) {
   std::error_code error;
-  if (!folder.empty() && !fs::is_directory(folder, error) && !fs::create_directory(folder, error)) {
-    return cannot_write(folder, error ? error.value() : ENOTDIR);
-  }
-  return std::nullopt;
+  fs::create_directory(folder, error);  // another shard may make it at the same moment
+  std::error_code ignored;
+  if (fs::is_directory(folder, ignored)) return std::nullopt;
+  return cannot_write(folder, error ? error.value() : ENOTDIR);
 }
 
 std::string last_line_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  const auto size = static_cast<std::streamoff>(stream.tellg());
+  if (!stream) return {};
+  const std::streamoff size = stream.tellg();
   const std::streamoff count = std::min(size, static_cast<std::streamoff>(kLongestLastLine));
-  std::string end(static_cast<std::size_t>(std::max(count, std::streamoff{0})), '\0');
+  std::string end(static_cast<std::size_t>(count), '\0');
   stream.seekg(size - count);
   stream.read(end.data(), count);
   if (!stream || !end.ends_with('\n')) return {};
@@ -107,9 +110,9 @@ std::optional<Error> add_slot(BatchPage& page, const BatchReport& report, const 
 
 std::optional<Error> prepare_pages(const BatchReport& report) {
   const fs::path folder = report.file.parent_path();
-  if (auto error = make_folder(folder)) return error;
+  if (auto error = make_folder(folder.empty() ? "." : folder)) return error;
   if (auto error = make_folder(folder / kFolder)) return error;
-  return replace_page(report.file, {});
+  return check_replaceable(report.file);
 }
 
 std::optional<Error> write_page(const BatchReport& report, const PageKey& key, std::string_view document,

@@ -1,5 +1,7 @@
 #include "batch/run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <exception>
 #include <new>
@@ -32,7 +34,8 @@ Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions
   layout.layout = JsonLayout::OneLine;
   BatchFit result{to_json(recording, analysis, layout), {}, {}};
   if (!options.report) return result;
-  const ReportOrigin origin{options.report->command_line, sha256_of_file(entry.file.string())};
+  const std::string command = fmt::format("{}  # row {}: {}", options.report->command_line, entry.row, entry.id);
+  const ReportOrigin origin{command, sha256_of_file(entry.file.string())};
   result.page = to_html(recording, analysis, gather_background(recording, analysis), origin);
   result.sparkline = sparkline_of(recording);
   return result;

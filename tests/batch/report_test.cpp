@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 
 #include "manifests.hpp"
@@ -16,16 +15,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 /// Every page of a report, by its place.
 std::map<std::string, std::string> pages_in(const fs::path& folder) {
   std::map<std::string, std::string> pages;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) pages[fs::relative(entry.path(), folder).string()] = content_of(entry.path());
+    if (entry.is_regular_file())
+      pages[fs::relative(entry.path(), folder).string()] = test::content_of(entry.path().string());
   }
   return pages;
 }
@@ -57,7 +52,8 @@ TEST_CASE("a batch's report is an index and a page a recording and group, the sa
   const std::string& index = pages.at("index.html");
   CHECK(index.find("00001-r0.html\">r0</a>") < index.find("00005-r4.html\">r4</a>"));
   CHECK_THAT(index, Contains("00006-group_g0.html\">group:g0</a>") && Contains("class=\"spark\""));
-  CHECK_THAT(pages.at("recordings/00002-r1.html"), Contains("r1.csv</p>"));
+  CHECK_THAT(pages.at("recordings/00002-r1.html"),
+             Contains("r1.csv</p>") && Contains("runs.csv --joint-groups  # row 2: r1</code>"));
   (void)batch(scene.manifest(), scene.path("plain"), {"--joint-groups"});
   CHECK(files_in(scene.path("a")) == files_in(scene.path("plain")));
 }
@@ -88,6 +84,7 @@ TEST_CASE("shards may share a report's folder; after the merge the index is made
     const std::string out = scene.path("shard" + shard.substr(0, 1));
     REQUIRE(batch(scene.manifest(), out, reported(scene, "pages", {"--shard", shard})).exit_code == 0);
   }
+  CHECK_FALSE(fs::exists(scene.path("pages/index.html")));
   const fs::path first = scene.path("pages/recordings/00001-r0.html");
   const auto written = fs::last_write_time(first);
   REQUIRE(
@@ -103,7 +100,7 @@ TEST_CASE("a recording that changed since has no page that contradicts its row")
   REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 0);
   fs::copy_file(scene.path("r1.csv"), scene.path("r0.csv"), fs::copy_options::overwrite_existing);
   REQUIRE(batch(scene.manifest(), scene.path("out"), reported(scene, "page", {"--resume"})).exit_code == 0);
-  const std::string index = content_of(scene.path("page/index.html"));
+  const std::string index = test::content_of(scene.path("page/index.html"));
   CHECK_THAT(index, Contains("<td class=\"name\">r0</td>") && Contains("00002-r1.html\">r1</a>"));
 }
 
@@ -122,18 +119,18 @@ TEST_CASE("names and messages from outside stay text, and failures are on the pa
 
 TEST_CASE("a report replaces no file that is no page, and its name must be a page's") {
   const BatchScene scene(1);
-  const std::string before = content_of(scene.path("r0.csv"));
+  const std::string before = test::content_of(scene.path("r0.csv"));
   const std::string manifest = scene.file("input.html", "id,file,speed_m_per_s\nr0,r0.csv,0.02\n");
   const auto input = batch(manifest, scene.path("out"), {"--report", manifest});
   CHECK(input.exit_code == 2);
   CHECK_THAT(input.err, Contains("input.html: is no page") && Contains("--report"));
   CHECK(batch(scene.manifest(), scene.path("out"), {"--report", scene.path("r0.csv")}).exit_code == 2);
   CHECK(batch(scene.manifest(), scene.path("out"), {"--report", scene.path("none/none/index.html")}).exit_code == 2);
-  CHECK(content_of(scene.path("r0.csv")) == before);
+  CHECK(test::content_of(scene.path("r0.csv")) == before);
   CHECK_FALSE(fs::exists(scene.path("out/results.jsonl")));
 
   fs::create_directories(scene.path("page/recordings"));
   std::ofstream(scene.path("page/recordings/00001-r0.html")) << "time,force\n";
   CHECK(batch(scene.manifest(), scene.path("out"), reported(scene, "page", {})).exit_code == 2);
-  CHECK(content_of(scene.path("page/recordings/00001-r0.html")) == "time,force\n");
+  CHECK(test::content_of(scene.path("page/recordings/00001-r0.html")) == "time,force\n");
 }

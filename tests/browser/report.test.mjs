@@ -1,5 +1,5 @@
 // Opens pages of slipfit in a headless Chromium. Run by scripts/test-report.sh, which sets
-// SLIPFIT and BATCH_PAGE (programs of the build), CHROMIUM (the browser), SHOTS (a folder for pages and screenshots).
+// SLIPFIT (the program of the build), CHROMIUM (the browser), SHOTS (a folder for pages and screenshots).
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";
@@ -12,6 +12,7 @@ const { SLIPFIT, CHROMIUM, SHOTS } = process.env;
 const kLargestPage = 3_000_000; // bytes, for 200 000 samples
 const kHostile = "</script><script>alert(1)</script>.csv"; // three folders deep: a name cannot hold a slash
 const demo = "testdata/demo.csv";
+const synthetic = "../shared/data/synthetic/manifest.csv"; // where it is absent, recordings are simulated
 
 function slipfit(...words) {
   return execFileSync(SLIPFIT, words, { stdio: ["ignore", "pipe", "pipe"], maxBuffer: 1 << 30 });
@@ -161,7 +162,7 @@ test("screenshots: light, dark, narrow, paper", async () => {
   }
 });
 
-/** A sweep of three speeds, each with its fit document; the file names begin with `prefix`. */
+/** Recordings of three speeds; the file names begin with `prefix`. */
 function sweep(prefix) {
   return [5, 10, 20].map((speed) => {
     const name = `${prefix}-${speed}`;
@@ -169,35 +170,117 @@ function sweep(prefix) {
       "4.2", "--kinetic-friction", "3.2"];
     slipfit("simulate", ...model, "--speed", `${speed}mm/s`, "--duration", "2", "--sample-rate", "5kHz", "--noise", "0.02",
       "--jitter", "0.05", "--seed", `${speed}`, "--out", shot(`${name}.csv`));
-    slipfit("fit", shot(`${name}.csv`), "--speed", `${speed}mm/s`, "--json", "--out", shot(`${name}.json`), "--report",
-      shot(`${name}.html`), "--quiet");
     return { name, speed };
   });
 }
 
-test("the batch's table sorts, filters and links", async () => {
-  const names = sweep("run").map((run) => run.name);
-  const file = shot("index.html");
-  execFileSync(process.env.BATCH_PAGE, [file, ...names.map((name) => shot(`${name}.json`))]);
-  const page = await open(file, { viewport: { width: 1280, height: 900 } });
-  const firstCells = () => page.locator("#recordings tbody tr:visible td.name").allTextContents();
-  const speed = page.getByRole("button", { name: /^speed/ });
-  await speed.click();
-  await speed.click();
-  assert.deepEqual(await firstCells(), ["run-20", "run-10", "run-5"], "falling speed");
+/** The manifest of a batch: all synthetic recordings, or three, and two rows that a page must survive. */
+function batchManifest() {
+  const lines = fs.existsSync(synthetic)
+    ? fs.readFileSync(synthetic, "utf8").trim().split("\n").map((line, i) => {
+        const cells = line.split(",");
+        const file = fs.readFileSync(synthetic, "utf8").split("\n")[0].split(",").indexOf("file");
+        if (i > 0) cells[file] = path.resolve(path.dirname(synthetic), cells[file]);
+        return cells.join(",");
+      })
+    : ["id,file,speed [mm/s]", ...sweep("run").map((run) => `${run.name},${run.name}.csv,${run.speed}`)];
+  const columns = lines[0].split(",");
+  const row = (id, file) => columns.map((name) =>
+    ({ id, file: path.resolve(file), group: "" })[name] ?? lines[1].split(",")[columns.indexOf(name)]).join(",");
+  lines.push(row(kHostileId, demo), row("broken", `none${kHostile}`));
+  fs.writeFileSync(shot("batch.csv"), `${lines.join("\n")}\n`);
+  return { file: shot("batch.csv"), recordings: lines.length - 2 };
+}
+const kHostileId = "<script>alert(1)<img src=x onerror=alert(1)>";
+
+/** What the command says with exit code 1, some recordings failed. */
+function batch(...words) {
+  const failed = (() => {
+    try {
+      slipfit("batch", ...words);
+    } catch (error) {
+      return error;
+    }
+  })();
+  assert.equal(failed?.status, 1, failed?.stderr?.toString());
+}
+
+test("a batch's page sorts, filters, finds and links to each recording's page", async (context) => {
+  const { file, recordings } = batchManifest();
+  fs.rmSync(shot("results"), { recursive: true, force: true });
+  batch(file, "--out", shot("results"), "--report", shot("results/index.html"), "--quiet");
+  const page = await open(shot("results/index.html"), { viewport: { width: 1280, height: 900 } });
+  const rows = page.locator("#recordings tbody tr");
+  context.diagnostic(`${recordings} recordings`);
+  assert.equal(await rows.count(), recordings);
+  assert.equal(await page.locator("svg.spark path").count(), recordings);
+
+  const values = (cell) => rows.evaluateAll((all, i) => all.map((row) => row.cells[i].dataset.value), cell);
+  const known = (cells) => cells.filter((value) => value !== "").map(Number);
+  const sorted = (numbers, sign) => numbers.every((value, i) => i === 0 || sign * (value - numbers[i - 1]) >= 0);
   await page.getByRole("button", { name: /^frequency/ }).click();
-  assert.deepEqual(await firstCells(), ["run-5", "run-10", "run-20"], "rising frequency, by number and not by text");
+  const rising = await values(4);
+  assert.ok(known(rising).length > 2 && sorted(known(rising), 1), "by number and not by text");
+  assert.deepEqual(rising.slice(known(rising).length).filter((value) => value !== ""), [], "what is not known stands last");
+  await page.getByRole("button", { name: /^speed/ }).press("Enter");
+  await page.getByRole("button", { name: /^speed/ }).press("Enter");
+  assert.ok(sorted(known(await values(3)), -1), "falling speed, by keyboard");
   assert.equal(await page.locator("th[aria-sort]").count(), 1);
-  await page.getByLabel("Search").fill("run-1");
-  assert.deepEqual(await firstCells(), ["run-10"]);
-  assert.equal(await page.locator("#shown").textContent(), "1 of 3");
-  await page.getByLabel("Search").fill("");
+
+  await page.getByLabel("Show").selectOption("stick_slip");
+  assert.deepEqual([...new Set(await rows.evaluateAll((all) => all.map((row) => row.dataset.status)))], ["stick_slip"]);
+  await page.getByLabel("Show").selectOption("");
+  await page.screenshot({ path: shot("batch-top.png") });
   await page.screenshot({ path: shot("batch.png"), fullPage: true });
-  assert.equal(await page.locator("svg.spark path").count(), 3);
-  assert.equal(await page.locator("#failures th[scope=row]").textContent(), "</script><script>alert(1)</script>");
-  await page.getByRole("link", { name: "run-10" }).click();
-  assert.match(await page.title(), /run-10\.csv$/);
-  assert.deepEqual(page.faults.filter((fault) => !fault.endsWith("/run-10.html")), []);
+  await page.pdf({ path: shot("batch.pdf"), preferCSSPageSize: true });
+  const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+  assert.ok(overflow <= 0, `wider than the window by ${overflow} px`);
+
+  assert.equal(await page.locator("#failures th[scope=row]").textContent(), "broken");
+  assert.match(await page.locator("#failures td").first().textContent(), /<script>alert\(1\)<\/script>\.csv/);
+  await page.getByLabel("Search").fill("<SCRIPT>alert(1)<img");
+  assert.equal(await page.locator("#shown").textContent(), `1 of ${recordings}`);
+  assert.deepEqual(page.faults, []);
+  await page.getByRole("link", { name: kHostileId }).click();
+  await page.waitForURL(/recordings\/\d+-.*\.html$/);
+  assert.match(await page.title(), /demo\.csv$/);
+  assert.ok((await drawnPixels(page)) > 5000);
+  assert.deepEqual(page.faults.filter((fault) => !/^request: file:.*\/recordings\/\d+-[\w.-]+\.html$/.test(fault)), []);
+  await page.close();
+});
+
+test("a table of 10^4 rows opens and sorts soon", async (context) => {
+  const index = fs.readFileSync(shot("results/index.html"), "utf8");
+  const rows = index.match(/<tr data-status[^]*?<\/tr>/g);
+  const many = Array.from({ length: 10_000 }, (_, i) => rows[i % rows.length]);
+  const filled = index.replace(/<tbody>[^]*?<\/tbody>/, () => `<tbody>${many.slice(0, 500).join("")}</tbody>`)
+    .replace(/<template id="later">[^]*?<\/template>/, () => `<template id="later">${many.slice(500).join("")}</template>`);
+  fs.writeFileSync(shot("many.html"), filled);
+  const page = await open(shot("many.html"));
+  await page.waitForFunction(() => performance.getEntriesByName("first-contentful-paint").length > 0);
+  const paint_ms = await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0].startTime);
+  assert.equal(await page.locator("#shown").textContent(), "10000 of 10000");
+  const sort_ms = await page.evaluate(() => {
+    const begin = performance.now();
+    document.querySelector("#recordings th:nth-child(5) button").click();
+    document.body.getBoundingClientRect();
+    return performance.now() - begin;
+  });
+  const key_ms = await page.evaluate(() => {
+    const search = document.getElementById("search");
+    const begin = performance.now();
+    search.value = "slip";
+    search.dispatchEvent(new Event("input"));
+    document.body.getBoundingClientRect();
+    return performance.now() - begin;
+  });
+  context.diagnostic(`10^4 rows: ${filled.length} bytes, first paint after ${Math.round(paint_ms)} ms, ` +
+    `sorted in ${Math.round(sort_ms)} ms, searched in ${Math.round(key_ms)} ms`);
+  await page.getByLabel("Search").fill("");
+  assert.equal(await page.locator("#recordings tbody tr").count(), 500);
+  await page.getByRole("button", { name: "Show 500 more" }).click();
+  assert.equal(await page.locator("#recordings tbody tr").count(), 1000);
+  assert.deepEqual(page.faults, []);
   await page.close();
 });
 

@@ -71,6 +71,15 @@ TEST_CASE("a group is counted on its own and stays out of the distributions") {
   CHECK_THAT(page, !Contains("<h2>Distributions</h2>"));  // of five recordings at least
 }
 
+TEST_CASE("a distribution says what a logarithmic axis cannot show") {
+  slipfit::BatchPage batch{"batch", {7, row("run")}, {}};
+  for (slipfit::BatchPageRow& each : batch.rows) each.damping_ratio.value = 0.05;
+  CHECK_THAT(to_html(batch), Contains(">damping ratio [-]<"));
+  batch.rows[2].damping_ratio.value = 0.0;
+  batch.rows[3].damping_ratio.value = 1e-12;
+  CHECK_THAT(to_html(batch), Contains(">damping ratio [-], 2 at zero not drawn<"));
+}
+
 TEST_CASE("a long table lays out its first rows at once, keeps more for the script, and says what it leaves out") {
   const slipfit::BatchPage batch{"batch", {10001, row("run")}, {10002, {"bad", "empty", "no data"}}};
   const std::string page = to_html(batch);

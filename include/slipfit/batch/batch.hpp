@@ -19,7 +19,8 @@ struct Shard {
   std::size_t count = 1;
 };
 
-/// A page of the batch, and in the folder `recordings` beside it one of each recording and group (docs/report.md).
+/// A page of the batch, and in the folder `recordings` beside it one of each recording and group (docs/report.md). A
+/// shard writes the latter alone: shards may share the folder.
 struct BatchReport {
   std::filesystem::path file;  ///< in a folder that is there, or can be made
   std::string command_line;    ///< that the pages show: how to repeat them

@@ -20,6 +20,7 @@ namespace {
 constexpr std::size_t kMostRows = 10000;
 constexpr std::size_t kRowsAtOnce = 500;  // laid out; the script shows more of them on demand
 constexpr std::size_t kFewest = 5;        // values that make a distribution
+constexpr double kLeastShare = 1e-6;      // of the greatest: below it a value is as good as zero
 
 /// From the most frequent to the rarest.
 using StatusCounts = std::vector<std::pair<std::string, std::size_t>>;
@@ -54,10 +55,14 @@ std::string summary_of(const BatchPage& page, const StatusCounts& counts) {
   return text(sentence + ".");
 }
 
-/// Equal steps of the logarithm: the quantities are positive and spread over decades.
-std::optional<chart::Panel> histogram(std::vector<double> values, const std::string& label) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !(v > 0.0); }), values.end());
+/// Equal steps of the logarithm: the quantities are positive and spread over decades. What has no place on it is
+/// counted.
+std::optional<chart::Panel> histogram(std::vector<double> values, std::string label) {
+  if (values.empty()) return std::nullopt;
+  const double least = kLeastShare * *std::max_element(values.begin(), values.end());
+  const auto near_zero = std::erase_if(values, [least](double v) { return !(v > least); });
   if (values.size() < kFewest) return std::nullopt;
+  if (near_zero > 0) label += fmt::format(", {} at zero not drawn", near_zero);
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double first = *low / 1.05;
   const auto bins =
@@ -103,7 +108,7 @@ std::string distributions(const std::vector<BatchPageRow>& rows) {
   add("damping-ratios", "damping ratio [-]", values(&BatchPageRow::damping_ratio, 1.0));
   if (figures.empty()) return {};
   return "<section>\n<h2>Distributions</h2>\n<p class=\"guide\">How many recordings show which value; only those in "
-         "which it is known.</p>\n<div class=\"grid\">\n" +
+         "which it is known.</p>\n<div class=\"charts\">\n" +
          figures + "</div>\n</section>\n";
 }
 

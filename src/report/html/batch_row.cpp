@@ -61,13 +61,13 @@ Estimate estimate_in(const Json& json, const char* value, const char* error, con
   return estimate;
 }
 
-std::string codes_in(const Json& warnings) {
+std::vector<std::string> codes_in(const Json& warnings) {
   std::vector<std::string> codes;
   for (const Json& warning : warnings) {
     std::string code = text_in(warning, "code");
     if (std::find(codes.begin(), codes.end(), code) == codes.end()) codes.push_back(std::move(code));
   }
-  return fmt::format("{}", fmt::join(codes, " "));
+  return codes;
 }
 
 /// Empty where it is absent; a bounded parameter keeps its interval alone.
@@ -99,8 +99,8 @@ std::string spark(const std::string& path) {
 
 std::string heading(const std::string& words, const char* css_class) {
   // data-words: no browser prints a button again on the next page
-  return fmt::format("<th scope=\"col\" class=\"{}\" data-words=\"{}\"><button type=\"button\">{}</button></th>",
-                     css_class, text(words), text(words));
+  return fmt::format(R"(<th scope="col" class="{}" data-words="{}"><button type="button">{}</button></th>)", css_class,
+                     text(words), text(words));
 }
 
 }  // namespace
@@ -116,12 +116,14 @@ std::string batch_row(const BatchPageRow& row) {
   std::string name = text(row.id);
   if (!row.report_file.empty()) name = fmt::format("<a href=\"{}\">{}</a>", address(row.report_file), name);
   const std::string speed = row.speed_m_per_s ? fmt::format("{}", *row.speed_m_per_s) : std::string();
-  std::string cells =
-      fmt::format("<td class=\"name\">{}</td><td>{}</td><td>{}</td><td class=\"number\" data-value=\"{}\">{}</td>",
-                  name, spark(row.sparkline), text(status_words(row.status)), speed,
-                  row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
+  std::string cells = fmt::format(
+      R"(<td class="name">{}</td><td>{}</td><td class="shows">{}</td><td class="number" data-value="{}">{}</td>)", name,
+      spark(row.sparkline), text(status_words(row.status)), speed,
+      row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
   for (const Column& column : kColumns) cells += quantity_cell(row.*column.quantity, column.per_SI);
-  cells += fmt::format("<td class=\"codes\">{}</td>", text(row.warnings));
+  std::string codes;
+  for (const std::string& code : row.warnings) codes += "<span>" + text(code) + " </span>";
+  cells += fmt::format("<td class=\"codes\">{}</td>", codes);
   return fmt::format("<tr data-status=\"{}\">{}</tr>\n", text(row.status), cells);
 }
 
@@ -158,7 +160,7 @@ std::string sparkline_of(const Recording& recording) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const long x = std::lround(html::kSparkWidth * static_cast<double>(i) / static_cast<double>(points.size() - 1));
     const long y = std::lround(html::kSparkHeight - scale * (points[i].y - low->y));
-    const char* const step = i == 0 ? "M" : i == 1 ? "l" : " ";
+    const char step = i == 0 ? 'M' : i == 1 ? 'l' : ' ';
     path += fmt::format("{}{}{}{}", step, x - last_x, y < last_y ? "" : " ", y - last_y);
     last_x = x;
     last_y = y;

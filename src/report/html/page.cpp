@@ -128,7 +128,7 @@ std::string to_html(const Recording& recording, const Analysis& analysis, const 
   if (has_interactive_trace()) {
     page.library_style = assets::dygraphs_style();
     page.credits = "; interactive trace by dygraphs (MIT licence)";
-    page.scripts = "<script type=\"application/json\" id=\"trace-data\">" + html::trace_data(source) + "</script>\n" +
+    page.scripts = R"(<script type="application/json" id="trace-data">)" + html::trace_data(source) + "</script>\n" +
                    html::script_element(assets::dygraphs_script()) + html::script_element(assets::trace_script());
   }
   return html::page_from(page);

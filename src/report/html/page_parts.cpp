@@ -89,7 +89,7 @@ std::string quantity_cell(const Estimate& SI, double per_SI) {
   const RoundedEstimate shown = rounded(scaled(SI, per_SI));
   const std::string interval = shown.interval == "-" ? "" : "<small>" + text(shown.interval) + "</small>";
   const std::string value = SI.value ? fmt::format("{}", *SI.value) : std::string();
-  return fmt::format("<td class=\"number\" data-value=\"{}\">{}{}</td>", value, text(shown.value), interval);
+  return fmt::format(R"(<td class="number" data-value="{}">{}{}</td>)", value, text(shown.value), interval);
 }
 
 std::string status_words(std::string_view status) {
@@ -201,7 +201,10 @@ std::string quality_part(const Source& source) {
                       fact("noise, rms", quantity_text(quality.noise_rms, unit));
   if (quality.quantisation_step)
     facts += fact("smallest step of the sensor", quantity_text(quality.quantisation_step, unit));
-  facts += fact("clock jitter", quantity_text(100.0 * quality.clock_jitter, "") + " % of a step");
+  constexpr double kNoJitter = 1e-4;  // below it stands what rounding leaves of an even clock
+  const bool is_even = quality.clock_jitter < kNoJitter;
+  facts += fact("clock jitter", is_even ? "less than 0.01 % of a step"
+                                        : quantity_text(100.0 * quality.clock_jitter, "") + " % of a step");
   if (source.analysis.fit && shows_cycles(source.analysis)) {
     const Residual& residual = source.analysis.fit->residual;
     facts += fact("residual of the fit, rms", quantity_text(residual.rms, unit));

@@ -73,7 +73,7 @@ std::string recordings_of(const SweepSource& source) {
        {label_with_unit("speed", units.speed.unit), std::string("shows"),
         label_with_unit("spacing measured, V/f", units.spacing.unit),
         label_with_unit("predicted without it", units.spacing.unit), std::string("off by")}) {
-    headings += fmt::format("<th scope=\"col\" class=\"{}\">{}</th>", words == "shows" ? "" : "number", text(words));
+    headings += fmt::format(R"(<th scope="col" class="{}">{}</th>)", words == "shows" ? "" : "number", text(words));
   }
   std::string rows;
   for (std::size_t i = 0; i < source.entries.size(); ++i) rows += recording_row(source, i, units);
