@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "slipfit/model/motion.hpp"
@@ -72,6 +73,25 @@ Background gather_background(const Recording& recording, const Analysis& analysi
     background.prediction = predict_at(model, speeds);
   }
   return background;
+}
+
+std::optional<Prediction> predict_around(std::span<const SweepEntry> entries, const SweepAnalysis& sweep) {
+  if (!sweep.joint || !sweep.joint->fit.estimate) return std::nullopt;
+  double slowest = std::numeric_limits<double>::infinity();
+  double fastest = 0.0;
+  const auto load = entries.front().recording.conditions().normal_force_N;
+  for (const SweepEntry& entry : entries) {
+    const Conditions& conditions = entry.recording.conditions();
+    if (conditions.normal_force_N != load) return std::nullopt;
+    slowest = std::min(slowest, conditions.speed_m_per_s);
+    fastest = std::max(fastest, conditions.speed_m_per_s);
+  }
+  constexpr double kReach = 2.0;
+  std::vector<double> speeds = in_equal_ratios(slowest / kReach, fastest * kReach, kSpeeds);
+  const double critical = sweep.derived.critical_speed_m_per_s.value.value_or(0.0);
+  if (speeds.front() < critical && critical < speeds.back()) speeds.push_back(critical * (1.0 - 1e-9));
+  std::sort(speeds.begin(), speeds.end());
+  return predict_at({*sweep.joint->fit.estimate, true, std::nullopt}, speeds);
 }
 
 }  // namespace slipfit

@@ -7,6 +7,7 @@
 
 #include "failure.hpp"
 #include "output.hpp"
+#include "slipfit/background.hpp"
 #include "slipfit/io/file_hash.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/report/sweep.hpp"
@@ -67,7 +68,9 @@ void run_joint(const JointArguments& arguments, const slipfit::FitOptions& optio
       arguments.json ? slipfit::to_json(entries, sweep, layout) + "\n" : slipfit::to_text(entries, sweep, layout.id);
   for (const OutputFile& output : outputs) {
     const bool is_report = output.option == "--report";
-    write_file(output, is_report ? to_html(entries, sweep, origin_of(arguments, entries)) : document);
+    write_file(output, is_report
+                           ? to_html(entries, sweep, predict_around(entries, sweep), origin_of(arguments, entries))
+                           : document);
     if (!arguments.quiet) say(fmt::format("wrote '{}'", output.file));
   }
   if (!arguments.out) write_standard_output(document);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "slipfit/pipeline.hpp"
 #include "slipfit/predict/prediction.hpp"
+#include "slipfit/sweep.hpp"
 
 namespace slipfit {
 
@@ -24,5 +26,9 @@ struct Background {
 
 /// Beside the analysis, not in it: only reports need it (about a tenth of a fit's time).
 Background gather_background(const Recording& recording, const Analysis& analysis);
+
+/// What the joint fit predicts around the speeds of its recordings, ascending. Empty where it gives no model to predict
+/// from, or where the recordings have different normal forces.
+std::optional<Prediction> predict_around(std::span<const SweepEntry> entries, const SweepAnalysis& sweep);
 
 }  // namespace slipfit

@@ -1,3 +1,4 @@
+#include "slipfit/background.hpp"
 #include "slipfit/batch/batch.hpp"
 #include "slipfit/io/file_hash.hpp"
 #include "slipfit/report/sweep.hpp"
@@ -24,7 +25,9 @@ GroupFit group_fit(const FitOptions& options, const std::optional<BatchReport>& 
     layout.layout = JsonLayout::OneLine;
     const SweepAnalysis sweep = analyze_sweep(entries.value(), options);
     BatchFit fit{to_json(entries.value(), sweep, layout), {}, {}};
-    if (report) fit.page = to_html(entries.value(), sweep, origin_of(id, members, *report));
+    if (report)
+      fit.page =
+          to_html(entries.value(), sweep, predict_around(entries.value(), sweep), origin_of(id, members, *report));
     return fit;
   };
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit {
@@ -17,7 +18,9 @@ struct SweepOrigin {
 };
 
 /// One self-contained page of a speed sweep: shared parameters, spacing and friction over speed, what a fit without
-/// each recording predicts for it, and every trace. Text from outside stays text.
-std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const SweepOrigin& origin);
+/// each recording predicts for it, and every trace. `prediction`: over speed, ascending; empty: none is drawn between
+/// the recordings. Text from outside stays text.
+std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sweep,
+                    const std::optional<Prediction>& prediction, const SweepOrigin& origin);
 
 }  // namespace slipfit

@@ -77,7 +77,9 @@ class SpeedPanel {
     panel_.lines.push_back(std::move(line));
   }
 
-  [[nodiscard]] Panel finished(const std::string& label, chart::Scale scale) const {
+  /// `critical_speed`: a line across, where its value is known.
+  [[nodiscard]] Panel finished(const std::string& label, chart::Scale scale,
+                               const Estimate& critical_speed = {}) const {
     Panel panel = panel_;
     panel.height_px = 300.0;
     panel.legend_at = chart::LegendAt::Above;
@@ -85,6 +87,7 @@ class SpeedPanel {
     const std::string full = label_with_unit(label, unit_.unit);
     if (scale == chart::Scale::Logarithmic) {
       panel.y = heights_.logarithmic_axis(full);
+      mark(panel, critical_speed);
       return panel;
     }
     Span heights = heights_;
@@ -95,6 +98,20 @@ class SpeedPanel {
   }
 
  private:
+  void mark(Panel& panel, const Estimate& critical_speed) const {
+    const double at = speed_unit_.per_SI * critical_speed.value.value_or(0.0);
+    if (!(panel.x.low < at && at < panel.x.high)) return;
+    if (critical_speed.ci95) {
+      const double low = std::max(panel.x.low, speed_unit_.per_SI * critical_speed.ci95->low);
+      const double high = std::min(panel.x.high, speed_unit_.per_SI * critical_speed.ci95->high);
+      panel.areas.push_back({"",
+                             Colour::Orange,
+                             chart::Fill::Plain,
+                             {{low, panel.y.low}, {low, panel.y.high}, {high, panel.y.high}, {high, panel.y.low}}});
+    }
+    panel.lines.push_back(
+        {"stick-slip ends, 95 %", Colour::Orange, Stroke::Dashed, {{at, panel.y.low}, {at, panel.y.high}}});
+  }
   double at(double speed_m_per_s) {
     speeds_.add(speed_unit_.per_SI * speed_m_per_s);
     return speed_unit_.per_SI * speed_m_per_s;
@@ -116,6 +133,25 @@ class SpeedPanel {
   Span heights_;
 };
 
+/// What the joint fit says over speed: between the recordings where there is a prediction.
+Series fitted_spacing(const SweepSource& source) {
+  if (!source.prediction) {
+    const std::vector<SweepPoint>& points = source.sweep.joint->points;
+    return series_of(source, [&points](std::size_t i) { return points[i].spacing_m; });
+  }
+  Series series;
+  for (const PredictedMotion& row : source.prediction->rows) {
+    if (!row.periodic_displacement_m.value) continue;
+    series.speeds_m_per_s.push_back(row.speed_m_per_s);
+    series.estimates.push_back(row.periodic_displacement_m);
+  }
+  return series;
+}
+
+Estimate critical_speed_of(const SweepSource& source) {
+  return source.prediction ? source.prediction->critical_speed_m_per_s : Estimate{};
+}
+
 /// The unit that suits the fastest recording: the slower ones are decimals of it.
 DisplayUnit speed_unit_of(const SweepSource& source) {
   double fastest = 0.0;
@@ -130,7 +166,9 @@ Exhibit sweep_spacing_exhibit(const SweepSource& source) {
   Exhibit exhibit{"sweep-spacing", "Pattern spacing over speed", {}, {}, {}, {}};
   exhibit.guide =
       "Dots: measured, V/f. Rings: what a fit to all other recordings predicts for this one, with its 95 % interval; "
-      "this is the test of the model, because the recording had no say in it. Line: the fit to all.";
+      "this is the test of the model, because the recording had no say in it. Line: the fit to all, with its 95 % "
+      "band; where the band ends before "
+      "the line, the recordings cannot tell whether there still is stick-slip.";
   if (!source.sweep.joint) {
     exhibit.absent = "There is no joint fit: " + source.sweep.joint_reason + ".";
     return exhibit;
@@ -142,7 +180,7 @@ Exhibit sweep_spacing_exhibit(const SweepSource& source) {
   const Series surface = series_of(source, [&points](std::size_t i) {
     return Estimate{points[i].measured_spacing_m, {}, {}, {}};
   });
-  const Series fitted = series_of(source, [&points](std::size_t i) { return points[i].spacing_m; });
+  const Series fitted = fitted_spacing(source);
   if (measured.estimates.empty() && fitted.estimates.empty()) {
     exhibit.absent = "No recording of the sweep shows a pattern.";
     return exhibit;
@@ -153,8 +191,9 @@ Exhibit sweep_spacing_exhibit(const SweepSource& source) {
   panel.add_markers("measured (V/f)", Colour::Black, Shape::Dot, measured);
   panel.add_markers("predicted without it", Colour::Vermillion, Shape::Ring, left_out);
   panel.add_markers("measured on the surface", Colour::Purple, Shape::Triangle, surface);
-  exhibit.chart =
-      chart::Chart{"Pattern spacing over speed", {}, {panel.finished("spacing", chart::Scale::Logarithmic)}};
+  exhibit.chart = chart::Chart{"Pattern spacing over speed",
+                               {},
+                               {panel.finished("spacing", chart::Scale::Logarithmic, critical_speed_of(source))}};
   exhibit.label = fmt::format("pattern spacing over driving speed: {} measured, {} predicted by fits without them",
                               measured.estimates.size(), left_out.estimates.size());
   return exhibit;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "report/html/exhibit.hpp"
+#include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit::html {
@@ -11,6 +13,7 @@ namespace slipfit::html {
 struct SweepSource {
   std::span<const SweepEntry> entries;
   const SweepAnalysis& sweep;
+  const std::optional<Prediction>& prediction;
 };
 
 Exhibit sweep_spacing_exhibit(const SweepSource& source);

@@ -97,8 +97,9 @@ std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
 }  // namespace
 }  // namespace html
 
-std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const SweepOrigin& origin) {
-  const html::SweepSource source{entries, sweep};
+std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sweep,
+                    const std::optional<Prediction>& prediction, const SweepOrigin& origin) {
+  const html::SweepSource source{entries, sweep, prediction};
   html::PageParts page;
   page.title = origin.name;
   page.kind = "sweep";
