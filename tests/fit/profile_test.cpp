@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "families.hpp"
 #include "fit/damped_fit.hpp"
 #include "fit/intervals.hpp"
 #include "scene.hpp"
@@ -67,19 +68,11 @@ TEST_CASE("profile intervals of few samples a slip hold zeta, F_s - F_k and w_n"
 }
 
 TEST_CASE("a fit with zeta = 0 does not stop at a false minimum") {
-  // From zeta far below 0, where few samples and the joined ramps had held it: k was off by half (coverage study,
-  // sparse).
-  Scene s = few_samples(2);
-  s.samples_per_slip = 1.3;
-  s.zeta = 0.07;
-  const Recording recording = record(s);
-  const Quality quality = assess_quality(recording);
-  auto damped = fit::fit_damped(recording, quality, find_slips(recording, quality), {});
-  REQUIRE(damped);
-  damped->blocks.parameters.shared[2] = -0.15;
-  damped->continuous = true;
-  const auto undamped = fit::fit_undamped(*damped);
-  REQUIRE(undamped);
-  CHECK(undamped->uncertainty.noise < 1.2 * damped->uncertainty.noise);
-  CHECK(std::exp(undamped->blocks.parameters.shared[0]) == Approx(s.stiffness).epsilon(0.02));
+  // Few samples a slip, the free zeta far below 0 by chance: k was off by 10 to 60 % and called identified.
+  const std::uint64_t index = GENERATE(1138U, 1576U, 446U, 1870U);
+  const coverage::Scene scene = coverage::make_scene("sparse", index, 777);
+  const Analysis analysis = analyze_and_fit(scene.recording, {});
+  REQUIRE(analysis.fit);
+  const Estimate& k = parameter(analysis, "stiffness_N_per_m").estimate;
+  CHECK(std::abs(*k.value - scene.truth.stiffness_N_per_m) < 5.0 * *k.standard_error);
 }
