@@ -17,6 +17,27 @@ double half_period_of(const Segmentation& segmentation) {
   return signal::median(falls) / share;
 }
 
+Scales scales_of(const Recording& recording, const Quality& quality, const Segmentation& segmentation) {
+  Scales scales;
+  scales.speed_m_per_s = recording.conditions().speed_m_per_s;
+  scales.view = recording.conditions().force_view;
+  if (const auto bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz) {
+    scales.sensor_lag_s = 1.0 / (2.0 * std::numbers::pi * *bandwidth_Hz);
+  }
+  scales.half_period_s = std::max(half_period_of(segmentation), 1e-3 * recording.sample_interval_s());
+  std::vector<double> drops;
+  std::vector<double> middles;
+  for (const DetectedSlip& slip : segmentation.slips) {
+    drops.push_back(slip.drop());
+    middles.push_back(0.5 * (slip.peak_force + slip.trough_force));
+  }
+  scales.force = 0.5 * signal::median(drops);
+  scales.level = signal::median(middles);
+  // A recording without noise still has rounding; residuals must keep a finite weight.
+  scales.noise = std::max({quality.noise_rms, 0.29 * quality.quantisation_step.value_or(0.0), 1e-6 * scales.force});
+  return scales;
+}
+
 StickBin merge(const std::vector<StickBin>& bins) {
   StickBin all;
   for (const StickBin& bin : bins) {
