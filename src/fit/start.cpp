@@ -62,6 +62,18 @@ StickBin merge(const std::vector<StickBin>& bins) {
   return all;
 }
 
+namespace {
+
+/// A drift that itself bends would make a ramp steeper than the one before it.
+double level_slope(const BlockFit& fit, std::size_t cycle, double time_s) {
+  const double step_s = fit.scales().half_period_s;
+  const double* own = fit.parameters.cycles[cycle].data();
+  const auto level = [&](double t_s) { return fit.model(cycle).level_at(t_s, fit.level_data(), own); };
+  return (level(time_s + step_s) - level(time_s - step_s)) / (2.0 * step_s);
+}
+
+}  // namespace
+
 std::optional<RampBend> ramp_bend(const BlockFit& fit) {
   // Each cycle's difference of slopes, weighted by what its halves know: slopes have the variance noise^2 /
   // time_spread.
@@ -70,9 +82,11 @@ std::optional<RampBend> ramp_bend(const BlockFit& fit) {
   double slope = 0.0;
   std::vector<std::pair<double, double>> cycles;
   for (std::size_t i = 0; i < fit.size(); ++i) {
-    const StickBin late = merge(fit.data(i).bins_before);
-    const StickBin early = merge(fit.data(i).bins_after);
+    StickBin late = merge(fit.data(i).bins_before);
+    StickBin early = merge(fit.data(i).bins_after);
     if (late.count < 3.0 || early.count < 3.0) continue;
+    late.slope -= level_slope(fit, i, late.time_s);
+    early.slope -= level_slope(fit, i, early.time_s);
     const double weight = 1.0 / (1.0 / late.time_spread + 1.0 / early.time_spread);
     cycles.emplace_back(weight, early.slope - late.slope);
     weights += weight;
