@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "fit/intervals.hpp"
@@ -18,6 +19,9 @@ constexpr double kGapSteps = 3.5;
 constexpr double kRegular = 0.01;
 /// Scatter of the cycles sets spectrum and count less far apart than this; another repetition (hum, noise) farther.
 constexpr double kContradiction = 0.3;
+
+/// Cycles shorter than this many lags of the sensor: 8 of them pass before a ramp is fitted, and the slip takes some.
+constexpr double kForgotten = 14.0;
 
 struct MeanAndSpread {
   double mean = 0.0;
@@ -208,6 +212,15 @@ Warnings collect_warnings(const Recording& recording, const Analysis& analysis) 
   if (spectral && counted && std::abs(*spectral / *counted - 1.0) > 0.05) {
     warn("frequencies_disagree",
          fmt::format("the spectrum shows {:.4g} Hz, counting slips {:.4g} Hz", *spectral, *counted));
+  }
+  const auto& bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz;
+  if (bandwidth_Hz && analysis.cycles.period_s) {
+    const double lags = *analysis.cycles.period_s * 2.0 * std::numbers::pi * *bandwidth_Hz;
+    if (lags < kForgotten) {
+      warn("sensor_too_slow", fmt::format("a cycle lasts {:.2g} times the sensor's lag: one slip is hardly forgotten "
+                                          "when the next begins, and little of the ramps is left to fit",
+                                          lags));
+    }
   }
   for (Warning& warning : warn_of(analysis.tests)) warnings.push_back(std::move(warning));
   if (analysis.fit) warnings.insert(warnings.end(), analysis.fit->warnings.begin(), analysis.fit->warnings.end());

@@ -1,6 +1,8 @@
 #include "slipfit/pipeline.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <future>
 #include <limits>
 #include <optional>
@@ -80,9 +82,14 @@ bool may_be_hum(const Signals& signals) {
   return share > 0.9 && share < 1.1;
 }
 
-/// How badly the cycles fit: residual and spread over the onset force. A missing fit is the worst.
+/// How badly the cycles fit: residual and spread over the onset force. A missing fit is the worst; so is one that finds
+/// cycles in less than half of the slips, which are then no slips: a rhythm near the mains that was taken out as hum
+/// leaves such remains behind.
 double misfit_of(const std::optional<FitResult>& fit) {
   if (!fit) return std::numeric_limits<double>::infinity();
+  const auto used =
+      std::count_if(fit->cycles.begin(), fit->cycles.end(), [](const Cycle& cycle) { return cycle.used; });
+  if (2 * static_cast<std::size_t>(used) < fit->cycles.size()) return std::numeric_limits<double>::infinity();
   return fit->evidence.relative_residual + 0.3 * fit->evidence.onset_force_spread;
 }
 

@@ -159,22 +159,6 @@ ShortTest test_resonance(const FitResult& fit, double resonance_Hz) {
                           : "in its own rhythm: k, w_n and zeta may be the load cell's")};
 }
 
-/// The ramp before a slip counts as free of the slip before: half a stick of 10 lags leaves e^-5 of it.
-constexpr double kForgotten = 10.0;
-
-ShortTest test_lag(double stick_s, double bandwidth_Hz) {
-  const double lags = stick_s * 2.0 * std::numbers::pi * bandwidth_Hz;
-  return {
-      "sensor_lag",
-      lags,
-      {},
-      {},
-      fmt::format("the sensor's lag goes {:.3g} times into the time in stick{}", lags,
-                  lags < kForgotten ? ": it has not forgotten one slip when the next begins, which the fit takes for "
-                                      "granted"
-                                    : "")};
-}
-
 }  // namespace
 
 std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysis& analysis) {
@@ -190,9 +174,6 @@ std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysi
     tests.push_back(test_ageing(pairs, conditions.quantity == ForceQuantity::Force_N ? "N" : ""));
   }
   if (conditions.mass_kg) tests.push_back(test_mass(fit, *conditions.mass_kg));
-  if (conditions.sensor_bandwidth_Hz && analysis.cycles.stick_time_s) {
-    tests.push_back(test_lag(*analysis.cycles.stick_time_s, *conditions.sensor_bandwidth_Hz));
-  }
   if (conditions.sensor_resonance_Hz) tests.push_back(test_resonance(fit, *conditions.sensor_resonance_Hz));
   return tests;
 }
@@ -204,7 +185,6 @@ Warnings warn_of(const std::vector<ShortTest>& tests) {
     if (test.name == "sensor_resonance" && test.value && *test.value > kNearResonance) {
       warnings.push_back({"near_sensor_resonance", test.finding});
     }
-    if (test.name == "sensor_lag" && *test.value < kForgotten) warnings.push_back({"sensor_too_slow", test.finding});
     if (by_chance) continue;
     if (test.name == "period_drift") warnings.push_back({"period_drifts", test.finding});
     if (test.name == "return_map") warnings.push_back({"cycles_remember", test.finding});

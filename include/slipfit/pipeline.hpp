@@ -37,7 +37,7 @@ struct CycleStatistics {
 
 /// A one-line test of what the fit takes for granted. `name`: period_drift (value: relative change over the recording),
 /// return_map (correlation), ageing (force for each factor e of time in stick), stated_mass (k / w_n^2 over it),
-/// sensor_resonance (w_n over it), sensor_lag (time in stick over it).
+/// sensor_resonance (w_n over it).
 struct ShortTest {
   std::string name;
   std::optional<double> value, standard_error;

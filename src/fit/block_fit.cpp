@@ -118,6 +118,18 @@ BlockFit::BlockFit(std::vector<CycleData> cycles, std::vector<double> reference_
   for (std::size_t i = 0; i < cycles_.size(); ++i) models_.emplace_back(cycles_[i], scales_, reference_s_[i], level_);
 }
 
+BlockFit duplicate(const BlockFit& fit) {
+  std::vector<CycleData> cycles;
+  std::vector<double> references_s;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    cycles.push_back(fit.data(i));
+    references_s.push_back(fit.reference_s(i));
+  }
+  BlockFit same(std::move(cycles), std::move(references_s), fit.scales(), fit.level());
+  same.parameters = fit.parameters;
+  return same;
+}
+
 CycleState BlockFit::state(std::size_t cycle) const {
   CycleState state;
   models_[cycle].state(parameters.shared.data(), parameters.cycles[cycle].data(), state);

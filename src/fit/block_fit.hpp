@@ -64,6 +64,9 @@ class BlockFit {
   std::vector<CycleModel> models_;
 };
 
+/// The same cycles, models and solution once more.
+BlockFit duplicate(const BlockFit& fit);
+
 /// The ramp from the end of one slip to the onset of the next is one line: residual (kV (t2 - t1) + u I - A2) and its
 /// derivatives with respect to shared (3), first own (2), second own (2), scaled by Scales::noise * kRampTolerance.
 struct RampResidual {

@@ -127,7 +127,7 @@ class ContactReporter {
     };
     const auto report = [&](const char* name, const Estimate& estimate) {
       add(name, estimate, zero_known ? graded(0.0, 1.0) : ParameterStatus::Weak,
-          zero_known ? "" : "takes the sensor's zero as right; state it with --zero");
+          zero_known ? "" : "takes the sensor's zero as right, and is off by what that is off; state it with --zero");
     };
     report(in_newtons ? "static_friction_N" : "static_friction_coefficient",
            mean_of([](const ContactCycle& c) { return c.plateau + c.onset_jump; }));

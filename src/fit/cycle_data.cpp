@@ -10,6 +10,7 @@ namespace {
 constexpr std::size_t kBinsPerRamp = 4;  // lets a bent ramp or a drift show; a straight one loses nothing
 constexpr std::size_t kMinRampSamples = 2;
 constexpr double kGapSteps = 3.5;
+constexpr double kForgottenLags = 8.0;  // e^-8: what a lagging sensor still shows of the slip before
 
 class Cutter {
  public:
@@ -21,7 +22,10 @@ class Cutter {
         half_width_s_(half_width_s),
         step_s_(recording.sample_interval_s()),
         excluded_(excluded),
-        hum_(hum) {}
+        hum_(hum) {
+    const auto& bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz;
+    if (bandwidth_Hz) forgotten_s_ = kForgottenLags / (2.0 * std::numbers::pi * *bandwidth_Hz);
+  }
 
   std::vector<CycleData> cut() const {
     std::vector<CycleData> cycles;
@@ -42,7 +46,7 @@ class Cutter {
     CycleData cycle;
     cycle.slip = i;
     const double before_s = slips_[i - 1].middle_s + 0.5 * slips_[i - 1].fall_s;
-    cycle.window_begin_s = 0.5 * (before_s + slips_[i].middle_s);
+    cycle.window_begin_s = std::max(0.5 * (before_s + slips_[i].middle_s), before_s + forgotten_s_);
     cycle.window_end_s = i + 1 < slips_.size()
                              ? 0.5 * (slips_[i].middle_s + slips_[i + 1].middle_s)
                              : std::min(time_s_.back(), slips_[i].middle_s + slips_[i].middle_s - cycle.window_begin_s);
@@ -158,6 +162,7 @@ class Cutter {
   double step_s_;
   const std::vector<bool>& excluded_;
   const HumLines& hum_;
+  double forgotten_s_ = 0.0;
 };
 
 }  // namespace

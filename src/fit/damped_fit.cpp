@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "fit/clipping.hpp"
 #include "fit/clock_weights.hpp"
 #include "fit/finish.hpp"
 #include "fit/level_order.hpp"
@@ -19,43 +20,13 @@ namespace {
 
 constexpr std::size_t kMinCycles = 3;
 
-/// Samples that no model should be asked to explain: impulses, and those at or beyond a level where the sensor
-/// saturates.
-std::vector<bool> initial_exclusions(const Recording& recording, const Quality& quality) {
-  std::vector<bool> excluded = quality.impulse_mask;
-  if (!quality.clip_high && !quality.clip_low) return excluded;
-  excluded.resize(recording.size(), false);
-  for (std::size_t i = 0; i < recording.size(); ++i) {
-    const double force = recording.force()[i];
-    if ((quality.clip_high && force >= *quality.clip_high) || (quality.clip_low && force <= *quality.clip_low)) {
-      excluded[i] = true;
-    }
-  }
-  return excluded;
-}
-
 class Fitter {
  public:
   Fitter(const Recording& recording, const Quality& quality, const Segmentation& segmentation, const HeldValues& held)
       : recording_(recording), quality_(quality), segmentation_(segmentation), held_values_(held) {
     held_ = {held.stiffness_N_per_m.has_value(), held.omega_rad_per_s.has_value(), held.damping_ratio.has_value()};
     excluded_ = initial_exclusions(recording, quality);
-    scales_.speed_m_per_s = recording.conditions().speed_m_per_s;
-    scales_.view = recording.conditions().force_view;
-    if (const auto bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz) {
-      scales_.sensor_lag_s = 1.0 / (2.0 * std::numbers::pi * *bandwidth_Hz);
-    }
-    scales_.half_period_s = std::max(half_period_of(segmentation), 1e-3 * recording.sample_interval_s());
-    std::vector<double> drops;
-    std::vector<double> middles;
-    for (const DetectedSlip& slip : segmentation.slips) {
-      drops.push_back(slip.drop());
-      middles.push_back(0.5 * (slip.peak_force + slip.trough_force));
-    }
-    scales_.force = 0.5 * signal::median(drops);
-    scales_.level = signal::median(middles);
-    // A recording without noise still has rounding; residuals must keep a finite weight.
-    scales_.noise = std::max({quality.noise_rms, 0.29 * quality.quantisation_step.value_or(0.0), 1e-6 * scales_.force});
+    scales_ = scales_of(recording, quality, segmentation);
   }
 
   std::optional<DampedFit> fit() {
@@ -229,7 +200,7 @@ class Fitter {
     for (int pass = 0; pass < kCleanPasses; ++pass) {
       const Residuals residuals = residuals_of(recording_, fit, excluded_);
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
-      const std::vector<std::size_t> censored = beyond_clip(residuals);
+      const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
       const std::vector<double> lines_Hz = find_hum(recording_, fit, residuals, outliers);
       if (outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty()) {
@@ -243,7 +214,8 @@ class Fitter {
       std::optional<BlockFit> next = refit(fit, bad, lines_Hz);
       if (!next) return std::nullopt;
       fit = std::move(*next);
-      if (hum_power(fit) < kMuchHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
+      const double hum_power = 0.5 * std::pow(hum_amplitude(fit), 2);
+      if (hum_power < kMuchHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
     }
     return fit;
   }
@@ -259,31 +231,6 @@ class Fitter {
       fit = std::move(weighted);
     }
     return fit;
-  }
-
-  /// Samples whose model lies where the sensor saturates: keeping those that noise has left below the ceiling, and only
-  /// those, would pull the fit down.
-  std::vector<std::size_t> beyond_clip(const Residuals& residuals) const {
-    constexpr double kReach = 3.0;  // of the noise
-    std::vector<std::size_t> beyond;
-    if (!quality_.clip_high && !quality_.clip_low) return beyond;
-    for (std::size_t i = 0; i < recording_.size(); ++i) {
-      if (residuals.phase[i] == Phase::None) continue;
-      const double model = recording_.force()[i] - residuals.value[i];
-      const bool above = quality_.clip_high && model > *quality_.clip_high - kReach * scales_.noise;
-      const bool below = quality_.clip_low && model < *quality_.clip_low + kReach * scales_.noise;
-      if (above || below) beyond.push_back(i);
-    }
-    return beyond;
-  }
-
-  static double hum_power(const BlockFit& fit) {
-    double power = 0.0;
-    for (std::size_t i = fit.level().terms; i < fit.level().columns(); ++i) {
-      const double amplitude = fit.scales().force * fit.parameters.level[i];
-      power += 0.5 * amplitude * amplitude;
-    }
-    return power;
   }
 
   /// Cuts again without the slips `bad`, with hum lines in the level, and fits from the present solution.
@@ -347,30 +294,6 @@ std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& q
                                     const Segmentation& segmentation, const HeldValues& held) {
   if (segmentation.slips.size() < kMinCycles) return std::nullopt;
   return Fitter(recording, quality, segmentation, held).fit();
-}
-
-std::optional<DampedFit> fit_undamped(const DampedFit& damped) {
-  const BlockFit& from = damped.blocks;
-  std::vector<CycleData> cycles;
-  std::vector<double> reference_s;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    cycles.push_back(from.data(i));
-    reference_s.push_back(from.reference_s(i));
-  }
-  BlockFit blocks(std::move(cycles), std::move(reference_s), from.scales(), from.level());
-  blocks.parameters = from.parameters;
-  blocks.parameters.shared[2] = 0.0;
-  Held held = damped.held;
-  held.damping = true;
-  // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
-  if (damped.continuous && !std::isfinite(blocks.solve({held, false, true}))) return std::nullopt;
-  if (!std::isfinite(blocks.solve({held, damped.continuous, true}))) return std::nullopt;
-  DampedFit result{std::move(blocks), damped.continuous, held, damped.refused_damping,
-                   damped.excluded,   damped.outliers,   {},   damped.misfit};
-  result.uncertainty = estimate_uncertainty(result.blocks, held, damped.continuous);
-  // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.
-  const bool is_false = from.parameters.shared[2] < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
-  return is_false ? std::nullopt : std::optional(std::move(result));
 }
 
 }  // namespace slipfit::fit

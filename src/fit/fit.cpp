@@ -9,6 +9,7 @@
 #include "fit/contact_fit.hpp"
 #include "fit/cycle_table.hpp"
 #include "fit/damped_fit.hpp"
+#include "fit/mains_hum.hpp"
 #include "fit/parameters.hpp"
 #include "fit/tiers.hpp"
 #include "signal/robust.hpp"
@@ -48,11 +49,7 @@ Evidence weigh(const Recording& recording, const DampedFit& damped, const fit::R
                    signal::median({onset_forces.begin() + half, onset_forces.end()});
   evidence.span_share = (blocks.scales().time_end_s - blocks.scales().time_begin_s) / recording.duration_s();
   evidence.samples_per_slip = resolution.samples_per_slip;
-  double hum = 0.0;
-  for (std::size_t i = blocks.level().terms; i < blocks.level().columns(); ++i) {
-    hum = std::hypot(hum, blocks.scales().force * blocks.parameters.level[i]);
-  }
-  evidence.hum_share = hum / std::abs(mean);
+  evidence.hum_share = hum_amplitude(blocks) / std::abs(mean);
   return evidence;
 }
 

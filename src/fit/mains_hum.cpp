@@ -89,6 +89,14 @@ bool stands_out(const HumTerm& term, const std::vector<double>& residuals) {
 
 }  // namespace
 
+double hum_amplitude(const BlockFit& fit) {
+  double amplitude = 0.0;
+  for (std::size_t i = fit.level().terms; i < fit.level().columns(); ++i) {
+    amplitude = std::hypot(amplitude, fit.scales().force * fit.parameters.level[i]);
+  }
+  return amplitude;
+}
+
 std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, const Residuals& residuals,
                              const std::vector<std::size_t>& outliers) {
   if (!signal::clock_is_even(recording)) return {};

@@ -13,4 +13,7 @@ namespace slipfit::fit {
 std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, const Residuals& residuals,
                              const std::vector<std::size_t>& outliers);
 
+/// Of all fitted lines together, unit of the force; 0 without.
+double hum_amplitude(const BlockFit& fit);
+
 }  // namespace slipfit::fit

@@ -24,7 +24,7 @@ class Reporter {
  public:
   Reporter(const Recording& recording, const TierFits& fits, const Resolution& resolution, FitResult& result)
       : recording_(recording),
-        refit_(resolution),
+        resolution_(resolution),
         result_(result),
         fit_(recording, fits, resolution),
         sawtooth_(fits.sawtooth) {}
@@ -34,7 +34,7 @@ class Reporter {
     report_stiffness();
     report_friction();
     report_dynamics();
-    if (refit_.slip_resolved && in_newtons_) report_model();
+    if (resolution_.slip_resolved && in_newtons_) report_model();
   }
 
  private:
@@ -93,6 +93,23 @@ class Reporter {
     return fit_.cycles < kFewCycles ? fmt::format("only {} cycles", fit_.cycles) : std::string();
   }
 
+  bool sampled() const { return resolution_.samples_per_slip > kSamplesForIdentified; }
+
+  /// Of what is read from the slip: why it is weak.
+  std::string what_is_missing() const {
+    if (sampled()) return few_cycles();
+    return too_few_samples(resolution_.samples_per_slip, recording_.sample_interval_s());
+  }
+
+  /// Errors fall with the root of the cycles; identified from a quarter on.
+  std::string weak_damping() const {
+    if (!sampled()) return what_is_missing();
+    const double times = std::pow(4.0 * fit_.damping_se / fit_.zeta, 2);
+    const std::string known = fmt::format("known to {:.2g}", fit_.damping_se);
+    return times < 100.0 ? fmt::format("{}: {:.2g} times the cycles, or less noise, would tell it", known, times)
+                         : known + ", from 0 it cannot be told";
+  }
+
   /// F_s - F_k = A + c V: the spring force at onset is F_s - c V. model.md section 4
   void report_friction() {
     const std::string difference_name = in_newtons_ ? "friction_difference_N" : "friction_coefficient_difference";
@@ -103,13 +120,13 @@ class Reporter {
     difference_ = fit_.linear(fit_.onset_force + drag, gradient, fit_.scatter_variance(spread));
     // A standard error of a third says less than the bound by the drop.
     const bool tells = difference_.se < difference_.value / 3.0;
-    if (!refit_.slip_resolved || !refit_.damping_resolved || !tells) {
+    if (!resolution_.slip_resolved || !resolution_.damping_resolved || !tells) {
       report_bounded_friction(difference_name);
       return;
     }
-    const bool resolved = refit_.samples_per_slip > kSamplesForIdentified && !fit_.shape_refused;
+    const bool resolved = resolution_.samples_per_slip > kSamplesForIdentified && !fit_.shape_refused;
     const ParameterStatus status = resolved ? graded(difference_.se / difference_.value, 0.1) : ParameterStatus::Weak;
-    add(difference_name, fit_.estimate(difference_), status, few_cycles());
+    add(difference_name, fit_.estimate(difference_), status, what_is_missing());
 
     VectorXd level = unit_gradient(kLevel, fit_.force);
     report_absolute(in_newtons_ ? "static_friction_N" : "static_friction_coefficient",
@@ -122,7 +139,7 @@ class Reporter {
   void report_absolute(const std::string& name, const Linear& y, ParameterStatus status) {
     const bool zero_known = recording_.conditions().zero_force_N.has_value();
     add(name, fit_.estimate(y), zero_known ? status : ParameterStatus::Weak,
-        zero_known ? "" : "takes the sensor's zero as right; state it with --zero");
+        zero_known ? "" : "takes the sensor's zero as right, and is off by what that is off; state it with --zero");
   }
 
   /// Unresolved slip: F_s - F_k lies between half of the drop (zeta = 0) and the drop (zeta -> 1), lambda >> 1. At
@@ -131,20 +148,21 @@ class Reporter {
     const double spread = t_quantile(static_cast<double>(fit_.cycles) - 1.0) * sawtooth_.drop_sd /
                           std::sqrt(static_cast<double>(fit_.cycles));
     const Interval interval{std::max(0.0, 0.485 * (sawtooth_.drop - spread)), sawtooth_.drop + spread};
-    Estimate bounded{0.5 * (interval.low + interval.high), std::nullopt, interval,
-                     "between half of the drop and the drop" + (refit_.reason.empty() ? "" : "; " + refit_.reason)};
+    Estimate bounded{
+        0.5 * (interval.low + interval.high), std::nullopt, interval,
+        "between half of the drop and the drop" + (resolution_.reason.empty() ? "" : "; " + resolution_.reason)};
     add(name, bounded, ParameterStatus::Bounded);
   }
 
   void report_dynamics() {
     const char* frequency = "natural_frequency_rad_per_s";
     const char* damping = "damping_ratio";
-    if (!refit_.slip_resolved) {
-      add(frequency, {}, ParameterStatus::Unidentified, refit_.reason);
-      add(damping, {}, ParameterStatus::Unidentified, refit_.reason);
+    if (!resolution_.slip_resolved) {
+      add(frequency, {}, ParameterStatus::Unidentified, resolution_.reason);
+      add(damping, {}, ParameterStatus::Unidentified, resolution_.reason);
       return;
     }
-    const bool resolved = refit_.samples_per_slip > kSamplesForIdentified && !fit_.shape_refused;
+    const bool resolved = resolution_.samples_per_slip > kSamplesForIdentified && !fit_.shape_refused;
     if (fit_.held.frequency) {
       add(frequency, {fit_.omega, 0.0, Interval{fit_.omega, fit_.omega}, {}}, ParameterStatus::Fixed);
     } else {
@@ -152,17 +170,17 @@ class Reporter {
       add(frequency, exponential(fit_.estimate(y)), resolved ? graded(y.se, 0.05) : ParameterStatus::Weak,
           fit_.shape_refused
               ? "the slip is not shaped like a damped oscillation: what w_n means is in doubt beyond the interval"
-              : few_cycles());
+              : what_is_missing());
     }
     report_mass();
     if (fit_.held.damping) {
       add(damping, {fit_.zeta, 0.0, fit_.damping_ci, {}}, ParameterStatus::Fixed);
-    } else if (!refit_.damping_resolved) {
-      add(damping, {}, ParameterStatus::Unidentified, refit_.reason);
+    } else if (!resolution_.damping_resolved) {
+      add(damping, {}, ParameterStatus::Unidentified, resolution_.reason);
     } else {
       const bool sharp = resolved && fit_.damping_se < 0.25 * fit_.zeta;
       add(damping, {fit_.zeta, fit_.damping_se, fit_.damping_ci, {}}, sharp ? graded(0.0, 1.0) : ParameterStatus::Weak,
-          sharp ? few_cycles() : fmt::format("known to {:.2g}, from 0 it cannot be told well", fit_.damping_se));
+          sharp ? few_cycles() : weak_damping());
       report_damping_coefficient();
     }
   }
@@ -175,7 +193,7 @@ class Reporter {
     const Linear y =
         widened(fit_.linear(std::log(fit_.stiffness / (fit_.omega * fit_.omega)), gradient, 0.0), speed_error());
     const bool both_held = fit_.held.stiffness && fit_.held.frequency;
-    const bool resolved = refit_.samples_per_slip > kSamplesForIdentified && !fit_.shape_refused;
+    const bool resolved = resolution_.samples_per_slip > kSamplesForIdentified && !fit_.shape_refused;
     add("mass_kg", exponential(fit_.estimate(y)),
         both_held  ? ParameterStatus::Fixed
         : resolved ? graded(y.se, 0.1)
@@ -192,13 +210,13 @@ class Reporter {
     Estimate c =
         fit_.estimate(widened(fit_.linear(fit_.zeta * unit_c, gradient, 0.0), fit_.zeta * unit_c * speed_error()));
     c.ci95 = Interval{fit_.damping_ci.low * unit_c, std::max(fit_.damping_ci.high * unit_c, c.ci95->high)};
-    const bool sharp = refit_.samples_per_slip > kSamplesForIdentified && fit_.damping_se < 0.25 * fit_.zeta;
+    const bool sharp = resolution_.samples_per_slip > kSamplesForIdentified && fit_.damping_se < 0.25 * fit_.zeta;
     add("damping_coefficient_N_s_per_m", c, sharp ? graded(0.0, 1.0) : ParameterStatus::Weak);
   }
 
   /// Covariance of (ln k, ln w_n, zeta, ln dF) for everything that follows.
   void report_model() {
-    if (!refit_.damping_resolved || !(difference_.se < difference_.value / 3.0)) return;
+    if (!resolution_.damping_resolved || !(difference_.se < difference_.value / 3.0)) return;
     const double drag = 2.0 * fit_.zeta * fit_.scale;
     MatrixXd gradients = MatrixXd::Zero(kQuantities, 4);
     gradients(kLogStiffness, 0) = gradients(kLogFrequency, 1) = gradients(kDamping, 2) = 1.0;
@@ -231,7 +249,7 @@ class Reporter {
   }
 
   const Recording& recording_;
-  const Resolution& refit_;
+  const Resolution& resolution_;
   FitResult& result_;
   const Solution fit_;
   const SawtoothFit& sawtooth_;

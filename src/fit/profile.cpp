@@ -26,7 +26,7 @@ struct HeldZeta {
 
 class Profiler {
  public:
-  explicit Profiler(const DampedFit& fit) : fit_(fit), blocks_(same_blocks(fit.blocks)) {
+  explicit Profiler(const DampedFit& fit) : fit_(fit), blocks_(duplicate(fit.blocks)) {
     best_ = fit.blocks.parameters;
     held_ = fit.held;
     held_.damping = true;
@@ -70,16 +70,6 @@ class Profiler {
   static constexpr double kClose = 0.02;
   static constexpr int kIterations = 25;
   static constexpr double kTolerance = 0.01;
-
-  static BlockFit same_blocks(const BlockFit& from) {
-    std::vector<CycleData> cycles;
-    std::vector<double> references_s;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      cycles.push_back(from.data(i));
-      references_s.push_back(from.reference_s(i));
-    }
-    return {std::move(cycles), std::move(references_s), from.scales(), from.level()};
-  }
 
   std::optional<double> sum_of_squares(double zeta) {
     blocks_.parameters = best_;

@@ -17,6 +17,27 @@ double half_period_of(const Segmentation& segmentation) {
   return signal::median(falls) / share;
 }
 
+Scales scales_of(const Recording& recording, const Quality& quality, const Segmentation& segmentation) {
+  Scales scales;
+  scales.speed_m_per_s = recording.conditions().speed_m_per_s;
+  scales.view = recording.conditions().force_view;
+  if (const auto bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz) {
+    scales.sensor_lag_s = 1.0 / (2.0 * std::numbers::pi * *bandwidth_Hz);
+  }
+  scales.half_period_s = std::max(half_period_of(segmentation), 1e-3 * recording.sample_interval_s());
+  std::vector<double> drops;
+  std::vector<double> middles;
+  for (const DetectedSlip& slip : segmentation.slips) {
+    drops.push_back(slip.drop());
+    middles.push_back(0.5 * (slip.peak_force + slip.trough_force));
+  }
+  scales.force = 0.5 * signal::median(drops);
+  scales.level = signal::median(middles);
+  // A recording without noise still has rounding; residuals must keep a finite weight.
+  scales.noise = std::max({quality.noise_rms, 0.29 * quality.quantisation_step.value_or(0.0), 1e-6 * scales.force});
+  return scales;
+}
+
 StickBin merge(const std::vector<StickBin>& bins) {
   StickBin all;
   for (const StickBin& bin : bins) {
@@ -41,6 +62,18 @@ StickBin merge(const std::vector<StickBin>& bins) {
   return all;
 }
 
+namespace {
+
+/// A drift that itself bends would make a ramp steeper than the one before it.
+double level_slope(const BlockFit& fit, std::size_t cycle, double time_s) {
+  const double step_s = fit.scales().half_period_s;
+  const double* own = fit.parameters.cycles[cycle].data();
+  const auto level = [&](double t_s) { return fit.model(cycle).level_at(t_s, fit.level_data(), own); };
+  return (level(time_s + step_s) - level(time_s - step_s)) / (2.0 * step_s);
+}
+
+}  // namespace
+
 std::optional<RampBend> ramp_bend(const BlockFit& fit) {
   // Each cycle's difference of slopes, weighted by what its halves know: slopes have the variance noise^2 /
   // time_spread.
@@ -49,9 +82,11 @@ std::optional<RampBend> ramp_bend(const BlockFit& fit) {
   double slope = 0.0;
   std::vector<std::pair<double, double>> cycles;
   for (std::size_t i = 0; i < fit.size(); ++i) {
-    const StickBin late = merge(fit.data(i).bins_before);
-    const StickBin early = merge(fit.data(i).bins_after);
+    StickBin late = merge(fit.data(i).bins_before);
+    StickBin early = merge(fit.data(i).bins_after);
     if (late.count < 3.0 || early.count < 3.0) continue;
+    late.slope -= level_slope(fit, i, late.time_s);
+    early.slope -= level_slope(fit, i, early.time_s);
     const double weight = 1.0 / (1.0 / late.time_spread + 1.0 / early.time_spread);
     cycles.emplace_back(weight, early.slope - late.slope);
     weights += weight;

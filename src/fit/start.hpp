@@ -5,11 +5,15 @@
 
 #include "fit/block_fit.hpp"
 #include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
 
 /// Half period from the 80 % to 20 % falls: a half cosine passes them in acos(-0.6) - acos(0.6) of its pi.
 double half_period_of(const Segmentation& segmentation);
+
+/// All but the span of time, which the cycles of the fit give.
+Scales scales_of(const Recording& recording, const Quality& quality, const Segmentation& segmentation);
 
 /// Merges centred sums (parallel axis rule): the same as reducing all samples at once.
 StickBin merge(const std::vector<StickBin>& bins);

@@ -80,6 +80,12 @@ SawtoothFit fit_sawtooth(const DampedFit& damped) {
   return result;
 }
 
+std::string too_few_samples(double samples_per_slip, double sample_interval_s) {
+  const double rate_Hz = std::ceil(6.0 / samples_per_slip) / sample_interval_s;
+  return fmt::format("the slip has {:.1f} samples; sample at {} or more", samples_per_slip,
+                     rate_Hz < 1000.0 ? fmt::format("{:.3g} Hz", rate_Hz) : fmt::format("{:.3g} kHz", 1e-3 * rate_Hz));
+}
+
 Resolution resolve(const Recording& recording, const TierFits& fits) {
   const BlockFit& blocks = fits.damped.blocks;
   const Uncertainty& uncertainty = fits.damped.uncertainty;
@@ -90,8 +96,7 @@ Resolution resolve(const Recording& recording, const TierFits& fits) {
   // Fewer than 1.5 samples in a slip leave w_n and zeta without a single minimum, unless scattering cycles pin zeta.
   const bool scatter_tells = !fits.damped.refused_damping && result.damping_error < 0.01;
   if (result.samples_per_slip < 1.5 && !held && !scatter_tells) {
-    result.reason = fmt::format("the slip has {:.1f} samples; sample at {:.2g} Hz or more", result.samples_per_slip,
-                                std::ceil(6.0 / result.samples_per_slip) / recording.sample_interval_s());
+    result.reason = too_few_samples(result.samples_per_slip, recording.sample_interval_s());
     return result;
   }
   result.slip_resolved = true;
@@ -102,7 +107,10 @@ Resolution resolve(const Recording& recording, const TierFits& fits) {
         fmt::format("the slip is not shaped like a damped oscillation (its best damping ratio, {:.2f}, is below 0)",
                     *fits.damped.refused_damping);
   } else if (!(result.damping_error < 0.1)) {
-    result.reason = fmt::format("the standard error of the damping ratio is {:.2g}", result.damping_error);
+    result.reason = fmt::format("the standard error of the damping ratio is {:.2g}; {}", result.damping_error,
+                                result.samples_per_slip < 6.0
+                                    ? too_few_samples(result.samples_per_slip, recording.sample_interval_s())
+                                    : std::string("less noise or more cycles would lower it"));
   } else {
     result.damping_resolved = true;
   }

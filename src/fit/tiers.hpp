@@ -45,6 +45,9 @@ struct Resolution {
   std::string reason;             ///< why not, or empty
 };
 
+/// "the slip has 1.4 samples; sample at 8.0 kHz or more": for 6 samples in a slip.
+std::string too_few_samples(double samples_per_slip, double sample_interval_s);
+
 Resolution resolve(const Recording& recording, const TierFits& fits);
 
 /// The poorest tier that explains the recording, with the reason for each; `forced` takes the place of the choice.

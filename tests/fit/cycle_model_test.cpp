@@ -26,7 +26,7 @@ CycleData example_cycle() {
   return cycle;
 }
 
-Scales example_scales(ForceView view) {
+Scales example_scales(ForceView view, double sensor_lag_s = 0.0) {
   Scales scales;
   scales.speed_m_per_s = 0.01;
   scales.force = 1.3;
@@ -36,18 +36,20 @@ Scales example_scales(ForceView view) {
   scales.time_end_s = 1.5;
   scales.view = view;
   scales.half_period_s = 0.3;
+  scales.sensor_lag_s = sensor_lag_s;
   return scales;
 }
 
 }  // namespace
 
 TEST_CASE("residual derivatives agree with central differences in both views and level models") {
+  const double sensor_lag_s = GENERATE(0.0, 0.02);
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> near(-0.1, 0.1);
   const CycleData data = example_cycle();
   for (const ForceView view : {ForceView::Spring, ForceView::Transmitted}) {
     for (const LevelModel& level : {LevelModel{false, 3, {}}, LevelModel{true, 0, {}}}) {
-      const CycleModel model(data, example_scales(view), 0.05, level);
+      const CycleModel model(data, example_scales(view, sensor_lag_s), 0.05, level);
       const std::size_t rows = model.residuals();
       for (int trial = 0; trial < 20; ++trial) {
         // ln k, ln w_n, zeta, level (3), own (onset, onset force, level)

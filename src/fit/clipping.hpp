@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fit/outliers.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/signal/quality.hpp"
+
+namespace slipfit::fit {
+
+/// Samples that no model should be asked to explain: impulses, and those at or beyond a level where the sensor
+/// saturates.
+std::vector<bool> initial_exclusions(const Recording& recording, const Quality& quality);
+
+/// Samples whose model lies where the sensor saturates: keeping those that noise has left below the ceiling, and only
+/// those, would pull the fit down. `noise`: rms, unit of the force.
+std::vector<std::size_t> beyond_clip(const Recording& recording, const Quality& quality, const Residuals& residuals,
+                                     double noise);
+
+}  // namespace slipfit::fit

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "slipfit/model/simulation.hpp"
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+
+/// A simulated recording and its fit, with numbers of a soft contact in the laboratory.
+struct Scene {
+  double stiffness = 500.0, omega = 120.0, zeta = 0.06, static_N = 2.0, kinetic_N = 1.4, speed = 0.01;
+  double cycles = 30.0, samples_per_slip = 30.0;
+  double jitter = 0.0, noise = 0.0, drift_over_drop = 0.0, hum = 0.0;
+  ForceView view = ForceView::Spring;
+  std::uint64_t seed = 1;
+  Conditions conditions;  ///< speed, view and zero are filled in
+};
+
+inline Recording record(const Scene& s) {
+  const Slider slider = Slider::create(s.stiffness, s.omega, s.zeta).value();
+  const Friction friction = Friction::create(s.static_N, s.kinetic_N).value();
+  const LimitCycle cycle = *damped_motion(slider, friction, s.speed).cycle;
+  const double difference = s.static_N - s.kinetic_N;
+  SimulationOptions options;
+  options.duration_s = s.cycles * cycle.period_s;
+  options.sample_rate_Hz = s.samples_per_slip / cycle.slip_s;
+  options.force_view = s.view;
+  options.static_friction_sd_N = s.jitter * difference;
+  options.noise_rms_N = s.noise * difference;
+  options.drift_N_per_s = s.drift_over_drop * difference / options.duration_s;
+  options.hum_N = s.hum * difference;
+  options.seed = s.seed;
+  SimulatedTrace trace = simulate(slider, friction, s.speed, options);
+  Conditions conditions = s.conditions;
+  conditions.speed_m_per_s = s.speed;
+  conditions.force_view = s.view;
+  conditions.zero_force_N = 0.0;
+  return Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value();
+}
+
+inline const Parameter& parameter(const Analysis& analysis, const std::string& name) {
+  for (const Parameter& p : analysis.fit->parameters) {
+    if (p.name == name) return p;
+  }
+  FAIL("no parameter " << name);
+  return analysis.fit->parameters.front();
+}
+
+inline bool has_warning(const Analysis& analysis, const std::string& code) {
+  for (const Warning& warning : analysis.warnings) {
+    if (warning.code == code) return true;
+  }
+  return false;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,96 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "recording_checks.hpp"
+#include "scene.hpp"
+
+using namespace slipfit;
+
+namespace {
+
+struct Contact {
+  double ageing_N = 0.0;  ///< F_s for each factor e of time in stick
+  double trend = 0.0;     ///< of F_s over the recording, relative
+  int cycles = 60;
+};
+
+constexpr double kScatter_N = 0.02;
+
+/// The cycles of a fit without noise: a slip falls from A to -0.8 A in no time, ramps rise by 1 N a second, F_k = 0.
+Analysis cycles_of(const Contact& contact, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> scatter(0.0, kScatter_N);
+  Analysis analysis;
+  analysis.verdict = Verdict::StickSlip;
+  analysis.fit.emplace();
+  analysis.fit->evidence.onset_force_spread = kScatter_N;
+  double time_s = 0.0;
+  double before_N = 1.0;
+  for (int i = 0; i < contact.cycles; ++i) {
+    const double own_N = 1.0 + scatter(random) + contact.trend * i / contact.cycles;
+    // The ramp meets F_s = own + ageing ln t at t = F_s + 0.8 before.
+    double force_N = own_N;
+    for (int round = 0; round < 50; ++round) force_N = own_N + contact.ageing_N * std::log(force_N + 0.8 * before_N);
+    const double stick_s = force_N + 0.8 * before_N;
+    time_s += stick_s;
+    Cycle cycle;
+    cycle.used = true;
+    cycle.onset_s = cycle.end_s = time_s;
+    cycle.onset_force = force_N;
+    cycle.level_force = 0.0;
+    cycle.recovery_s = 1.8 * force_N;
+    analysis.fit->cycles.push_back(cycle);
+    before_N = force_N;
+  }
+  return analysis;
+}
+
+ShortTest find(const std::vector<ShortTest>& tests, const std::string& name) {
+  for (const ShortTest& test : tests) {
+    if (test.name == name) return test;
+  }
+  FAIL("no test " << name);
+  return {};
+}
+
+std::vector<ShortTest> tests_of(const Contact& contact, std::uint64_t seed) {
+  Conditions conditions;
+  conditions.speed_m_per_s = 1.0;
+  const Recording clock = Recording::create({0.0, 110.0}, {0.0, 1.0}, conditions).value();
+  return run_short_tests(clock, cycles_of(contact, seed));
+}
+
+}  // namespace
+
+TEST_CASE("independent cycles are called so: one false alarm in twenty at 5 %") {
+  int drifts = 0;
+  int memories = 0;
+  constexpr int kRecordings = 400;
+  for (std::uint64_t seed = 1; seed <= kRecordings; ++seed) {
+    const std::vector<ShortTest> tests = tests_of({}, seed);
+    drifts += *find(tests, "period_drift").p_value < 0.05 ? 1 : 0;
+    memories += *find(tests, "return_map").p_value < 0.05 ? 1 : 0;
+  }
+  // 20 expected; outside 9 to 33 once in 100 recordings of this test.
+  CHECK((drifts >= 9 && drifts <= 33));
+  CHECK((memories >= 9 && memories <= 33));
+}
+
+TEST_CASE("a period that drifts is warned of") {
+  const std::vector<ShortTest> tests = tests_of({0.0, 0.1}, 1);
+  CHECK(*find(tests, "period_drift").value == Approx(0.1).epsilon(0.3));
+  REQUIRE(!warn_of(tests).empty());
+  CHECK(warn_of(tests).front().code == "period_drifts");
+}
+
+TEST_CASE("ageing comes back, although a strong contact sticks longer by itself") {
+  constexpr double kAgeing_N = 0.3;
+  int inside = 0;
+  constexpr int kRecordings = 100;
+  for (std::uint64_t seed = 1; seed <= kRecordings; ++seed) {
+    const ShortTest ageing = find(tests_of({kAgeing_N, 0.0, 600}, seed), "ageing");
+    inside += std::abs(*ageing.value - kAgeing_N) < 2.0 * *ageing.standard_error ? 1 : 0;
+  }
+  CHECK(inside >= 88);  // of 95 expected; the plain slope, 1.2 N, is far outside in all of them
+}
