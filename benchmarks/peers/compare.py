@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How long slipfit and two fits by scipy take for the same recording, and how far off they end.
 
-compare.py SLIPFIT [--skip-ode] [--ode-evaluations N]
+compare.py SLIPFIT [--runs N] [--ode-evaluations N]
 
 The peers, all by scipy's least_squares from starts within 0.05 % of the truth:
   blocks            the model that slipfit fits (own onset and force for every cycle), evaluated by numpy in closed form
@@ -10,11 +10,13 @@ The peers, all by scipy's least_squares from starts within 0.05 % of the truth:
                     is off by more than 1 / (10 cycles) (docs/accuracy.md)
   solve_ivp         the whole trace with every slip integrated to its event. An evaluation takes so long that only a few
                     are run: the time of a fit is that of one times those that the closed form needed.
-Needs python3-scipy.
+Times are processor times; slipfit's is that of the command, reading
+included, less that of its start (--version). Needs python3-scipy.
 """
 
 import argparse
 import json
+import resource
 import subprocess
 import tempfile
 import time
@@ -170,9 +172,9 @@ def good_start(time_s, force):
 
 
 def fit(model, start, time_s, force, **options):
-    begin = time.perf_counter()
+    begin = time.process_time()
     result = least_squares(lambda p: (model(p, time_s) - force) / NOISE_N, start, x_scale=numpy.abs(start) + 1e-3, **options)
-    return time.perf_counter() - begin, result
+    return time.process_time() - begin, result
 
 
 def errors(values):
@@ -188,26 +190,33 @@ def report(name, ours_s, values, seconds, result):
     return evaluations
 
 
+def run(*words):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    text = subprocess.run(words, check=True, capture_output=True, text=True).stdout
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, text
+
+
 def fit_by_slipfit(slipfit, file):
-    document = json.loads(subprocess.run([slipfit, "fit", file, "--speed", str(SPEED), "--json", "--timing"], check=True,
-                                         capture_output=True, text=True).stdout)
-    values = [document["parameters"][name]["value"] for name in TRUTH]
-    return document["timing"]["total_s"], document["timing"]["total_s"] - document["timing"]["read_s"], values
+    start_s, _ = run(slipfit, "--version")
+    whole_s, text = run(slipfit, "fit", file, "--speed", str(SPEED), "--json")
+    parameters = json.loads(text)["parameters"]
+    return whole_s, whole_s - start_s, [parameters[name]["value"] for name in TRUTH]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("slipfit")
-    parser.add_argument("--runs", type=int, default=7)
+    parser.add_argument("--runs", type=int, default=21)
     parser.add_argument("--ode-evaluations", type=int, default=2)
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         file, time_s, force = simulate(arguments.slipfit, folder)
         runs = [fit_by_slipfit(arguments.slipfit, file) for _ in range(arguments.runs)]
-        ours_s = numpy.median([fit_s for _, fit_s, _ in runs])
-        with_reading_s = numpy.median([total_s for total_s, _, _ in runs])
+        ours_s = numpy.median([seconds for _, seconds, _ in runs])
+        whole_s = numpy.median([seconds for seconds, _, _ in runs])
         print(f"{len(time_s)} samples, {CYCLES} cycles, noise {NOISE_N} N")
-        print(f"slipfit: {1e3 * ours_s:.2f} ms ({1e3 * with_reading_s:.2f} ms with reading), errors {errors(runs[0][2])}")
+        print(f"slipfit: {1e3 * ours_s:.1f} ms with reading ({1e3 * whole_s:.1f} ms with its start), errors {errors(runs[0][2])}")
         start = good_start(time_s, force)
         blocks = Blocks(start, time_s)
         report("blocks", ours_s, blocks.values, *fit(blocks, blocks.start, time_s, force))
@@ -215,10 +224,10 @@ def main():
                *fit(blocks, blocks.start, time_s, force, jac_sparsity=blocks.sparsity(len(time_s))))
         seconds, result = fit(closed_form, start, time_s, force)
         evaluations = report("whole trace", ours_s, lambda p: p, seconds, result)
-        begin = time.perf_counter()
+        begin = time.process_time()
         for _ in range(arguments.ode_evaluations):
             force_by_ode = integrated(start, time_s)
-        one_s = (time.perf_counter() - begin) / arguments.ode_evaluations
+        one_s = (time.process_time() - begin) / arguments.ode_evaluations
         off = numpy.max(numpy.abs(force_by_ode - closed_form(start, time_s)))
         print(f"solve_ivp: {1e3 * one_s:.0f} ms an evaluation (off the closed form by {off:.1e} N at most), "
               f"{evaluations * one_s:.1f} s a fit, ratio {evaluations * one_s / ours_s:.0f}")
