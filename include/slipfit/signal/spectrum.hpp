@@ -39,7 +39,7 @@ struct SpectralFrequency {
   std::vector<SuspiciousLine> suspicious_lines;
   /// `standard_error_Hz` where the phases of the cycles show no scatter, for that case (weak scatter that hides in them
   /// allowed for). Empty where they do, and below 8 cycles.
-  std::optional<double> regular_standard_error_Hz;
+  std::optional<double> regular_standard_error_Hz = std::nullopt;
 };
 
 /// Harmonic comb (no octave error), refined below a bin by the phases of the harmonics on the trace. Needs about 3
