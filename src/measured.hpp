@@ -9,8 +9,8 @@ namespace slipfit {
 Estimate count_frequency(const Recording& recording, const Segmentation& segmentation);
 
 /// Both frequencies and the one to quote: harmonic least squares where the cycles are regular, counting where they
-/// scatter. Where a fit shows stick-slip: the cycles of the fit (fitted_frequency.hpp), harmonic least squares where they
-/// are regular and it is the sharper. Quoted only where there is a repetition: a count of noise is no frequency.
+/// scatter. Where a fit shows stick-slip: the cycles of the fit (fitted_frequency.hpp), harmonic least squares where
+/// they are regular and it is the sharper. Quoted only where there is a repetition: a count of noise is no frequency.
 FrequencyReport report_frequency(const Recording& recording, const Segmentation& segmentation,
                                  const SpectralFrequency& spectral, Verdict verdict, const FitResult* fit);
 

@@ -137,9 +137,13 @@ void look_beneath_hum(const Recording& recording, const FitOptions& options, Fit
 Fitted look_and_fit(const Recording& recording, const FitOptions& options) {
   Fitted fitted{look_at_slips(recording), std::nullopt, 0.0};
   Signals& signals = fitted.signals;
-  // The fit does not need the spectrum: side by side where a thread is to be had, else one after the other.
+  // The fit does not need the spectrum: side by side where a thread is to be had, one after the other where the arrays
+  // of both would be large.
+  constexpr std::size_t kLarge = 1000000;
+  const std::launch by_size =
+      recording.size() < kLarge ? std::launch::async | std::launch::deferred : std::launch::deferred;
   std::future<Timed> look =
-      std::async([&] { return look_at_spectrum(recording, signals.quality, signals.segmentation); });
+      std::async(by_size, [&] { return look_at_spectrum(recording, signals.quality, signals.segmentation); });
   const auto start = Clock::now();
   fitted.fit = fit_recording(recording, signals.quality, signals.segmentation, options);
   add_spectrum(signals, look.get());

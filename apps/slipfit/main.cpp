@@ -72,12 +72,13 @@ int run(int argc, char** argv) {
 }
 
 /// Arrays of a recording come and go: given back to the system each time, every page of them costs a fault again (a
-/// tenth of the time of a fit). Larger ones are given back: two of their kind need not fit side by side.
+/// tenth of the time of a fit). Larger ones are given back: holes of their size would
+/// add up.
 void keep_freed_memory() {
 #ifdef __GLIBC__
-  constexpr int kLargest = 16 << 20;
+  constexpr int kLargest = 4 << 20;
   mallopt(M_MMAP_THRESHOLD, kLargest);
-  mallopt(M_TRIM_THRESHOLD, 4 * kLargest);
+  mallopt(M_TRIM_THRESHOLD, 8 * kLargest);
 #endif
 }
 

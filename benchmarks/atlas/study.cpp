@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace atlas {
 
@@ -71,7 +73,10 @@ std::vector<double> log_spaced(double low, double high, std::size_t count) {
 
 void add_series(chart::Panel& panel, const Look& look, const std::vector<chart::Point>& points) {
   if (points.size() > 1) panel.lines.push_back({"", look.colour, look.stroke, points});
-  panel.markers.push_back({look.name, look.colour, look.shape, points});
+  std::vector<chart::Point> known;  // no mark where there is no number
+  std::copy_if(points.begin(), points.end(), std::back_inserter(known),
+               [](const chart::Point& point) { return std::isfinite(point.y); });
+  panel.markers.push_back({look.name, look.colour, look.shape, std::move(known)});
 }
 
 void strip_legend(chart::Panel& panel) {

@@ -121,7 +121,30 @@ bool clock_is_even(const Recording& recording) {
   return worst < 0.25 * step;
 }
 
+namespace {
+
+/// On an even clock the samples stay where they are; a line bridges those held.
+UniformTrace bridge(const Recording& recording, const std::vector<bool>& held) {
+  const std::span<const double> force = recording.force();
+  UniformTrace trace{recording.duration_s() / static_cast<double>(force.size() - 1), {force.begin(), force.end()}};
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (!held[i]) continue;
+    std::size_t end = i;
+    while (end < held.size() && held[end]) ++end;
+    const double after = end < held.size() ? force[end] : i > 0 ? force[i - 1] : 0.0;
+    const double before = i > 0 ? force[i - 1] : after;
+    for (std::size_t k = i; k < end; ++k) {
+      trace.force[k] = before + (after - before) * static_cast<double>(k + 1 - i) / static_cast<double>(end + 1 - i);
+    }
+    i = end;
+  }
+  return trace;
+}
+
+}  // namespace
+
 UniformTrace resample(const Recording& recording, const std::vector<bool>& held) {
+  if (clock_is_even(recording)) return bridge(recording, held);
   const std::span<const double> time = recording.time_s();
   const std::span<const double> force = recording.force();
   // Not more than twice the samples: a clock of bursts and long gaps must not fill the memory.

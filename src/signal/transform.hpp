@@ -17,7 +17,8 @@ struct UniformTrace {
 /// Whether every time stamp lies within a quarter of a step of an even clock (printed decimals do, gaps do not).
 bool clock_is_even(const Recording& recording);
 
-/// Linear interpolation onto the median step (gaps are bridged by a line). `held` samples are left out.
+/// Linear interpolation onto the median step (gaps are bridged by a line), where the clock is not even as it is. `held`
+/// samples are left out.
 UniformTrace resample(const Recording& recording, const std::vector<bool>& held);
 
 /// Every `factor`-th value, each a mean weighted by a triangle over the `factor` values on either side (so that what is

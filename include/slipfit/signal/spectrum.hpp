@@ -24,8 +24,8 @@ Spectrum compute_spectrum(const Recording& recording, const std::vector<bool>& h
 struct SuspiciousLine {
   double frequency_Hz = 0.0;
   std::string reason;  ///< "mains 50 Hz", "3rd harmonic of 50 Hz mains", ...
-  double swing =
-      0.0;  ///< peak to peak of a sine with the line's power (what stands beneath it counts in), unit of force
+  /// Peak to peak of a sine with the line's power (what stands beneath it counts in), unit of force.
+  double swing = 0.0;
 };
 
 /// The repetition frequency that the spectrum shows.
@@ -34,12 +34,12 @@ struct SpectralFrequency {
   /// Of the mean frequency, periods that scatter included. 1.96 of it cover, in simulation with scattering periods,
   /// 89-96 % from 40 cycles on, 78-95 % at 8 to 15 cycles, less below (nobody knows a scatter from 4 periods).
   std::optional<double> standard_error_Hz;
-  /// The same where the phases of the cycles show no scatter, for that case (weak scatter that hides in them allowed
-  /// for). Empty where they do, and below 8 cycles.
-  std::optional<double> regular_standard_error_Hz;
   double false_alarm_probability = 1.0;  ///< that noise with this background shows such a comb somewhere
   std::vector<double> harmonics_Hz;      ///< measured lines of the comb, fundamental first
   std::vector<SuspiciousLine> suspicious_lines;
+  /// `standard_error_Hz` where the phases of the cycles show no scatter, for that case (weak scatter that hides in them
+  /// allowed for). Empty where they do, and below 8 cycles.
+  std::optional<double> regular_standard_error_Hz = std::nullopt;
 };
 
 /// Harmonic comb (no octave error), refined below a bin by the phases of the harmonics on the trace. Needs about 3
