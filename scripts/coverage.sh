@@ -11,8 +11,9 @@ find build/coverage -name '*.gcda' -delete
 ctest --preset coverage --parallel "$jobs" --quiet || echo "coverage.sh: some tests failed; the figures are of those that ran" >&2
 mkdir -p build/coverage/report
 # Branches that only exceptions take are the compiler's, not ours.
-gcovr --root . --object-directory build/coverage --filter 'src/' --filter 'include/' --exclude-throw-branches \
-  --gcov-ignore-parse-errors --csv build/coverage/report/files.csv --html-details build/coverage/report/index.html
+gcovr --root . --filter 'src/' --filter 'include/' --exclude-throw-branches \
+  --gcov-ignore-parse-errors --csv build/coverage/report/files.csv --html-details build/coverage/report/index.html \
+  build/coverage/src build/coverage/apps build/coverage/tests
 python3 - build/coverage/report/files.csv <<'PYTHON'
 import collections
 import csv
