@@ -60,7 +60,9 @@ void run_joint(const JointArguments& arguments, const slipfit::FitOptions& optio
   if (arguments.out) outputs.push_back({"--out", *arguments.out});
   if (arguments.report) outputs.push_back({"--report", *arguments.report});
   check_outputs(outputs, arguments.manifest);
-  const std::vector<slipfit::SweepEntry> entries = read_recordings(read_manifest(arguments));
+  const std::vector<ManifestEntry> manifest = read_manifest(arguments);
+  for (const ManifestEntry& entry : manifest) check_outputs(outputs, entry.file.string());
+  const std::vector<slipfit::SweepEntry> entries = read_recordings(manifest);
   const slipfit::SweepAnalysis sweep = slipfit::analyze_sweep(entries, options);
   slipfit::JsonOptions layout;
   layout.id = name_of_fit(arguments);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -67,6 +68,25 @@ class Pieces {
   std::vector<std::uint32_t> first_rows_;
 };
 
+constexpr auto kWritten =
+    std::to_array<std::string_view>({"results.jsonl", "summary.csv", "failures.csv", "run.json", "lock"});
+
+/// The manifest or a recording that the batch would write over, by the same name or another (a link).
+std::optional<Error> check_not_written(const std::filesystem::path& input, const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const std::string_view name : kWritten) {
+    if (!std::filesystem::equivalent(input, folder / name, ignored)) continue;
+    return Error{"output_is_input", fmt::format("--out: '{}' is '{}' of the results, choose another folder",
+                                                one_line(input.string()), name)};
+  }
+  return std::nullopt;
+}
+
+/// Five looks at the disk for each row would be too many: a recording is suspected by its name.
+bool has_written_name(const ManifestEntry& entry) {
+  return std::find(kWritten.begin(), kWritten.end(), entry.file.filename().string()) != kWritten.end();
+}
+
 /// Reads the manifest once more, to tell which ids stand in it twice.
 std::optional<Error> find_duplicate(const std::filesystem::path& manifest, std::vector<std::uint64_t> suspects) {
   std::unordered_map<std::string, std::size_t> lines;
@@ -124,7 +144,11 @@ Result<WorkList> list_work(const BatchOptions& options) {
   GroupTable groups;
   Pieces pieces;
   const bool is_sharded = options.shard.count > 1;
+  if (auto error = check_not_written(options.manifest, options.folder)) return *error;
   auto failed = for_each_entry(options.manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
+    if (has_written_name(entry)) {
+      if (auto error = check_not_written(entry.file, options.folder)) return error;
+    }
     list.slots.add(entry.id, entry.row - 1);
     list.rows = entry.row;
     const bool is_member = options.fit_group && !entry.group.empty();

@@ -175,6 +175,15 @@ std::optional<double> ask_udunits(const std::string& text, Dimension dimension) 
   return mass_kg ? std::optional(*mass_kg * kStandardGravity_m_per_s2) : std::nullopt;
 }
 
+/// On one line, whatever was given: a message is.
+std::string shown(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == '\x7F') c = '?';
+  }
+  return result;
+}
+
 }  // namespace
 
 Result<UnitScale> parse_unit(std::string_view unit, Dimension dimension) {
@@ -185,14 +194,15 @@ Result<UnitScale> parse_unit(std::string_view unit, Dimension dimension) {
   if (!scale) scale = look_up(kSpellings, lower(text), dimension);  // "MM/S"
   if (scale) return UnitScale{*scale};
   const DimensionName name = name_of(dimension);
-  return Error{"unknown_unit",
-               join({"'", unit, "' is not a unit of ", name.quantity, "; expected one such as ", name.examples})};
+  return Error{"unknown_unit", join({"'", shown(unit), "' is not a unit of ", name.quantity, "; expected one such as ",
+                                     name.examples})};
 }
 
 Result<double> parse_quantity(std::string_view text, Dimension dimension) {
   std::string_view rest = trim(text);
-  const Error bad_number{"bad_number", join({"'", text, "' is not a finite number, or one with a unit (such as 10 ",
-                                             name_of(dimension).si_unit, ")"})};
+  const Error bad_number{"bad_number",
+                         join({"'", shown(text), "' is not a finite number, or one with a unit (such as 10 ",
+                               name_of(dimension).si_unit, ")"})};
   if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-') rest.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);

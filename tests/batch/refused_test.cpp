@@ -55,6 +55,21 @@ TEST_CASE("a manifest with any fault is refused before anything is done") {
   CHECK_FALSE(std::filesystem::exists(scene.path("refused")));
 }
 
+TEST_CASE("a batch never writes over its manifest or a recording") {
+  const BatchScene scene(1);
+  for (const std::string name : {"summary.csv", "run.json", "failures.csv", "results.jsonl"}) {
+    const std::string content = "id,file,speed_m_per_s\nr0,r0.csv,0.02\n";
+    const std::string manifest = scene.file(name, content);
+    check_refused({"batch", manifest, "--out", scene.path("")}, name);
+    CHECK(test::content_of(manifest) == content);
+    std::filesystem::remove(manifest);
+  }
+  std::filesystem::copy(scene.path("r0.csv"), scene.path("summary.csv"));
+  const std::string manifest = scene.file("other.csv", "id,file,speed_m_per_s\nr0,summary.csv,0.02\n");
+  check_refused({"batch", manifest, "--out", scene.path("")}, "summary.csv");
+  CHECK(test::content_of(scene.path("summary.csv")) == test::content_of(scene.path("r0.csv")));
+}
+
 TEST_CASE("a folder that cannot be written is one line and exit code 2") {
   const BatchScene scene(1);
   check_refused({"batch", scene.manifest(), "--out", scene.path("none/out")}, "the folder cannot be written");

@@ -85,6 +85,9 @@ TEST_CASE("fit --joint refuses what it cannot do, in one line") {
   check_refused({"fit", "--joint", example.manifest, "--tier", "sawtooth"}, "no tier of a joint fit");
   check_refused({"fit", run, "--speed", "20mm/s", "--group", "pad"}, "--group");
   check_refused({"fit", "--joint", example.manifest, "--group", "contact"}, "spring");
+  const std::string before = test::content_of(run);
+  check_refused({"fit", "--joint", example.manifest, "--group", "pad", "--out", run}, "is the recording itself");
+  CHECK(test::content_of(run) == before);
 }
 
 TEST_CASE("one recording is no sweep: the answer says that nothing was fitted together, and why") {

@@ -15,7 +15,7 @@ import tempfile
 import threading
 
 MEGABYTE = 1 << 20
-LONGEST_S = 600
+LONGEST_S = 3600  # of wall clock, on a machine that may be busy
 
 
 class Fault(Exception):
@@ -75,6 +75,8 @@ def fit(arguments, file="/dev/stdin"):
 
 def too_little_memory(arguments, folder):
     """From what just starts the program to plenty: never a signal, a torn document or a message from below."""
+    if run([arguments.slipfit, "--version"], memory=1 << 30).returncode != 0:
+        return "skipped: this program reserves addresses without limit (sanitizers)"
     least = 16 * MEGABYTE
     while run([arguments.slipfit, "--version"], memory=least).returncode != 0:
         least += 4 * MEGABYTE
@@ -148,8 +150,8 @@ def endless_line(arguments, folder):
         stream.write(b"time_s,force_N\n" + b"".join(b"%d,%d\n" % (i, i % 7) for i in range(20_000)))
         from_start(stream)
 
-    demand_error(run(fit(arguments), memory=1 << 30, feed=from_start), 3)
-    result = run(fit(arguments), memory=1 << 30, feed=behind_rows)
+    demand_error(run(fit(arguments), memory=arguments.memory, feed=from_start), 3)
+    result = run(fit(arguments), memory=arguments.memory, feed=behind_rows)
     demand_error(result, 3, "longer than 16 MB")
     return f"{size >> 20} MB: " + result.stderr.decode().strip()
 
@@ -159,7 +161,7 @@ def many_columns(arguments, folder):
     said = []
     for name, row in (("zeros", b"0," * count + b"0\n"), ("numbers", b",".join(b"%d" % i for i in range(count)) + b"\n"),
                       ("names", b",".join(b"force_%d" % i for i in range(count)) + b"\n")):
-        result = run(fit(arguments), memory=4 << 30, feed=lambda stream, row=row: [stream.write(row) for _ in range(20)])
+        result = run(fit(arguments), memory=arguments.memory, feed=lambda stream, row=row: [stream.write(row) for _ in range(20)])
         said.append(f"{name}: {answer_or_error(result)[:160]}")
     return "; ".join(said)
 
@@ -177,8 +179,8 @@ def many_rows(arguments, folder):
         for second in range(count // 10_000):
             stream.write(b"".join(b"%d%s" % (second, fraction) for fraction in fractions))
 
-    said = [answer_or_error(run(fit(arguments), memory=16 << 30, feed=zeros))[:160],
-            answer_or_error(run(fit(arguments), memory=16 << 30, feed=standing_still))[:160]]
+    said = [answer_or_error(run(fit(arguments), memory=arguments.memory, feed=zeros))[:160],
+            answer_or_error(run(fit(arguments), memory=arguments.memory, feed=standing_still))[:160]]
     return f"{count} rows: " + "; ".join(said)
 
 
@@ -241,6 +243,9 @@ def main():
     arguments = parser.parse_args()
     arguments.slipfit = os.path.abspath(arguments.slipfit)
     arguments.demo = os.path.abspath(arguments.demo)
+    # Enough for 10^8 rows, and an end before the machine's.
+    starts = run([arguments.slipfit, "--version"], memory=16 << 30).returncode == 0
+    arguments.memory = 16 << 30 if starts else None
     failed = 0
     for check in CHECKS:
         if arguments.only and check.__name__ != arguments.only:
