@@ -61,7 +61,7 @@ slipfit::Analysis full_analysis() {
   analysis.warnings = {{"few_cycles", "only 4 cycles"}, {"mains_hum", "50 Hz hum"}};
   analysis.frequency.quoted = {5.4321, 0.0123, Interval{5.408, 5.4562}, ""};
   analysis.frequency.method = "slip_counting";
-  analysis.frequency.spectral = {5.43, 0.02, std::nullopt, 1e-9, {5.43, 10.86}, {{50.0, "mains 50 Hz", 0.1}}};
+  analysis.frequency.spectral = {5.43, 0.02, 1e-9, {5.43, 10.86}, {{50.0, "mains 50 Hz"}}};
   analysis.frequency.counted = {5.4321, 0.0123, Interval{5.408, 5.4562}, ""};
   analysis.cycles.count = 4;
   analysis.cycles.minor = 1;
