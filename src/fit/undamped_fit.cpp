@@ -4,6 +4,19 @@
 #include "fit/damped_fit.hpp"
 
 namespace slipfit::fit {
+namespace {
+
+/// Worse than the damped fit by ten times what the tiers must differ by, were each cycle one sample only: joined ramps
+/// would make it worse still, and cost most where cycles are many.
+bool is_lost(double loose_chi2, const DampedFit& damped) {
+  constexpr double kLost = 100.0;
+  double damped_chi2 = 0.0;
+  for (std::size_t i = 0; i < damped.blocks.size(); ++i) damped_chi2 += damped.blocks.cycle_sum_of_squares(i);
+  const double worse = (loose_chi2 - damped_chi2) / damped.uncertainty.chi2;
+  return static_cast<double>(damped.blocks.size()) * std::log1p(worse) > kLost;
+}
+
+}  // namespace
 
 std::optional<DampedFit> fit_undamped(const DampedFit& damped) {
   const BlockFit& from = damped.blocks;
@@ -12,11 +25,13 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped) {
   Held held = damped.held;
   held.damping = true;
   // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
-  if (damped.continuous && !std::isfinite(blocks.solve({held, false, true}))) return std::nullopt;
-  if (!std::isfinite(blocks.solve({held, damped.continuous, true}))) return std::nullopt;
-  DampedFit result{std::move(blocks), damped.continuous, held, damped.refused_damping,
-                   damped.excluded,   damped.outliers,   {},   damped.misfit};
-  result.uncertainty = estimate_uncertainty(result.blocks, held, damped.continuous);
+  const double loose_chi2 = blocks.solve({held, false, true});
+  if (!std::isfinite(loose_chi2)) return std::nullopt;
+  const bool joined = damped.continuous && !is_lost(loose_chi2, damped);
+  if (joined && !std::isfinite(blocks.solve({held, true, true}))) return std::nullopt;
+  DampedFit result{std::move(blocks), joined,          held, damped.refused_damping,
+                   damped.excluded,   damped.outliers, {},   damped.misfit};
+  result.uncertainty = estimate_uncertainty(result.blocks, held, joined);
   // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.
   const bool is_false = from.parameters.shared[2] < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
   return is_false ? std::nullopt : std::optional(std::move(result));
