@@ -109,7 +109,8 @@ class SweepReporter {
     const bool steep = resolved() && intervals_.error(model_.slope) < 0.25 * std::abs(model_.slope.a);
     add("friction_slope_N_s_per_m", slope, steep ? ParameterStatus::Identified : ParameterStatus::Weak);
     const double relative = intervals_.error(model_.alpha) / std::abs(model_.alpha.a);
-    if (!(relative < 0.5)) {
+    // Nearer to 0 than 3 standard errors: those that come out so large by chance would be reported, the others not.
+    if (!(relative < 1.0 / 3.0)) {
       return withhold_law(
           fmt::format("only the product f1 alpha can be told: {:.3g} N s/m, 95 % interval {:.3g} to {:.3g}",
                       *slope.value, slope.ci95->low, slope.ci95->high));
