@@ -202,7 +202,8 @@ Warnings collect_warnings(const Recording& recording, const Analysis& analysis) 
     warn("impulses", fmt::format("{} isolated impulses: left out", quality.impulses));
   }
   if (quality.quantisation_step) {
-    warn("quantised", fmt::format("forces are multiples of {:.3g}", *quality.quantisation_step));
+    const bool newtons = recording.conditions().quantity == ForceQuantity::Force_N;
+    warn("quantised", fmt::format("forces are multiples of {:.3g}{}", *quality.quantisation_step, newtons ? " N" : ""));
   }
   for (const SuspiciousLine& line : analysis.frequency.spectral.suspicious_lines) {
     warn("suspicious_line", fmt::format("line at {:.4g} Hz: {}", line.frequency_Hz, line.reason));

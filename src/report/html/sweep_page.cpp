@@ -18,8 +18,11 @@ namespace {
 std::string verdict_of(const SweepSource& source) {
   if (!source.sweep.joint) return fmt::format("{} recordings, no joint fit.", source.entries.size());
   const Estimate& critical = source.sweep.derived.critical_speed_m_per_s;
-  const std::string end = critical.value ? fmt::format(": stick-slip ends at {}", quantity_of(critical, "m/s"))
-                                         : std::string(": where stick-slip ends is not known");
+  // The interval and not the standard error: it may be lopsided, and few recordings make it wide.
+  const EstimateRow speed = estimate_row(critical, "m/s");
+  const std::string end = critical.value
+                              ? fmt::format(": stick-slip ends at {} {} {}", speed.value, speed.unit, speed.interval)
+                              : std::string(": where stick-slip ends is not known");
   const auto left_out = std::count(source.sweep.roles.begin(), source.sweep.roles.end(), SweepRole::LeftOut);
   const auto fitted = static_cast<std::ptrdiff_t>(source.entries.size()) - left_out;
   return text(fmt::format("{} recordings, {} fitted together{}.", source.entries.size(), fitted, end));
