@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "differences.hpp"
 #include "model/ageing.hpp"
 #include "slipfit/predict/plan.hpp"
 #include "slipfit/predict/prediction.hpp"
@@ -25,33 +26,6 @@ PredictionModel example() {
   }
   model.has_covariance = true;
   return model;
-}
-
-/// Moved by `step` in parameter i of ModelEstimate's values.
-PredictionModel moved(PredictionModel model, std::size_t i, double step) {
-  ModelEstimate& e = model.estimate;
-  if (i == 0) e.stiffness_N_per_m *= std::exp(step);
-  if (i == 1) e.natural_frequency_rad_per_s *= std::exp(step);
-  if (i == 2) e.damping_ratio += step;
-  if (i == 3) e.friction_difference_N *= std::exp(step);
-  if (i == 6) e.ageing->rate_N += step;
-  return model;
-}
-
-template <class Function>
-double standard_error_by_differences(const PredictionModel& model, double relative_step, const Function& quantity) {
-  std::array<double, kModelValues> gradient{};
-  for (std::size_t i = 0; i < gradient.size(); ++i) {
-    const double step = relative_step * (i == 6 ? 0.03 : 1.0);
-    gradient[i] = (quantity(moved(model, i, step)) - quantity(moved(model, i, -step))) / (2.0 * step);
-  }
-  double variance = 0.0;
-  for (std::size_t i = 0; i < gradient.size(); ++i) {
-    for (std::size_t j = 0; j < gradient.size(); ++j) {
-      variance += gradient[i] * model.estimate.covariance[i][j] * gradient[j];
-    }
-  }
-  return std::sqrt(variance);
 }
 
 PredictedMotion predicted(const PredictionModel& model, double speed_m_per_s) {
@@ -132,13 +106,13 @@ TEST_CASE("ageing: intervals follow from derivatives that agree with differences
     for (const auto quantity :
          {&PredictedMotion::period_s, &PredictedMotion::stick_time_s, &PredictedMotion::slip_time_s,
           &PredictedMotion::periodic_displacement_m, &PredictedMotion::lambda}) {
-      const double expected = standard_error_by_differences(
+      const double expected = test::standard_error_by_differences(
           model, 1e-4, [&](const PredictionModel& at) { return *(predicted(at, speed).*quantity).value; });
       CHECK(*(predicted(model, speed).*quantity).standard_error == Approx(expected).epsilon(1e-4));
     }
   }
-  const double expected =
-      standard_error_by_differences(model, 1e-3, [](const PredictionModel& at) { return *critical_speed(at).value; });
+  const double expected = test::standard_error_by_differences(
+      model, 1e-3, [](const PredictionModel& at) { return *critical_speed(at).value; });
   CHECK(*critical_speed(model).standard_error == Approx(expected).epsilon(0.01));
   const double end = *critical_speed(model).value;
   CHECK(predicted(model, 0.999 * end).period_s.value);

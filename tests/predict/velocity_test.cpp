@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "differences.hpp"
 #include "slipfit/predict/prediction.hpp"
 
 using namespace slipfit;
@@ -34,34 +35,6 @@ PredictedMotion predicted(const PredictionModel& model, double speed_m_per_s) {
 
 double critical_speed(const PredictionModel& model) {
   return *predict_at(model, std::vector<double>{}).critical_speed_m_per_s.value;
-}
-
-/// Moved by `step` in parameter i of (ln k, ln w_n, zeta, ln dF, b, alpha).
-PredictionModel moved(PredictionModel model, std::size_t i, double step) {
-  ModelEstimate& e = model.estimate;
-  if (i == 0) e.stiffness_N_per_m *= std::exp(step);
-  if (i == 1) e.natural_frequency_rad_per_s *= std::exp(step);
-  if (i == 2) e.damping_ratio += step;
-  if (i == 3) e.friction_difference_N *= std::exp(step);
-  if (i == 4) e.speed_dependence->slope_N_s_per_m += step;
-  if (i == 5) e.speed_dependence->alpha_s_per_m += step;
-  return model;
-}
-
-template <class Function>
-double standard_error_by_differences(const PredictionModel& model, double relative_step, const Function& quantity) {
-  std::array<double, kModelValues> gradient{};
-  for (std::size_t i = 0; i < gradient.size(); ++i) {
-    const double step = relative_step * (i == 5 ? 8.0 : i == 4 ? 4.0 : 1.0);
-    gradient[i] = (quantity(moved(model, i, step)) - quantity(moved(model, i, -step))) / (2.0 * step);
-  }
-  double variance = 0.0;
-  for (std::size_t i = 0; i < gradient.size(); ++i) {
-    for (std::size_t j = 0; j < gradient.size(); ++j) {
-      variance += gradient[i] * model.estimate.covariance[i][j] * gradient[j];
-    }
-  }
-  return std::sqrt(variance);
 }
 
 const std::array<Estimate PredictedMotion::*, 8> kQuantities{
@@ -140,14 +113,14 @@ TEST_CASE("standard errors with velocity-dependent friction agree with central d
   for (const double speed : {0.005, 0.05, 0.2, 0.4}) {
     const PredictedMotion row = predicted(model, speed);
     for (const auto quantity : kQuantities) {
-      const double expected = standard_error_by_differences(
+      const double expected = test::standard_error_by_differences(
           model, 1e-4, [&](const PredictionModel& at) { return *(predicted(at, speed).*quantity).value; });
       CAPTURE(speed, quantity == kQuantities[2], expected);
       CHECK(*(row.*quantity).standard_error == Approx(expected).epsilon(2e-3));
     }
   }
   const Prediction prediction = predict_at(model, std::vector<double>{});
-  const double expected = standard_error_by_differences(model, 1e-4, critical_speed);
+  const double expected = test::standard_error_by_differences(model, 1e-4, critical_speed);
   CHECK(*prediction.critical_speed_m_per_s.standard_error == Approx(expected).epsilon(1e-3));
 }
 
@@ -214,7 +187,7 @@ TEST_CASE("bands hold 95 % of the motions that the covariance allows where alpha
     for (int draw = 0; draw < kDraws; ++draw) {
       PredictionModel other = model;
       other.has_covariance = false;
-      for (std::size_t i = 0; i < se.size(); ++i) other = moved(other, i, se[i] * normal(random));
+      for (std::size_t i = 0; i < se.size(); ++i) other = test::moved(other, i, se[i] * normal(random));
       const double alpha = -8.0 + alpha_se * normal(random);
       other.estimate.speed_dependence =
           SpeedDependence{(mean_slope + mean_slope_se * normal(random)) * over_mean(alpha), alpha};

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "slipfit/predict/prediction.hpp"
+
+namespace test {
+
+/// Moved by `step` in value i of ModelEstimate::covariance.
+inline slipfit::PredictionModel moved(slipfit::PredictionModel model, std::size_t i, double step) {
+  slipfit::ModelEstimate& e = model.estimate;
+  if (i == 0) e.stiffness_N_per_m *= std::exp(step);
+  if (i == 1) e.natural_frequency_rad_per_s *= std::exp(step);
+  if (i == 2) e.damping_ratio += step;
+  if (i == 3) e.friction_difference_N *= std::exp(step);
+  if (i == 4 && e.speed_dependence) e.speed_dependence->slope_N_s_per_m += step;
+  if (i == 5 && e.speed_dependence) e.speed_dependence->alpha_s_per_m += step;
+  if (i == 6 && e.ageing) e.ageing->rate_N += step;
+  return model;
+}
+
+/// Of quantity(model), by central differences. Steps are relative to the size of each value.
+template <class Function>
+double standard_error_by_differences(const slipfit::PredictionModel& model, double relative_step,
+                                     const Function& quantity) {
+  const slipfit::ModelEstimate& e = model.estimate;
+  std::array<double, slipfit::kModelValues> sizes{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+  if (e.speed_dependence) sizes[4] = std::abs(e.speed_dependence->slope_N_s_per_m);
+  if (e.speed_dependence) sizes[5] = std::abs(e.speed_dependence->alpha_s_per_m);
+  if (e.ageing) sizes[6] = e.ageing->rate_N;
+  std::array<double, slipfit::kModelValues> gradient{};
+  for (std::size_t i = 0; i < gradient.size(); ++i) {
+    const double step = relative_step * sizes[i];
+    gradient[i] = (quantity(moved(model, i, step)) - quantity(moved(model, i, -step))) / (2.0 * step);
+  }
+  double variance = 0.0;
+  for (std::size_t i = 0; i < gradient.size(); ++i) {
+    for (std::size_t j = 0; j < gradient.size(); ++j) variance += gradient[i] * e.covariance[i][j] * gradient[j];
+  }
+  return std::sqrt(variance);
+}
+
+}  // namespace test
