@@ -11,6 +11,7 @@
 #include "fit/cycle_table.hpp"
 #include "measured.hpp"
 #include "recording_checks.hpp"
+#include "signals.hpp"
 #include "slipfit/sweep.hpp"
 #include "sweep_checks.hpp"
 #include "verdict.hpp"
@@ -22,64 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// What both entries share: quality, slips and the repetition frequency.
-struct Signals {
-  Quality quality;
-  Segmentation segmentation;
-  SpectralFrequency spectral;
-  double seconds = 0.0;
-};
-
-Signals look_at_slips(const Recording& recording) {
-  const auto start = Clock::now();
-  Signals signals;
-  signals.quality = assess_quality(recording);
-  signals.segmentation = find_slips(recording, signals.quality);
-  signals.seconds = seconds_since(start);
-  return signals;
-}
-
-/// The spectrum's frequency, and the seconds that it took.
-struct Timed {
-  SpectralFrequency spectral;
-  double seconds = 0.0;
-};
-
-Timed look_at_spectrum(const Recording& recording, const Quality& quality, const Segmentation& segmentation) {
-  const auto start = Clock::now();
-  // A count that scatters may be of noise or hum: it would draw the spectrum to its own multiple.
-  constexpr double kSureCount = 0.01;
-  const Estimate counted = count_frequency(recording, segmentation);
-  const bool sure = slips_stand_out(quality, segmentation) && counted.standard_error &&
-                    *counted.standard_error < kSureCount * *counted.value;
-  const std::optional<double> hint_Hz = sure ? counted.value : std::nullopt;
-  const std::vector<bool>& impulses = quality.impulse_mask;
-  SpectralFrequency spectral = find_frequency(recording, compute_spectrum(recording, impulses), hint_Hz, impulses);
-  return {std::move(spectral), seconds_since(start)};
-}
-
-void add_spectrum(Signals& signals, Timed look) {
-  signals.spectral = std::move(look.spectral);
-  signals.seconds += look.seconds;
-}
-
-Signals look_at(const Recording& recording) {
-  Signals signals = look_at_slips(recording);
-  add_spectrum(signals, look_at_spectrum(recording, signals.quality, signals.segmentation));
-  return signals;
-}
-
-/// A line of the mains stands out and may move turning points, or the slips counted may be its swings: worth a second
-/// look beneath it.
-bool may_be_hum(const Signals& signals) {
-  const double drop = median_drop(signals.segmentation);
-  for (const SuspiciousLine& line : signals.spectral.suspicious_lines) {
-    if (line.swing >= kHarmlessHum * drop) return true;
-  }
-  const double share = mains_share(signals.segmentation);
-  return share > 0.9 && share < 1.1;
 }
 
 /// How badly the cycles fit: residual and spread over the onset force. A missing fit is the worst; so is one that finds
@@ -142,7 +85,7 @@ Fitted look_and_fit(const Recording& recording, const FitOptions& options) {
   constexpr std::size_t kLarge = 1000000;
   const std::launch by_size =
       recording.size() < kLarge ? std::launch::async | std::launch::deferred : std::launch::deferred;
-  std::future<Timed> look =
+  std::future<SpectrumLook> look =
       std::async(by_size, [&] { return look_at_spectrum(recording, signals.quality, signals.segmentation); });
   const auto start = Clock::now();
   fitted.fit = fit_recording(recording, signals.quality, signals.segmentation, options);
@@ -159,13 +102,6 @@ Analysis conclude(const Recording& recording, Fitted fitted) {
   Analysis analysis = conclude(recording, std::move(fitted.signals), std::move(judgement), std::move(fitted.fit));
   analysis.timing.fit_s = fitted.seconds;
   return analysis;
-}
-
-SweepRole role_of(const Recording& recording, Verdict verdict) {
-  // At the contact the sensor sees F_k(v) itself in a slip, and jumps: no force to fit together with the others.
-  if (recording.conditions().force_view == ForceView::Contact) return SweepRole::LeftOut;
-  if (verdict == Verdict::StickSlip) return SweepRole::Cycles;
-  return verdict == Verdict::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
 }
 
 }  // namespace

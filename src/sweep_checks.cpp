@@ -38,6 +38,13 @@ std::optional<Point> point_of(const Recording& recording, const Analysis& analys
 
 }  // namespace
 
+SweepRole role_of(const Recording& recording, Verdict verdict) {
+  // At the contact the sensor sees F_k(v) itself in a slip, and jumps: no force to fit together with the others.
+  if (recording.conditions().force_view == ForceView::Contact) return SweepRole::LeftOut;
+  if (verdict == Verdict::StickSlip) return SweepRole::Cycles;
+  return verdict == Verdict::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
+}
+
 std::string describe_roles(const std::vector<SweepRole>& roles) {
   const auto count = [&](SweepRole role) { return std::count(roles.begin(), roles.end(), role); };
   return fmt::format("{} with stick-slip cycles, {} sliding steadily, {} left out", count(SweepRole::Cycles),

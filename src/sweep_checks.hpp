@@ -4,6 +4,9 @@
 
 namespace slipfit {
 
+/// What a recording is used for in a joint fit.
+SweepRole role_of(const Recording& recording, Verdict verdict);
+
 /// "4 with stick-slip cycles, 1 sliding steadily, 1 left out".
 std::string describe_roles(const std::vector<SweepRole>& roles);
 
