@@ -10,7 +10,7 @@
 namespace slipfit::signal {
 
 /// Complex FFTW transform of one length, planned once. The planner is not thread safe, so it stands behind one lock;
-/// the arrays belong to the caller, so that any number of transforms of one thread share a plan.
+/// the arrays belong to the caller, so that any number of transforms, in any thread, share a plan.
 class ComplexTransform {
  public:
   using Complex = std::complex<double>;
