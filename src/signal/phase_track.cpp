@@ -160,6 +160,7 @@ double evidence_of_walk(const std::vector<Slope>& slopes, const Slope& none) {
 }
 
 std::optional<TrackedFrequency> track_once(const Recording& recording, double near_Hz, std::size_t harmonics) {
+  if (!(near_Hz > 0.0) || !std::isfinite(near_Hz)) return std::nullopt;  // forces near the largest double overflow
   const double cycles = std::floor(recording.duration_s() * near_Hz);
   double per_segment = std::max(1.0, std::ceil(cycles / static_cast<double>(kMostSegments)));
   std::vector<Segment> segments = cut_segments(recording, near_Hz, per_segment, harmonics);

@@ -50,6 +50,16 @@ TEST_CASE("slow wander larger than the drop does not hide the saw-tooth") {
   CHECK(*found.value_Hz == Approx(2.63).epsilon(0.02));
 }
 
+TEST_CASE("one force near the largest double does not end the program") {
+  const std::vector<double> time_s = traces::clock(600, 50.0);
+  std::vector<double> force;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    force.push_back(0.01 * static_cast<double>(i % 25) + 0.001 * static_cast<double>(7919 * i % 13));
+  }
+  force[130] = -1e308;
+  CHECK_NOTHROW(find_held(traces::recording(time_s, force), 2.0));
+}
+
 TEST_CASE("hum is named and not chosen") {
   for (const double mains_Hz : {50.0, 60.0}) {
     traces::Generator generator(8);
