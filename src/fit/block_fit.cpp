@@ -2,37 +2,62 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "fit/reduced_rows.hpp"
 #include "fit/solver_log.hpp"
 
 namespace slipfit::fit {
 namespace {
 
-/// Parameter blocks: shared, [level,] own.
+/// Parameter blocks: shared, [level,] own. The cycle's rows are reduced to one a parameter and one more, which must not
+/// be asked of two threads at a time.
 class CycleCost : public ceres::CostFunction {
  public:
-  explicit CycleCost(const CycleModel& model) : model_(model) {
-    set_num_residuals(static_cast<int>(model.residuals()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(kShared));
-    if (model.level_parameters() > 0)
-      mutable_parameter_block_sizes()->push_back(static_cast<int>(model.level_parameters()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(model.own_parameters()));
+  explicit CycleCost(const CycleModel& model)
+      : model_(model),
+        residuals_(model.residuals()),
+        jacobian_(model.residuals(), model.columns()),
+        reduced_rows_(jacobian_.cols()) {
+    set_num_residuals(static_cast<int>(model.columns() + 1));
+    for (const std::size_t size : {kShared, model.level_parameters(), model.own_parameters()}) {
+      if (size > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(size));
+    }
   }
 
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
     const bool has_level = model_.level_parameters() > 0;
     const double* level = has_level ? parameters[1] : nullptr;
     const double* own = parameters[has_level ? 2 : 1];
-    Jacobians out;
-    if (jacobians != nullptr) out = {jacobians[0], has_level ? jacobians[1] : nullptr, jacobians[has_level ? 2 : 1]};
-    return model_.evaluate(parameters[0], level, own, residuals, out);
+    double* jacobian = jacobians != nullptr ? jacobian_.data() : nullptr;
+    if (!model_.evaluate(parameters[0], level, own, residuals_.data(), jacobian)) return false;
+    if (jacobians == nullptr) {
+      std::fill_n(residuals, num_residuals(), 0.0);
+      residuals[0] = residuals_.norm();
+    } else {
+      put_reduced(reduced_rows_.reduce(jacobian_, residuals_), residuals, jacobians);
+    }
+    return true;
   }
 
  private:
+  void put_reduced(const RowMajor& rows, double* residuals, double** jacobians) const {
+    Eigen::Map<Eigen::VectorXd>(residuals, rows.rows()) = rows.rightCols<1>();
+    Eigen::Index column = 0;
+    for (const int size : parameter_block_sizes()) {
+      if (*jacobians != nullptr) Eigen::Map<RowMajor>(*jacobians, rows.rows(), size) = rows.middleCols(column, size);
+      column += size;
+      ++jacobians;
+    }
+  }
+
   const CycleModel& model_;
+  mutable Eigen::VectorXd residuals_;
+  mutable RowMajor jacobian_;
+  mutable ReducedRows reduced_rows_;
 };
 
 /// Parameter blocks: shared, own of the first cycle, own of the second.
@@ -182,7 +207,7 @@ double BlockFit::cycle_sum_of_squares(std::size_t cycle) const {
   const CycleModel& model = models_[cycle];
   std::vector<double> residuals(model.residuals());
   if (!model.evaluate(parameters.shared.data(), parameters.level.data(), parameters.cycles[cycle].data(),
-                      residuals.data(), {})) {
+                      residuals.data(), nullptr)) {
     return std::numeric_limits<double>::infinity();
   }
   double sum = 0.0;

@@ -31,15 +31,16 @@ struct Slopes {
 Slopes slopes_of(const BlockFit& fit, std::size_t cycle) {
   const CycleModel& model = fit.model(cycle);
   std::vector<double> residuals(model.residuals());
-  std::vector<double> own(model.residuals() * model.own_parameters());
+  std::vector<double> jacobian(model.residuals() * model.columns());
   model.evaluate(fit.parameters.shared.data(), fit.level_data(), fit.parameters.cycles[cycle].data(), residuals.data(),
-                 {nullptr, nullptr, own.data()});
+                 jacobian.data());
+  const std::size_t onset = kShared + model.level_parameters();
   Slopes result;
   const CycleData& data = fit.data(cycle);
   for (std::size_t j = 0; j < data.time_s.size(); ++j) {
     const double unit = fit.scales().noise / (data.weight.empty() ? 1.0 : data.weight[j]);
     result.residual.push_back(residuals[j] * unit);
-    result.slope.push_back(own[j * model.own_parameters()] * unit / fit.scales().half_period_s);
+    result.slope.push_back(jacobian[j * model.columns() + onset] * unit / fit.scales().half_period_s);
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fit/reduced_rows.hpp"
 #include "fit/uncertainty.hpp"
 
 namespace slipfit::fit {
@@ -12,7 +13,6 @@ namespace slipfit::fit {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 Index common_size(const BlockFit& fit) {
   return static_cast<Index>(kShared + fit.level().columns());
@@ -24,17 +24,13 @@ Index own_size(const BlockFit& fit) {
 Linearised linearise(const BlockFit& fit, std::size_t cycle) {
   const CycleModel& model = fit.model(cycle);
   const auto rows = static_cast<Index>(model.residuals());
-  const auto terms = static_cast<Index>(fit.level().columns());
   Linearised result;
   result.residuals.resize(rows);
-  RowMajor shared(rows, static_cast<Index>(kShared));
-  RowMajor level(rows, terms);
-  RowMajor own(rows, own_size(fit));
+  RowMajor jacobian(rows, static_cast<Index>(model.columns()));
   model.evaluate(fit.parameters.shared.data(), fit.level_data(), fit.parameters.cycles[cycle].data(),
-                 result.residuals.data(), {shared.data(), terms > 0 ? level.data() : nullptr, own.data()});
-  result.common.resize(rows, common_size(fit));
-  result.common << shared, level;
-  result.own = own;
+                 result.residuals.data(), jacobian.data());
+  result.common = jacobian.leftCols(common_size(fit));
+  result.own = jacobian.rightCols(own_size(fit));
   return result;
 }
 

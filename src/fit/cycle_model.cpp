@@ -68,84 +68,54 @@ bool CycleModel::state(const double* shared, const double* own, CycleState& stat
   return true;
 }
 
-/// gradient: d model / d (ln k, ln w_n, zeta, onset, onset force); the level's derivatives come from `basis`.
-void CycleModel::put(std::size_t row, double weight, double data, double model, const std::array<double, 5>& gradient,
-                     const double* basis, double* residuals, const Jacobians& jacobians) const {
-  residuals[row] = weight * (data - model);
-  if (jacobians.shared != nullptr) {
-    for (std::size_t i = 0; i < kShared; ++i) jacobians.shared[row * kShared + i] = -weight * gradient[i];
-  }
-  if (jacobians.level != nullptr) {
-    for (std::size_t i = 0; i < level_.columns(); ++i) {
-      jacobians.level[row * level_.columns() + i] = -weight * scales_.force * basis[i];
-    }
-  }
-  if (jacobians.own != nullptr) {
-    double* own = jacobians.own + row * own_parameters();
-    own[0] = -weight * gradient[3];
-    own[1] = -weight * gradient[4];
-  }
-}
-
 bool CycleModel::evaluate(const double* shared, const double* level, const double* own, double* residuals,
-                          const Jacobians& jacobians) const {
+                          double* jacobian) const {
   CycleState s;
   if (!state(shared, own, s)) return false;
   const double u = s.force_scale;
   const double w = s.omega_rad_per_s;
   const double rate = u * w;  // k V
-  const double constant = level_.per_cycle ? scales_.level + scales_.force * own[2] : scales_.level;
-  const double* basis = basis_.data();
   const std::size_t columns = level_.columns();
-  const auto level_part = [&](const double* row) {
+  const double* basis = basis_.data();
+  const auto level_part = [&] {
     double sum = 0.0;
-    for (std::size_t i = 0; i < columns; ++i) sum += level[i] * row[i];
+    for (std::size_t i = 0; i < columns; ++i) sum += level[i] * basis[i];
     return scales_.force * sum;
   };
-  // F = level + u z(tau; z0, zeta), tau = w_n (t - onset), z0 = A / u, u = k V / w_n
-  const auto gradient_of = [&](const model::WavePoint& p, double tau) {
-    const double scale_part = u * (p.z - s.slip.z0 * p.d_z0);  // d / d ln u at fixed tau
-    return std::array<double, 5>{scale_part, -scale_part + u * (p.d_tau * tau + p.d_log_omega), u * p.d_zeta,
-                                 -u * p.d_tau * w * scales_.half_period_s, scales_.force * p.d_z0};
+  // gradient: d model / d (ln k, ln w_n, zeta, onset, onset force, level of the cycle)
+  const auto put = [&](double weight, double difference, const std::array<double, 6>& gradient) {
+    *residuals++ = weight * difference;
+    if (jacobian != nullptr) {
+      for (std::size_t i = 0; i < kShared; ++i) *jacobian++ = -weight * gradient[i];
+      for (std::size_t i = 0; i < columns; ++i) *jacobian++ = -weight * scales_.force * basis[i];
+      for (std::size_t i = kShared; i < kShared + own_parameters(); ++i) *jacobian++ = -weight * gradient[i];
+    }
+    basis += columns;
   };
-  std::size_t row = 0;
-  for (std::size_t i = 0; i < data_->time_s.size(); ++i, ++row, basis += columns) {
+  // F = level + u z(tau; z0, zeta), tau = w_n (t - onset), z0 = A / u, u = k V / w_n
+  const double constant = level_.per_cycle ? scales_.level + scales_.force * own[2] : scales_.level;
+  const auto put_point = [&](double weight, double force, double tau, const model::WavePoint& p) {
+    const double scale_part = u * (p.z - s.slip.z0 * p.d_z0);  // d / d ln u at fixed tau
+    put(weight, force - (constant + level_part() + u * p.z),
+        {scale_part, -scale_part + u * (p.d_tau * tau + p.d_log_omega), u * p.d_zeta,
+         -u * p.d_tau * w * scales_.half_period_s, scales_.force * p.d_z0, scales_.force});
+  };
+  for (std::size_t i = 0; i < data_->time_s.size(); ++i) {
     const double tau = w * (data_->time_s[i] - s.onset_s);
-    const model::WavePoint p = wave_at(s, tau);
     const double weight = data_->weight.empty() ? 1.0 : data_->weight[i];
-    put(row, weight / scales_.noise, data_->force[i], constant + level_part(basis) + u * p.z, gradient_of(p, tau),
-        basis, residuals, jacobians);
+    put_point(weight / scales_.noise, data_->force[i], tau, wave_at(s, tau));
   }
-  const auto put_bin = [&](const StickBin& bin, const model::WavePoint& p, double tau) {
-    put(row++, std::sqrt(bin.count) / scales_.noise, bin.force, constant + level_part(basis) + u * p.z,
-        gradient_of(p, tau), basis, residuals, jacobians);
-    basis += columns;
-    put(row++, std::sqrt(bin.time_spread) / scales_.noise, bin.slope, level_part(basis) + rate,
-        {rate, 0.0, 0.0, 0.0, 0.0}, basis, residuals, jacobians);
-    basis += columns;
+  const auto put_bin = [&](const StickBin& bin, double tau, const model::WavePoint& p) {
+    put_point(std::sqrt(bin.count) / scales_.noise, bin.force, tau, p);
+    put(std::sqrt(bin.time_spread) / scales_.noise, bin.slope - (level_part() + rate), {rate, 0.0, 0.0, 0.0, 0.0, 0.0});
   };
   for (const StickBin& bin : data_->bins_before) {
     const double tau = w * (bin.time_s - s.onset_s);
-    put_bin(bin, stick_before(s, tau), tau);
+    put_bin(bin, tau, stick_before(s, tau));
   }
   for (const StickBin& bin : data_->bins_after) {
     const double tau = w * (bin.time_s - s.onset_s);
-    put_bin(bin, stick_after(s, tau), tau);
-  }
-  if (level_.per_cycle && jacobians.own != nullptr) {
-    std::size_t r = 0;
-    for (; r < data_->time_s.size(); ++r) {
-      const double weight = data_->weight.empty() ? 1.0 : data_->weight[r];
-      jacobians.own[3 * r + 2] = -weight * scales_.force / scales_.noise;
-    }
-    const auto bin_rows = [&](const std::vector<StickBin>& bins) {
-      for (const StickBin& bin : bins) {
-        jacobians.own[3 * r++ + 2] = -std::sqrt(bin.count) * scales_.force / scales_.noise;
-        jacobians.own[3 * r++ + 2] = 0.0;
-      }
-    };
-    bin_rows(data_->bins_before);
-    bin_rows(data_->bins_after);
+    put_bin(bin, tau, stick_after(s, tau));
   }
   return true;
 }

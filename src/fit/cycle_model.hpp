@@ -56,13 +56,6 @@ struct CycleState {
   double lag_tau = 0.0;  ///< of the sensor, w_n T
 };
 
-/// Derivatives of residuals, row-major like Ceres; null where not wanted.
-struct Jacobians {
-  double* shared = nullptr;
-  double* level = nullptr;
-  double* own = nullptr;
-};
-
 /// The residuals of one cycle: (data - model) / noise for every sample around the slip, and two for each stick bin
 /// (its mean and its slope, weighted as the samples in it).
 class CycleModel {
@@ -72,13 +65,16 @@ class CycleModel {
   [[nodiscard]] std::size_t residuals() const { return data_->residuals(); }
   [[nodiscard]] std::size_t own_parameters() const { return level_.per_cycle ? 3 : 2; }
   [[nodiscard]] std::size_t level_parameters() const { return level_.columns(); }
+  /// Columns of the Jacobian: shared, level, own.
+  [[nodiscard]] std::size_t columns() const { return kShared + level_parameters() + own_parameters(); }
   [[nodiscard]] const CycleData& data() const { return *data_; }
   /// The level's columns at every residual row, the constant first; of slope rows their slopes.
   [[nodiscard]] const std::vector<double>& basis() const { return basis_; }
 
-  /// Empty slip (lambda <= 0) has no solution: false, outputs untouched.
+  /// Residuals and, unless null, their Jacobian (residuals() x columns(), row-major). Empty slip (lambda <= 0) has no
+  /// solution: false, outputs untouched.
   bool evaluate(const double* shared, const double* level, const double* own, double* residuals,
-                const Jacobians& jacobians) const;
+                double* jacobian) const;
 
   bool state(const double* shared, const double* own, CycleState& state) const;
   /// Without hum.
@@ -93,8 +89,6 @@ class CycleModel {
   [[nodiscard]] model::WavePoint stick_before(const CycleState& state, double tau) const;
   [[nodiscard]] model::WavePoint stick_after(const CycleState& state, double tau) const;
   [[nodiscard]] model::WavePoint as_shown(const CycleState& state, model::WavePoint stick) const;
-  void put(std::size_t row, double weight, double data, double model, const std::array<double, 5>& gradient,
-           const double* basis, double* residuals, const Jacobians& jacobians) const;
   void fill_basis();
 
   const CycleData* data_;
@@ -108,12 +102,18 @@ class CycleModel {
 
 inline double CycleModel::level_at(double time_s, const double* level, const double* own) const {
   if (level_.per_cycle) return scales_.level + scales_.force * own[2];
-  std::array<double, kMaxLevelTerms> values{};
-  std::array<double, kMaxLevelTerms> slopes{};
-  const double span_s = scales_.time_end_s - scales_.time_begin_s;
-  legendre(2.0 * (time_s - scales_.time_begin_s) / span_s - 1.0, level_.terms, values.data(), slopes.data());
+  const double x = 2.0 * (time_s - scales_.time_begin_s) / (scales_.time_end_s - scales_.time_begin_s) - 1.0;
+  // Legendre polynomials by their recurrence
   double sum = 0.0;
-  for (std::size_t i = 0; i < level_.terms; ++i) sum += level[i] * values[i];
+  double value = 1.0;
+  double before = 0.0;
+  for (std::size_t n = 0; n < level_.terms; ++n) {
+    sum += level[n] * value;
+    const auto order = static_cast<double>(n);
+    const double next = ((2.0 * order + 1.0) * x * value - order * before) / (order + 1.0);
+    before = value;
+    value = next;
+  }
   return scales_.level + scales_.force * sum;
 }
 

@@ -198,11 +198,11 @@ class Fitter {
   /// Where there was much hum, again: the next residuals show its frequency and the outliers more clearly.
   std::optional<BlockFit> with_clean_data(BlockFit fit) {
     for (int pass = 0; pass < kCleanPasses; ++pass) {
-      const Residuals residuals = residuals_of(recording_, fit, excluded_);
+      Residuals residuals = residuals_of(recording_, fit, excluded_);
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
-      const std::vector<double> lines_Hz = find_hum(recording_, fit, residuals, outliers);
+      const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals), outliers);
       if (outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty()) {
         if (pass == 0) fit.solve({held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
         return fit;

@@ -1,5 +1,6 @@
 #include "fit/mains_hum.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,37 +18,46 @@ struct HumTerm {
   double sine = 0.0;
 };
 
-/// Residuals with the fitted hum put back; outliers, which would smear over the spectrum, are 0.
-std::vector<double> with_hum(const Recording& recording, const BlockFit& fit, const Residuals& residuals,
-                             const std::vector<std::size_t>& outliers) {
-  std::vector<double> values = residuals.value;
-  for (const std::size_t sample : outliers) values[sample] = 0.0;
-  if (fit.level().lines_Hz.empty()) return values;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] != 0.0) values[i] += fit.model(0).hum_at(recording.time_s()[i], fit.level_data());
+/// Residuals with the fitted hum put back; outliers, which would smear over the spectrum, become 0.
+void put_hum_back(const Recording& recording, const BlockFit& fit, const std::vector<std::size_t>& outliers,
+                  std::vector<double>& residuals) {
+  for (const std::size_t sample : outliers) residuals[sample] = 0.0;
+  if (fit.level().lines_Hz.empty()) return;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (residuals[i] != 0.0) residuals[i] += fit.model(0).hum_at(recording.time_s()[i], fit.level_data());
   }
-  return values;
 }
 
-/// Least-squares amplitude of one frequency on an even clock (the phasor turns by a fixed step from sample to sample).
+/// Least-squares amplitude of one frequency on an even clock: the phasor turns by a fixed step from sample to sample,
+/// four of them side by side. Residuals of 0 are no samples.
 HumTerm fit_term(const std::vector<double>& residuals, double step_s, double frequency_Hz) {
-  const double turn_c = std::cos(2.0 * std::numbers::pi * frequency_Hz * step_s);
-  const double turn_s = std::sin(2.0 * std::numbers::pi * frequency_Hz * step_s);
-  double c = 1.0;
-  double s = 0.0;
-  double cc = 0.0, cs = 0.0, rc = 0.0, rs = 0.0, used = 0.0;
-  for (const double r : residuals) {
-    const double present = r != 0.0 ? 1.0 : 0.0;
-    used += present;
-    cc += present * c * c;
-    cs += present * c * s;
-    rc += r * c;
-    rs += r * s;
-    const double next = c * turn_c - s * turn_s;
+  using Lanes = Eigen::Array4d;
+  const double step = 2.0 * std::numbers::pi * frequency_Hz * step_s;
+  const double turn_c = std::cos(4.0 * step);
+  const double turn_s = std::sin(4.0 * step);
+  Lanes c(1.0, std::cos(step), std::cos(2.0 * step), std::cos(3.0 * step));
+  Lanes s(0.0, std::sin(step), std::sin(2.0 * step), std::sin(3.0 * step));
+  Lanes sum_cc = Lanes::Zero(), sum_cs = Lanes::Zero(), sum_rc = Lanes::Zero(), sum_rs = Lanes::Zero();
+  Lanes sum_used = Lanes::Zero();
+  const auto add = [&](const Lanes& r) {
+    const Lanes present = (r != 0.0).cast<double>();
+    sum_used += present;
+    sum_cc += present * c * c;
+    sum_cs += present * c * s;
+    sum_rc += r * c;
+    sum_rs += r * s;
+    const Lanes next = c * turn_c - s * turn_s;
     s = c * turn_s + s * turn_c;
     c = next;
-  }
-  const double ss = used - cc;
+  };
+  std::size_t i = 0;
+  for (; i + 4 <= residuals.size(); i += 4) add(Eigen::Map<const Lanes>(&residuals[i]));
+  Lanes last = Lanes::Zero();
+  std::copy(residuals.begin() + static_cast<std::ptrdiff_t>(i), residuals.end(), last.data());
+  add(last);
+
+  const double cc = sum_cc.sum(), cs = sum_cs.sum(), rc = sum_rc.sum(), rs = sum_rs.sum();
+  const double ss = sum_used.sum() - cc;
   const double determinant = cc * ss - cs * cs;
   if (!(determinant > 0.0)) return {frequency_Hz, 0.0, 0.0};
   return {frequency_Hz, (rc * ss - rs * cs) / determinant, (rs * cc - rc * cs) / determinant};
@@ -97,10 +107,11 @@ double hum_amplitude(const BlockFit& fit) {
   return amplitude;
 }
 
-std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, const Residuals& residuals,
+std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, Residuals residuals,
                              const std::vector<std::size_t>& outliers) {
   if (!signal::clock_is_even(recording)) return {};
-  const std::vector<double> values = with_hum(recording, fit, residuals, outliers);
+  std::vector<double>& values = residuals.value;
+  put_hum_back(recording, fit, outliers, values);
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
   const std::size_t length = signal::good_length(values.size());
   const std::vector<double> power = signal::hann_power(values, length);

@@ -31,7 +31,7 @@ Means means_of(const BlockFit& fit, std::size_t cycle) {
   const CycleModel& model = fit.model(cycle);
   std::vector<double> residuals(model.residuals());
   model.evaluate(fit.parameters.shared.data(), fit.level_data(), fit.parameters.cycles[cycle].data(), residuals.data(),
-                 {});
+                 nullptr);
   std::array<Stack, kPhases> stacks;
   const CycleState state = fit.state(cycle);
   const CycleData& data = fit.data(cycle);

@@ -11,19 +11,19 @@ namespace {
 constexpr double kOutlierSigmas = 4.5;      // one false alarm in 150 000 normal samples
 constexpr double kUnexplainedRatio = 25.0;  // 5 standard deviations on average over a whole cycle
 
-void append_outliers(const Residuals& residuals, Phase phase, double noise, std::vector<std::size_t>& outliers) {
+/// Median size of the residuals in one phase, of every stride-th where they are many.
+double median_size(const Residuals& residuals, Phase phase) {
   const auto count = static_cast<std::size_t>(std::count(residuals.phase.begin(), residuals.phase.end(), phase));
   const std::size_t stride = signal::stride_for(count);
   std::vector<double> sizes;
   sizes.reserve(count / stride + 1);
-  std::size_t seen = 0;
+  std::size_t until_next = 1;
   for (std::size_t i = 0; i < residuals.value.size(); ++i) {
-    if (residuals.phase[i] == phase && seen++ % stride == 0) sizes.push_back(std::abs(residuals.value[i]));
+    if (residuals.phase[i] != phase || --until_next > 0) continue;
+    sizes.push_back(std::abs(residuals.value[i]));
+    until_next = stride;
   }
-  const double bound = kOutlierSigmas * std::max(1.4826 * signal::median(std::move(sizes)), noise);
-  for (std::size_t i = 0; i < residuals.value.size(); ++i) {
-    if (residuals.phase[i] == phase && std::abs(residuals.value[i]) > bound) outliers.push_back(i);
-  }
+  return signal::median(std::move(sizes));
 }
 
 }  // namespace
@@ -50,8 +50,18 @@ Residuals residuals_of(const Recording& recording, const BlockFit& fit, const st
 
 std::vector<std::size_t> find_outliers(const Residuals& residuals, double noise) {
   std::vector<std::size_t> outliers;
-  append_outliers(residuals, Phase::Slip, noise, outliers);
-  append_outliers(residuals, Phase::Stick, noise, outliers);
+  for (std::size_t i = 0; i < residuals.value.size(); ++i) {
+    if (std::abs(residuals.value[i]) > kOutlierSigmas * noise) outliers.push_back(i);
+  }
+  if (outliers.empty()) return outliers;
+  const auto bound_in = [&](Phase phase) {
+    return kOutlierSigmas * std::max(1.4826 * median_size(residuals, phase), noise);
+  };
+  const double stick_bound = bound_in(Phase::Stick);
+  const double slip_bound = bound_in(Phase::Slip);
+  std::erase_if(outliers, [&](std::size_t i) {
+    return std::abs(residuals.value[i]) <= (residuals.phase[i] == Phase::Slip ? slip_bound : stick_bound);
+  });
   return outliers;
 }
 
