@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/phasor.hpp"
+
 namespace slipfit::fit {
 
 void legendre(double x, std::size_t terms, double* values, double* derivatives) {
@@ -17,8 +19,23 @@ void legendre(double x, std::size_t terms, double* values, double* derivatives) 
   }
 }
 
+namespace {
+
+/// The step of evenly spaced times, 0 of others: samples left out, an uneven clock. A billionth of a step is far below
+/// any noise and far above the rounding of written times.
+double even_step_s(const std::vector<double>& time_s) {
+  if (time_s.size() < 2) return 0.0;
+  const double step_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    if (std::abs(time_s[i] - time_s.front() - step_s * static_cast<double>(i)) > 1e-9 * step_s) return 0.0;
+  }
+  return step_s;
+}
+
+}  // namespace
+
 CycleModel::CycleModel(const CycleData& data, const Scales& scales, double reference_s, const LevelModel& level)
-    : data_(&data), scales_(scales), reference_s_(reference_s), level_(level) {
+    : data_(&data), scales_(scales), reference_s_(reference_s), level_(level), even_step_s_(even_step_s(data.time_s)) {
   fill_basis();
 }
 
@@ -100,10 +117,20 @@ bool CycleModel::evaluate(const double* shared, const double* level, const doubl
         {scale_part, -scale_part + u * (p.d_tau * tau + p.d_log_omega), u * p.d_zeta,
          -u * p.d_tau * w * scales_.half_period_s, scales_.force * p.d_z0, scales_.force});
   };
+  // At even steps a slip's cosine and sine turn by the same angle from sample to sample.
+  const bool turns_evenly = even_step_s_ > 0.0 && s.lag_tau == 0.0;
+  model::Phasor phasor(s.zeta, s.slip.b, w * even_step_s_);
+  bool turning = false;
   for (std::size_t i = 0; i < data_->time_s.size(); ++i) {
     const double tau = w * (data_->time_s[i] - s.onset_s);
-    const double weight = data_->weight.empty() ? 1.0 : data_->weight[i];
-    put_point(weight / scales_.noise, data_->force[i], tau, wave_at(s, tau));
+    const double weight = (data_->weight.empty() ? 1.0 : data_->weight[i]) / scales_.noise;
+    if (turns_evenly && tau > 0.0 && tau <= s.slip.tau_end) {
+      turning ? phasor.step() : phasor.start(tau);
+      turning = true;
+      put_point(weight, data_->force[i], tau, slip_at(s, tau, phasor.c(), phasor.s()));
+    } else {
+      put_point(weight, data_->force[i], tau, wave_at(s, tau));
+    }
   }
   const auto put_bin = [&](const StickBin& bin, double tau, const model::WavePoint& p) {
     put_point(std::sqrt(bin.count) / scales_.noise, bin.force, tau, p);

@@ -86,6 +86,8 @@ class CycleModel {
  private:
   /// Force above the level in units of u, as the sensor sees it.
   [[nodiscard]] model::WavePoint wave_at(const CycleState& state, double tau) const;
+  /// In the slip, from exp(-zeta tau) cos b tau and exp(-zeta tau) sin b tau.
+  [[nodiscard]] model::WavePoint slip_at(const CycleState& state, double tau, double c, double bs) const;
   [[nodiscard]] model::WavePoint stick_before(const CycleState& state, double tau) const;
   [[nodiscard]] model::WavePoint stick_after(const CycleState& state, double tau) const;
   [[nodiscard]] model::WavePoint as_shown(const CycleState& state, model::WavePoint stick) const;
@@ -95,6 +97,7 @@ class CycleModel {
   Scales scales_;
   double reference_s_;
   LevelModel level_;
+  double even_step_s_ = 0.0;   ///< between the samples around the slip; 0 where they are not evenly spaced
   std::vector<double> basis_;  ///< level_.columns() values for every residual row (slopes for slope rows)
 };
 
@@ -137,9 +140,16 @@ inline model::WavePoint CycleModel::wave_at(const CycleState& state, double tau)
   const bool transmitted = scales_.view == ForceView::Transmitted;
   if (state.lag_tau > 0.0) return SensorLag{state.lag_tau, transmitted}.wave_at(state.slip, tau);
   if (tau > 0.0 && tau <= state.slip.tau_end) {
-    return transmitted ? model::transmitted_wave(state.slip, tau) : model::slip_wave(state.slip, tau);
+    const double decay = std::exp(-state.zeta * tau);
+    return slip_at(state, tau, decay * std::cos(state.slip.b * tau), decay * std::sin(state.slip.b * tau));
   }
   return tau <= 0.0 ? stick_before(state, tau) : stick_after(state, tau);
+}
+
+inline model::WavePoint CycleModel::slip_at(const CycleState& state, double tau, double c, double bs) const {
+  const double s = bs / state.slip.b;
+  return scales_.view == ForceView::Transmitted ? model::transmitted_wave(state.slip, tau, c, s)
+                                                : model::slip_wave(state.slip, tau, c, s);
 }
 
 inline model::WavePoint CycleModel::stick_before(const CycleState& state, double tau) const {

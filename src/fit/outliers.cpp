@@ -32,17 +32,21 @@ Residuals residuals_of(const Recording& recording, const BlockFit& fit, const st
   const auto time_s = recording.time_s();
   const auto force = recording.force();
   Residuals residuals{std::vector<double>(recording.size(), 0.0), std::vector<Phase>(recording.size(), Phase::None)};
+  const auto index_at = [&](double t_s) {
+    return static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), t_s) - time_s.begin());
+  };
   for (std::size_t c = 0; c < fit.size(); ++c) {
+    const CycleModel& model = fit.model(c);
     const CycleState state = fit.state(c);
     const double* own = fit.parameters.cycles[c].data();
     const double slip_end_s = state.onset_s + state.slip.tau_end / state.omega_rad_per_s;
-    auto i = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), fit.data(c).window_begin_s) -
-                                      time_s.begin());
-    for (; i < time_s.size() && time_s[i] < fit.data(c).window_end_s; ++i) {
+    const std::size_t end = index_at(fit.data(c).window_end_s);
+    for (std::size_t i = index_at(fit.data(c).window_begin_s); i < end; ++i) {
       if (!excluded.empty() && excluded[i]) continue;
-      residuals.value[i] = force[i] - fit.model(c).force_at(state, time_s[i], fit.level_data(), own) -
-                           fit.model(c).hum_at(time_s[i], fit.level_data());
-      residuals.phase[i] = time_s[i] > state.onset_s && time_s[i] < slip_end_s ? Phase::Slip : Phase::Stick;
+      const double t_s = time_s[i];
+      residuals.value[i] =
+          force[i] - model.force_at(state, t_s, fit.level_data(), own) - model.hum_at(t_s, fit.level_data());
+      residuals.phase[i] = t_s > state.onset_s && t_s < slip_end_s ? Phase::Slip : Phase::Stick;
     }
   }
   return residuals;

@@ -183,9 +183,8 @@ struct WavePoint {
   double d_log_omega = 0.0;  ///< at fixed tau: only where something else than the slip has a time of its own
 };
 
-/// The slip itself, 0 <= tau <= tau_end.
-/// From c = exp(-zeta tau) cos b tau and s = exp(-zeta tau) sin(b tau) / b.
-inline WavePoint wave_from(const Slip& slip, double tau, double c, double s) {
+/// The slip itself, 0 <= tau <= tau_end, from c = exp(-zeta tau) cos b tau and s = exp(-zeta tau) sin(b tau) / b.
+inline WavePoint slip_wave(const Slip& slip, double tau, double c, double s) {
   const double g = c + slip.zeta * s;  // d z / d z0
   const double ds_dzeta = -tau * s + slip.zeta / (slip.b * slip.b) * (s - tau * c);
   const double dg_dzeta = -tau * c + (1.0 + slip.zeta * tau) * s + slip.zeta * ds_dzeta;
@@ -195,15 +194,12 @@ inline WavePoint wave_from(const Slip& slip, double tau, double c, double s) {
 
 inline WavePoint slip_wave(const Slip& slip, double tau) {
   const double decay = std::exp(-slip.zeta * tau);
-  return wave_from(slip, tau, decay * std::cos(slip.b * tau), decay * std::sin(slip.b * tau) / slip.b);
+  return slip_wave(slip, tau, decay * std::cos(slip.b * tau), decay * std::sin(slip.b * tau) / slip.b);
 }
 
 /// The slip as the drive or the sample side feels it: z + 2 zeta z' (docs/model.md section 7). In stick z' = 1.
-inline WavePoint transmitted_wave(const Slip& slip, double tau) {
-  const WavePoint spring = slip_wave(slip, tau);
-  const double decay = std::exp(-slip.zeta * tau);
-  const double c = decay * std::cos(slip.b * tau);
-  const double s = decay * std::sin(slip.b * tau) / slip.b;
+inline WavePoint transmitted_wave(const Slip& slip, double tau, double c, double s) {
+  const WavePoint spring = slip_wave(slip, tau, c, s);
   const double ds_dzeta = -tau * s + slip.zeta / (slip.b * slip.b) * (s - tau * c);
   const double ddz_dzeta = tau * (slip.zeta * s - c) - s - (slip.z0 + slip.zeta) * ds_dzeta;  // d z' / d zeta
   const double drag = 2.0 * slip.zeta;
