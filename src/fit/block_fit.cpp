@@ -21,7 +21,7 @@ class CycleCost : public ceres::CostFunction {
       : model_(model),
         residuals_(model.residuals()),
         jacobian_(model.residuals(), model.columns()),
-        reduced_rows_(jacobian_.cols()) {
+        reduced_(model.columns() + 1, model.columns() + 1) {
     set_num_residuals(static_cast<int>(model.columns() + 1));
     for (const std::size_t size : {kShared, model.level_parameters(), model.own_parameters()}) {
       if (size > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(size));
@@ -38,17 +38,19 @@ class CycleCost : public ceres::CostFunction {
       std::fill_n(residuals, num_residuals(), 0.0);
       residuals[0] = residuals_.norm();
     } else {
-      put_reduced(reduced_rows_.reduce(jacobian_, residuals_), residuals, jacobians);
+      reduce_rows(jacobian_, residuals_, reduced_);
+      put_reduced(residuals, jacobians);
     }
     return true;
   }
 
  private:
-  void put_reduced(const RowMajor& rows, double* residuals, double** jacobians) const {
-    Eigen::Map<Eigen::VectorXd>(residuals, rows.rows()) = rows.rightCols<1>();
+  void put_reduced(double* residuals, double** jacobians) const {
+    Eigen::Map<Eigen::VectorXd>(residuals, reduced_.rows()) = reduced_.rightCols<1>();
     Eigen::Index column = 0;
     for (const int size : parameter_block_sizes()) {
-      if (*jacobians != nullptr) Eigen::Map<RowMajor>(*jacobians, rows.rows(), size) = rows.middleCols(column, size);
+      if (*jacobians != nullptr)
+        Eigen::Map<RowMajor>(*jacobians, reduced_.rows(), size) = reduced_.middleCols(column, size);
       column += size;
       ++jacobians;
     }
@@ -56,8 +58,8 @@ class CycleCost : public ceres::CostFunction {
 
   const CycleModel& model_;
   mutable Eigen::VectorXd residuals_;
-  mutable RowMajor jacobian_;
-  mutable ReducedRows reduced_rows_;
+  mutable Eigen::MatrixXd jacobian_;
+  mutable RowMajor reduced_;
 };
 
 /// Parameter blocks: shared, own of the first cycle, own of the second.

@@ -40,7 +40,7 @@ Slopes slopes_of(const BlockFit& fit, std::size_t cycle) {
   for (std::size_t j = 0; j < data.time_s.size(); ++j) {
     const double unit = fit.scales().noise / (data.weight.empty() ? 1.0 : data.weight[j]);
     result.residual.push_back(residuals[j] * unit);
-    result.slope.push_back(jacobian[j * model.columns() + onset] * unit / fit.scales().half_period_s);
+    result.slope.push_back(jacobian[onset * model.residuals() + j] * unit / fit.scales().half_period_s);
   }
   return result;
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "fit/reduced_rows.hpp"
 #include "fit/uncertainty.hpp"
 
 namespace slipfit::fit {
@@ -26,7 +25,7 @@ Linearised linearise(const BlockFit& fit, std::size_t cycle) {
   const auto rows = static_cast<Index>(model.residuals());
   Linearised result;
   result.residuals.resize(rows);
-  RowMajor jacobian(rows, static_cast<Index>(model.columns()));
+  MatrixXd jacobian(rows, static_cast<Index>(model.columns()));
   model.evaluate(fit.parameters.shared.data(), fit.level_data(), fit.parameters.cycles[cycle].data(),
                  result.residuals.data(), jacobian.data());
   result.common = jacobian.leftCols(common_size(fit));

@@ -92,6 +92,7 @@ bool CycleModel::evaluate(const double* shared, const double* level, const doubl
   const double u = s.force_scale;
   const double w = s.omega_rad_per_s;
   const double rate = u * w;  // k V
+  const auto rows = static_cast<std::ptrdiff_t>(this->residuals());
   const std::size_t columns = level_.columns();
   const double* basis = basis_.data();
   const auto level_part = [&] {
@@ -103,9 +104,14 @@ bool CycleModel::evaluate(const double* shared, const double* level, const doubl
   const auto put = [&](double weight, double difference, const std::array<double, 6>& gradient) {
     *residuals++ = weight * difference;
     if (jacobian != nullptr) {
-      for (std::size_t i = 0; i < kShared; ++i) *jacobian++ = -weight * gradient[i];
-      for (std::size_t i = 0; i < columns; ++i) *jacobian++ = -weight * scales_.force * basis[i];
-      for (std::size_t i = kShared; i < kShared + own_parameters(); ++i) *jacobian++ = -weight * gradient[i];
+      double* at = jacobian++;
+      const auto put_column = [&](double value) {
+        *at = -weight * value;
+        at += rows;
+      };
+      for (std::size_t i = 0; i < kShared; ++i) put_column(gradient[i]);
+      for (std::size_t i = 0; i < columns; ++i) put_column(scales_.force * basis[i]);
+      for (std::size_t i = kShared; i < kShared + own_parameters(); ++i) put_column(gradient[i]);
     }
     basis += columns;
   };

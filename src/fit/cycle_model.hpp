@@ -71,8 +71,8 @@ class CycleModel {
   /// The level's columns at every residual row, the constant first; of slope rows their slopes.
   [[nodiscard]] const std::vector<double>& basis() const { return basis_; }
 
-  /// Residuals and, unless null, their Jacobian (residuals() x columns(), row-major). Empty slip (lambda <= 0) has no
-  /// solution: false, outputs untouched.
+  /// Residuals and, unless null, their Jacobian (residuals() x columns(), column after column). Empty slip (lambda <=
+  /// 0) has no solution: false, outputs untouched.
   bool evaluate(const double* shared, const double* level, const double* own, double* residuals,
                 double* jacobian) const;
 

@@ -1,19 +1,30 @@
 #include "fit/reduced_rows.hpp"
 
+#include <cmath>
+
 namespace slipfit::fit {
 
-const RowMajor& ReducedRows::reduce(const RowMajor& jacobian, const Eigen::VectorXd& residuals) {
+void reduce_rows(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals, RowMajor& reduced) {
   const Eigen::Index columns = jacobian.cols();
-  products_.topLeftCorner(columns, columns).noalias() = jacobian.transpose() * jacobian;
-  products_.row(columns).head(columns).noalias() = residuals.transpose() * jacobian;
-  products_(columns, columns) = residuals.squaredNorm();
-  // Pivots go by size: a parameter without influence ends as a row of zeros, not as a failure.
-  ldlt_.compute(products_);
-  reduced_.setIdentity(columns + 1, columns + 1);
-  reduced_ = ldlt_.transpositionsP() * reduced_;
-  reduced_ = ldlt_.matrixU() * reduced_;
-  reduced_.array().colwise() *= ldlt_.vectorD().array().max(0.0).sqrt();
-  return reduced_;
+  reduced.setZero();
+  for (Eigen::Index a = 0; a < columns; ++a) {
+    for (Eigen::Index b = a; b < columns; ++b) reduced(a, b) = jacobian.col(a).dot(jacobian.col(b));
+    reduced(a, columns) = jacobian.col(a).dot(residuals);
+  }
+  reduced(columns, columns) = residuals.squaredNorm();
+  // Cholesky's decomposition in place. What a column adds to those before it may be nothing but rounding: a parameter
+  // without influence of its own leaves a row of zeros.
+  constexpr double kRounding = 1e-15;
+  for (Eigen::Index k = 0; k <= columns; ++k) {
+    const double whole = reduced(k, k);
+    auto row = reduced.row(k).tail(columns + 1 - k);
+    for (Eigen::Index i = 0; i < k; ++i) row -= reduced(i, k) * reduced.row(i).tail(columns + 1 - k);
+    if (reduced(k, k) > kRounding * whole) {
+      row /= std::sqrt(reduced(k, k));
+    } else {
+      row.setZero();
+    }
+  }
 }
 
 }  // namespace slipfit::fit
