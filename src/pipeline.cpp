@@ -45,6 +45,9 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   analysis.cycles = summarise_cycles(recording, signals.segmentation, fit ? &*fit : nullptr);
   analysis.cycle_table = fit ? fit->cycles : fit::detected_cycles(recording, signals.segmentation);
   if (fit && analysis.verdict != Verdict::StickSlip) withdraw_parameters(*fit);
+  if (fit && analysis.frequency.quoted.value) {
+    doubt_in_step_with_mains(*fit, *analysis.frequency.quoted.value, recording.duration_s());
+  }
   if (fit) analysis.derived = derive_from_model(*fit, recording.conditions());
   if (!fit && recording.conditions().measured_spacing_m) {
     analysis.derived.measured_spacing_En = Estimate{{}, {}, {}, "needs a fitted model"};

@@ -12,6 +12,7 @@
 #include "fit/mains_hum.hpp"
 #include "fit/parameters.hpp"
 #include "fit/tiers.hpp"
+#include "signal/mains.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -112,6 +113,21 @@ void withdraw_parameters(FitResult& fit) {
   }
   fit.correlation.reset();
   fit.estimate.reset();
+}
+
+void doubt_in_step_with_mains(FitResult& fit, double frequency_Hz, double duration_s) {
+  constexpr int kHidingHarmonics = 2;
+  const std::optional<double> mains_Hz = signal::mains_in_step(frequency_Hz, kHidingHarmonics, duration_s);
+  if (!mains_Hz) return;
+  const std::string reason = fmt::format("in step with {:.0f} Hz mains: hum would hide in the cycles", *mains_Hz);
+  for (Parameter& parameter : fit.parameters) {
+    if (parameter.status != ParameterStatus::Identified) continue;
+    parameter.status = ParameterStatus::Weak;
+    parameter.estimate.note = reason;
+  }
+  fit.warnings.push_back({"mains_in_step", fmt::format("the cycles ({:.4g} Hz) keep {}; another speed, or a longer "
+                                                       "recording, tells them apart",
+                                                       frequency_Hz, reason)});
 }
 
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,

@@ -12,6 +12,7 @@
 namespace slipfit::signal {
 namespace {
 
+constexpr std::array kMains_Hz{50.0, 60.0};
 constexpr int kMostHarmonics = 20;
 
 /// Half of the width that a line takes, which wanders with the mains.
@@ -73,7 +74,7 @@ std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, d
 std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz) {
   std::vector<MainsLine> lines;
   const double highest_Hz = bin_Hz * (static_cast<double>(power.size()) - 2.0);
-  for (const double mains_Hz : {50.0, 60.0}) {
+  for (const double mains_Hz : kMains_Hz) {
     bool has_lower = false;
     for (int order = 1; order <= kMostHarmonics && mains_Hz * order < highest_Hz; ++order) {
       if (mains_Hz * order < 4.0 * resolution_Hz) continue;
@@ -87,6 +88,16 @@ std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, 
     }
   }
   return lines;
+}
+
+std::optional<double> mains_in_step(double frequency_Hz, int harmonics, double duration_s) {
+  constexpr double kTurns = 1.5;
+  for (const double mains_Hz : kMains_Hz) {
+    for (int order = 1; order <= harmonics; ++order) {
+      if (std::abs(order * frequency_Hz - mains_Hz) * duration_s < kTurns) return mains_Hz;
+    }
+  }
+  return std::nullopt;
 }
 
 std::string describe(const MainsLine& line) {

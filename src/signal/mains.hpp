@@ -24,6 +24,10 @@ std::string describe(const MainsLine& line);
 /// The spectrum with the line replaced by the level beside it.
 void flatten(std::vector<double>& power, double bin_Hz, double resolution_Hz, const MainsLine& line);
 
+/// 50 or 60 Hz where a multiple of the frequency, up to `harmonics`, is nearer to it than 1.5 resolutions: over the
+/// whole duration the two drift apart by no more than one and a half turns.
+std::optional<double> mains_in_step(double frequency_Hz, int harmonics, double duration_s);
+
 /// The lines, without those of a mains with which the counted slips agree.
 std::vector<MainsLine> without_hinted(std::vector<MainsLine> lines, std::optional<double> hint_Hz);
 

@@ -1,9 +1,12 @@
 // The regions of docs/accuracy/failures_fit_start.svg, failures_fit_sampling.svg, failures_fit_scatter.svg and
 // failures_fit_hum.svg.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <utility>
 
 #include "scoring.hpp"
+#include "slipfit/model/simulation.hpp"
 
 namespace {
 
@@ -81,5 +84,34 @@ TEST_CASE(
     atlas::Factors factors;
     factors.hum = hum;
     for_each_fit(factors, check_not_confidently_wrong);
+  }
+}
+
+TEST_CASE("hum in step with the cycles: nothing is identified (once k was a quarter off, with 50 standard errors)") {
+  // 49.3 Hz, and 31.2 Hz whose second harmonic lies near 60 Hz, for half a second
+  for (const double speed_m_per_s : {0.0224, 0.0098}) {
+    for (const double hum_N : {0.0, 0.02, 0.06}) {
+      const auto slider = slipfit::Slider::create(1573.2, 379.0, 0.0717).value();
+      const auto friction = slipfit::Friction::create(1.2, 1.0).value();
+      slipfit::SimulationOptions options;
+      options.duration_s = 0.5;
+      options.sample_rate_Hz = 5000.0;
+      options.noise_rms_N = 0.0035;
+      options.hum_N = hum_N;
+      slipfit::SimulatedTrace trace = simulate(slider, friction, speed_m_per_s, options);
+      slipfit::Conditions conditions;
+      conditions.speed_m_per_s = speed_m_per_s;
+      const auto recording =
+          slipfit::Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value();
+      const slipfit::Analysis analysis = slipfit::analyze_and_fit(recording, {});
+      INFO(speed_m_per_s << " m/s, hum " << hum_N << " N, " << analysis.frequency.quoted.value.value_or(0.0) << " Hz");
+      if (analysis.verdict != slipfit::Verdict::StickSlip) continue;
+      REQUIRE(analysis.fit);
+      for (const slipfit::Parameter& parameter : analysis.fit->parameters) {
+        CHECK(parameter.status != slipfit::ParameterStatus::Identified);
+      }
+      CHECK(std::any_of(analysis.warnings.begin(), analysis.warnings.end(),
+                        [](const auto& warning) { return warning.code == "mains_in_step"; }));
+    }
   }
 }

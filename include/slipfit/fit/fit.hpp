@@ -134,6 +134,11 @@ struct FitResult {
 /// Takes every number back that is not fixed by the user: the motion is not the model's stick-slip.
 void withdraw_parameters(FitResult& fit);
 
+/// Where the cycles, or their second harmonic, keep in step with the mains all along, hum would hide in them (in 73 of
+/// 1200 simulated recordings with hum they did, among them all 8 wrong by more than 4 standard errors; none with the
+/// third): nothing is identified then, with a warning.
+void doubt_in_step_with_mains(FitResult& fit, double frequency_Hz, double duration_s);
+
 /// Fits every tier to the cycles and chooses. Empty where fewer than 3 cycles can be fitted.
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
                                        const Segmentation& segmentation, const FitOptions& options);
