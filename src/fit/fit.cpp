@@ -116,8 +116,8 @@ void withdraw_parameters(FitResult& fit) {
 }
 
 void doubt_in_step_with_mains(FitResult& fit, double frequency_Hz, double duration_s) {
-  constexpr int kHidingHarmonics = 2;
-  const std::optional<double> mains_Hz = signal::mains_in_step(frequency_Hz, kHidingHarmonics, duration_s);
+  const int harmonics = fit.evidence.hum_share > 0.0 ? 2 : 1;
+  const std::optional<double> mains_Hz = signal::mains_in_step(frequency_Hz, harmonics, duration_s);
   if (!mains_Hz) return;
   const std::string reason = fmt::format("in step with {:.0f} Hz mains: hum would hide in the cycles", *mains_Hz);
   for (Parameter& parameter : fit.parameters) {
@@ -125,8 +125,8 @@ void doubt_in_step_with_mains(FitResult& fit, double frequency_Hz, double durati
     parameter.status = ParameterStatus::Weak;
     parameter.estimate.note = reason;
   }
-  fit.warnings.push_back({"mains_in_step", fmt::format("the cycles ({:.4g} Hz) keep {}; another speed, or a longer "
-                                                       "recording, tells them apart",
+  fit.warnings.push_back({"mains_in_step", fmt::format("the cycles ({:.4g} Hz) keep {}; another speed or a longer "
+                                                       "recording sets them apart",
                                                        frequency_Hz, reason)});
 }
 

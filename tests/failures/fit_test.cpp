@@ -90,7 +90,7 @@ TEST_CASE(
 TEST_CASE("hum in step with the cycles: nothing is identified (once k was a quarter off, with 50 standard errors)") {
   // 49.3 Hz, and 31.2 Hz whose second harmonic lies near 60 Hz, for half a second
   for (const double speed_m_per_s : {0.0224, 0.0098}) {
-    for (const double hum_N : {0.0, 0.02, 0.06}) {
+    for (const double hum_N : {0.02, 0.04, 0.06}) {
       const auto slider = slipfit::Slider::create(1573.2, 379.0, 0.0717).value();
       const auto friction = slipfit::Friction::create(1.2, 1.0).value();
       slipfit::SimulationOptions options;

@@ -134,9 +134,9 @@ struct FitResult {
 /// Takes every number back that is not fixed by the user: the motion is not the model's stick-slip.
 void withdraw_parameters(FitResult& fit);
 
-/// Where the cycles, or their second harmonic, keep in step with the mains all along, hum would hide in them (in 73 of
-/// 1200 simulated recordings with hum they did, among them all 8 wrong by more than 4 standard errors; none with the
-/// third): nothing is identified then, with a warning.
+/// Cycles in step with the mains all along: hum would hide in them and change what they tell, so nothing is identified.
+/// The same where hum was found and the second harmonic is in step. Of 1200 simulated recordings with hum 73 were such,
+/// among them all 8 that were wrong by more than 4 standard errors; the third harmonic did no harm.
 void doubt_in_step_with_mains(FitResult& fit, double frequency_Hz, double duration_s);
 
 /// Fits every tier to the cycles and chooses. Empty where fewer than 3 cycles can be fitted.
