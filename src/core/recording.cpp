@@ -22,6 +22,15 @@ double median_positive_step(const std::vector<double>& time_s) {
   return *middle;
 }
 
+bool is_even(const std::vector<double>& time_s) {
+  const double step = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    worst = std::max(worst, std::abs(time_s[i] - time_s.front() - step * static_cast<double>(i)));
+  }
+  return worst < 0.25 * step;
+}
+
 }  // namespace
 
 Result<Recording> Recording::create(std::vector<double> time_s, std::vector<double> force, Conditions conditions,
@@ -39,6 +48,7 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
   }
   Recording recording;
   recording.sample_interval_s_ = median_positive_step(time_s);
+  recording.clock_is_even_ = is_even(time_s);
   recording.time_s_ = std::move(time_s);
   recording.force_ = std::move(force);
   recording.conditions_ = conditions;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "signal/mains.hpp"
 #include "signal/transform.hpp"
@@ -18,9 +19,8 @@ struct HumTerm {
 };
 
 /// Residuals with the fitted hum put back; outliers, which would smear over the spectrum, are 0.
-std::vector<double> with_hum(const Recording& recording, const BlockFit& fit, const Residuals& residuals,
+std::vector<double> with_hum(const Recording& recording, const BlockFit& fit, std::vector<double> values,
                              const std::vector<std::size_t>& outliers) {
-  std::vector<double> values = residuals.value;
   for (const std::size_t sample : outliers) values[sample] = 0.0;
   if (fit.level().lines_Hz.empty()) return values;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -97,10 +97,10 @@ double hum_amplitude(const BlockFit& fit) {
   return amplitude;
 }
 
-std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, const Residuals& residuals,
+std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
                              const std::vector<std::size_t>& outliers) {
-  if (!signal::clock_is_even(recording)) return {};
-  const std::vector<double> values = with_hum(recording, fit, residuals, outliers);
+  if (!recording.clock_is_even()) return {};
+  const std::vector<double> values = with_hum(recording, fit, std::move(residuals), outliers);
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
   const std::size_t length = signal::good_length(values.size());
   const std::vector<double> power = signal::hann_power(values, length);
