@@ -100,7 +100,7 @@ void write_results(const AnalysisArguments& arguments, const slipfit::Recording&
 
 /// One recording, then the end: what is freed serves the next array and does not go back to the system, which would
 /// make every page a fault again (a tenth of the time of a fit). Not for long ones, where holes would add up.
-void keep_memory_for(const std::string& file) {
+void keep_memory_for([[maybe_unused]] const std::string& file) {
 #ifdef __GLIBC__
   constexpr std::uintmax_t kLong = std::uintmax_t{64} << 20U;
   std::error_code error;
