@@ -63,7 +63,6 @@ class Fitter {
   static constexpr double kSuspectChi2 = 1.2;
   /// F ratio of one level a cycle against the polynomial; far beyond chance for the 12 and more cycles it is used with.
   static constexpr double kWanderingRatio = 3.0;
-
   /// Wandering that shows in the middles of well sampled slips: this much of the drop and of the noise is left
   /// unexplained.
   static constexpr double kWanderingShare = 0.03;
@@ -95,13 +94,6 @@ class Fitter {
     const bool wanders = well_sampled && left > kWanderingShare * 2.0 * scales_.force &&
                          left > kWanderingNoises * scales_.noise && cycles_.size() >= kProbeCycles;
     return {wanders, wanders ? 0 : terms, segmentation_.mains_Hz};
-  }
-
-  static std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size) {
-    if (cycles.size() <= size) return cycles;
-    std::vector<CycleData> subset;
-    for (std::size_t i = 0; i < size; ++i) subset.push_back(cycles[i * (cycles.size() - 1) / (size - 1)]);
-    return subset;
   }
 
   std::vector<double> middles_s(const std::vector<CycleData>& cycles) const {
