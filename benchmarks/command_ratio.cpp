@@ -121,6 +121,7 @@ int main(int count, char** words) {
   std::vector<double> transform;
   std::vector<double> whole;
   std::vector<double> ratios;
+  std::vector<double> processor;
   std::vector<double> processor_ratios;
   double peak_MB = 0.0;
   std::size_t samples = 0;
@@ -136,13 +137,14 @@ int main(int count, char** words) {
     transform.push_back(floor.transform_ms);
     whole.push_back(command.ms);
     ratios.push_back(command.ms / (floor.parse_ms + floor.transform_ms));
+    processor.push_back(command.processor_ms);
     processor_ratios.push_back(command.processor_ms / floor.processor_ms);
     peak_MB = std::max(peak_MB, command.peak_MB);
     samples = floor.samples;
   }
   fmt::print("samples {}\nparse_ms {:.1f}\ntransform_ms {:.1f}\nwhole_command_ms {:.1f}\nratio_median {:.2f}\n",
              samples, median(parse), median(transform), median(whole), median(ratios));
-  fmt::print("processor_ratio_median {:.2f}\n", median(processor_ratios));
+  fmt::print("processor_ms {:.1f}\nprocessor_ratio_median {:.2f}\n", median(processor), median(processor_ratios));
   fmt::print("ratio_range {:.2f} {:.2f}\npeak_memory_MB {:.1f}\nbytes_a_sample_above_60_MB {:.1f}\n",
              *std::min_element(ratios.begin(), ratios.end()), *std::max_element(ratios.begin(), ratios.end()), peak_MB,
              std::max(0.0, (peak_MB - 60.0) * 1048576.0 / static_cast<double>(samples)));

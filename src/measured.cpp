@@ -43,12 +43,15 @@ MeanAndSpread describe(const std::vector<double>& values) {
 std::vector<double> intervals_s(const Recording& recording, const Segmentation& segmentation) {
   const auto time_s = recording.time_s();
   const double gap_s = kGapSteps * recording.sample_interval_s();
+  const bool may_have_gaps = !recording.clock_is_even();
   std::vector<double> intervals;
   for (std::size_t i = 2; i < segmentation.slips.size(); ++i) {
     const DetectedSlip& first = segmentation.slips[i - 1];
     const DetectedSlip& second = segmentation.slips[i];
     bool whole = true;
-    for (std::size_t j = first.peak + 1; j <= second.trough; ++j) whole = whole && time_s[j] - time_s[j - 1] <= gap_s;
+    for (std::size_t j = first.peak + 1; may_have_gaps && j <= second.trough; ++j) {
+      whole = whole && time_s[j] - time_s[j - 1] <= gap_s;
+    }
     if (whole) intervals.push_back(second.middle_s - first.middle_s);
   }
   return intervals;

@@ -7,19 +7,56 @@
 namespace slipfit {
 namespace {
 
+// Counted, not searched: without a way out of the loop the compiler works on several values at once.
 bool all_finite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  return std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }) == 0;
 }
 
-double median_positive_step(const std::vector<double>& time_s) {
+std::vector<double> positive_steps(const std::vector<double>& time_s, std::size_t stride) {
   std::vector<double> steps;
-  steps.reserve(time_s.size());
-  for (std::size_t i = 1; i < time_s.size(); ++i) {
+  steps.reserve(time_s.size() / stride + 1);
+  for (std::size_t i = 1; i < time_s.size(); i += stride) {
     if (time_s[i] > time_s[i - 1]) steps.push_back(time_s[i] - time_s[i - 1]);
   }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
+  return steps;
+}
+
+double upper_median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// A clock's steps take few values, so that the median of some of them is mostly that of all, which counting proves.
+double median_positive_step(const std::vector<double>& time_s) {
+  constexpr std::size_t kSome = 16;
+  const std::vector<double> some = positive_steps(time_s, kSome);
+  if (some.empty()) return upper_median(positive_steps(time_s, 1));
+  const double guess = upper_median(some);
+  std::size_t positive = 0;
+  std::size_t below = 0;
+  std::size_t equal = 0;
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    const double step = time_s[i] - time_s[i - 1];
+    positive += step > 0.0 ? 1U : 0U;
+    below += step > 0.0 && step < guess ? 1U : 0U;
+    equal += step == guess ? 1U : 0U;
+  }
+  const bool is_median = below <= positive / 2 && positive / 2 < below + equal;
+  return is_median ? guess : upper_median(positive_steps(time_s, 1));
+}
+
+bool is_even(const std::vector<double>& time_s) {
+  const double begin = time_s.front();
+  const double step = (time_s.back() - begin) / static_cast<double>(time_s.size() - 1);
+  const double bound = 0.25 * step;
+  std::size_t off = 0;
+  double place = 0.0;
+  for (const double time : time_s) {
+    off += std::abs(time - begin - step * place) < bound ? 0U : 1U;
+    place += 1.0;
+  }
+  return off == 0;
 }
 
 }  // namespace
@@ -39,6 +76,7 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
   }
   Recording recording;
   recording.sample_interval_s_ = median_positive_step(time_s);
+  recording.clock_is_even_ = is_even(time_s);
   recording.time_s_ = std::move(time_s);
   recording.force_ = std::move(force);
   recording.conditions_ = conditions;

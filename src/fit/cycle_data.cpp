@@ -172,4 +172,11 @@ std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation
   return Cutter(recording, segmentation, half_width_s, excluded, hum).cut();
 }
 
+std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size) {
+  if (cycles.size() <= size) return cycles;
+  std::vector<CycleData> subset;
+  for (std::size_t i = 0; i < size; ++i) subset.push_back(cycles[i * (cycles.size() - 1) / (size - 1)]);
+  return subset;
+}
+
 }  // namespace slipfit::fit

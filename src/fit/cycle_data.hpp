@@ -70,4 +70,7 @@ struct CycleData {
 std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,
                                   const std::vector<bool>& excluded, const HumLines& hum = {});
 
+/// So many of the cycles, from the first to the last; all where there are no more. `size`: at least 2.
+std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size);
+
 }  // namespace slipfit::fit

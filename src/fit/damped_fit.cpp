@@ -46,7 +46,8 @@ class Fitter {
     std::optional<BlockFit> start = fit_probe(probe, level);
     if (!start) return std::nullopt;
     if (is_hopeless(*start)) return finish(std::move(*start));
-    std::optional<BlockFit> fit = fit_from(cycles_, start->level(), start->parameters.shared, kMaxIterations, kRough);
+    std::optional<BlockFit> fit =
+        fit_from(std::move(cycles_), start->level(), start->parameters.shared, kMaxIterations, kRough);
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
     if (quality_.clock_jitter > kUnevenClock) fit = with_clock_weights(std::move(*fit));
@@ -62,7 +63,6 @@ class Fitter {
   static constexpr double kSuspectChi2 = 1.2;
   /// F ratio of one level a cycle against the polynomial; far beyond chance for the 12 and more cycles it is used with.
   static constexpr double kWanderingRatio = 3.0;
-
   /// Wandering that shows in the middles of well sampled slips: this much of the drop and of the noise is left
   /// unexplained.
   static constexpr double kWanderingShare = 0.03;
@@ -94,13 +94,6 @@ class Fitter {
     const bool wanders = well_sampled && left > kWanderingShare * 2.0 * scales_.force &&
                          left > kWanderingNoises * scales_.noise && cycles_.size() >= kProbeCycles;
     return {wanders, wanders ? 0 : terms, segmentation_.mains_Hz};
-  }
-
-  static std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size) {
-    if (cycles.size() <= size) return cycles;
-    std::vector<CycleData> subset;
-    for (std::size_t i = 0; i < size; ++i) subset.push_back(cycles[i * (cycles.size() - 1) / (size - 1)]);
-    return subset;
   }
 
   std::vector<double> middles_s(const std::vector<CycleData>& cycles) const {
@@ -164,9 +157,10 @@ class Fitter {
     return fit;
   }
 
-  std::optional<BlockFit> fit_from(const std::vector<CycleData>& cycles, LevelModel level, const Shared& shared,
+  std::optional<BlockFit> fit_from(std::vector<CycleData> cycles, LevelModel level, const Shared& shared,
                                    int max_iterations, double tolerance) const {
-    BlockFit fit(cycles, middles_s(cycles), scales_, level);
+    std::vector<double> middles = middles_s(cycles);
+    BlockFit fit(std::move(cycles), std::move(middles), scales_, level);
     set_start(fit, segmentation_, shared);
     if (!std::isfinite(fit.solve({held_, false, true, max_iterations, tolerance}))) return std::nullopt;
     return fit;
@@ -202,7 +196,7 @@ class Fitter {
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
-      const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals), outliers);
+      const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals.value), outliers);
       if (outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty()) {
         if (pass == 0) fit.solve({held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
         return fit;
@@ -211,7 +205,7 @@ class Fitter {
       for (const std::size_t sample : outliers) excluded_[sample] = true;
       for (const std::size_t sample : censored) excluded_[sample] = true;
       outliers_ += outliers.size();
-      std::optional<BlockFit> next = refit(fit, bad, lines_Hz);
+      std::optional<BlockFit> next = refit(std::move(fit), bad, lines_Hz);
       if (!next) return std::nullopt;
       fit = std::move(*next);
       const double hum_power = 0.5 * std::pow(hum_amplitude(fit), 2);
@@ -233,9 +227,15 @@ class Fitter {
     return fit;
   }
 
-  /// Cuts again without the slips `bad`, with hum lines in the level, and fits from the present solution.
-  std::optional<BlockFit> refit(const BlockFit& fit, const std::vector<std::size_t>& bad,
+  /// Cuts again without the slips `bad`, with hum lines in the level, and fits from the present solution, whose cycles
+  /// make room for the new ones.
+  std::optional<BlockFit> refit(BlockFit fit, const std::vector<std::size_t>& bad,
                                 const std::vector<double>& lines_Hz) const {
+    const Parameters start = std::move(fit.parameters);
+    LevelModel level = fit.level();
+    std::vector<std::size_t> slips;
+    for (std::size_t i = 0; i < fit.size(); ++i) slips.push_back(fit.data(i).slip);
+    { const BlockFit released = std::move(fit); }
     std::vector<CycleData> kept;
     const HumLines hum{lines_Hz, scales_.time_begin_s};
     for (CycleData& cycle : cut_cycles(recording_, segmentation_, half_width_s(), excluded_, hum)) {
@@ -246,15 +246,15 @@ class Fitter {
       }
     }
     if (kept.size() < kMinCycles) return std::nullopt;
-    LevelModel level = fit.level();
     level.lines_Hz = lines_Hz;
-    BlockFit refit(kept, middles_s(kept), scales_, level);
-    refit.parameters.shared = fit.parameters.shared;
-    std::copy_n(fit.parameters.level.begin(), level.terms, refit.parameters.level.begin());
+    std::vector<double> middles = middles_s(kept);
+    BlockFit refit(std::move(kept), std::move(middles), scales_, level);
+    refit.parameters.shared = start.shared;
+    std::copy_n(start.level.begin(), level.terms, refit.parameters.level.begin());
     std::size_t old = 0;
     for (std::size_t i = 0; i < refit.size(); ++i) {
-      while (old + 1 < fit.size() && fit.data(old).slip < refit.data(i).slip) ++old;  // a last slip may be new
-      refit.parameters.cycles[i] = fit.parameters.cycles[old];
+      while (old + 1 < slips.size() && slips[old] < refit.data(i).slip) ++old;  // a last slip may be new
+      refit.parameters.cycles[i] = start.cycles[old];
     }
     if (!std::isfinite(refit.solve({held_, false, true, kMaxIterations, kFinal}))) return std::nullopt;
     return refit;

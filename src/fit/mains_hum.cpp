@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "signal/mains.hpp"
 #include "signal/transform.hpp"
@@ -18,13 +19,13 @@ struct HumTerm {
   double sine = 0.0;
 };
 
-/// Residuals with the fitted hum put back; outliers, which would smear over the spectrum, become 0.
-void put_hum_back(const Recording& recording, const BlockFit& fit, const std::vector<std::size_t>& outliers,
-                  std::vector<double>& residuals) {
-  for (const std::size_t sample : outliers) residuals[sample] = 0.0;
-  if (fit.level().lines_Hz.empty()) return;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if (residuals[i] != 0.0) residuals[i] += fit.model(0).hum_at(recording.time_s()[i], fit.level_data());
+/// Residuals with the fitted hum put back; outliers, which would smear over the spectrum, are 0.
+std::vector<double> with_hum(const Recording& recording, const BlockFit& fit, std::vector<double> values,
+                             const std::vector<std::size_t>& outliers) {
+  for (const std::size_t sample : outliers) values[sample] = 0.0;
+  if (fit.level().lines_Hz.empty()) return values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] != 0.0) values[i] += fit.model(0).hum_at(recording.time_s()[i], fit.level_data());
   }
 }
 
@@ -107,11 +108,10 @@ double hum_amplitude(const BlockFit& fit) {
   return amplitude;
 }
 
-std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, Residuals residuals,
+std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
                              const std::vector<std::size_t>& outliers) {
-  if (!signal::clock_is_even(recording)) return {};
-  std::vector<double>& values = residuals.value;
-  put_hum_back(recording, fit, outliers, values);
+  if (!recording.clock_is_even()) return {};
+  const std::vector<double> values = with_hum(recording, fit, std::move(residuals), outliers);
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
   const std::size_t length = signal::good_length(values.size());
   const std::vector<double> power = signal::hann_power(values, length);

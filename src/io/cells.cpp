@@ -53,14 +53,18 @@ Parsed parse_comma(std::string_view text) {
 }
 
 Parsed parse(std::string_view text, bool decimal_comma) {
+  const ShortDecimal quick = read_short_decimal(text.data(), text.data() + text.size(), decimal_comma ? ',' : '.');
+  if (quick.is_number && quick.end == text.data() + text.size()) return {quick.value, text.size()};
   return decimal_comma ? parse_comma(text) : parse_point(text);
 }
 
 bool is_missing(std::string_view text) {
-  static constexpr std::array kWords = {"nan",      "na",      "n/a",     "#n/a",   "null",     "none",   "inf",
-                                        "+inf",     "-inf",    "+nan",    "-nan",   "infinity", "ol",     "overload",
-                                        "overflow", "err",     "error",   "-",      "--",       "---",    "----",
-                                        "#value!",  "#div/0!", "1.#qnan", "1.#inf", "-1.#ind",  "1.#ind", "invalid"};
+  static constexpr auto kWords = std::to_array<std::string_view>(
+      {"nan",  "na",       "n/a",     "#n/a",     "null",     "none",    "inf",    "+inf",   "-inf", "+nan",
+       "-nan", "infinity", "ol",      "overload", "overflow", "err",     "error",  "-",      "--",   "---",
+       "----", "#value!",  "#div/0!", "1.#qnan",  "1.#inf",   "-1.#ind", "1.#ind", "invalid"});
+  constexpr std::size_t kLongest = 8;
+  if (text.size() > kLongest) return false;
   std::string word(text);
   for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
@@ -106,8 +110,6 @@ std::string_view unquote(std::string_view text) {
 double plain_number(std::string_view text, bool decimal_comma) {
   text = trim(text);
   if (text.empty()) return kNone;
-  const ShortDecimal quick = read_short_decimal(text.data(), text.data() + text.size(), decimal_comma ? ',' : '.');
-  if (quick.is_number && quick.end == text.data() + text.size()) return quick.value;
   const Parsed parsed = parse(text, decimal_comma);
   return parsed.length == text.size() ? parsed.value : kNone;
 }

@@ -131,8 +131,7 @@ Result<Recording> read_file(const std::filesystem::path& path, const std::string
   if (source->is_utf16()) chosen.assumed.emplace_back("The text is in UTF-16.");
   const RowPlan plan{layout.value(), chosen, options.sample_rate_Hz, options.window,
                      expected_rows(*source, layout.value(), options)};
-  ::io::LineReader lines(file.c_str(), std::move(source));
-  return build(read_rows(lines, plan), plan, conditions, file);
+  return build(read_rows(file, std::move(source), plan), plan, conditions, file);
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ struct Wanted {
 struct Reading {
   double time = 0.0;
   double force = 0.0;
+  double displacement = kNone;  ///< NaN: none
 
   [[nodiscard]] bool is_complete() const { return std::isfinite(time) && std::isfinite(force); }
 };
@@ -46,6 +47,7 @@ class RowReader {
         displacement_column_(plan.choice.displacement ? plan.choice.displacement->column : kNoColumn),
         last_column_(std::max(
             {plan.choice.time ? time_column_ : 0, force_column_, plan.choice.displacement ? displacement_column_ : 0})),
+        may_be_plain_(plan.choice.time && !plan.choice.displacement && dialect_.delimiter != ' '),
         time_scale_(plan.choice.time ? plan.choice.time->scale : 1.0),
         force_scale_(plan.choice.force.scale) {
     rows_.time_s.reserve(plan.expected_rows);
@@ -53,18 +55,11 @@ class RowReader {
   }
 
   void add(const char* line, unsigned number) {
-    if (displacement_column_ == kNoColumn && has_clock() && dialect_.delimiter != ' ') {
-      if (const std::optional<Reading> plain = read_plain(line)) return keep(*plain, {}, number);
+    if (may_be_plain_) {
+      const Reading plain = read_plain(line);
+      if (plain.is_complete()) return keep(plain, number);
     }
-    const Wanted wanted = locate(line);
-    Reading reading{has_clock() ? wanted.time.value : 0.0, wanted.force.value};
-    if (!reading.is_complete()) reading = read_carefully(wanted);
-    if (!reading.is_complete() && !is_row(line, wanted)) {
-      count_text_line(line, number);
-      return;
-    }
-    const double time_s = has_clock() ? reading.time * time_scale_ : next_count_s();
-    keep({time_s, reading.force * force_scale_}, wanted, number);
+    add_carefully(line, number);
   }
 
   Rows finish() {
@@ -74,14 +69,15 @@ class RowReader {
 
  private:
   [[nodiscard]] bool has_clock() const { return time_column_ != kNoColumn; }
-  [[nodiscard]] std::optional<Reading> read_plain(const char* cell) const;
+  [[nodiscard]] Reading read_plain(const char* cell) const;
+  void add_carefully(const char* line, unsigned number);
   [[nodiscard]] Wanted locate(const char* line) const;
   [[nodiscard]] NumberCell read_cell_at(const char* cell) const;
   [[nodiscard]] double number_in(std::string_view text, std::size_t column) const;
   [[nodiscard]] Reading read_carefully(const Wanted& wanted) const;
   [[nodiscard]] bool is_row(std::string_view line, const Wanted& wanted) const;
   void count_text_line(std::string_view line, unsigned number);
-  void keep(const Reading& reading, const Wanted& wanted, unsigned number);
+  void keep(const Reading& reading, unsigned number);
 
   double next_count_s() { return static_cast<double>(counted_++) / *plan_.sample_rate_Hz; }
 
@@ -91,6 +87,7 @@ class RowReader {
   std::size_t force_column_;
   std::size_t displacement_column_;
   std::size_t last_column_;
+  bool may_be_plain_;
   double time_scale_;
   double force_scale_;
   double latest_s_ = -std::numeric_limits<double>::infinity();
@@ -100,22 +97,36 @@ class RowReader {
   Rows rows_;
 };
 
-/// Nearly all lines of a recording: time and force are plain numbers. Empty where anything is not.
-std::optional<Reading> RowReader::read_plain(const char* cell) const {
+/// Nearly all lines of a recording: time and force are plain numbers. NaN where anything is not.
+Reading RowReader::read_plain(const char* cell) const {
   const char point = dialect_.decimal_comma ? ',' : '.';
-  Reading reading;
+  Reading reading{kNone, kNone};
   for (std::size_t column = 0;; ++column) {
     if (column == time_column_ || column == force_column_) {
       const ShortDecimal number = read_short_decimal(cell, nullptr, point);
-      if (!number.is_number || (*number.end != dialect_.delimiter && *number.end != '\0')) return std::nullopt;
-      (column == time_column_ ? reading.time : reading.force) = number.value;
+      if (!number.is_number || (*number.end != dialect_.delimiter && *number.end != '\0')) return reading;
+      if (column == time_column_) reading.time = number.value * time_scale_;
+      if (column == force_column_) reading.force = number.value * force_scale_;
       cell = number.end;
     } else {
       cell = end_of_cell(cell, dialect_.delimiter);
     }
-    if (column == last_column_) return Reading{reading.time * time_scale_, reading.force * force_scale_};
-    if (*cell++ == '\0') return std::nullopt;
+    if (column == last_column_ || *cell++ == '\0') return reading;
   }
+}
+
+void RowReader::add_carefully(const char* line, unsigned number) {
+  const Wanted wanted = locate(line);
+  Reading reading{has_clock() ? wanted.time.value : 0.0, wanted.force.value};
+  if (!reading.is_complete()) reading = read_carefully(wanted);
+  if (!reading.is_complete() && !is_row(line, wanted)) {
+    count_text_line(line, number);
+    return;
+  }
+  const double time_s = has_clock() ? reading.time * time_scale_ : next_count_s();
+  const double displacement =
+      plan_.choice.displacement ? wanted.displacement.value * plan_.choice.displacement->scale : kNone;
+  keep({time_s, reading.force * force_scale_, displacement}, number);
 }
 
 /// Reading the number and finding the end of its cell in one go, where the number is a plain one.
@@ -181,7 +192,7 @@ void RowReader::count_text_line(std::string_view line, unsigned number) {
   if (rows_.text_lines++ == 0) rows_.first_text_line = number;
 }
 
-void RowReader::keep(const Reading& reading, const Wanted& wanted, unsigned number) {
+void RowReader::keep(const Reading& reading, unsigned number) {
   if (std::isfinite(reading.time)) {
     low_s_ = std::min(low_s_, reading.time);
     high_s_ = std::max(high_s_, reading.time);
@@ -200,17 +211,14 @@ void RowReader::keep(const Reading& reading, const Wanted& wanted, unsigned numb
   latest_s_ = reading.time;
   rows_.time_s.push_back(reading.time);
   rows_.force.push_back(reading.force);
-  if (displacement_column_ == kNoColumn) return;
-  const double displacement = wanted.displacement.value;
-  if (std::isfinite(displacement)) {
-    rows_.displacement.add({reading.time, displacement * plan_.choice.displacement->scale});
-  }
+  if (std::isfinite(reading.displacement)) rows_.displacement.add({reading.time, reading.displacement});
 }
 
 }  // namespace
 
-Rows read_rows(::io::LineReader& lines, const RowPlan& plan) {
+Rows read_rows(const std::string& file, std::unique_ptr<TextSource> source, const RowPlan& plan) {
   RowReader reader(plan);
+  ::io::LineReader lines(file.c_str(), std::move(source));
   while (const char* line = lines.next_line()) {
     const unsigned number = lines.get_file_line();
     if (number >= plan.layout.first_data_line) reader.add(line, number);

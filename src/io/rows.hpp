@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "io/columns.hpp"
 #include "io/displacement.hpp"
 #include "io/layout.hpp"
-#include "io/line_reader.hpp"
+#include "io/text_source.hpp"
 
 namespace slipfit::reading {
 
@@ -35,7 +37,8 @@ struct Rows {
   std::optional<TimeWindow> clock;  ///< what the clock covers, inside and outside the window
 };
 
-/// One pass, 16 bytes a sample and the reader's own buffer. Throws what LineReader and its source throw.
-Rows read_rows(::io::LineReader& lines, const RowPlan& plan);
+/// One pass, 16 bytes a sample and the reader's own buffer. Throws what LineReader and its source throw; `file` is the
+/// name that it says.
+Rows read_rows(const std::string& file, std::unique_ptr<TextSource> source, const RowPlan& plan);
 
 }  // namespace slipfit::reading

@@ -30,7 +30,11 @@ inline ShortDecimal read_short_decimal(const char* p, const char* end, char poin
   const char* const begin = p;
   std::uint64_t whole = 0;
   const auto read_digits = [&] {
-    for (; p != end && is_digit(*p); ++p) whole = whole * 10 + static_cast<std::uint64_t>(*p - '0');
+    for (; p != end; ++p) {
+      const unsigned digit = static_cast<unsigned>(*p) - '0';  // above 9 for whatever is none: one comparison
+      if (digit > 9) break;
+      whole = whole * 10 + digit;
+    }
   };
   read_digits();
   std::ptrdiff_t digits = p - begin;

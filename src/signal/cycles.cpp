@@ -12,7 +12,7 @@ namespace slipfit {
 namespace {
 
 using signal::Fall;
-using signal::find_falls;
+using signal::Zigzag;
 
 /// Median of three neighbours, impulses held at the last good value before.
 std::vector<double> smooth(std::span<const double> force, const std::vector<bool>& impulses) {
@@ -49,7 +49,12 @@ double carrying_drop(std::vector<double> drops) {
   return drops.empty() ? 0.0 : drops.back();
 }
 
-double central_range(std::vector<double> values) {
+/// Of the values without the 0.5 % at either end; some of them are enough.
+double central_range(const std::vector<double>& force) {
+  std::vector<double> values;
+  const std::size_t stride = signal::stride_for(force.size());
+  values.reserve(force.size() / stride + 1);
+  for (std::size_t i = 0; i < force.size(); i += stride) values.push_back(force[i]);
   const auto at = [&](double share) {
     const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), place, values.end());
@@ -100,32 +105,53 @@ DetectedSlip describe(const Fall& fall, std::span<const double> time_s, const st
 
 namespace {
 
+/// The falls of one trace at several thresholds, none below `smallest`: only the first look goes over all samples.
+class Falls {
+ public:
+  Falls(const std::vector<double>& force, double smallest) : force_(force) {
+    Zigzag zigzag(smallest);
+    for (std::size_t i = 0; i < force.size(); ++i) zigzag.add(i, force[i]);
+    turns_ = zigzag.turns();
+  }
+
+  [[nodiscard]] std::vector<Fall> beyond(double hysteresis) const {
+    Zigzag zigzag(hysteresis);
+    for (const std::size_t i : turns_) zigzag.add(i, force_[i]);
+    return zigzag.falls();
+  }
+
+ private:
+  const std::vector<double>& force_;
+  std::vector<std::size_t> turns_;
+};
+
 Segmentation find_slips_in(std::span<const double> raw, const Recording& recording, const Quality& quality) {
   const std::vector<double> force = smooth(raw, quality.impulse_mask);
   const double range = central_range(force);
   if (!(range > 0.0)) return {};
   // Noise makes no turning point below 10 standard deviations; beyond 0.35 of the range nothing would be left to find.
   const double noise_floor = std::min(10.0 * quality.noise_rms, 0.35 * range);
+  const Falls all(force, noise_floor);
   double hysteresis = std::max(0.05 * range, noise_floor);
   for (int pass = 0; pass < 4; ++pass) {
-    const double next = std::max(noise_floor, 0.4 * carrying_drop(drops_of(find_falls(force, hysteresis), force)));
+    const double next = std::max(noise_floor, 0.4 * carrying_drop(drops_of(all.beyond(hysteresis), force)));
     const bool settled = std::abs(next - hysteresis) <= 1e-3 * hysteresis;
     hysteresis = next;
     if (settled || !(hysteresis > 0.0)) break;
   }
   if (!(hysteresis > 0.0)) return {};
 
-  const double typical = signal::median(drops_of(find_falls(force, hysteresis), force));
+  const double typical = signal::median(drops_of(all.beyond(hysteresis), force));
   Segmentation segmentation;
   segmentation.hysteresis = std::max(noise_floor, 0.25 * typical);
-  const std::vector<Fall> falls = find_falls(force, segmentation.hysteresis);
+  const std::vector<Fall> falls = all.beyond(segmentation.hysteresis);
   const double quarter = 0.25 * signal::median(drops_of(falls, force));
   for (const Fall& fall : falls) {
     if (force[fall.peak] - force[fall.trough] < quarter) continue;
     segmentation.slips.push_back(describe(fall, recording.time_s(), force));
   }
   const double smallest = std::max(noise_floor, 0.1 * typical);
-  segmentation.minor = find_falls(force, smallest).size();
+  segmentation.minor = all.beyond(smallest).size();
   segmentation.minor -= std::min(segmentation.minor, segmentation.slips.size());
   return segmentation;
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 namespace slipfit::signal {
 
@@ -25,11 +26,10 @@ class ComplexTransform {
   }
 
   explicit ComplexTransform(std::size_t length) : length_(length) {
-    // Out of place: a fifth of the planning time of the in-place plan at 100 000 points, and no slower to run.
     const Buffer in = allocate(length);
-    const Buffer out = allocate(length);
+    const Buffer out = is_in_place() ? Buffer() : allocate(length);
     const std::lock_guard lock(planner());
-    plan_ = fftw_plan_dft_1d(static_cast<int>(length), raw(in), raw(out), FFTW_FORWARD, FFTW_ESTIMATE);
+    plan_ = fftw_plan_dft_1d(static_cast<int>(length), raw(in), raw(out ? out : in), FFTW_FORWARD, FFTW_ESTIMATE);
   }
   ~ComplexTransform() {
     const std::lock_guard lock(planner());
@@ -41,9 +41,20 @@ class ComplexTransform {
   ComplexTransform& operator=(ComplexTransform&&) = delete;
 
   [[nodiscard]] std::size_t length() const { return length_; }
-  void run(const Buffer& in, const Buffer& out) const { fftw_execute_dft(plan_, raw(in), raw(out)); }
+  /// The transformed values; what becomes of those handed in is nobody's.
+  [[nodiscard]] Buffer run(Buffer in) const {
+    Buffer out = is_in_place() ? Buffer() : allocate(length_);
+    fftw_execute_dft(plan_, raw(in), raw(out ? out : in));
+    return out ? std::move(out) : std::move(in);
+  }
 
  private:
+  /// Half the memory, and no slower at millions of points, where memory decides. At 100 000 it plans five times as
+  /// long.
+  [[nodiscard]] bool is_in_place() const { return length_ > kLargeLength; }
+
+  static constexpr std::size_t kLargeLength = std::size_t{1} << 20U;
+
   static std::mutex& planner() {
     static std::mutex lock;
     return lock;

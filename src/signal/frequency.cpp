@@ -46,7 +46,7 @@ std::vector<double> flattened(std::vector<double> power, double bin_Hz, double r
 
 BandPower fine_bands(const Recording& recording, const std::vector<bool>& held, double resolution_Hz,
                      const std::vector<MainsLine>& lines) {
-  const bool as_it_is = held.empty() && signal::clock_is_even(recording);
+  const bool as_it_is = held.empty() && recording.clock_is_even();
   signal::UniformTrace trace{recording.duration_s() / static_cast<double>(recording.size() - 1), {}};
   if (!as_it_is) trace = signal::resample(recording, held);
   const std::span<const double> force = as_it_is ? recording.force() : std::span<const double>(trace.force);

@@ -48,14 +48,14 @@ bool fills_lattice(std::span<const double> values, double origin, double lowest,
   if (!(places < static_cast<double>(values.size()))) return false;
   const double per_step = 1.0 / step;
   const double first = nearest_whole((lowest - origin) * per_step);
-  std::vector<bool> taken(static_cast<std::size_t>(places) + 1, false);
+  std::vector<unsigned char> taken(static_cast<std::size_t>(places) + 1, 0);  // bits would cost twice the time
   for (const double value : values) {
     const double place = (value - origin) * per_step;
     const double nearest = nearest_whole(place);
     if (std::abs(place - nearest) > kOffLattice) return false;
-    taken[static_cast<std::size_t>(std::clamp(nearest - first, 0.0, places))] = true;
+    taken[static_cast<std::size_t>(std::clamp(nearest - first, 0.0, places))] = 1;
   }
-  const auto distinct = static_cast<double>(std::count(taken.begin(), taken.end(), true));
+  const auto distinct = static_cast<double>(std::count(taken.begin(), taken.end(), 1));
   return distinct >= 2.0 && distinct < kLargestDistinctShare * static_cast<double>(values.size());
 }
 

@@ -38,7 +38,7 @@ std::complex<double> amplitude_of(const std::vector<double>& values, double mean
 Dehummed without_mains(const Recording& recording) {
   Dehummed result;
   result.force.assign(recording.force().begin(), recording.force().end());
-  if (!clock_is_even(recording)) return result;
+  if (!recording.clock_is_even()) return result;
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
   const std::size_t length = good_length(recording.size());
   const std::vector<double> power = hann_power(result.force, length);

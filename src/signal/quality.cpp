@@ -56,12 +56,15 @@ void assess_clock(const Recording& recording, Quality& quality) {
   const double usual = recording.sample_interval_s();
   const std::size_t stride = signal::stride_for(time.size());
   std::vector<double> deviations;
+  std::size_t sampled = stride;
   for (std::size_t i = 1; i < time.size(); ++i) {
+    const bool is_sampled = i == sampled;
+    if (is_sampled) sampled += stride;
     const double step = time[i] - time[i - 1];
     if (step > kGapSteps * usual) {
       ++quality.gaps;
       quality.longest_gap_s = std::max(quality.longest_gap_s, step);
-    } else if (i % stride == 0) {
+    } else if (is_sampled) {
       deviations.push_back(std::abs(step - usual));
     }
   }

@@ -15,27 +15,33 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// exp(i (start + k step)) by rotation, begun afresh every 64 steps: rounding stays below 1e-14.
-class Rotator {
+/// exp(i (start + k step)), k = 0, 1, ..., in blocks: that of the block's begin times those of the steps within it.
+class Turns {
  public:
-  Rotator(double start, double step) : start_(start), step_(step), turn_(std::polar(1.0, step)) {}
-  Complex next() {
-    if (count_ % 64 == 0) {
-      value_ = std::polar(1.0, start_ + step_ * static_cast<double>(count_));
-    } else {
-      value_ = {value_.real() * turn_.real() - value_.imag() * turn_.imag(),
-                value_.real() * turn_.imag() + value_.imag() * turn_.real()};
+  static constexpr std::size_t kBlock = 64;
+
+  Turns(double start, double step) : start_(start), step_(step) {
+    for (std::size_t k = 0; k < kBlock; ++k) {
+      const Complex within = std::polar(1.0, step * static_cast<double>(k));
+      cosine_[k] = within.real();
+      sine_[k] = within.imag();
     }
-    ++count_;
-    return value_;
+  }
+  [[nodiscard]] Complex begin_of(std::size_t block) const {
+    return std::polar(1.0, start_ + step_ * static_cast<double>(block * kBlock));
+  }
+  [[nodiscard]] double cosine(Complex begin, std::size_t k) const {
+    return begin.real() * cosine_[k] - begin.imag() * sine_[k];
+  }
+  [[nodiscard]] double sine(Complex begin, std::size_t k) const {
+    return begin.real() * sine_[k] + begin.imag() * cosine_[k];
   }
 
  private:
   double start_;
   double step_;
-  Complex turn_;
-  Complex value_;
-  std::size_t count_ = 0;
+  std::array<double, kBlock> cosine_{};
+  std::array<double, kBlock> sine_{};
 };
 
 struct Line {
@@ -64,10 +70,17 @@ ComplexTransform::Buffer windowed(std::span<const double> values, std::size_t pa
   const Line line = fit_line(values);
   const double middle = 0.5 * static_cast<double>(values.size() - 1);
   const double step = 2.0 * std::numbers::pi / static_cast<double>(values.size());
-  Rotator angle(0.5 * step, step);  // zero half a sample outside either end
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double window = 0.5 - 0.5 * angle.next().real();
-    out[i] = window * (values[i] - line.at_middle - line.slope * (static_cast<double>(i) - middle));
+  const Turns turns(0.5 * step, step);  // zero half a sample outside either end
+  for (std::size_t begin = 0; begin < values.size(); begin += Turns::kBlock) {
+    const Complex turn = turns.begin_of(begin / Turns::kBlock);
+    const std::size_t count = std::min(Turns::kBlock, values.size() - begin);
+    const double first = static_cast<double>(begin) - middle;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double window = 0.5 - 0.5 * turns.cosine(turn, k);
+      // As an int: SSE2 has no conversion of longer ones.
+      const double place = first + static_cast<double>(static_cast<int>(k));
+      out[begin + k] = window * (values[begin + k] - line.at_middle - line.slope * place);
+    }
   }
   std::fill(out + values.size(), out + padded_length, 0.0);
   return buffer;
@@ -91,52 +104,45 @@ std::shared_ptr<const ComplexTransform> transform_of(std::size_t length) {
 /// |X_k|^2 of the real series of length 2 M whose even and odd values are the parts of the M complex ones in z.
 std::vector<double> real_power(const Complex* z, std::size_t half, double scale) {
   std::vector<double> power(half + 1);
-  Rotator turn(0.0, -std::numbers::pi / static_cast<double>(half));
-  for (std::size_t k = 0; 2 * k <= half; ++k) {
-    const Complex a = z[k];
-    const Complex b = std::conj(z[k == 0 ? 0 : half - k]);
-    const Complex even = 0.5 * (a + b);
-    const Complex difference = 0.5 * (a - b);
-    const Complex odd(difference.imag(), -difference.real());
-    const Complex w = turn.next();
-    const Complex turned(odd.real() * w.real() - odd.imag() * w.imag(), odd.real() * w.imag() + odd.imag() * w.real());
-    const double both = std::norm(even) + std::norm(odd);
-    const double cross = 2.0 * (even.real() * turned.real() + even.imag() * turned.imag());
-    power[k] = scale * std::max(0.0, both + cross);
-    power[half - k] = scale * std::max(0.0, both - cross);
+  const Turns turns(0.0, -std::numbers::pi / static_cast<double>(half));
+  for (std::size_t begin = 0; 2 * begin <= half; begin += Turns::kBlock) {
+    const Complex turn = turns.begin_of(begin / Turns::kBlock);
+    const std::size_t count = std::min(Turns::kBlock, half / 2 + 1 - begin);
+    for (std::size_t j = 0; j < count; ++j) {
+      const std::size_t k = begin + j;
+      const Complex a = z[k];
+      const Complex b = std::conj(z[k == 0 ? 0 : half - k]);
+      const Complex even = 0.5 * (a + b);
+      const Complex difference = 0.5 * (a - b);
+      const Complex odd(difference.imag(), -difference.real());
+      const double c = turns.cosine(turn, j);
+      const double s = turns.sine(turn, j);
+      const Complex turned(odd.real() * c - odd.imag() * s, odd.real() * s + odd.imag() * c);
+      const double both = std::norm(even) + std::norm(odd);
+      const double cross = 2.0 * (even.real() * turned.real() + even.imag() * turned.imag());
+      power[k] = scale * std::max(0.0, both + cross);
+      power[half - k] = scale * std::max(0.0, both - cross);
+    }
   }
   power[half] *= 0.5;
   return power;
 }
 
-}  // namespace
-
-bool clock_is_even(const Recording& recording) {
-  const std::span<const double> time = recording.time_s();
-  const double step = recording.duration_s() / static_cast<double>(time.size() - 1);
-  double worst = 0.0;
-  for (std::size_t i = 0; i < time.size(); ++i) {
-    worst = std::max(worst, std::abs(time[i] - time.front() - step * static_cast<double>(i)));
-  }
-  return worst < 0.25 * step;
-}
-
-namespace {
-
 /// On an even clock the samples stay where they are; a line bridges those held.
 UniformTrace bridge(const Recording& recording, const std::vector<bool>& held) {
   const std::span<const double> force = recording.force();
   UniformTrace trace{recording.duration_s() / static_cast<double>(force.size() - 1), {force.begin(), force.end()}};
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    if (!held[i]) continue;
-    std::size_t end = i;
-    while (end < held.size() && held[end]) ++end;
-    const double after = end < held.size() ? force[end] : i > 0 ? force[i - 1] : 0.0;
-    const double before = i > 0 ? force[i - 1] : after;
-    for (std::size_t k = i; k < end; ++k) {
-      trace.force[k] = before + (after - before) * static_cast<double>(k + 1 - i) / static_cast<double>(end + 1 - i);
+  for (auto first = std::find(held.begin(), held.end(), true); first != held.end();) {
+    const auto last = std::find(first, held.end(), false);
+    const auto begin = static_cast<std::size_t>(first - held.begin());
+    const auto end = static_cast<std::size_t>(last - held.begin());
+    const double after = end < held.size() ? force[end] : begin > 0 ? force[begin - 1] : 0.0;
+    const double before = begin > 0 ? force[begin - 1] : after;
+    for (std::size_t k = begin; k < end; ++k) {
+      trace.force[k] =
+          before + (after - before) * static_cast<double>(k + 1 - begin) / static_cast<double>(end + 1 - begin);
     }
-    i = end;
+    first = std::find(last, held.end(), true);
   }
   return trace;
 }
@@ -144,7 +150,7 @@ UniformTrace bridge(const Recording& recording, const std::vector<bool>& held) {
 }  // namespace
 
 UniformTrace resample(const Recording& recording, const std::vector<bool>& held) {
-  if (clock_is_even(recording)) return bridge(recording, held);
+  if (recording.clock_is_even()) return bridge(recording, held);
   const std::span<const double> time = recording.time_s();
   const std::span<const double> force = recording.force();
   // Not more than twice the samples: a clock of bursts and long gaps must not fill the memory.
@@ -207,11 +213,10 @@ std::size_t good_length(std::size_t length) {
 
 std::vector<double> hann_power(std::span<const double> values, std::size_t padded_length) {
   const std::size_t half = padded_length / 2;
-  const ComplexTransform::Buffer in = windowed(values, padded_length);
-  const ComplexTransform::Buffer out = ComplexTransform::allocate(half);
-  transform_of(half)->run(in, out);
+  const ComplexTransform::Buffer transformed = transform_of(half)->run(windowed(values, padded_length));
   const double window_energy = 0.375 * static_cast<double>(values.size());  // sum of squares of the Hann window
-  std::vector<double> power = real_power(out.get(), half, 2.0 / (static_cast<double>(padded_length) * window_energy));
+  std::vector<double> power =
+      real_power(transformed.get(), half, 2.0 / (static_cast<double>(padded_length) * window_energy));
   power[0] = 0.0;
   return power;
 }

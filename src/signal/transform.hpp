@@ -14,9 +14,6 @@ struct UniformTrace {
   std::vector<double> force;
 };
 
-/// Whether every time stamp lies within a quarter of a step of an even clock (printed decimals do, gaps do not).
-bool clock_is_even(const Recording& recording);
-
 /// Linear interpolation onto the median step (gaps are bridged by a line), where the clock is not even as it is. `held`
 /// samples are left out.
 UniformTrace resample(const Recording& recording, const std::vector<bool>& held);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace slipfit::signal {
@@ -12,38 +13,52 @@ struct Fall {
 };
 
 /// Falls of at least `hysteresis`, each bounded by rises of at least as much (or by the ends of the trace). Noise
-/// smaller than the hysteresis makes no turning point, however often it crosses a level.
-template <class Values>
-std::vector<Fall> find_falls(const Values& values, double hysteresis) {
-  std::vector<Fall> falls;
-  if (values.size() < 2) return falls;
-  std::size_t high = 0;
-  std::size_t low = 0;
-  double highest = values[0];
-  double lowest = values[0];
-  bool falling = false;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    const double value = values[i];
-    if (falling) {
-      if (value < lowest) {
-        lowest = value;
-        low = i;
-      } else if (value > lowest + hysteresis) {
-        falls.push_back({high, low});
-        falling = false;
-        highest = value;
-        high = i;
+/// smaller than the hysteresis makes no turning point, however often it crosses a level. Values come in their order.
+class Zigzag {
+ public:
+  explicit Zigzag(double hysteresis) : hysteresis_(hysteresis) {}
+
+  void add(std::size_t i, double value) {
+    if (falling_) {
+      if (value < lowest_) {
+        lowest_ = value;
+        low_ = i;
+      } else if (value > lowest_ + hysteresis_) {
+        falls_.push_back({high_, low_});
+        falling_ = false;
+        highest_ = value;
+        high_ = i;
       }
-    } else if (value > highest) {
-      highest = value;
-      high = i;
-    } else if (value < highest - hysteresis) {
-      falling = true;
-      lowest = value;
-      low = i;
+    } else if (value > highest_) {
+      highest_ = value;
+      high_ = i;
+    } else if (value < highest_ - hysteresis_) {
+      falling_ = true;
+      lowest_ = value;
+      low_ = i;
     }
   }
-  return falls;
-}
+
+  [[nodiscard]] const std::vector<Fall>& falls() const { return falls_; }
+
+  /// Peaks and troughs in turn, those in doubt at the end included: all that a larger hysteresis can turn at.
+  [[nodiscard]] std::vector<std::size_t> turns() const {
+    std::vector<std::size_t> turns;
+    turns.reserve(2 * falls_.size() + 2);
+    for (const Fall& fall : falls_) turns.insert(turns.end(), {fall.peak, fall.trough});
+    turns.push_back(high_);
+    if (falling_) turns.push_back(low_);
+    return turns;
+  }
+
+ private:
+  double hysteresis_;
+  std::vector<Fall> falls_;
+  std::size_t high_ = 0;
+  std::size_t low_ = 0;
+  double highest_ = -std::numeric_limits<double>::infinity();
+  double lowest_ = 0.0;
+  bool falling_ = false;
+};
 
 }  // namespace slipfit::signal

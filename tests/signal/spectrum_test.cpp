@@ -87,7 +87,7 @@ TEST_CASE("an uneven clock is resampled: the line stays where it is") {
   std::vector<double> force(time_s.size(), 0.0);
   traces::add_sine(force, time_s, 3.21, 1.0);
   const Recording recording = traces::recording(time_s, force);
-  REQUIRE_FALSE(signal::clock_is_even(recording));
+  REQUIRE_FALSE(recording.clock_is_even());
   const Spectrum spectrum = compute_spectrum(recording);
   CHECK(std::abs(static_cast<double>(strongest(spectrum)) * spectrum.bin_Hz - 3.21) <= 0.51 * spectrum.bin_Hz);
   CHECK(spectrum.power[strongest(spectrum)] > 0.2);  // of 0.5 in all; three bins share it
@@ -97,9 +97,9 @@ TEST_CASE("printed decimals do not make a clock uneven, a gap does") {
   std::vector<double> time_s = traces::clock(1000, 2000.0);
   for (double& t : time_s) t = std::round(t * 1e4) / 1e4;
   const std::vector<double> force(time_s.size(), 1.0);
-  CHECK(signal::clock_is_even(traces::recording(time_s, force)));
+  CHECK(traces::recording(time_s, force).clock_is_even());
   for (std::size_t i = 500; i < time_s.size(); ++i) time_s[i] += 0.1;
-  CHECK_FALSE(signal::clock_is_even(traces::recording(time_s, force)));
+  CHECK_FALSE(traces::recording(time_s, force).clock_is_even());
 }
 
 TEST_CASE("thinning keeps ramps and takes off what is too fast for the new clock") {

@@ -59,6 +59,8 @@ class Recording {
   [[nodiscard]] double duration_s() const { return time_s_.back() - time_s_.front(); }
   /// Median step of the clock (of the steps that are not zero).
   [[nodiscard]] double sample_interval_s() const { return sample_interval_s_; }
+  /// Whether every time stamp lies within a quarter of a step of an even clock (printed decimals do, gaps do not).
+  [[nodiscard]] bool clock_is_even() const { return clock_is_even_; }
 
  private:
   Recording() = default;
@@ -68,6 +70,7 @@ class Recording {
   Conditions conditions_;
   Provenance provenance_;
   double sample_interval_s_ = 0.0;
+  bool clock_is_even_ = false;
 };
 
 }  // namespace slipfit
