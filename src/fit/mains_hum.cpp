@@ -27,6 +27,7 @@ std::vector<double> with_hum(const Recording& recording, const BlockFit& fit, st
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] != 0.0) values[i] += fit.model(0).hum_at(recording.time_s()[i], fit.level_data());
   }
+  return values;
 }
 
 /// Least-squares amplitude of one frequency on an even clock: the phasor turns by a fixed step from sample to sample,
