@@ -123,7 +123,7 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   std::optional<DampedFit> undamped;
   if (!damped->held.damping) undamped = fit::fit_undamped(*damped);
   fit::TierFits fits{fit::fit_sawtooth(*damped), std::move(undamped), std::move(*damped)};
-  const fit::Resolution resolution = fit::resolve(recording, fits);
+  const fit::Resolution resolution = fit::resolution_of(recording, fits);
 
   FitResult result;
   result.candidates = fit::choose_tier(fits, resolution, options.tier);
