@@ -104,6 +104,12 @@ Residual residual_of(const DampedFit& chosen, const Quality& quality) {
 
 }  // namespace
 
+const Parameter* find_parameter(const FitResult& fit, std::string_view name) {
+  const auto found = std::find_if(fit.parameters.begin(), fit.parameters.end(),
+                                  [name](const Parameter& parameter) { return parameter.name == name; });
+  return found == fit.parameters.end() ? nullptr : &*found;
+}
+
 void withdraw_parameters(FitResult& fit) {
   for (Parameter& parameter : fit.parameters) {
     if (parameter.status == ParameterStatus::Fixed) continue;
