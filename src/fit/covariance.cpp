@@ -2,7 +2,7 @@
 
 #include <Eigen/Sparse>
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "fit/reduced_rows.hpp"
@@ -145,7 +145,8 @@ class SparseNormal {
     columns.bottomRows(common_) = selection.common;
     for (const Index i : held_) columns.row(first_common_ + i).setZero();
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(hessian);
-    if (factor.info() != Eigen::Success) return MatrixXd::Constant(kQuantities, kQuantities, NAN);
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    if (factor.info() != Eigen::Success) return MatrixXd::Constant(kQuantities, kQuantities, kNone);
     return columns.transpose() * factor.solve(columns);
   }
 
