@@ -44,15 +44,14 @@ double reflection_at(double zeta) {
 
 Estimate reflection_of(const FitResult& fit) {
   Estimate reflection;
-  for (const Parameter& parameter : fit.parameters) {
-    const Estimate& zeta = parameter.estimate;
-    if (parameter.name != "damping_ratio") continue;
-    reflection.note = zeta.note;
-    if (!zeta.value || parameter.status == ParameterStatus::Bounded) continue;
-    reflection.value = reflection_at(*zeta.value);
-    if (zeta.ci95 && zeta.ci95->low >= 0.0 && zeta.ci95->high < 1.0) {
-      reflection.ci95 = Interval{reflection_at(zeta.ci95->high), reflection_at(zeta.ci95->low)};
-    }
+  const Parameter* const damping = find_parameter(fit, "damping_ratio");
+  if (damping == nullptr) return reflection;
+  const Estimate& zeta = damping->estimate;
+  reflection.note = zeta.note;
+  if (!zeta.value || damping->status == ParameterStatus::Bounded) return reflection;
+  reflection.value = reflection_at(*zeta.value);
+  if (zeta.ci95 && zeta.ci95->low >= 0.0 && zeta.ci95->high < 1.0) {
+    reflection.ci95 = Interval{reflection_at(zeta.ci95->high), reflection_at(zeta.ci95->low)};
   }
   return reflection;
 }

@@ -98,7 +98,7 @@ Fitted look_and_fit(const Recording& recording, const FitOptions& options) {
   return fitted;
 }
 
-Analysis conclude(const Recording& recording, Fitted fitted) {
+Analysis judge_and_conclude(const Recording& recording, Fitted fitted) {
   const Signals& signals = fitted.signals;
   Judgement judgement = judge_fit(recording, signals.quality, signals.segmentation, signals.spectral,
                                   fitted.fit ? &*fitted.fit : nullptr);
@@ -116,8 +116,7 @@ Analysis analyze(const Recording& recording) {
 }
 
 Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) {
-  Fitted fitted = look_and_fit(recording, options);
-  return conclude(recording, std::move(fitted));
+  return judge_and_conclude(recording, look_and_fit(recording, options));
 }
 
 SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options) {
@@ -128,7 +127,7 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   for (const SweepEntry& entry : entries) {
     Fitted fitted = look_and_fit(entry.recording, {});
     signals.push_back(fitted.signals);
-    sweep.recordings.push_back(conclude(entry.recording, std::move(fitted)));
+    sweep.recordings.push_back(judge_and_conclude(entry.recording, std::move(fitted)));
     sweep.roles.push_back(role_of(entry.recording, sweep.recordings.back().verdict));
     recordings.push_back({entry.recording, signals.back().quality, signals.back().segmentation, sweep.roles.back()});
   }
@@ -136,6 +135,10 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   sweep.derived = derive_from_sweep(sweep.joint ? sweep.joint->fit : FitResult{});
   sweep.joint_reason = describe_roles(sweep.roles);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
+  if (sweep.joint) {
+    const Warnings& of_fit = sweep.joint->fit.warnings;
+    sweep.warnings.insert(sweep.warnings.end(), of_fit.begin(), of_fit.end());
+  }
   return sweep;
 }
 

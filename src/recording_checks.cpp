@@ -6,6 +6,8 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string_view>
 
 namespace slipfit {
 namespace {
@@ -124,20 +126,20 @@ ShortTest test_ageing(const std::vector<Pair>& pairs, const std::string& unit) {
                       slope, se, unit, seen(p), p)};
 }
 
-const Parameter* parameter_of(const FitResult& fit, const std::string& name) {
-  for (const Parameter& parameter : fit.parameters) {
-    if (parameter.name == name && parameter.estimate.value && parameter.estimate.ci95) return &parameter;
-  }
-  return nullptr;
+/// Empty where it is not known with an interval.
+std::optional<Estimate> known_estimate(const FitResult& fit, std::string_view name) {
+  const Parameter* const parameter = find_parameter(fit, name);
+  if (parameter == nullptr || !parameter->estimate.value || !parameter->estimate.ci95) return std::nullopt;
+  return parameter->estimate;
 }
 
 ShortTest test_mass(const FitResult& fit, double stated_kg) {
-  const Parameter* const mass = parameter_of(fit, "mass_kg");
-  if (mass == nullptr || !(*mass->estimate.standard_error > 0.0)) {
+  const std::optional<Estimate> mass = known_estimate(fit, "mass_kg");
+  if (!mass || !(*mass->standard_error > 0.0)) {
     return {"stated_mass", {}, {}, {}, "k / w_n^2 is not known: the stated mass cannot be held against it"};
   }
-  const double ratio = *mass->estimate.value / stated_kg;
-  const double relative_se = *mass->estimate.standard_error / *mass->estimate.value;
+  const double ratio = *mass->value / stated_kg;
+  const double relative_se = *mass->standard_error / *mass->value;
   const boost::math::normal_distribution<double> normal;
   const double p = 2.0 * boost::math::cdf(boost::math::complement(normal, std::abs(std::log(ratio)) / relative_se));
   return {"stated_mass", ratio, ratio * relative_se, p,
@@ -146,12 +148,12 @@ ShortTest test_mass(const FitResult& fit, double stated_kg) {
 }
 
 ShortTest test_resonance(const FitResult& fit, double resonance_Hz) {
-  const Parameter* const omega = parameter_of(fit, "natural_frequency_rad_per_s");
-  if (omega == nullptr) return {"sensor_resonance", {}, {}, {}, "w_n is not known"};
-  const double ratio = *omega->estimate.value / (2.0 * std::numbers::pi * resonance_Hz);
+  const std::optional<Estimate> omega = known_estimate(fit, "natural_frequency_rad_per_s");
+  if (!omega) return {"sensor_resonance", {}, {}, {}, "w_n is not known"};
+  const double ratio = *omega->value / (2.0 * std::numbers::pi * resonance_Hz);
   return {"sensor_resonance",
           ratio,
-          *omega->estimate.standard_error / *omega->estimate.value * ratio,
+          *omega->standard_error / *omega->value * ratio,
           {},
           fmt::format("the slips move at {:.2g} of the load cell's resonance, which shows them {}", ratio,
                       ratio < kNearResonance

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "model_options.hpp"
 #include "output.hpp"
+#include "quantities.hpp"
 
 namespace fs = std::filesystem;
 

@@ -12,12 +12,6 @@
 
 using slipfit::Dimension;
 
-const std::string& required(const std::optional<std::string>& text, const std::string& option,
-                            const std::string& meaning) {
-  if (!text) throw Failure(ExitCode::WrongUsage, fmt::format("{} is missing: give {}", option, meaning));
-  return *text;
-}
-
 namespace {
 
 double natural_frequency_rad_per_s(const ModelArguments& arguments, double stiffness_N_per_m) {

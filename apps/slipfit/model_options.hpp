@@ -33,7 +33,3 @@ bool model_given(const CLI::App& command);
 
 /// Throws Failure(WrongUsage).
 Model model_from(const ModelArguments& arguments);
-
-/// The text, or Failure(WrongUsage) that the option is missing; `meaning` says what to give.
-const std::string& required(const std::optional<std::string>& text, const std::string& option,
-                            const std::string& meaning);

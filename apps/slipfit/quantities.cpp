@@ -34,6 +34,12 @@ double speed_or_rotation(const std::string& option, const std::string& text, con
 
 }  // namespace
 
+const std::string& required(const std::optional<std::string>& text, const std::string& option,
+                            const std::string& meaning) {
+  if (!text) throw Failure(ExitCode::WrongUsage, fmt::format("{} is missing: give {}", option, meaning));
+  return *text;
+}
+
 double quantity(const std::string& option, const std::string& text, Dimension dimension) {
   const Result<double> parsed = slipfit::parse_quantity(text, dimension);
   if (!parsed) refuse(option, parsed.error().message);

@@ -10,6 +10,10 @@
 // Text of the command line into SI numbers. Each throws Failure(WrongUsage) that names the option, the text and the
 // remedy.
 
+/// The text, or Failure(WrongUsage) that the option is missing; `meaning` says what to give.
+const std::string& required(const std::optional<std::string>& text, const std::string& option,
+                            const std::string& meaning);
+
 /// A number (SI) or a number with a unit.
 double quantity(const std::string& option, const std::string& text, slipfit::Dimension dimension);
 double positive_quantity(const std::string& option, const std::string& text, slipfit::Dimension dimension);

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "slipfit/core/estimate.hpp"
@@ -58,7 +57,7 @@ struct Analysis {
   Quality quality;
   Verdict verdict = Verdict::Undetermined;
   std::string verdict_reason;  ///< one plain sentence
-  Warnings warnings;
+  Warnings warnings;           ///< of the reader, the analysis and the fit
   FrequencyReport frequency;
   CycleStatistics cycles;
   std::vector<Cycle> cycle_table;

@@ -1,9 +1,12 @@
 #pragma once
 
-// Everything that a user of the library needs: read a recording, analyse or fit it, report the result.
+// The whole library: read recordings, analyse or fit them, predict, report the result; simulate; batches.
 
+#include "slipfit/background.hpp"
 #include "slipfit/batch/batch.hpp"
 #include "slipfit/core/units.hpp"
+#include "slipfit/figures/figures.hpp"
+#include "slipfit/io/file_hash.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/model/motion.hpp"
@@ -16,7 +19,11 @@
 #include "slipfit/predict/plan.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/report/csv.hpp"
+#include "slipfit/report/html.hpp"
 #include "slipfit/report/json.hpp"
 #include "slipfit/report/plan.hpp"
 #include "slipfit/report/prediction.hpp"
+#include "slipfit/report/sweep.hpp"
+#include "slipfit/report/sweep_html.hpp"
 #include "slipfit/report/text.hpp"
+#include "slipfit/sweep.hpp"

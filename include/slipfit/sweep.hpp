@@ -29,7 +29,7 @@ struct SweepAnalysis {
   std::optional<JointFit> joint;     ///< empty: fewer than two recordings with stick-slip cycles
   std::string joint_reason;          ///< what it is made of, or why there is none
   Derived derived;                   ///< critical speed; what belongs to one speed is empty
-  Warnings warnings;
+  Warnings warnings;                 ///< of the sweep as a whole, the joint fit's included
 };
 
 /// Each recording on its own, then one set of parameters for all. Needs at least one entry.

@@ -1,5 +1,7 @@
 #include "batch/csv_line.hpp"
 
+#include <string_view>
+
 namespace slipfit::batch {
 namespace {
 

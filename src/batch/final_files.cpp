@@ -69,17 +69,15 @@ std::optional<Error> write_final_files(const std::filesystem::path& folder, cons
   auto opened = FinalFiles::open(folder);
   if (!opened) return opened.error();
   FinalFiles files = std::move(opened).value();
-  std::size_t group = 0;
-  auto failed = for_each_entry(manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
-    const SummaryKey key{entry.row, entry.id, entry.group, one_line(entry.file.string())};
-    if (auto error = add_slot(files, ledger, entry.row - 1, key)) return error;
-    for (; group < list.groups.size() && list.groups[group].last_row == entry.row; ++group) {
-      const std::string& name = list.groups[group].name;
-      const SummaryKey group_key{entry.row, id_of_group(name), name, ""};
-      if (auto error = add_slot(files, ledger, list.slot_of_group(group), group_key)) return error;
-    }
-    return std::nullopt;
-  });
+  const auto add_entry = [&](const ManifestEntry& entry) {
+    return add_slot(files, ledger, entry.row - 1, {entry.row, entry.id, entry.group, one_line(entry.file.string())});
+  };
+  const auto add_group = [&](std::size_t group) {
+    const Group& found = list.groups[group];
+    return add_slot(files, ledger, list.slot_of_group(group),
+                    {found.last_row, id_of_group(found.name), found.name, ""});
+  };
+  auto failed = for_each_result(manifest, list, add_entry, add_group);
   return failed ? failed : files.finish();
 }
 

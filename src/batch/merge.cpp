@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <fstream>
-#include <memory>
 #include <set>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 #include "batch/final_files.hpp"

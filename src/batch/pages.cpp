@@ -12,7 +12,7 @@
 #include "batch/digest.hpp"
 #include "batch/files.hpp"
 #include "io/csv_fields.hpp"
-#include "slipfit/report/batch_html.hpp"
+#include "report/batch_html.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit::batch {
@@ -131,15 +131,13 @@ std::optional<std::string> sparkline_on_page(const BatchReport& report, const Pa
 std::optional<Error> write_index(const BatchReport& report, const fs::path& manifest, const WorkList& list,
                                  const Ledger& ledger) {
   BatchPage page{manifest.filename().string(), {}, {}};
-  std::size_t group = 0;
-  auto failed = for_each_entry(manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
-    if (auto error = add_slot(page, report, ledger, {entry.row - 1, entry.id})) return error;
-    for (; group < list.groups.size() && list.groups[group].last_row == entry.row; ++group) {
-      const PageKey key{list.slot_of_group(group), id_of_group(list.groups[group].name)};
-      if (auto error = add_slot(page, report, ledger, key)) return error;
-    }
-    return std::nullopt;
-  });
+  const auto add_entry = [&](const ManifestEntry& entry) {
+    return add_slot(page, report, ledger, {entry.row - 1, entry.id});
+  };
+  const auto add_group = [&](std::size_t group) {
+    return add_slot(page, report, ledger, {list.slot_of_group(group), id_of_group(list.groups[group].name)});
+  };
+  auto failed = for_each_result(manifest, list, add_entry, add_group);
   return failed ? failed : replace_page(report.file, to_html(page));
 }
 

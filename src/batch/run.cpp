@@ -8,10 +8,10 @@
 #include <unordered_map>
 #include <utility>
 
+#include "report/batch_html.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/io/file_hash.hpp"
 #include "slipfit/pipeline.hpp"
-#include "slipfit/report/batch_html.hpp"
 #include "slipfit/report/html.hpp"
 #include "slipfit/report/json.hpp"
 #include "slipfit/report/text.hpp"

@@ -123,6 +123,19 @@ std::optional<Error> for_each_entry(const std::filesystem::path& manifest,
   }
 }
 
+std::optional<Error> for_each_result(const std::filesystem::path& manifest, const WorkList& list,
+                                     const std::function<std::optional<Error>(const ManifestEntry&)>& use_entry,
+                                     const std::function<std::optional<Error>(std::size_t group)>& use_group) {
+  std::size_t group = 0;
+  return for_each_entry(manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
+    if (auto error = use_entry(entry)) return error;
+    for (; group < list.groups.size() && list.groups[group].last_row == entry.row; ++group) {
+      if (auto error = use_group(group)) return error;
+    }
+    return std::nullopt;
+  });
+}
+
 std::string id_of_group(const std::string& name) {
   return "group:" + name;
 }

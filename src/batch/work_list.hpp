@@ -40,6 +40,11 @@ Result<WorkList> list_work(const BatchOptions& options);
 std::optional<Error> for_each_entry(const std::filesystem::path& manifest,
                                     const std::function<std::optional<Error>(const ManifestEntry&)>& use);
 
+/// The same in the order of the results: each group behind the last of its recordings, by its place in the work list.
+std::optional<Error> for_each_result(const std::filesystem::path& manifest, const WorkList& list,
+                                     const std::function<std::optional<Error>(const ManifestEntry&)>& use_entry,
+                                     const std::function<std::optional<Error>(std::size_t group)>& use_group);
+
 /// "group:NAME", the id of a group's result.
 std::string id_of_group(const std::string& name);
 

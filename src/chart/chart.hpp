@@ -14,8 +14,6 @@ enum class Stroke { Solid, Dashed, Dotted, DashDotted };
 enum class Fill { Plain, Hatched };
 enum class Shape { Dot, Speck, Ring, Triangle, Cross };
 enum class Scale { Linear, Logarithmic };
-/// Colours as they are, or as the variables --chart-black, --chart-blue, ... and --chart-paper of a page's style sheet.
-enum class Palette { File, Page };
 
 /// Not finite: a gap in a line.
 struct Point {

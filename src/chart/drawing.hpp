@@ -6,6 +6,9 @@
 
 namespace slipfit::chart {
 
+/// Colours as they are, or as the variables --chart-black, --chart-blue, ... and --chart-paper of a page's style sheet.
+enum class Palette { File, Page };
+
 /// SVG elements, one after the other, in the colours of the place where the picture stands.
 class Drawing {
  public:

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 
 #include "chart/chart.hpp"
 #include "figures/parts.hpp"

@@ -1,7 +1,5 @@
 // The map of regimes over lambda and zeta (no figure of the paper): exact, and what the paper says.
 
-#include <string>
-
 #include "chart/chart.hpp"
 #include "figures/parts.hpp"
 #include "figures/scaled.hpp"

@@ -5,6 +5,7 @@
 #include "model/slip.hpp"
 
 namespace slipfit::figures {
+namespace {
 
 Slider scaled_slider(double damping_ratio) {
   return Slider::create(1.0, 1.0, damping_ratio).value();
@@ -13,6 +14,8 @@ Slider scaled_slider(double damping_ratio) {
 Friction scaled_friction(double lambda) {
   return Friction::create(lambda, 0.0).value();
 }
+
+}  // namespace
 
 Motion scaled_motion(double lambda, double damping_ratio) {
   return damped_motion(scaled_slider(damping_ratio), scaled_friction(lambda), 1.0);

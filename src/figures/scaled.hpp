@@ -22,8 +22,6 @@ struct PrintedLimit {
 };
 constexpr std::array<PrintedLimit, 3> kPrintedLimits{{{0.015, 0.2}, {0.05, 0.5}, {0.1, 0.9}}};
 
-Slider scaled_slider(double damping_ratio);
-Friction scaled_friction(double lambda);
 Motion scaled_motion(double lambda, double damping_ratio);
 Result<PaperCycle> scaled_paper_cycle(double lambda, double damping_ratio);
 

@@ -116,7 +116,12 @@ class Finder {
       rest += ramp.scatter - 2.0 * slope * ramp.cross + slope * slope * ramp.spread;
       freedom += ramp.count - 1.0;
     }
-    Stretch level = level_of_plateaus(rest, freedom);
+    for (const ContactCycle& cycle : found_.cycles) {
+      const Stretch plateau = reduce(cycle.onset + 1, cycle.end + 1);
+      rest += plateau.scatter;
+      freedom += plateau.count - 1.0;
+    }
+    const Stretch level = level_of_plateaus();
     const double drift = level.spread > 0.0 ? level.cross / level.spread : 0.0;
     const double level_rest = std::max(0.0, level.scatter - drift * level.cross);
     const double drift_error2 = level_rest / std::max(1.0, level.count - 2.0) / level.spread;
@@ -129,17 +134,14 @@ class Finder {
     found_.slope_error = std::sqrt(found_.noise * found_.noise / spread + (drifts ? drift_error2 : 0.0));
   }
 
-  /// Plateau means as points of a line; what is inside the plateaus joins the residuals.
-  Stretch level_of_plateaus(double& rest, double& freedom) const {
+  /// Plateau means as points of a line.
+  Stretch level_of_plateaus() const {
     Stretch level;
     const auto count = static_cast<double>(found_.cycles.size());
     level.count = count;
     for (const ContactCycle& cycle : found_.cycles) {
       level.time_s += cycle.onset_s / count;
       level.force += cycle.plateau / count;
-      const Stretch plateau = reduce(cycle.onset + 1, cycle.end + 1);
-      rest += plateau.scatter;
-      freedom += plateau.count - 1.0;
     }
     for (const ContactCycle& cycle : found_.cycles) {
       const double dt = cycle.onset_s - level.time_s;

@@ -2,7 +2,7 @@
 
 #include <Eigen/Sparse>
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "fit/uncertainty.hpp"
@@ -84,62 +84,90 @@ void hold_rows(MatrixXd& matrix, const std::vector<Index>& rows) {
   }
 }
 
-MatrixXd white_covariance(const BlockFit& fit, const std::vector<Normal>& normals, const Held& held, bool continuous) {
-  const Index own = own_size(fit);
-  const Index common = common_size(fit);
-  const auto cycles = static_cast<Index>(normals.size());
-  const Index first_common = own * cycles;
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](Index row, Index col, double value) { entries.emplace_back(row, col, value); };
-  const std::vector<Index> held_common = held_rows(held);
-  const auto is_held = [&](Index i) {
-    return std::find(held_common.begin(), held_common.end(), i) != held_common.end();
-  };
-  for (Index c = 0; c < cycles; ++c) {
-    const Normal& n = normals[static_cast<std::size_t>(c)];
-    for (Index i = 0; i < own; ++i) {
-      for (Index j = 0; j < own; ++j) add(c * own + i, c * own + j, n.own(i, j));
-      for (Index j = 0; j < common; ++j) {
+namespace {
+
+/// The normal equations of all cycles: own parameters cycle by cycle, then the common ones.
+class SparseNormal {
+ public:
+  SparseNormal(const BlockFit& fit, const Held& held)
+      : fit_(fit),
+        own_(own_size(fit)),
+        common_(common_size(fit)),
+        first_common_(own_ * static_cast<Index>(fit.size())),
+        held_(held_rows(held)) {
+    for (const Index i : held_) add(first_common_ + i, first_common_ + i, 1.0);
+  }
+
+  void add_cycle(std::size_t cycle, const Normal& n) {
+    const Index first_own = own_ * static_cast<Index>(cycle);
+    for (Index i = 0; i < own_; ++i) {
+      for (Index j = 0; j < own_; ++j) add(first_own + i, first_own + j, n.own(i, j));
+      for (Index j = 0; j < common_; ++j) {
         if (is_held(j)) continue;
-        add(c * own + i, first_common + j, n.cross(j, i));
-        add(first_common + j, c * own + i, n.cross(j, i));
+        add(first_own + i, first_common_ + j, n.cross(j, i));
+        add(first_common_ + j, first_own + i, n.cross(j, i));
       }
     }
-    for (Index i = 0; i < common; ++i) {
-      for (Index j = 0; j < common; ++j) {
-        if (!is_held(i) && !is_held(j)) add(first_common + i, first_common + j, n.common(i, j));
+    for (Index i = 0; i < common_; ++i) {
+      for (Index j = 0; j < common_; ++j) {
+        if (!is_held(i) && !is_held(j)) add(first_common_ + i, first_common_ + j, n.common(i, j));
       }
     }
-    if (!continuous || c + 1 >= cycles || !fit.data(static_cast<std::size_t>(c)).continuous_with_next) continue;
-    const auto first = static_cast<std::size_t>(c);
+  }
+
+  /// The ramp from a cycle to the next.
+  void add_ramp(std::size_t first) {
     const RampResidual ramp =
-        ramp_residual(fit, first, fit.parameters.shared.data(), fit.parameters.cycles[first].data(),
-                      fit.parameters.cycles[first + 1].data());
+        ramp_residual(fit_, first, fit_.parameters.shared.data(), fit_.parameters.cycles[first].data(),
+                      fit_.parameters.cycles[first + 1].data());
     std::vector<std::pair<Index, double>> row;
     for (Index i = 0; i < 3; ++i) {
-      if (!is_held(i)) row.emplace_back(first_common + i, ramp.d_shared[static_cast<std::size_t>(i)]);
+      if (!is_held(i)) row.emplace_back(first_common_ + i, ramp.d_shared[static_cast<std::size_t>(i)]);
     }
+    const Index first_own = own_ * static_cast<Index>(first);
     for (Index i = 0; i < 2; ++i) {
-      row.emplace_back(c * own + i, ramp.d_first[static_cast<std::size_t>(i)]);
-      row.emplace_back((c + 1) * own + i, ramp.d_second[static_cast<std::size_t>(i)]);
+      row.emplace_back(first_own + i, ramp.d_first[static_cast<std::size_t>(i)]);
+      row.emplace_back(first_own + own_ + i, ramp.d_second[static_cast<std::size_t>(i)]);
     }
     for (const auto& [i, left] : row) {
       for (const auto& [j, right] : row) add(i, j, left * right);
     }
   }
-  for (const Index i : held_common) add(first_common + i, first_common + i, 1.0);
 
-  const Index size = first_common + common;
-  Eigen::SparseMatrix<double> hessian(size, size);
-  hessian.setFromTriplets(entries.begin(), entries.end());
-  const Selection selection = select(fit);
-  MatrixXd columns = MatrixXd::Zero(size, kQuantities);
-  for (Index c = 0; c < cycles; ++c) columns.middleRows(c * own, own) = selection.own;
-  columns.bottomRows(common) = selection.common;
-  for (const Index i : held_common) columns.row(first_common + i).setZero();
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(hessian);
-  if (factor.info() != Eigen::Success) return MatrixXd::Constant(kQuantities, kQuantities, NAN);
-  return columns.transpose() * factor.solve(columns);
+  /// S' H^-1 S; not a number where H is singular.
+  [[nodiscard]] MatrixXd inverse_through(const Selection& selection) const {
+    const Index size = first_common_ + common_;
+    Eigen::SparseMatrix<double> hessian(size, size);
+    hessian.setFromTriplets(entries_.begin(), entries_.end());
+    MatrixXd columns = MatrixXd::Zero(size, kQuantities);
+    for (Index row = 0; row < first_common_; row += own_) columns.middleRows(row, own_) = selection.own;
+    columns.bottomRows(common_) = selection.common;
+    for (const Index i : held_) columns.row(first_common_ + i).setZero();
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(hessian);
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    if (factor.info() != Eigen::Success) return MatrixXd::Constant(kQuantities, kQuantities, kNone);
+    return columns.transpose() * factor.solve(columns);
+  }
+
+ private:
+  void add(Index row, Index column, double value) { entries_.emplace_back(row, column, value); }
+  [[nodiscard]] bool is_held(Index i) const { return std::find(held_.begin(), held_.end(), i) != held_.end(); }
+
+  const BlockFit& fit_;
+  Index own_, common_, first_common_;
+  std::vector<Index> held_;
+  std::vector<Eigen::Triplet<double>> entries_;
+};
+
+}  // namespace
+
+MatrixXd white_covariance(const BlockFit& fit, const std::vector<Normal>& normals, const Held& held, bool continuous) {
+  SparseNormal sum(fit, held);
+  for (std::size_t cycle = 0; cycle < normals.size(); ++cycle) {
+    sum.add_cycle(cycle, normals[cycle]);
+    if (continuous && cycle + 1 < normals.size() && fit.data(cycle).continuous_with_next) sum.add_ramp(cycle);
+  }
+  return sum.inverse_through(select(fit));
 }
 
 MatrixXd jackknife_covariance(const BlockFit& fit, const std::vector<Normal>& normals, const Held& held) {
@@ -167,8 +195,6 @@ MatrixXd jackknife_covariance(const BlockFit& fit, const std::vector<Normal>& no
     sum_response += response[i];
   }
   const double others = static_cast<double>(cycles) - 1.0;
-  std::vector<std::size_t> all(cycles);
-  for (std::size_t i = 0; i < cycles; ++i) all[i] = i;
   const Selection selection = select(fit);
   for (std::size_t i = 0; i < cycles; ++i) {
     MatrixXd remaining = total - reduced[i];

@@ -19,6 +19,27 @@ namespace slipfit::fit {
 namespace {
 
 constexpr std::size_t kMinCycles = 3;
+/// Enough cycles to find the shared parameters' neighbourhood; the full fit starts from there.
+constexpr std::size_t kProbeCycles = 12;
+/// Above it the level model is in doubt: noise alone gives 1 +- sqrt(2 / samples), and the noise measured from
+/// differences is good to a few percent.
+constexpr double kSuspectChi2 = 1.2;
+/// F ratio of one level a cycle against the polynomial; far beyond chance for the 12 and more cycles it is used with.
+constexpr double kWanderingRatio = 3.0;
+
+/// Wandering that shows in the middles of well sampled slips: this much of the drop and of the noise is left
+/// unexplained.
+constexpr double kWanderingShare = 0.03;
+constexpr double kWanderingNoises = 10.0;
+constexpr double kWellSampled = 10.0;  // samples in a half period: peaks are met to (pi / 20)^2 / 2 = 1 %
+constexpr double kUnevenClock = 0.02;  // relative spread of the steps
+constexpr int kQuickIterations = 8;
+constexpr int kCleanPasses = 4;
+constexpr double kMuchHum = 0.5;  // of the residual variance: less does not blur outliers and frequency
+constexpr int kProbeIterations = 12;
+constexpr int kMaxIterations = 60;
+constexpr double kRough = 0.1;  // SolveOptions::tolerance
+constexpr double kFinal = 1e-3;
 
 class Fitter {
  public:
@@ -56,19 +77,6 @@ class Fitter {
   }
 
  private:
-  /// Enough cycles to find the shared parameters' neighbourhood; the full fit starts from there.
-  static constexpr std::size_t kProbeCycles = 12;
-  /// Above it the level model is in doubt: noise alone gives 1 +- sqrt(2 / samples), and the noise measured from
-  /// differences is good to a few percent.
-  static constexpr double kSuspectChi2 = 1.2;
-  /// F ratio of one level a cycle against the polynomial; far beyond chance for the 12 and more cycles it is used with.
-  static constexpr double kWanderingRatio = 3.0;
-  /// Wandering that shows in the middles of well sampled slips: this much of the drop and of the noise is left
-  /// unexplained.
-  static constexpr double kWanderingShare = 0.03;
-  static constexpr double kWanderingNoises = 10.0;
-  static constexpr double kWellSampled = 10.0;  // samples in a half period: peaks are met to (pi / 20)^2 / 2 = 1 %
-
   /// A slip lasts 2 (pi - atan lambda) / w_n around its middle; 0.3 half periods on either side are left for the fit to
   /// move its ends.
   double half_width_s() const {
@@ -204,7 +212,6 @@ class Fitter {
       excluded_.resize(recording_.size(), false);
       for (const std::size_t sample : outliers) excluded_[sample] = true;
       for (const std::size_t sample : censored) excluded_[sample] = true;
-      outliers_ += outliers.size();
       std::optional<BlockFit> next = refit(std::move(fit), bad, lines_Hz);
       if (!next) return std::nullopt;
       fit = std::move(*next);
@@ -262,17 +269,8 @@ class Fitter {
 
   std::optional<DampedFit> finish(BlockFit fit) const {
     return finish_fit(recording_, quality_, segmentation_, half_width_s(),
-                      {std::move(fit), false, held_, refused_damping_, excluded_, outliers_, {}, {}});
+                      {std::move(fit), false, held_, refused_damping_, excluded_, {}, {}});
   }
-
-  static constexpr double kUnevenClock = 0.02;  // relative spread of the steps
-  static constexpr int kQuickIterations = 8;
-  static constexpr int kCleanPasses = 4;
-  static constexpr double kMuchHum = 0.5;  // of the residual variance: less does not blur outliers and frequency
-  static constexpr int kProbeIterations = 12;
-  static constexpr int kMaxIterations = 60;
-  static constexpr double kRough = 0.1;  // SolveOptions::tolerance
-  static constexpr double kFinal = 1e-3;
 
   const Recording& recording_;
   const Quality& quality_;
@@ -285,7 +283,6 @@ class Fitter {
   Scales scales_;
   std::vector<bool> excluded_;
   std::vector<CycleData> cycles_;
-  std::size_t outliers_ = 0;
 };
 
 }  // namespace

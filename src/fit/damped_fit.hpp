@@ -20,7 +20,6 @@ struct DampedFit {
   /// Free damping ratio where it came out clearly negative: the slip is not shaped like the model's, zeta is held at 0.
   std::optional<double> refused_damping;
   std::vector<bool> excluded;  ///< one flag a sample: impulses, clipped, outliers
-  std::size_t outliers = 0;    ///< of `excluded`, found by the fit
   Uncertainty uncertainty;
   std::optional<PhaseMisfit> misfit;  ///< slips are not shaped like the model's; the covariances allow for it
 };

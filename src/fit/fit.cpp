@@ -105,6 +105,12 @@ Residual residual_of(const DampedFit& chosen, const Quality& quality) {
 
 }  // namespace
 
+const Parameter* find_parameter(const FitResult& fit, std::string_view name) {
+  const auto found = std::find_if(fit.parameters.begin(), fit.parameters.end(),
+                                  [name](const Parameter& parameter) { return parameter.name == name; });
+  return found == fit.parameters.end() ? nullptr : &*found;
+}
+
 void withdraw_parameters(FitResult& fit) {
   for (Parameter& parameter : fit.parameters) {
     if (parameter.status == ParameterStatus::Fixed) continue;
@@ -139,7 +145,7 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   std::optional<DampedFit> undamped;
   if (!damped->held.damping) undamped = fit::fit_undamped(*damped);
   fit::TierFits fits{fit::fit_sawtooth(*damped), std::move(undamped), std::move(*damped)};
-  const fit::Resolution resolution = fit::resolve(recording, fits);
+  const fit::Resolution resolution = fit::resolution_of(recording, fits);
 
   FitResult result;
   result.candidates = fit::choose_tier(fits, resolution, options.tier);

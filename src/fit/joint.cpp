@@ -70,12 +70,14 @@ LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
 std::vector<Candidate> candidates_of(const fit::SweepFits& fits, const LawChoice& choice) {
   const double noise2 = fits.velocity.chi2 / fits.velocity.degrees_of_freedom;
   const auto cycles = static_cast<double>(fits.velocity.problem->cycle_count());
-  const auto aicc = [&](double chi2, double parameters) -> std::optional<double> {
-    if (!(cycles > parameters + 1.0) || !std::isfinite(chi2)) return std::nullopt;
-    return chi2 / noise2 + 2.0 * parameters + 2.0 * parameters * (parameters + 1.0) / (cycles - parameters - 1.0);
+  const auto aicc = [&](const JointSolution& solution, double parameters) -> std::optional<double> {
+    if (!(cycles > parameters + 1.0)) return std::nullopt;
+    return solution.chi2 / noise2 + 2.0 * parameters +
+           2.0 * parameters * (parameters + 1.0) / (cycles - parameters - 1.0);
   };
-  return {{Tier::Damped, 5, std::nullopt, aicc(fits.coulomb.chi2, 5.0), !choice.velocity, choice.reason},
-          {Tier::Velocity, 7, std::nullopt, aicc(fits.velocity.chi2, 7.0), choice.velocity, choice.reason}};
+  const std::optional<double> of_coulomb = fits.coulomb ? aicc(*fits.coulomb, 5.0) : std::nullopt;
+  return {{Tier::Damped, 5, std::nullopt, of_coulomb, !choice.velocity, choice.reason},
+          {Tier::Velocity, 7, std::nullopt, aicc(fits.velocity, 7.0), choice.velocity, choice.reason}};
 }
 
 double samples_per_slip(std::span<const SweepRecording> recordings, const SweepData& data) {
@@ -220,16 +222,15 @@ std::optional<JointFit> fit_jointly(std::span<const SweepRecording> recordings, 
   if (!fits) return std::nullopt;
   LawChoice choice = options.tier ? LawChoice{*options.tier == Tier::Velocity, "asked for by --tier"}
                                   : choose_by_chance(*fits, speed_ratio(recordings));
-  const bool have_coulomb = std::isfinite(fits->coulomb.chi2);
   // Weighing fits once without each recording: not for a law that is left.
   std::optional<Outcome> outcome;
-  if (choice.velocity || !have_coulomb) outcome.emplace(fit::weigh(data, fits->velocity));
-  if (choice.velocity && !options.tier && have_coulomb && is_misfit(fits->velocity)) {
-    Outcome coulomb = fit::weigh(data, fits->coulomb);
+  if (choice.velocity || !fits->coulomb) outcome.emplace(fit::weigh(data, fits->velocity));
+  if (choice.velocity && !options.tier && fits->coulomb && is_misfit(fits->velocity)) {
+    Outcome coulomb = fit::weigh(data, *fits->coulomb);
     choice = choose_by_left_out(fit::left_out_error(data, *outcome), fit::left_out_error(data, coulomb));
     if (!choice.velocity) outcome.emplace(std::move(coulomb));
   }
-  if (!outcome) outcome.emplace(fit::weigh(data, fits->coulomb));
+  if (!outcome) outcome.emplace(fit::weigh(data, *fits->coulomb));
   JointFit joint = Assembler(recordings, data, *outcome).assemble(choice);
   joint.fit.candidates = candidates_of(*fits, choice);
   return joint;

@@ -39,7 +39,7 @@ class JointCycle::Rows {
         skip_(cycle.level_->terms > 0 ? 1 : 0) {}
 
   /// `gradient`: d model / d (shared, onset, onset force); `basis`: the level's columns, the constant first;
-  /// `is_slope`: the constant level and its derivatives do not enter.
+  /// `constant_share`: 1, but 0 in rows of slopes, which the constant level does not enter.
   void put(double weight, double data, double model, const std::array<double, kJointShared + 2>& gradient,
            const double* basis, double constant_share) {
     const Scales& scales = cycle_.run_->scales;

@@ -64,6 +64,30 @@ class SteadyCost : public ceres::SizedCostFunction<1, kJointShared, 1> {
   const SteadyRun& run_;
 };
 
+void hold(ceres::Problem& problem, double* shared, const JointHeld& held) {
+  std::vector<int> constant;
+  for (std::size_t i = 0; i < kJointShared; ++i) {
+    if (held[i]) constant.push_back(static_cast<int>(i));
+  }
+  if (constant.size() == kJointShared) {
+    problem.SetParameterBlockConstant(shared);
+  } else if (!constant.empty()) {
+    problem.SetManifold(shared, new ceres::SubsetManifold(static_cast<int>(kJointShared), constant));
+  }
+}
+
+ceres::Solver::Options solver_options(int max_iterations, double function_tolerance) {
+  ceres::Solver::Options options;
+  options.max_num_iterations = max_iterations;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.function_tolerance = function_tolerance;
+  options.gradient_tolerance = 1e-14;
+  options.parameter_tolerance = 1e-11;
+  options.max_num_consecutive_invalid_steps = 20;  // a step into friction that runs away: shorten it
+  options.logging_type = ceres::SILENT;
+  return options;
+}
+
 }  // namespace
 
 JointProblem::JointProblem(std::vector<const BlockFit*> recordings, std::vector<JointRun> runs,
@@ -122,24 +146,9 @@ double JointProblem::solve(const JointHeld& held, int max_iterations, double tol
   for (std::size_t i = 0; shares_.level && i < steady_.size(); ++i) {
     problem.AddResidualBlock(new SteadyCost(*this, steady_[i]), nullptr, shared, parameters.levels.data());
   }
-  std::vector<int> constant;
-  for (std::size_t i = 0; i < kJointShared; ++i) {
-    if (held[i]) constant.push_back(static_cast<int>(i));
-  }
-  if (constant.size() == kJointShared) {
-    problem.SetParameterBlockConstant(shared);
-  } else if (!constant.empty()) {
-    problem.SetManifold(shared, new ceres::SubsetManifold(static_cast<int>(kJointShared), constant));
-  }
-  ceres::Solver::Options options;
-  options.max_num_iterations = max_iterations;
-  options.linear_solver_type = ceres::DENSE_SCHUR;
+  hold(problem, shared, held);
+  ceres::Solver::Options options = solver_options(max_iterations, tolerance / static_cast<double>(residuals));
   options.linear_solver_ordering.reset(ordering);
-  options.function_tolerance = tolerance / static_cast<double>(residuals);
-  options.gradient_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-11;
-  options.max_num_consecutive_invalid_steps = 20;  // a step into friction that runs away: shorten it
-  options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   next = 0;
@@ -208,8 +217,7 @@ JointProblem::Normal JointProblem::normal_of(std::size_t run, std::size_t cycle)
   const MatrixXd cross = common.transpose() * own;
   const MatrixXd response = -(own.transpose() * own).ldlt().solve(cross.transpose());
   return {common.transpose() * common + cross * response,
-          common.transpose() * residuals + response.transpose() * (own.transpose() * residuals),
-          residuals.squaredNorm()};
+          common.transpose() * residuals + response.transpose() * (own.transpose() * residuals)};
 }
 
 JointProblem::Normal JointProblem::normal_of(const SteadyRun& run) const {
@@ -217,7 +225,7 @@ JointProblem::Normal JointProblem::normal_of(const SteadyRun& run) const {
   VectorXd row = VectorXd::Zero(static_cast<Index>(columns()));
   for (std::size_t i = 0; i < kJointShared; ++i) row(static_cast<Index>(i)) = steady.d_shared[i];
   row(static_cast<Index>(level_column(0))) = steady.d_level;
-  return {row * row.transpose(), row * steady.value, steady.value * steady.value};
+  return {row * row.transpose(), row * steady.value};
 }
 
 std::vector<JointProblem::Normal> JointProblem::normals() const {

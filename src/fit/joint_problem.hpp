@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "fit/block_fit.hpp"
@@ -50,26 +49,21 @@ class JointProblem {
   [[nodiscard]] std::size_t size() const { return runs_.size(); }
   [[nodiscard]] const JointRun& run(std::size_t i) const { return runs_[i]; }
   [[nodiscard]] const BlockFit& recording(std::size_t i) const { return *recordings_[i]; }
-  [[nodiscard]] const std::vector<SteadyRun>& steady() const { return steady_; }
   [[nodiscard]] const JointScales& scales() const { return scales_; }
   [[nodiscard]] const Shares& shares() const { return shares_; }
-  [[nodiscard]] const JointCycle& cycle(std::size_t run, std::size_t i) const { return cycles_[run][i]; }
   [[nodiscard]] std::size_t cycle_count() const;
-  [[nodiscard]] JointValues values(std::size_t run, std::size_t cycle) const;
   /// Residuals of all cycles and, where the level is shared, of the steady recordings.
   [[nodiscard]] double rows() const;
 
   /// Columns of `normals`: shared, levels, differences, drifts run by run.
   [[nodiscard]] std::size_t level_column(std::size_t run) const;
   [[nodiscard]] std::size_t difference_column(std::size_t run) const;
-  [[nodiscard]] std::size_t drift_column(std::size_t run) const;
   [[nodiscard]] std::size_t columns() const;
 
   /// One cycle's (or steady recording's) share of the normal equations, its own parameters eliminated.
   struct Normal {
     Eigen::MatrixXd matrix;
     Eigen::VectorXd score;  ///< J' r
-    double chi2 = 0.0;
   };
   [[nodiscard]] std::vector<Normal> normals() const;
 
@@ -82,6 +76,8 @@ class JointProblem {
   [[nodiscard]] SteadyResidual steady_residual(const SteadyRun& run, const double* shared, double level) const;
 
  private:
+  [[nodiscard]] JointValues values(std::size_t run, std::size_t cycle) const;
+  [[nodiscard]] std::size_t drift_column(std::size_t run) const;
   [[nodiscard]] Normal normal_of(std::size_t run, std::size_t cycle) const;
   [[nodiscard]] Normal normal_of(const SteadyRun& run) const;
 

@@ -27,18 +27,10 @@ double variance_of_mean(const std::vector<double>& values) {
   return square / (count * (count - 1.0));
 }
 
-/// F_s - F_k(0+) and rate of ageing as sums over the recordings' own F_s - F_k(0+).
-struct DifferenceWeights {
-  Eigen::VectorXd difference, rate;
-  double residual_variance = 0.0;  ///< of one recording around the line
-};
-
-DifferenceWeights weights_of(const JointSolution& solution, StaticFriction kind) {
+/// Without ageing a level line: the mean.
+AgeingLine static_friction_line(const JointSolution& solution, StaticFriction kind) {
+  if (kind == StaticFriction::Ages) return ageing_line(solution);
   const std::vector<double>& differences = solution.problem->parameters.differences;
-  if (kind == StaticFriction::Ages) {
-    AgeingLine line = ageing_line(solution);
-    return {std::move(line.difference_weights), std::move(line.rate_weights), line.residual_variance};
-  }
   const auto count = static_cast<Eigen::Index>(differences.size());
   return {Eigen::VectorXd::Constant(count, 1.0 / static_cast<double>(count)), Eigen::VectorXd::Zero(count),
           static_cast<double>(count) * variance_of_mean(differences)};
@@ -48,19 +40,19 @@ DifferenceWeights weights_of(const JointSolution& solution, StaticFriction kind)
 
 SweepVector sweep_values(const JointSolution& solution, StaticFriction kind) {
   const JointProblem::Parameters& parameters = solution.problem->parameters;
-  const DifferenceWeights weights = weights_of(solution, kind);
-  const Eigen::Map<const Eigen::VectorXd> differences(parameters.differences.data(), weights.rate.size());
+  const AgeingLine line = static_friction_line(solution, kind);
+  const Eigen::Map<const Eigen::VectorXd> differences(parameters.differences.data(), line.rate_weights.size());
   SweepVector values;
   for (std::size_t i = 0; i < kJointShared; ++i) values(static_cast<Eigen::Index>(i)) = parameters.shared[i];
   values(kLevelValue) = mean(parameters.levels);
-  values(kDifferenceValue) = weights.difference.dot(differences);
-  values(kAgeingValue) = weights.rate.dot(differences);
+  values(kDifferenceValue) = line.difference_weights.dot(differences);
+  values(kAgeingValue) = line.rate_weights.dot(differences);
   return values;
 }
 
 SweepMatrix sweep_covariance(const JointSolution& solution, const JointCovariance& covariance, StaticFriction kind) {
   const JointProblem& problem = *solution.problem;
-  const DifferenceWeights weights = weights_of(solution, kind);
+  const AgeingLine line = static_friction_line(solution, kind);
   Eigen::MatrixXd selection = Eigen::MatrixXd::Zero(covariance.matrix.rows(), kSweepValues);
   for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(kJointShared); ++i) selection(i, i) = 1.0;
   const auto& levels = problem.parameters.levels;
@@ -68,16 +60,16 @@ SweepMatrix sweep_covariance(const JointSolution& solution, const JointCovarianc
     selection(static_cast<Eigen::Index>(problem.level_column(i)), kLevelValue) =
         1.0 / static_cast<double>(levels.size());
   }
-  for (Eigen::Index i = 0; i < weights.rate.size(); ++i) {
+  for (Eigen::Index i = 0; i < line.rate_weights.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(problem.difference_column(static_cast<std::size_t>(i)));
-    selection(row, kDifferenceValue) = weights.difference(i);
-    selection(row, kAgeingValue) = weights.rate(i);
+    selection(row, kDifferenceValue) = line.difference_weights(i);
+    selection(row, kAgeingValue) = line.rate_weights(i);
   }
   SweepMatrix matrix = selection.transpose() * covariance.matrix * selection;
   matrix(kLevelValue, kLevelValue) += variance_of_mean(levels);
-  Eigen::MatrixXd scatter(weights.rate.size(), 2);
-  scatter << weights.difference, weights.rate;
-  matrix.block<2, 2>(kDifferenceValue, kDifferenceValue) += weights.residual_variance * scatter.transpose() * scatter;
+  Eigen::MatrixXd scatter(line.rate_weights.size(), 2);
+  scatter << line.difference_weights, line.rate_weights;
+  matrix.block<2, 2>(kDifferenceValue, kDifferenceValue) += line.residual_variance * scatter.transpose() * scatter;
   return matrix;
 }
 

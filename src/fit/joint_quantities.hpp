@@ -11,10 +11,9 @@
 
 namespace slipfit::fit {
 
-/// ln k, ln w_n, zeta, beta, rate (JointShared), then at the reference load and over JointScales::force: F_k(0+) and
-/// F_s
-/// - F_k(0+), means over the recordings where each has its own, and the rate of ageing. Where static friction ages F_s
-/// - F_k(0+) is that after a stick of JointScales::stick_s.
+/// The values of a sweep: those of JointShared, then at the reference load and over JointScales::force F_k(0+), the
+/// difference F_s - F_k(0+) (means over the recordings where each has its own) and the rate of ageing. Where static
+/// friction ages, the difference is that after a stick of JointScales::stick_s.
 inline constexpr int kLevelValue = static_cast<int>(kJointShared);
 inline constexpr int kDifferenceValue = kLevelValue + 1;
 inline constexpr int kAgeingValue = kLevelValue + 2;

@@ -50,10 +50,10 @@ class SweepFitter {
     std::optional<JointSolution> free = fit_velocity({false, false});
     if (!free) return std::nullopt;
     JointSolution velocity = with_shares(std::move(*free));
-    JointSolution coulomb = coulomb_like(velocity);
+    std::optional<JointSolution> coulomb = coulomb_like(velocity);
     SweepFits fits{std::move(velocity), std::move(coulomb)};
     const double extra = 2.0;  // slope and rate
-    fits.p_value = chance(fits.coulomb.chi2 - fits.velocity.chi2, extra, fits.velocity);
+    fits.p_value = fits.coulomb ? chance(fits.coulomb->chi2 - fits.velocity.chi2, extra, fits.velocity) : 0.0;
     fits.depends_on_speed = fits.p_value < kLawChance;
     return fits;
   }
@@ -61,7 +61,6 @@ class SweepFitter {
  private:
   /// Chance of such a gain in chi2 by `extra` parameters (or constraints taken off).
   static double chance(double gain, double extra, const JointSolution& rich) {
-    if (!std::isfinite(gain)) return 0.0;
     const double ratio = gain / extra / (rich.chi2 / rich.degrees_of_freedom);
     if (!(ratio > 0.0)) return 1.0;
     const boost::math::fisher_f_distribution<double> by_chance(extra, rich.degrees_of_freedom);
@@ -141,7 +140,10 @@ class SweepFitter {
       std::optional<JointSolution> shared = fit_velocity(shares);
       if (!shared) continue;
       // With more freedom no fit can be worse: where it is, it had ended in another minimum.
-      if (shared->chi2 < free.chi2) free = released(*shared, free);
+      if (shared->chi2 < free.chi2) {
+        std::optional<JointSolution> better = released(*shared);
+        if (better && better->chi2 < free.chi2) free = std::move(*better);
+      }
       const double steady = shares.level ? static_cast<double>(data_.steady.size()) : 0.0;
       const double shared_kinds = (shares.level ? 1.0 : 0.0) + (shares.difference ? 1.0 : 0.0);
       const double constraints = static_cast<double>(runs - 1) * shared_kinds + steady;
@@ -150,26 +152,20 @@ class SweepFitter {
     return free;
   }
 
-  /// From a shared solution on with nothing shared; `otherwise` where that leads nowhere.
-  JointSolution released(const JointSolution& shared, JointSolution& otherwise) const {
+  /// From a shared solution on with nothing shared.
+  std::optional<JointSolution> released(const JointSolution& shared) const {
     std::unique_ptr<JointProblem> problem = problem_of(data_, {false, false}, data_.fitted);
     const JointProblem::Parameters& from = shared.problem->parameters;
     problem->parameters = from;
     if (from.levels.size() == 1) problem->parameters.levels.assign(problem->size(), from.levels[0]);
     if (from.differences.size() == 1) problem->parameters.differences.assign(problem->size(), from.differences[0]);
-    std::optional<JointSolution> solution = finish(std::move(problem), shared.held);
-    return solution && solution->chi2 < otherwise.chi2 ? std::move(*solution) : std::move(otherwise);
+    return finish(std::move(problem), shared.held);
   }
 
-  JointSolution coulomb_like(const JointSolution& velocity) const {
+  std::optional<JointSolution> coulomb_like(const JointSolution& velocity) const {
     std::unique_ptr<JointProblem> problem = problem_of(data_, velocity.problem->shares(), data_.fitted);
     set_start(*problem, data_.fitted);
-    const JointHeld held = held_parameters(SweepLaw::Coulomb);
-    std::optional<JointSolution> solution = finish(std::move(problem), held);
-    if (solution) return std::move(*solution);
-    JointSolution failed{problem_of(data_, velocity.problem->shares(), data_.fitted), held,
-                         std::numeric_limits<double>::infinity(), 1.0};
-    return failed;
+    return finish(std::move(problem), held_parameters(SweepLaw::Coulomb));
   }
 
   const SweepData& data_;

@@ -20,9 +20,9 @@ enum class SweepLaw { Coulomb, Velocity };
 
 struct SweepFits {
   JointSolution velocity;
-  JointSolution coulomb;          ///< with the same shares
-  bool depends_on_speed = false;  ///< velocity explains more than chance would
-  double p_value = 1.0;           ///< that Coulomb friction gives such a difference by chance
+  std::optional<JointSolution> coulomb;  ///< with the same shares; empty: it has no minimum
+  bool depends_on_speed = false;         ///< velocity explains more than chance would
+  double p_value = 1.0;                  ///< that Coulomb friction gives such a difference by chance
 };
 
 /// Both laws, with everything shared between the recordings that the data agree with. Empty where no start converges.

@@ -36,10 +36,9 @@ Means means_of(const BlockFit& fit, std::size_t cycle) {
   const CycleState state = fit.state(cycle);
   const CycleData& data = fit.data(cycle);
   for (std::size_t j = 0; j < data.time_s.size(); ++j) {
-    const int phase = phase_of(state, data.time_s[j]);
+    const std::optional<std::size_t> phase = phase_of(state, data.time_s[j]);
     const double weight = data.weight.empty() ? 1.0 : data.weight[j];
-    if (phase >= 0 && weight > 0.0)
-      stacks[static_cast<std::size_t>(phase)].add(residuals[j] * fit.scales().noise / weight);
+    if (phase && weight > 0.0) stacks[*phase].add(residuals[j] * fit.scales().noise / weight);
   }
   Means means;
   for (std::size_t p = 0; p < kPhases; ++p) {
@@ -50,10 +49,10 @@ Means means_of(const BlockFit& fit, std::size_t cycle) {
 
 }  // namespace
 
-int phase_of(const CycleState& state, double time_s) {
+std::optional<std::size_t> phase_of(const CycleState& state, double time_s) {
   const double share = (time_s - state.onset_s) * state.omega_rad_per_s / state.slip.tau_end;
   const double place = (share + kMargin) / (1.0 + 2.0 * kMargin) * kPhases;
-  return place >= 0.0 && place < kPhases ? static_cast<int>(place) : -1;
+  return place >= 0.0 && place < kPhases ? std::optional(static_cast<std::size_t>(place)) : std::nullopt;
 }
 
 std::optional<PhaseMisfit> find_misfit(const BlockFit& fit, double tolerated) {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "fit/block_fit.hpp"
 #include "fit/uncertainty.hpp"
@@ -17,8 +17,8 @@ struct PhaseMisfit {
   double size = 0.0;   ///< mean residual there over the mean onset force, signed
 };
 
-/// Stretch of a sample, -1 outside all.
-int phase_of(const CycleState& state, double time_s);
+/// Stretch of a sample; empty outside all.
+std::optional<std::size_t> phase_of(const CycleState& state, double time_s);
 
 /// Residuals stacked over the phase of the slip. Empty where no stretch has a mean that is beyond chance (4.5 standard
 /// errors over the cycles) and matters (1 % of the onset force, `tolerated` on top); below 5 cycles.

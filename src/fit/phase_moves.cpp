@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "fit/covariance.hpp"
 #include "fit/misfit.hpp"
@@ -35,9 +34,9 @@ std::array<Rows, kPhases> stretches_of(const BlockFit& fit, std::size_t cycle) {
   const CycleState state = fit.state(cycle);
   const std::vector<double>& time_s = fit.data(cycle).time_s;
   for (std::size_t j = 0; j < time_s.size(); ++j) {
-    const int phase = phase_of(state, time_s[j]);
-    if (phase < 0) continue;
-    Rows& rows = stretches[static_cast<std::size_t>(phase)];
+    const std::optional<std::size_t> phase = phase_of(state, time_s[j]);
+    if (!phase) continue;
+    Rows& rows = stretches[*phase];
     if (rows.count++ == 0) rows.begin = static_cast<Index>(j);
   }
   return stretches;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "fit/profile.hpp"
-#include "fit/start.hpp"
+#include "fit/ramps.hpp"
 #include "fit/tiers.hpp"
 
 namespace slipfit::fit {

@@ -4,18 +4,43 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
+namespace {
 
+/// Half period from the 80 % to 20 % falls: a half cosine passes them in acos(-0.6) - acos(0.6) of its pi.
 double half_period_of(const Segmentation& segmentation) {
   std::vector<double> falls;
   for (const DetectedSlip& slip : segmentation.slips) falls.push_back(slip.fall_s);
   const double share = (std::acos(-0.6) - std::acos(0.6)) / std::numbers::pi;
   return signal::median(falls) / share;
 }
+
+/// Least-squares coefficients of the level polynomial through one value a slip.
+std::vector<double> level_through(const BlockFit& fit, const std::vector<double>& times_s,
+                                  const std::vector<double>& levels) {
+  const std::size_t terms = fit.level().terms;
+  const Scales& scales = fit.scales();
+  Eigen::MatrixXd basis(static_cast<Eigen::Index>(times_s.size()), static_cast<Eigen::Index>(terms));
+  Eigen::VectorXd target(static_cast<Eigen::Index>(times_s.size()));
+  std::vector<double> values(terms);
+  std::vector<double> slopes(terms);
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    const double x = 2.0 * (times_s[i] - scales.time_begin_s) / (scales.time_end_s - scales.time_begin_s) - 1.0;
+    legendre(x, terms, values.data(), slopes.data());
+    const auto row = static_cast<Eigen::Index>(i);
+    for (std::size_t j = 0; j < terms; ++j) basis(row, static_cast<Eigen::Index>(j)) = values[j];
+    target(row) = (levels[i] - scales.level) / scales.force;
+  }
+  const Eigen::VectorXd solution = basis.colPivHouseholderQr().solve(target);
+  std::vector<double> coefficients(fit.level().columns(), 0.0);  // no hum to start with
+  std::copy_n(solution.data(), terms, coefficients.begin());
+  return coefficients;
+}
+
+}  // namespace
 
 Scales scales_of(const Recording& recording, const Quality& quality, const Segmentation& segmentation) {
   Scales scales;
@@ -36,89 +61,6 @@ Scales scales_of(const Recording& recording, const Quality& quality, const Segme
   // A recording without noise still has rounding; residuals must keep a finite weight.
   scales.noise = std::max({quality.noise_rms, 0.29 * quality.quantisation_step.value_or(0.0), 1e-6 * scales.force});
   return scales;
-}
-
-StickBin merge(const std::vector<StickBin>& bins) {
-  StickBin all;
-  for (const StickBin& bin : bins) {
-    all.count += bin.count;
-    all.time_s += bin.count * bin.time_s;
-    all.force += bin.count * bin.force;
-  }
-  if (all.count == 0.0) return all;
-  all.time_s /= all.count;
-  all.force /= all.count;
-  double cross = 0.0;
-  double square = 0.0;
-  for (const StickBin& bin : bins) {
-    const double dt = bin.time_s - all.time_s;
-    const double df = bin.force - all.force;
-    all.time_spread += bin.time_spread + bin.count * dt * dt;
-    cross += bin.slope * bin.time_spread + bin.count * dt * df;
-    square += bin.scatter + bin.slope * bin.slope * bin.time_spread + bin.count * df * df;
-  }
-  if (all.time_spread > 0.0) all.slope = cross / all.time_spread;
-  all.scatter = std::max(0.0, square - all.slope * cross);
-  return all;
-}
-
-namespace {
-
-/// A drift that itself bends would make a ramp steeper than the one before it.
-double level_slope(const BlockFit& fit, std::size_t cycle, double time_s) {
-  const double step_s = fit.scales().half_period_s;
-  const double* own = fit.parameters.cycles[cycle].data();
-  const auto level = [&](double t_s) { return fit.model(cycle).level_at(t_s, fit.level_data(), own); };
-  return (level(time_s + step_s) - level(time_s - step_s)) / (2.0 * step_s);
-}
-
-}  // namespace
-
-std::optional<RampBend> ramp_bend(const BlockFit& fit) {
-  // Each cycle's difference of slopes, weighted by what its halves know: slopes have the variance noise^2 /
-  // time_spread.
-  double weights = 0.0;
-  double difference = 0.0;
-  double slope = 0.0;
-  std::vector<std::pair<double, double>> cycles;
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    StickBin late = merge(fit.data(i).bins_before);
-    StickBin early = merge(fit.data(i).bins_after);
-    if (late.count < 3.0 || early.count < 3.0) continue;
-    late.slope -= level_slope(fit, i, late.time_s);
-    early.slope -= level_slope(fit, i, early.time_s);
-    const double weight = 1.0 / (1.0 / late.time_spread + 1.0 / early.time_spread);
-    cycles.emplace_back(weight, early.slope - late.slope);
-    weights += weight;
-    difference += weight * (early.slope - late.slope);
-    slope += weight * 0.5 * (early.slope + late.slope);
-  }
-  if (cycles.size() < 5 || !(slope > 0.0)) return std::nullopt;
-  difference /= weights;
-  slope /= weights;
-  double variance = 0.0;
-  for (const auto& [weight, value] : cycles) variance += weight * weight * (value - difference) * (value - difference);
-  return RampBend{difference / slope, std::sqrt(variance) / weights / slope};
-}
-
-double level_trend(const BlockFit& fit) {
-  if (!fit.level().per_cycle || fit.size() < 3) return 0.0;
-  const auto count = static_cast<double>(fit.size());
-  double mean_s = 0.0, mean = 0.0, spread = 0.0, cross = 0.0, square = 0.0;
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    mean_s += fit.reference_s(i) / count;
-    mean += fit.parameters.cycles[i][2] * fit.scales().force / count;
-  }
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    const double dt = fit.reference_s(i) - mean_s;
-    const double df = fit.parameters.cycles[i][2] * fit.scales().force - mean;
-    spread += dt * dt;
-    cross += dt * df;
-    square += df * df;
-  }
-  const double rate = cross / spread;
-  const double error = std::sqrt(std::max(0.0, square - rate * cross) / (count - 2.0) / spread);
-  return std::abs(rate) > 3.0 * error ? rate : 0.0;
 }
 
 double stiffness_of(const Recording& recording, const Segmentation& segmentation) {
@@ -149,32 +91,6 @@ double stiffness_of(const Recording& recording, const Segmentation& segmentation
   }
   return signal::median(slopes) / recording.conditions().speed_m_per_s;
 }
-
-namespace {
-
-/// Least-squares coefficients of the level polynomial through one value a slip.
-std::vector<double> level_through(const BlockFit& fit, const std::vector<double>& times_s,
-                                  const std::vector<double>& levels) {
-  const std::size_t terms = fit.level().terms;
-  const Scales& scales = fit.scales();
-  Eigen::MatrixXd basis(static_cast<Eigen::Index>(times_s.size()), static_cast<Eigen::Index>(terms));
-  Eigen::VectorXd target(static_cast<Eigen::Index>(times_s.size()));
-  std::vector<double> values(terms);
-  std::vector<double> slopes(terms);
-  for (std::size_t i = 0; i < times_s.size(); ++i) {
-    const double x = 2.0 * (times_s[i] - scales.time_begin_s) / (scales.time_end_s - scales.time_begin_s) - 1.0;
-    legendre(x, terms, values.data(), slopes.data());
-    const auto row = static_cast<Eigen::Index>(i);
-    for (std::size_t j = 0; j < terms; ++j) basis(row, static_cast<Eigen::Index>(j)) = values[j];
-    target(row) = (levels[i] - scales.level) / scales.force;
-  }
-  const Eigen::VectorXd solution = basis.colPivHouseholderQr().solve(target);
-  std::vector<double> coefficients(fit.level().columns(), 0.0);  // no hum to start with
-  std::copy_n(solution.data(), terms, coefficients.begin());
-  return coefficients;
-}
-
-}  // namespace
 
 void set_start(BlockFit& fit, const Segmentation& segmentation, const Shared& shared) {
   const Scales& scales = fit.scales();

@@ -32,6 +32,11 @@ double rms_of(const DampedFit& fit) {
   return fit.blocks.scales().noise * std::sqrt(fit.uncertainty.chi2 / std::max(1.0, fit.uncertainty.samples));
 }
 
+std::string against(const Candidate& candidate, const Candidate& other) {
+  return fmt::format("AICc {:+.1f} against {}", *candidate.aicc - *other.aicc,
+                     other.tier == Tier::Sawtooth ? "sawtooth" : "undamped");
+}
+
 double median_slip_s(const BlockFit& blocks) {
   std::vector<double> durations;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -46,9 +51,9 @@ double median_slip_s(const BlockFit& blocks) {
 SawtoothFit fit_sawtooth(const DampedFit& damped) {
   const BlockFit& blocks = damped.blocks;
   SawtoothFit result;
-  result.slope = std::exp(blocks.parameters.shared[0]) * blocks.scales().speed_m_per_s;
   std::vector<double> drops;
   double sum = 0.0;
+  double samples = 0.0;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const CycleData& data = blocks.data(i);
     const CycleState state = blocks.state(i);
@@ -63,17 +68,16 @@ SawtoothFit fit_sawtooth(const DampedFit& damped) {
       const double level = blocks.model(i).level_at(data.time_s[j], blocks.level_data(), own);
       const double residual = data.force[j] - level - state.force_scale * z;
       sum += residual * residual;
-      result.samples += 1.0;
+      samples += 1.0;
     }
     for (const auto* bins : {&data.bins_before, &data.bins_after}) {
       for (const StickBin& bin : *bins) {
         sum += bin.scatter;
-        result.samples += bin.count;
+        samples += bin.count;
       }
     }
   }
-  result.cycles = blocks.size();
-  result.rms = std::sqrt(sum / std::max(1.0, result.samples));
+  result.rms = std::sqrt(sum / std::max(1.0, samples));
   for (const double drop : drops) result.drop += drop / static_cast<double>(drops.size());
   for (const double drop : drops) result.drop_sd += (drop - result.drop) * (drop - result.drop);
   result.drop_sd = std::sqrt(result.drop_sd / std::max(1.0, static_cast<double>(drops.size()) - 1.0));
@@ -86,15 +90,15 @@ std::string too_few_samples(double samples_per_slip, double sample_interval_s) {
                      rate_Hz < 1000.0 ? fmt::format("{:.3g} Hz", rate_Hz) : fmt::format("{:.3g} kHz", 1e-3 * rate_Hz));
 }
 
-Resolution resolve(const Recording& recording, const TierFits& fits) {
+Resolution resolution_of(const Recording& recording, const TierFits& fits) {
   const BlockFit& blocks = fits.damped.blocks;
   const Uncertainty& uncertainty = fits.damped.uncertainty;
   Resolution result;
   result.samples_per_slip = median_slip_s(blocks) / recording.sample_interval_s();
-  result.damping_error = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
+  const double damping_error = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
   const bool held = fits.damping_held();
   // Fewer than 1.5 samples in a slip leave w_n and zeta without a single minimum, unless scattering cycles pin zeta.
-  const bool scatter_tells = !fits.damped.refused_damping && result.damping_error < 0.01;
+  const bool scatter_tells = !fits.damped.refused_damping && damping_error < 0.01;
   if (result.samples_per_slip < 1.5 && !held && !scatter_tells) {
     result.reason = too_few_samples(result.samples_per_slip, recording.sample_interval_s());
     return result;
@@ -106,8 +110,8 @@ Resolution resolve(const Recording& recording, const TierFits& fits) {
     result.reason =
         fmt::format("the slip is not shaped like a damped oscillation (its best damping ratio, {:.2f}, is below 0)",
                     *fits.damped.refused_damping);
-  } else if (!(result.damping_error < 0.1)) {
-    result.reason = fmt::format("the standard error of the damping ratio is {:.2g}; {}", result.damping_error,
+  } else if (!(damping_error < 0.1)) {
+    result.reason = fmt::format("the standard error of the damping ratio is {:.2g}; {}", damping_error,
                                 result.samples_per_slip < 6.0
                                     ? too_few_samples(result.samples_per_slip, recording.sample_interval_s())
                                     : std::string("less noise or more cycles would lower it"));
@@ -142,12 +146,8 @@ std::vector<Candidate> choose_tier(const TierFits& fits, const Resolution& resol
                              *damped.aicc + kPrice < undamped.aicc.value_or(INFINITY) &&
                              *damped.aicc + kPrice < *sawtooth.aicc;
     chosen = damped_pays ? Tier::Damped : undamped_pays ? Tier::Undamped : Tier::Sawtooth;
-    const auto against = [](const Candidate& candidate, const Candidate& other) {
-      return fmt::format("AICc {:+.1f} against {}", *candidate.aicc - *other.aicc,
-                         other.tier == Tier::Sawtooth ? "sawtooth" : "undamped");
-    };
     if (undamped.aicc) undamped.reason = against(undamped, sawtooth);
-    if (damped.aicc) damped.reason = undamped.aicc ? against(damped, undamped) : against(damped, sawtooth);
+    if (damped.aicc) damped.reason = against(damped, undamped.aicc ? undamped : sawtooth);
     if (!resolution.damping_resolved) damped.reason = resolution.reason;
     sawtooth.reason =
         chosen == Tier::Sawtooth ? "no richer tier pays for its parameters" : "a richer tier pays for its parameters";

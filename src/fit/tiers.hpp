@@ -11,12 +11,9 @@ namespace slipfit::fit {
 
 /// Poorest tier: straight ramps of one slope, joined by jumps. Nothing about the slip itself.
 struct SawtoothFit {
-  double slope = 0.0;  ///< k V
-  double drop = 0.0;   ///< mean jump at the middle of the slip
+  double drop = 0.0;  ///< mean jump at the middle of the slip
   double drop_sd = 0.0;
   double rms = 0.0;
-  double samples = 0.0;
-  std::size_t cycles = 0;
 };
 
 SawtoothFit fit_sawtooth(const DampedFit& damped);
@@ -39,7 +36,6 @@ struct TierFits {
 /// How far the slip is resolved: by samples, by the likelihood of zeta, by the misfit of its shape.
 struct Resolution {
   double samples_per_slip = 0.0;
-  double damping_error = 0.0;     ///< standard error of zeta
   bool slip_resolved = false;     ///< w_n and F_s - F_k can be read from the slip
   bool damping_resolved = false;  ///< zeta can
   std::string reason;             ///< why not, or empty
@@ -48,7 +44,7 @@ struct Resolution {
 /// "the slip has 1.4 samples; sample at 8.0 kHz or more": for 6 samples in a slip.
 std::string too_few_samples(double samples_per_slip, double sample_interval_s);
 
-Resolution resolve(const Recording& recording, const TierFits& fits);
+Resolution resolution_of(const Recording& recording, const TierFits& fits);
 
 /// The poorest tier that explains the recording, with the reason for each; `forced` takes the place of the choice.
 std::vector<Candidate> choose_tier(const TierFits& fits, const Resolution& resolution, std::optional<Tier> forced);

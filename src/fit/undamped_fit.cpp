@@ -29,8 +29,7 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped) {
   if (!std::isfinite(loose_chi2)) return std::nullopt;
   const bool joined = damped.continuous && !is_lost(loose_chi2, damped);
   if (joined && !std::isfinite(blocks.solve({held, true, true}))) return std::nullopt;
-  DampedFit result{std::move(blocks), joined,          held, damped.refused_damping,
-                   damped.excluded,   damped.outliers, {},   damped.misfit};
+  DampedFit result{std::move(blocks), joined, held, damped.refused_damping, damped.excluded, {}, damped.misfit};
   result.uncertainty = estimate_uncertainty(result.blocks, held, joined);
   // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.
   const bool is_false = from.parameters.shared[2] < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;

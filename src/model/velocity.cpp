@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "model/parameter_error.hpp"
 #include "model/velocity_slip.hpp"

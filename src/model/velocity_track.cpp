@@ -16,11 +16,11 @@ namespace odeint = boost::numeric::odeint;
 constexpr double kLargestExponent = 300.0;
 
 /// Friction above F_k(0+) and its derivatives: slope * (exp(rate v) - 1) / rate.
-struct Friction {
+struct TrackFriction {
   double value = 0.0, d_speed = 0.0, d_slope = 0.0, d_rate = 0.0;
 };
 
-Friction friction_at(double v, double slope, double rate) {
+TrackFriction friction_at(double v, double slope, double rate) {
   const double x = std::min(rate * v, kLargestExponent);
   if (std::abs(x) < 1e-4) {  // series to x^2
     const double d_slope = v * (1.0 + x * (0.5 + x / 6.0));
@@ -56,7 +56,7 @@ class VelocityTrack::Integrator {
   }
 
   void operator()(const State& x, State& dx, double /*tau*/) const {
-    const Friction friction = friction_at(1.0 - x[kRows], slope_, rate_);
+    const TrackFriction friction = friction_at(1.0 - x[kRows], slope_, rate_);
     for (std::size_t i = 0; i < kRows; ++i) dx[i] = x[kRows + i];
     dx[kRows] = -x[0] - 2.0 * zeta_ * x[kRows] + friction.value;
     const double damping = 2.0 * zeta_ + friction.d_speed;
@@ -65,7 +65,7 @@ class VelocityTrack::Integrator {
   }
 
   [[nodiscard]] double third_derivative(const Node& node) const {
-    const Friction friction = friction_at(1.0 - node.first[0], slope_, rate_);
+    const TrackFriction friction = friction_at(1.0 - node.first[0], slope_, rate_);
     return -node.first[0] - (2.0 * zeta_ + friction.d_speed) * node.second[0];
   }
 

@@ -1,8 +1,6 @@
 #include "predict/velocity.hpp"
 
-#include <cmath>
 #include <numbers>
-#include <string>
 
 #include "model/velocity_track.hpp"
 
@@ -10,11 +8,11 @@ namespace slipfit::predict {
 namespace {
 
 /// The slip that starts from stick at one speed, in units of docs/model.md section 5 and with its derivatives.
-struct ScaledSlip {
+struct SlipJets {
   Jet force_unit_N, z0, zeta, slope, rate;
   double speed_m_per_s = 0.0;
 
-  ScaledSlip(const ModelJets& p, double speed)
+  SlipJets(const ModelJets& p, double speed)
       : force_unit_N(p.stiffness_N_per_m * speed / p.omega_rad_per_s),
         z0(p.difference_N / force_unit_N - 2.0 * p.damping_ratio),  // the slip starts from F_s - cV
         zeta(p.damping_ratio),
@@ -38,7 +36,7 @@ struct ScaledSlip {
 };
 
 /// Force where z' passes 0 between two times; to first order it does not move with that time.
-Jet extreme(const ScaledSlip& slip, const model::VelocityTrack& track, double before, double after) {
+Jet extreme(const SlipJets& slip, const model::VelocityTrack& track, double before, double after) {
   const bool rises = track.at(before).d_tau > 0.0;
   constexpr int kHalvings = 50;  // to round-off
   for (int i = 0; i < kHalvings; ++i) {
@@ -61,7 +59,7 @@ double time_of_falling_force(const model::VelocityTrack& track) {
 }
 
 /// Empty where the slip does not stick, or ends with the force above that of the next slip's start.
-std::optional<CycleJets> cycle_of(const ScaledSlip& slip, const model::VelocityTrack& track, const Jet& omega) {
+std::optional<CycleJets> cycle_of(const SlipJets& slip, const model::VelocityTrack& track, const Jet& omega) {
   if (!track.resticks()) return std::nullopt;
   const model::TrackEnd& end = track.end();
   Jet tau_slip(end.tau);
@@ -81,7 +79,7 @@ std::optional<CycleJets> cycle_of(const ScaledSlip& slip, const model::VelocityT
 
 /// Positive where the slip sticks: z''^2 at its end is linear in the parameters up to where it vanishes; without stick
 /// what z' lacks to 1.
-Jet margin_of(const ScaledSlip& slip, const model::VelocityTrack& track) {
+Jet margin_of(const SlipJets& slip, const model::VelocityTrack& track) {
   const model::TrackEnd& end = track.end();
   const Jet first = slip.jet(end.first);
   if (!track.resticks()) return first - 1.0;
@@ -97,7 +95,7 @@ Regime regime_of(double total_damping_ratio, bool sticks) {
 }
 
 bool sticks_at(const ModelJets& p, double speed_m_per_s) {
-  const auto track = ScaledSlip(p, speed_m_per_s).solve();
+  const auto track = SlipJets(p, speed_m_per_s).solve();
   return track && track->resticks();
 }
 
@@ -131,7 +129,7 @@ CriticalPoint both(const Estimate& estimate) {
 
 MotionJets velocity_motion_at(const ModelEstimate& model, double speed_m_per_s) {
   const ModelJets p = jets_of(model);
-  const ScaledSlip slip(p, speed_m_per_s);
+  const SlipJets slip(p, speed_m_per_s);
   MotionJets motion;
   // Linearised at the driving speed: tangent of the friction law, not its chord. docs/model.md section 5
   motion.total_damping_ratio = slip.zeta + 0.5 * slip.slope * exp(slip.rate);
@@ -154,7 +152,7 @@ CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagat
   while (speed > kSlowest * unit && !sticks_at(p, speed / kSearchStep)) speed /= kSearchStep;
   if (speed <= kSlowest * unit) return both(unknown("no stick-slip at any speed"));
   const double critical = refined(p, {speed / kSearchStep, speed}).slides;
-  const ScaledSlip slip(p, critical);
+  const SlipJets slip(p, critical);
   const auto track = slip.solve();
   if (!track || track->resticks()) return both(unknown("the end of stick-slip has no solution"));
   // The largest z' is 1 there: derivatives of the root by the implicit function theorem.

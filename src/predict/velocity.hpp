@@ -2,8 +2,6 @@
 
 // Predictions with friction that depends on the sliding speed. docs/model.md section 5
 
-#include <optional>
-
 #include "predict/delta.hpp"
 
 namespace slipfit::predict {

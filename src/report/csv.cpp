@@ -4,18 +4,18 @@
 
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <vector>
 
+#include "report/csv_cell.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
-namespace {
 
-/// The shortest text that reads back as the same double; empty where there is no number.
 std::string cell(std::optional<double> value) {
   return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
 }
+
+namespace {
 
 std::string unit_suffix(const Recording& recording) {
   return recording.conditions().quantity == ForceQuantity::Force_N ? "N" : "coefficient";

@@ -28,7 +28,7 @@ std::string to_json(const Recording& recording, const Analysis& analysis, const 
   json["recording"] = recording_json(recording, analysis.quality);
   json["status"] = name_of(analysis.verdict);
   json["status_reason"] = analysis.verdict_reason;
-  json["warnings"] = warnings_json(all_warnings(recording, analysis));
+  json["warnings"] = warnings_json(analysis.warnings);
   json["frequency"] = frequency_json(analysis.frequency);
   json["cycles"] = cycles_json(analysis.cycles, quantity);
   if (analysis.fit) {
@@ -39,8 +39,7 @@ std::string to_json(const Recording& recording, const Analysis& analysis, const 
   json["derived"] = derived_json(analysis.derived);
   json["tests"] = tests_json(analysis.tests);
   if (options.timing) json["timing"] = timing_json(analysis.timing);
-  const int indent = options.layout == JsonLayout::Indented ? 2 : -1;
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+  return text_of(json, options.layout);
 }
 
 }  // namespace slipfit

@@ -90,8 +90,10 @@ Json correlation_json(const FitResult& fit) {
     matrix.push_back(std::move(cells));
   }
   Json json{{"names", fit.correlation->names}, {"matrix", std::move(matrix)}};
-  if (fit.estimate) json["values"] = working_values_json(*fit.correlation, *fit.estimate);
-  if (fit.estimate) json["scaled_se"] = scaled_errors_json(*fit.correlation, *fit.estimate);
+  if (fit.estimate) {
+    json["values"] = working_values_json(*fit.correlation, *fit.estimate);
+    json["scaled_se"] = scaled_errors_json(*fit.correlation, *fit.estimate);
+  }
   return json;
 }
 

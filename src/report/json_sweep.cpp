@@ -15,7 +15,7 @@ Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole ro
   json["status"] = name_of(analysis.verdict);
   json["status_reason"] = analysis.verdict_reason;
   json["role"] = name_of(role);
-  json["warnings"] = warnings_json(all_warnings(entry.recording, analysis));
+  json["warnings"] = warnings_json(analysis.warnings);
   json["frequency"] = frequency_json(analysis.frequency);
   json["cycles"] = cycles_json(analysis.cycles, quantity);
   json["derived"] = derived_json(analysis.derived);
@@ -42,7 +42,7 @@ std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   json["recordings"] = std::move(members);
   json["status"] = name_of(sweep.joint ? Verdict::StickSlip : Verdict::Undetermined);
   json["status_reason"] = sweep.joint_reason;
-  json["warnings"] = warnings_json(all_warnings(sweep));
+  json["warnings"] = warnings_json(sweep.warnings);
   if (sweep.joint) {
     json["model"] = model_json(sweep.joint->fit, ForceQuantity::Force_N);
     json["model"]["level_shared"] = sweep.joint->level_shared;
@@ -54,8 +54,7 @@ std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sw
     json["correlation"] = correlation_json(sweep.joint->fit);
   }
   json["derived"] = derived_json(sweep.derived);
-  const int indent = options.layout == JsonLayout::Indented ? 2 : -1;
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+  return text_of(json, options.layout);
 }
 
 }  // namespace slipfit

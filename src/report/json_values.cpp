@@ -21,6 +21,11 @@ Json estimate(const Estimate& quantity) {
   return json;
 }
 
+std::string text_of(const Json& json, JsonLayout layout) {
+  const int indent = layout == JsonLayout::Indented ? 2 : -1;
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 void ForceKeys::put(const std::string& name, std::optional<double> value) {
   if (quantity_ == ForceQuantity::Force_N) {
     object_[name + "_N"] = number(value);

@@ -6,6 +6,7 @@
 
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
+#include "slipfit/report/json.hpp"
 
 namespace slipfit {
 
@@ -19,6 +20,9 @@ Json interval(const std::optional<Interval>& bounds);
 
 /// { value, se, ci95 }, and a note where there is one.
 Json estimate(const Estimate& quantity);
+
+/// Valid UTF-8, whatever the strings from outside hold.
+std::string text_of(const Json& json, JsonLayout layout = JsonLayout::Indented);
 
 /// Numbers in the unit of the force column. The keys NAME_N hold newtons and are null for a friction coefficient, whose
 /// numbers stand in the object "coefficient" instead.

@@ -1,7 +1,5 @@
 #include "report/names.hpp"
 
-#include <algorithm>
-
 namespace slipfit {
 
 std::string_view name_of(Tier tier) {
@@ -74,34 +72,6 @@ std::string_view name_of(SweepRole role) {
       return "left_out";
   }
   return "left_out";
-}
-
-namespace {
-
-/// Each once.
-void add_new(Warnings& all, const Warnings& warnings) {
-  for (const Warning& warning : warnings) {
-    const bool known = std::any_of(all.begin(), all.end(), [&warning](const Warning& other) {
-      return other.code == warning.code && other.message == warning.message;
-    });
-    if (!known) all.push_back(warning);
-  }
-}
-
-}  // namespace
-
-Warnings all_warnings(const Recording& recording, const Analysis& analysis) {
-  Warnings all;
-  add_new(all, recording.provenance().warnings);
-  add_new(all, analysis.warnings);
-  if (analysis.fit) add_new(all, analysis.fit->warnings);
-  return all;
-}
-
-Warnings all_warnings(const SweepAnalysis& sweep) {
-  Warnings all = sweep.warnings;
-  if (sweep.joint) add_new(all, sweep.joint->fit.warnings);
-  return all;
 }
 
 }  // namespace slipfit

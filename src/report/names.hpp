@@ -15,9 +15,4 @@ std::string_view name_of(Verdict verdict);
 std::string_view name_of(ParameterStatus status);
 std::string_view name_of(SweepRole role);
 
-/// What the reader, the analysis and the fit have to say, in this order, each once.
-Warnings all_warnings(const Recording& recording, const Analysis& analysis);
-/// What concerns the sweep as a whole.
-Warnings all_warnings(const SweepAnalysis& sweep);
-
 }  // namespace slipfit

@@ -112,7 +112,7 @@ std::string to_json(const Plan& plan, const PredictionSource& source) {
                   {"options", std::move(options)},
                   {"halving_s", number(plan.halving_s)},
                   {"limits", std::move(limits)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  return text_of(json);
 }
 
 std::string to_text(const Plan& plan, const PredictionSource& source) {

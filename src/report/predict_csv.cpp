@@ -1,19 +1,14 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
 #include <optional>
 
+#include "report/csv_cell.hpp"
 #include "report/predict_columns.hpp"
 #include "slipfit/report/prediction.hpp"
 
 namespace slipfit {
 namespace {
-
-/// The shortest text that reads back as the same double; empty where there is no number.
-std::string cell(std::optional<double> value) {
-  return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
-}
 
 std::string header() {
   std::string text = "speed_m_per_s,regime,bistable";

@@ -34,7 +34,7 @@ std::string to_json(const Prediction& prediction, const PredictionSource& source
                   {"critical_speed_m_per_s", quantity_json(prediction.critical_speed_m_per_s)},
                   {"lambda_critical", quantity_json(prediction.lambda_critical)},
                   {"rows", std::move(rows)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  return text_of(json);
 }
 
 }  // namespace slipfit

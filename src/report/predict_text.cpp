@@ -38,12 +38,6 @@ std::string critical_text(const Prediction& prediction) {
   return text + fmt::format("{}, lambda there {}\n", cell(speed, "m/s"), cell(prediction.lambda_critical, ""));
 }
 
-std::string conditions_text(const PredictionSource& source) {
-  std::string text;
-  for (const std::string& condition : source.conditional_on) text += (text.empty() ? "" : "; ") + one_line(condition);
-  return text.empty() ? text : "  holds if: " + text + "\n";
-}
-
 /// Each note of the rows once; the rows that it is about bear its mark.
 class Footnotes {
  public:
@@ -81,7 +75,7 @@ std::string to_text(const Prediction& prediction, const PredictionSource& source
   }
   return fmt::format("Predicted from {}{}\n", one_line(source.name),
                      has_bands ? ", [95 % interval of the mean cycle]" : "") +
-         critical_text(prediction) + conditions_text(source) + "\n" + table.text() + notes.text();
+         critical_text(prediction) + conditions_text(source.conditional_on) + "\n" + table.text() + notes.text();
 }
 
 }  // namespace slipfit

@@ -33,6 +33,26 @@ std::string assumed_text(const std::vector<std::string>& assumed) {
   return text;
 }
 
+std::string tests_text(const std::vector<ShortTest>& tests) {
+  if (tests.empty()) return {};
+  std::string text = "\nTests\n";
+  for (const ShortTest& test : tests) text += fmt::format("  - {}\n", one_line(test.finding));
+  return text;
+}
+
+std::string judgement_text(const Recording& recording, const Analysis& analysis) {
+  const std::string& file = recording.provenance().file;
+  std::string text =
+      fmt::format("{}: {}", file.empty() ? "recording" : one_line(file), plain_verdict(analysis.verdict));
+  if (analysis.frequency.quoted.value) {
+    text += fmt::format(", {} Hz", with_error(analysis.frequency.quoted));
+    if (analysis.cycles.count > 0) text += fmt::format(", {} slips", analysis.cycles.count);
+  }
+  text += "\n";
+  if (!analysis.verdict_reason.empty()) text += fmt::format("  {}\n", one_line(analysis.verdict_reason));
+  return text;
+}
+
 }  // namespace
 
 std::string warnings_text(const Warnings& warnings) {
@@ -41,13 +61,6 @@ std::string warnings_text(const Warnings& warnings) {
   for (const Warning& warning : warnings) {
     text += fmt::format("  ! {} [{}]\n", one_line(warning.message), one_line(warning.code));
   }
-  return text;
-}
-
-std::string tests_text(const std::vector<ShortTest>& tests) {
-  if (tests.empty()) return {};
-  std::string text = "\nTests\n";
-  for (const ShortTest& test : tests) text += fmt::format("  - {}\n", one_line(test.finding));
   return text;
 }
 
@@ -85,19 +98,6 @@ std::string stated_text(double value, const std::string& SI_unit) {
   return fmt::format("{:.6g} {}", value * unit.per_SI, unit.unit);
 }
 
-std::string judgement_text(const Recording& recording, const Analysis& analysis) {
-  const std::string& file = recording.provenance().file;
-  std::string text =
-      fmt::format("{}: {}", file.empty() ? "recording" : one_line(file), plain_verdict(analysis.verdict));
-  if (analysis.frequency.quoted.value) {
-    text += fmt::format(", {} Hz", with_error(analysis.frequency.quoted));
-    if (analysis.cycles.count > 0) text += fmt::format(", {} slips", analysis.cycles.count);
-  }
-  text += "\n";
-  if (!analysis.verdict_reason.empty()) text += fmt::format("  {}\n", one_line(analysis.verdict_reason));
-  return text;
-}
-
 std::string to_text(const Recording& recording, const Analysis& analysis) {
   std::string text = judgement_text(recording, analysis);
   text += parameters_text(recording, analysis);
@@ -108,7 +108,7 @@ std::string to_text(const Recording& recording, const Analysis& analysis) {
   if (moves_like_model) text += predicted_text(analysis.derived);
   text += tests_text(analysis.tests);
   text += recording_text(recording, analysis.quality);
-  text += warnings_text(all_warnings(recording, analysis));
+  text += warnings_text(analysis.warnings);
   text += assumed_text(recording.provenance().assumed);
   return text;
 }

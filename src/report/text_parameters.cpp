@@ -82,6 +82,8 @@ std::string candidates_text(const FitResult& fit, ForceQuantity quantity) {
   return text;
 }
 
+}  // namespace
+
 std::string conditions_text(const std::vector<std::string>& conditional_on) {
   if (conditional_on.empty()) return {};
   std::string text = "  holds if: ";
@@ -90,8 +92,6 @@ std::string conditions_text(const std::vector<std::string>& conditional_on) {
   }
   return text + "\n";
 }
-
-}  // namespace
 
 std::vector<ShownParameter> shown_parameters(const FitResult& fit) {
   std::vector<ShownParameter> shown;

@@ -8,16 +8,16 @@
 namespace slipfit {
 
 // One function a section of the report for people; each ends with a line break, or is empty.
-std::string judgement_text(const Recording& recording, const Analysis& analysis);
 std::string parameters_text(const Recording& recording, const Analysis& analysis);
 /// `caution` follows the heading.
 std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const std::string& caution);
+/// "holds if: Coulomb friction; ..."
+std::string conditions_text(const std::vector<std::string>& conditional_on);
 std::string warnings_text(const Warnings& warnings);
 std::string frequency_text(const FrequencyReport& frequency);
 std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity);
 std::string spacing_text(const Recording& recording, const Derived& derived);
 std::string predicted_text(const Derived& derived);
-std::string tests_text(const std::vector<ShortTest>& tests);
 std::string recording_text(const Recording& recording, const Quality& quality);
 
 /// "key   value ± error unit   [low, high]" for a table of estimates; SI_unit gets a prefix where that reads better.

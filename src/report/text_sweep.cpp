@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "report/names.hpp"
 #include "report/rounding.hpp"
 #include "report/table.hpp"
@@ -56,7 +54,7 @@ std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   if (sweep.joint) text += parameters_text(sweep.joint->fit, ForceQuantity::Force_N, "");
   text += recordings_text(entries, sweep);
   if (sweep.joint) text += limit_text(sweep.derived);
-  return text + warnings_text(all_warnings(sweep));
+  return text + warnings_text(sweep.warnings);
 }
 
 }  // namespace slipfit

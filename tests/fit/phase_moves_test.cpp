@@ -31,7 +31,7 @@ Recording misshapen() {
   return Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value();
 }
 
-fit::BlockFit without(const fit::BlockFit& fit, int phase) {
+fit::BlockFit without(const fit::BlockFit& fit, std::size_t phase) {
   std::vector<fit::CycleData> cycles;
   std::vector<double> references_s;
   for (std::size_t i = 0; i < fit.size(); ++i) {
@@ -61,7 +61,7 @@ TEST_CASE("one step without a stretch of the slips moves the quantities nearly a
   const Eigen::VectorXd before = fit::quantities_of(damped->blocks);
   Eigen::MatrixXd refitted(fit::kPhases, before.size());
   for (int phase = 0; phase < fit::kPhases; ++phase) {
-    fit::BlockFit refit = without(damped->blocks, phase);
+    fit::BlockFit refit = without(damped->blocks, static_cast<std::size_t>(phase));
     REQUIRE(std::isfinite(refit.solve({damped->held, false, true})));
     refitted.row(phase) = (fit::quantities_of(refit) - before).transpose();
   }

@@ -1,4 +1,4 @@
-#include "slipfit/report/batch_html.hpp"
+#include "report/batch_html.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

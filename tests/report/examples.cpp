@@ -46,7 +46,6 @@ slipfit::FitResult example_fit() {
       {"damping_ratio", {0.0512, 0.011, Interval{0.029, 0.073}, ""}, ParameterStatus::Weak}};
   fit.correlation = slipfit::Correlation{{"stiffness_N_per_m", "damping_ratio"}, {{1.0, 0.25}, {0.25, 1.0}}};
   fit.curve = {{2, 1.25}, {3, 1.5}};
-  fit.warnings = {{"few_cycles", "only 4 cycles"}};
   return fit;
 }
 
@@ -58,7 +57,8 @@ slipfit::Analysis full_analysis() {
   analysis.quality.gaps = 1;
   analysis.verdict = slipfit::Verdict::StickSlip;
   analysis.verdict_reason = "Every slip sticks again.";
-  analysis.warnings = {{"few_cycles", "only 4 cycles"}, {"mains_hum", "50 Hz hum"}};
+  analysis.warnings = {
+      {"rows_left_out", "two rows were left out"}, {"few_cycles", "only 4 cycles"}, {"mains_hum", "50 Hz hum"}};
   analysis.frequency.quoted = {5.4321, 0.0123, Interval{5.408, 5.4562}, ""};
   analysis.frequency.method = "slip_counting";
   analysis.frequency.spectral = {5.43, 0.02, 1e-9, {5.43, 10.86}, {{50.0, "mains 50 Hz"}}};

@@ -92,12 +92,18 @@ TEST_CASE("a friction coefficient is never given as a force") {
   CHECK_FALSE(document_of(test::small_recording(), test::full_analysis())["cycles"].contains("coefficient"));
 }
 
-TEST_CASE("warnings of reader, analysis and fit are all there, each once") {
+TEST_CASE("the warnings stand in the document in their order") {
   const json warnings = document_of(test::small_recording(), test::full_analysis())["warnings"];
   REQUIRE(warnings.size() == 3);
   CHECK(warnings[0]["code"] == "rows_left_out");
   CHECK(warnings[1]["code"] == "few_cycles");
   CHECK(warnings[2]["code"] == "mains_hum");
+}
+
+TEST_CASE("the reader's warnings are among those of the analysis") {
+  const auto warnings = slipfit::analyze(test::small_recording()).warnings;
+  REQUIRE_FALSE(warnings.empty());
+  CHECK(warnings.front().code == "rows_left_out");
 }
 
 TEST_CASE("the id is the file's name without its ending, or what the caller says") {

@@ -30,7 +30,7 @@ struct BatchReport {
 struct BatchFit {
   std::string document;   ///< schema slipfit.fit/1, on one line
   std::string page;       ///< HTML; empty: none
-  std::string sparkline;  ///< of `sparkline_of`; empty: none
+  std::string sparkline;  ///< the trace as a small SVG path; empty: none
 };
 
 /// Fits the recordings of a group together; the document's id is `id`. Called from several threads.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -130,6 +131,9 @@ struct FitResult {
   std::vector<CurvePoint> curve;  ///< samples that the fit covers
   Warnings warnings;
 };
+
+/// By its name (JSON key); null where the fit does not have it.
+const Parameter* find_parameter(const FitResult& fit, std::string_view name);
 
 /// Takes every number back that is not fixed by the user: the motion is not the model's stick-slip.
 void withdraw_parameters(FitResult& fit);

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "slipfit/core/recording.hpp"
@@ -36,7 +35,6 @@ struct SweepPoint {
   Estimate mean_steady_force_N;  ///< steady sliding: as measured
   Estimate spacing_m;            ///< periodic displacement by the model at this speed
   Estimate spacing_left_out_m;   ///< the same from a fit without this recording: what proves the model
-  std::optional<double> measured_spacing_m;
 };
 
 /// Parameters shared by a sweep. `fit` holds tier (Damped or Velocity), candidates, parameters and correlation; it has

@@ -71,8 +71,8 @@ struct Plan {
 
 /// Which recording to make next. The fit's own standard errors fall in the ratio in which Fisher information narrows
 /// those calculated for its recordings: with white noise of the same density, scatter of the same size, and onset and
-/// static friction of each cycle for itself. Errors: a target
-/// that the model does not have, or a spacing at a speed without stick-slip.
+/// static friction of each cycle for itself. Error bad_target: the model does not have it, the fit holds it, or there
+/// is no stick-slip at the speed of the spacing.
 Result<Plan> plan_next(const PlanBasis& basis, const std::optional<PlanTarget>& target);
 
 }  // namespace slipfit

@@ -6,12 +6,12 @@
 #include <span>
 
 #include "chart/chart.hpp"
+#include "report/batch_html.hpp"
 #include "report/html/assets.hpp"
 #include "report/html/batch_row.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
-#include "slipfit/report/batch_html.hpp"
 
 namespace slipfit {
 namespace html {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "slipfit/report/batch_html.hpp"
+#include "report/batch_html.hpp"
 
 namespace slipfit::html {
 

@@ -25,6 +25,9 @@ Source source_of(const Recording& recording, const Analysis& analysis, const Bac
 /// False for steady sliding: cycles and fit are then those of noise, and no chart shows them.
 bool shows_cycles(const Analysis& analysis);
 
+/// There is a fitted force to draw on the trace.
+bool has_fitted_curve(const Analysis& analysis);
+
 /// One chart with its words, or the reason why there is none.
 struct Exhibit {
   std::string id;     ///< letters and '-': on the page, and the file's name

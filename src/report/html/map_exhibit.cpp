@@ -23,11 +23,8 @@ struct Spot {
 Spot spot_of(const Analysis& analysis) {
   Spot spot{analysis.derived.lambda, {}};
   if (!analysis.fit) return spot;
-  for (const Parameter& parameter : analysis.fit->parameters) {
-    if (parameter.name == "damping_ratio" && parameter.status != ParameterStatus::Bounded) {
-      spot.zeta = parameter.estimate;
-    }
-  }
+  const Parameter* const zeta = find_parameter(*analysis.fit, "damping_ratio");
+  if (zeta != nullptr && zeta->status != ParameterStatus::Bounded) spot.zeta = zeta->estimate;
   return spot;
 }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,13 +18,12 @@ namespace {
 
 /// The chart, and the interactive trace that the script shows in its place where it can.
 std::string trace_part(const Exhibit& exhibit, const Source& source) {
-  const bool has_fit = shows_cycles(source.analysis) && source.analysis.fit && !source.analysis.fit->curve.empty();
   return filled(assets::trace_part(),
                 {{"title", text(exhibit.title)},
                  {"guide", formula_text(exhibit.guide)},
                  {"label", text(exhibit.label)},
                  {"slips_key", shows_cycles(source.analysis) ? "<span class=\"key slips\"></span>slips" : ""},
-                 {"fit_key", has_fit ? "<span class=\"key fit\"></span>fit" : ""},
+                 {"fit_key", has_fitted_curve(source.analysis) ? "<span class=\"key fit\"></span>fit" : ""},
                  {"chart", to_page_svg(*exhibit.chart, {exhibit.id, exhibit.label})}});
 }
 
@@ -59,29 +57,7 @@ std::string numbers_part(const Source& source) {
          lines + "</pre></details>\n</section>\n";
 }
 
-std::vector<double> fitted_force(const Recording& recording, const Analysis& analysis) {
-  std::vector<double> fitted(recording.size(), std::numeric_limits<double>::quiet_NaN());
-  if (!analysis.fit) return fitted;
-  for (const CurvePoint& point : analysis.fit->curve) {
-    if (point.sample < fitted.size()) fitted[point.sample] = point.force;
-  }
-  return fitted;
-}
-
 }  // namespace
-
-Source source_of(const Recording& recording, const Analysis& analysis, const Background& background) {
-  return {recording, analysis, background, force_unit_of(recording), fitted_force(recording, analysis)};
-}
-
-bool shows_cycles(const Analysis& analysis) {
-  return analysis.verdict != Verdict::SteadySliding;
-}
-
-std::vector<Exhibit> exhibits_of(const Source& source) {
-  return {trace_exhibit(source), spectrum_exhibit(source), cycles_exhibit(source), pairs_exhibit(source),
-          map_exhibit(source),   speed_exhibit(source),    pattern_exhibit(source)};
-}
 
 std::string page_from(const PageParts& parts) {
   return filled(assets::page(), {{"title", text(parts.title)},
@@ -122,7 +98,7 @@ std::string to_html(const Recording& recording, const Analysis& analysis, const 
   page.kind = "recording";
   page.headline = html::verdict_sentence(source);
   page.summary = "<p class=\"reason\">" + html::capitalised(html::formula_text(analysis.verdict_reason)) + "</p>\n" +
-                 html::key_numbers(source) + html::warnings_part(all_warnings(recording, analysis));
+                 html::key_numbers(source) + html::warnings_part(analysis.warnings);
   page.main = html::parameters_part(source) + html::exhibits_part(source) + html::quality_part(source) +
               html::numbers_part(source) + html::repeat_part(source, origin);
   if (has_interactive_trace()) {

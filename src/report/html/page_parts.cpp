@@ -31,13 +31,11 @@ std::string key_number(const std::string& name, const Estimate& estimate, const 
 }
 
 /// Empty where the fit does not have it, or only between bounds.
-Estimate parameter_named(const Analysis& analysis, const std::string& name) {
-  if (!analysis.fit) return {};
-  for (const Parameter& parameter : analysis.fit->parameters) {
-    const bool has_value = parameter.status != ParameterStatus::Bounded;
-    if (parameter.name == name) return has_value ? parameter.estimate : Estimate{{}, {}, parameter.estimate.ci95, {}};
-  }
-  return {};
+Estimate parameter_named(const FitResult& fit, const std::string& name) {
+  const Parameter* const parameter = find_parameter(fit, name);
+  if (parameter == nullptr) return {};
+  const bool has_value = parameter->status != ParameterStatus::Bounded;
+  return has_value ? parameter->estimate : Estimate{{}, {}, parameter->estimate.ci95, {}};
 }
 
 std::vector<std::string> each(const std::vector<std::string>& sentences, std::string (*to_markup)(std::string_view)) {
@@ -139,8 +137,8 @@ std::string key_numbers(const Source& source) {
   std::string numbers = key_number("frequency", analysis.frequency.quoted, "Hz") +
                         key_number("pattern spacing V/f", analysis.derived.pattern_spacing_m, "m");
   if (analysis.fit) {
-    numbers += key_number("stiffness", parameter_named(analysis, "stiffness_N_per_m"), "N/m") +
-               key_number("damping ratio", parameter_named(analysis, "damping_ratio"), "") +
+    numbers += key_number("stiffness", parameter_named(*analysis.fit, "stiffness_N_per_m"), "N/m") +
+               key_number("damping ratio", parameter_named(*analysis.fit, "damping_ratio"), "") +
                key_number("critical speed", analysis.derived.critical_speed_m_per_s, "m/s");
   }
   return "<dl class=\"keys\">\n" + numbers + "</dl>\n<p class=\"guide\">In brackets: 95 % intervals.</p>\n";

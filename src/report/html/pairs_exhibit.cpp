@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "report/html/exhibit.hpp"
 #include "report/html/scaling.hpp"
 

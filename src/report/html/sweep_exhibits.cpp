@@ -177,9 +177,6 @@ Exhibit sweep_spacing_exhibit(const SweepSource& source) {
   const Series measured =
       series_of(source, [&source](std::size_t i) { return source.sweep.recordings[i].derived.pattern_spacing_m; });
   const Series left_out = series_of(source, [&points](std::size_t i) { return points[i].spacing_left_out_m; });
-  const Series surface = series_of(source, [&points](std::size_t i) {
-    return Estimate{points[i].measured_spacing_m, {}, {}, {}};
-  });
   const Series fitted = fitted_spacing(source);
   if (measured.estimates.empty() && fitted.estimates.empty()) {
     exhibit.absent = "No recording of the sweep shows a pattern.";
@@ -190,7 +187,6 @@ Exhibit sweep_spacing_exhibit(const SweepSource& source) {
   panel.add_curve("joint fit", Colour::Blue, fitted);
   panel.add_markers("measured (V/f)", Colour::Black, Shape::Dot, measured);
   panel.add_markers("predicted without it", Colour::Vermillion, Shape::Ring, left_out);
-  panel.add_markers("measured on the surface", Colour::Purple, Shape::Triangle, surface);
   exhibit.chart = chart::Chart{"Pattern spacing over speed",
                                {},
                                {panel.finished("spacing", chart::Scale::Logarithmic, critical_speed_of(source))}};

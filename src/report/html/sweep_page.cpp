@@ -107,8 +107,8 @@ std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   page.title = origin.name;
   page.kind = "sweep";
   page.headline = html::verdict_of(source);
-  page.summary = "<p class=\"reason\">" + html::formula_text(sweep.joint_reason) + "</p>\n" +
-                 html::warnings_part(all_warnings(sweep));
+  page.summary =
+      "<p class=\"reason\">" + html::formula_text(sweep.joint_reason) + "</p>\n" + html::warnings_part(sweep.warnings);
   page.main = html::parameters_of(sweep) + html::exhibit_part(html::sweep_spacing_exhibit(source)) +
               html::exhibit_part(html::sweep_friction_exhibit(source)) + html::recordings_of(source) +
               html::exhibit_part(html::sweep_traces_exhibit(source)) + html::repeat_of(source, origin);

@@ -132,7 +132,7 @@ std::string trace_data(const Source& source) {
                    {"unit", unit.unit},
                    {"first_s", recording.time_s().front()},
                    {"last_s", recording.time_s().back()}};
-  std::string json = script_json(names.dump(-1, ' ', false, Json::error_handler_t::replace));
+  std::string json = script_json(text_of(names, JsonLayout::OneLine));
   json.pop_back();
   json += series_members("force", force) + packed_member("slips", packed(slip_ticks(source.analysis, clock)));
   if (!is_even(recording.time_s())) {
@@ -140,7 +140,7 @@ std::string trace_data(const Source& source) {
     for (const std::size_t i : chosen) ticks.push_back(clock.tick(recording.time_s()[i]));
     json += packed_member("ticks", packed(ticks));
   }
-  if (shows_cycles(source.analysis) && source.analysis.fit && !source.analysis.fit->curve.empty()) {
+  if (has_fitted_curve(source.analysis)) {
     std::vector<double> residual;
     residual.reserve(chosen.size());
     for (const std::size_t i : chosen) residual.push_back(unit.per_SI * (recording.force()[i] - source.fitted[i]));

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "report/html/exhibit.hpp"
 #include "report/html/scaling.hpp"
@@ -110,7 +109,7 @@ Exhibit trace_exhibit(const Source& source) {
   const Recording& recording = source.recording;
   const std::string unit = source.force_unit.unit;
   const std::string label = label_with_unit(force_name_of(recording), unit);
-  const bool has_fit = shows_cycles(source.analysis) && source.analysis.fit && !source.analysis.fit->curve.empty();
+  const bool has_fit = has_fitted_curve(source.analysis);
 
   Exhibit exhibit{"trace", has_fit ? "The recording and the fit" : "The recording", {}, {}, {}, {}};
   exhibit.guide = !has_fit ? "Measured force; no fit is drawn on it."

@@ -1,0 +1,38 @@
+#include "report/html/exhibit.hpp"
+
+#include <limits>
+
+#include "report/html/scaling.hpp"
+
+namespace slipfit::html {
+namespace {
+
+std::vector<double> fitted_force(const Recording& recording, const Analysis& analysis) {
+  std::vector<double> fitted(recording.size(), std::numeric_limits<double>::quiet_NaN());
+  if (!analysis.fit) return fitted;
+  for (const CurvePoint& point : analysis.fit->curve) {
+    if (point.sample < fitted.size()) fitted[point.sample] = point.force;
+  }
+  return fitted;
+}
+
+}  // namespace
+
+Source source_of(const Recording& recording, const Analysis& analysis, const Background& background) {
+  return {recording, analysis, background, force_unit_of(recording), fitted_force(recording, analysis)};
+}
+
+bool shows_cycles(const Analysis& analysis) {
+  return analysis.verdict != Verdict::SteadySliding;
+}
+
+bool has_fitted_curve(const Analysis& analysis) {
+  return shows_cycles(analysis) && analysis.fit && !analysis.fit->curve.empty();
+}
+
+std::vector<Exhibit> exhibits_of(const Source& source) {
+  return {trace_exhibit(source), spectrum_exhibit(source), cycles_exhibit(source), pairs_exhibit(source),
+          map_exhibit(source),   speed_exhibit(source),    pattern_exhibit(source)};
+}
+
+}  // namespace slipfit::html
