@@ -3,6 +3,7 @@
 #include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "fit/uncertainty.hpp"
@@ -143,7 +144,8 @@ MatrixXd white_covariance(const BlockFit& fit, const std::vector<Normal>& normal
   columns.bottomRows(common) = selection.common;
   for (const Index i : held_common) columns.row(first_common + i).setZero();
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(hessian);
-  if (factor.info() != Eigen::Success) return MatrixXd::Constant(kQuantities, kQuantities, NAN);
+  if (factor.info() != Eigen::Success)
+    return MatrixXd::Constant(kQuantities, kQuantities, std::numeric_limits<double>::quiet_NaN());
   return columns.transpose() * factor.solve(columns);
 }
 

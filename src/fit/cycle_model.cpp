@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace slipfit::fit {
 
@@ -17,8 +18,8 @@ void legendre(double x, std::size_t terms, double* values, double* derivatives) 
   }
 }
 
-CycleModel::CycleModel(const CycleData& data, const Scales& scales, double reference_s, const LevelModel& level)
-    : data_(&data), scales_(scales), reference_s_(reference_s), level_(level) {
+CycleModel::CycleModel(const CycleData& data, const Scales& scales, double reference_s, LevelModel level)
+    : data_(&data), scales_(scales), reference_s_(reference_s), level_(std::move(level)) {
   fill_basis();
 }
 
