@@ -19,6 +19,7 @@ constexpr double kBeyondCritical = 2.0;
 
 std::vector<double> in_equal_ratios(double low, double high, int count) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) values.push_back(low * std::pow(high / low, i / (count - 1.0)));
   return values;
 }

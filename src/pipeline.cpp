@@ -39,7 +39,7 @@ double misfit_of(const std::optional<FitResult>& fit) {
 Analysis conclude(const Recording& recording, Signals signals, Judgement judgement, std::optional<FitResult> fit) {
   Analysis analysis;
   analysis.verdict = judgement.verdict;
-  analysis.verdict_reason = judgement.reason;
+  analysis.verdict_reason = std::move(judgement.reason);
   analysis.frequency =
       report_frequency(recording, signals.segmentation, signals.spectral, judgement.verdict, fit ? &*fit : nullptr);
   analysis.cycles = summarise_cycles(recording, signals.segmentation, fit ? &*fit : nullptr);

@@ -117,6 +117,7 @@ std::size_t row_of(const JsonNode& names, const std::string& name) {
 /// Rows in the correlation's matrix.
 std::vector<std::size_t> rows_of(const JsonNode& names, const std::vector<std::size_t>& places) {
   std::vector<std::size_t> rows;
+  rows.reserve(places.size());
   for (const std::size_t place : places) rows.push_back(row_of(names, slipfit::kModelValueNames[place]));
   return rows;
 }

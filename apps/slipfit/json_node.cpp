@@ -18,7 +18,6 @@ namespace {
 constexpr std::size_t kLargestDocument = std::size_t{64} << 20U;  // a thousand times a real one
 
 struct CloseFile {
-  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): the unique_ptr below is the owner
   void operator()(std::FILE* file) const { (void)std::fclose(file); }
 };
 

@@ -18,7 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 struct CloseFile {
-  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): the unique_ptr below is the owner
   void operator()(std::FILE* file) const { (void)std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;

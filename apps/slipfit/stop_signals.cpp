@@ -4,7 +4,7 @@
 
 namespace {
 
-// A signal handler can reach nothing else.
+// A signal handler can reach nothing else. NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 volatile std::sig_atomic_t received_signal = 0;
 
 extern "C" void remember(int signal) {

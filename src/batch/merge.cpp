@@ -161,7 +161,7 @@ Result<BatchProgress> write_merged(const std::vector<fs::path>& shards, const fs
   auto opened = FinalFiles::open(folder);
   if (!opened) return opened.error();
   FinalFiles files = std::move(opened).value();
-  const auto progress = merge_rows(readers, rows, files);
+  auto progress = merge_rows(readers, rows, files);
   if (!progress) return progress;
   if (auto error = files.finish()) return *error;
   return progress;
@@ -183,7 +183,7 @@ Result<BatchProgress> merge_batches(const std::vector<fs::path>& shards, const f
   const auto lock = FolderLock::take(folder);
   if (!lock) return lock.error();
   if (auto error = check_target(folder, record)) return *error;
-  const auto progress = write_merged(shards, folder, record.rows);
+  auto progress = write_merged(shards, folder, record.rows);
   if (!progress) return progress;
   const double seconds = record.progress.seconds;
   record.progress = progress.value();

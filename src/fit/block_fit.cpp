@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "fit/reduced_rows.hpp"
@@ -172,7 +173,7 @@ double BlockFit::solve(const SolveOptions& options) {
   ownership.enable_fast_removal = false;
   ceres::Problem problem(ownership);
   double* shared = parameters.shared.data();
-  auto* ordering = new ceres::ParameterBlockOrdering;
+  const auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   std::size_t residuals = 0;
   for (const CycleModel& model : models_) residuals += model.residuals();
   ceres::Solver::Options solver = solver_options(options, residuals);
@@ -194,11 +195,7 @@ double BlockFit::solve(const SolveOptions& options) {
                              parameters.cycles[i + 1].data());
   }
   hold(problem, shared, options.held);
-  if (options.continuous) {
-    delete ordering;
-  } else {
-    solver.linear_solver_ordering.reset(ordering);
-  }
+  if (!options.continuous) solver.linear_solver_ordering = ordering;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   if (!summary.IsSolutionUsable()) return std::numeric_limits<double>::infinity();

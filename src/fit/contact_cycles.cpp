@@ -41,7 +41,7 @@ class Finder {
 
  private:
   /// The two largest falls from one sample to the next, plateau between them.
-  std::optional<ContactCycle> find_edges(std::size_t slip) const {
+  [[nodiscard]] std::optional<ContactCycle> find_edges(std::size_t slip) const {
     const DetectedSlip& swing = slips_[slip];
     // The smoothed turning points may lie a sample off the edge.
     const std::size_t begin = swing.peak > 0 ? swing.peak - 1 : 0;
@@ -76,7 +76,7 @@ class Finder {
   }
 
   /// Samples [begin, end).
-  Stretch reduce(std::size_t begin, std::size_t end) const {
+  [[nodiscard]] Stretch reduce(std::size_t begin, std::size_t end) const {
     Stretch s;
     s.count = static_cast<double>(end - begin);
     for (std::size_t i = begin; i < end; ++i) {
@@ -94,7 +94,7 @@ class Finder {
   }
 
   /// Samples of the ramp between two neighbouring slips; empty (end <= begin) where there is none.
-  Stretch ramp_after(std::size_t i) const {
+  [[nodiscard]] Stretch ramp_after(std::size_t i) const {
     const ContactCycle& before = found_.cycles[i];
     const ContactCycle& after = found_.cycles[i + 1];
     if (after.slip != before.slip + 1 || after.onset + 1 < before.end + 3) return {};

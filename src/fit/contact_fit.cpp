@@ -75,14 +75,14 @@ class ContactReporter {
     }
   }
 
-  ParameterStatus graded(double relative_error, double bound) const {
+  [[nodiscard]] ParameterStatus graded(double relative_error, double bound) const {
     const bool good = count_ >= kFewCycles && relative_error < bound && samples_per_slip_ > kSamplesForIdentified;
     return good ? ParameterStatus::Identified : ParameterStatus::Weak;
   }
 
   /// ln of a product of powers of the four solved quantities, the speed taken off ln kV by the caller: `speed_error` of
   /// its logarithm is that of k.
-  Estimate power(double logarithm, const Eigen::Vector4d& exponents, double speed_error = 0.0) const {
+  [[nodiscard]] Estimate power(double logarithm, const Eigen::Vector4d& exponents, double speed_error = 0.0) const {
     const double se = std::hypot(std::sqrt(exponents.dot(covariance_ * exponents)), speed_error);
     return exponential(symmetric(logarithm, se, count_ - 1.0));
   }

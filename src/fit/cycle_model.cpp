@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "model/phasor.hpp"
 
@@ -34,8 +35,12 @@ double even_step_s(const std::vector<double>& time_s) {
 
 }  // namespace
 
-CycleModel::CycleModel(const CycleData& data, const Scales& scales, double reference_s, const LevelModel& level)
-    : data_(&data), scales_(scales), reference_s_(reference_s), level_(level), even_step_s_(even_step_s(data.time_s)) {
+CycleModel::CycleModel(const CycleData& data, const Scales& scales, double reference_s, LevelModel level)
+    : data_(&data),
+      scales_(scales),
+      reference_s_(reference_s),
+      level_(std::move(level)),
+      even_step_s_(even_step_s(data.time_s)) {
   fill_basis();
 }
 

@@ -60,7 +60,7 @@ struct CycleState {
 /// (its mean and its slope, weighted as the samples in it).
 class CycleModel {
  public:
-  CycleModel(const CycleData& data, const Scales& scales, double reference_s, const LevelModel& level);
+  CycleModel(const CycleData& data, const Scales& scales, double reference_s, LevelModel level);
 
   [[nodiscard]] std::size_t residuals() const { return data_->residuals(); }
   [[nodiscard]] std::size_t own_parameters() const { return level_.per_cycle ? 3 : 2; }

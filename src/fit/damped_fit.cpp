@@ -106,12 +106,13 @@ class Fitter {
 
   std::vector<double> middles_s(const std::vector<CycleData>& cycles) const {
     std::vector<double> values;
+    values.reserve(cycles.size());
     for (const CycleData& cycle : cycles) values.push_back(segmentation_.slips[cycle.slip].middle_s);
     return values;
   }
 
   /// Finds level model and neighbourhood of the shared parameters on a few cycles.
-  std::optional<BlockFit> fit_probe(const std::vector<CycleData>& probe, LevelModel level) {
+  std::optional<BlockFit> fit_probe(const std::vector<CycleData>& probe, const LevelModel& level) {
     std::optional<BlockFit> fit = fit_from_starts(probe, level);
     if (!fit) return std::nullopt;
     start_ = fit->parameters.shared;
@@ -135,7 +136,7 @@ class Fitter {
   }
 
   /// Short runs with zeta held, from several damping ratios (and frequencies, where the fall is hardly sampled).
-  std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles, LevelModel level) const {
+  std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles, const LevelModel& level) const {
     BlockFit fit(cycles, middles_s(cycles), scales_, level);
     std::vector<double> stretches{1.0};
     if (scales_.half_period_s < 6.0 * recording_.sample_interval_s()) stretches = {1.0, 1.6, 1.0 / 0.6};
@@ -165,7 +166,7 @@ class Fitter {
     return fit;
   }
 
-  std::optional<BlockFit> fit_from(std::vector<CycleData> cycles, LevelModel level, const Shared& shared,
+  std::optional<BlockFit> fit_from(std::vector<CycleData> cycles, const LevelModel& level, const Shared& shared,
                                    int max_iterations, double tolerance) const {
     std::vector<double> middles = middles_s(cycles);
     BlockFit fit(std::move(cycles), std::move(middles), scales_, level);

@@ -91,7 +91,7 @@ class Finisher {
   }
 
   /// Joined ramps halve the error of k where the data agree: F test, one degree of freedom a ramp.
-  void join_ramps(DampedFit& result) const {
+  static void join_ramps(DampedFit& result) {
     double ramps = 0.0;
     for (std::size_t i = 0; i + 1 < result.blocks.size(); ++i) {
       ramps += result.blocks.data(i).continuous_with_next ? 1.0 : 0.0;

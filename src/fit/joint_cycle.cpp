@@ -103,7 +103,7 @@ class JointCycle::Rows {
   }
 
  private:
-  void clear_row() {
+  void clear_row() const {
     const auto clear = [&](double* matrix, std::size_t columns) {
       if (matrix != nullptr) std::fill_n(matrix + row_ * columns, columns, 0.0);
     };

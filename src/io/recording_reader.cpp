@@ -24,6 +24,7 @@ using namespace reading;
 
 constexpr std::size_t kHead = std::size_t{64} * 1024;
 constexpr std::size_t kLongHead = std::size_t{4} * 1024 * 1024;  // for a preamble that fills the first look
+constexpr std::size_t kLongestLine = kLongHead / 4;  // that a file without rows of numbers in that look may have
 constexpr std::size_t kMostReserved = std::size_t{1} << 27;
 
 std::optional<Error> check_options(const ReadOptions& options, const std::string& file) {
@@ -43,8 +44,14 @@ std::optional<Error> check_options(const ReadOptions& options, const std::string
 Result<Layout> look_at_head(TextSource& source, const std::string& file) {
   for (const std::size_t size : {kHead, kLongHead}) {
     auto lines = split_lines(source.head(size));
+    const std::size_t last_length = lines.empty() ? 0 : lines.back().size();
     if (!source.head_is_everything() && !lines.empty()) lines.pop_back();  // may be cut
     if (auto layout = find_layout(lines)) return *std::move(layout);
+    if (!source.head_is_everything() && last_length > kLongestLine) {
+      return Error{"line_too_long", fmt::format("{}:{}: the line is longer than {} MB, which is too many columns; a "
+                                                "recording is text with a row a line, of a time and a force",
+                                                file, lines.size() + 1, kLongestLine >> 20)};
+    }
     if (!source.head_is_everything()) continue;
     const bool is_blank =
         std::all_of(lines.begin(), lines.end(), [](std::string_view line) { return trim(line).empty(); });

@@ -82,7 +82,7 @@ Result<std::unique_ptr<TextSource>> TextSource::open(const std::filesystem::path
     return Error{"is_directory", name + ": is a folder; name a file in it"};
   }
   std::unique_ptr<TextSource> source(new TextSource);
-  source->file_.reset(std::fopen(file.c_str(), "rb"));  // NOLINT(cppcoreguidelines-owning-memory): file_ owns it
+  source->file_.reset(std::fopen(file.c_str(), "rb"));
   if (!source->file_) return open_error(name, errno);
   source->raw_.resize(kProbe);
   source->raw_.resize(std::fread(source->raw_.data(), 1, kProbe, source->file_.get()));

@@ -34,7 +34,7 @@ class TextSource final : public ::io::ByteSourceBase {
  private:
   enum class Encoding { Bytes, Utf16LittleEndian, Utf16BigEndian };
   struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }  // NOLINT(cppcoreguidelines-owning-memory)
+    void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
   TextSource() = default;

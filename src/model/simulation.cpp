@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <utility>
 
 #include "model/slip.hpp"
 #include "model/velocity_slip.hpp"
@@ -103,9 +104,9 @@ class VelocitySlips {
 template <class Slips>
 class SlidingBody {
  public:
-  SlidingBody(const Slider& slider, const Slips& slips, double speed_m_per_s, const SimulationOptions& options)
+  SlidingBody(const Slider& slider, Slips slips, double speed_m_per_s, const SimulationOptions& options)
       : slider_(slider),
-        slips_(slips),
+        slips_(std::move(slips)),
         options_(options),
         stiffness_rate_N_per_s_(slider.stiffness_N_per_m() * speed_m_per_s),
         force_scale_N_(stiffness_rate_N_per_s_ / slider.natural_frequency_rad_per_s()),

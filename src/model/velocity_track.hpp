@@ -67,7 +67,7 @@ class VelocityTrack {
 
    private:
     using Weights = std::array<double, 3>;
-    Weights near_, far_, near_slope_, far_slope_;
+    Weights near_{}, far_{}, near_slope_{}, far_slope_{};
   };
 
   class Integrator;

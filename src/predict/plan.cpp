@@ -11,7 +11,6 @@ namespace slipfit {
 namespace {
 
 using predict::Disturbance;
-using predict::Information;
 using predict::Jet;
 using predict::PlanMatrix;
 

@@ -90,6 +90,16 @@ TEST_CASE("fit --joint refuses what it cannot do, in one line") {
   CHECK(test::content_of(run) == before);
 }
 
+TEST_CASE("a sweep's unreadable recording is refused in the words of the manifest") {
+  const test::TemporaryFolder folder;
+  static_cast<void>(folder.file("two.csv", "time,left force,right force\n0,1,2\n1,2,1\n2,1,2\n3,2,1\n"));
+  const std::string manifest = folder.file("sweep.csv", "id,file,speed_m_per_s\nrun,two.csv,0.01\n");
+  const test::ProgramResult result = slipfit({"fit", "--joint", manifest});
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 3);
+  CHECK_THAT(result.err, Catch::Contains("the manifest's force_column") && !Catch::Contains("--force-column"));
+}
+
 TEST_CASE("one recording is no sweep: the answer says that nothing was fitted together, and why") {
   const test::JointExample example;
   const json document = example.fit({"--only", "slow"});

@@ -109,6 +109,21 @@ TEST_CASE("a line beyond 16 MB is refused, not read past") {
   CHECK(contains(error.message, "run7.csv:5:"));
 }
 
+TEST_CASE("a row of a million columns is told to be too long, not to hold no numbers") {
+  std::string names = "time";
+  std::string row = "0";
+  for (int i = 0; i < 1000000; ++i) {
+    names += ",force_" + std::to_string(i);
+    row += "," + std::to_string(i);
+  }
+  for (const std::string& first : {row, names}) {
+    const auto error = read_error(first + "\n" + row + "\n" + row + "\n");
+    CHECK(error.code == "line_too_long");
+    CHECK(contains(error.message, "run7.csv:1:"));
+    CHECK(contains(error.message, "too many columns"));
+  }
+}
+
 TEST_CASE("the rules of Recording::create are reported with the file") {
   const auto error = read_error("time,force\n0,1\n1,2\n", {}, at_speed(0.0));
   CHECK(error.code == "speed_not_positive");

@@ -40,6 +40,7 @@ Estimate parameter_named(const FitResult& fit, const std::string& name) {
 
 std::vector<std::string> each(const std::vector<std::string>& sentences, std::string (*to_markup)(std::string_view)) {
   std::vector<std::string> items;
+  items.reserve(sentences.size());
   for (const std::string& sentence : sentences) items.push_back(to_markup(sentence));
   return items;
 }

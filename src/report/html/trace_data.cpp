@@ -24,6 +24,7 @@ constexpr double kEvenClock = 0.02;  // largest deviation, in steps: below what 
 
 std::string base64(const void* bytes, std::size_t count) {
   std::string text(4 * ((count + 2) / 3) + 1, '\0');  // and the ending zero that OpenSSL writes
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): OpenSSL's bytes are unsigned
   const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
                                      static_cast<const unsigned char*>(bytes), static_cast<int>(count));
   text.resize(static_cast<std::size_t>(length));
@@ -73,11 +74,13 @@ std::string series_members(const std::string& name, const std::vector<double>& v
   for (const double value : values) span.add(value);
   const double low = span.empty() ? 0.0 : span.low();
   const double range = span.empty() ? 0.0 : span.high() - low;
-  const double per_unit = range > 0.0 ? kLevels / range : 0.0;
+  const auto level_of = [&](double value) {
+    return static_cast<std::uint16_t>(range > 0.0 ? std::lround(kLevels * ((value - low) / range)) : 0);
+  };
   std::vector<std::uint16_t> levels;
   levels.reserve(values.size());
   for (const double value : values) {
-    levels.push_back(std::isfinite(value) ? static_cast<std::uint16_t>(per_unit * (value - low) + 0.5) : kMissing);
+    levels.push_back(std::isfinite(value) ? level_of(value) : kMissing);
   }
   return fmt::format(",\"{0}_low\":{1},\"{0}_high\":{2}", name, low, low + range) +
          packed_member(name + "_levels", packed(levels));
@@ -137,6 +140,7 @@ std::string trace_data(const Source& source) {
   json += series_members("force", force) + packed_member("slips", packed(slip_ticks(source.analysis, clock)));
   if (!is_even(recording.time_s())) {
     std::vector<std::uint32_t> ticks;
+    ticks.reserve(chosen.size());
     for (const std::size_t i : chosen) ticks.push_back(clock.tick(recording.time_s()[i]));
     json += packed_member("ticks", packed(ticks));
   }
