@@ -122,18 +122,20 @@ void withdraw_parameters(FitResult& fit) {
 }
 
 void doubt_in_step_with_mains(FitResult& fit, double frequency_Hz, double duration_s) {
-  const int harmonics = fit.evidence.hum_share > 0.0 ? 2 : 1;
-  const std::optional<double> mains_Hz = signal::mains_in_step(frequency_Hz, harmonics, duration_s);
+  const bool hum_found = fit.evidence.hum_share > 0.0;
+  const std::optional<double> mains_Hz = signal::mains_in_step(frequency_Hz, hum_found ? 2 : 1, duration_s);
   if (!mains_Hz) return;
-  const std::string reason = fmt::format("in step with {:.0f} Hz mains: hum would hide in the cycles", *mains_Hz);
+  const std::string reason = fmt::format("in step with {:.0f} Hz mains: hum hides in the cycles", *mains_Hz);
+  fit.warnings.push_back(
+      {"mains_in_step",
+       fmt::format("the cycles ({:.4g} Hz) keep {}{}; another speed or a longer recording sets them apart",
+                   frequency_Hz, reason, hum_found ? "" : ", and is taken to be absent")});
+  if (!hum_found) return;
   for (Parameter& parameter : fit.parameters) {
     if (parameter.status != ParameterStatus::Identified) continue;
     parameter.status = ParameterStatus::Weak;
     parameter.estimate.note = reason;
   }
-  fit.warnings.push_back({"mains_in_step", fmt::format("the cycles ({:.4g} Hz) keep {}; another speed or a longer "
-                                                       "recording sets them apart",
-                                                       frequency_Hz, reason)});
 }
 
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,

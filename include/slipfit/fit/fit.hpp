@@ -138,9 +138,10 @@ const Parameter* find_parameter(const FitResult& fit, std::string_view name);
 /// Takes every number back that is not fixed by the user: the motion is not the model's stick-slip.
 void withdraw_parameters(FitResult& fit);
 
-/// Cycles in step with the mains all along: hum would hide in them and change what they tell, so nothing is identified.
-/// The same where hum was found and the second harmonic is in step. Of 1200 simulated recordings with hum 73 were such,
-/// among them all 8 that were wrong by more than 4 standard errors; the third harmonic did no harm.
+/// Cycles in step with the mains all along: hum hides in them and changes what they tell. Where hum was found beside
+/// them, or beside their second harmonic in step, nothing is identified; where none was, that there is none is taken
+/// for granted, with a warning. Of 1200 simulated recordings with hum 73 were in step, among them all 8 that were wrong
+/// by more than 4 standard errors, and hum was found in 71; the third harmonic did no harm.
 void doubt_in_step_with_mains(FitResult& fit, double frequency_Hz, double duration_s);
 
 /// Fits every tier to the cycles and chooses. Empty where fewer than 3 cycles can be fitted.
