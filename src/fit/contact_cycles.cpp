@@ -135,7 +135,7 @@ class Finder {
   }
 
   /// Plateau means as points of a line.
-  Stretch level_of_plateaus() const {
+  [[nodiscard]] Stretch level_of_plateaus() const {
     Stretch level;
     const auto count = static_cast<double>(found_.cycles.size());
     level.count = count;

@@ -27,7 +27,7 @@ class Cutter {
     if (bandwidth_Hz) forgotten_s_ = kForgottenLags / (2.0 * std::numbers::pi * *bandwidth_Hz);
   }
 
-  std::vector<CycleData> cut() const {
+  [[nodiscard]] std::vector<CycleData> cut() const {
     std::vector<CycleData> cycles;
     for (std::size_t i = 1; i < slips_.size(); ++i) {
       CycleData cycle = cut_one(i);
@@ -42,7 +42,7 @@ class Cutter {
   }
 
  private:
-  CycleData cut_one(std::size_t i) const {
+  [[nodiscard]] CycleData cut_one(std::size_t i) const {
     CycleData cycle;
     cycle.slip = i;
     const double before_s = slips_[i - 1].middle_s + 0.5 * slips_[i - 1].fall_s;
@@ -67,27 +67,27 @@ class Cutter {
     return cycle;
   }
 
-  std::size_t index_at(double time_s) const {
+  [[nodiscard]] std::size_t index_at(double time_s) const {
     return static_cast<std::size_t>(std::lower_bound(time_s_.begin(), time_s_.end(), time_s) - time_s_.begin());
   }
 
-  bool is_excluded(std::size_t i) const { return !excluded_.empty() && excluded_[i]; }
+  [[nodiscard]] bool is_excluded(std::size_t i) const { return !excluded_.empty() && excluded_[i]; }
 
-  bool has_gap(const std::vector<std::size_t>& samples) const {
+  [[nodiscard]] bool has_gap(const std::vector<std::size_t>& samples) const {
     for (std::size_t i = 1; i < samples.size(); ++i) {
       if (time_s_[samples[i]] - time_s_[samples[i] - 1] > kGapSteps * step_s_) return true;
     }
     return samples.empty();
   }
 
-  bool gap_between(std::size_t first_slip, std::size_t second_slip) const {
+  [[nodiscard]] bool gap_between(std::size_t first_slip, std::size_t second_slip) const {
     for (std::size_t i = slips_[first_slip].trough + 1; i <= slips_[second_slip].peak; ++i) {
       if (time_s_[i] - time_s_[i - 1] > kGapSteps * step_s_) return true;
     }
     return false;
   }
 
-  std::vector<StickBin> bin(std::size_t begin, std::size_t end) const {
+  [[nodiscard]] std::vector<StickBin> bin(std::size_t begin, std::size_t end) const {
     std::vector<StickBin> bins;
     if (end <= begin) return bins;
     const std::size_t length = end - begin;
@@ -99,7 +99,7 @@ class Cutter {
     return bins;
   }
 
-  StickBin reduce(std::size_t begin, std::size_t end) const {
+  [[nodiscard]] StickBin reduce(std::size_t begin, std::size_t end) const {
     // Sums about the first sample: near enough to the mean that nothing cancels.
     const double time0_s = time_s_[begin];
     const double force0 = force_[begin];
@@ -130,7 +130,7 @@ class Cutter {
   }
 
   /// On an even clock (hum is looked for on no other) the phase turns by the same angle from sample to sample.
-  LineInBin reduce_line(std::size_t begin, std::size_t end, const StickBin& bin, double line_Hz) const {
+  [[nodiscard]] LineInBin reduce_line(std::size_t begin, std::size_t end, const StickBin& bin, double line_Hz) const {
     const double omega = 2.0 * std::numbers::pi * line_Hz;
     const double step = omega * (time_s_.back() - time_s_.front()) / static_cast<double>(time_s_.size() - 1);
     const double turn_c = std::cos(step);

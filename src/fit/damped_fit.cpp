@@ -79,7 +79,7 @@ class Fitter {
  private:
   /// A slip lasts 2 (pi - atan lambda) / w_n around its middle; 0.3 half periods on either side are left for the fit to
   /// move its ends.
-  double half_width_s() const {
+  [[nodiscard]] double half_width_s() const {
     const double u = start_stiffness_ * scales_.speed_m_per_s * scales_.half_period_s / std::numbers::pi;
     constexpr double kForgotten = 8.0;  // e^-8: what the sensor still shows of the slip in the straight ramp
     return scales_.half_period_s * (1.0 - std::atan2(scales_.force, u) / std::numbers::pi + 0.3) +
@@ -87,7 +87,7 @@ class Fitter {
   }
 
   /// The level model to begin with: the polynomial that the middles pay for, or at once one level a cycle.
-  LevelModel first_level() const {
+  [[nodiscard]] LevelModel first_level() const {
     std::vector<double> middles;
     std::vector<double> drops;
     for (const CycleData& cycle : cycles_) {
@@ -104,7 +104,7 @@ class Fitter {
     return {wanders, wanders ? 0 : terms, segmentation_.mains_Hz};
   }
 
-  std::vector<double> middles_s(const std::vector<CycleData>& cycles) const {
+  [[nodiscard]] std::vector<double> middles_s(const std::vector<CycleData>& cycles) const {
     std::vector<double> values;
     values.reserve(cycles.size());
     for (const CycleData& cycle : cycles) values.push_back(segmentation_.slips[cycle.slip].middle_s);
@@ -127,7 +127,7 @@ class Fitter {
     return fit;
   }
 
-  bool explains_more(const BlockFit& wandering, const BlockFit& polynomial) const {
+  [[nodiscard]] bool explains_more(const BlockFit& wandering, const BlockFit& polynomial) const {
     const Uncertainty rich = estimate_uncertainty(wandering, held_, false);
     const Uncertainty poor = estimate_uncertainty(polynomial, held_, false);
     const auto extra = static_cast<double>(wandering.size() - polynomial.level().terms);
@@ -136,7 +136,8 @@ class Fitter {
   }
 
   /// Short runs with zeta held, from several damping ratios (and frequencies, where the fall is hardly sampled).
-  std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles, const LevelModel& level) const {
+  [[nodiscard]] std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles,
+                                                        const LevelModel& level) const {
     BlockFit fit(cycles, middles_s(cycles), scales_, level);
     std::vector<double> stretches{1.0};
     if (scales_.half_period_s < 6.0 * recording_.sample_interval_s()) stretches = {1.0, 1.6, 1.0 / 0.6};
@@ -166,8 +167,8 @@ class Fitter {
     return fit;
   }
 
-  std::optional<BlockFit> fit_from(std::vector<CycleData> cycles, const LevelModel& level, const Shared& shared,
-                                   int max_iterations, double tolerance) const {
+  [[nodiscard]] std::optional<BlockFit> fit_from(std::vector<CycleData> cycles, const LevelModel& level,
+                                                 const Shared& shared, int max_iterations, double tolerance) const {
     std::vector<double> middles = middles_s(cycles);
     BlockFit fit(std::move(cycles), std::move(middles), scales_, level);
     set_start(fit, segmentation_, shared);
@@ -191,7 +192,7 @@ class Fitter {
   }
 
   /// Residuals of half the friction drop: no stick-slip, whatever more cycles would say.
-  bool is_hopeless(const BlockFit& fit) const {
+  [[nodiscard]] bool is_hopeless(const BlockFit& fit) const {
     double mean = 0.0;
     for (const Own& own : fit.parameters.cycles) mean += own[1] / static_cast<double>(fit.size());
     return !(std::sqrt(reduced_chi2(fit)) * scales_.noise < 0.5 * std::abs(mean) * scales_.force);
@@ -223,7 +224,7 @@ class Fitter {
   }
 
   /// Weights depend on the model, the model on the weights: three rounds settle both to a percent of an error.
-  BlockFit with_clock_weights(BlockFit fit) const {
+  [[nodiscard]] BlockFit with_clock_weights(BlockFit fit) const {
     for (int round = 0; round < 3; ++round) {
       std::vector<CycleData> cycles = weigh_by_slope(fit);
       std::vector<double> middles = middles_s(cycles);
@@ -237,8 +238,8 @@ class Fitter {
 
   /// Cuts again without the slips `bad`, with hum lines in the level, and fits from the present solution, whose cycles
   /// make room for the new ones.
-  std::optional<BlockFit> refit(BlockFit fit, const std::vector<std::size_t>& bad,
-                                const std::vector<double>& lines_Hz) const {
+  [[nodiscard]] std::optional<BlockFit> refit(BlockFit fit, const std::vector<std::size_t>& bad,
+                                              const std::vector<double>& lines_Hz) const {
     const Parameters start = std::move(fit.parameters);
     LevelModel level = fit.level();
     std::vector<std::size_t> slips;
@@ -268,7 +269,7 @@ class Fitter {
     return refit;
   }
 
-  std::optional<DampedFit> finish(BlockFit fit) const {
+  [[nodiscard]] std::optional<DampedFit> finish(BlockFit fit) const {
     return finish_fit(recording_, quality_, segmentation_, half_width_s(),
                       {std::move(fit), false, held_, refused_damping_, excluded_, {}, {}});
   }

@@ -30,7 +30,7 @@ class Finisher {
       : recording_(recording), quality_(quality), segmentation_(segmentation), half_width_s_(half_width_s) {}
 
   /// Empty where the normal equations are singular: the cycles do not tell the shared parameters apart.
-  std::optional<DampedFit> finish(DampedFit result) const {
+  [[nodiscard]] std::optional<DampedFit> finish(DampedFit result) const {
     result.uncertainty = estimate_uncertainty(result.blocks, result.held, false);
     if (!is_regular(result.uncertainty, result.held)) return std::nullopt;
     if (!result.blocks.level().per_cycle && !result.uncertainty.from_cycles) join_ramps(result);
@@ -48,7 +48,7 @@ class Finisher {
 
  private:
   /// What refits to rounded copies of the model move the quantities by.
-  Eigen::MatrixXd moves_by_rounding(const DampedFit& result) const {
+  [[nodiscard]] Eigen::MatrixXd moves_by_rounding(const DampedFit& result) const {
     const Residuals residuals = residuals_of(recording_, result.blocks, {});
     std::vector<double> model(recording_.force().begin(), recording_.force().end());
     for (std::size_t i = 0; i < model.size(); ++i) model[i] -= residuals.value[i];
@@ -68,7 +68,7 @@ class Finisher {
   }
 
   /// The cycles of a fit cut from another recording with the same clock.
-  BlockFit same_cycles(const Recording& recording, const DampedFit& result) const {
+  [[nodiscard]] BlockFit same_cycles(const Recording& recording, const DampedFit& result) const {
     const BlockFit& fit = result.blocks;
     std::vector<CycleData> kept;
     const HumLines hum{fit.level().lines_Hz, fit.scales().time_begin_s};

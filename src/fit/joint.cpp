@@ -118,7 +118,7 @@ class Assembler {
         model_(fit::with_damping_cut(outcome.values, outcome.covariance), data.scales),
         intervals_(outcome.covariance, outcome.degrees_of_freedom) {}
 
-  JointFit assemble(const LawChoice& choice) const {
+  [[nodiscard]] JointFit assemble(const LawChoice& choice) const {
     JointFit joint;
     const fit::JointProblem& problem = *outcome_.solution.problem;
     joint.level_shared = problem.shares().level;

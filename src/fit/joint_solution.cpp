@@ -46,7 +46,7 @@ class SweepFitter {
  public:
   SweepFitter(const SweepData& data, const FitOptions& options) : data_(data), fixed_(fixed_values(options)) {}
 
-  std::optional<SweepFits> fit() const {
+  [[nodiscard]] std::optional<SweepFits> fit() const {
     std::optional<JointSolution> free = fit_velocity({false, false});
     if (!free) return std::nullopt;
     JointSolution velocity = with_shares(std::move(*free));
@@ -67,7 +67,7 @@ class SweepFitter {
     return boost::math::cdf(boost::math::complement(by_chance, ratio));
   }
 
-  JointHeld held_parameters(SweepLaw law) const {
+  [[nodiscard]] JointHeld held_parameters(SweepLaw law) const {
     JointHeld held{};
     held[kJointStiffness] = fixed_.stiffness_N_per_m.has_value();
     held[kJointFrequency] = fixed_.omega_rad_per_s.has_value();
@@ -106,7 +106,7 @@ class SweepFitter {
   }
 
   /// Several rates: a wrong sign of alpha is a minimum of its own.
-  std::optional<JointSolution> fit_velocity(Shares shares) const {
+  [[nodiscard]] std::optional<JointSolution> fit_velocity(Shares shares) const {
     std::unique_ptr<JointProblem> problem = problem_of(data_, shares, data_.fitted);
     JointHeld held = held_parameters(SweepLaw::Velocity);
     JointProblem::Parameters best;
@@ -126,7 +126,8 @@ class SweepFitter {
     return finish(std::move(problem), held);
   }
 
-  std::optional<JointSolution> finish(std::unique_ptr<JointProblem> problem, const JointHeld& held) const {
+  [[nodiscard]] std::optional<JointSolution> finish(std::unique_ptr<JointProblem> problem,
+                                                    const JointHeld& held) const {
     const double chi2 = problem->solve(held, kMaxIterations, kFinal);
     if (!std::isfinite(chi2)) return std::nullopt;
     const double freedom = residual_freedom(*problem, held);
@@ -134,7 +135,7 @@ class SweepFitter {
   }
 
   /// Shares as much as the data agree with: both, then one of the two, else nothing.
-  JointSolution with_shares(JointSolution free) const {
+  [[nodiscard]] JointSolution with_shares(JointSolution free) const {
     const std::size_t runs = data_.fitted.size();
     for (const Shares shares : {Shares{true, true}, Shares{false, true}, Shares{true, false}}) {
       std::optional<JointSolution> shared = fit_velocity(shares);
@@ -153,7 +154,7 @@ class SweepFitter {
   }
 
   /// From a shared solution on with nothing shared.
-  std::optional<JointSolution> released(const JointSolution& shared) const {
+  [[nodiscard]] std::optional<JointSolution> released(const JointSolution& shared) const {
     std::unique_ptr<JointProblem> problem = problem_of(data_, {false, false}, data_.fitted);
     const JointProblem::Parameters& from = shared.problem->parameters;
     problem->parameters = from;
@@ -162,7 +163,7 @@ class SweepFitter {
     return finish(std::move(problem), shared.held);
   }
 
-  std::optional<JointSolution> coulomb_like(const JointSolution& velocity) const {
+  [[nodiscard]] std::optional<JointSolution> coulomb_like(const JointSolution& velocity) const {
     std::unique_ptr<JointProblem> problem = problem_of(data_, velocity.problem->shares(), data_.fitted);
     set_start(*problem, data_.fitted);
     return finish(std::move(problem), held_parameters(SweepLaw::Coulomb));

@@ -38,7 +38,7 @@ class Reporter {
   }
 
  private:
-  ParameterStatus graded(double relative_error, double bound) const {
+  [[nodiscard]] ParameterStatus graded(double relative_error, double bound) const {
     const bool good = fit_.cycles >= kFewCycles && relative_error < bound;
     return good ? ParameterStatus::Identified : ParameterStatus::Weak;
   }
@@ -55,7 +55,7 @@ class Reporter {
   }
 
   /// Of ln V, and with it of ln k: the data give k V.
-  double speed_error() const { return fit_.held.stiffness ? 0.0 : fit_.relative_speed_se; }
+  [[nodiscard]] double speed_error() const { return fit_.held.stiffness ? 0.0 : fit_.relative_speed_se; }
 
   void report_stiffness() {
     const char* name = "stiffness_N_per_m";
@@ -89,20 +89,20 @@ class Reporter {
     add(name, exponential(fit_.estimate(y)), drift > kDriftMatters ? ParameterStatus::Weak : graded(y.se, 0.05), note);
   }
 
-  std::string few_cycles() const {
+  [[nodiscard]] std::string few_cycles() const {
     return fit_.cycles < kFewCycles ? fmt::format("only {} cycles", fit_.cycles) : std::string();
   }
 
-  bool sampled() const { return resolution_.samples_per_slip > kSamplesForIdentified; }
+  [[nodiscard]] bool sampled() const { return resolution_.samples_per_slip > kSamplesForIdentified; }
 
   /// Of what is read from the slip: why it is weak.
-  std::string what_is_missing() const {
+  [[nodiscard]] std::string what_is_missing() const {
     if (sampled()) return few_cycles();
     return too_few_samples(resolution_.samples_per_slip, recording_.sample_interval_s());
   }
 
   /// Errors fall with the root of the cycles; identified from a quarter on.
-  std::string weak_damping() const {
+  [[nodiscard]] std::string weak_damping() const {
     if (!sampled()) return what_is_missing();
     const double times = std::pow(4.0 * fit_.damping_se / fit_.zeta, 2);
     const std::string known = fmt::format("known to {:.2g}", fit_.damping_se);
