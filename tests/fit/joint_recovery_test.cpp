@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <random>
 #include <string>
+#include <utility>
 
 #include "slipfit/sweep.hpp"
 #include "sweep_recordings.hpp"
@@ -65,6 +67,35 @@ TEST_CASE("joint: alpha and damping are told apart by a sweep, and each speed is
       CHECK(*spacing.value == Approx(truth).epsilon(0.03));
     }
   }
+}
+
+TEST_CASE("joint: a steadily sliding recording pins the kinetic friction at its speed") {
+  const SweepScene scene;
+  constexpr double kFast_m_per_s = 0.5;
+  const double truth_N = scene.f0_N + scene.f1_N * std::exp(scene.alpha_s_per_m * kFast_m_per_s);
+  std::vector<SweepEntry> entries = test::record_sweep(scene, kSpeeds);
+  const SweepAnalysis without = analyze_sweep(entries, {});
+  std::mt19937_64 random(31);
+  std::normal_distribution<double> noise(truth_N, scene.noise_N);
+  std::vector<double> time_s;
+  std::vector<double> force_N;
+  for (int i = 0; i < 4000; ++i) {
+    time_s.push_back(1e-3 * i);
+    force_N.push_back(noise(random));
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = kFast_m_per_s;
+  entries.push_back({"fast", Recording::create(std::move(time_s), std::move(force_N), conditions).value()});
+  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  REQUIRE(without.joint);
+  REQUIRE(sweep.joint);
+  CHECK(sweep.roles.back() == SweepRole::Steady);
+  CHECK(sweep.joint->level_shared);
+  check_recovery(sweep, scene);
+  const Estimate& friction = sweep.joint->points.back().kinetic_friction_N;
+  REQUIRE(friction.value);
+  CHECK(std::abs(*friction.value - truth_N) < 4.0 * *friction.standard_error);
+  CHECK(*parameter(sweep, "f0_N").estimate.standard_error < 0.5 * *parameter(without, "f0_N").estimate.standard_error);
 }
 
 TEST_CASE("joint: the force that spring and damper transmit together") {
