@@ -15,22 +15,26 @@ namespace {
 struct Onset {
   double index = 0.0;  ///< number of the cycle, missing ones counted
   double time_s = 0.0;
+  double counted = 0.0;  ///< steps from the one before by the table, where cycles between were left aside; else 0
 };
 
 std::vector<Onset> onsets_of(const FitResult& fit) {
   std::vector<Onset> onsets;
   std::vector<double> steps_s;
   double rows = 1.0;
+  bool aside = false;
   for (const Cycle& cycle : fit.cycles) {
+    aside = aside || cycle.left_aside;
     if (cycle.used && !onsets.empty()) steps_s.push_back((*cycle.onset_s - onsets.back().time_s) / rows);
-    if (cycle.used) onsets.push_back({0.0, *cycle.onset_s});
+    if (cycle.used) onsets.push_back({0.0, *cycle.onset_s, aside ? rows : 0.0});
+    if (cycle.used) aside = false;
     rows = cycle.used ? 1.0 : rows + 1.0;
   }
   const double period_s = signal::median(std::move(steps_s));
   for (std::size_t i = 1; i < onsets.size(); ++i) {
-    // From one to the next: a period that drifts does not add up.
+    // From one to the next: a period that drifts does not add up. Over many cycles that scatter only counting helps.
     const double steps = std::round((onsets[i].time_s - onsets[i - 1].time_s) / period_s);
-    onsets[i].index = onsets[i - 1].index + std::max(1.0, steps);
+    onsets[i].index = onsets[i - 1].index + (onsets[i].counted > 0.0 ? onsets[i].counted : std::max(1.0, steps));
   }
   return onsets;
 }
@@ -84,17 +88,19 @@ bool is_regular(const Evidence& evidence, const std::vector<Onset>& onsets, doub
   return product <= (-0.5 + 0.9 / std::sqrt(count)) * square;
 }
 
-/// Standard error over mean of the time that a slip's drop takes to build up again.
+/// Standard error over mean of the time that a slip's drop takes to build up again, on average over the cycles in the
+/// fit and those left aside, which scatter alike.
 double recovery_error(const FitResult& fit) {
-  double count = 0.0, mean = 0.0, square = 0.0;
+  double count = 0.0, mean = 0.0, square = 0.0, aside = 0.0;
   for (const Cycle& cycle : fit.cycles) {
+    if (cycle.left_aside) aside += 1.0;
     if (!cycle.used) continue;
     count += 1.0;
     const double step = *cycle.recovery_s - mean;
     mean += step / count;
     square += step * (*cycle.recovery_s - mean);
   }
-  return std::sqrt(square / (count - 1.0) / count) / mean;
+  return std::sqrt(square / (count - 1.0) / (count + aside)) / mean;
 }
 
 Estimate with_relative_error(double value, double relative_error, double degrees_of_freedom) {

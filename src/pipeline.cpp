@@ -26,13 +26,13 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// How badly the cycles fit: residual and spread over the onset force. A missing fit is the worst; so is one that finds
-/// cycles in less than half of the slips, which are then no slips: a rhythm near the mains that was taken out as hum
-/// leaves such remains behind.
+/// cycles in less than half of the slips offered to it, which are then no slips: a rhythm near the mains that was taken
+/// out as hum leaves such remains behind.
 double misfit_of(const std::optional<FitResult>& fit) {
   if (!fit) return std::numeric_limits<double>::infinity();
-  const auto used =
-      std::count_if(fit->cycles.begin(), fit->cycles.end(), [](const Cycle& cycle) { return cycle.used; });
-  if (2 * static_cast<std::size_t>(used) < fit->cycles.size()) return std::numeric_limits<double>::infinity();
+  std::ptrdiff_t surplus = 0;
+  for (const Cycle& cycle : fit->cycles) surplus += cycle.left_aside ? 0 : cycle.used ? 1 : -1;
+  if (surplus < 0) return std::numeric_limits<double>::infinity();
   return fit->evidence.relative_residual + 0.3 * fit->evidence.onset_force_spread;
 }
 
@@ -76,25 +76,35 @@ void look_beneath_hum(const Recording& recording, const FitOptions& options, Fit
   std::optional<FitResult> other = fit_recording(recording, signals.quality, *beneath, options);
   if (!(misfit_of(other) < misfit_of(fitted.fit))) return;
   signals.segmentation = std::move(*beneath);
-  add_spectrum(signals, look_at_spectrum(recording, signals.quality, signals.segmentation));
+  signals.spectral = look_at_spectrum(recording, signals).spectral;
   fitted.fit = std::move(other);
 }
 
+/// The spectrum is computed beside the search for slips and judged beside the fit, in a thread where one is to be had.
 Fitted look_and_fit(const Recording& recording, const FitOptions& options) {
-  Fitted fitted{look_at_slips(recording), std::nullopt, 0.0};
-  Signals& signals = fitted.signals;
-  // The fit does not need the spectrum: side by side where a thread is to be had, one after the other where the arrays
-  // of both would be large.
-  constexpr std::size_t kLarge = 1000000;
-  const std::launch by_size =
-      recording.size() < kLarge ? std::launch::async | std::launch::deferred : std::launch::deferred;
-  std::future<SpectrumLook> look =
-      std::async(by_size, [&] { return look_at_spectrum(recording, signals.quality, signals.segmentation); });
+  constexpr std::size_t kLarge = 1000000;  // the arrays of spectrum and fit together would be large
   const auto start = Clock::now();
+  Fitted fitted;
+  Signals& signals = fitted.signals;
+  signals.quality = assess_quality(recording);
+  std::future<SpectrumLook> look;  // waits for the thread when it goes,
+  std::promise<void> slips_found;  // so the promise that the thread waits for goes first
+  // Named, and so copied: where there is no thread, async begins anew with what it was given.
+  const auto look_meanwhile = [&, found = slips_found.get_future().share()] {
+    return look_at_spectrum(recording, signals, found);
+  };
+  look = std::async(look_meanwhile);
+  signals.segmentation = find_slips(recording, signals.quality);
+  slips_found.set_value();
+  signals.seconds = seconds_since(start);
+  if (recording.size() >= kLarge) look.wait();
+  const auto fit_start = Clock::now();
   fitted.fit = fit_recording(recording, signals.quality, signals.segmentation, options);
-  add_spectrum(signals, look.get());
+  SpectrumLook looked = look.get();
+  signals.spectral = std::move(looked.spectral);
+  signals.seconds += looked.seconds;
   if (may_be_hum(signals)) look_beneath_hum(recording, options, fitted);
-  fitted.seconds = seconds_since(start);
+  fitted.seconds = seconds_since(fit_start);
   return fitted;
 }
 

@@ -18,36 +18,37 @@ double seconds_since(Clock::time_point start) {
 
 }  // namespace
 
-Signals look_at_slips(const Recording& recording) {
+SpectrumLook look_at_spectrum(const Recording& recording, const Signals& signals,
+                              const std::shared_future<void>& slips_found) {
+  const auto start = Clock::now();
+  const std::vector<bool>& impulses = signals.quality.impulse_mask;
+  const Spectrum spectrum = compute_spectrum(recording, impulses);
+  const double transform_s = seconds_since(start);
+  slips_found.get();
+  const auto resumed = Clock::now();
+  // A count that scatters may be of noise or hum: it would draw the spectrum to its own multiple.
+  constexpr double kSureCount = 0.01;
+  const Estimate counted = count_frequency(recording, signals.segmentation);
+  const bool sure = slips_stand_out(signals.quality, signals.segmentation) && counted.standard_error &&
+                    *counted.standard_error < kSureCount * *counted.value;
+  const std::optional<double> hint_Hz = sure ? counted.value : std::nullopt;
+  SpectralFrequency spectral = find_frequency(recording, spectrum, hint_Hz, impulses);
+  return {std::move(spectral), transform_s + seconds_since(resumed)};
+}
+
+SpectrumLook look_at_spectrum(const Recording& recording, const Signals& signals) {
+  std::promise<void> slips_found;
+  slips_found.set_value();
+  return look_at_spectrum(recording, signals, slips_found.get_future());
+}
+
+Signals look_at(const Recording& recording) {
   const auto start = Clock::now();
   Signals signals;
   signals.quality = assess_quality(recording);
   signals.segmentation = find_slips(recording, signals.quality);
+  signals.spectral = look_at_spectrum(recording, signals).spectral;
   signals.seconds = seconds_since(start);
-  return signals;
-}
-
-SpectrumLook look_at_spectrum(const Recording& recording, const Quality& quality, const Segmentation& segmentation) {
-  const auto start = Clock::now();
-  // A count that scatters may be of noise or hum: it would draw the spectrum to its own multiple.
-  constexpr double kSureCount = 0.01;
-  const Estimate counted = count_frequency(recording, segmentation);
-  const bool sure = slips_stand_out(quality, segmentation) && counted.standard_error &&
-                    *counted.standard_error < kSureCount * *counted.value;
-  const std::optional<double> hint_Hz = sure ? counted.value : std::nullopt;
-  const std::vector<bool>& impulses = quality.impulse_mask;
-  SpectralFrequency spectral = find_frequency(recording, compute_spectrum(recording, impulses), hint_Hz, impulses);
-  return {std::move(spectral), seconds_since(start)};
-}
-
-void add_spectrum(Signals& signals, SpectrumLook look) {
-  signals.spectral = std::move(look.spectral);
-  signals.seconds += look.seconds;
-}
-
-Signals look_at(const Recording& recording) {
-  Signals signals = look_at_slips(recording);
-  add_spectrum(signals, look_at_spectrum(recording, signals.quality, signals.segmentation));
   return signals;
 }
 

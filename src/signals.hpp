@@ -1,5 +1,7 @@
 #pragma once
 
+#include <future>
+
 #include "slipfit/signal/cycles.hpp"
 #include "slipfit/signal/quality.hpp"
 #include "slipfit/signal/spectrum.hpp"
@@ -14,16 +16,18 @@ struct Signals {
   double seconds = 0.0;  ///< that all of it took
 };
 
-/// All but the spectrum.
-Signals look_at_slips(const Recording& recording);
-
 /// The spectrum's frequency, and the seconds that it took.
 struct SpectrumLook {
   SpectralFrequency spectral;
   double seconds = 0.0;
 };
-SpectrumLook look_at_spectrum(const Recording& recording, const Quality& quality, const Segmentation& segmentation);
-void add_spectrum(Signals& signals, SpectrumLook look);
+
+/// From the quality in `signals`, and from the slips in it as soon as these are found: the spectrum itself does without
+/// them and may be computed meanwhile, in another thread.
+SpectrumLook look_at_spectrum(const Recording& recording, const Signals& signals,
+                              const std::shared_future<void>& slips_found);
+/// Of slips that are found.
+SpectrumLook look_at_spectrum(const Recording& recording, const Signals& signals);
 
 Signals look_at(const Recording& recording);
 

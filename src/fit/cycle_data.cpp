@@ -30,6 +30,7 @@ class Cutter {
   [[nodiscard]] std::vector<CycleData> cut() const {
     std::vector<CycleData> cycles;
     for (std::size_t i = 1; i < slips_.size(); ++i) {
+      if (!is_offered(i, slips_.size())) continue;
       CycleData cycle = cut_one(i);
       const DetectedSlip& slip = slips_[i];
       const bool has_ramps = index_at(cycle.window_begin_s) + kMinRampSamples <= slip.peak &&
@@ -166,6 +167,14 @@ class Cutter {
 };
 
 }  // namespace
+
+bool is_offered(std::size_t slip, std::size_t slips) {
+  constexpr std::size_t kRun = 32;  // neighbours, whose joined ramps halve the error of k
+  constexpr std::size_t kRuns = 64;
+  const std::size_t runs = (slips + kRun - 1) / kRun;
+  const std::size_t run = slip / kRun;
+  return runs <= kRuns || (run + 1) * kRuns / runs > run * kRuns / runs;
+}
 
 std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,
                                   const std::vector<bool>& excluded, const HumLines& hum) {

@@ -54,9 +54,25 @@ Evidence weigh(const Recording& recording, const DampedFit& damped, const fit::R
   return evidence;
 }
 
+/// Of more cycles than a fit needs.
+void tell_left_aside(FitResult& result) {
+  const std::size_t slips = result.cycles.size();
+  std::size_t offered = 0;
+  for (std::size_t slip = 0; slip < slips; ++slip) {
+    result.cycles[slip].left_aside = !fit::is_offered(slip, slips);
+    if (!result.cycles[slip].left_aside) ++offered;
+  }
+  if (offered == slips) return;
+  result.warnings.push_back({"part_of_cycles_fitted",
+                             fmt::format("{} of {} cycles, in runs from the first to the last, are enough for the fit; "
+                                         "fit parts of the recording with --window to use all",
+                                         offered, slips)});
+}
+
 /// The table of all detected cycles, with what the fit says of those that it uses.
 void tabulate(const Recording& recording, const Segmentation& segmentation, const BlockFit& blocks, FitResult& result) {
   result.cycles = fit::detected_cycles(recording, segmentation);
+  tell_left_aside(result);
   for (std::size_t c = 0; c < blocks.size(); ++c) {
     const CycleState state = blocks.state(c);
     const double* own = blocks.parameters.cycles[c].data();

@@ -38,6 +38,7 @@ struct Cycle {
   std::optional<double> level_force;  ///< kinetic level F_k of this cycle
   std::optional<double> residual_rms;
   std::optional<double> recovery_s;  ///< slip and the stick that makes good its drop: the period that it causes
+  bool left_aside = false;           ///< one of more than a fit needs: not offered to it
 };
 
 /// A tier that was tried, and why it was taken or left.

@@ -1,0 +1,85 @@
+// Recordings with more cycles than a fit needs.
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "fit/cycle_data.hpp"
+#include "scene.hpp"
+
+using namespace slipfit;
+
+namespace {
+
+Scene scene_of_many_cycles() {
+  Scene s;
+  s.cycles = 6000.0;
+  s.samples_per_slip = 8.0;
+  s.noise = 0.02;
+  s.jitter = 0.03;
+  s.drift_over_drop = 1.0;
+  return s;
+}
+
+void check_truth(const Analysis& analysis, const std::string& name, double truth) {
+  const Estimate& estimate = parameter(analysis, name).estimate;
+  INFO(name);
+  REQUIRE(estimate.standard_error);
+  CHECK(std::abs(*estimate.value - truth) < 4.0 * *estimate.standard_error);  // 1 in 16 000 by chance
+}
+
+}  // namespace
+
+TEST_CASE("up to 2048 cycles are all offered to the fit, of more 64 runs over the whole recording") {
+  for (const std::size_t slips : {3UL, 2048UL}) {
+    for (std::size_t slip = 0; slip < slips; ++slip) REQUIRE(fit::is_offered(slip, slips));
+  }
+  for (const std::size_t slips : {2049UL, 2500UL, 100003UL}) {
+    std::size_t offered = 0, longest_aside = 0, aside = 0;
+    for (std::size_t slip = 0; slip < slips; ++slip) {
+      if (fit::is_offered(slip, slips)) ++offered;
+      aside = fit::is_offered(slip, slips) ? 0 : aside + 1;
+      longest_aside = std::max(longest_aside, aside);
+    }
+    INFO(slips);
+    CHECK(offered <= 2048);
+    CHECK(offered > 2048 - 32);
+    CHECK(longest_aside <= slips / 64 + 32);  // no part of the recording goes unseen
+  }
+}
+
+TEST_CASE("a part of many cycles gives the parameters, and the warning says so") {
+  const Scene s = scene_of_many_cycles();
+  const Analysis analysis = analyze_and_fit(record(s), {});
+  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  CHECK(has_warning(analysis, "part_of_cycles_fitted"));
+  CHECK(!has_warning(analysis, "hum_fitted"));
+  CHECK(analysis.cycles.used <= 2048);
+  CHECK(analysis.cycles.used > 1990);
+  CHECK(std::abs(static_cast<double>(analysis.cycles.count) - s.cycles) < 0.01 * s.cycles);
+  check_truth(analysis, "stiffness_N_per_m", s.stiffness);
+  check_truth(analysis, "natural_frequency_rad_per_s", s.omega);
+  check_truth(analysis, "friction_difference_N", s.static_N - s.kinetic_N);
+  check_truth(analysis, "damping_ratio", s.zeta);
+
+  const Slider slider = Slider::create(s.stiffness, s.omega, s.zeta).value();
+  const double period_s =
+      damped_motion(slider, Friction::create(s.static_N, s.kinetic_N).value(), s.speed).cycle->period_s;
+  const Estimate& frequency = analysis.frequency.quoted;
+  CHECK(std::abs(*frequency.value - 1.0 / period_s) < 4.0 * *frequency.standard_error);
+  CHECK(*frequency.standard_error < 1e-3 / period_s);
+}
+
+TEST_CASE("hum beside a part of the cycles is one line, not one for each gap between the runs") {
+  Scene s = scene_of_many_cycles();
+  s.hum = 0.05;
+  const Analysis analysis = analyze_and_fit(record(s), {});
+  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  const auto warning = std::find_if(analysis.warnings.begin(), analysis.warnings.end(),
+                                    [](const Warning& w) { return w.code == "hum_fitted"; });
+  REQUIRE(warning != analysis.warnings.end());
+  CHECK(warning->message.find(',') == std::string::npos);
+  check_truth(analysis, "stiffness_N_per_m", s.stiffness);
+  check_truth(analysis, "friction_difference_N", s.static_N - s.kinetic_N);
+}
