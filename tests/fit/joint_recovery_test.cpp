@@ -219,6 +219,7 @@ TEST_CASE("joint: a kinetic friction that wanders from cycle to cycle is followe
   SweepScene scene;
   scene.level_scatter_N = 0.08;
   scene.cycles = 40.0;
+  scene.seed = 41;
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
   REQUIRE(sweep.joint);
   CHECK(*sweep.joint->fit.residual.reduced_chi2 == Approx(1.0).margin(0.1));
@@ -236,6 +237,8 @@ TEST_CASE("joint: a kinetic friction that wanders from cycle to cycle is followe
     count += cycles;
     CHECK(std::sqrt(square / cycles - sum * sum / cycles / cycles) == Approx(scene.level_scatter_N).epsilon(0.35));
   }
+  const Estimate& slope = parameter(sweep, "friction_slope_N_s_per_m").estimate;
+  CHECK(std::abs(*slope.value - scene.f1_N * scene.alpha_s_per_m) < 4.0 * *slope.standard_error);
   const Estimate& level = parameter(sweep, "kinetic_friction_N").estimate;
   CHECK(std::abs(*level.value - scene.kinetic_friction_N()) < 4.0 * *level.standard_error);
   CHECK(*level.standard_error > 0.7 * scene.level_scatter_N / std::sqrt(count));
