@@ -30,7 +30,8 @@ VelocityTrack slip_of(const SweepScene& s, double speed_m_per_s, double differen
 slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offset_N, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  std::mt19937_64 levels(seed + 1000);  // of their own: scenes without them keep their noise
+  std::mt19937_64 level_random(seed + 1000);  // of their own: scenes without them keep their noise
+  std::normal_distribution<double> level_normal;
   const double omega = s.natural_frequency_rad_per_s;
   const double period_s = s.spacing_m(speed_m_per_s) / speed_m_per_s;
   const double step_s = 3.14159 / omega / s.samples_per_half_period;
@@ -51,7 +52,7 @@ slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offs
                         s.noise_N * normal(random));
     }
     onset_s = next_s;
-    level_N = s.kinetic_friction_N() + s.level_scatter_N * normal(levels);
+    level_N = s.kinetic_friction_N() + s.level_scatter_N * level_normal(level_random);
     slip = slip_of(s, speed_m_per_s, next_N - level_N);
   }
   slipfit::Conditions conditions;
