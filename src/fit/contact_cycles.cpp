@@ -129,8 +129,8 @@ class Finder {
     // A drift within its error is none: taking it off would only add its noise.
     const bool drifts = drift * drift > 9.0 * drift_error2;
     ramp_slope_ = slope;
-    drift_ = drifts ? drift : 0.0;
-    found_.slope = slope - drift_;
+    found_.drift = drifts ? drift : 0.0;
+    found_.slope = slope - found_.drift;
     found_.slope_error = std::sqrt(found_.noise * found_.noise / spread + (drifts ? drift_error2 : 0.0));
   }
 
@@ -161,7 +161,7 @@ class Finder {
       const Stretch& before = ramps_[i - 1];
       const Stretch& after = ramps_[i];
       if (before.count == 0.0 || after.count == 0.0) continue;
-      const double moved = 0.5 * drift_ * (cycle.end_s - cycle.onset_s);  // of the level, in half a plateau
+      const double moved = 0.5 * found_.drift * (cycle.end_s - cycle.onset_s);  // of the level, in half a plateau
       cycle.onset_jump = before.force + ramp_slope_ * (cycle.onset_s - before.time_s) - cycle.plateau + moved;
       cycle.end_jump = cycle.plateau + moved - after.force - ramp_slope_ * (cycle.end_s - after.time_s);
       kept.push_back(cycle);
@@ -174,7 +174,6 @@ class Finder {
   const std::vector<DetectedSlip>& slips_;
   ContactCycles found_;
   std::vector<Stretch> ramps_;  // after each cycle
-  double drift_ = 0.0;          // of the level, N/s; 0 where within its error
   double ramp_slope_ = 0.0;     // of the ramps as they stand, drift included
 };
 

@@ -27,6 +27,7 @@ struct ContactCycles {
   std::size_t without_edges = 0;  ///< slips without two clear falls; the first and the last may be cut off
   double slope = 0.0;             ///< of the ramps, level's own slope taken off: k V
   double slope_error = 0.0;
+  double drift = 0.0;  ///< the level's own slope; 0 where within its error
   double noise = 0.0;  ///< rms of ramps and plateaus about their lines
   double step_s = 0.0;
 };

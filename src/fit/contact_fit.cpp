@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -188,17 +189,20 @@ class ContactReporter {
   Estimate damping_;
 };
 
-/// Ramp up to the onset and plateau of every cycle.
+/// Ramp up to the onset and plateau of every cycle; no ramp where the slip before it is not among them.
 std::vector<CurvePoint> curve_of(const Recording& recording, const ContactCycles& found) {
   std::vector<CurvePoint> curve;
-  std::size_t begin = found.cycles.front().onset;
+  std::size_t begin = 0;
+  std::optional<std::size_t> slip_before;
   for (const ContactCycle& cycle : found.cycles) {
+    if (!slip_before || cycle.slip != *slip_before + 1) begin = cycle.onset;
     const double top = cycle.plateau + cycle.onset_jump;
     for (std::size_t i = begin; i <= cycle.onset; ++i) {
-      curve.push_back({i, top - found.slope * (cycle.onset_s - recording.time_s()[i])});
+      curve.push_back({i, top - (found.slope + found.drift) * (cycle.onset_s - recording.time_s()[i])});
     }
     for (std::size_t i = cycle.onset + 1; i <= cycle.end; ++i) curve.push_back({i, cycle.plateau});
     begin = cycle.end + 1;
+    slip_before = cycle.slip;
   }
   return curve;
 }

@@ -20,13 +20,11 @@ void legendre(double x, std::size_t terms, double* values, double* derivatives);
 inline constexpr std::size_t kShared = 3;
 using Shared = std::array<double, kShared>;
 
-inline constexpr std::size_t kMaxLevelTerms = 16;
-
 /// How the kinetic level F_k is described: one polynomial in time (additive drift of the sensor, order 0: constant) or
 /// one value a cycle (friction that wanders); beside it hum of the mains, a cosine and a sine for each line.
 struct LevelModel {
   bool per_cycle = false;
-  std::size_t terms = 1;  ///< of the Legendre polynomial, at most kMaxLevelTerms; 0 where per_cycle
+  std::size_t terms = 1;  ///< of the Legendre polynomial; 0 where per_cycle
   std::vector<double> lines_Hz;
 
   /// Shared coefficients: polynomial first, then cosine and sine of each line.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fit/intervals.hpp"
 #include "fit/joint_outcome.hpp"
 #include "fit/joint_parameters.hpp"
 #include "signal/robust.hpp"
@@ -191,9 +192,8 @@ class Assembler {
     }
     if (data_.steady_of[i]) {
       const fit::SteadyRun& steady = data_.steady[*data_.steady_of[i]];
-      const double half = 2.26 * steady.standard_error;  // Student's t, 9 degrees of freedom
-      point.mean_steady_force_N = {
-          steady.mean_force, steady.standard_error, Interval{steady.mean_force - half, steady.mean_force + half}, {}};
+      point.mean_steady_force_N =
+          fit::symmetric(steady.mean_force, steady.standard_error, static_cast<double>(fit::kSteadyStretches) - 1.0);
     }
     return point;
   }

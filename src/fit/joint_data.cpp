@@ -23,14 +23,13 @@ double typical_stick_s(const BlockFit& blocks) {
   return std::max(0.05 * period_s, period_s - state.slip.tau_end / state.omega_rad_per_s);
 }
 
-/// Mean of a steady recording; its error from ten stretches, which see wander as well as noise.
+/// Mean of a steady recording; its error from stretches, which see wander as well as noise.
 SteadyRun steady_run(const Recording& recording, double load) {
-  constexpr std::size_t kStretches = 10;
   const auto force = recording.force();
   std::vector<double> means;
-  for (std::size_t part = 0; part < kStretches; ++part) {
-    const std::size_t begin = part * force.size() / kStretches;
-    const std::size_t end = (part + 1) * force.size() / kStretches;
+  for (std::size_t part = 0; part < kSteadyStretches; ++part) {
+    const std::size_t begin = part * force.size() / kSteadyStretches;
+    const std::size_t end = (part + 1) * force.size() / kSteadyStretches;
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) sum += force[i];
     if (end > begin) means.push_back(sum / static_cast<double>(end - begin));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "slipfit/fit/joint.hpp"
 
 namespace slipfit::fit {
+
+/// A steady recording is cut into so many for the error of its mean force.
+inline constexpr std::size_t kSteadyStretches = 10;
 
 /// The recordings of a sweep, fitted one by one: data, levels and starts of the joint fit. Recordings whose cycles
 /// cannot be fitted are empty.

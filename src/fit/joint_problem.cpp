@@ -127,16 +127,16 @@ double JointProblem::solve(const JointHeld& held, int max_iterations, double tol
     double* level = &parameters.levels[shares_.level ? 0 : r];
     double* difference = &parameters.differences[shares_.difference ? 0 : r];
     double* drift = parameters.drifts[r].empty() ? nullptr : parameters.drifts[r].data();
-    for (std::size_t c = 0; c < cycles_[r].size(); ++c) {
+    for (const JointCycle& cycle : cycles_[r]) {
       double* own = owns[next++].data();
       std::vector<double*> blocks{shared, level, difference};
       if (drift != nullptr) blocks.push_back(drift);
       blocks.push_back(own);
       // A cycle far worse than the others counts linearly, not squared.
-      const auto rows = static_cast<double>(cycles_[r][c].residuals());
-      problem.AddResidualBlock(new JointCost(cycles_[r][c]), new ceres::HuberLoss(3.0 * std::sqrt(rows)), blocks);
+      const auto rows = static_cast<double>(cycle.residuals());
+      problem.AddResidualBlock(new JointCost(cycle), new ceres::HuberLoss(3.0 * std::sqrt(rows)), blocks);
       ordering->AddElementToGroup(own, 0);
-      residuals += cycles_[r][c].residuals();
+      residuals += cycle.residuals();
     }
     for (double* block : {level, difference, drift}) {
       if (block != nullptr && !ordering->IsMember(block)) ordering->AddElementToGroup(block, group++);

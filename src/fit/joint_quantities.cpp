@@ -152,6 +152,8 @@ std::optional<SweepJet> SweepModel::aged_difference_N(double speed_m_per_s, doub
   return model::aged_difference_N(*solution_N, difference, ageing, stick_s, by_difference, reference_stick_s_);
 }
 
+// A matrix of fixed size has nothing to move: by value it would be copied twice.
+// NOLINTNEXTLINE(modernize-pass-by-value)
 SweepIntervals::SweepIntervals(const SweepMatrix& covariance, double degrees_of_freedom)
     : matrix_(covariance),
       degrees_of_freedom_(std::max(1.0, degrees_of_freedom)),

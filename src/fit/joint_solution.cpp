@@ -126,8 +126,7 @@ class SweepFitter {
     return finish(std::move(problem), held);
   }
 
-  [[nodiscard]] std::optional<JointSolution> finish(std::unique_ptr<JointProblem> problem,
-                                                    const JointHeld& held) const {
+  static std::optional<JointSolution> finish(std::unique_ptr<JointProblem> problem, const JointHeld& held) {
     const double chi2 = problem->solve(held, kMaxIterations, kFinal);
     if (!std::isfinite(chi2)) return std::nullopt;
     const double freedom = residual_freedom(*problem, held);

@@ -76,12 +76,11 @@ double refine(const std::vector<double>& residuals, double step_s, double freque
   for (int i = -kSteps; i <= kSteps; ++i) {
     powers.push_back(power_of(fit_term(residuals, step_s, frequency_Hz + 0.25 * i * resolution_Hz)));
   }
-  const auto best = std::max_element(powers.begin(), powers.end()) - powers.begin();
+  const auto best = static_cast<std::size_t>(std::max_element(powers.begin(), powers.end()) - powers.begin());
   double offset = static_cast<double>(best) - kSteps;
-  if (best > 0 && best < 2 * kSteps) {
-    const auto at = static_cast<std::size_t>(best);
-    const double curvature = powers[at - 1] - 2.0 * powers[at] + powers[at + 1];
-    if (curvature < 0.0) offset += 0.5 * (powers[at - 1] - powers[at + 1]) / curvature;
+  if (best > 0 && best + 1 < powers.size()) {
+    const double curvature = powers[best - 1] - 2.0 * powers[best] + powers[best + 1];
+    if (curvature < 0.0) offset += 0.5 * (powers[best - 1] - powers[best + 1]) / curvature;
   }
   return frequency_Hz + 0.25 * offset * resolution_Hz;
 }

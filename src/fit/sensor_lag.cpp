@@ -17,7 +17,7 @@ struct Shown {
 /// equation; an exponential joins it to the lagging ramp before.
 Shown in_slip(const Jet& z0, const Jet& zeta, const Jet& kappa, const Jet& tau) {
   const Jet b = sqrt(1.0 - zeta * zeta);
-  const Jet p = z0;
+  const Jet& p = z0;
   const Jet q = (1.0 + zeta * z0) / b;
   const Jet rest = kappa - zeta;
   const Jet scale = kappa / (rest * rest + b * b);

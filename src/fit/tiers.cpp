@@ -104,13 +104,11 @@ Resolution resolution_of(const Recording& recording, const TierFits& fits) {
     return result;
   }
   result.slip_resolved = true;
-  if (held) {
-    result.damping_resolved = true;
-  } else if (fits.damped.refused_damping) {
+  if (!held && fits.damped.refused_damping) {
     result.reason =
         fmt::format("the slip is not shaped like a damped oscillation (its best damping ratio, {:.2f}, is below 0)",
                     *fits.damped.refused_damping);
-  } else if (!(damping_error < 0.1)) {
+  } else if (!held && !(damping_error < 0.1)) {
     result.reason = fmt::format("the standard error of the damping ratio is {:.2g}; {}", damping_error,
                                 result.samples_per_slip < 6.0
                                     ? too_few_samples(result.samples_per_slip, recording.sample_interval_s())

@@ -75,7 +75,7 @@ double reduced_chi2(const BlockFit& fit) {
       }
     }
   }
-  const double parameters = static_cast<double>(common_size(fit) + own_size(fit) * static_cast<Index>(fit.size()));
+  const auto parameters = static_cast<double>(common_size(fit) + own_size(fit) * static_cast<Index>(fit.size()));
   return chi2 / std::max(1.0, samples - parameters);
 }
 

@@ -126,7 +126,7 @@ Result<double> number_of(const ManifestColumn& column, const std::string& cell, 
                          bool decimal_comma) {
   const KnownColumn& known = known_column(column.field);
   if (!column.scale) {
-    const Result<double> value = parse_quantity(text, *known.dimension);
+    Result<double> value = parse_quantity(text, *known.dimension);
     if (value) return value;
     return Error{value.error().code, fmt::format("column '{}': {}", column.name, printable(value.error().message))};
   }

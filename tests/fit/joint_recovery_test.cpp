@@ -1,9 +1,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "slipfit/sweep.hpp"
 #include "sweep_recordings.hpp"
@@ -42,6 +44,18 @@ void check_recovery(const SweepAnalysis& sweep, const SweepScene& s) {
     INFO(name << " = " << *p.estimate.value << " +- " << *p.estimate.standard_error << ", truth " << truth);
     CHECK(std::abs(*p.estimate.value - truth) < 4.0 * *p.estimate.standard_error);
   }
+}
+
+/// A sweep whose recordings differ in more than the speed.
+std::vector<SweepEntry> record_each(const std::vector<double>& speeds_m_per_s,
+                                    const std::function<SweepScene(std::size_t)>& scene_of) {
+  std::vector<SweepEntry> entries;
+  for (std::size_t i = 0; i < speeds_m_per_s.size(); ++i) {
+    SweepScene scene = scene_of(i);
+    scene.seed = i + 1;
+    entries.push_back(test::record_sweep(scene, {speeds_m_per_s[i]}).front());
+  }
+  return entries;
 }
 
 }  // namespace
@@ -156,4 +170,109 @@ TEST_CASE("joint: one recording with cycles is no sweep") {
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep({}, {0.01}), {});
   CHECK_FALSE(sweep.joint);
   CHECK_THAT(sweep.joint_reason, Catch::Contains("1 with stick-slip cycles"));
+}
+
+TEST_CASE("joint: where recordings do not quite share k, F_k(v) stays because it predicts the unseen better") {
+  SweepScene scene;
+  scene.f0_N = 1.0;
+  scene.f1_N = 1.0;
+  const std::vector<double> speeds{0.005, 0.01, 0.02, 0.04, 0.08, 0.12};
+  const auto scene_of = [&](std::size_t i) {
+    SweepScene s = scene;
+    s.stiffness_N_per_m *= i == 1 || i == 2 ? 1.01 : 0.99;
+    return s;
+  };
+  const SweepAnalysis sweep = analyze_sweep(record_each(speeds, scene_of), {});
+  REQUIRE(sweep.joint);
+  CHECK(*sweep.joint->fit.residual.reduced_chi2 > 1.5);
+  CHECK(sweep.joint->fit.tier == Tier::Velocity);
+  CHECK_THAT(sweep.joint->fit.candidates.front().reason, Catch::Contains("spacing predicted without each recording"));
+  check_recovery(sweep, scene);
+  const Estimate& slope = parameter(sweep, "friction_slope_N_s_per_m").estimate;
+  const double truth = scene.f1_N * scene.alpha_s_per_m;
+  CHECK(slope.ci95->low < truth);
+  CHECK(truth < slope.ci95->high);
+  for (const Parameter& p : sweep.joint->fit.parameters) CHECK(p.status != ParameterStatus::Identified);
+}
+
+TEST_CASE("joint: where recordings do not quite share w_n, F_k(v) gains and yet Coulomb friction predicts better") {
+  SweepScene scene;
+  scene.f0_N = 2.0;
+  scene.f1_N = 0.0;
+  const auto scene_of = [&](std::size_t i) {
+    SweepScene s = scene;
+    s.natural_frequency_rad_per_s *= i == 1 || i == 2 ? 1.04 : 0.96;
+    return s;
+  };
+  const SweepAnalysis sweep = analyze_sweep(record_each(kSpeeds, scene_of), {});
+  REQUIRE(sweep.joint);
+  CHECK(*sweep.joint->fit.residual.reduced_chi2 > 1.5);
+  CHECK(sweep.joint->fit.tier == Tier::Damped);
+  check_recovery(sweep, scene);
+  const Parameter& alpha = parameter(sweep, "alpha_s_per_m");
+  CHECK(alpha.status == ParameterStatus::Unidentified);
+  CHECK_THAT(alpha.estimate.note, Catch::Contains("spacing predicted without each recording"));
+  for (const Parameter& p : sweep.joint->fit.parameters) CHECK(p.status != ParameterStatus::Identified);
+}
+
+TEST_CASE("joint: a kinetic friction that wanders from cycle to cycle is followed, and counts as scatter") {
+  SweepScene scene;
+  scene.level_scatter_N = 0.08;
+  scene.cycles = 40.0;
+  scene.seed = 41;
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  REQUIRE(sweep.joint);
+  CHECK(*sweep.joint->fit.residual.reduced_chi2 == Approx(1.0).margin(0.1));
+  check_recovery(sweep, scene);
+  double count = 0.0;
+  for (const Analysis& analysis : sweep.recordings) {
+    double sum = 0.0, square = 0.0, cycles = 0.0;
+    for (const Cycle& cycle : analysis.cycle_table) {
+      if (!cycle.level_force) continue;
+      const double off_N = *cycle.level_force - scene.kinetic_friction_N();
+      sum += off_N;
+      square += off_N * off_N;
+      ++cycles;
+    }
+    count += cycles;
+    CHECK(std::sqrt(square / cycles - sum * sum / cycles / cycles) == Approx(scene.level_scatter_N).epsilon(0.35));
+  }
+  const Estimate& slope = parameter(sweep, "friction_slope_N_s_per_m").estimate;
+  CHECK(std::abs(*slope.value - scene.f1_N * scene.alpha_s_per_m) < 4.0 * *slope.standard_error);
+  const Estimate& level = parameter(sweep, "kinetic_friction_N").estimate;
+  CHECK(std::abs(*level.value - scene.kinetic_friction_N()) < 4.0 * *level.standard_error);
+  CHECK(*level.standard_error > 0.7 * scene.level_scatter_N / std::sqrt(count));
+}
+
+TEST_CASE("joint: friction coefficients where the normal forces are stated, and differ") {
+  const SweepScene scene;
+  constexpr double kFirst_N = 4.0;
+  const auto scene_of = [&](std::size_t i) {
+    const double load = i % 2 == 0 ? 1.0 : 1.5;
+    SweepScene s = scene;
+    s.normal_force_N = kFirst_N * load;
+    s.static_friction_N *= load;
+    s.f0_N *= load;
+    s.f1_N *= load;
+    return s;
+  };
+  const SweepAnalysis sweep = analyze_sweep(record_each(kSpeeds, scene_of), {});
+  REQUIRE(sweep.joint);
+  CHECK(sweep.joint->fit.conditional_on.back() == "normal force 4 N");
+  CHECK(sweep.joint->level_shared);
+  check_recovery(sweep, scene);
+  for (const auto& [name, truth] : {std::pair("mu0", scene.f0_N / kFirst_N), std::pair("mu1", scene.f1_N / kFirst_N)}) {
+    const Parameter& p = parameter(sweep, name);
+    INFO(name << " = " << *p.estimate.value << " +- " << *p.estimate.standard_error << ", truth " << truth);
+    CHECK(p.status == ParameterStatus::Identified);
+    CHECK(std::abs(*p.estimate.value - truth) < 4.0 * *p.estimate.standard_error);
+    CHECK(*p.estimate.value == Approx(truth).epsilon(0.2));
+  }
+  // Kinetic friction of a recording is that under its own load.
+  for (std::size_t i = 0; i < kSpeeds.size(); ++i) {
+    const Estimate& friction = sweep.joint->points[i].kinetic_friction_N;
+    const double load = i % 2 == 0 ? 1.0 : 1.5;
+    const double truth_N = load * (scene.f0_N + scene.f1_N * std::exp(scene.alpha_s_per_m * kSpeeds[i]));
+    CHECK(std::abs(*friction.value - truth_N) < 4.0 * *friction.standard_error);
+  }
 }

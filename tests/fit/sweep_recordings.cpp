@@ -14,14 +14,14 @@ double force_scale_N(const SweepScene& s, double speed_m_per_s) {
   return s.stiffness_N_per_m * speed_m_per_s / s.natural_frequency_rad_per_s;
 }
 
-/// Onset above F_k(0+), scaled: F_s - cV.
-double scaled_onset(const SweepScene& s, double speed_m_per_s, double static_friction_N) {
-  return (static_friction_N - s.kinetic_friction_N()) / force_scale_N(s, speed_m_per_s) - 2.0 * s.damping_ratio;
+/// Onset above F_k(0+), scaled: F_s - cV. The difference is F_s - F_k(0+).
+double scaled_onset(const SweepScene& s, double speed_m_per_s, double difference_N) {
+  return difference_N / force_scale_N(s, speed_m_per_s) - 2.0 * s.damping_ratio;
 }
 
-VelocityTrack slip_of(const SweepScene& s, double speed_m_per_s, double static_friction_N) {
+VelocityTrack slip_of(const SweepScene& s, double speed_m_per_s, double difference_N) {
   const double slope = s.f1_N * s.alpha_s_per_m * s.natural_frequency_rad_per_s / s.stiffness_N_per_m;
-  auto track = VelocityTrack::solve(scaled_onset(s, speed_m_per_s, static_friction_N), s.damping_ratio, slope,
+  auto track = VelocityTrack::solve(scaled_onset(s, speed_m_per_s, difference_N), s.damping_ratio, slope,
                                     s.alpha_s_per_m * speed_m_per_s);
   if (!track || !track->resticks()) throw std::runtime_error("the scene has no stick-slip");
   return *track;
@@ -30,38 +30,45 @@ VelocityTrack slip_of(const SweepScene& s, double speed_m_per_s, double static_f
 slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offset_N, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
+  std::mt19937_64 level_random(seed + 1000);  // of their own: scenes without them keep their noise
+  std::normal_distribution<double> level_normal;
   const double omega = s.natural_frequency_rad_per_s;
   const double period_s = s.spacing_m(speed_m_per_s) / speed_m_per_s;
   const double step_s = 3.14159 / omega / s.samples_per_half_period;
   std::vector<double> time_s;
   std::vector<double> force_N;
   double onset_s = 0.4 * period_s;
-  VelocityTrack slip = slip_of(s, speed_m_per_s, s.static_friction_N);
+  double level_N = s.kinetic_friction_N();
+  VelocityTrack slip = slip_of(s, speed_m_per_s, s.static_friction_N - level_N);
   double t = 0.0;
   while (t < s.cycles * period_s) {
     const double next_N = s.static_friction_N + s.scatter_N * normal(random);
-    const double next_s = onset_s + (scaled_onset(s, speed_m_per_s, next_N) - slip.after().intercept) / omega;
+    const double next_s = onset_s + (scaled_onset(s, speed_m_per_s, next_N - level_N) - slip.after().intercept) / omega;
     for (; t < next_s; t += step_s) {
       time_s.push_back(t);
       const slipfit::model::TrackPoint point = slip.at(omega * (t - onset_s));
       const double drag = s.view == slipfit::ForceView::Transmitted ? 2.0 * s.damping_ratio * point.d_tau : 0.0;
-      force_N.push_back(s.kinetic_friction_N() + force_scale_N(s, speed_m_per_s) * (point.z + drag) + offset_N +
+      force_N.push_back(level_N + force_scale_N(s, speed_m_per_s) * (point.z + drag) + offset_N +
                         s.noise_N * normal(random));
     }
     onset_s = next_s;
-    slip = slip_of(s, speed_m_per_s, next_N);
+    level_N = s.kinetic_friction_N() + s.level_scatter_N * level_normal(level_random);
+    slip = slip_of(s, speed_m_per_s, next_N - level_N);
   }
   slipfit::Conditions conditions;
   conditions.speed_m_per_s = speed_m_per_s;
   conditions.force_view = s.view;
+  conditions.normal_force_N = s.normal_force_N;
+  if (s.normal_force_N) conditions.zero_force_N = 0.0;
   return slipfit::Recording::create(std::move(time_s), std::move(force_N), conditions).value();
 }
 
 }  // namespace
 
 double SweepScene::spacing_m(double speed_m_per_s) const {
-  const VelocityTrack slip = slip_of(*this, speed_m_per_s, static_friction_N);
-  return speed_m_per_s * (scaled_onset(*this, speed_m_per_s, static_friction_N) - slip.after().intercept) /
+  const VelocityTrack slip = slip_of(*this, speed_m_per_s, static_friction_N - kinetic_friction_N());
+  return speed_m_per_s *
+         (scaled_onset(*this, speed_m_per_s, static_friction_N - kinetic_friction_N()) - slip.after().intercept) /
          natural_frequency_rad_per_s;
 }
 

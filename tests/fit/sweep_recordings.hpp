@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,11 @@ struct SweepScene {
   double f0_N = 1.6, f1_N = 0.4, alpha_s_per_m = -8.0;
   double cycles = 20.0;
   double samples_per_half_period = 25.0;
-  double scatter_N = 0.0;
+  double scatter_N = 0.0;        ///< of F_s
+  double level_scatter_N = 0.0;  ///< of F_k from cycle to cycle
   double noise_N = 0.01;
   double offset_N = 0.0;  ///< of the sensor, different in every recording: recording i reads i times this too much
+  std::optional<double> normal_force_N;                  ///< as stated; the zero of the sensor is then known too
   slipfit::ForceView view = slipfit::ForceView::Spring;  ///< or Transmitted
   std::uint64_t seed = 1;
 

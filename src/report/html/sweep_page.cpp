@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
@@ -49,33 +50,46 @@ SweepUnits units_of(const SweepSource& source) {
   double fastest_m_per_s = 0.0;
   double widest_m = 0.0;
   for (std::size_t i = 0; i < source.entries.size(); ++i) {
-    fastest_m_per_s = std::max(fastest_m_per_s, source.entries[i].recording.conditions().speed_m_per_s);
-    widest_m = std::max(widest_m, source.sweep.recordings[i].derived.pattern_spacing_m.value.value_or(0.0));
+    const Conditions& conditions = source.entries[i].recording.conditions();
+    fastest_m_per_s = std::max(fastest_m_per_s, conditions.speed_m_per_s);
+    widest_m = std::max({widest_m, conditions.measured_spacing_m.value_or(0.0),
+                         source.sweep.recordings[i].derived.pattern_spacing_m.value.value_or(0.0)});
   }
   return {display_unit("m/s", fastest_m_per_s), display_unit("m", widest_m)};
 }
 
+/// Of the pattern on the worn surface, where the manifest gives it for any of them.
+bool has_surface_spacing(const SweepSource& source) {
+  return std::any_of(source.entries.begin(), source.entries.end(), [](const SweepEntry& entry) {
+    return entry.recording.conditions().measured_spacing_m.has_value();
+  });
+}
+
 std::string recording_row(const SweepSource& source, std::size_t i, const SweepUnits& units) {
   const Analysis& analysis = source.sweep.recordings[i];
-  const double speed = units.speed.per_SI * source.entries[i].recording.conditions().speed_m_per_s;
+  const Conditions& conditions = source.entries[i].recording.conditions();
+  const Estimate on_surface{conditions.measured_spacing_m, {}, {}, {}};
+  const double speed = units.speed.per_SI * conditions.speed_m_per_s;
   const Estimate& measured = analysis.derived.pattern_spacing_m;
   const Estimate predicted = source.sweep.joint ? source.sweep.joint->points[i].spacing_left_out_m : Estimate{};
   const bool is_left_out = source.sweep.roles[i] == SweepRole::LeftOut;
   return fmt::format(
-      "<tr><th scope=\"row\">{}</th><td class=\"number\">{:.4g}</td><td>{}{}</td>{}{}<td "
+      "<tr><th scope=\"row\">{}</th><td class=\"number\">{:.4g}</td><td>{}{}</td>{}{}{}<td "
       "class=\"number\">{}</td></tr>\n",
       text(source.entries[i].id), speed, status_words(name_of(analysis.verdict)), is_left_out ? ", left out" : "",
+      has_surface_spacing(source) ? quantity_cell(on_surface, units.spacing.per_SI) : "",
       quantity_cell(measured, units.spacing.per_SI), quantity_cell(predicted, units.spacing.per_SI),
       text(off_by(predicted, measured)));
 }
 
 std::string recordings_of(const SweepSource& source) {
   const SweepUnits units = units_of(source);
+  std::vector<std::string> columns{label_with_unit("speed", units.speed.unit), "shows"};
+  if (has_surface_spacing(source)) columns.push_back(label_with_unit("spacing on the surface", units.spacing.unit));
+  columns.insert(columns.end(), {label_with_unit("spacing measured, V/f", units.spacing.unit),
+                                 label_with_unit("predicted without it", units.spacing.unit), "off by"});
   std::string headings;
-  for (const std::string& words :
-       {label_with_unit("speed", units.speed.unit), std::string("shows"),
-        label_with_unit("spacing measured, V/f", units.spacing.unit),
-        label_with_unit("predicted without it", units.spacing.unit), std::string("off by")}) {
+  for (const std::string& words : columns) {
     headings += fmt::format(R"(<th scope="col" class="{}">{}</th>)", words == "shows" ? "" : "number", text(words));
   }
   std::string rows;

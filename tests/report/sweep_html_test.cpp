@@ -1,0 +1,127 @@
+#include <catch2/catch.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "examples.hpp"
+#include "report/html/sweep_exhibits.hpp"
+#include "slipfit/report/sweep_html.hpp"
+
+using Catch::Contains;
+using namespace slipfit;
+
+namespace {
+
+Estimate known(double value, double low, double high) {
+  return {value, 0.25 * (high - low), Interval{low, high}, {}};
+}
+
+/// Two recordings at 10 and 100 mm/s that were fitted together, and a prediction between and beyond them. The numbers
+/// are made up.
+struct Sweep {
+  std::vector<SweepEntry> entries;
+  SweepAnalysis analysis;
+  std::optional<Prediction> prediction;
+
+  Sweep() {
+    analysis.joint.emplace();
+    for (const double speed_m_per_s : {0.01, 0.1}) {
+      entries.push_back({entries.empty() ? "slow" : "fast", recording(speed_m_per_s, std::nullopt)});
+      analysis.recordings.push_back(test::full_analysis());
+      analysis.roles.push_back(SweepRole::Cycles);
+      SweepPoint point;
+      point.spacing_m = known(0.0018, 0.0017, 0.0019);
+      point.spacing_left_out_m = point.spacing_m;
+      analysis.joint->points.push_back(point);
+    }
+    analysis.joint_reason = "2 with stick-slip cycles, 0 sliding steadily, 0 left out";
+    prediction.emplace();
+    for (const double speed_m_per_s : {0.01, 0.1, 1.0}) {
+      PredictedMotion row;
+      row.speed_m_per_s = speed_m_per_s;
+      row.periodic_displacement_m = known(0.0018, 0.0017, 0.0019);
+      prediction->rows.push_back(row);
+    }
+  }
+
+  static Recording recording(double speed_m_per_s, std::optional<double> surface_spacing_m) {
+    const Recording small = test::small_recording();
+    Conditions conditions = small.conditions();
+    conditions.speed_m_per_s = speed_m_per_s;
+    conditions.measured_spacing_m = surface_spacing_m;
+    return Recording::create({small.time_s().begin(), small.time_s().end()},
+                             {small.force().begin(), small.force().end()}, conditions, small.provenance())
+        .value();
+  }
+
+  [[nodiscard]] html::Exhibit spacing_exhibit() const {
+    return html::sweep_spacing_exhibit({entries, analysis, prediction});
+  }
+  [[nodiscard]] std::string page() const { return to_html(entries, analysis, prediction, {"dry", {}, {}}); }
+};
+
+}  // namespace
+
+TEST_CASE("the chart of spacing over speed shows where stick-slip ends, with its interval") {
+  Sweep sweep;
+  sweep.prediction->critical_speed_m_per_s = known(0.3, 0.2, 0.5);
+  const html::Exhibit exhibit = sweep.spacing_exhibit();
+  REQUIRE(exhibit.chart);
+  const chart::Panel& panel = exhibit.chart->panels.at(0);
+  CHECK(panel.x.label == "driving speed [mm/s]");
+  const chart::Line& end = panel.lines.back();
+  CHECK(end.name == "stick-slip ends, 95 %");
+  REQUIRE(end.points.size() == 2);
+  for (const chart::Point& point : end.points) CHECK(point.x == Approx(300.0));
+  const chart::Area& band = panel.areas.back();
+  REQUIRE(band.outline.size() == 4);
+  CHECK(band.outline[0].x == Approx(200.0));
+  CHECK(band.outline[2].x == Approx(500.0));
+  CHECK(band.outline[0].y == panel.y.low);
+  CHECK(band.outline[2].y == panel.y.high);
+  CHECK_THAT(sweep.page(), Contains("stick-slip ends, 95 %"));
+}
+
+TEST_CASE("the band of the critical speed ends with the axis, and there is none where the speed is beyond it") {
+  Sweep sweep;
+  sweep.prediction->critical_speed_m_per_s = known(0.3, 0.001, 50.0);
+  const html::Exhibit exhibit = sweep.spacing_exhibit();
+  const chart::Panel& panel = exhibit.chart->panels.at(0);
+  CHECK(panel.areas.back().outline[0].x == panel.x.low);
+  CHECK(panel.areas.back().outline[2].x == panel.x.high);
+  sweep.prediction->critical_speed_m_per_s = known(30.0, 20.0, 50.0);
+  CHECK_THAT(sweep.page(), !Contains("stick-slip ends, 95 %"));
+  sweep.prediction->critical_speed_m_per_s = {};
+  CHECK_THAT(sweep.page(), !Contains("stick-slip ends, 95 %"));
+}
+
+TEST_CASE("the page of a sweep without a joint fit says why, and shows each recording as it is") {
+  Sweep sweep;
+  sweep.analysis.joint.reset();
+  sweep.analysis.joint_reason = "1 with stick-slip cycles, 0 sliding steadily, 1 left out";
+  sweep.analysis.roles[1] = SweepRole::LeftOut;
+  sweep.prediction.reset();
+  const std::string page = sweep.page();
+  CHECK_THAT(page, Contains("<h1>2 recordings, no joint fit.</h1>"));
+  CHECK_THAT(page, Contains("<h2>Parameters of all recordings</h2>\n<p class=\"absent\">1 with stick-slip cycles"));
+  CHECK_THAT(page, Contains("There is no joint fit: 1 with stick-slip cycles, 0 sliding steadily, 1 left out."));
+  CHECK_THAT(page, Contains("Kinetic friction over speed is not known."));
+  // V/f of both is a measurement; there is nothing to predict it by.
+  CHECK_THAT(page,
+             Contains("<th scope=\"row\">slow</th><td class=\"number\">10</td><td>stick-slip</td>") &&
+                 Contains("<th scope=\"row\">fast</th><td class=\"number\">100</td><td>stick-slip, left out</td>") &&
+                 Contains("1.8409<small>"));
+  CHECK_THAT(page, Contains("<td class=\"number\" data-value=\"\">-</td><td class=\"number\">-</td></tr>"));
+  CHECK_FALSE(sweep.spacing_exhibit().chart);
+  CHECK_THAT(page, Contains("force over time of 2 recordings"));
+}
+
+TEST_CASE("the page of a sweep shows the spacing on the worn surface where the manifest gives it for any recording") {
+  Sweep sweep;
+  CHECK_THAT(sweep.page(), !Contains("spacing on the surface"));
+  sweep.entries[1].recording = Sweep::recording(0.1, 0.00185);
+  const std::string page = sweep.page();
+  CHECK_THAT(page, Contains(">spacing on the surface [mm]</th>"));
+  CHECK_THAT(page, Contains("<td>stick-slip</td><td class=\"number\" data-value=\"\">-</td>") &&
+                       Contains("<td>stick-slip</td><td class=\"number\" data-value=\"0.00185\">1.85"));
+}
