@@ -117,7 +117,7 @@ class Assembler {
         data_(data),
         outcome_(outcome),
         model_(fit::with_damping_cut(outcome.values, outcome.covariance), data.scales),
-        intervals_(outcome.covariance, outcome.degrees_of_freedom) {}
+        intervals_(outcome.covariance, outcome.degrees_of_freedom, outcome.profile) {}
 
   [[nodiscard]] JointFit assemble(const LawChoice& choice) const {
     JointFit joint;

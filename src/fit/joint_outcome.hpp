@@ -32,6 +32,7 @@ struct Outcome {
   SweepMatrix covariance;
   double degrees_of_freedom = 1.0;
   LeftOut left_out;
+  RateProfile profile{};
   bool disagree = false;  ///< the covariance is widened by what leaving out each recording changes
 };
 

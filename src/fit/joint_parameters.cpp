@@ -36,6 +36,12 @@ class SweepReporter {
   }
 
  private:
+  /// By which statuses are graded: a quarter of the 95 % interval, which few degrees of freedom make wide.
+  [[nodiscard]] double error(const SweepJet& y) const { return error(intervals_.plain(y)); }
+  [[nodiscard]] static double error(const Estimate& estimate) {
+    return 0.25 * (estimate.ci95->high - estimate.ci95->low);
+  }
+
   [[nodiscard]] bool resolved() const {
     return evidence_.samples_per_slip > kSamplesForIdentified && evidence_.cycles >= kFewCycles && !evidence_.misfit;
   }
@@ -47,8 +53,8 @@ class SweepReporter {
 
   void add_positive(std::string name, const SweepJet& y, double bound, bool fixed) {
     if (fixed) return add(std::move(name), {y.a, 0.0, Interval{y.a, y.a}, {}}, ParameterStatus::Fixed);
-    const bool good = intervals_.error(y) < bound * std::abs(y.a) &&
-                      (resolved() || (name == "stiffness_N_per_m" && !evidence_.misfit));
+    const bool good =
+        error(y) < bound * std::abs(y.a) && (resolved() || (name == "stiffness_N_per_m" && !evidence_.misfit));
     add(std::move(name), intervals_.of_one_sign(y), good ? ParameterStatus::Identified : ParameterStatus::Weak,
         good || resolved() ? "" : what_is_missing());
   }
@@ -59,7 +65,7 @@ class SweepReporter {
     result_.parameters.back().estimate.note +=
         fmt::format("{}at a stick time of {:.3g} s", result_.parameters.back().estimate.note.empty() ? "" : "; ",
                     evidence_.scales.stick_s);
-    const bool good = resolved() && intervals_.error(model_.ageing) < 0.25 * std::abs(model_.ageing.a);
+    const bool good = resolved() && error(model_.ageing) < 0.25 * std::abs(model_.ageing.a);
     add("ageing_N", intervals_.plain(model_.ageing), good ? ParameterStatus::Identified : ParameterStatus::Weak,
         resolved() ? "" : what_is_missing());
   }
@@ -70,7 +76,7 @@ class SweepReporter {
   }
 
   void add_absolute(std::string name, const SweepJet& y) {
-    const bool good = evidence_.zero_known && resolved() && intervals_.error(y) < 0.1 * std::abs(y.a);
+    const bool good = evidence_.zero_known && resolved() && error(y) < 0.1 * std::abs(y.a);
     add(std::move(name), intervals_.plain(y), good ? ParameterStatus::Identified : ParameterStatus::Weak,
         evidence_.zero_known ? "" : "takes the sensor's zero as right; state it with --zero");
   }
@@ -92,7 +98,7 @@ class SweepReporter {
     zeta.value = std::max(0.0, *zeta.value);
     zeta.ci95->low = std::max(0.0, zeta.ci95->low);
     // Only recordings with one level and one static friction tell damping from friction that depends on the speed.
-    const bool sharp = resolved() && evidence_.shares_all && *zeta.standard_error < 0.25 * *zeta.value;
+    const bool sharp = resolved() && evidence_.shares_all && error(free) < 0.25 * *zeta.value;
     add("damping_ratio", zeta, sharp ? ParameterStatus::Identified : ParameterStatus::Weak,
         sharp                  ? ""
         : evidence_.shares_all ? fmt::format("known to {:.2g}, from 0 it cannot be told well", *zeta.standard_error)
@@ -105,10 +111,10 @@ class SweepReporter {
 
   void add_friction_law() {
     if (!evidence_.depends_on_speed) return withhold_law("not needed or not told: " + evidence_.law_reason);
-    const Estimate slope = intervals_.plain(model_.slope);
-    const bool steep = resolved() && intervals_.error(model_.slope) < 0.25 * std::abs(model_.slope.a);
+    const Estimate slope = through_rate([](const SweepModel& model) { return model.slope; });
+    const bool steep = resolved() && error(slope) < 0.25 * std::abs(*slope.value);
     add("friction_slope_N_s_per_m", slope, steep ? ParameterStatus::Identified : ParameterStatus::Weak);
-    const double relative = intervals_.error(model_.alpha) / std::abs(model_.alpha.a);
+    const double relative = error(model_.alpha) / std::abs(model_.alpha.a);
     // Nearer to 0 than 3 standard errors: those that come out so large by chance would be reported, the others not.
     if (!(relative < 1.0 / 3.0)) {
       return withhold_law(
@@ -127,8 +133,7 @@ class SweepReporter {
     const Estimate high_speed = through_rate(f0);
     const Estimate strength = through_rate(f1);
     // f1 = slope / alpha bends with alpha: where alpha is not sharp, the tails reach further than the interval shows.
-    const ParameterStatus status =
-        graded(std::max(2.0 * relative, *strength.standard_error / std::abs(*strength.value)));
+    const ParameterStatus status = graded(std::max(2.0 * relative, error(strength) / std::abs(*strength.value)));
     add("f0_N", high_speed, evidence_.zero_known ? status : ParameterStatus::Weak, zero);
     add("f1_N", strength, status, noted(status));
     if (!evidence_.reference_normal_force_N) return;

@@ -152,44 +152,71 @@ std::optional<SweepJet> SweepModel::aged_difference_N(double speed_m_per_s, doub
   return model::aged_difference_N(*solution_N, difference, ageing, stick_s, by_difference, reference_stick_s_);
 }
 
-// A matrix of fixed size has nothing to move: by value it would be copied twice.
-// NOLINTNEXTLINE(modernize-pass-by-value)
-SweepIntervals::SweepIntervals(const SweepMatrix& covariance, double degrees_of_freedom)
+SweepIntervals::SweepIntervals(const SweepMatrix& covariance, double degrees_of_freedom, const RateProfile& profile)
     : matrix_(covariance),
+      rate_held_(covariance),
       degrees_of_freedom_(std::max(1.0, degrees_of_freedom)),
-      quantile_(t_quantile(degrees_of_freedom_)) {}
+      quantile_(t_quantile(degrees_of_freedom_)) {
+  const double variance = covariance(kFrictionRate, kFrictionRate);
+  if (!(variance > 0.0)) return;
+  const SweepVector along = covariance.col(kFrictionRate) / std::sqrt(variance);
+  rate_held_ -= along * along.transpose();
+  SweepMatrix by_profile = SweepMatrix::Zero();
+  for (const auto* side : {&profile.lower, &profile.higher}) {
+    if (side->empty()) continue;
+    const SweepVector end = side->back().move / quantile_;
+    by_profile += 0.5 * end * end.transpose();
+    for (const RateProfile::Point& point : *side) moves_.push_back(point.move);
+  }
+  const bool is_wider = by_profile(kFrictionRate, kFrictionRate) > variance;
+  if (is_wider) matrix_ = rate_held_ + by_profile;
+  for (const double side : {-quantile_, quantile_}) moves_.emplace_back(side * along);
+}
 
 double SweepIntervals::error(const SweepJet& y) const {
   return std::sqrt(std::max(0.0, covariance(y, y)));
 }
 
+SweepIntervals::Reach SweepIntervals::reach_of(const SweepJet& y, const std::vector<double>& changes) const {
+  Reach reach;
+  for (const double change : changes) {
+    reach.down = std::max(reach.down, -change);
+    reach.up = std::max(reach.up, change);
+  }
+  const double held = quantile_ * std::sqrt(std::max(0.0, y.v.dot(rate_held_ * y.v)));
+  return {std::hypot(reach.down, held), std::hypot(reach.up, held)};
+}
+
+SweepIntervals::Reach SweepIntervals::reach_of(const SweepJet& y) const {
+  std::vector<double> changes;
+  for (const SweepVector& move : moves_) changes.push_back(y.v.dot(move));
+  return reach_of(y, changes);
+}
+
+Estimate SweepIntervals::from_reach(double value, const Reach& reach) const {
+  return {value, 0.5 * (reach.down + reach.up) / quantile_, Interval{value - reach.down, value + reach.up}, {}};
+}
+
 Estimate SweepIntervals::plain(const SweepJet& y) const {
-  const double se = error(y);
-  return {y.a, se, Interval{y.a - quantile_ * se, y.a + quantile_ * se}, {}};
+  return from_reach(y.a, reach_of(y));
 }
 
 Estimate SweepIntervals::of_one_sign(const SweepJet& y) const {
-  const double se = error(y);
-  const double factor = std::exp(quantile_ * se / std::abs(y.a));
-  return {y.a, se, Interval{std::min(y.a / factor, y.a * factor), std::max(y.a / factor, y.a * factor)}, {}};
+  const Reach reach = reach_of(y);
+  const bool is_positive = y.a > 0.0;
+  const double shrink = std::exp(-(is_positive ? reach.down : reach.up) / std::abs(y.a));
+  const double grow = std::exp((is_positive ? reach.up : reach.down) / std::abs(y.a));
+  Estimate estimate = from_reach(y.a, reach);
+  estimate.ci95 = Interval{std::min(y.a * shrink, y.a * grow), std::max(y.a * shrink, y.a * grow)};
+  return estimate;
 }
 
 Estimate SweepIntervals::through_rate(const SweepVector& values, const JointScales& scales,
                                       const std::function<SweepJet(const SweepModel&)>& quantity) const {
-  const double variance = matrix_(kFrictionRate, kFrictionRate);
-  const SweepVector follow = matrix_.col(kFrictionRate) / variance;
-  const double reach = quantile_ * std::sqrt(variance);
   const SweepJet y = quantity(SweepModel(values, scales));
-  const double along = y.v.dot(follow);  // d y / d rate, the others following
-  const double held = std::sqrt(std::max(0.0, covariance(y, y) - along * along * variance));
-  Interval ends{y.a, y.a};
-  for (const double side : {-reach, reach}) {
-    const double end = quantity(SweepModel(values + side * follow, scales)).a;
-    ends = {std::min(ends.low, end), std::max(ends.high, end)};
-  }
-  const Interval ci{y.a - std::hypot(y.a - ends.low, quantile_ * held),
-                    y.a + std::hypot(ends.high - y.a, quantile_ * held)};
-  return {y.a, 0.5 * (ci.high - ci.low) / quantile_, ci, {}};
+  std::vector<double> changes;
+  for (const SweepVector& move : moves_) changes.push_back(quantity(SweepModel(values + move, scales)).a - y.a);
+  return from_reach(y.a, reach_of(y, changes));
 }
 
 }  // namespace slipfit::fit

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "fit/joint_covariance.hpp"
 #include "slipfit/core/estimate.hpp"
@@ -55,18 +56,28 @@ struct SweepModel {
   double reference_stick_s_ = 1.0;
 };
 
-/// Student's t interval of a function of the sweep's parameters.
+/// How the sweep's values move from their best ones with alpha held lower and higher, the nearest first, inside its
+/// confidence interval.
+struct RateProfile {
+  struct Point {
+    SweepVector move;
+    double root = 0.0;  ///< of the rise in the sum of squares, in standard errors
+  };
+  std::vector<Point> lower, higher;
+};
+
+/// Student's t interval of a function of the sweep's parameters. Along alpha from its profile, where there is one.
 class SweepIntervals {
  public:
-  SweepIntervals(const SweepMatrix& covariance, double degrees_of_freedom);
+  SweepIntervals(const SweepMatrix& covariance, double degrees_of_freedom, const RateProfile& profile = {});
 
   [[nodiscard]] double error(const SweepJet& y) const;
   [[nodiscard]] Estimate plain(const SweepJet& y) const;
   /// Symmetric in the logarithm: the sign is known.
   [[nodiscard]] Estimate of_one_sign(const SweepJet& y) const;
-  /// Of a quantity that bends over the interval of alpha: its values at alpha's ends, the other parameters following
-  /// alpha as their covariance says, and the error that is left with alpha held. The standard error is a quarter of the
-  /// 95 % interval.
+  /// Of a quantity that bends over the interval of alpha: its values along alpha's profile, without one at alpha's ends
+  /// with the other parameters following alpha as their covariance says; and the error that is left with alpha held.
+  /// The standard error is a quarter of the 95 % interval.
   [[nodiscard]] Estimate through_rate(const SweepVector& values, const JointScales& scales,
                                       const std::function<SweepJet(const SweepModel&)>& quantity) const;
   [[nodiscard]] double covariance(const SweepJet& a, const SweepJet& b) const { return a.v.dot(matrix_ * b.v); }
@@ -74,7 +85,19 @@ class SweepIntervals {
   [[nodiscard]] double degrees_of_freedom() const { return degrees_of_freedom_; }
 
  private:
+  /// How far below and above its value a quantity reaches, both at least 0.
+  struct Reach {
+    double down = 0.0;
+    double up = 0.0;
+  };
+  /// The farthest of these changes along alpha, with the error that is left with alpha held.
+  [[nodiscard]] Reach reach_of(const SweepJet& y, const std::vector<double>& changes) const;
+  [[nodiscard]] Reach reach_of(const SweepJet& y) const;
+  [[nodiscard]] Estimate from_reach(double value, const Reach& reach) const;
+
   SweepMatrix matrix_;
+  SweepMatrix rate_held_;           ///< covariance with alpha held
+  std::vector<SweepVector> moves_;  ///< along alpha, to both sides
   double degrees_of_freedom_;
   double quantile_;
 };

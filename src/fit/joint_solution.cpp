@@ -42,6 +42,13 @@ double residual_freedom(const JointProblem& problem, const JointHeld& held) {
   return std::max(1.0, freedom);
 }
 
+std::optional<JointSolution> at_minimum(std::unique_ptr<JointProblem> problem, const JointHeld& held) {
+  const double chi2 = problem->solve(held, kMaxIterations, kFinal);
+  if (!std::isfinite(chi2)) return std::nullopt;
+  const double freedom = residual_freedom(*problem, held);
+  return JointSolution{std::move(problem), held, chi2, freedom};
+}
+
 class SweepFitter {
  public:
   SweepFitter(const SweepData& data, const FitOptions& options) : data_(data), fixed_(fixed_values(options)) {}
@@ -123,14 +130,7 @@ class SweepFitter {
     }
     if (!std::isfinite(best_chi2)) return std::nullopt;
     problem->parameters = best;
-    return finish(std::move(problem), held);
-  }
-
-  static std::optional<JointSolution> finish(std::unique_ptr<JointProblem> problem, const JointHeld& held) {
-    const double chi2 = problem->solve(held, kMaxIterations, kFinal);
-    if (!std::isfinite(chi2)) return std::nullopt;
-    const double freedom = residual_freedom(*problem, held);
-    return JointSolution{std::move(problem), held, chi2, freedom};
+    return at_minimum(std::move(problem), held);
   }
 
   /// Shares as much as the data agree with: both, then one of the two, else nothing.
@@ -159,13 +159,13 @@ class SweepFitter {
     problem->parameters = from;
     if (from.levels.size() == 1) problem->parameters.levels.assign(problem->size(), from.levels[0]);
     if (from.differences.size() == 1) problem->parameters.differences.assign(problem->size(), from.differences[0]);
-    return finish(std::move(problem), shared.held);
+    return at_minimum(std::move(problem), shared.held);
   }
 
   [[nodiscard]] std::optional<JointSolution> coulomb_like(const JointSolution& velocity) const {
     std::unique_ptr<JointProblem> problem = problem_of(data_, velocity.problem->shares(), data_.fitted);
     set_start(*problem, data_.fitted);
-    return finish(std::move(problem), held_parameters(SweepLaw::Coulomb));
+    return at_minimum(std::move(problem), held_parameters(SweepLaw::Coulomb));
   }
 
   const SweepData& data_;
@@ -176,6 +176,15 @@ class SweepFitter {
 
 std::optional<SweepFits> fit_sweep(const SweepData& data, const FitOptions& options) {
   return SweepFitter(data, options).fit();
+}
+
+std::optional<JointSolution> with_rate(const SweepData& data, const JointSolution& solution, double rate) {
+  std::unique_ptr<JointProblem> problem = problem_of(data, solution.problem->shares(), data.fitted);
+  problem->parameters = solution.problem->parameters;
+  problem->parameters.shared[kFrictionRate] = rate;
+  JointHeld held = solution.held;
+  held[kFrictionRate] = true;
+  return at_minimum(std::move(problem), held);
 }
 
 std::optional<JointSolution> leave_out(const SweepData& data, const JointSolution& solution, std::size_t recording) {
@@ -201,10 +210,7 @@ std::optional<JointSolution> leave_out(const SweepData& data, const JointSolutio
     to.drifts.push_back(from.drifts[r]);
     to.cycles.push_back(from.cycles[r]);
   }
-  const double chi2 = problem->solve(solution.held, kMaxIterations, kFinal);
-  if (!std::isfinite(chi2)) return std::nullopt;
-  const double freedom = residual_freedom(*problem, solution.held);
-  return JointSolution{std::move(problem), solution.held, chi2, freedom};
+  return at_minimum(std::move(problem), solution.held);
 }
 
 }  // namespace slipfit::fit

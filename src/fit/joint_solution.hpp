@@ -28,6 +28,9 @@ struct SweepFits {
 /// Both laws, with everything shared between the recordings that the data agree with. Empty where no start converges.
 std::optional<SweepFits> fit_sweep(const SweepData& data, const FitOptions& options);
 
+/// The same fit with alpha v_c held at this rate, started from the solution.
+std::optional<JointSolution> with_rate(const SweepData& data, const JointSolution& solution, double rate);
+
 /// The same fit without one recording, started from the solution.
 std::optional<JointSolution> leave_out(const SweepData& data, const JointSolution& solution, std::size_t recording);
 

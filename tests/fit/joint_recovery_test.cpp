@@ -244,6 +244,27 @@ TEST_CASE("joint: a kinetic friction that wanders from cycle to cycle is followe
   CHECK(*level.standard_error > 0.7 * scene.level_scatter_N / std::sqrt(count));
 }
 
+TEST_CASE("joint: where alpha is hardly told, intervals follow its valley to the other end") {
+  // zeta times alpha is known, neither is: by its best values alone, with alpha > 0, this recording gave a slope of
+  // -0.07 +- 0.06 N s/m and a difference of 1.105 +- 0.015 N.
+  SweepScene scene;
+  scene.level_scatter_N = 0.08;
+  scene.cycles = 40.0;
+  scene.seed = 3700;
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, {0.005, 0.01, 0.02, 0.04, 0.08}), {});
+  REQUIRE(sweep.joint);
+  const auto holds = [&](const char* name, double truth) {
+    const Interval& ci = *parameter(sweep, name).estimate.ci95;
+    return ci.low <= truth && truth <= ci.high;
+  };
+  CHECK(holds("friction_slope_N_s_per_m", scene.f1_N * scene.alpha_s_per_m));
+  CHECK(holds("damping_ratio", scene.damping_ratio));
+  CHECK(parameter(sweep, "alpha_s_per_m").status == ParameterStatus::Unidentified);
+  const Estimate& difference = parameter(sweep, "friction_difference_N").estimate;
+  CHECK(std::abs(*difference.value - (scene.static_friction_N - scene.kinetic_friction_N())) <
+        4.0 * *difference.standard_error);
+}
+
 TEST_CASE("joint: friction coefficients where the normal forces are stated, and differ") {
   const SweepScene scene;
   constexpr double kFirst_N = 4.0;
