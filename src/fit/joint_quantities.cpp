@@ -194,7 +194,7 @@ SweepIntervals::Reach SweepIntervals::reach_of(const SweepJet& y) const {
 }
 
 Estimate SweepIntervals::from_reach(double value, const Reach& reach) const {
-  return {value, 0.5 * (reach.down + reach.up) / quantile_, Interval{value - reach.down, value + reach.up}, {}};
+  return {value, std::max(reach.down, reach.up) / quantile_, Interval{value - reach.down, value + reach.up}, {}};
 }
 
 Estimate SweepIntervals::plain(const SweepJet& y) const {

@@ -77,7 +77,7 @@ class SweepIntervals {
   [[nodiscard]] Estimate of_one_sign(const SweepJet& y) const;
   /// Of a quantity that bends over the interval of alpha: its values along alpha's profile, without one at alpha's ends
   /// with the other parameters following alpha as their covariance says; and the error that is left with alpha held.
-  /// The standard error is a quarter of the 95 % interval.
+  /// The standard error is that of the longer side.
   [[nodiscard]] Estimate through_rate(const SweepVector& values, const JointScales& scales,
                                       const std::function<SweepJet(const SweepModel&)>& quantity) const;
   [[nodiscard]] double covariance(const SweepJet& a, const SweepJet& b) const { return a.v.dot(matrix_ * b.v); }

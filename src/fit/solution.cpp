@@ -103,7 +103,8 @@ Estimate Solution::estimate(const Linear& y) const {
   // At the bound every zeta of the interval is as good as the next; elsewhere its ends are as unlikely as the reach's.
   result.ci95 = at_bound_ ? Interval{y.value + down - reach, y.value + up + reach}
                           : Interval{y.value - std::hypot(down, reach), y.value + std::hypot(up, reach)};
-  result.standard_error = 0.5 * (result.ci95->high - result.ci95->low) / quantile;
+  // One number for both sides: the farther one, or a truth there would seem many errors away.
+  result.standard_error = std::max(result.ci95->high - y.value, y.value - result.ci95->low) / quantile;
   return result;
 }
 
