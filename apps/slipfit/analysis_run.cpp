@@ -5,10 +5,11 @@
 #include <sys/mman.h>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <system_error>
 #include <vector>
 
@@ -117,11 +118,11 @@ void keep_memory_for([[maybe_unused]] const std::string& file) {
   mallopt(M_ARENA_MAX, 1);
   const std::size_t wanted = 8 * static_cast<std::size_t>(size);  // an analysis holds some 60 bytes a sample
   if (wanted < kHugePage) return;
-  void* const room = std::malloc(wanted);
-  void* begin = room;
+  const std::unique_ptr<std::byte[]> room(new (std::nothrow) std::byte[wanted]);  // given back at once, to the heap
+  if (!room) return;
+  void* begin = room.get();
   std::size_t space = wanted;
   if (std::align(kHugePage, kHugePage, begin, space) != nullptr) madvise(begin, space, MADV_HUGEPAGE);
-  std::free(room);  // stays with the heap
 #endif
 }
 
