@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace {
 struct Onset {
   double index = 0.0;  ///< number of the cycle, missing ones counted
   double time_s = 0.0;
-  double counted = 0.0;  ///< steps from the one before by the table, where cycles between were left aside; else 0
+  std::optional<double> counted;  ///< steps from the one before by the table, where cycles between were left aside
 };
 
 std::vector<Onset> onsets_of(const FitResult& fit) {
@@ -26,7 +27,7 @@ std::vector<Onset> onsets_of(const FitResult& fit) {
   for (const Cycle& cycle : fit.cycles) {
     aside = aside || cycle.left_aside;
     if (cycle.used && !onsets.empty()) steps_s.push_back((*cycle.onset_s - onsets.back().time_s) / rows);
-    if (cycle.used) onsets.push_back({0.0, *cycle.onset_s, aside ? rows : 0.0});
+    if (cycle.used) onsets.push_back({0.0, *cycle.onset_s, aside ? std::optional(rows) : std::nullopt});
     if (cycle.used) aside = false;
     rows = cycle.used ? 1.0 : rows + 1.0;
   }
@@ -34,7 +35,7 @@ std::vector<Onset> onsets_of(const FitResult& fit) {
   for (std::size_t i = 1; i < onsets.size(); ++i) {
     // From one to the next: a period that drifts does not add up. Over many cycles that scatter only counting helps.
     const double steps = std::round((onsets[i].time_s - onsets[i - 1].time_s) / period_s);
-    onsets[i].index = onsets[i - 1].index + (onsets[i].counted > 0.0 ? onsets[i].counted : std::max(1.0, steps));
+    onsets[i].index = onsets[i - 1].index + onsets[i].counted.value_or(std::max(1.0, steps));
   }
   return onsets;
 }

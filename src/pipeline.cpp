@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "fit/cycle_table.hpp"
 #include "measured.hpp"
@@ -30,9 +31,11 @@ double seconds_since(Clock::time_point start) {
 /// out as hum leaves such remains behind.
 double misfit_of(const std::optional<FitResult>& fit) {
   if (!fit) return std::numeric_limits<double>::infinity();
-  std::ptrdiff_t surplus = 0;
-  for (const Cycle& cycle : fit->cycles) surplus += cycle.left_aside ? 0 : cycle.used ? 1 : -1;
-  if (surplus < 0) return std::numeric_limits<double>::infinity();
+  const std::vector<Cycle>& cycles = fit->cycles;
+  const auto used = std::count_if(cycles.begin(), cycles.end(), [](const Cycle& cycle) { return cycle.used; });
+  const auto offered =
+      std::count_if(cycles.begin(), cycles.end(), [](const Cycle& cycle) { return !cycle.left_aside; });
+  if (2 * used < offered) return std::numeric_limits<double>::infinity();
   return fit->evidence.relative_residual + 0.3 * fit->evidence.onset_force_spread;
 }
 

@@ -79,7 +79,8 @@ Outcome weigh(const SweepData& data, const JointSolution& solution) {
     outcome.covariance += outcome.left_out.covariance();
     outcome.degrees_of_freedom = std::min(outcome.degrees_of_freedom, outcome.left_out.count() - 1.0);
   }
-  outcome.profile = profile_of_rate(data, solution, kind, outcome.covariance, outcome.degrees_of_freedom);
+  outcome.profile =
+      profile_of_rate(data, solution, kind, outcome.values, outcome.covariance, outcome.degrees_of_freedom);
   avoid_negative_damping(outcome.values, outcome.profile);
   return outcome;
 }

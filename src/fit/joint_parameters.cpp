@@ -87,8 +87,7 @@ class SweepReporter {
       add("damping_ratio", {model_.zeta.a, 0.0, Interval{model_.zeta.a, model_.zeta.a}, {}}, ParameterStatus::Fixed);
       return;
     }
-    SweepJet free = model_.zeta;
-    free.a = evidence_.free_damping_ratio;
+    const SweepJet free = free_damping();
     Estimate zeta = intervals_.plain(free);
     if (zeta.ci95->high <= 0.0) {
       add("damping_ratio", {}, ParameterStatus::Unidentified,
@@ -159,7 +158,8 @@ class SweepReporter {
 
   /// For everything that is computed from the fit. Needs zeta, and F_s above F_k.
   void report_model() {
-    const bool damping_known = evidence_.held[kJointDamping] || damping_high() > 0.0;
+    const Interval damping = *intervals_.plain(free_damping()).ci95;
+    const bool damping_known = evidence_.held[kJointDamping] || damping.high > 0.0;
     if (!damping_known || !(model_.difference.a > 0.0)) return;
     // In the order of ModelEstimate::covariance; of the positive ones the logarithm.
     const std::array<SweepJet, kModelValues> all{log(model_.stiffness),  log(model_.omega), model_.zeta,
@@ -183,16 +183,16 @@ class SweepReporter {
       }
     }
     estimate.degrees_of_freedom = intervals_.degrees_of_freedom();
-    estimate.damping_identified = evidence_.held[kJointDamping] || damping_low() > 0.0;
+    estimate.damping_identified = evidence_.held[kJointDamping] || damping.low > 0.0;
     result_.correlation = std::move(correlation);
     result_.estimate = estimate;
   }
 
-  [[nodiscard]] double damping_low() const {
-    return evidence_.free_damping_ratio - intervals_.quantile() * intervals_.error(model_.zeta);
-  }
-  [[nodiscard]] double damping_high() const {
-    return evidence_.free_damping_ratio + intervals_.quantile() * intervals_.error(model_.zeta);
+  /// zeta where nothing cuts it at 0.
+  [[nodiscard]] SweepJet free_damping() const {
+    SweepJet free = model_.zeta;
+    free.a = evidence_.free_damping_ratio;
+    return free;
   }
 
   const SweepEvidence& evidence_;

@@ -31,8 +31,7 @@ std::vector<double> rates_beside(double best, double side) {
 /// How far the values move on one side, as long as the sum of squares has risen by less than the square of the
 /// quantile, and where it passes that.
 std::vector<RateProfile::Point> points_on(const SweepData& data, const JointSolution& solution, StaticFriction kind,
-                                          double quantile, double side) {
-  const SweepVector best = sweep_values(solution, kind);
+                                          const SweepVector& best, double quantile, double side) {
   const double variance = std::max(1.0, solution.chi2 / solution.degrees_of_freedom);
   std::vector<RateProfile::Point> points;
   RateProfile::Point before{SweepVector::Zero(), 0.0};
@@ -58,12 +57,11 @@ std::vector<RateProfile::Point> points_on(const SweepData& data, const JointSolu
 }  // namespace
 
 RateProfile profile_of_rate(const SweepData& data, const JointSolution& solution, StaticFriction kind,
-                            const SweepMatrix& covariance, double degrees_of_freedom) {
+                            const SweepVector& best, const SweepMatrix& covariance, double degrees_of_freedom) {
   const double error = std::sqrt(covariance(kFrictionRate, kFrictionRate));
-  const double best = sweep_values(solution, kind)(kFrictionRate);
-  if (solution.held[kFrictionRate] || error < kKnownWell * std::abs(best)) return {};
+  if (solution.held[kFrictionRate] || error < kKnownWell * std::abs(best(kFrictionRate))) return {};
   const double quantile = t_quantile(degrees_of_freedom);
-  return {points_on(data, solution, kind, quantile, -1.0), points_on(data, solution, kind, quantile, 1.0)};
+  return {points_on(data, solution, kind, best, quantile, -1.0), points_on(data, solution, kind, best, quantile, 1.0)};
 }
 
 void avoid_negative_damping(SweepVector& values, RateProfile& profile) {

@@ -66,7 +66,8 @@ struct RateProfile {
   std::vector<Point> lower, higher;
 };
 
-/// Student's t interval of a function of the sweep's parameters. Along alpha from its profile, where there is one.
+/// Student's t interval of a function of the sweep's parameters; along alpha as far as its profile says, where there is
+/// one, and never less than the covariance says.
 class SweepIntervals {
  public:
   SweepIntervals(const SweepMatrix& covariance, double degrees_of_freedom, const RateProfile& profile = {});
