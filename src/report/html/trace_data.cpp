@@ -1,7 +1,7 @@
 #include "report/html/trace_data.hpp"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
+#include <nettle/base64.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,11 +23,8 @@ constexpr double kTicks = 4294967295.0;
 constexpr double kEvenClock = 0.02;  // largest deviation, in steps: below what the eye can tell
 
 std::string base64(const void* bytes, std::size_t count) {
-  std::string text(4 * ((count + 2) / 3) + 1, '\0');  // and the ending zero that OpenSSL writes
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): OpenSSL's bytes are unsigned
-  const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                                     static_cast<const unsigned char*>(bytes), static_cast<int>(count));
-  text.resize(static_cast<std::size_t>(length));
+  std::string text(BASE64_ENCODE_RAW_LENGTH(count), '\0');
+  base64_encode_raw(text.data(), count, static_cast<const std::uint8_t*>(bytes));
   return text;
 }
 
