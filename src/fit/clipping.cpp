@@ -1,17 +1,25 @@
 #include "fit/clipping.hpp"
 
+#include <algorithm>
+#include <span>
+
 namespace slipfit::fit {
 
-std::vector<bool> initial_exclusions(const Recording& recording, const Quality& quality) {
-  std::vector<bool> excluded = quality.impulse_mask;
-  if (!quality.clip_high && !quality.clip_low) return excluded;
-  excluded.resize(recording.size(), false);
-  for (std::size_t i = 0; i < recording.size(); ++i) {
-    const double force = recording.force()[i];
-    if ((quality.clip_high && force >= *quality.clip_high) || (quality.clip_low && force <= *quality.clip_low)) {
-      excluded[i] = true;
-    }
+std::vector<std::size_t> initial_exclusions(const Recording& recording, const Quality& quality) {
+  std::vector<std::size_t> excluded;
+  const std::vector<bool>& impulses = quality.impulse_mask;
+  for (auto it = impulses.begin(); (it = std::find(it, impulses.end(), true)) != impulses.end(); ++it) {
+    excluded.push_back(static_cast<std::size_t>(it - impulses.begin()));
   }
+  if (!quality.clip_high && !quality.clip_low) return excluded;
+  const std::span<const double> force = recording.force();
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    const bool high = quality.clip_high && force[i] >= *quality.clip_high;
+    const bool low = quality.clip_low && force[i] <= *quality.clip_low;
+    if (high || low) excluded.push_back(i);
+  }
+  std::sort(excluded.begin(), excluded.end());
+  excluded.erase(std::unique(excluded.begin(), excluded.end()), excluded.end());
   return excluded;
 }
 

@@ -10,8 +10,8 @@
 namespace slipfit::fit {
 
 /// Samples that no model should be asked to explain: impulses, and those at or beyond a level where the sensor
-/// saturates.
-std::vector<bool> initial_exclusions(const Recording& recording, const Quality& quality);
+/// saturates; in ascending order.
+std::vector<std::size_t> initial_exclusions(const Recording& recording, const Quality& quality);
 
 /// Samples whose model lies where the sensor saturates: keeping those that noise has left below the ceiling, and only
 /// those, would pull the fit down. `noise`: rms, unit of the force.

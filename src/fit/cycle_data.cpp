@@ -1,7 +1,9 @@
 #include "fit/cycle_data.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace slipfit::fit {
@@ -15,7 +17,7 @@ constexpr double kForgottenLags = 8.0;  // e^-8: what a lagging sensor still sho
 class Cutter {
  public:
   Cutter(const Recording& recording, const Segmentation& segmentation, double half_width_s,
-         const std::vector<bool>& excluded, const HumLines& hum)
+         const std::vector<std::size_t>& excluded, const HumLines& hum)
       : time_s_(recording.time_s()),
         force_(recording.force()),
         slips_(segmentation.slips),
@@ -59,20 +61,19 @@ class Cutter {
         std::clamp(index_at(slips_[i].middle_s + margin_s), slip_begin, std::max(slip_begin, end));
     cycle.bins_before = bin(begin, slip_begin);
     cycle.bins_after = bin(slip_end, end);
-    for (std::size_t j = slip_begin; j < slip_end; ++j) {
-      if (is_excluded(j)) continue;
-      cycle.samples.push_back(j);
-      cycle.time_s.push_back(time_s_[j]);
-      cycle.force.push_back(force_[j]);
-    }
+    for_each_run(slip_begin, slip_end, [&](std::size_t from, std::size_t to) {
+      for (std::size_t j = from; j < to; ++j) {
+        cycle.samples.push_back(j);
+        cycle.time_s.push_back(time_s_[j]);
+        cycle.force.push_back(force_[j]);
+      }
+    });
     return cycle;
   }
 
   [[nodiscard]] std::size_t index_at(double time_s) const {
     return static_cast<std::size_t>(std::lower_bound(time_s_.begin(), time_s_.end(), time_s) - time_s_.begin());
   }
-
-  [[nodiscard]] bool is_excluded(std::size_t i) const { return !excluded_.empty() && excluded_[i]; }
 
   [[nodiscard]] bool has_gap(const std::vector<std::size_t>& samples) const {
     for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -101,59 +102,80 @@ class Cutter {
   }
 
   [[nodiscard]] StickBin reduce(std::size_t begin, std::size_t end) const {
-    // Sums about the first sample: near enough to the mean that nothing cancels.
-    const double time0_s = time_s_[begin];
-    const double force0 = force_[begin];
-    double sum_t = 0.0, sum_f = 0.0, sum_tt = 0.0, sum_tf = 0.0, sum_ff = 0.0;
+    const Sums sums = sum(begin, end);
     StickBin bin;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (is_excluded(i)) continue;
-      const double t = time_s_[i] - time0_s;
-      const double f = force_[i] - force0;
-      bin.count += 1.0;
-      sum_t += t;
-      sum_f += f;
-      sum_tt += t * t;
-      sum_tf += t * f;
-      sum_ff += f * f;
-    }
+    bin.count = sums.count;
     if (bin.count == 0.0) return bin;
-    const double mean_t = sum_t / bin.count;
-    const double mean_f = sum_f / bin.count;
-    const double cross = sum_tf - sum_t * mean_f;
-    bin.time_s = time0_s + mean_t;
-    bin.force = force0 + mean_f;
-    bin.time_spread = std::max(0.0, sum_tt - sum_t * mean_t);
+    const double mean_t = sums.t / bin.count;
+    const double mean_f = sums.f / bin.count;
+    const double cross = sums.tf - sums.t * mean_f;
+    bin.time_s = time_s_[begin] + mean_t;
+    bin.force = force_[begin] + mean_f;
+    bin.time_spread = std::max(0.0, sums.tt - sums.t * mean_t);
     if (bin.time_spread > 0.0) bin.slope = cross / bin.time_spread;
-    bin.scatter = std::max(0.0, sum_ff - sum_f * mean_f - bin.slope * cross);
+    bin.scatter = std::max(0.0, sums.ff - sums.f * mean_f - bin.slope * cross);
     for (const double line_Hz : hum_.frequencies_Hz) bin.lines.push_back(reduce_line(begin, end, bin, line_Hz));
     return bin;
   }
 
-  /// On an even clock (hum is looked for on no other) the phase turns by the same angle from sample to sample.
-  [[nodiscard]] LineInBin reduce_line(std::size_t begin, std::size_t end, const StickBin& bin, double line_Hz) const {
-    const double omega = 2.0 * std::numbers::pi * line_Hz;
-    const double step = omega * (time_s_.back() - time_s_.front()) / static_cast<double>(time_s_.size() - 1);
-    const double turn_c = std::cos(step);
-    const double turn_s = std::sin(step);
-    double c = std::cos(omega * (time_s_[begin] - hum_.begin_s));
-    double s = std::sin(omega * (time_s_[begin] - hum_.begin_s));
-    LineInBin line;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!is_excluded(i)) {
-        const double dt = time_s_[i] - bin.time_s;
-        line.mean[0] += c;
-        line.mean[1] += s;
-        line.slope[0] += dt * c;
-        line.slope[1] += dt * s;
-      }
-      const double next = c * turn_c - s * turn_s;
-      s = c * turn_s + s * turn_c;
-      c = next;
+  struct Sums {
+    double count = 0.0, t = 0.0, f = 0.0, tt = 0.0, tf = 0.0, ff = 0.0;
+  };
+
+  /// About the first sample: near enough to the mean that nothing cancels.
+  [[nodiscard]] Sums sum(std::size_t begin, std::size_t end) const {
+    Sums sums;
+    for_each_run(begin, end, [&](std::size_t from, std::size_t to) {
+      const auto length = static_cast<Eigen::Index>(to - from);
+      const auto t = Eigen::Map<const Eigen::ArrayXd>(&time_s_[from], length) - time_s_[begin];
+      const auto f = Eigen::Map<const Eigen::ArrayXd>(&force_[from], length) - force_[begin];
+      sums.count += static_cast<double>(length);
+      sums.t += t.sum();
+      sums.f += f.sum();
+      sums.tt += t.square().sum();
+      sums.tf += (t * f).sum();
+      sums.ff += f.square().sum();
+    });
+    return sums;
+  }
+
+  /// The runs of samples that are not excluded.
+  template <typename Action>
+  void for_each_run(std::size_t begin, std::size_t end, const Action& action) const {
+    for (const std::size_t gap : excluded_in(begin, end)) {
+      if (gap > begin) action(begin, gap);
+      begin = gap + 1;
     }
-    for (double& mean : line.mean) mean /= bin.count;
-    for (double& slope : line.slope) slope = bin.time_spread > 0.0 ? slope / bin.time_spread : 0.0;
-    return line;
+    if (end > begin) action(begin, end);
+  }
+
+  [[nodiscard]] std::span<const std::size_t> excluded_in(std::size_t begin, std::size_t end) const {
+    const auto from = std::lower_bound(excluded_.begin(), excluded_.end(), begin);
+    return {from, std::lower_bound(from, excluded_.end(), end)};
+  }
+
+  /// On an even clock (hum is looked for on no other) the phase turns by the same angle from sample to sample, and the
+  /// sums over all samples have a closed form: with m = -(n - 1) / 2 ... (n - 1) / 2,
+  /// sum e^(i m a) = sin(n a / 2) / sin(a / 2), and its derivative by a is i sum m e^(i m a).
+  [[nodiscard]] LineInBin reduce_line(std::size_t begin, std::size_t end, const StickBin& bin, double line_Hz) const {
+    using namespace std::complex_literals;
+    const double omega = 2.0 * std::numbers::pi * line_Hz;
+    const double step_s = (time_s_.back() - time_s_.front()) / static_cast<double>(time_s_.size() - 1);
+    const double half = 0.5 * omega * step_s;
+    const auto n = static_cast<double>(end - begin);
+    const double all = std::sin(n * half) / std::sin(half);
+    const double derivative = 0.5 * (n * std::cos(n * half) - all * std::cos(half)) / std::sin(half);
+    const double centre_s = 0.5 * (time_s_[begin] + time_s_[end - 1]);
+    const auto wave_at = [&](double t_s) { return std::polar(1.0, omega * (t_s - hum_.begin_s)); };
+    std::complex<double> sum = all * wave_at(centre_s);
+    std::complex<double> moment = (centre_s - bin.time_s) * sum - 1i * (step_s * derivative) * wave_at(centre_s);
+    for (const std::size_t i : excluded_in(begin, end)) {
+      const std::complex<double> wave = wave_at(time_s_[i]);
+      sum -= wave;
+      moment -= (time_s_[i] - bin.time_s) * wave;
+    }
+    const double inertia = bin.time_spread > 0.0 ? 1.0 / bin.time_spread : 0.0;
+    return {{sum.real() / bin.count, sum.imag() / bin.count}, {moment.real() * inertia, moment.imag() * inertia}};
   }
 
   std::span<const double> time_s_;
@@ -161,7 +183,7 @@ class Cutter {
   const std::vector<DetectedSlip>& slips_;
   double half_width_s_;
   double step_s_;
-  const std::vector<bool>& excluded_;
+  const std::vector<std::size_t>& excluded_;
   const HumLines& hum_;
   double forgotten_s_ = 0.0;
 };
@@ -177,7 +199,7 @@ bool is_offered(std::size_t slip, std::size_t slips) {
 }
 
 std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,
-                                  const std::vector<bool>& excluded, const HumLines& hum) {
+                                  const std::vector<std::size_t>& excluded, const HumLines& hum) {
   return Cutter(recording, segmentation, half_width_s, excluded, hum).cut();
 }
 

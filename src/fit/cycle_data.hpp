@@ -68,12 +68,12 @@ struct CycleData {
 /// a fit grows no more.
 bool is_offered(std::size_t slip, std::size_t slips);
 
-/// Cuts the recording into cycles, those that are offered to the fit. `excluded` (empty or one flag a sample) leaves
-/// out impulses, clipped samples and outliers. The first slip starts from rest and is left out; so is a slip with a gap
+/// Cuts the recording into cycles, those that are offered to the fit. `excluded` (in ascending order) leaves out
+/// impulses, clipped samples and outliers. The first slip starts from rest and is left out; so is a slip with a gap
 /// in it or without ramp samples. Samples within `half_width_s` of a slip's middle are kept one by one, the rest goes
 /// into bins.
 std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,
-                                  const std::vector<bool>& excluded, const HumLines& hum = {});
+                                  const std::vector<std::size_t>& excluded, const HumLines& hum = {});
 
 /// So many of the cycles, from the first to the last; all where there are no more. `size`: at least 2.
 std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size);

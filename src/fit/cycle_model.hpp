@@ -80,6 +80,11 @@ class CycleModel {
   [[nodiscard]] double hum_at(double time_s, const double* level) const;
   /// Model force at any time of the cycle, without hum.
   [[nodiscard]] double force_at(const CycleState& state, double time_s, const double* level, const double* own) const;
+  /// Of the straight sticks before and after the slip: their force above the level, led back to the onset. It rises
+  /// with k V.
+  [[nodiscard]] std::array<double, 2> stick_forces(const CycleState& state) const {
+    return {state.force_scale * stick_before(state, 0.0).z, state.force_scale * stick_after(state, 0.0).z};
+  }
 
  private:
   /// Force above the level in units of u, as the sensor sees it.
@@ -103,6 +108,7 @@ class CycleModel {
 
 inline double CycleModel::level_at(double time_s, const double* level, const double* own) const {
   if (level_.per_cycle) return scales_.level + scales_.force * own[2];
+  if (level_.terms == 1) return scales_.level + scales_.force * level[0];
   const double x = 2.0 * (time_s - scales_.time_begin_s) / (scales_.time_end_s - scales_.time_begin_s) - 1.0;
   // Legendre polynomials by their recurrence
   double sum = 0.0;

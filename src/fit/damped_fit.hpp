@@ -19,7 +19,7 @@ struct DampedFit {
   Held held;
   /// Free damping ratio where it came out clearly negative: the slip is not shaped like the model's, zeta is held at 0.
   std::optional<double> refused_damping;
-  std::vector<bool> excluded;  ///< one flag a sample: impulses, clipped, outliers
+  std::vector<std::size_t> excluded;  ///< samples in ascending order: impulses, clipped, outliers
   Uncertainty uncertainty;
   std::optional<PhaseMisfit> misfit;  ///< slips are not shaped like the model's; the covariances allow for it
 };

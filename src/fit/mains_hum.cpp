@@ -41,8 +41,14 @@ HumTerm fit_term(const std::vector<double>& residuals, double step_s, double fre
   Lanes s(0.0, std::sin(step), std::sin(2.0 * step), std::sin(3.0 * step));
   Lanes sum_cc = Lanes::Zero(), sum_cs = Lanes::Zero(), sum_rc = Lanes::Zero(), sum_rs = Lanes::Zero();
   Lanes sum_used = Lanes::Zero();
-  const auto add = [&](const Lanes& r) {
-    const Lanes present = (r != 0.0).cast<double>();
+  for (std::size_t i = 0; i < residuals.size(); i += 4) {
+    Lanes r = Lanes::Zero();
+    if (i + 4 <= residuals.size()) {
+      r = Eigen::Map<const Lanes>(&residuals[i]);
+    } else {
+      std::copy(residuals.begin() + static_cast<std::ptrdiff_t>(i), residuals.end(), r.data());
+    }
+    const Lanes present = (r.abs() * 1e300).min(1.0);  // r != 0, for which Eigen has no vector instruction
     sum_used += present;
     sum_cc += present * c * c;
     sum_cs += present * c * s;
@@ -51,12 +57,7 @@ HumTerm fit_term(const std::vector<double>& residuals, double step_s, double fre
     const Lanes next = c * turn_c - s * turn_s;
     s = c * turn_s + s * turn_c;
     c = next;
-  };
-  std::size_t i = 0;
-  for (; i + 4 <= residuals.size(); i += 4) add(Eigen::Map<const Lanes>(&residuals[i]));
-  Lanes last = Lanes::Zero();
-  std::copy(residuals.begin() + static_cast<std::ptrdiff_t>(i), residuals.end(), last.data());
-  add(last);
+  }
 
   const double cc = sum_cc.sum(), cs = sum_cs.sum(), rc = sum_rc.sum(), rs = sum_rs.sum();
   const double ss = sum_used.sum() - cc;

@@ -28,26 +28,44 @@ double median_size(const Residuals& residuals, Phase phase) {
 
 }  // namespace
 
-Residuals residuals_of(const Recording& recording, const BlockFit& fit, const std::vector<bool>& excluded) {
+Residuals residuals_of(const Recording& recording, const BlockFit& fit, const std::vector<std::size_t>& excluded) {
   const auto time_s = recording.time_s();
   const auto force = recording.force();
   Residuals residuals{std::vector<double>(recording.size(), 0.0), std::vector<Phase>(recording.size(), Phase::None)};
   const auto index_at = [&](double t_s) {
     return static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), t_s) - time_s.begin());
   };
+  const double* level = fit.level_data();
   for (std::size_t c = 0; c < fit.size(); ++c) {
     const CycleModel& model = fit.model(c);
     const CycleState state = fit.state(c);
     const double* own = fit.parameters.cycles[c].data();
-    const double slip_end_s = state.onset_s + state.slip.tau_end / state.omega_rad_per_s;
-    const std::size_t end = index_at(fit.data(c).window_end_s);
-    for (std::size_t i = index_at(fit.data(c).window_begin_s); i < end; ++i) {
-      if (!excluded.empty() && excluded[i]) continue;
-      const double t_s = time_s[i];
-      residuals.value[i] =
-          force[i] - model.force_at(state, t_s, fit.level_data(), own) - model.hum_at(t_s, fit.level_data());
-      residuals.phase[i] = t_s > state.onset_s && t_s < slip_end_s ? Phase::Slip : Phase::Stick;
-    }
+    const auto fill = [&](std::size_t begin, std::size_t end, Phase phase, const auto& force_at) {
+      for (std::size_t i = begin; i < end; ++i) residuals.value[i] = force[i] - force_at(time_s[i]);
+      std::fill(&residuals.phase[begin], &residuals.phase[begin] + (end - begin), phase);
+    };
+    const auto shown = [&](double t_s) { return model.force_at(state, t_s, level, own); };
+    const auto stick = [&, rate = state.force_scale * state.omega_rad_per_s](double above) {
+      return [&, rate, above](double t_s) {
+        return model.level_at(t_s, level, own) + above + rate * (t_s - state.onset_s);
+      };
+    };
+    const std::size_t begin = index_at(fit.data(c).window_begin_s);
+    const std::size_t end = std::max(begin, index_at(fit.data(c).window_end_s));
+    const std::size_t slip_begin = std::clamp(index_at(state.onset_s), begin, end);
+    const std::size_t slip_end =
+        std::clamp(index_at(state.onset_s + state.slip.tau_end / state.omega_rad_per_s), slip_begin, end);
+    const auto [before, after] = model.stick_forces(state);
+    fill(begin, slip_begin, Phase::Stick, stick(before));
+    fill(slip_begin, slip_end, Phase::Slip, shown);
+    state.lag_tau > 0.0 ? fill(slip_end, end, Phase::Stick, shown)  // the sensor still shows the slip
+                        : fill(slip_end, end, Phase::Stick, stick(after));
+    if (fit.level().lines_Hz.empty()) continue;
+    for (std::size_t i = begin; i < end; ++i) residuals.value[i] -= model.hum_at(time_s[i], level);
+  }
+  for (const std::size_t sample : excluded) {
+    residuals.value[sample] = 0.0;
+    residuals.phase[sample] = Phase::None;
   }
   return residuals;
 }

@@ -16,7 +16,7 @@ struct Residuals {
   std::vector<Phase> phase;
 };
 
-Residuals residuals_of(const Recording& recording, const BlockFit& fit, const std::vector<bool>& excluded);
+Residuals residuals_of(const Recording& recording, const BlockFit& fit, const std::vector<std::size_t>& excluded);
 
 /// Samples farther from the fit than 4.5 robust standard deviations, `noise` at least. Sticks and slips have a scale
 /// each: a slip that the model follows less well is not cut away sample by sample.

@@ -17,8 +17,9 @@ using signal::Zigzag;
 /// Median of three neighbours, impulses held at the last good value before.
 std::vector<double> smooth(std::span<const double> force, const std::vector<bool>& impulses) {
   std::vector<double> smoothed(force.begin(), force.end());
-  for (std::size_t i = 1; i < smoothed.size() && !impulses.empty(); ++i) {
-    if (impulses[i]) smoothed[i] = smoothed[i - 1];
+  for (auto it = impulses.begin(); (it = std::find(it, impulses.end(), true)) != impulses.end(); ++it) {
+    const auto i = static_cast<std::size_t>(it - impulses.begin());
+    if (i > 0) smoothed[i] = smoothed[i - 1];
   }
   double before = smoothed.empty() ? 0.0 : smoothed.front();
   for (std::size_t i = 1; i + 1 < smoothed.size(); ++i) {
