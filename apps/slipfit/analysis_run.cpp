@@ -118,11 +118,14 @@ void keep_memory_for([[maybe_unused]] const std::string& file) {
   mallopt(M_ARENA_MAX, 1);
   const std::size_t wanted = 8 * static_cast<std::size_t>(size);  // an analysis holds some 60 bytes a sample
   if (wanted < kHugePage) return;
-  const std::unique_ptr<std::byte[]> room(new (std::nothrow) std::byte[wanted]);  // given back at once, to the heap
+  std::unique_ptr<std::byte[]> room(new (std::nothrow) std::byte[wanted]);  // given back at once, to the heap
   if (!room) return;
   void* begin = room.get();
   std::size_t space = wanted;
-  if (std::align(kHugePage, kHugePage, begin, space) != nullptr) madvise(begin, space, MADV_HUGEPAGE);
+  if (std::align(kHugePage, kHugePage, begin, space) == nullptr) return;
+  madvise(begin, space, MADV_HUGEPAGE);
+  room.reset();
+  static const std::unique_ptr<std::byte[]> before(new (std::nothrow) std::byte[wanted - space]);  // small pages
 #endif
 }
 

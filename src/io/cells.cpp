@@ -134,18 +134,19 @@ Cell read_cell(std::string_view text, bool decimal_comma) {
 }
 
 std::vector<std::string_view> split(std::string_view line, char delimiter) {
-  std::vector<std::string_view> cells;
   if (delimiter == '\0') return {line};
-  const std::string copy(line);  // ends in NUL, as end_of_cell wants it
-  const char* cell = copy.c_str();
+  std::vector<std::string_view> cells;
+  cells.reserve(8);  // few tables have more columns
+  const char* cell = line.data();
+  const char* const line_end = cell + line.size();
   for (;;) {
     if (delimiter == ' ') {
-      while (is_blank(*cell)) ++cell;
-      if (*cell == '\0') return cells;
+      while (cell != line_end && is_blank(*cell)) ++cell;
+      if (cell == line_end) return cells;
     }
-    const char* end = end_of_cell(cell, delimiter);
-    cells.push_back(line.substr(static_cast<std::size_t>(cell - copy.c_str()), static_cast<std::size_t>(end - cell)));
-    if (*end == '\0') return cells;
+    const char* end = end_of_cell(cell, line_end, delimiter);
+    cells.emplace_back(cell, static_cast<std::size_t>(end - cell));
+    if (end == line_end) return cells;
     cell = end + 1;
   }
 }

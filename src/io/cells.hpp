@@ -34,17 +34,19 @@ double plain_number(std::string_view text, bool decimal_comma);
 /// Every cell of a line. Quotes protect delimiters and stay in the cell.
 std::vector<std::string_view> split(std::string_view line, char delimiter);
 
-/// The end of the cell that begins at `cell` (for blanks: that begins there with no blank), at the latest the NUL.
-inline const char* end_of_cell(const char* cell, char delimiter) {
-  if (*cell == '"') {
+/// The end of the cell that begins at `cell` (for blanks: that begins there with no blank), at the latest that of the
+/// line: `line_end`, or the NUL where that is null.
+inline const char* end_of_cell(const char* cell, const char* line_end, char delimiter) {
+  const auto in_line = [line_end](const char* p) { return p != line_end && *p != '\0'; };
+  if (in_line(cell) && *cell == '"') {
     const char* quote = cell + 1;
-    while (*quote != '\0' && *quote != '"') ++quote;
-    if (*quote == '"') cell = quote + 1;
+    while (in_line(quote) && *quote != '"') ++quote;
+    if (in_line(quote)) cell = quote + 1;
   }
   if (delimiter == ' ') {
-    while (*cell != '\0' && *cell != ' ' && *cell != '\t') ++cell;
+    while (in_line(cell) && *cell != ' ' && *cell != '\t') ++cell;
   } else {
-    while (*cell != '\0' && *cell != delimiter) ++cell;
+    while (in_line(cell) && *cell != delimiter) ++cell;
   }
   return cell;
 }

@@ -21,7 +21,9 @@ struct Row {
 
 Row read_row(std::string_view line, const Dialect& dialect) {
   Row row;
-  for (const std::string_view text : split(line, dialect.delimiter)) {
+  const std::vector<std::string_view> texts = split(line, dialect.delimiter);
+  row.cells.reserve(texts.size());
+  for (const std::string_view text : texts) {
     row.cells.push_back(read_cell(text, dialect.decimal_comma));
     const CellKind kind = row.cells.back().kind;
     row.has_number = row.has_number || kind == CellKind::Number || kind == CellKind::Clock;

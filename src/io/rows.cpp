@@ -57,6 +57,7 @@ class RowReader {
   void add(const char* line, unsigned number) {
     if (may_be_plain_) {
       const Reading plain = read_plain(line);
+      if (plain.is_complete() && plain.time > latest_s_ && !plan_.window) return append(plain);
       if (plain.is_complete()) return keep(plain, number);
     }
     add_carefully(line, number);
@@ -78,6 +79,12 @@ class RowReader {
   [[nodiscard]] bool is_row(std::string_view line, const Wanted& wanted) const;
   void count_text_line(std::string_view line, unsigned number);
   void keep(const Reading& reading, unsigned number);
+  void append(const Reading& reading) {
+    ++rows_.in_window;
+    latest_s_ = reading.time;
+    rows_.time_s.push_back(reading.time);
+    rows_.force.push_back(reading.force);
+  }
 
   double next_count_s() { return static_cast<double>(counted_++) / *plan_.sample_rate_Hz; }
 
@@ -109,7 +116,7 @@ Reading RowReader::read_plain(const char* cell) const {
       if (column == force_column_) reading.force = number.value * force_scale_;
       cell = number.end;
     } else {
-      cell = end_of_cell(cell, dialect_.delimiter);
+      cell = end_of_cell(cell, nullptr, dialect_.delimiter);
     }
     if (column == last_column_ || *cell++ == '\0') return reading;
   }
@@ -135,7 +142,7 @@ NumberCell RowReader::read_cell_at(const char* cell) const {
   if (quick.is_number && (*quick.end == dialect_.delimiter || *quick.end == '\0')) {
     return {{cell, static_cast<std::size_t>(quick.end - cell)}, quick.value};
   }
-  const std::string_view text(cell, static_cast<std::size_t>(end_of_cell(cell, dialect_.delimiter) - cell));
+  const std::string_view text(cell, static_cast<std::size_t>(end_of_cell(cell, nullptr, dialect_.delimiter) - cell));
   return {text, plain_number(text, dialect_.decimal_comma)};
 }
 
@@ -153,7 +160,7 @@ Wanted RowReader::locate(const char* line) const {
                                                               : nullptr;
     if (slot != nullptr) *slot = read_cell_at(cell);
     const char* const end =
-        slot != nullptr ? slot->text.data() + slot->text.size() : end_of_cell(cell, dialect_.delimiter);
+        slot != nullptr ? slot->text.data() + slot->text.size() : end_of_cell(cell, nullptr, dialect_.delimiter);
     if (column == last_column_ || *end == '\0') return wanted;
     cell = end + 1;
   }
@@ -193,24 +200,22 @@ void RowReader::count_text_line(std::string_view line, unsigned number) {
 }
 
 void RowReader::keep(const Reading& reading, unsigned number) {
-  if (std::isfinite(reading.time)) {
+  if (plan_.window && std::isfinite(reading.time)) {
     low_s_ = std::min(low_s_, reading.time);
     high_s_ = std::max(high_s_, reading.time);
-    if (plan_.window && (reading.time < plan_.window->begin_s || reading.time > plan_.window->end_s)) return;
+    if (reading.time < plan_.window->begin_s || reading.time > plan_.window->end_s) return;
   }
   if (!reading.is_complete()) {
     ++rows_.without_number;
     return;
   }
-  ++rows_.in_window;
   if (reading.time < latest_s_) {
+    ++rows_.in_window;
     if (rows_.backward++ == 0) rows_.first_backward_line = number;
     return;
   }
   if (reading.time == latest_s_) ++rows_.repeating;
-  latest_s_ = reading.time;
-  rows_.time_s.push_back(reading.time);
-  rows_.force.push_back(reading.force);
+  append(reading);
   if (std::isfinite(reading.displacement)) rows_.displacement.add({reading.time, reading.displacement});
 }
 

@@ -34,7 +34,7 @@ struct Rows {
   std::size_t text_lines = 0;
   unsigned first_backward_line = 0;
   unsigned first_text_line = 0;
-  std::optional<TimeWindow> clock;  ///< what the clock covers, inside and outside the window
+  std::optional<TimeWindow> clock;  ///< where a window was asked for: what the clock covers inside and outside it
 };
 
 /// One pass, 16 bytes a sample and the reader's own buffer. Throws what LineReader and its source throw; `file` is the

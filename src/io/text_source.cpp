@@ -11,6 +11,7 @@ namespace slipfit::reading {
 namespace {
 
 constexpr std::size_t kProbe = std::size_t{64} * 1024;
+constexpr std::size_t kPiece = std::size_t{256} * 1024;
 constexpr char kNotText = '\x1A';  // stands for NUL: no number holds it, so the cell is counted as one without a number
 
 struct NulCounts {
@@ -174,10 +175,15 @@ std::string_view TextSource::head(std::size_t size) {
 
 int TextSource::read(char* buffer, int size) {
   const auto wanted = static_cast<std::size_t>(size);
-  const std::size_t kept = std::min(wanted, head_.size() - head_used_);
-  std::memcpy(buffer, head_.data() + head_used_, kept);
-  head_used_ += kept;
-  return static_cast<int>(kept + fill(buffer + kept, wanted - kept));
+  std::size_t count = std::min(wanted, head_.size() - head_used_);
+  std::memcpy(buffer, head_.data() + head_used_, count);
+  head_used_ += count;
+  while (count < wanted) {  // in pieces that are still in the cache when they are looked through
+    const std::size_t got = fill(buffer + count, std::min(wanted - count, kPiece));
+    count += got;
+    if (got == 0) break;
+  }
+  return static_cast<int>(count);
 }
 
 }  // namespace slipfit::reading
