@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "signal/mains.hpp"
@@ -32,7 +33,7 @@ std::vector<double> with_hum(const Recording& recording, const BlockFit& fit, st
 
 /// Least-squares amplitude of one frequency on an even clock: the phasor turns by a fixed step from sample to sample,
 /// four of them side by side. Residuals of 0 are no samples.
-HumTerm fit_term(const std::vector<double>& residuals, double step_s, double frequency_Hz) {
+HumTerm fit_term(std::span<const double> residuals, double step_s, double frequency_Hz) {
   using Lanes = Eigen::Array4d;
   const double step = 2.0 * std::numbers::pi * frequency_Hz * step_s;
   const double turn_c = std::cos(4.0 * step);
@@ -86,17 +87,24 @@ double refine(const std::vector<double>& residuals, double step_s, double freque
   return frequency_Hz + 0.25 * offset * resolution_Hz;
 }
 
-/// Amplitude^2 samples / (2 variance), which noise brings above 20 once in exp(10): the level beside a line, by which
-/// the spectrum judges, is too low where the cycles have taken up the noise around their harmonics.
-bool stands_out(const HumTerm& term, const std::vector<double>& residuals) {
-  constexpr double kSure = 20.0;
+/// Amplitude^2 samples / (2 variance), which noise brings above x once in exp(x / 2).
+double prominence(std::span<const double> residuals, double step_s, double frequency_Hz) {
   double used = 0.0;
   double square = 0.0;
   for (const double r : residuals) {
     used += r != 0.0 ? 1.0 : 0.0;
     square += r * r;
   }
-  return 0.5 * power_of(term) * used * used > kSure * square;
+  return square > 0.0 ? 0.5 * power_of(fit_term(residuals, step_s, frequency_Hz)) * used * used / square : 0.0;
+}
+
+/// Whether noise alone would not do it: the level beside a line, by which the spectrum judges, is too low where the
+/// cycles have taken up the noise around their harmonics. Most hum shows in a small part of the recording already.
+bool stands_out(std::span<const double> residuals, double step_s, double frequency_Hz) {
+  constexpr double kSure = 20.0;
+  const auto beginning = residuals.first(residuals.size() / 16);
+  return prominence(beginning, step_s, frequency_Hz) > 2.0 * kSure ||
+         prominence(residuals, step_s, frequency_Hz) > kSure;
 }
 
 }  // namespace
@@ -127,7 +135,7 @@ std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, st
   for (const signal::MainsLine& line : signal::find_mains(power, bin_Hz, resolution_Hz)) {
     const auto is_near = [&](double f) { return std::abs(f - line.frequency_Hz) < 2.0 * resolution_Hz; };
     if (std::any_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near)) continue;
-    if (stands_out(fit_term(values, step_s, line.frequency_Hz), values)) frequencies_Hz.push_back(line.frequency_Hz);
+    if (stands_out(values, step_s, line.frequency_Hz)) frequencies_Hz.push_back(line.frequency_Hz);
   }
   return frequencies_Hz;
 }
