@@ -15,13 +15,6 @@ namespace {
 /// (Burnham and Anderson 2002), so that a richer model is never bought for noise.
 constexpr double kPrice = 10.0;
 
-/// Independent residuals: neighbours that correlate by rho count as (1 - rho) / (1 + rho) of themselves; a cycle counts
-/// at least once.
-double effective_samples(const DampedFit& fit) {
-  const double rho = std::clamp(fit.uncertainty.lag1_correlation, 0.0, 0.99);
-  return std::max(fit.uncertainty.samples * (1.0 - rho) / (1.0 + rho), static_cast<double>(fit.blocks.size()));
-}
-
 /// Every tier has the same onset and force for each cycle: only the shared parameters tell them apart.
 double aicc(double rms, double effective, double parameters) {
   const double room = std::max(1.0, effective - parameters - 1.0);
@@ -47,6 +40,11 @@ double median_slip_s(const BlockFit& blocks) {
 }
 
 }  // namespace
+
+double effective_samples(const DampedFit& fit) {
+  const double rho = std::clamp(fit.uncertainty.lag1_correlation, 0.0, 0.99);
+  return std::max(fit.uncertainty.samples * (1.0 - rho) / (1.0 + rho), static_cast<double>(fit.blocks.size()));
+}
 
 SawtoothFit fit_sawtooth(const DampedFit& damped) {
   const BlockFit& blocks = damped.blocks;

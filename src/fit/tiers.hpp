@@ -41,6 +41,10 @@ struct Resolution {
   std::string reason;             ///< why not, or empty
 };
 
+/// Independent residuals: neighbours that correlate by rho count as (1 - rho) / (1 + rho) of themselves; a cycle counts
+/// at least once.
+double effective_samples(const DampedFit& fit);
+
 /// "the slip has 1.4 samples; sample at 8.0 kHz or more": for 6 samples in a slip.
 std::string too_few_samples(double samples_per_slip, double sample_interval_s);
 

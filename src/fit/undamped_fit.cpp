@@ -2,18 +2,18 @@
 #include <utility>
 
 #include "fit/damped_fit.hpp"
+#include "fit/tiers.hpp"
 
 namespace slipfit::fit {
 namespace {
 
-/// Worse than the damped fit by ten times what the tiers must differ by, were each cycle one sample only: joined ramps
-/// would make it worse still, and cost most where cycles are many.
+/// Worse than the damped fit by twice what the tiers must differ by: joined ramps would make it worse still.
 bool is_lost(double loose_chi2, const DampedFit& damped) {
-  constexpr double kLost = 100.0;
+  constexpr double kLost = 20.0;
   double damped_chi2 = 0.0;
   for (std::size_t i = 0; i < damped.blocks.size(); ++i) damped_chi2 += damped.blocks.cycle_sum_of_squares(i);
   const double worse = (loose_chi2 - damped_chi2) / damped.uncertainty.chi2;
-  return static_cast<double>(damped.blocks.size()) * std::log1p(worse) > kLost;
+  return effective_samples(damped) * std::log1p(worse) > kLost;
 }
 
 }  // namespace
