@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -74,6 +75,28 @@ bool is_sharper(const SpectralFrequency& spectral, const Estimate& fitted) {
          difference_Hz < kFarApart * *fitted.standard_error;
 }
 
+/// A line of the mains swings far enough to be counted as slips.
+bool hum_makes_falls(const Signals& signals) {
+  const auto& lines = signals.spectral.suspicious_lines;
+  return std::any_of(lines.begin(), lines.end(), [&](const SuspiciousLine& line) {
+    return line.swing > signals.segmentation.hysteresis;
+  });
+}
+
+/// With an interval that holds what the spectrum shows, where counting and spectrum do not agree: hum or noise may have
+/// made slips, scatter of the cycles may have blurred the lines.
+Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
+  const double spectral_Hz = *spectral.value_Hz;
+  counted.note = fmt::format("the spectrum shows {:.4g} Hz, to which the interval reaches", spectral_Hz);
+  if (!counted.ci95) return counted;
+  const double half_Hz = 2.0 * spectral.standard_error_Hz.value_or(0.0);
+  counted.ci95->low = std::min(counted.ci95->low, spectral_Hz - half_Hz);
+  counted.ci95->high = std::max(counted.ci95->high, spectral_Hz + half_Hz);
+  const double longer = std::max(*counted.value - counted.ci95->low, counted.ci95->high - *counted.value);
+  counted.standard_error = std::max(*counted.standard_error, longer / 1.96);
+  return counted;
+}
+
 }  // namespace
 
 Estimate count_frequency(const Recording& recording, const Segmentation& segmentation) {
@@ -84,8 +107,10 @@ Estimate count_frequency(const Recording& recording, const Segmentation& segment
   return fit::symmetric(value, value * interval.sd / interval.mean / std::sqrt(interval.count), interval.count - 1.0);
 }
 
-FrequencyReport report_frequency(const Recording& recording, const Segmentation& segmentation,
-                                 const SpectralFrequency& spectral, Verdict verdict, const FitResult* fit) {
+FrequencyReport report_frequency(const Recording& recording, const Signals& signals, Verdict verdict,
+                                 const FitResult* fit) {
+  const Segmentation& segmentation = signals.segmentation;
+  const SpectralFrequency& spectral = signals.spectral;
   FrequencyReport report;
   report.spectral = spectral;
   report.counted = count_frequency(recording, segmentation);
@@ -116,14 +141,17 @@ FrequencyReport report_frequency(const Recording& recording, const Segmentation&
     if (agree || verdict != Verdict::Undetermined) return report;
   }
   const bool contradict = difference && *difference > kContradiction;
-  if (report.counted.value && (cycles_seen || agree) && !contradict) {
+  const bool may_count_hum = !spectral.value_Hz && hum_makes_falls(signals);
+  if (report.counted.value && (cycles_seen || agree) && !contradict && !may_count_hum) {
     report.method = "slip_counting";
-    report.quoted = report.counted;
+    report.quoted = agree || !spectral.value_Hz ? report.counted : reaching(report.counted, spectral);
   }
   if (!report.quoted.value) {
     report.quoted.note = contradict ? fmt::format("counting slips gives {:.4g} Hz, the spectrum {:.4g} Hz",
                                                   *report.counted.value, *spectral.value_Hz)
-                                    : "no repetition stands out of the noise";
+                         : may_count_hum && cycles_seen
+                             ? "hum of the mains may have made slips, and the spectrum shows no other repetition"
+                             : "no repetition stands out of the noise";
   }
   return report;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "signals.hpp"
 #include "slipfit/pipeline.hpp"
 
 namespace slipfit {
@@ -10,9 +11,10 @@ Estimate count_frequency(const Recording& recording, const Segmentation& segment
 
 /// Both frequencies and the one to quote: harmonic least squares where the cycles are regular, counting where they
 /// scatter. Where a fit shows stick-slip: the cycles of the fit (fitted_frequency.hpp), harmonic least squares where
-/// they are regular and it is the sharper. Quoted only where there is a repetition: a count of noise is no frequency.
-FrequencyReport report_frequency(const Recording& recording, const Segmentation& segmentation,
-                                 const SpectralFrequency& spectral, Verdict verdict, const FitResult* fit);
+/// they are regular and it is the sharper. Quoted only where there is a repetition: a count of noise is no frequency,
+/// one of what may be hum only where the spectrum shows it too; where the two differ the interval holds both.
+FrequencyReport report_frequency(const Recording& recording, const Signals& signals, Verdict verdict,
+                                 const FitResult* fit);
 
 CycleStatistics summarise_cycles(const Recording& recording, const Segmentation& segmentation, const FitResult* fit);
 

@@ -43,8 +43,7 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   Analysis analysis;
   analysis.verdict = judgement.verdict;
   analysis.verdict_reason = std::move(judgement.reason);
-  analysis.frequency =
-      report_frequency(recording, signals.segmentation, signals.spectral, judgement.verdict, fit ? &*fit : nullptr);
+  analysis.frequency = report_frequency(recording, signals, judgement.verdict, fit ? &*fit : nullptr);
   analysis.cycles = summarise_cycles(recording, signals.segmentation, fit ? &*fit : nullptr);
   analysis.cycle_table = fit ? fit->cycles : fit::detected_cycles(recording, signals.segmentation);
   if (fit && analysis.verdict != Verdict::StickSlip) withdraw_parameters(*fit);
