@@ -70,13 +70,15 @@ struct Fitted {
   double seconds = 0.0;
 };
 
-/// Another fit where hum of the mains may have hidden slips or made some.
+/// Another fit where hum of the mains may have hidden slips or made some. Lines in the level take up some noise by
+/// themselves: it has to be clearly better.
 void look_beneath_hum(const Recording& recording, const FitOptions& options, Fitted& fitted) {
   Signals& signals = fitted.signals;
   std::optional<Segmentation> beneath = find_slips_beneath_hum(recording, signals.quality, signals.segmentation);
   if (!beneath) return;
   std::optional<FitResult> other = fit_recording(recording, signals.quality, *beneath, options);
-  if (!(misfit_of(other) < misfit_of(fitted.fit))) return;
+  constexpr double kClearlyBetter = 0.95;
+  if (!(misfit_of(other) < kClearlyBetter * misfit_of(fitted.fit))) return;
   signals.segmentation = std::move(*beneath);
   signals.spectral = look_at_spectrum(recording, signals).spectral;
   fitted.fit = std::move(other);

@@ -160,10 +160,9 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
     return fit::fit_contact(recording, segmentation, options);
   std::optional<DampedFit> damped = fit::fit_damped(recording, quality, segmentation, held_values(options));
   if (!damped) return std::nullopt;
-  std::optional<DampedFit> undamped;
-  if (!damped->held.damping) undamped = fit::fit_undamped(*damped);
-  fit::TierFits fits{fit::fit_sawtooth(*damped), std::move(undamped), std::move(*damped)};
+  fit::TierFits fits{fit::fit_sawtooth(*damped), std::nullopt, std::move(*damped)};
   const fit::Resolution resolution = fit::resolution_of(recording, fits);
+  if (!fits.damped.held.damping) fits.undamped = fit::fit_undamped(fits.damped, resolution.damping_resolved);
 
   FitResult result;
   result.candidates = fit::choose_tier(fits, resolution, options.tier);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "signal/mains.hpp"
@@ -33,7 +32,7 @@ std::vector<double> with_hum(const Recording& recording, const BlockFit& fit, st
 
 /// Least-squares amplitude of one frequency on an even clock: the phasor turns by a fixed step from sample to sample,
 /// four of them side by side. Residuals of 0 are no samples.
-HumTerm fit_term(std::span<const double> residuals, double step_s, double frequency_Hz) {
+HumTerm fit_term(const std::vector<double>& residuals, double step_s, double frequency_Hz) {
   using Lanes = Eigen::Array4d;
   const double step = 2.0 * std::numbers::pi * frequency_Hz * step_s;
   const double turn_c = std::cos(4.0 * step);
@@ -87,25 +86,27 @@ double refine(const std::vector<double>& residuals, double step_s, double freque
   return frequency_Hz + 0.25 * offset * resolution_Hz;
 }
 
-/// Amplitude^2 samples / (2 variance), which noise brings above x once in exp(x / 2).
-double prominence(std::span<const double> residuals, double step_s, double frequency_Hz) {
-  double used = 0.0;
-  double square = 0.0;
-  for (const double r : residuals) {
-    used += r != 0.0 ? 1.0 : 0.0;
-    square += r * r;
-  }
-  return square > 0.0 ? 0.5 * power_of(fit_term(residuals, step_s, frequency_Hz)) * used * used / square : 0.0;
+/// Amplitude^2 from the peak of a Hann spectrum of `samples` values. Residuals of 0 among them and a line between bins
+/// make it smaller than it is.
+double power_in_spectrum(const std::vector<double>& power, double bin_Hz, std::size_t samples, double frequency_Hz) {
+  const auto bin = static_cast<std::size_t>(std::lround(frequency_Hz / bin_Hz));
+  const std::size_t padded_samples = 2 * (power.size() - 1);
+  return 3.0 * power[bin] * static_cast<double>(padded_samples) / static_cast<double>(samples);
 }
 
-/// Whether noise alone would not do it: the level beside a line, by which the spectrum judges, is too low where the
-/// cycles have taken up the noise around their harmonics. Most hum shows in a small part of the recording already.
-bool stands_out(std::span<const double> residuals, double step_s, double frequency_Hz) {
-  constexpr double kSure = 20.0;
-  const auto beginning = residuals.first(residuals.size() / 16);
-  return prominence(beginning, step_s, frequency_Hz) > 2.0 * kSure ||
-         prominence(residuals, step_s, frequency_Hz) > kSure;
-}
+/// Amplitude^2 samples / (2 variance), which noise brings above x once in exp(x / 2).
+struct Prominence {
+  double used = 0.0;
+  double square = 0.0;
+
+  explicit Prominence(const std::vector<double>& residuals) {
+    for (const double r : residuals) {
+      used += r != 0.0 ? 1.0 : 0.0;
+      square += r * r;
+    }
+  }
+  [[nodiscard]] double of(double amplitude_squared) const { return 0.5 * amplitude_squared * used * used / square; }
+};
 
 }  // namespace
 
@@ -132,10 +133,20 @@ std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, st
   for (const double known_Hz : fit.level().lines_Hz) {
     frequencies_Hz.push_back(refine(values, step_s, known_Hz, resolution_Hz));
   }
-  for (const signal::MainsLine& line : signal::find_mains(power, bin_Hz, resolution_Hz)) {
-    const auto is_near = [&](double f) { return std::abs(f - line.frequency_Hz) < 2.0 * resolution_Hz; };
+  const std::vector<signal::MainsLine> lines = signal::find_mains(power, bin_Hz, resolution_Hz);
+  if (lines.empty()) return frequencies_Hz;
+  // The level beside a line, by which the spectrum judges, is too low where the cycles have taken up the noise around
+  // their harmonics: would noise alone do it?
+  constexpr double kSure = 20.0;
+  const Prominence prominence(values);
+  for (const signal::MainsLine& line : lines) {
+    const double f_Hz = line.frequency_Hz;
+    const auto is_near = [&](double f) { return std::abs(f - f_Hz) < 2.0 * resolution_Hz; };
     if (std::any_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near)) continue;
-    if (stands_out(values, step_s, line.frequency_Hz)) frequencies_Hz.push_back(line.frequency_Hz);
+    if (prominence.of(power_in_spectrum(power, bin_Hz, values.size(), f_Hz)) > 2.0 * kSure ||
+        prominence.of(power_of(fit_term(values, step_s, f_Hz))) > kSure) {
+      frequencies_Hz.push_back(f_Hz);
+    }
   }
   return frequencies_Hz;
 }

@@ -18,7 +18,7 @@ bool is_lost(double loose_chi2, const DampedFit& damped) {
 
 }  // namespace
 
-std::optional<DampedFit> fit_undamped(const DampedFit& damped) {
+std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool damping_resolved) {
   const BlockFit& from = damped.blocks;
   BlockFit blocks = duplicate(from);
   blocks.parameters.shared[2] = 0.0;
@@ -27,7 +27,7 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped) {
   // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
   const double loose_chi2 = blocks.solve({held, false, true});
   if (!std::isfinite(loose_chi2)) return std::nullopt;
-  const bool joined = damped.continuous && !is_lost(loose_chi2, damped);
+  const bool joined = damped.continuous && !(damping_resolved && is_lost(loose_chi2, damped));
   if (joined && !std::isfinite(blocks.solve({held, true, true}))) return std::nullopt;
   DampedFit result{std::move(blocks), joined, held, damped.refused_damping, damped.excluded, {}, damped.misfit};
   result.uncertainty = estimate_uncertainty(result.blocks, held, joined);
