@@ -30,8 +30,8 @@ struct DampedFit {
 std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& quality,
                                     const Segmentation& segmentation, const HeldValues& held);
 
-/// The same cycles and level with zeta held at 0, from the damped solution. Ramps are not joined where it is clear
-/// without that that the damped fit, whose damping is resolved, is taken.
-std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool damping_resolved);
+/// The same cycles and level with zeta held at 0, from the damped solution. Where it `may_lose` and has clearly lost to
+/// the damped fit, it stays rough and its ramps are not joined.
+std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose);
 
 }  // namespace slipfit::fit

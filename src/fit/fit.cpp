@@ -162,7 +162,8 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   if (!damped) return std::nullopt;
   fit::TierFits fits{fit::fit_sawtooth(*damped), std::nullopt, std::move(*damped)};
   const fit::Resolution resolution = fit::resolution_of(recording, fits);
-  if (!fits.damped.held.damping) fits.undamped = fit::fit_undamped(fits.damped, resolution.damping_resolved);
+  const bool undamped_may_lose = resolution.damping_resolved && options.tier != Tier::Undamped;
+  if (!fits.damped.held.damping) fits.undamped = fit::fit_undamped(fits.damped, undamped_may_lose);
 
   FitResult result;
   result.candidates = fit::choose_tier(fits, resolution, options.tier);

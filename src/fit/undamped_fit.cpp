@@ -18,17 +18,19 @@ bool is_lost(double loose_chi2, const DampedFit& damped) {
 
 }  // namespace
 
-std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool damping_resolved) {
+std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
   const BlockFit& from = damped.blocks;
   BlockFit blocks = duplicate(from);
   blocks.parameters.shared[2] = 0.0;
   Held held = damped.held;
   held.damping = true;
   // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
-  const double loose_chi2 = blocks.solve({held, false, true});
+  constexpr double kRough = 0.1;  // SolveOptions::tolerance
+  const double loose_chi2 = blocks.solve({held, false, true, SolveOptions{}.max_iterations, kRough});
   if (!std::isfinite(loose_chi2)) return std::nullopt;
-  const bool joined = damped.continuous && !(damping_resolved && is_lost(loose_chi2, damped));
-  if (joined && !std::isfinite(blocks.solve({held, true, true}))) return std::nullopt;
+  const bool lost = may_lose && is_lost(loose_chi2, damped);
+  const bool joined = damped.continuous && !lost;
+  if (!lost && !std::isfinite(blocks.solve({held, joined, true}))) return std::nullopt;
   DampedFit result{std::move(blocks), joined, held, damped.refused_damping, damped.excluded, {}, damped.misfit};
   result.uncertainty = estimate_uncertainty(result.blocks, held, joined);
   // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.

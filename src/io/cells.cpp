@@ -134,19 +134,27 @@ Cell read_cell(std::string_view text, bool decimal_comma) {
 }
 
 std::vector<std::string_view> split(std::string_view line, char delimiter) {
-  if (delimiter == '\0') return {line};
   std::vector<std::string_view> cells;
-  cells.reserve(8);  // few tables have more columns
+  split(line, delimiter, cells);
+  return cells;
+}
+
+void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
+  cells.clear();
+  if (delimiter == '\0') {
+    cells.push_back(line);
+    return;
+  }
   const char* cell = line.data();
   const char* const line_end = cell + line.size();
   for (;;) {
     if (delimiter == ' ') {
       while (cell != line_end && is_blank(*cell)) ++cell;
-      if (cell == line_end) return cells;
+      if (cell == line_end) return;
     }
     const char* end = end_of_cell(cell, line_end, delimiter);
     cells.emplace_back(cell, static_cast<std::size_t>(end - cell));
-    if (end == line_end) return cells;
+    if (end == line_end) return;
     cell = end + 1;
   }
 }

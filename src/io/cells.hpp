@@ -33,6 +33,8 @@ double plain_number(std::string_view text, bool decimal_comma);
 
 /// Every cell of a line. Quotes protect delimiters and stay in the cell.
 std::vector<std::string_view> split(std::string_view line, char delimiter);
+/// The same into a vector that many lines take turns to use.
+void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells);
 
 /// The end of the cell that begins at `cell` (for blanks: that begins there with no blank), at the latest that of the
 /// line: `line_end`, or the NUL where that is null.

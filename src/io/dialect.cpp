@@ -42,8 +42,9 @@ double row_weight(const std::vector<std::string_view>& cells, bool decimal_comma
 
 Score score(const std::vector<std::string_view>& lines, const Dialect& dialect) {
   std::map<std::size_t, double> weight_by_columns;
+  std::vector<std::string_view> cells;
   for (const std::string_view line : lines) {
-    const auto cells = split(line, dialect.delimiter);
+    split(line, dialect.delimiter, cells);
     weight_by_columns[cells.size()] += row_weight(cells, dialect.decimal_comma);
   }
   Score best;

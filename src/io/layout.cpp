@@ -13,24 +13,25 @@ using Lines = std::vector<std::string_view>;
 
 constexpr std::size_t kRun = 3;  // so many rows one after the other are data; a single one may be a console message
 
+/// The cells of one line; its memory serves the next.
 struct Row {
+  std::vector<std::string_view> texts;
   std::vector<Cell> cells;
   bool has_number = false;
   bool has_text = false;
-};
 
-Row read_row(std::string_view line, const Dialect& dialect) {
-  Row row;
-  const std::vector<std::string_view> texts = split(line, dialect.delimiter);
-  row.cells.reserve(texts.size());
-  for (const std::string_view text : texts) {
-    row.cells.push_back(read_cell(text, dialect.decimal_comma));
-    const CellKind kind = row.cells.back().kind;
-    row.has_number = row.has_number || kind == CellKind::Number || kind == CellKind::Clock;
-    row.has_text = row.has_text || kind == CellKind::Text;
+  void read(std::string_view line, const Dialect& dialect) {
+    split(line, dialect.delimiter, texts);
+    cells.clear();
+    has_number = has_text = false;
+    for (const std::string_view text : texts) {
+      cells.push_back(read_cell(text, dialect.decimal_comma));
+      const CellKind kind = cells.back().kind;
+      has_number = has_number || kind == CellKind::Number || kind == CellKind::Clock;
+      has_text = has_text || kind == CellKind::Text;
+    }
   }
-  return row;
-}
+};
 
 /// The usual number of cells, and which of them usually hold numbers.
 struct Shape {
@@ -40,8 +41,9 @@ struct Shape {
 
 Shape find_shape(const Lines& lines, const Dialect& dialect) {
   std::map<std::size_t, std::pair<std::size_t, std::vector<std::size_t>>> by_columns;
+  Row row;
   for (const std::string_view line : choose_samples(lines)) {
-    const Row row = read_row(line, dialect);
+    row.read(line, dialect);
     if (!row.has_number) continue;
     auto& [rows, numbers] = by_columns[row.cells.size()];
     const std::size_t weight = row.has_text ? 1 : 4;  // "Speed;10" above the data is a row of text and number
@@ -74,9 +76,10 @@ std::optional<std::size_t> find_data(const Lines& lines, const Dialect& dialect,
   std::optional<std::size_t> single;
   std::size_t begin = 0;
   std::size_t run = 0;
+  Row row;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (trim(lines[i]).empty()) continue;
-    const Row row = read_row(lines[i], dialect);
+    row.read(lines[i], dialect);
     if (!fits(row, shape)) {
       if (row.has_number || row.has_text) run = 0;  // a row of missing readings ends no run
       continue;
@@ -152,9 +155,10 @@ std::optional<Layout> find_layout(const Lines& lines) {
   layout.skipped_lines = static_cast<std::size_t>(filled) - header.lines;
   std::vector<ColumnScan> scans(shape.columns);
   double length = 0.0;
+  Row row;
   for (std::size_t i = *data; i < lines.size(); ++i) {
     length += static_cast<double>(lines[i].size()) + 1.0;
-    const Row row = read_row(lines[i], *dialect);
+    row.read(lines[i], *dialect);
     if (!fits(row, shape)) continue;
     ++layout.rows;
     for (std::size_t c = 0; c < shape.columns; ++c) scans[c].add(row.cells[c]);
