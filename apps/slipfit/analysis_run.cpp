@@ -125,7 +125,8 @@ void keep_memory_for([[maybe_unused]] const std::string& file) {
   if (std::align(kHugePage, kHugePage, begin, space) == nullptr) return;
   madvise(begin, space, MADV_HUGEPAGE);
   room.reset();
-  static const std::unique_ptr<std::byte[]> before(new (std::nothrow) std::byte[wanted - space]);  // small pages
+  // Taken for good and never touched, so that what follows begins on the first huge page.
+  static const std::unique_ptr<std::byte[]> before(new (std::nothrow) std::byte[wanted - space]);
 #endif
 }
 

@@ -42,7 +42,7 @@ Residuals residuals_of(const Recording& recording, const BlockFit& fit, const st
     const double* own = fit.parameters.cycles[c].data();
     const auto fill = [&](std::size_t begin, std::size_t end, Phase phase, const auto& force_at) {
       for (std::size_t i = begin; i < end; ++i) residuals.value[i] = force[i] - force_at(time_s[i]);
-      std::fill(&residuals.phase[begin], &residuals.phase[begin] + (end - begin), phase);
+      std::fill_n(residuals.phase.begin() + static_cast<std::ptrdiff_t>(begin), end - begin, phase);
     };
     const auto shown = [&](double t_s) { return model.force_at(state, t_s, level, own); };
     const auto stick = [&, rate = state.force_scale * state.omega_rad_per_s](double above) {

@@ -25,8 +25,9 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
   Held held = damped.held;
   held.damping = true;
   // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
-  constexpr double kRough = 0.1;  // SolveOptions::tolerance
-  const double loose_chi2 = blocks.solve({held, false, true, SolveOptions{}.max_iterations, kRough});
+  SolveOptions rough{held, false, true};
+  rough.tolerance = 0.1;
+  const double loose_chi2 = blocks.solve(rough);
   if (!std::isfinite(loose_chi2)) return std::nullopt;
   const bool lost = may_lose && is_lost(loose_chi2, damped);
   const bool joined = damped.continuous && !lost;
