@@ -1,6 +1,6 @@
 // How often the 95 % interval of the quoted frequency holds the truth, and how large its error is beside those of the
 // two methods that it chooses from. docs/accuracy.md quotes what it prints.
-//   frequency_coverage [RECORDINGS]
+//   frequency_coverage [RECORDINGS [SEED]]
 
 #include <fmt/format.h>
 
@@ -46,11 +46,11 @@ Estimate of_spectrum(const slipfit::SpectralFrequency& spectral, double degrees_
   return slipfit::fit::symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, degrees_of_freedom));
 }
 
-void study(const std::string& name, const Factors& factors, std::size_t recordings) {
+void study(const std::string& name, const Factors& factors, std::size_t recordings, std::uint64_t seed) {
   Tally quoted, fitted, spectral;
   std::size_t by_spectrum = 0;
   for (std::size_t i = 0; i < recordings; ++i) {
-    const atlas::Scene scene = atlas::make_scene(factors, 5000 + i);
+    const atlas::Scene scene = atlas::make_scene(factors, seed + i);
     const slipfit::Analysis analysis = slipfit::analyze_and_fit(scene.recording, {});
     const double truth_Hz = 1.0 / scene.cycle.period_s;
     quoted.add(analysis.frequency.quoted, truth_Hz);
@@ -67,6 +67,7 @@ void study(const std::string& name, const Factors& factors, std::size_t recordin
 
 int main(int count, char** words) {
   const std::size_t recordings = count > 1 ? std::strtoul(words[1], nullptr, 10) : 400;
+  const std::uint64_t seed = count > 2 ? std::strtoul(words[2], nullptr, 10) : 5000;
   fmt::print(
       "# error: 68 % of the recordings have a smaller one, relative; covered: %\n"
       "scene,recordings,quoted_error,quoted_covered,fitted_error,fitted_covered,spectrum_error,spectrum_covered,"
@@ -77,17 +78,17 @@ int main(int count, char** words) {
     return factors;
   };
   for (const double cycles : {6.0, 10.0, 20.0, 40.0, 100.0, 300.0}) {
-    study(fmt::format("regular {} cycles", cycles), with(&Factors::cycles, cycles), recordings);
+    study(fmt::format("regular {} cycles", cycles), with(&Factors::cycles, cycles), recordings, seed);
   }
   for (const double noise : {0.002, 0.1})
-    study(fmt::format("noise {}", noise), with(&Factors::noise, noise), recordings);
+    study(fmt::format("noise {}", noise), with(&Factors::noise, noise), recordings, seed);
   for (const double samples : {3.0, 8.0}) {
-    study(fmt::format("{} samples a slip", samples), with(&Factors::samples_per_slip, samples), recordings);
+    study(fmt::format("{} samples a slip", samples), with(&Factors::samples_per_slip, samples), recordings, seed);
   }
   for (const double drift : {3.0, 30.0})
-    study(fmt::format("drift {}", drift), with(&Factors::drift, drift), recordings);
-  for (const double hum : {0.02, 0.1}) study(fmt::format("hum {}", hum), with(&Factors::hum, hum), recordings);
+    study(fmt::format("drift {}", drift), with(&Factors::drift, drift), recordings, seed);
+  for (const double hum : {0.02, 0.1}) study(fmt::format("hum {}", hum), with(&Factors::hum, hum), recordings, seed);
   for (const double jitter : {0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.02, 0.05, 0.15}) {
-    study(fmt::format("jitter {}", jitter), with(&Factors::jitter, jitter), recordings);
+    study(fmt::format("jitter {}", jitter), with(&Factors::jitter, jitter), recordings, seed);
   }
 }
