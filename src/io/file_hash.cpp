@@ -30,7 +30,7 @@ std::optional<std::string> sha256_of_file(const std::string& file) {
   if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return std::nullopt;
-  sha256_ctx context;
+  sha256_ctx context{};
   sha256_init(&context);
   std::vector<std::uint8_t> block(kBlock);
   while (stream) {

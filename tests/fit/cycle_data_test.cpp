@@ -141,6 +141,7 @@ TEST_CASE("residuals are data minus model in sticks and slips, and nothing where
   scales.time_begin_s = cycles.front().window_begin_s;
   scales.time_end_s = cycles.back().window_end_s;
   std::vector<double> middles_s;
+  middles_s.reserve(cycles.size());
   for (const CycleData& cycle : cycles) middles_s.push_back(r.segmentation.slips[cycle.slip].middle_s);
   BlockFit fit(std::move(cycles), std::move(middles_s), scales, {false, 3, {50.0}});
   set_start(fit, r.segmentation, {std::log(500.0), std::log(120.0), 0.06});
