@@ -1,26 +1,32 @@
 #include "fit/clipping.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
+
+#include "signal/mask.hpp"
 
 namespace slipfit::fit {
 
+std::vector<std::size_t> united(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second) {
+  std::vector<std::size_t> all;
+  all.reserve(first.size() + second.size());
+  std::set_union(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(all));
+  return all;
+}
+
 std::vector<std::size_t> initial_exclusions(const Recording& recording, const Quality& quality) {
-  std::vector<std::size_t> excluded;
-  const std::vector<bool>& impulses = quality.impulse_mask;
-  for (auto it = impulses.begin(); (it = std::find(it, impulses.end(), true)) != impulses.end(); ++it) {
-    excluded.push_back(static_cast<std::size_t>(it - impulses.begin()));
-  }
-  if (!quality.clip_high && !quality.clip_low) return excluded;
+  std::vector<std::size_t> impulses;
+  signal::for_each_set(quality.impulse_mask, [&](std::size_t i) { impulses.push_back(i); });
+  if (!quality.clip_high && !quality.clip_low) return impulses;
+  std::vector<std::size_t> clipped;
   const std::span<const double> force = recording.force();
   for (std::size_t i = 0; i < force.size(); ++i) {
     const bool high = quality.clip_high && force[i] >= *quality.clip_high;
     const bool low = quality.clip_low && force[i] <= *quality.clip_low;
-    if (high || low) excluded.push_back(i);
+    if (high || low) clipped.push_back(i);
   }
-  std::sort(excluded.begin(), excluded.end());
-  excluded.erase(std::unique(excluded.begin(), excluded.end()), excluded.end());
-  return excluded;
+  return united(impulses, clipped);
 }
 
 std::vector<std::size_t> beyond_clip(const Recording& recording, const Quality& quality, const Residuals& residuals,

@@ -167,8 +167,9 @@ class Cutter {
     const double derivative = 0.5 * (n * std::cos(n * half) - all * std::cos(half)) / std::sin(half);
     const double centre_s = 0.5 * (time_s_[begin] + time_s_[end - 1]);
     const auto wave_at = [&](double t_s) { return std::polar(1.0, omega * (t_s - hum_.begin_s)); };
-    std::complex<double> sum = all * wave_at(centre_s);
-    std::complex<double> moment = (centre_s - bin.time_s) * sum - 1i * (step_s * derivative) * wave_at(centre_s);
+    const std::complex<double> centre = wave_at(centre_s);
+    std::complex<double> sum = all * centre;
+    std::complex<double> moment = (centre_s - bin.time_s) * sum - 1i * (step_s * derivative) * centre;
     for (const std::size_t i : excluded_in(begin, end)) {
       const std::complex<double> wave = wave_at(time_s_[i]);
       sum -= wave;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -212,8 +211,7 @@ class Fitter {
         if (pass == 0) fit.solve({held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
         return fit;
       }
-      exclude(outliers);
-      exclude(censored);
+      excluded_ = united(excluded_, united(outliers, censored));
       std::optional<BlockFit> next = refit(std::move(fit), bad, lines_Hz);
       if (!next) return std::nullopt;
       fit = std::move(*next);
@@ -221,14 +219,6 @@ class Fitter {
       if (hum_power < kMuchHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
     }
     return fit;
-  }
-
-  /// `samples`: in ascending order.
-  void exclude(const std::vector<std::size_t>& samples) {
-    std::vector<std::size_t> all;
-    all.reserve(excluded_.size() + samples.size());
-    std::set_union(excluded_.begin(), excluded_.end(), samples.begin(), samples.end(), std::back_inserter(all));
-    excluded_ = std::move(all);
   }
 
   /// Weights depend on the model, the model on the weights: three rounds settle both to a percent of an error.

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "signal/mains_removal.hpp"
+#include "signal/mask.hpp"
 #include "signal/robust.hpp"
 #include "signal/zigzag.hpp"
 
@@ -17,10 +18,9 @@ using signal::Zigzag;
 /// Median of three neighbours, impulses held at the last good value before.
 std::vector<double> smooth(std::span<const double> force, const std::vector<bool>& impulses) {
   std::vector<double> smoothed(force.begin(), force.end());
-  for (auto it = impulses.begin(); (it = std::find(it, impulses.end(), true)) != impulses.end(); ++it) {
-    const auto i = static_cast<std::size_t>(it - impulses.begin());
+  signal::for_each_set(impulses, [&](std::size_t i) {
     if (i > 0) smoothed[i] = smoothed[i - 1];
-  }
+  });
   double before = smoothed.empty() ? 0.0 : smoothed.front();
   for (std::size_t i = 1; i + 1 < smoothed.size(); ++i) {
     const double here = smoothed[i];
