@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/intervals.hpp"
+#include "fit/inference/intervals.hpp"
 #include "fitted_frequency.hpp"
 #include "scenes.hpp"
 #include "slipfit/pipeline.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fit/intervals.hpp"
+#include "fit/inference/intervals.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "fit/intervals.hpp"
+#include "fit/inference/intervals.hpp"
 #include "fitted_frequency.hpp"
 #include "recording_checks.hpp"
 #include "signal/robust.hpp"
@@ -78,9 +78,8 @@ bool is_sharper(const SpectralFrequency& spectral, const Estimate& fitted) {
 /// A line of the mains swings far enough to be counted as slips.
 bool hum_makes_falls(const Signals& signals) {
   const auto& lines = signals.spectral.suspicious_lines;
-  return std::any_of(lines.begin(), lines.end(), [&](const SuspiciousLine& line) {
-    return line.swing > signals.segmentation.hysteresis;
-  });
+  return std::any_of(lines.begin(), lines.end(),
+                     [&](const SuspiciousLine& line) { return line.swing > signals.segmentation.hysteresis; });
 }
 
 /// With an interval that holds what the spectrum shows, where counting and spectrum do not agree: hum or noise may have

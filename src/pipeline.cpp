@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "fit/cycle_table.hpp"
+#include "fit/cycle/cycle_table.hpp"
 #include "measured.hpp"
 #include "recording_checks.hpp"
 #include "signals.hpp"

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "fit/joint_solution.hpp"
+#include "fit/selection/joint_solution.hpp"
 #include "sweeps.hpp"
 
 namespace {

@@ -6,12 +6,12 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
-#include "fit/contact_fit.hpp"
-#include "fit/cycle_table.hpp"
-#include "fit/damped_fit.hpp"
-#include "fit/mains_hum.hpp"
-#include "fit/parameters.hpp"
-#include "fit/tiers.hpp"
+#include "fit/contact/contact_fit.hpp"
+#include "fit/cycle/cycle_table.hpp"
+#include "fit/level/mains_hum.hpp"
+#include "fit/report/parameters.hpp"
+#include "fit/selection/damped_fit.hpp"
+#include "fit/selection/tiers.hpp"
 #include "signal/mains.hpp"
 #include "signal/robust.hpp"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "fit/intervals.hpp"
-#include "fit/joint_outcome.hpp"
-#include "fit/joint_parameters.hpp"
+#include "fit/inference/intervals.hpp"
+#include "fit/inference/joint_outcome.hpp"
+#include "fit/report/joint_parameters.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {

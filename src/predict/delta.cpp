@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "fit/intervals.hpp"
+#include "fit/inference/intervals.hpp"
 #include "model/slip.hpp"
 #include "predict/ageing.hpp"
 #include "predict/velocity.hpp"

@@ -1,14 +1,14 @@
 // What a cycle keeps of its samples, against sums formed one sample after the other.
 
-#include "fit/cycle_data.hpp"
+#include "fit/cycle/cycle_data.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
-#include "fit/outliers.hpp"
-#include "fit/start.hpp"
+#include "fit/cycle/start.hpp"
+#include "fit/selection/outliers.hpp"
 #include "scene.hpp"
 
 using namespace slipfit;
@@ -166,7 +166,6 @@ TEST_CASE("residuals are data minus model in sticks and slips, and nothing where
     worst = std::max(worst, std::abs(residuals.value[i] - expected[i]));
   }
   CHECK(worst < 1e-12);
-  CHECK(std::all_of(excluded.begin(), excluded.end(), [&](std::size_t i) {
-    return residuals.phase[i] == Phase::None && residuals.value[i] == 0.0;
-  }));
+  CHECK(std::all_of(excluded.begin(), excluded.end(),
+                    [&](std::size_t i) { return residuals.phase[i] == Phase::None && residuals.value[i] == 0.0; }));
 }

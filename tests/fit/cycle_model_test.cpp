@@ -1,4 +1,4 @@
-#include "fit/cycle_model.hpp"
+#include "fit/cycle/cycle_model.hpp"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "fit/block_fit.hpp"
-#include "fit/level_order.hpp"
-#include "fit/start.hpp"
+#include "fit/cycle/start.hpp"
+#include "fit/level/level_order.hpp"
+#include "fit/problem/block_fit.hpp"
 
 using namespace slipfit;
 using namespace slipfit::fit;

@@ -1,11 +1,11 @@
-#include "fit/joint_cycle.hpp"
+#include "fit/problem/joint_cycle.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <vector>
 
-#include "fit/joint_problem.hpp"
+#include "fit/problem/joint_problem.hpp"
 
 using namespace slipfit;
 using namespace slipfit::fit;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "fit/cycle_data.hpp"
+#include "fit/cycle/cycle_data.hpp"
 #include "scene.hpp"
 
 using namespace slipfit;

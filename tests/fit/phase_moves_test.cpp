@@ -1,12 +1,12 @@
 // One Gauss-Newton step without a stretch of the slips against the refit that it stands for.
 
-#include "fit/phase_moves.hpp"
+#include "fit/inference/phase_moves.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "fit/damped_fit.hpp"
+#include "fit/selection/damped_fit.hpp"
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/signal/quality.hpp"
 

@@ -1,11 +1,11 @@
-#include "fit/profile.hpp"
+#include "fit/inference/profile.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "families.hpp"
-#include "fit/damped_fit.hpp"
-#include "fit/intervals.hpp"
+#include "fit/inference/intervals.hpp"
+#include "fit/selection/damped_fit.hpp"
 #include "scene.hpp"
 
 using namespace slipfit;

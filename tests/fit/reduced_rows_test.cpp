@@ -1,4 +1,4 @@
-#include "fit/reduced_rows.hpp"
+#include "fit/problem/reduced_rows.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

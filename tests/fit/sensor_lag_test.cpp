@@ -1,4 +1,4 @@
-#include "fit/sensor_lag.hpp"
+#include "fit/cycle/sensor_lag.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,0 +1,214 @@
+#include "fit/cycle/cycle_data.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace slipfit::fit {
+namespace {
+
+constexpr std::size_t kBinsPerRamp = 4;  // lets a bent ramp or a drift show; a straight one loses nothing
+constexpr std::size_t kMinRampSamples = 2;
+constexpr double kGapSteps = 3.5;
+constexpr double kForgottenLags = 8.0;  // e^-8: what a lagging sensor still shows of the slip before
+
+class Cutter {
+ public:
+  Cutter(const Recording& recording, const Segmentation& segmentation, double half_width_s,
+         const std::vector<std::size_t>& excluded, const HumLines& hum)
+      : time_s_(recording.time_s()),
+        force_(recording.force()),
+        slips_(segmentation.slips),
+        half_width_s_(half_width_s),
+        step_s_(recording.sample_interval_s()),
+        excluded_(excluded),
+        hum_(hum) {
+    const auto& bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz;
+    if (bandwidth_Hz) forgotten_s_ = kForgottenLags / (2.0 * std::numbers::pi * *bandwidth_Hz);
+  }
+
+  [[nodiscard]] std::vector<CycleData> cut() const {
+    std::vector<CycleData> cycles;
+    for (std::size_t i = 1; i < slips_.size(); ++i) {
+      if (!is_offered(i, slips_.size())) continue;
+      CycleData cycle = cut_one(i);
+      const DetectedSlip& slip = slips_[i];
+      const bool has_ramps = index_at(cycle.window_begin_s) + kMinRampSamples <= slip.peak &&
+                             slip.trough + kMinRampSamples < index_at(cycle.window_end_s);
+      if (!has_ramps || has_gap(cycle.samples)) continue;
+      if (!cycles.empty()) cycles.back().continuous_with_next = cycles.back().slip + 1 == i && !gap_between(i - 1, i);
+      cycles.push_back(std::move(cycle));
+    }
+    return cycles;
+  }
+
+ private:
+  [[nodiscard]] CycleData cut_one(std::size_t i) const {
+    CycleData cycle;
+    cycle.slip = i;
+    const double before_s = slips_[i - 1].middle_s + 0.5 * slips_[i - 1].fall_s;
+    cycle.window_begin_s = std::max(0.5 * (before_s + slips_[i].middle_s), before_s + forgotten_s_);
+    cycle.window_end_s = i + 1 < slips_.size()
+                             ? 0.5 * (slips_[i].middle_s + slips_[i + 1].middle_s)
+                             : std::min(time_s_.back(), slips_[i].middle_s + slips_[i].middle_s - cycle.window_begin_s);
+    const double margin_s = std::max(half_width_s_, 1.5 * step_s_);
+    const std::size_t begin = index_at(cycle.window_begin_s);
+    const std::size_t slip_begin = std::clamp(index_at(slips_[i].middle_s - margin_s), begin, time_s_.size());
+    const std::size_t end = index_at(cycle.window_end_s);
+    const std::size_t slip_end =
+        std::clamp(index_at(slips_[i].middle_s + margin_s), slip_begin, std::max(slip_begin, end));
+    cycle.bins_before = bin(begin, slip_begin);
+    cycle.bins_after = bin(slip_end, end);
+    for_each_run(slip_begin, slip_end, [&](std::size_t from, std::size_t to) {
+      for (std::size_t j = from; j < to; ++j) {
+        cycle.samples.push_back(j);
+        cycle.time_s.push_back(time_s_[j]);
+        cycle.force.push_back(force_[j]);
+      }
+    });
+    return cycle;
+  }
+
+  [[nodiscard]] std::size_t index_at(double time_s) const {
+    return static_cast<std::size_t>(std::lower_bound(time_s_.begin(), time_s_.end(), time_s) - time_s_.begin());
+  }
+
+  [[nodiscard]] bool has_gap(const std::vector<std::size_t>& samples) const {
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+      if (time_s_[samples[i]] - time_s_[samples[i] - 1] > kGapSteps * step_s_) return true;
+    }
+    return samples.empty();
+  }
+
+  [[nodiscard]] bool gap_between(std::size_t first_slip, std::size_t second_slip) const {
+    for (std::size_t i = slips_[first_slip].trough + 1; i <= slips_[second_slip].peak; ++i) {
+      if (time_s_[i] - time_s_[i - 1] > kGapSteps * step_s_) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] std::vector<StickBin> bin(std::size_t begin, std::size_t end) const {
+    std::vector<StickBin> bins;
+    if (end <= begin) return bins;
+    const std::size_t length = end - begin;
+    const std::size_t parts = std::min<std::size_t>(kBinsPerRamp, std::max<std::size_t>(1, length / 8));
+    for (std::size_t part = 0; part < parts; ++part) {
+      const StickBin one = reduce(begin + part * length / parts, begin + (part + 1) * length / parts);
+      if (one.count > 0.0) bins.push_back(one);
+    }
+    return bins;
+  }
+
+  [[nodiscard]] StickBin reduce(std::size_t begin, std::size_t end) const {
+    const Sums sums = sum(begin, end);
+    StickBin bin;
+    bin.count = sums.count;
+    if (bin.count == 0.0) return bin;
+    const double mean_t = sums.t / bin.count;
+    const double mean_f = sums.f / bin.count;
+    const double cross = sums.tf - sums.t * mean_f;
+    bin.time_s = time_s_[begin] + mean_t;
+    bin.force = force_[begin] + mean_f;
+    bin.time_spread = std::max(0.0, sums.tt - sums.t * mean_t);
+    if (bin.time_spread > 0.0) bin.slope = cross / bin.time_spread;
+    bin.scatter = std::max(0.0, sums.ff - sums.f * mean_f - bin.slope * cross);
+    for (const double line_Hz : hum_.frequencies_Hz) bin.lines.push_back(reduce_line(begin, end, bin, line_Hz));
+    return bin;
+  }
+
+  struct Sums {
+    double count = 0.0, t = 0.0, f = 0.0, tt = 0.0, tf = 0.0, ff = 0.0;
+  };
+
+  /// About the first sample: near enough to the mean that nothing cancels.
+  [[nodiscard]] Sums sum(std::size_t begin, std::size_t end) const {
+    Sums sums;
+    for_each_run(begin, end, [&](std::size_t from, std::size_t to) {
+      const auto length = static_cast<Eigen::Index>(to - from);
+      const auto t = Eigen::Map<const Eigen::ArrayXd>(&time_s_[from], length) - time_s_[begin];
+      const auto f = Eigen::Map<const Eigen::ArrayXd>(&force_[from], length) - force_[begin];
+      sums.count += static_cast<double>(length);
+      sums.t += t.sum();
+      sums.f += f.sum();
+      sums.tt += t.square().sum();
+      sums.tf += (t * f).sum();
+      sums.ff += f.square().sum();
+    });
+    return sums;
+  }
+
+  /// The runs of samples that are not excluded.
+  template <typename Action>
+  void for_each_run(std::size_t begin, std::size_t end, const Action& action) const {
+    for (const std::size_t gap : excluded_in(begin, end)) {
+      if (gap > begin) action(begin, gap);
+      begin = gap + 1;
+    }
+    if (end > begin) action(begin, end);
+  }
+
+  [[nodiscard]] std::span<const std::size_t> excluded_in(std::size_t begin, std::size_t end) const {
+    const auto from = std::lower_bound(excluded_.begin(), excluded_.end(), begin);
+    return {from, std::lower_bound(from, excluded_.end(), end)};
+  }
+
+  /// On an even clock (hum is looked for on no other) the phase turns by the same angle from sample to sample, and the
+  /// sums over all samples have a closed form: with m = -(n - 1) / 2 ... (n - 1) / 2,
+  /// sum e^(i m a) = sin(n a / 2) / sin(a / 2), and its derivative by a is i sum m e^(i m a).
+  [[nodiscard]] LineInBin reduce_line(std::size_t begin, std::size_t end, const StickBin& bin, double line_Hz) const {
+    using namespace std::complex_literals;
+    const double omega = 2.0 * std::numbers::pi * line_Hz;
+    const double step_s = (time_s_.back() - time_s_.front()) / static_cast<double>(time_s_.size() - 1);
+    const double half = 0.5 * omega * step_s;
+    const auto n = static_cast<double>(end - begin);
+    const double all = std::sin(n * half) / std::sin(half);
+    const double derivative = 0.5 * (n * std::cos(n * half) - all * std::cos(half)) / std::sin(half);
+    const double centre_s = 0.5 * (time_s_[begin] + time_s_[end - 1]);
+    const auto wave_at = [&](double t_s) { return std::polar(1.0, omega * (t_s - hum_.begin_s)); };
+    const std::complex<double> centre = wave_at(centre_s);
+    std::complex<double> sum = all * centre;
+    std::complex<double> moment = (centre_s - bin.time_s) * sum - 1i * (step_s * derivative) * centre;
+    for (const std::size_t i : excluded_in(begin, end)) {
+      const std::complex<double> wave = wave_at(time_s_[i]);
+      sum -= wave;
+      moment -= (time_s_[i] - bin.time_s) * wave;
+    }
+    const double inertia = bin.time_spread > 0.0 ? 1.0 / bin.time_spread : 0.0;
+    return {{sum.real() / bin.count, sum.imag() / bin.count}, {moment.real() * inertia, moment.imag() * inertia}};
+  }
+
+  std::span<const double> time_s_;
+  std::span<const double> force_;
+  const std::vector<DetectedSlip>& slips_;
+  double half_width_s_;
+  double step_s_;
+  const std::vector<std::size_t>& excluded_;
+  const HumLines& hum_;
+  double forgotten_s_ = 0.0;
+};
+
+}  // namespace
+
+bool is_offered(std::size_t slip, std::size_t slips) {
+  constexpr std::size_t kRun = 32;  // neighbours, whose joined ramps halve the error of k
+  constexpr std::size_t kRuns = 64;
+  const std::size_t runs = (slips + kRun - 1) / kRun;
+  const std::size_t run = slip / kRun;
+  return runs <= kRuns || (run + 1) * kRuns / runs > run * kRuns / runs;
+}
+
+std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,
+                                  const std::vector<std::size_t>& excluded, const HumLines& hum) {
+  return Cutter(recording, segmentation, half_width_s, excluded, hum).cut();
+}
+
+std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size) {
+  if (cycles.size() <= size) return cycles;
+  std::vector<CycleData> subset;
+  for (std::size_t i = 0; i < size; ++i) subset.push_back(cycles[i * (cycles.size() - 1) / (size - 1)]);
+  return subset;
+}
+
+}  // namespace slipfit::fit

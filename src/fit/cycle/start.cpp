@@ -1,0 +1,122 @@
+#include "fit/cycle/start.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "signal/robust.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+/// Half period from the 80 % to 20 % falls: a half cosine passes them in acos(-0.6) - acos(0.6) of its pi.
+double half_period_of(const Segmentation& segmentation) {
+  std::vector<double> falls;
+  for (const DetectedSlip& slip : segmentation.slips) falls.push_back(slip.fall_s);
+  const double share = (std::acos(-0.6) - std::acos(0.6)) / std::numbers::pi;
+  return signal::median(falls) / share;
+}
+
+/// Least-squares coefficients of the level polynomial through one value a slip.
+std::vector<double> level_through(const BlockFit& fit, const std::vector<double>& times_s,
+                                  const std::vector<double>& levels) {
+  const std::size_t terms = fit.level().terms;
+  const Scales& scales = fit.scales();
+  Eigen::MatrixXd basis(static_cast<Eigen::Index>(times_s.size()), static_cast<Eigen::Index>(terms));
+  Eigen::VectorXd target(static_cast<Eigen::Index>(times_s.size()));
+  std::vector<double> values(terms);
+  std::vector<double> slopes(terms);
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    const double x = 2.0 * (times_s[i] - scales.time_begin_s) / (scales.time_end_s - scales.time_begin_s) - 1.0;
+    legendre(x, terms, values.data(), slopes.data());
+    const auto row = static_cast<Eigen::Index>(i);
+    for (std::size_t j = 0; j < terms; ++j) basis(row, static_cast<Eigen::Index>(j)) = values[j];
+    target(row) = (levels[i] - scales.level) / scales.force;
+  }
+  const Eigen::VectorXd solution = basis.colPivHouseholderQr().solve(target);
+  std::vector<double> coefficients(fit.level().columns(), 0.0);  // no hum to start with
+  std::copy_n(solution.data(), terms, coefficients.begin());
+  return coefficients;
+}
+
+}  // namespace
+
+Scales scales_of(const Recording& recording, const Quality& quality, const Segmentation& segmentation) {
+  Scales scales;
+  scales.speed_m_per_s = recording.conditions().speed_m_per_s;
+  scales.view = recording.conditions().force_view;
+  if (const auto bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz) {
+    scales.sensor_lag_s = 1.0 / (2.0 * std::numbers::pi * *bandwidth_Hz);
+  }
+  scales.half_period_s = std::max(half_period_of(segmentation), 1e-3 * recording.sample_interval_s());
+  std::vector<double> drops;
+  std::vector<double> middles;
+  for (const DetectedSlip& slip : segmentation.slips) {
+    drops.push_back(slip.drop());
+    middles.push_back(0.5 * (slip.peak_force + slip.trough_force));
+  }
+  scales.force = 0.5 * signal::median(drops);
+  scales.level = signal::median(middles);
+  // A recording without noise still has rounding; residuals must keep a finite weight.
+  scales.noise = std::max({quality.noise_rms, 0.29 * quality.quantisation_step.value_or(0.0), 1e-6 * scales.force});
+  return scales;
+}
+
+double stiffness_of(const Recording& recording, const Segmentation& segmentation) {
+  const auto time_s = recording.time_s();
+  const auto force = recording.force();
+  std::vector<double> slopes;
+  for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
+    const std::size_t trough = segmentation.slips[i - 1].trough;
+    const std::size_t peak = segmentation.slips[i].peak;
+    // The middle of the rise: stick wherever there is any, and the steepest part of a rise without.
+    const auto share = [&](double x) {
+      return trough + static_cast<std::size_t>(x * static_cast<double>(peak - trough));
+    };
+    const std::size_t begin = share(0.3);
+    const std::size_t end = share(0.7) + 1;
+    const auto count = static_cast<double>(end - begin);
+    if (count < 2.0) continue;
+    double mean_s = 0.0;
+    double cross = 0.0;
+    double spread = 0.0;
+    for (std::size_t j = begin; j < end; ++j) mean_s += (time_s[j] - time_s[begin]) / count;
+    for (std::size_t j = begin; j < end; ++j) {
+      const double dt = time_s[j] - time_s[begin] - mean_s;
+      cross += dt * (force[j] - force[begin]);
+      spread += dt * dt;
+    }
+    if (spread > 0.0) slopes.push_back(cross / spread);
+  }
+  return signal::median(slopes) / recording.conditions().speed_m_per_s;
+}
+
+void set_start(BlockFit& fit, const Segmentation& segmentation, const Shared& shared) {
+  const Scales& scales = fit.scales();
+  const double stiffness_N_per_m = std::exp(shared[0]);
+  const double omega_rad_per_s = std::exp(shared[1]);
+  const double zeta = shared[2];
+  const double b = std::sqrt(1.0 - zeta * zeta);
+  const double rebound = std::exp(-std::numbers::pi * zeta / b);  // trough over peak, both from the level
+  const double u = stiffness_N_per_m * scales.speed_m_per_s / omega_rad_per_s;
+  fit.parameters.shared = shared;
+  std::vector<double> times_s;
+  std::vector<double> levels;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    const DetectedSlip& slip = segmentation.slips[fit.data(i).slip];
+    const double peak = slip.drop() / (1.0 + rebound);
+    levels.push_back(slip.trough_force + peak * rebound);
+    times_s.push_back(slip.middle_s);
+    // Undamped: the force peaks at sqrt(A^2 + u^2), atan(u / A) after the onset.
+    const double onset_force = std::sqrt(std::max(peak * peak - u * u, 0.09 * peak * peak));
+    const double half_period_s = std::numbers::pi / (omega_rad_per_s * b);
+    const double onset_s =
+        slip.middle_s - 0.5 * half_period_s - std::atan2(u, onset_force) / omega_rad_per_s - scales.sensor_lag_s;
+    fit.parameters.cycles[i] = {(onset_s - fit.reference_s(i)) / scales.half_period_s, onset_force / scales.force,
+                                (levels.back() - scales.level) / scales.force};
+  }
+  if (fit.level().terms > 0) fit.parameters.level = level_through(fit, times_s, levels);
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "fit/inference/uncertainty.hpp"
+#include "fit/problem/block_fit.hpp"
+
+namespace slipfit::fit {
+
+/// Stretches of equal length from shortly before a slip to shortly after it.
+inline constexpr int kPhases = 8;
+
+/// Where residuals are the same in every cycle, and how large.
+struct PhaseMisfit {
+  double phase = 0.0;  ///< middle of the worst stretch: 0 at the onset, 1 at the end of slip
+  double size = 0.0;   ///< mean residual there over the mean onset force, signed
+};
+
+/// Stretch of a sample; empty outside all.
+std::optional<std::size_t> phase_of(const CycleState& state, double time_s);
+
+/// Residuals stacked over the phase of the slip. Empty where no stretch has a mean that is beyond chance (4.5 standard
+/// errors over the cycles) and matters (1 % of the onset force, `tolerated` on top); below 5 cycles.
+std::optional<PhaseMisfit> find_misfit(const BlockFit& fit, double tolerated);
+
+/// Adds the jackknife over the stretches: what the estimates owe to one part of the slip alone. Each row of `moves`:
+/// what a refit without one stretch moves the quantities by.
+Uncertainty with_misfit(Uncertainty uncertainty, const Eigen::MatrixXd& moves);
+
+}  // namespace slipfit::fit

@@ -1,0 +1,48 @@
+#include "fit/inference/rounding.hpp"
+
+#include <algorithm>
+#include <boost/random/normal_distribution.hpp>
+#include <boost/random/uniform_01.hpp>
+#include <cmath>
+#include <random>
+#include <utility>
+
+namespace slipfit::fit {
+
+RoundedCopies::RoundedCopies(std::vector<double> model, double step, double residual_rms)
+    : model_(std::move(model)),
+      step_(step),
+      noise_(std::sqrt(std::max(0.0, residual_rms * residual_rms - step * step / 12.0))) {}
+
+std::vector<double> RoundedCopies::draw(unsigned copy) const {
+  std::mt19937_64 generator(copy + 1);
+  boost::random::normal_distribution<double> normal;
+  const double origin = step_ * boost::random::uniform_01<double>()(generator);
+  std::vector<double> forces;
+  forces.reserve(model_.size());
+  for (const double force : model_) {
+    const double noisy = force + noise_ * normal(generator);
+    forces.push_back(step_ * std::round((noisy - origin) / step_) + origin);
+  }
+  return forces;
+}
+
+Uncertainty with_rounding(Uncertainty uncertainty, const Eigen::MatrixXd& moves, const Held& held) {
+  uncertainty.from_refits = true;
+  const Eigen::MatrixXd spread = moves.transpose() * moves / static_cast<double>(moves.rows());
+  Eigen::MatrixXd given_damping = spread;
+  if (!held.damping && spread(kDamping, kDamping) > 0.0) {
+    given_damping -= spread.col(kDamping) * spread.row(kDamping) / spread(kDamping, kDamping);
+  }
+  if (uncertainty.from_cycles) {
+    uncertainty.covariance += spread;
+    uncertainty.covariance_given_damping += given_damping;
+  } else {
+    uncertainty.covariance = spread;
+    uncertainty.covariance_given_damping = given_damping;
+    uncertainty.degrees_of_freedom = std::min(uncertainty.degrees_of_freedom, static_cast<double>(moves.rows()));
+  }
+  return uncertainty;
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "fit/inference/uncertainty.hpp"
+
+namespace slipfit::fit {
+
+/// Recordings as the fitted model would give them, rounded to multiples of `step` counted from ever new places, noise
+/// (what the residuals have beyond the rounding) included. Rounding repeats its errors from cycle to cycle where these
+/// are regular: neither residuals nor the spread over the cycles show it.
+class RoundedCopies {
+ public:
+  /// `model`: fitted force of every sample. Same arguments, same copies.
+  RoundedCopies(std::vector<double> model, double step, double residual_rms);
+  [[nodiscard]] std::vector<double> draw(unsigned copy) const;
+
+ private:
+  std::vector<double> model_;
+  double step_;
+  double noise_;
+};
+
+inline constexpr unsigned kRoundedCopies = 24;
+
+/// The spread of refits to such copies in place of the white-noise covariance, or added to that of the jackknife. Each
+/// row of `moves`: what one refit moves the quantities (uncertainty.hpp) by.
+Uncertainty with_rounding(Uncertainty uncertainty, const Eigen::MatrixXd& moves, const Held& held);
+
+}  // namespace slipfit::fit

@@ -1,0 +1,296 @@
+#include "fit/selection/damped_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "fit/cycle/clock_weights.hpp"
+#include "fit/cycle/start.hpp"
+#include "fit/level/level_order.hpp"
+#include "fit/level/mains_hum.hpp"
+#include "fit/selection/clipping.hpp"
+#include "fit/selection/finish.hpp"
+#include "fit/selection/outliers.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+constexpr std::size_t kMinCycles = 3;
+/// Enough cycles to find the shared parameters' neighbourhood; the full fit starts from there.
+constexpr std::size_t kProbeCycles = 12;
+/// Above it the level model is in doubt: noise alone gives 1 +- sqrt(2 / samples), and the noise measured from
+/// differences is good to a few percent.
+constexpr double kSuspectChi2 = 1.2;
+/// F ratio of one level a cycle against the polynomial; far beyond chance for the 12 and more cycles it is used with.
+constexpr double kWanderingRatio = 3.0;
+
+/// Wandering that shows in the middles of well sampled slips: this much of the drop and of the noise is left
+/// unexplained.
+constexpr double kWanderingShare = 0.03;
+constexpr double kWanderingNoises = 10.0;
+constexpr double kWellSampled = 10.0;  // samples in a half period: peaks are met to (pi / 20)^2 / 2 = 1 %
+constexpr double kUnevenClock = 0.02;  // relative spread of the steps
+constexpr int kQuickIterations = 8;
+constexpr int kCleanPasses = 4;
+constexpr double kMuchHum = 0.5;  // of the residual variance: less does not blur outliers and frequency
+constexpr int kProbeIterations = 12;
+constexpr int kMaxIterations = 60;
+constexpr double kRough = 0.1;  // SolveOptions::tolerance
+constexpr double kFinal = 1e-3;
+
+class Fitter {
+ public:
+  Fitter(const Recording& recording, const Quality& quality, const Segmentation& segmentation, const HeldValues& held)
+      : recording_(recording), quality_(quality), segmentation_(segmentation), held_values_(held) {
+    held_ = {held.stiffness_N_per_m.has_value(), held.omega_rad_per_s.has_value(), held.damping_ratio.has_value()};
+    excluded_ = initial_exclusions(recording, quality);
+    scales_ = scales_of(recording, quality, segmentation);
+  }
+
+  std::optional<DampedFit> fit() {
+    start_stiffness_ = held_values_.stiffness_N_per_m.value_or(stiffness_of(recording_, segmentation_));
+    if (!(start_stiffness_ > 0.0)) return std::nullopt;
+    cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), excluded_);
+    if (cycles_.size() < kMinCycles) return std::nullopt;
+    scales_.time_begin_s = cycles_.front().window_begin_s;
+    scales_.time_end_s = cycles_.back().window_end_s;
+    if (!segmentation_.mains_Hz.empty()) {
+      const HumLines hum{segmentation_.mains_Hz, scales_.time_begin_s};
+      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), excluded_, hum);
+    }
+
+    const LevelModel level = first_level();
+    const std::vector<CycleData> probe = spread_subset(cycles_, std::max<std::size_t>(kProbeCycles, 3 * level.terms));
+    std::optional<BlockFit> start = fit_probe(probe, level);
+    if (!start) return std::nullopt;
+    if (is_hopeless(*start)) return finish(std::move(*start));
+    std::optional<BlockFit> fit =
+        fit_from(std::move(cycles_), start->level(), start->parameters.shared, kMaxIterations, kRough);
+    if (fit) fit = with_clean_data(std::move(*fit));
+    if (!fit) return std::nullopt;
+    if (quality_.clock_jitter > kUnevenClock) fit = with_clock_weights(std::move(*fit));
+    refuse_negative_damping(*fit, kFinal);
+    return finish(std::move(*fit));
+  }
+
+ private:
+  /// A slip lasts 2 (pi - atan lambda) / w_n around its middle; 0.3 half periods on either side are left for the fit to
+  /// move its ends.
+  [[nodiscard]] double half_width_s() const {
+    const double u = start_stiffness_ * scales_.speed_m_per_s * scales_.half_period_s / std::numbers::pi;
+    constexpr double kForgotten = 8.0;  // e^-8: what the sensor still shows of the slip in the straight ramp
+    return scales_.half_period_s * (1.0 - std::atan2(scales_.force, u) / std::numbers::pi + 0.3) +
+           kForgotten * scales_.sensor_lag_s;
+  }
+
+  /// The level model to begin with: the polynomial that the middles pay for, or at once one level a cycle.
+  [[nodiscard]] LevelModel first_level() const {
+    std::vector<double> middles;
+    std::vector<double> drops;
+    for (const CycleData& cycle : cycles_) {
+      const DetectedSlip& slip = segmentation_.slips[cycle.slip];
+      middles.push_back(0.5 * (slip.peak_force + slip.trough_force));
+      drops.push_back(slip.drop());
+    }
+    const std::vector<double> times_s = middles_s(cycles_);
+    const std::size_t terms = choose_level_terms(times_s, middles);
+    const double left = unexplained_level(times_s, middles, drops, terms);
+    const bool well_sampled = scales_.half_period_s > kWellSampled * recording_.sample_interval_s();
+    const bool wanders = well_sampled && left > kWanderingShare * 2.0 * scales_.force &&
+                         left > kWanderingNoises * scales_.noise && cycles_.size() >= kProbeCycles;
+    return {wanders, wanders ? 0 : terms, segmentation_.mains_Hz};
+  }
+
+  [[nodiscard]] std::vector<double> middles_s(const std::vector<CycleData>& cycles) const {
+    std::vector<double> values;
+    values.reserve(cycles.size());
+    for (const CycleData& cycle : cycles) values.push_back(segmentation_.slips[cycle.slip].middle_s);
+    return values;
+  }
+
+  /// Finds level model and neighbourhood of the shared parameters on a few cycles.
+  std::optional<BlockFit> fit_probe(const std::vector<CycleData>& probe, const LevelModel& level) {
+    std::optional<BlockFit> fit = fit_from_starts(probe, level);
+    if (!fit) return std::nullopt;
+    start_ = fit->parameters.shared;
+    // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
+    if (!std::isfinite(fit->solve({held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
+    if (!level.per_cycle && probe.size() > level.terms && reduced_chi2(*fit) > kSuspectChi2) {
+      std::optional<BlockFit> wandering =
+          fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.shared, kProbeIterations, kRough);
+      if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
+    }
+    refuse_negative_damping(*fit, kRough);
+    return fit;
+  }
+
+  [[nodiscard]] bool explains_more(const BlockFit& wandering, const BlockFit& polynomial) const {
+    const Uncertainty rich = estimate_uncertainty(wandering, held_, false);
+    const Uncertainty poor = estimate_uncertainty(polynomial, held_, false);
+    const auto extra = static_cast<double>(wandering.size() - polynomial.level().terms);
+    const double noise2 = rich.noise * rich.noise / (scales_.noise * scales_.noise);
+    return (poor.chi2 - rich.chi2) / extra > kWanderingRatio * noise2;
+  }
+
+  /// Short runs with zeta held, from several damping ratios (and frequencies, where the fall is hardly sampled).
+  [[nodiscard]] std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles,
+                                                        const LevelModel& level) const {
+    BlockFit fit(cycles, middles_s(cycles), scales_, level);
+    std::vector<double> stretches{1.0};
+    if (scales_.half_period_s < 6.0 * recording_.sample_interval_s()) stretches = {1.0, 1.6, 1.0 / 0.6};
+    if (scales_.sensor_lag_s > 0.05 * scales_.half_period_s) stretches = {1.0, 1.4, 2.0};  // it draws the fall out
+    std::vector<double> dampings{0.05, 0.01, 0.15};
+    if (level.per_cycle) dampings = {0.05};  // a level a cycle takes up what a wrong zeta does to the troughs
+    if (held_values_.damping_ratio) dampings = {*held_values_.damping_ratio};
+    double best_cost = std::numeric_limits<double>::infinity();
+    Parameters best;
+    for (const double stretch : stretches) {
+      for (const double zeta : dampings) {
+        const double b = std::sqrt(1.0 - zeta * zeta);
+        const double omega =
+            held_values_.omega_rad_per_s.value_or(stretch * std::numbers::pi / (scales_.half_period_s * b));
+        set_start(fit, segmentation_, {std::log(start_stiffness_), std::log(omega), zeta});
+        SolveOptions quick{held_, false, true, kQuickIterations, kRough};
+        quick.held.damping = true;
+        const double cost = fit.solve(quick);
+        if (cost >= best_cost) continue;
+        best_cost = cost;
+        best = fit.parameters;
+        if (reduced_chi2(fit) < kSuspectChi2) return fit;  // nothing left to find
+      }
+    }
+    if (!std::isfinite(best_cost)) return std::nullopt;
+    fit.parameters = best;
+    return fit;
+  }
+
+  [[nodiscard]] std::optional<BlockFit> fit_from(std::vector<CycleData> cycles, const LevelModel& level,
+                                                 const Shared& shared, int max_iterations, double tolerance) const {
+    std::vector<double> middles = middles_s(cycles);
+    BlockFit fit(std::move(cycles), std::move(middles), scales_, level);
+    set_start(fit, segmentation_, shared);
+    if (!std::isfinite(fit.solve({held_, false, true, max_iterations, tolerance}))) return std::nullopt;
+    return fit;
+  }
+
+  /// A damping ratio clearly below 0 (jackknife where residuals are not white) means that slips are not shaped like the
+  /// model's: zeta is held at 0 from here on, and called unidentified.
+  void refuse_negative_damping(BlockFit& fit, double tolerance) {
+    const double zeta = fit.parameters.shared[2];
+    if (held_.damping || !(zeta < 0.0) || reduced_chi2(fit) < kSuspectChi2) return;
+    const Uncertainty uncertainty = estimate_uncertainty(fit, held_, false);
+    const double se = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
+    if (!(zeta + 2.5 * se < 0.0)) return;
+    refused_damping_ = zeta;
+    held_.damping = true;
+    // From the features again: the runaway zeta has dragged the other parameters along.
+    set_start(fit, segmentation_, {start_[0], start_[1], 0.0});
+    fit.solve({held_, false, true, kMaxIterations, tolerance});
+  }
+
+  /// Residuals of half the friction drop: no stick-slip, whatever more cycles would say.
+  [[nodiscard]] bool is_hopeless(const BlockFit& fit) const {
+    double mean = 0.0;
+    for (const Own& own : fit.parameters.cycles) mean += own[1] / static_cast<double>(fit.size());
+    return !(std::sqrt(reduced_chi2(fit)) * scales_.noise < 0.5 * std::abs(mean) * scales_.force);
+  }
+
+  /// Leaves out samples far from the fit and slips that it cannot explain, takes mains hum into the model, and refits.
+  /// Where there was much hum, again: the next residuals show its frequency and the outliers more clearly.
+  std::optional<BlockFit> with_clean_data(BlockFit fit) {
+    for (int pass = 0; pass < kCleanPasses; ++pass) {
+      Residuals residuals = residuals_of(recording_, fit, excluded_);
+      const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
+      const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
+      const std::vector<std::size_t> bad = unexplained_slips(fit);
+      const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals.value), outliers);
+      if (outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty()) {
+        if (pass == 0) fit.solve({held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
+        return fit;
+      }
+      excluded_ = united(excluded_, united(outliers, censored));
+      std::optional<BlockFit> next = refit(std::move(fit), bad, lines_Hz);
+      if (!next) return std::nullopt;
+      fit = std::move(*next);
+      const double hum_power = 0.5 * std::pow(hum_amplitude(fit), 2);
+      if (hum_power < kMuchHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
+    }
+    return fit;
+  }
+
+  /// Weights depend on the model, the model on the weights: three rounds settle both to a percent of an error.
+  [[nodiscard]] BlockFit with_clock_weights(BlockFit fit) const {
+    for (int round = 0; round < 3; ++round) {
+      std::vector<CycleData> cycles = weigh_by_slope(fit);
+      std::vector<double> middles = middles_s(cycles);
+      BlockFit weighted(std::move(cycles), std::move(middles), scales_, fit.level());
+      weighted.parameters = fit.parameters;
+      if (!std::isfinite(weighted.solve({held_, false, true, kMaxIterations, kFinal}))) return fit;
+      fit = std::move(weighted);
+    }
+    return fit;
+  }
+
+  /// Cuts again without the slips `bad`, with hum lines in the level, and fits from the present solution, whose cycles
+  /// make room for the new ones.
+  [[nodiscard]] std::optional<BlockFit> refit(BlockFit fit, const std::vector<std::size_t>& bad,
+                                              const std::vector<double>& lines_Hz) const {
+    const Parameters start = std::move(fit.parameters);
+    LevelModel level = fit.level();
+    std::vector<std::size_t> slips;
+    for (std::size_t i = 0; i < fit.size(); ++i) slips.push_back(fit.data(i).slip);
+    { const BlockFit released = std::move(fit); }
+    std::vector<CycleData> kept;
+    const HumLines hum{lines_Hz, scales_.time_begin_s};
+    for (CycleData& cycle : cut_cycles(recording_, segmentation_, half_width_s(), excluded_, hum)) {
+      if (std::find(bad.begin(), bad.end(), cycle.slip) == bad.end()) {
+        kept.push_back(std::move(cycle));
+      } else if (!kept.empty()) {
+        kept.back().continuous_with_next = false;
+      }
+    }
+    if (kept.size() < kMinCycles) return std::nullopt;
+    level.lines_Hz = lines_Hz;
+    std::vector<double> middles = middles_s(kept);
+    BlockFit refit(std::move(kept), std::move(middles), scales_, level);
+    refit.parameters.shared = start.shared;
+    std::copy_n(start.level.begin(), level.terms, refit.parameters.level.begin());
+    std::size_t old = 0;
+    for (std::size_t i = 0; i < refit.size(); ++i) {
+      while (old + 1 < slips.size() && slips[old] < refit.data(i).slip) ++old;  // a last slip may be new
+      refit.parameters.cycles[i] = start.cycles[old];
+    }
+    if (!std::isfinite(refit.solve({held_, false, true, kMaxIterations, kFinal}))) return std::nullopt;
+    return refit;
+  }
+
+  [[nodiscard]] std::optional<DampedFit> finish(BlockFit fit) const {
+    return finish_fit(recording_, quality_, segmentation_, half_width_s(),
+                      {std::move(fit), false, held_, refused_damping_, excluded_, {}, {}});
+  }
+
+  const Recording& recording_;
+  const Quality& quality_;
+  const Segmentation& segmentation_;
+  HeldValues held_values_;
+  Held held_;
+  double start_stiffness_ = 0.0;
+  Shared start_{};
+  std::optional<double> refused_damping_;
+  Scales scales_;
+  std::vector<std::size_t> excluded_;  // in ascending order
+  std::vector<CycleData> cycles_;
+};
+
+}  // namespace
+
+std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& quality,
+                                    const Segmentation& segmentation, const HeldValues& held) {
+  if (segmentation.slips.size() < kMinCycles) return std::nullopt;
+  return Fitter(recording, quality, segmentation, held).fit();
+}
+
+}  // namespace slipfit::fit

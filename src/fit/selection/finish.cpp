@@ -1,0 +1,132 @@
+#include "fit/selection/finish.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "fit/inference/misfit.hpp"
+#include "fit/inference/phase_moves.hpp"
+#include "fit/inference/rounding.hpp"
+#include "fit/selection/outliers.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+constexpr int kFewIterations = 12;  // from the solution to one beside it
+constexpr int kMaxIterations = 60;
+constexpr double kFinal = 1e-3;  // SolveOptions::tolerance
+
+std::vector<double> references_of(const BlockFit& fit) {
+  std::vector<double> references_s;
+  for (std::size_t i = 0; i < fit.size(); ++i) references_s.push_back(fit.reference_s(i));
+  return references_s;
+}
+
+class Finisher {
+ public:
+  Finisher(const Recording& recording, const Quality& quality, const Segmentation& segmentation, double half_width_s)
+      : recording_(recording), quality_(quality), segmentation_(segmentation), half_width_s_(half_width_s) {}
+
+  /// Empty where the normal equations are singular: the cycles do not tell the shared parameters apart.
+  [[nodiscard]] std::optional<DampedFit> finish(DampedFit result) const {
+    result.uncertainty = estimate_uncertainty(result.blocks, result.held, false);
+    if (!is_regular(result.uncertainty, result.held)) return std::nullopt;
+    if (!result.blocks.level().per_cycle && !result.uncertainty.from_cycles) join_ramps(result);
+    // Noise of a step and more spreads the rounding evenly: it is white then.
+    if (quality_.quantisation_step && result.uncertainty.noise < *quality_.quantisation_step) {
+      const Eigen::MatrixXd moves = moves_by_rounding(result);
+      if (moves.rows() < kRoundedCopies / 2) return std::nullopt;
+      result.uncertainty = with_rounding(result.uncertainty, moves, result.held);
+    }
+    if ((result.misfit = find_misfit(result.blocks, 0.5 * quality_.quantisation_step.value_or(0.0)))) {
+      result.uncertainty = with_misfit(result.uncertainty, moves_by_phase(result.blocks, result.held));
+    }
+    return result;
+  }
+
+ private:
+  /// What refits to rounded copies of the model move the quantities by.
+  [[nodiscard]] Eigen::MatrixXd moves_by_rounding(const DampedFit& result) const {
+    const Residuals residuals = residuals_of(recording_, result.blocks, {});
+    std::vector<double> model(recording_.force().begin(), recording_.force().end());
+    for (std::size_t i = 0; i < model.size(); ++i) model[i] -= residuals.value[i];
+    const RoundedCopies copies(std::move(model), *quality_.quantisation_step, result.uncertainty.noise);
+    Eigen::MatrixXd moves(kRoundedCopies, kQuantities);
+    Eigen::Index fitted = 0;
+    for (unsigned copy = 0; copy < kRoundedCopies; ++copy) {
+      const auto time_s = recording_.time_s();
+      const auto rounded =
+          Recording::create({time_s.begin(), time_s.end()}, copies.draw(copy), recording_.conditions());
+      BlockFit refit = same_cycles(rounded.value(), result);
+      if (!std::isfinite(refit.solve({result.held, result.continuous, true, kFewIterations, kFinal}))) continue;
+      const Eigen::VectorXd moved = quantities_of(refit) - quantities_of(result.blocks);
+      moves.row(fitted++) = moved.transpose();
+    }
+    return moves.topRows(fitted);
+  }
+
+  /// The cycles of a fit cut from another recording with the same clock.
+  [[nodiscard]] BlockFit same_cycles(const Recording& recording, const DampedFit& result) const {
+    const BlockFit& fit = result.blocks;
+    std::vector<CycleData> kept;
+    const HumLines hum{fit.level().lines_Hz, fit.scales().time_begin_s};
+    std::size_t next = 0;
+    for (CycleData& cycle : cut_cycles(recording, segmentation_, half_width_s_, result.excluded, hum)) {
+      if (next == fit.size() || cycle.slip != fit.data(next).slip) continue;
+      cycle.continuous_with_next = fit.data(next).continuous_with_next;
+      kept.push_back(std::move(cycle));
+      ++next;
+    }
+    BlockFit same(std::move(kept), references_of(fit), fit.scales(), fit.level());
+    same.parameters = fit.parameters;
+    return same;
+  }
+
+  static bool is_regular(const Uncertainty& uncertainty, const Held& held) {
+    const Eigen::MatrixXd& c = uncertainty.covariance;
+    return c.allFinite() && (held.stiffness || c(kLogStiffness, kLogStiffness) > 0.0) &&
+           (held.frequency || c(kLogFrequency, kLogFrequency) > 0.0) && (held.damping || c(kDamping, kDamping) > 0.0);
+  }
+
+  /// Joined ramps halve the error of k where the data agree: F test, one degree of freedom a ramp.
+  static void join_ramps(DampedFit& result) {
+    double ramps = 0.0;
+    for (std::size_t i = 0; i + 1 < result.blocks.size(); ++i) {
+      ramps += result.blocks.data(i).continuous_with_next ? 1.0 : 0.0;
+    }
+    if (ramps < 1.0) return;
+    const Parameters before = result.blocks.parameters;
+    if (std::isfinite(result.blocks.solve({result.held, true, true, kMaxIterations, kFinal}))) {
+      const Uncertainty joined = estimate_uncertainty(result.blocks, result.held, true);
+      const double freedom = std::max(1.0, result.uncertainty.degrees_of_freedom);
+      const double ratio = (joined.chi2 - result.uncertainty.chi2) / ramps / (result.uncertainty.chi2 / freedom);
+      const boost::math::fisher_f_distribution<double> chance(ramps, freedom);
+      if (!is_regular(joined, result.held)) {
+        result.blocks.parameters = before;
+        return;
+      }
+      if (ratio <= 0.0 || boost::math::cdf(boost::math::complement(chance, ratio)) > 1e-3) {
+        result.continuous = true;
+        result.uncertainty = joined;
+        return;
+      }
+    }
+    result.blocks.parameters = before;
+  }
+
+  const Recording& recording_;
+  const Quality& quality_;
+  const Segmentation& segmentation_;
+  double half_width_s_;
+};
+
+}  // namespace
+
+std::optional<DampedFit> finish_fit(const Recording& recording, const Quality& quality,
+                                    const Segmentation& segmentation, double half_width_s, DampedFit draft) {
+  return Finisher(recording, quality, segmentation, half_width_s).finish(std::move(draft));
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fit/problem/block_fit.hpp"
+
+namespace slipfit::fit {
+
+/// Which part of a cycle a sample is in; None: outside the fitted cycles, or excluded.
+enum class Phase : unsigned char { None, Stick, Slip };
+
+/// Data minus model (hum included in the model) at every sample of the recording; 0 where the phase is None.
+struct Residuals {
+  std::vector<double> value;
+  std::vector<Phase> phase;
+};
+
+Residuals residuals_of(const Recording& recording, const BlockFit& fit, const std::vector<std::size_t>& excluded);
+
+/// Samples farther from the fit than 4.5 robust standard deviations, `noise` at least. Sticks and slips have a scale
+/// each: a slip that the model follows less well is not cut away sample by sample.
+std::vector<std::size_t> find_outliers(const Residuals& residuals, double noise);
+
+/// Slips (indices into the segmentation) whose mean square residual is more than 25 times the median: a missed slip, a
+/// burst of impulses.
+std::vector<std::size_t> unexplained_slips(const BlockFit& fit);
+
+}  // namespace slipfit::fit

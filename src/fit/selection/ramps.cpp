@@ -1,0 +1,93 @@
+#include "fit/selection/ramps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace slipfit::fit {
+namespace {
+
+/// Merges centred sums (parallel axis rule): the same as reducing all samples at once.
+StickBin merge(const std::vector<StickBin>& bins) {
+  StickBin all;
+  for (const StickBin& bin : bins) {
+    all.count += bin.count;
+    all.time_s += bin.count * bin.time_s;
+    all.force += bin.count * bin.force;
+  }
+  if (all.count == 0.0) return all;
+  all.time_s /= all.count;
+  all.force /= all.count;
+  double cross = 0.0;
+  double square = 0.0;
+  for (const StickBin& bin : bins) {
+    const double dt = bin.time_s - all.time_s;
+    const double df = bin.force - all.force;
+    all.time_spread += bin.time_spread + bin.count * dt * dt;
+    cross += bin.slope * bin.time_spread + bin.count * dt * df;
+    square += bin.scatter + bin.slope * bin.slope * bin.time_spread + bin.count * df * df;
+  }
+  if (all.time_spread > 0.0) all.slope = cross / all.time_spread;
+  all.scatter = std::max(0.0, square - all.slope * cross);
+  return all;
+}
+
+/// A drift that itself bends would make a ramp steeper than the one before it.
+double level_slope(const BlockFit& fit, std::size_t cycle, double time_s) {
+  const double step_s = fit.scales().half_period_s;
+  const double* own = fit.parameters.cycles[cycle].data();
+  const auto level = [&](double t_s) { return fit.model(cycle).level_at(t_s, fit.level_data(), own); };
+  return (level(time_s + step_s) - level(time_s - step_s)) / (2.0 * step_s);
+}
+
+}  // namespace
+
+std::optional<RampBend> ramp_bend(const BlockFit& fit) {
+  // Each cycle's difference of slopes, weighted by what its halves know: slopes have the variance noise^2 /
+  // time_spread.
+  double weights = 0.0;
+  double difference = 0.0;
+  double slope = 0.0;
+  std::vector<std::pair<double, double>> cycles;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    StickBin late = merge(fit.data(i).bins_before);
+    StickBin early = merge(fit.data(i).bins_after);
+    if (late.count < 3.0 || early.count < 3.0) continue;
+    late.slope -= level_slope(fit, i, late.time_s);
+    early.slope -= level_slope(fit, i, early.time_s);
+    const double weight = 1.0 / (1.0 / late.time_spread + 1.0 / early.time_spread);
+    cycles.emplace_back(weight, early.slope - late.slope);
+    weights += weight;
+    difference += weight * (early.slope - late.slope);
+    slope += weight * 0.5 * (early.slope + late.slope);
+  }
+  if (cycles.size() < 5 || !(slope > 0.0)) return std::nullopt;
+  difference /= weights;
+  slope /= weights;
+  double variance = 0.0;
+  for (const auto& [weight, value] : cycles) variance += weight * weight * (value - difference) * (value - difference);
+  return RampBend{difference / slope, std::sqrt(variance) / weights / slope};
+}
+
+double level_trend(const BlockFit& fit) {
+  if (!fit.level().per_cycle || fit.size() < 3) return 0.0;
+  const auto count = static_cast<double>(fit.size());
+  double mean_s = 0.0, mean = 0.0, spread = 0.0, cross = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    mean_s += fit.reference_s(i) / count;
+    mean += fit.parameters.cycles[i][2] * fit.scales().force / count;
+  }
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    const double dt = fit.reference_s(i) - mean_s;
+    const double df = fit.parameters.cycles[i][2] * fit.scales().force - mean;
+    spread += dt * dt;
+    cross += dt * df;
+    square += df * df;
+  }
+  const double rate = cross / spread;
+  const double error = std::sqrt(std::max(0.0, square - rate * cross) / (count - 2.0) / spread);
+  return std::abs(rate) > 3.0 * error ? rate : 0.0;
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,160 @@
+#include "fit/selection/tiers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/cycle/start.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+/// A tier must be better by this much in AICc to displace a poorer one: 10 is "essentially no support" for the poorer
+/// (Burnham and Anderson 2002), so that a richer model is never bought for noise.
+constexpr double kPrice = 10.0;
+
+/// Every tier has the same onset and force for each cycle: only the shared parameters tell them apart.
+double aicc(double rms, double effective, double parameters) {
+  const double room = std::max(1.0, effective - parameters - 1.0);
+  return effective * std::log(rms * rms) + 2.0 * parameters * effective / room;
+}
+
+double rms_of(const DampedFit& fit) {
+  return fit.blocks.scales().noise * std::sqrt(fit.uncertainty.chi2 / std::max(1.0, fit.uncertainty.samples));
+}
+
+std::string against(const Candidate& candidate, const Candidate& other) {
+  return fmt::format("AICc {:+.1f} against {}", *candidate.aicc - *other.aicc,
+                     other.tier == Tier::Sawtooth ? "sawtooth" : "undamped");
+}
+
+double median_slip_s(const BlockFit& blocks) {
+  std::vector<double> durations;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const CycleState state = blocks.state(i);
+    durations.push_back(state.slip.tau_end / state.omega_rad_per_s);
+  }
+  return signal::median(durations);
+}
+
+}  // namespace
+
+double effective_samples(const DampedFit& fit) {
+  const double rho = std::clamp(fit.uncertainty.lag1_correlation, 0.0, 0.99);
+  return std::max(fit.uncertainty.samples * (1.0 - rho) / (1.0 + rho), static_cast<double>(fit.blocks.size()));
+}
+
+SawtoothFit fit_sawtooth(const DampedFit& damped) {
+  const BlockFit& blocks = damped.blocks;
+  SawtoothFit result;
+  std::vector<double> drops;
+  double sum = 0.0;
+  double samples = 0.0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const CycleData& data = blocks.data(i);
+    const CycleState state = blocks.state(i);
+    // Lines of the fit before and after, continued to the middle of the slip.
+    const double jump = state.force_scale * (state.slip.z0 - state.after.intercept);
+    drops.push_back(jump);
+    const double middle_s = blocks.reference_s(i);
+    const double* own = blocks.parameters.cycles[i].data();
+    for (std::size_t j = 0; j < data.time_s.size(); ++j) {
+      const double tau = state.omega_rad_per_s * (data.time_s[j] - state.onset_s);
+      const double z = (data.time_s[j] < middle_s ? state.slip.z0 : state.after.intercept) + tau - state.lag_tau;
+      const double level = blocks.model(i).level_at(data.time_s[j], blocks.level_data(), own);
+      const double residual = data.force[j] - level - state.force_scale * z;
+      sum += residual * residual;
+      samples += 1.0;
+    }
+    for (const auto* bins : {&data.bins_before, &data.bins_after}) {
+      for (const StickBin& bin : *bins) {
+        sum += bin.scatter;
+        samples += bin.count;
+      }
+    }
+  }
+  result.rms = std::sqrt(sum / std::max(1.0, samples));
+  for (const double drop : drops) result.drop += drop / static_cast<double>(drops.size());
+  for (const double drop : drops) result.drop_sd += (drop - result.drop) * (drop - result.drop);
+  result.drop_sd = std::sqrt(result.drop_sd / std::max(1.0, static_cast<double>(drops.size()) - 1.0));
+  return result;
+}
+
+std::string too_few_samples(double samples_per_slip, double sample_interval_s) {
+  const double rate_Hz = std::ceil(6.0 / samples_per_slip) / sample_interval_s;
+  return fmt::format("the slip has {:.1f} samples; sample at {} or more", samples_per_slip,
+                     rate_Hz < 1000.0 ? fmt::format("{:.3g} Hz", rate_Hz) : fmt::format("{:.3g} kHz", 1e-3 * rate_Hz));
+}
+
+Resolution resolution_of(const Recording& recording, const TierFits& fits) {
+  const BlockFit& blocks = fits.damped.blocks;
+  const Uncertainty& uncertainty = fits.damped.uncertainty;
+  Resolution result;
+  result.samples_per_slip = median_slip_s(blocks) / recording.sample_interval_s();
+  const double damping_error = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
+  const bool held = fits.damping_held();
+  // Fewer than 1.5 samples in a slip leave w_n and zeta without a single minimum, unless scattering cycles pin zeta.
+  const bool scatter_tells = !fits.damped.refused_damping && damping_error < 0.01;
+  if (result.samples_per_slip < 1.5 && !held && !scatter_tells) {
+    result.reason = too_few_samples(result.samples_per_slip, recording.sample_interval_s());
+    return result;
+  }
+  result.slip_resolved = true;
+  if (!held && fits.damped.refused_damping) {
+    result.reason =
+        fmt::format("the slip is not shaped like a damped oscillation (its best damping ratio, {:.2f}, is below 0)",
+                    *fits.damped.refused_damping);
+  } else if (!held && !(damping_error < 0.1)) {
+    result.reason = fmt::format("the standard error of the damping ratio is {:.2g}; {}", damping_error,
+                                result.samples_per_slip < 6.0
+                                    ? too_few_samples(result.samples_per_slip, recording.sample_interval_s())
+                                    : std::string("less noise or more cycles would lower it"));
+  } else {
+    result.damping_resolved = true;
+  }
+  return result;
+}
+
+std::vector<Candidate> choose_tier(const TierFits& fits, const Resolution& resolution, std::optional<Tier> forced) {
+  const double effective = effective_samples(fits.damped);
+  Candidate sawtooth{Tier::Sawtooth, 1, fits.sawtooth.rms, std::nullopt, false, {}};
+  sawtooth.aicc = aicc(fits.sawtooth.rms, effective, 1.0);
+  Candidate damped{Tier::Damped, 3, std::nullopt, std::nullopt, false, {}};
+  if (!fits.damped.refused_damping) {
+    damped.rms = rms_of(fits.damped);
+    damped.aicc = aicc(*damped.rms, effective, 3.0);
+  }
+  Candidate undamped{Tier::Undamped, 2, std::nullopt, std::nullopt, false, {}};
+  if (const DampedFit* fit = fits.without_damping()) {
+    undamped.rms = rms_of(*fit);
+    undamped.aicc = aicc(*undamped.rms, effective, 2.0);
+  }
+
+  Tier chosen = Tier::Sawtooth;
+  if (!resolution.slip_resolved) {
+    sawtooth.reason = "the slip is not resolved: " + resolution.reason;
+    undamped.reason = damped.reason = "its slip cannot be told from a jump here";
+  } else {
+    const bool undamped_pays = undamped.aicc && *undamped.aicc + kPrice < *sawtooth.aicc;
+    const bool damped_pays = resolution.damping_resolved && damped.aicc &&
+                             *damped.aicc + kPrice < undamped.aicc.value_or(INFINITY) &&
+                             *damped.aicc + kPrice < *sawtooth.aicc;
+    chosen = damped_pays ? Tier::Damped : undamped_pays ? Tier::Undamped : Tier::Sawtooth;
+    if (undamped.aicc) undamped.reason = against(undamped, sawtooth);
+    if (damped.aicc) damped.reason = against(damped, undamped.aicc ? undamped : sawtooth);
+    if (!resolution.damping_resolved) damped.reason = resolution.reason;
+    sawtooth.reason =
+        chosen == Tier::Sawtooth ? "no richer tier pays for its parameters" : "a richer tier pays for its parameters";
+  }
+  if (forced) chosen = *forced;
+  std::vector<Candidate> candidates{sawtooth, undamped, damped};
+  for (Candidate& candidate : candidates) {
+    candidate.chosen = candidate.tier == chosen;
+    if (candidate.chosen && forced) candidate.reason = "asked for; by itself: " + candidate.reason;
+  }
+  return candidates;
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fit/selection/damped_fit.hpp"
+#include "slipfit/fit/fit.hpp"
+
+namespace slipfit::fit {
+
+/// Poorest tier: straight ramps of one slope, joined by jumps. Nothing about the slip itself.
+struct SawtoothFit {
+  double drop = 0.0;  ///< mean jump at the middle of the slip
+  double drop_sd = 0.0;
+  double rms = 0.0;
+};
+
+SawtoothFit fit_sawtooth(const DampedFit& damped);
+
+/// What the choice of a tier rests on. Where the free damping ratio was refused (DampedFit::refused_damping), `damped`
+/// is the fit with zeta = 0 and there is no other undamped one.
+struct TierFits {
+  SawtoothFit sawtooth;
+  std::optional<DampedFit> undamped;
+  DampedFit damped;
+
+  /// zeta was held by the user.
+  [[nodiscard]] bool damping_held() const { return damped.held.damping && !damped.refused_damping; }
+  [[nodiscard]] const DampedFit* without_damping() const {
+    if (damped.refused_damping) return &damped;
+    return undamped ? &*undamped : nullptr;
+  }
+};
+
+/// How far the slip is resolved: by samples, by the likelihood of zeta, by the misfit of its shape.
+struct Resolution {
+  double samples_per_slip = 0.0;
+  bool slip_resolved = false;     ///< w_n and F_s - F_k can be read from the slip
+  bool damping_resolved = false;  ///< zeta can
+  std::string reason;             ///< why not, or empty
+};
+
+/// Independent residuals: neighbours that correlate by rho count as (1 - rho) / (1 + rho) of themselves; a cycle counts
+/// at least once.
+double effective_samples(const DampedFit& fit);
+
+/// "the slip has 1.4 samples; sample at 8.0 kHz or more": for 6 samples in a slip.
+std::string too_few_samples(double samples_per_slip, double sample_interval_s);
+
+Resolution resolution_of(const Recording& recording, const TierFits& fits);
+
+/// The poorest tier that explains the recording, with the reason for each; `forced` takes the place of the choice.
+std::vector<Candidate> choose_tier(const TierFits& fits, const Resolution& resolution, std::optional<Tier> forced);
+
+}  // namespace slipfit::fit

@@ -1,0 +1,42 @@
+#include <cmath>
+#include <utility>
+
+#include "fit/selection/damped_fit.hpp"
+#include "fit/selection/tiers.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+/// Worse than the damped fit by twice what the tiers must differ by: joined ramps would make it worse still.
+bool is_lost(double loose_chi2, const DampedFit& damped) {
+  constexpr double kLost = 20.0;
+  double damped_chi2 = 0.0;
+  for (std::size_t i = 0; i < damped.blocks.size(); ++i) damped_chi2 += damped.blocks.cycle_sum_of_squares(i);
+  const double worse = (loose_chi2 - damped_chi2) / damped.uncertainty.chi2;
+  return effective_samples(damped) * std::log1p(worse) > kLost;
+}
+
+}  // namespace
+
+std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
+  const BlockFit& from = damped.blocks;
+  BlockFit blocks = duplicate(from);
+  blocks.parameters.shared[2] = 0.0;
+  Held held = damped.held;
+  held.damping = true;
+  // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
+  SolveOptions rough{held, false, true};
+  rough.tolerance = 0.1;
+  const double loose_chi2 = blocks.solve(rough);
+  if (!std::isfinite(loose_chi2)) return std::nullopt;
+  const bool lost = may_lose && is_lost(loose_chi2, damped);
+  const bool joined = damped.continuous && !lost;
+  if (!lost && !std::isfinite(blocks.solve({held, joined, true}))) return std::nullopt;
+  DampedFit result{std::move(blocks), joined, held, damped.refused_damping, damped.excluded, {}, damped.misfit};
+  result.uncertainty = estimate_uncertainty(result.blocks, held, joined);
+  // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.
+  const bool is_false = from.parameters.shared[2] < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
+  return is_false ? std::nullopt : std::optional(std::move(result));
+}
+
+}  // namespace slipfit::fit
