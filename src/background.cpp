@@ -45,7 +45,7 @@ double reflection_at(double zeta) {
 
 Estimate reflection_of(const FitResult& fit) {
   Estimate reflection;
-  const Parameter* const damping = find_parameter(fit, "damping_ratio");
+  const Parameter* const damping = fit.find(ParameterId::DampingRatio);
   if (damping == nullptr) return reflection;
   const Estimate& zeta = damping->estimate;
   reflection.note = zeta.note;

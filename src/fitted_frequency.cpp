@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fit/inference/intervals.hpp"
+#include "fit/inference/student.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {

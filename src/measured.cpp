@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "fit/inference/intervals.hpp"
+#include "fit/inference/student.hpp"
 #include "fitted_frequency.hpp"
 #include "recording_checks.hpp"
 #include "signal/robust.hpp"

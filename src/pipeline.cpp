@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fit/cycle/cycle_table.hpp"
+#include "fit/selection/qualify.hpp"
 #include "measured.hpp"
 #include "recording_checks.hpp"
 #include "signals.hpp"
@@ -46,9 +47,9 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   analysis.frequency = report_frequency(recording, signals, judgement.verdict, fit ? &*fit : nullptr);
   analysis.cycles = summarise_cycles(recording, signals.segmentation, fit ? &*fit : nullptr);
   analysis.cycle_table = fit ? fit->cycles : fit::detected_cycles(recording, signals.segmentation);
-  if (fit && analysis.verdict != Verdict::StickSlip) withdraw_parameters(*fit);
+  if (fit && analysis.verdict != Verdict::StickSlip) fit = fit::without_parameters(*std::move(fit));
   if (fit && analysis.frequency.quoted.value) {
-    doubt_in_step_with_mains(*fit, *analysis.frequency.quoted.value, recording.duration_s());
+    fit = fit::qualified_by_mains(*std::move(fit), *analysis.frequency.quoted.value, recording.duration_s());
   }
   if (fit) analysis.derived = derive_from_model(*fit, recording.conditions());
   if (!fit && recording.conditions().measured_spacing_m) {
@@ -145,7 +146,7 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
     sweep.roles.push_back(role_of(entry.recording, sweep.recordings.back().verdict));
     recordings.push_back({entry.recording, signals.back().quality, signals.back().segmentation, sweep.roles.back()});
   }
-  sweep.joint = fit_jointly(recordings, options);
+  sweep.joint = fit_sweep(recordings, options);
   sweep.derived = derive_from_sweep(sweep.joint ? sweep.joint->fit : FitResult{});
   sweep.joint_reason = describe_roles(sweep.roles);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);

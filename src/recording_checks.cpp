@@ -127,14 +127,13 @@ ShortTest test_ageing(const std::vector<Pair>& pairs, const std::string& unit) {
 }
 
 /// Empty where it is not known with an interval.
-std::optional<Estimate> known_estimate(const FitResult& fit, std::string_view name) {
-  const Parameter* const parameter = find_parameter(fit, name);
-  if (parameter == nullptr || !parameter->estimate.value || !parameter->estimate.ci95) return std::nullopt;
-  return parameter->estimate;
+std::optional<Estimate> known_estimate(Estimate estimate) {
+  if (!estimate.value || !estimate.ci95) return std::nullopt;
+  return estimate;
 }
 
 ShortTest test_mass(const FitResult& fit, double stated_kg) {
-  const std::optional<Estimate> mass = known_estimate(fit, "mass_kg");
+  const std::optional<Estimate> mass = known_estimate(fit.estimate_of(ParameterId::Mass));
   if (!mass || !(*mass->standard_error > 0.0)) {
     return {"stated_mass", {}, {}, {}, "k / w_n^2 is not known: the stated mass cannot be held against it"};
   }
@@ -148,7 +147,7 @@ ShortTest test_mass(const FitResult& fit, double stated_kg) {
 }
 
 ShortTest test_resonance(const FitResult& fit, double resonance_Hz) {
-  const std::optional<Estimate> omega = known_estimate(fit, "natural_frequency_rad_per_s");
+  const std::optional<Estimate> omega = known_estimate(fit.natural_frequency());
   if (!omega) return {"sensor_resonance", {}, {}, {}, "w_n is not known"};
   const double ratio = *omega->value / (2.0 * std::numbers::pi * resonance_Hz);
   return {"sensor_resonance",

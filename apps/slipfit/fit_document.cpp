@@ -29,12 +29,13 @@ constexpr std::array<Needed, 4> kNeeded{{
     {"friction_difference_N", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
 }};
 
-constexpr const char* kSlope = slipfit::kModelValueNames[4];
-constexpr const char* kAlpha = slipfit::kModelValueNames[5];
-constexpr const char* kAgeing = slipfit::kModelValueNames[6];
+/// The table's keys are literals.
+const char* key_of(slipfit::ParameterId id) {
+  return slipfit::info(id).key.data();
+}
 
 bool is_known(const std::string& status) {
-  return status == "identified" || status == "weak" || status == "fixed";
+  return status == "identified" || status == "weak" || status == "fixed" || status == "conditional";
 }
 
 /// What the fit left open, with its own words why.
@@ -50,7 +51,7 @@ void check_known(const std::string& file, const JsonNode& parameters) {
     const std::string status = parameter.member("status").text();
     if (is_known(status)) continue;
     if (status != "bounded" && status != "unidentified") {
-      parameter.member("status").fail("identified, weak, bounded, unidentified or fixed");
+      parameter.member("status").fail("identified, weak, bounded, unidentified, fixed or conditional");
     }
     open += fmt::format("{}{} is {}", open.empty() ? "" : ", ", needed.name, status);
     if (note.empty() && parameter.has("note")) note = parameter.member("note").text();
@@ -118,7 +119,7 @@ std::size_t row_of(const JsonNode& names, const std::string& name) {
 std::vector<std::size_t> rows_of(const JsonNode& names, const std::vector<std::size_t>& places) {
   std::vector<std::size_t> rows;
   rows.reserve(places.size());
-  for (const std::size_t place : places) rows.push_back(row_of(names, slipfit::kModelValueNames[place]));
+  for (const std::size_t place : places) rows.push_back(row_of(names, key_of(slipfit::kModelParameters[place])));
   return rows;
 }
 
@@ -197,7 +198,8 @@ double working_value(const std::string& file, const JsonNode& document, const ch
 
 std::optional<slipfit::SpeedDependence> speed_dependence(const std::string& file, const JsonNode& document) {
   if (!document.has("model") || document.member("model").member("tier").text() != "velocity") return std::nullopt;
-  return slipfit::SpeedDependence{working_value(file, document, kSlope), working_value(file, document, kAlpha)};
+  return slipfit::SpeedDependence{working_value(file, document, key_of(slipfit::ParameterId::FrictionSlope)),
+                                  working_value(file, document, key_of(slipfit::ParameterId::Alpha))};
 }
 
 std::optional<slipfit::Ageing> ageing(const std::string& file, const JsonNode& document) {
@@ -205,7 +207,7 @@ std::optional<slipfit::Ageing> ageing(const std::string& file, const JsonNode& d
   const JsonNode reference = document.member("model").member("ageing_reference_s");
   const std::optional<double> stick_s = reference.number("a number > 0");
   if (!stick_s || !(*stick_s > 0.0)) reference.fail("a number > 0");
-  const double rate_N = working_value(file, document, kAgeing);
+  const double rate_N = working_value(file, document, key_of(slipfit::ParameterId::Ageing));
   if (!(rate_N > 0.0)) refuse_document(file, "cannot predict: ageing_N is not above 0");
   return slipfit::Ageing{rate_N, *stick_s};
 }

@@ -2,36 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <optional>
-#include <string_view>
-#include <utility>
 
 #include "failure.hpp"
 #include "quantities.hpp"
 
 namespace {
 
-struct Fixable {
-  std::string_view name;
-  std::string_view range;
-  double above;  ///< exclusive, but for the damping ratio
-  double below;
-};
-
-constexpr double kNoLimit = 1e300;
-
-// The shared parameters of the tiers; what follows from them (mass, damping coefficient) cannot be held on its own.
-constexpr std::array<Fixable, 3> kFixable{{
-    {"stiffness_N_per_m", "above 0", 0.0, kNoLimit},
-    {"natural_frequency_rad_per_s", "above 0", 0.0, kNoLimit},
-    {"damping_ratio", "at least 0 and below 1", 0.0, 1.0},
-}};
-
+// What follows from these (mass, damping coefficient) cannot be held on its own.
 std::string known_names() {
   std::string names;
-  for (const Fixable& parameter : kFixable) names += (names.empty() ? "" : ", ") + std::string(parameter.name);
+  for (const slipfit::ParameterInfo& parameter : slipfit::parameter_table()) {
+    if (parameter.can_be_held) names += (names.empty() ? "" : ", ") + std::string(parameter.key);
+  }
   return names;
 }
 
@@ -54,25 +37,33 @@ std::optional<slipfit::Tier> tier_from(const std::string& text, FitKind kind) {
                 fmt::format("--tier: unknown tier '{}', expected auto, sawtooth, undamped or damped", text));
 }
 
-std::pair<std::string, double> fixed_from(const std::string& text) {
+std::optional<double>& place_of(slipfit::ParameterId id, slipfit::HeldParameters& held) {
+  if (id == slipfit::ParameterId::Stiffness) return held.stiffness_N_per_m;
+  return id == slipfit::ParameterId::NaturalFrequency ? held.natural_frequency_rad_per_s : held.damping_ratio;
+}
+
+/// "NAME=VALUE"
+void hold(const std::string& text, slipfit::HeldParameters& held) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) {
     throw Failure(ExitCode::WrongUsage, fmt::format("--fix: bad '{}', expected NAME=VALUE", text));
   }
   const std::string name = text.substr(0, equals);
-  const auto* const known = std::find_if(kFixable.begin(), kFixable.end(),
-                                         [&name](const Fixable& parameter) { return parameter.name == name; });
-  if (known == kFixable.end()) {
+  const std::optional<slipfit::ParameterId> known = slipfit::parameter_with_key(name);
+  if (!known || !slipfit::info(*known).can_be_held) {
     throw Failure(ExitCode::WrongUsage,
                   fmt::format("--fix: unknown parameter '{}', expected one of {}", name, known_names()));
   }
   const double value = plain_number("--fix " + name, text.substr(equals + 1), "SI");
-  const bool may_be_zero = known->name == "damping_ratio";
-  if (value < known->above || value >= known->below || (value == 0.0 && !may_be_zero)) {
-    throw Failure(ExitCode::WrongUsage,
-                  fmt::format("--fix {}: {} is out of range, expected a value {}", name, value, known->range));
+  constexpr double kNoLimit = 1e300;
+  const bool is_share = slipfit::info(*known).range == slipfit::ParameterRange::ZeroToOne;
+  if (is_share ? value < 0.0 || value >= 1.0 : value <= 0.0 || value >= kNoLimit) {
+    throw Failure(ExitCode::WrongUsage, fmt::format("--fix {}: {} is out of range, expected a value {}", name, value,
+                                                    is_share ? "at least 0 and below 1" : "above 0"));
   }
-  return {name, value};
+  std::optional<double>& place = place_of(*known, held);
+  if (place) throw Failure(ExitCode::WrongUsage, fmt::format("--fix: '{}' is given twice", name));
+  place = value;
 }
 
 }  // namespace
@@ -80,12 +71,6 @@ std::pair<std::string, double> fixed_from(const std::string& text) {
 slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed, FitKind kind) {
   slipfit::FitOptions options;
   options.tier = tier_from(tier, kind);
-  for (const std::string& text : fixed) {
-    const auto parameter = fixed_from(text);
-    const bool twice = std::any_of(options.fixed.begin(), options.fixed.end(),
-                                   [&parameter](const auto& other) { return other.first == parameter.first; });
-    if (twice) throw Failure(ExitCode::WrongUsage, fmt::format("--fix: '{}' is given twice", parameter.first));
-    options.fixed.push_back(parameter);
-  }
+  for (const std::string& text : fixed) hold(text, options.held);
   return options;
 }

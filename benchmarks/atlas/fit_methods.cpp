@@ -22,11 +22,11 @@ Estimate middle_of(const std::vector<double>& values) {
 }
 
 FitAnswer read_parameters(const std::vector<slipfit::Parameter>& parameters) {
-  constexpr std::array<const char*, kFitParameters> kKeys{"stiffness_N_per_m", "natural_frequency_rad_per_s",
+  constexpr std::array<std::string_view, kFitParameters> kKeys{"stiffness_N_per_m", "natural_frequency_rad_per_s",
                                                           "damping_ratio", "friction_difference_N"};
   FitAnswer answer;
   for (const slipfit::Parameter& parameter : parameters) {
-    const auto key = std::find(kKeys.begin(), kKeys.end(), parameter.name);
+    const auto key = std::find(kKeys.begin(), kKeys.end(), parameter.name());
     if (key == kKeys.end()) continue;
     const auto i = static_cast<std::size_t>(key - kKeys.begin());
     answer.estimates[i] = parameter.estimate;

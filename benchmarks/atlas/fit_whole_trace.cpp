@@ -49,8 +49,8 @@ class WholeTrace {
  private:
   void fill(const slipfit::WaveformSensitivity& wave, const slipfit::Slider& slider, const slipfit::Friction& friction,
             slipfit::SampleTimes times, Eigen::Map<Eigen::MatrixXd> jacobian) const {
-    using Rows = Eigen::Matrix<double, Eigen::Dynamic, slipfit::kModelParameters, Eigen::RowMajor>;
-    const Eigen::Map<const Rows> gradient(wave.gradient.data(), jacobian.rows(), slipfit::kModelParameters);
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, slipfit::kSensitivityParameters, Eigen::RowMajor>;
+    const Eigen::Map<const Rows> gradient(wave.gradient.data(), jacobian.rows(), slipfit::kSensitivityParameters);
     jacobian.col(0) = slider.stiffness_N_per_m() * gradient.col(slipfit::kStiffness);
     jacobian.col(1) = slider.natural_frequency_rad_per_s() * gradient.col(slipfit::kNaturalFrequency);
     jacobian.col(2) = gradient.col(slipfit::kDampingRatio);

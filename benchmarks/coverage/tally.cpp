@@ -25,14 +25,14 @@ const char* name_of(Verdict verdict) {
 }
 
 const char* name_of(ParameterStatus status) {
-  constexpr std::array<const char*, 5> kNames{"identified", "weak", "bounded", "unidentified", "fixed"};
+  constexpr std::array<const char*, 6> kNames{"identified", "weak", "bounded", "unidentified", "fixed", "conditional"};
   return kNames.at(static_cast<std::size_t>(status));
 }
 
 const slipfit::Parameter* find(const Analysis& analysis, const std::string& name) {
   if (!analysis.fit) return nullptr;
   for (const slipfit::Parameter& parameter : analysis.fit->parameters) {
-    if (parameter.name == name) return &parameter;
+    if (parameter.name() == name) return &parameter;
   }
   return nullptr;
 }
@@ -49,7 +49,7 @@ std::map<std::string, double> bounds_of(const Scene& scene) {
   if (analysis.verdict != Verdict::StickSlip) return bounds;
   for (const slipfit::Parameter& parameter : analysis.fit->parameters) {
     if (!parameter.estimate.standard_error) continue;
-    bounds[parameter.name] = *parameter.estimate.standard_error * scene.noise_rms_N / analysis.fit->residual.rms;
+    bounds[std::string(parameter.name())] = *parameter.estimate.standard_error * scene.noise_rms_N / analysis.fit->residual.rms;
   }
   return bounds;
 }

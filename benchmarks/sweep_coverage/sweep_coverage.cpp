@@ -65,7 +65,7 @@ void add_predictions(const Sweep& sweep, const std::string& family, std::vector<
     recordings.push_back(
         {recording, qualities[i], slips[i], i < kFitted ? slipfit::SweepRole::Cycles : slipfit::SweepRole::LeftOut});
   }
-  const auto joint = slipfit::fit_jointly(recordings, {});
+  const auto joint = slipfit::fit_sweep(recordings, {});
   for (std::size_t i = kFitted; joint && i < speeds; ++i) {
     const auto truth = sweep.truth.spacing_m(sweep.entries[i].recording.conditions().speed_m_per_s);
     const slipfit::Estimate& spacing = joint->points[i].spacing_m;
@@ -79,7 +79,8 @@ std::vector<Row> study(std::uint64_t seed) {
       {slipfit::ParameterStatus::Weak, "weak"},
       {slipfit::ParameterStatus::Bounded, "bounded"},
       {slipfit::ParameterStatus::Unidentified, "unidentified"},
-      {slipfit::ParameterStatus::Fixed, "fixed"}};
+      {slipfit::ParameterStatus::Fixed, "fixed"},
+      {slipfit::ParameterStatus::Conditional, "conditional"}};
   const Sweep sweep = sweep_coverage::make_sweep(seed);
   const std::string family = sweep.truth.alpha_s_per_m < 0.0 ? "alpha<0" : "alpha>0";
   const slipfit::SweepAnalysis analysis = slipfit::analyze_sweep(sweep.entries, {});
@@ -87,9 +88,9 @@ std::vector<Row> study(std::uint64_t seed) {
   if (!analysis.joint) return rows;
   const std::map<std::string, double> truths = truths_of(sweep.truth);
   for (const slipfit::Parameter& parameter : analysis.joint->fit.parameters) {
-    const auto truth = truths.find(parameter.name);
+    const auto truth = truths.find(std::string(parameter.name()));
     if (truth == truths.end() || !parameter.estimate.value) continue;
-    rows.push_back({seed, family, parameter.name, kStatus.at(parameter.status), truth->second, parameter.estimate});
+    rows.push_back({seed, family, std::string(parameter.name()), kStatus.at(parameter.status), truth->second, parameter.estimate});
   }
   for (std::size_t i = 0; i < sweep.entries.size(); ++i) {
     const auto truth = sweep.truth.spacing_m(sweep.entries[i].recording.conditions().speed_m_per_s);

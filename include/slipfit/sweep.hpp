@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "slipfit/core/recording.hpp"
-#include "slipfit/fit/joint.hpp"
+#include "slipfit/fit/sweep.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/pipeline.hpp"
 
@@ -26,7 +26,7 @@ Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manife
 struct SweepAnalysis {
   std::vector<Analysis> recordings;  ///< in the order of the entries; `fit` is each recording's own
   std::vector<SweepRole> roles;      ///< what each was used for
-  std::optional<JointFit> joint;     ///< empty: fewer than two recordings with stick-slip cycles
+  std::optional<SweepFit> joint;     ///< empty: fewer than two recordings with stick-slip cycles
   std::string joint_reason;          ///< what it is made of, or why there is none
   Derived derived;                   ///< critical speed; what belongs to one speed is empty
   Warnings warnings;                 ///< of the sweep as a whole, the joint fit's included

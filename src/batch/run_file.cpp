@@ -26,7 +26,13 @@ std::string utc_now() {
 
 std::string options_text(const BatchOptions& options) {
   Json fixed = Json::object();
-  for (const auto& [name, value] : options.fit.fixed) fixed[name] = value;
+  const HeldParameters& held = options.fit.held;
+  const auto put = [&](ParameterId id, const std::optional<double>& value) {
+    if (value) fixed[std::string(info(id).key)] = *value;
+  };
+  put(ParameterId::Stiffness, held.stiffness_N_per_m);
+  put(ParameterId::NaturalFrequency, held.natural_frequency_rad_per_s);
+  put(ParameterId::DampingRatio, held.damping_ratio);
   return Json{{"tier", options.fit.tier ? std::string(name_of(*options.fit.tier)) : "auto"},
               {"fix", fixed},
               {"joint_groups", static_cast<bool>(options.fit_group)}}

@@ -9,10 +9,9 @@
 #include "fit/contact/contact_fit.hpp"
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/level/mains_hum.hpp"
-#include "fit/report/parameters.hpp"
+#include "fit/report/recording_findings.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/tiers.hpp"
-#include "signal/mains.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -22,8 +21,8 @@ using fit::BlockFit;
 using fit::CycleState;
 using fit::DampedFit;
 
-fit::HeldValues held_values(const FitOptions& options) {
-  fit::HeldValues held = fit::fixed_values(options);
+HeldParameters held_parameters(const FitOptions& options) {
+  HeldParameters held = options.held;
   if (options.tier == Tier::Undamped) held.damping_ratio = 0.0;
   return held;
 }
@@ -38,7 +37,7 @@ Evidence weigh(const Recording& recording, const DampedFit& damped, const fit::R
     const CycleState state = blocks.state(i);
     onset_forces.push_back(state.onset_force);
     mean += state.onset_force / count;
-    restick += (state.slip.resticks ? 1.0 : 0.0) / count;
+    restick += (state.motion.slip.resticks ? 1.0 : 0.0) / count;
   }
   const auto half = static_cast<std::ptrdiff_t>(onset_forces.size() / 2);
   Evidence evidence;
@@ -79,10 +78,10 @@ void tabulate(const Recording& recording, const Segmentation& segmentation, cons
     Cycle& row = result.cycles[blocks.data(c).slip];
     row.used = true;
     row.onset_s = state.onset_s;
-    row.end_s = state.onset_s + state.slip.tau_end / state.omega_rad_per_s;
+    row.end_s = state.onset_s + state.slip_s();
     row.level_force = blocks.model(c).level_at(state.onset_s, blocks.level_data(), own);
     row.onset_force = *row.level_force + state.onset_force;
-    row.recovery_s = (state.slip.z0 - state.after.intercept) / state.omega_rad_per_s;
+    row.recovery_s = (state.z0() - state.motion.after.intercept) / state.omega_rad_per_s;
     row.residual_rms = blocks.scales().noise *
                        std::sqrt(blocks.cycle_sum_of_squares(c) / static_cast<double>(blocks.data(c).residuals()));
   }
@@ -98,8 +97,8 @@ std::vector<CurvePoint> curve_of(const Recording& recording, const BlockFit& blo
     auto i = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), blocks.data(c).window_begin_s) -
                                       time_s.begin());
     for (; i < time_s.size() && time_s[i] < blocks.data(c).window_end_s; ++i) {
-      curve.push_back({i, blocks.model(c).force_at(state, time_s[i], blocks.level_data(), own) +
-                              blocks.model(c).hum_at(time_s[i], blocks.level_data())});
+      curve.push_back({i, blocks.model(c).level_at(time_s[i], blocks.level_data(), own) +
+                              blocks.model(c).hum_at(time_s[i], blocks.level_data()) + state.force_at(time_s[i])});
     }
   }
   return curve;
@@ -121,49 +120,16 @@ Residual residual_of(const DampedFit& chosen, const Quality& quality) {
 
 }  // namespace
 
-const Parameter* find_parameter(const FitResult& fit, std::string_view name) {
-  const auto found = std::find_if(fit.parameters.begin(), fit.parameters.end(),
-                                  [name](const Parameter& parameter) { return parameter.name == name; });
-  return found == fit.parameters.end() ? nullptr : &*found;
-}
-
-void withdraw_parameters(FitResult& fit) {
-  for (Parameter& parameter : fit.parameters) {
-    if (parameter.status == ParameterStatus::Fixed) continue;
-    parameter = {parameter.name, {}, ParameterStatus::Unidentified};
-    parameter.estimate.note = "the motion is not stick-slip of this model";
-  }
-  fit.correlation.reset();
-  fit.estimate.reset();
-}
-
-void doubt_in_step_with_mains(FitResult& fit, double frequency_Hz, double duration_s) {
-  const bool hum_found = fit.evidence.hum_share > 0.0;
-  const std::optional<double> mains_Hz = signal::mains_in_step(frequency_Hz, hum_found ? 2 : 1, duration_s);
-  if (!mains_Hz) return;
-  const std::string reason = fmt::format("in step with {:.0f} Hz mains: hum hides in the cycles", *mains_Hz);
-  fit.warnings.push_back(
-      {"mains_in_step",
-       fmt::format("the cycles ({:.4g} Hz) keep {}{}; another speed or a longer recording sets them apart",
-                   frequency_Hz, reason, hum_found ? "" : ", and is taken to be absent")});
-  if (!hum_found) return;
-  for (Parameter& parameter : fit.parameters) {
-    if (parameter.status != ParameterStatus::Identified) continue;
-    parameter.status = ParameterStatus::Weak;
-    parameter.estimate.note = reason;
-  }
-}
-
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
                                        const Segmentation& segmentation, const FitOptions& options) {
   if (recording.conditions().force_view == ForceView::Contact)
     return fit::fit_contact(recording, segmentation, options);
-  std::optional<DampedFit> damped = fit::fit_damped(recording, quality, segmentation, held_values(options));
+  std::optional<DampedFit> damped = fit::fit_damped(recording, quality, segmentation, held_parameters(options));
   if (!damped) return std::nullopt;
   fit::TierFits fits{fit::fit_sawtooth(*damped), std::nullopt, std::move(*damped)};
   const fit::Resolution resolution = fit::resolution_of(recording, fits);
   const bool undamped_may_lose = resolution.damping_resolved && options.tier != Tier::Undamped;
-  if (!fits.damped.held.damping) fits.undamped = fit::fit_undamped(fits.damped, undamped_may_lose);
+  if (!fits.damped.held[fit::kDamping]) fits.undamped = fit::fit_undamped(fits.damped, undamped_may_lose);
 
   FitResult result;
   result.candidates = fit::choose_tier(fits, resolution, options.tier);
@@ -175,7 +141,7 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   result.evidence = weigh(recording, fits.damped, resolution);
   result.conditional_on.emplace_back(
       "Coulomb friction (one speed cannot tell zeta and F_s - F_k from friction that depends on speed)");
-  fit::report_parameters(recording, fits, resolution, result);
+  fit::report_parameters(fit::findings_of(recording, fits, resolution), result);
   result.residual = residual_of(chosen, quality);
   tabulate(recording, segmentation, chosen.blocks, result);
   if (const auto& misfit = chosen.misfit) {

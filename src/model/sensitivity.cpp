@@ -9,12 +9,12 @@
 namespace slipfit {
 namespace {
 
-using Jet = ceres::Jet<double, static_cast<int>(kModelParameters)>;
+using Jet = ceres::Jet<double, static_cast<int>(kSensitivityParameters)>;
 
 Sensitive sensitive(const Jet& x) {
   Sensitive result;
   result.value = x.a;
-  std::copy_n(x.v.data(), static_cast<std::size_t>(kModelParameters), result.gradient.begin());
+  std::copy_n(x.v.data(), static_cast<std::size_t>(kSensitivityParameters), result.gradient.begin());
   return result;
 }
 

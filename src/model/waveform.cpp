@@ -107,7 +107,7 @@ class ChainRule {
     log_scale_[kDrivingSpeed] = 1.0 / speed_m_per_s;
     // z0 = (F_s - F_k) / scale - 2 zeta
     const double lambda = friction.difference_N() / scale_N_;
-    for (std::size_t i = 0; i < kModelParameters; ++i) z0_gradient_[i] = -lambda * log_scale_[i];
+    for (std::size_t i = 0; i < kSensitivityParameters; ++i) z0_gradient_[i] = -lambda * log_scale_[i];
     z0_gradient_[kStaticFriction] = 1.0 / scale_N_;
     z0_gradient_[kKineticFriction] = -1.0 / scale_N_;
     z0_gradient_[kDampingRatio] = -2.0;
@@ -117,7 +117,7 @@ class ChainRule {
   void put(const model::WavePoint& wave, double tau, std::size_t cycle, double* row) const {
     const auto periods = static_cast<double>(cycle);
     const double tau_by_period = -periods * w_n_ * wave.d_tau;
-    for (std::size_t i = 0; i < kModelParameters; ++i) {
+    for (std::size_t i = 0; i < kSensitivityParameters; ++i) {
       row[i] = scale_N_ * (wave.z * log_scale_[i] + wave.d_z0 * z0_gradient_[i] + tau_by_period * period_[i]);
     }
     row[kDampingRatio] += scale_N_ * wave.d_zeta;
@@ -127,9 +127,9 @@ class ChainRule {
 
  private:
   double scale_N_, w_n_;
-  std::array<double, kModelParameters> period_{};
-  std::array<double, kModelParameters> log_scale_{};
-  std::array<double, kModelParameters> z0_gradient_{};
+  std::array<double, kSensitivityParameters> period_{};
+  std::array<double, kSensitivityParameters> log_scale_{};
+  std::array<double, kSensitivityParameters> z0_gradient_{};
 };
 
 }  // namespace
@@ -138,12 +138,12 @@ std::optional<WaveformSensitivity> damped_waveform_sensitivity(const Slider& sli
                                                                double speed_m_per_s, const SampleTimes& times) {
   const std::optional<Periodic> p = periodic(slider, friction, speed_m_per_s);
   if (!p) return std::nullopt;
-  WaveformSensitivity result{std::vector<double>(times.count), std::vector<double>(times.count * kModelParameters)};
+  WaveformSensitivity result{std::vector<double>(times.count), std::vector<double>(times.count * kSensitivityParameters)};
   const ChainRule chain(*p, slider, friction, speed_m_per_s);
   const double step = p->w_n * times.step_s;
   const auto put = [&](std::size_t i, const model::WavePoint& wave, double tau, std::size_t cycle) {
     result.force_N[i] = p->kinetic_N + p->scale_N * wave.z;
-    chain.put(wave, tau, cycle, result.gradient.data() + i * kModelParameters);
+    chain.put(wave, tau, cycle, result.gradient.data() + i * kSensitivityParameters);
   };
   Phasor phasor(p->zeta, p->slip.b, step);
   const auto slips = [&](std::size_t first, std::size_t last, double tau, std::size_t cycle) {

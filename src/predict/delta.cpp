@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "fit/inference/intervals.hpp"
+#include "fit/inference/student.hpp"
 #include "model/slip.hpp"
 #include "predict/ageing.hpp"
 #include "predict/velocity.hpp"

@@ -14,8 +14,8 @@ using predict::unknown;
 /// gamma = F_s / F_k, [Paper] eq. (5): needs the sensor's zero.
 Estimate force_ratio(const FitResult& fit, const Conditions& conditions) {
   if (!conditions.zero_force_N) return unknown("needs the sensor's zero: state it with --zero");
-  const Parameter* const difference = find_parameter(fit, "friction_difference_N");
-  const Parameter* const kinetic = find_parameter(fit, "kinetic_friction_N");
+  const Parameter* const difference = fit.find(ParameterId::FrictionDifference);
+  const Parameter* const kinetic = fit.find(ParameterId::KineticFriction);
   if (difference == nullptr || kinetic == nullptr || !kinetic->estimate.value || !(*kinetic->estimate.value > 0.0)) {
     return unknown("F_k is not known, or not positive");
   }

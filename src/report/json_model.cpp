@@ -21,8 +21,9 @@ Json candidate_json(const Candidate& candidate, ForceQuantity quantity) {
 
 /// Its place in ModelEstimate::covariance.
 std::size_t place_of(const std::string& name) {
-  return static_cast<std::size_t>(std::find(kModelValueNames.begin(), kModelValueNames.end(), name) -
-                                  kModelValueNames.begin());
+  const auto* const found = std::find_if(kModelParameters.begin(), kModelParameters.end(),
+                                         [&name](ParameterId id) { return info(id).key == name; });
+  return static_cast<std::size_t>(found - kModelParameters.begin());
 }
 
 /// What the covariance belongs to, in the order of Correlation::names. A value that the data hardly tell alone, and
@@ -72,7 +73,7 @@ Json model_json(const FitResult& fit, ForceQuantity quantity) {
 Json parameters_json(const FitResult& fit) {
   Json json = Json::object();
   for (const Parameter& parameter : fit.parameters) {
-    json[parameter.name] = {{"value", number(parameter.estimate.value)},
+    json[std::string(parameter.name())] = {{"value", number(parameter.estimate.value)},
                             {"se", number(parameter.estimate.standard_error)},
                             {"ci95", interval(parameter.estimate.ci95)},
                             {"status", name_of(parameter.status)},

@@ -56,6 +56,8 @@ std::string_view name_of(ParameterStatus status) {
       return "bounded";
     case ParameterStatus::Unidentified:
       return "unidentified";
+    case ParameterStatus::Conditional:
+      return "conditional";
     case ParameterStatus::Fixed:
       return "fixed";
   }

@@ -13,40 +13,6 @@
 namespace slipfit {
 namespace {
 
-struct ParameterName {
-  std::string_view key;
-  std::string_view words;
-  std::string_view unit;
-};
-
-constexpr std::array<ParameterName, 18> kParameterNames{{
-    {"stiffness_N_per_m", "tangential stiffness k", "N/m"},
-    {"friction_difference_N", "static minus kinetic friction", "N"},
-    {"ageing_N", "static friction's growth with ln stick time", "N"},
-    {"static_friction_N", "static friction F_s", "N"},
-    {"kinetic_friction_N", "kinetic friction F_k", "N"},
-    {"natural_frequency_rad_per_s", "natural frequency w_n", "rad/s"},
-    {"mass_kg", "effective mass m", "kg"},
-    {"damping_ratio", "damping ratio zeta", ""},
-    {"damping_coefficient_N_s_per_m", "damping coefficient c", "N s/m"},
-    {"friction_slope_N_s_per_m", "slope of friction at rest f1 alpha", "N s/m"},
-    {"alpha_s_per_m", "velocity dependence alpha", "s/m"},
-    {"f0_N", "friction at high speed f0", "N"},
-    {"f1_N", "velocity-dependent friction f1", "N"},
-    {"mu0", "friction coefficient mu0", ""},
-    {"mu1", "friction coefficient mu1", ""},
-    {"friction_coefficient_difference", "static minus kinetic coefficient", ""},
-    {"static_friction_coefficient", "static friction coefficient", ""},
-    {"kinetic_friction_coefficient", "kinetic friction coefficient", ""},
-}};
-
-ParameterName words_for(const Parameter& parameter) {
-  for (const ParameterName& name : kParameterNames) {
-    if (name.key == parameter.name) return name;
-  }
-  return {parameter.name, parameter.name, ""};
-}
-
 /// Each note once, behind the names of the parameters that it is about.
 std::string notes_text(const std::vector<Parameter>& parameters) {
   std::string text;
@@ -56,7 +22,7 @@ std::string notes_text(const std::vector<Parameter>& parameters) {
     if (note.empty() || std::any_of(parameters.begin(), first, has_note)) continue;
     std::string names;
     for (auto other = first; other != parameters.end(); ++other) {
-      if (has_note(*other)) names += (names.empty() ? "" : ", ") + one_line(words_for(*other).words);
+      if (has_note(*other)) names += (names.empty() ? "" : ", ") + one_line(info(other->id).words);
     }
     text += fmt::format("    {}: {}\n", names, one_line(note));
   }
@@ -96,7 +62,7 @@ std::string conditions_text(const std::vector<std::string>& conditional_on) {
 std::vector<ShownParameter> shown_parameters(const FitResult& fit) {
   std::vector<ShownParameter> shown;
   for (const Parameter& parameter : fit.parameters) {
-    const ParameterName name = words_for(parameter);
+    const ParameterInfo& name = info(parameter.id);
     EstimateRow row = estimate_row(parameter.estimate, std::string(name.unit));
     const bool has_value =
         parameter.status != ParameterStatus::Bounded && parameter.status != ParameterStatus::Unidentified;

@@ -13,7 +13,7 @@ namespace failures {
 inline std::optional<slipfit::Parameter> parameter(const slipfit::Analysis& analysis, const std::string& name) {
   if (!analysis.fit) return std::nullopt;
   for (const slipfit::Parameter& p : analysis.fit->parameters) {
-    if (p.name == name) return p;
+    if (p.name() == name) return p;
   }
   return std::nullopt;
 }

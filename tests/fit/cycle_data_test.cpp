@@ -155,9 +155,9 @@ TEST_CASE("residuals are data minus model in sticks and slips, and nothing where
       if (std::binary_search(excluded.begin(), excluded.end(), i)) continue;
       const double t_s = r.recording.time_s()[i];
       expected[i] = r.recording.force()[i] -
-                    fit.model(c).force_at(state, t_s, fit.level_data(), fit.parameters.cycles[c].data()) -
+                    (fit.model(c).level_at(t_s, fit.level_data(), fit.parameters.cycles[c].data()) + state.force_at(t_s)) -
                     fit.model(c).hum_at(t_s, fit.level_data());
-      const bool slips = t_s > state.onset_s && t_s < state.onset_s + state.slip.tau_end / state.omega_rad_per_s;
+      const bool slips = t_s > state.onset_s && t_s < state.onset_s + state.slip_s();
       CHECK(residuals.phase[i] == (slips ? Phase::Slip : Phase::Stick));
     }
   }

@@ -50,7 +50,7 @@ int covered(const Damage& damage, const std::string& name, double truth) {
     const Analysis analysis = analyze_and_fit(damaged(seed, damage), {});
     REQUIRE(analysis.verdict == Verdict::StickSlip);
     for (const Parameter& p : analysis.fit->parameters) {
-      if (p.name != name) continue;
+      if (p.name() != name) continue;
       REQUIRE(p.estimate.ci95);
       inside += p.estimate.ci95->low <= truth && truth <= p.estimate.ci95->high ? 1 : 0;
     }
@@ -99,7 +99,7 @@ TEST_CASE("hum is not taken for stick-slip, whatever it hides") {
     if (analysis.verdict != Verdict::StickSlip) continue;
     ++seen;
     for (const Parameter& p : analysis.fit->parameters) {
-      if (p.name != "stiffness_N_per_m" || !p.estimate.value) continue;
+      if (p.name() != "stiffness_N_per_m" || !p.estimate.value) continue;
       INFO("seed " << seed);
       CHECK(*p.estimate.value == Approx(kStiffness).epsilon(0.05));
     }
@@ -118,7 +118,7 @@ TEST_CASE("slips that are not shaped like the model's: warned of, w_n weak or wi
   CHECK(std::any_of(analysis.warnings.begin(), analysis.warnings.end(),
                     [](const Warning& w) { return w.code == "model_misfit"; }));
   for (const Parameter& p : analysis.fit->parameters) {
-    if (p.name != "natural_frequency_rad_per_s" || !p.estimate.ci95) continue;
+    if (p.name() != "natural_frequency_rad_per_s" || !p.estimate.ci95) continue;
     const bool holds = p.estimate.ci95->low <= kOmega && kOmega <= p.estimate.ci95->high;
     CHECK((holds || p.status == ParameterStatus::Weak));
   }

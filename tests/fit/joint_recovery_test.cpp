@@ -19,7 +19,7 @@ const std::vector<double> kSpeeds{0.005, 0.01, 0.02, 0.04};
 
 const Parameter& parameter(const SweepAnalysis& sweep, const std::string& name) {
   for (const Parameter& p : sweep.joint->fit.parameters) {
-    if (p.name == name) return p;
+    if (p.name() == name) return p;
   }
   FAIL("no parameter " << name);
   return sweep.joint->fit.parameters.front();

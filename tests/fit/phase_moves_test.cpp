@@ -56,17 +56,17 @@ TEST_CASE("one step without a stretch of the slips moves the quantities nearly a
   const auto damped = fit::fit_damped(recording, quality, find_slips(recording, quality), {});
   REQUIRE(damped);
   REQUIRE(damped->misfit);
-  const Eigen::MatrixXd moves = fit::moves_by_phase(damped->blocks, damped->held);
+  const fit::Moves moves = fit::moves_by_phase(damped->blocks, damped->held);
   REQUIRE(moves.rows() == fit::kPhases);
-  const Eigen::VectorXd before = fit::quantities_of(damped->blocks);
+  const fit::Coordinates before = fit::coordinates_of(damped->blocks);
   Eigen::MatrixXd refitted(fit::kPhases, before.size());
   for (int phase = 0; phase < fit::kPhases; ++phase) {
     fit::BlockFit refit = without(damped->blocks, static_cast<std::size_t>(phase));
     REQUIRE(std::isfinite(refit.solve({damped->held, false, true})));
-    refitted.row(phase) = (fit::quantities_of(refit) - before).transpose();
+    refitted.row(phase) = (fit::coordinates_of(refit) - before).transpose();
   }
   // Only the spread over the stretches is used; the step is linear, the refit is not.
-  for (const Eigen::Index quantity : {fit::kLogStiffness, fit::kLogFrequency, fit::kDamping, fit::kOnsetForce}) {
+  for (const Eigen::Index quantity : {fit::kLogStiffness, fit::kLogFrequency, fit::kDamping, fit::kDifference}) {
     INFO("quantity " << quantity);
     CHECK((moves - refitted).col(quantity).norm() < 0.25 * refitted.col(quantity).norm());
   }

@@ -213,7 +213,8 @@ TEST_CASE("held parameters stay where they are put") {
   Scene s;
   s.noise = 0.01;
   FitOptions options;
-  options.fixed = {{"damping_ratio", 0.02}, {"stiffness_N_per_m", 510.0}};
+  options.held.damping_ratio = 0.02;
+  options.held.stiffness_N_per_m = 510.0;
   const Analysis analysis = analyze_and_fit(record(s), options);
   CHECK(parameter(analysis, "damping_ratio").status == ParameterStatus::Fixed);
   CHECK(*parameter(analysis, "damping_ratio").estimate.value == Approx(0.02));

@@ -44,7 +44,7 @@ inline Recording record(const Scene& s) {
 
 inline const Parameter& parameter(const Analysis& analysis, const std::string& name) {
   for (const Parameter& p : analysis.fit->parameters) {
-    if (p.name == name) return p;
+    if (p.name() == name) return p;
   }
   FAIL("no parameter " << name);
   return analysis.fit->parameters.front();

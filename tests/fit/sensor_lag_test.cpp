@@ -1,4 +1,4 @@
-#include "fit/cycle/sensor_lag.hpp"
+#include "fit/observation/sensor_lag.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -11,7 +11,7 @@ using namespace slipfit;
 
 namespace {
 
-using Values = std::array<double, kModelParameters>;
+using Values = std::array<double, kSensitivityParameters>;
 
 Slider slider_of(const Values& p) {
   return Slider::create(p[kStiffness], p[kNaturalFrequency], p[kDampingRatio]).value();
@@ -61,7 +61,7 @@ TEST_CASE("derivatives of times and forces agree with fourth-order differences")
       const auto f = [&](const Values& q) {
         return (*damped_motion(slider_of(q), friction_of(q), q[kDrivingSpeed]).cycle).*member;
       };
-      for (std::size_t i = 0; i < kModelParameters; ++i) {
+      for (std::size_t i = 0; i < kSensitivityParameters; ++i) {
         INFO("trial " << trial << " parameter " << i);
         const double size = std::abs(cycle.*member) / p[i];
         CHECK(sensitive.gradient[i] == Approx(difference(f, p, i, 2e-4)).epsilon(1e-7).margin(1e-7 * size));
@@ -171,12 +171,12 @@ TEST_CASE("waveform derivatives agree with fourth-order differences") {
         return (*damped_waveform(slider_of(q), friction_of(q), q[kDrivingSpeed], ForceView::Spring, times))[sample];
       };
       CHECK(exact->force_N[sample] == Approx(f(p)).epsilon(1e-11));
-      for (std::size_t i = 0; i < kModelParameters; ++i) {
+      for (std::size_t i = 0; i < kSensitivityParameters; ++i) {
         INFO("trial " << trial << " sample " << sample << " parameter " << i);
         // The second derivative jumps at events: where one crosses a sample within the step, a part of h times it
         // remains.
         const double size = cycle.force_peak_N / p[i];
-        CHECK(exact->gradient[sample * kModelParameters + i] ==
+        CHECK(exact->gradient[sample * kSensitivityParameters + i] ==
               Approx(difference(f, p, i, 1e-6)).epsilon(1e-6).margin(1e-5 * size));
       }
     }

@@ -15,7 +15,7 @@ namespace {
 
 const Parameter& parameter(const SweepAnalysis& sweep, const std::string& name) {
   const auto& all = sweep.joint->fit.parameters;
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name() == name; });
   REQUIRE(found != all.end());
   return *found;
 }

@@ -31,7 +31,7 @@ class Dice {
 const Parameter* find(const Analysis& analysis, const std::string& name) {
   if (!analysis.fit) return nullptr;
   for (const Parameter& parameter : analysis.fit->parameters) {
-    if (parameter.name == name) return &parameter;
+    if (parameter.name() == name) return &parameter;
   }
   return nullptr;
 }
@@ -98,11 +98,11 @@ void check_same(const Analysis& before, const Analysis& after, const Factors& fa
   CHECK(after.fit->tier == before.fit->tier);
   REQUIRE(after.fit->parameters.size() == before.fit->parameters.size());
   for (const Parameter& parameter : before.fit->parameters) {
-    CAPTURE(parameter.name);
-    const Parameter* const other = find(after, parameter.name);
+    CAPTURE(parameter.name());
+    const Parameter* const other = find(after, std::string(parameter.name()));
     REQUIRE(other != nullptr);
     CHECK(other->status == parameter.status);
-    const auto factor = factors.find(parameter.name);
+    const auto factor = factors.find(std::string(parameter.name()));
     check_estimate(parameter.estimate, other->estimate, factor == factors.end() ? 1.0 : factor->second);
   }
 }
@@ -112,11 +112,11 @@ void check_agree(const Analysis& first, const Analysis& second) {
   REQUIRE(first.fit.has_value());
   std::size_t compared = 0;
   for (const Parameter& parameter : first.fit->parameters) {
-    const Parameter* const other = find(second, parameter.name);
+    const Parameter* const other = find(second, std::string(parameter.name()));
     if (other == nullptr || !parameter.estimate.ci95 || !other->estimate.ci95) continue;
     const Interval a = *parameter.estimate.ci95;
     const Interval b = *other->estimate.ci95;
-    CAPTURE(parameter.name, a.low, a.high, b.low, b.high);
+    CAPTURE(parameter.name(), a.low, a.high, b.low, b.high);
     CHECK(std::max(a.low, b.low) <= std::min(a.high, b.high));
     ++compared;
   }

@@ -38,7 +38,7 @@ std::optional<Analysis> fit_file(const std::string& file, double speed_m_per_s, 
 const Parameter* find(const Analysis& analysis, const std::string& name) {
   if (!analysis.fit) return nullptr;
   for (const Parameter& p : analysis.fit->parameters) {
-    if (p.name == name) return &p;
+    if (p.name() == name) return &p;
   }
   return nullptr;
 }

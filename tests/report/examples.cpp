@@ -37,13 +37,17 @@ slipfit::FitResult example_fit() {
                     {slipfit::Tier::Damped, 3, 0.02, -250.25, true, "lowest AICc"}};
   fit.residual = {0.02, 1.01, 0.4};
   fit.parameters = {
-      {"stiffness_N_per_m", {1002.3456, 1.2345, Interval{999.93, 1004.76}, ""}, ParameterStatus::Identified},
-      {"friction_difference_N",
+      {slipfit::ParameterId::Stiffness,
+       {1002.3456, 1.2345, Interval{999.93, 1004.76}, ""},
+       ParameterStatus::Identified},
+      {slipfit::ParameterId::FrictionDifference,
        {1.5, std::nullopt, Interval{1.0, 2.0}, "the slip is not resolved"},
        ParameterStatus::Bounded},
-      {"static_friction_N", {std::nullopt, std::nullopt, std::nullopt, "needs --zero"}, ParameterStatus::Unidentified},
-      {"natural_frequency_rad_per_s", {200.0, std::nullopt, std::nullopt, ""}, ParameterStatus::Fixed},
-      {"damping_ratio", {0.0512, 0.011, Interval{0.029, 0.073}, ""}, ParameterStatus::Weak}};
+      {slipfit::ParameterId::StaticFriction,
+       {std::nullopt, std::nullopt, std::nullopt, "needs --zero"},
+       ParameterStatus::Unidentified},
+      {slipfit::ParameterId::NaturalFrequency, {200.0, std::nullopt, std::nullopt, ""}, ParameterStatus::Fixed},
+      {slipfit::ParameterId::DampingRatio, {0.0512, 0.011, Interval{0.029, 0.073}, ""}, ParameterStatus::Weak}};
   fit.correlation = slipfit::Correlation{{"stiffness_N_per_m", "damping_ratio"}, {{1.0, 0.25}, {0.25, 1.0}}};
   fit.curve = {{2, 1.25}, {3, 1.5}};
   return fit;

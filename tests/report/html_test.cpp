@@ -126,8 +126,9 @@ TEST_CASE("what the fit does not know is said in words, with the reason") {
   REQUIRE(analysis.fit);
   analysis.verdict = slipfit::Verdict::StickSlip;
   analysis.fit->estimate.reset();
-  analysis.fit->parameters = {
-      {"damping_ratio", {{}, {}, {}, "the slip is not resolved"}, slipfit::ParameterStatus::Unidentified}};
+  analysis.fit->parameters = {{slipfit::ParameterId::DampingRatio,
+                               {{}, {}, {}, "the slip is not resolved"},
+                               slipfit::ParameterStatus::Unidentified}};
   analysis.derived = {};
   analysis.derived.lambda.note = "needs zeta";
   const std::string page = page_of(recording, analysis);

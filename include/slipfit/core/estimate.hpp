@@ -21,13 +21,13 @@ struct Estimate {
 };
 
 /// What the data say about a model parameter (docs/accuracy.md gives the rule for each).
-enum class ParameterStatus { Identified, Weak, Bounded, Unidentified, Fixed };
-
-/// One named model parameter in SI units; `name` is the JSON key (`stiffness_N_per_m`).
-struct Parameter {
-  std::string name;
-  Estimate estimate;
-  ParameterStatus status = ParameterStatus::Unidentified;
+enum class ParameterStatus {
+  Identified,
+  Weak,
+  Bounded,
+  Unidentified,
+  Fixed,
+  Conditional  ///< known if something holds that the recording cannot show: the note says what
 };
 
 /// Something that the user should know before trusting the numbers. `code` is snake_case and listed in docs/formats.md.

@@ -16,13 +16,13 @@ enum ModelParameter : std::size_t {
   kStaticFriction,
   kKineticFriction,
   kDrivingSpeed,
-  kModelParameters
+  kSensitivityParameters
 };
 
 /// A value and its derivatives.
 struct Sensitive {
   double value = 0.0;
-  std::array<double, kModelParameters> gradient{};
+  std::array<double, kSensitivityParameters> gradient{};
 };
 
 /// One period with exact derivatives: the end of slip moves with the parameters (implicit function theorem).

@@ -23,7 +23,7 @@ std::optional<std::vector<double>> damped_waveform(const Slider& slider, const F
 
 struct WaveformSensitivity {
   std::vector<double> force_N;
-  std::vector<double> gradient;  ///< row-major, times.count x kModelParameters
+  std::vector<double> gradient;  ///< row-major, times.count x kSensitivityParameters
 };
 
 /// The spring view with exact derivatives at fixed times (later slips move with the period).

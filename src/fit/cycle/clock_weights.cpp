@@ -32,9 +32,8 @@ Slopes slopes_of(const BlockFit& fit, std::size_t cycle) {
   const CycleModel& model = fit.model(cycle);
   std::vector<double> residuals(model.residuals());
   std::vector<double> jacobian(model.residuals() * model.columns());
-  model.evaluate(fit.parameters.shared.data(), fit.level_data(), fit.parameters.cycles[cycle].data(), residuals.data(),
-                 jacobian.data());
-  const std::size_t onset = kShared + model.level_parameters();
+  model.evaluate(fit.values(cycle), residuals.data(), jacobian.data());
+  const std::size_t onset = model.common_parameters();
   Slopes result;
   const CycleData& data = fit.data(cycle);
   for (std::size_t j = 0; j < data.time_s.size(); ++j) {
@@ -49,7 +48,7 @@ Slopes slopes_of(const BlockFit& fit, std::size_t cycle) {
 
 std::vector<CycleData> weigh_by_slope(const BlockFit& fit) {
   const double noise2 = stick_variance(fit);
-  const double rate = std::exp(fit.parameters.shared[0]) * fit.scales().speed_m_per_s;
+  const double rate = std::exp(fit.parameters.globals[0]) * fit.scales().speed_m_per_s;
   std::vector<Slopes> slopes;
   double excess = 0.0;
   double weight = 0.0;

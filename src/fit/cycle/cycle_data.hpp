@@ -2,15 +2,27 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "fit/coordinates.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/signal/cycles.hpp"
 #include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
 
-/// Where the sliding and the fit's numbers are of order one: every parameter inside fit/ is scaled by these.
+/// What the cycles of several recordings have in common: each cycle's own onset force and level are draws from it.
+struct Population {
+  double load = 1.0;      ///< normal force over that of the reference: friction is proportional to it
+  double force = 1.0;     ///< unit of the recording's level and friction difference: Units::force times the load
+  double onset_sd = 1.0;  ///< spread of F_s over the cycles
+  /// Spread with which a cycle's own level follows F_k(0+); 0 where the level is common to the cycles.
+  double level_sd = 0.0;
+  double slip_speed_m_per_s = 1.0;  ///< Units::slip_speed_m_per_s
+};
+
+/// How a recording enters a fit: what makes its numbers of order one, and how its samples see a slip.
 struct Scales {
   double speed_m_per_s = 1.0;
   double force = 1.0;         ///< typical half drop
@@ -21,6 +33,12 @@ struct Scales {
   ForceView view = ForceView::Spring;  ///< spring or transmitted: what the samples show of a slip
   double sensor_lag_s = 0.0;   ///< T of a first-order sensor, 1 / (2 pi bandwidth); 0: it shows the force as it is
   double half_period_s = 1.0;  ///< from the largest to the smallest force of a slip, pi / (w_n b)
+  FrictionLaw law = FrictionLaw::Coulomb;
+  std::optional<Population> population{};  ///< of a sweep
+
+  /// Force at which the level's constant counts 0, and its unit.
+  [[nodiscard]] double level_zero() const { return population ? 0.0 : level; }
+  [[nodiscard]] double level_unit() const { return population ? population->force : force; }
 };
 
 /// What a bin keeps of a mains line: mean and least-squares slope of its cosine and sine over the bin's samples.

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "model/phasor.hpp"
+#include "fit/law/speed_dependent.hpp"
 
 namespace slipfit::fit {
 
@@ -24,7 +23,7 @@ namespace {
 
 /// The step of evenly spaced times, 0 of others: samples left out, an uneven clock. A billionth of a step is far below
 /// any noise and far above the rounding of written times.
-double even_step_s(const std::vector<double>& time_s) {
+double even_step_of(const std::vector<double>& time_s) {
   if (time_s.size() < 2) return 0.0;
   const double step_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
   for (std::size_t i = 0; i < time_s.size(); ++i) {
@@ -33,129 +32,220 @@ double even_step_s(const std::vector<double>& time_s) {
   return step_s;
 }
 
-}  // namespace
-
-CycleModel::CycleModel(const CycleData& data, const Scales& scales, double reference_s, LevelModel level)
-    : data_(&data),
-      scales_(scales),
-      reference_s_(reference_s),
-      level_(std::move(level)),
-      even_step_s_(even_step_s(data.time_s)) {
-  fill_basis();
-}
-
-void CycleModel::fill_basis() {
-  const std::size_t columns = level_.columns();
-  basis_.resize(residuals() * columns);
-  if (columns == 0) return;
-  std::vector<double> values(level_.terms);
-  std::vector<double> slopes(level_.terms);
-  const double span_s = scales_.time_end_s - scales_.time_begin_s;
-  double* out = basis_.data();
+/// The level's functions at every residual row of a cycle.
+std::vector<double> basis_of(const CycleData& data, const LevelModel& level, const Scales& scales) {
+  std::vector<double> basis(data.residuals() * level.columns());
+  if (level.columns() == 0) return basis;
+  std::vector<double> values(level.terms);
+  std::vector<double> slopes(level.terms);
+  const double span_s = scales.time_end_s - scales.time_begin_s;
+  double* out = basis.data();
   const auto polynomial_at = [&](double time_s) {
-    legendre(2.0 * (time_s - scales_.time_begin_s) / span_s - 1.0, level_.terms, values.data(), slopes.data());
+    legendre(2.0 * (time_s - scales.time_begin_s) / span_s - 1.0, level.terms, values.data(), slopes.data());
   };
-  for (const double time_s : data_->time_s) {
+  for (const double time_s : data.time_s) {
     polynomial_at(time_s);
-    for (const double value : values) *out++ = value;
-    for (const double line_Hz : level_.lines_Hz) {
-      const double phase = 2.0 * std::numbers::pi * line_Hz * (time_s - scales_.time_begin_s);
+    out = std::copy(values.begin(), values.end(), out);
+    for (const double line_Hz : level.lines_Hz) {
+      const double phase = 2.0 * std::numbers::pi * line_Hz * (time_s - scales.time_begin_s);
       *out++ = std::cos(phase);
       *out++ = std::sin(phase);
     }
   }
-  for (const auto* bins : {&data_->bins_before, &data_->bins_after}) {
+  for (const auto* bins : {&data.bins_before, &data.bins_after}) {
     for (const StickBin& bin : *bins) {
       polynomial_at(bin.time_s);
-      for (const double value : values) *out++ = value;
+      out = std::copy(values.begin(), values.end(), out);
       for (const LineInBin& line : bin.lines) out = std::copy_n(line.mean.data(), 2, out);
       for (const double slope : slopes) *out++ = 2.0 / span_s * slope;
       for (const LineInBin& line : bin.lines) out = std::copy_n(line.slope.data(), 2, out);
     }
   }
+  return basis;
 }
 
-bool CycleModel::state(const double* shared, const double* own, CycleState& state) const {
-  state.stiffness_N_per_m = std::exp(shared[0]);
-  state.omega_rad_per_s = std::exp(shared[1]);
-  state.zeta = shared[2];
-  state.force_scale = state.stiffness_N_per_m * scales_.speed_m_per_s / state.omega_rad_per_s;
-  state.onset_s = reference_s_ + scales_.half_period_s * own[0];
-  state.onset_force = scales_.force * own[1];
-  const double z0 = state.onset_force / state.force_scale;
-  if (!(z0 + 2.0 * state.zeta > 0.0) || !(std::abs(state.zeta) < 1.0) || !std::isfinite(z0)) return false;
-  state.slip = model::solve_slip(z0, state.zeta);
-  state.after = model::stick_after(state.slip);
-  state.lag_tau = state.omega_rad_per_s * scales_.sensor_lag_s;
-  return true;
-}
+}  // namespace
 
-bool CycleModel::evaluate(const double* shared, const double* level, const double* own, double* residuals,
-                          double* jacobian) const {
-  CycleState s;
-  if (!state(shared, own, s)) return false;
-  const double u = s.force_scale;
-  const double w = s.omega_rad_per_s;
-  const double rate = u * w;  // k V
-  const auto rows = static_cast<std::ptrdiff_t>(this->residuals());
-  const std::size_t columns = level_.columns();
-  const double* basis = basis_.data();
-  const auto level_part = [&] {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < columns; ++i) sum += level[i] * basis[i];
-    return scales_.force * sum;
-  };
-  // gradient: d model / d (ln k, ln w_n, zeta, onset, onset force, level of the cycle)
-  const auto put = [&](double weight, double difference, const std::array<double, 6>& gradient) {
-    *residuals++ = weight * difference;
-    if (jacobian != nullptr) {
-      double* at = jacobian++;
-      const auto put_column = [&](double value) {
-        *at = -weight * value;
-        at += rows;
-      };
-      for (std::size_t i = 0; i < kShared; ++i) put_column(gradient[i]);
-      for (std::size_t i = 0; i < columns; ++i) put_column(scales_.force * basis[i]);
-      for (std::size_t i = kShared; i < kShared + own_parameters(); ++i) put_column(gradient[i]);
-    }
-    basis += columns;
-  };
-  // F = level + u z(tau; z0, zeta), tau = w_n (t - onset), z0 = A / u, u = k V / w_n
-  const double constant = level_.per_cycle ? scales_.level + scales_.force * own[2] : scales_.level;
-  const auto put_point = [&](double weight, double force, double tau, const model::WavePoint& p) {
-    const double scale_part = u * (p.z - s.slip.z0 * p.d_z0);  // d / d ln u at fixed tau
-    put(weight, force - (constant + level_part() + u * p.z),
-        {scale_part, -scale_part + u * (p.d_tau * tau + p.d_log_omega), u * p.d_zeta,
-         -u * p.d_tau * w * scales_.half_period_s, scales_.force * p.d_z0, scales_.force});
-  };
-  // At even steps a slip's cosine and sine turn by the same angle from sample to sample.
-  const bool turns_evenly = even_step_s_ > 0.0 && s.lag_tau == 0.0;
-  model::Phasor phasor(s.zeta, s.slip.b, w * even_step_s_);
-  bool turning = false;
-  for (std::size_t i = 0; i < data_->time_s.size(); ++i) {
-    const double tau = w * (data_->time_s[i] - s.onset_s);
-    const double weight = (data_->weight.empty() ? 1.0 : data_->weight[i]) / scales_.noise;
-    if (turns_evenly && tau > 0.0 && tau <= s.slip.tau_end) {
-      turning ? phasor.step() : phasor.start(tau);
-      turning = true;
-      put_point(weight, data_->force[i], tau, slip_at(s, tau, phasor.c(), phasor.s()));
-    } else {
-      put_point(weight, data_->force[i], tau, wave_at(s, tau));
-    }
+CycleSet::CycleSet(std::vector<CycleData> of_cycles, std::vector<double> of_reference_s, LevelModel of_level,
+                   const Scales& scales)
+    : cycles(std::move(of_cycles)), reference_s(std::move(of_reference_s)), level(std::move(of_level)) {
+  for (const CycleData& cycle : cycles) {
+    basis.push_back(basis_of(cycle, level, scales));
+    even_step_s.push_back(even_step_of(cycle.time_s));
   }
-  const auto put_bin = [&](const StickBin& bin, double tau, const model::WavePoint& p) {
+}
+
+CycleModel::CycleModel(const CycleSet& set, std::size_t cycle, const Scales& scales)
+    : data_(&set.cycles[cycle]),
+      level_(&set.level),
+      basis_(&set.basis[cycle]),
+      scales_(scales),
+      reference_s_(set.reference_s[cycle]),
+      even_step_s_(set.even_step_s[cycle]) {}
+
+CycleFrame CycleModel::frame(const double* globals, const double* own) const {
+  CycleFrame frame;
+  frame.stiffness_N_per_m = std::exp(globals[kLogStiffness]);
+  frame.omega_rad_per_s = std::exp(globals[kLogFrequency]);
+  frame.zeta = globals[kDamping];
+  frame.force_scale = frame.stiffness_N_per_m * scales_.speed_m_per_s / frame.omega_rad_per_s;
+  frame.onset_s = reference_s_ + scales_.half_period_s * own[0];
+  frame.onset_force = scales_.force * own[1];
+  return frame;
+}
+
+std::optional<CycleState> CycleModel::state(const double* globals, const double* own) const {
+  const CycleFrame f = frame(globals, own);
+  if (!(f.z0() + 2.0 * f.zeta > 0.0) || !(std::abs(f.zeta) < 1.0) || !std::isfinite(f.z0())) return std::nullopt;
+  return CycleState{f, {f.z0(), f.zeta, f.omega_rad_per_s * scales_.sensor_lag_s, scales_.view}};
+}
+
+/// Writes residual rows one after the other, and their derivatives column after column.
+class CycleModel::Rows {
+ public:
+  Rows(const CycleModel& cycle, const CycleValues& values, double* residuals, double* jacobian)
+      : values_(values),
+        residuals_(residuals),
+        jacobian_(jacobian),
+        basis_(cycle.basis_->data()),
+        stride_(static_cast<std::ptrdiff_t>(cycle.residuals())),
+        scales_(cycle.scales_),
+        drifts_(cycle.drift_parameters()),
+        first_drift_(cycle.level_->terms > 0 ? 1 : 0),
+        level_per_cycle_(cycle.level_->per_cycle),
+        has_constant_(cycle.has_constant()) {}
+
+  /// `model`: force above the level; `by_global`, `by_onset`, `by_onset_force`: its derivatives. `constant_share`: 1,
+  /// but 0 in rows of slopes, which no constant enters.
+  template <std::size_t N>
+  void put(double weight, double data, double model, const std::array<double, N>& by_global, double by_onset,
+           double by_onset_force, double constant_share) {
+    const double* drift = basis_ + first_drift_;
+    double level = 0.0;
+    for (std::size_t i = 0; i < drifts_; ++i) level += values_.drift[i] * drift[i];
+    level *= scales_.force;
+    if (level_per_cycle_) {
+      level += constant_share * (scales_.level + scales_.force * values_.own[2]);
+    } else {
+      level += constant_share * (scales_.level_zero() + scales_.level_unit() * *values_.constant);
+    }
+    begin_row(weight * (data - (level + model)));
+    if (jacobian_ != nullptr) {
+      for (const double derivative : by_global) add(-weight * derivative);
+      if (scales_.population) add(0.0);
+      if (has_constant_) add(level_per_cycle_ ? 0.0 : -weight * constant_share * scales_.level_unit());
+      for (std::size_t i = 0; i < drifts_; ++i) add(-weight * scales_.force * drift[i]);
+      add(-weight * by_onset);
+      add(-weight * by_onset_force);
+      if (level_per_cycle_) add(-weight * constant_share * scales_.force);
+    }
+    basis_ += first_drift_ + drifts_;
+  }
+
+  /// F_s of this cycle against the population's: A + c V - (F_s - F_k(0+)).
+  void tie_static_friction(const CycleFrame& frame, std::size_t globals) {
+    const double weight = 1.0 / scales_.population->onset_sd;
+    const double drag = 2.0 * frame.zeta * frame.force_scale;
+    begin_row(weight * (scales_.population->force * *values_.difference - frame.onset_force - drag));
+    if (jacobian_ == nullptr) return;
+    for (const double derivative : {drag, -drag, 2.0 * frame.force_scale}) add(-weight * derivative);
+    for (std::size_t i = kFrictionSlope; i < globals; ++i) add(0.0);
+    add(weight * scales_.population->force);
+    if (has_constant_) add(0.0);
+    for (std::size_t i = 0; i < drifts_; ++i) add(0.0);
+    add(0.0);
+    add(-weight * scales_.force);
+    if (level_per_cycle_) add(0.0);
+  }
+
+  /// A level of its own against the population's.
+  void tie_level(std::size_t globals) {
+    const double weight = 1.0 / scales_.population->level_sd;
+    const double unit = scales_.population->force;
+    begin_row(weight * (unit * *values_.constant - scales_.level - scales_.force * values_.own[2]));
+    if (jacobian_ == nullptr) return;
+    for (std::size_t i = 0; i < globals; ++i) add(0.0);
+    add(0.0);
+    add(weight * unit);
+    for (std::size_t i = 0; i < drifts_; ++i) add(0.0);
+    add(0.0);
+    add(0.0);
+    add(-weight * scales_.force);
+  }
+
+ private:
+  void begin_row(double residual) {
+    *residuals_++ = residual;
+    at_ = jacobian_ != nullptr ? jacobian_++ : nullptr;
+  }
+  void add(double derivative) {
+    *at_ = derivative;
+    at_ += stride_;
+  }
+
+  const CycleValues& values_;
+  double* residuals_;
+  double* jacobian_;
+  double* at_ = nullptr;  // next column of the row
+  const double* basis_;
+  std::ptrdiff_t stride_;
+  const Scales& scales_;
+  std::size_t drifts_;
+  std::size_t first_drift_;  // behind the constant, where the basis has one
+  bool level_per_cycle_;
+  bool has_constant_;
+};
+
+/// F = level + u z(tau; z0, law), tau = w_n (t - onset), z0 = A / u, u = k V / w_n
+template <class Law>
+void CycleModel::fill(const Law& law, const CycleFrame& frame, Rows& rows) const {
+  const double u = frame.force_scale;
+  const double w = frame.omega_rad_per_s;
+  const double z0 = frame.z0();
+  constexpr std::size_t kOfLaw = std::tuple_size_v<decltype(law.by_law(typename Law::Point{}))>;
+  const auto put_point = [&](double weight, double force, double tau, const typename Law::Point& p) {
+    const double scale_part = u * (p.z - z0 * p.d_z0);  // d / d ln u at fixed tau
+    std::array<double, 2 + kOfLaw> by_global{scale_part, -scale_part + u * (p.d_tau * tau + law.by_log_omega(p))};
+    const std::array<double, kOfLaw> by_law = law.by_law(p);
+    for (std::size_t i = 0; i < kOfLaw; ++i) by_global[2 + i] = u * by_law[i];
+    rows.put(weight, force, u * p.z, by_global, -u * p.d_tau * w * scales_.half_period_s, scales_.force * p.d_z0, 1.0);
+  };
+  typename Law::Samples samples(law, w * even_step_s_);
+  for (std::size_t i = 0; i < data_->time_s.size(); ++i) {
+    const double tau = frame.tau_at(data_->time_s[i]);
+    const double weight = (data_->weight.empty() ? 1.0 : data_->weight[i]) / scales_.noise;
+    put_point(weight, data_->force[i], tau, samples.at(tau));
+  }
+  const double rate = u * w;  // k V
+  const auto put_bin = [&](const StickBin& bin, double tau, const typename Law::Point& p) {
     put_point(std::sqrt(bin.count) / scales_.noise, bin.force, tau, p);
-    put(std::sqrt(bin.time_spread) / scales_.noise, bin.slope - (level_part() + rate), {rate, 0.0, 0.0, 0.0, 0.0, 0.0});
+    rows.put(std::sqrt(bin.time_spread) / scales_.noise, bin.slope, rate, std::array<double, 2 + kOfLaw>{rate}, 0.0,
+             0.0, 0.0);
   };
   for (const StickBin& bin : data_->bins_before) {
-    const double tau = w * (bin.time_s - s.onset_s);
-    put_bin(bin, tau, stick_before(s, tau));
+    const double tau = frame.tau_at(bin.time_s);
+    put_bin(bin, tau, law.before_slip(tau));
   }
   for (const StickBin& bin : data_->bins_after) {
-    const double tau = w * (bin.time_s - s.onset_s);
-    put_bin(bin, tau, stick_after(s, tau));
+    const double tau = frame.tau_at(bin.time_s);
+    put_bin(bin, tau, law.after_slip(tau));
   }
-  return true;
+  if (!scales_.population) return;
+  rows.tie_static_friction(frame, globals());
+  if (level_->per_cycle) rows.tie_level(globals());
+}
+
+bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* jacobian) const {
+  Rows rows(*this, values, residuals, jacobian);
+  if (scales_.law == FrictionLaw::Coulomb) {
+    const std::optional<CycleState> coulomb = state(values.globals, values.own);
+    if (coulomb) fill(coulomb->motion, *coulomb, rows);
+    return coulomb.has_value();
+  }
+  const CycleFrame f = frame(values.globals, values.own);
+  const auto motion = SpeedDependentCycle::solve(f.z0(), values.globals, scales_);
+  if (motion) fill(*motion, f, rows);
+  return motion.has_value();
 }
 
 }  // namespace slipfit::fit

@@ -1,11 +1,8 @@
 #include "fit/inference/covariance.hpp"
 
 #include <Eigen/Sparse>
-#include <algorithm>
 #include <limits>
 #include <utility>
-
-#include "fit/inference/uncertainty.hpp"
 
 namespace slipfit::fit {
 
@@ -13,11 +10,32 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-Index common_size(const BlockFit& fit) {
-  return static_cast<Index>(kShared + fit.level().columns());
-}
-Index own_size(const BlockFit& fit) {
-  return fit.level().per_cycle ? 3 : 2;
+CommonColumns::CommonColumns(const Problem& problem) {
+  const std::size_t count = problem.recordings.size();
+  const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
+  size_ = globals;
+  const auto add = [&](std::vector<Index>& columns, auto&& width_of, bool shared) {
+    for (std::size_t r = 0; r < count; ++r) {
+      const Index width = width_of(problem.recordings[r]);
+      const bool again = shared && r > 0;
+      columns.push_back(again ? columns.front() : size_);
+      if (!again) size_ += width;
+    }
+  };
+  const auto constants = [](const BlockFit& r) { return Index{r.model(0).has_constant()}; };
+  const auto populations = [](const BlockFit& r) { return Index{r.scales().population.has_value()}; };
+  const auto drifts = [](const BlockFit& r) { return static_cast<Index>(r.model(0).drift_parameters()); };
+  add(levels_, constants, problem.sweep.sharing.level);
+  add(differences_, populations, problem.sweep.sharing.difference);
+  add(drifts_, drifts, false);
+  for (std::size_t r = 0; r < count; ++r) {
+    const BlockFit& recording = problem.recordings[r];
+    of_.emplace_back();
+    for (Index i = 0; i < globals; ++i) of_.back().push_back(i);
+    if (populations(recording) > 0) of_.back().push_back(differences_[r]);
+    if (constants(recording) > 0) of_.back().push_back(levels_[r]);
+    for (Index i = 0; i < drifts(recording); ++i) of_.back().push_back(drifts_[r] + i);
+  }
 }
 
 Linearised linearise(const BlockFit& fit, std::size_t cycle) {
@@ -26,16 +44,17 @@ Linearised linearise(const BlockFit& fit, std::size_t cycle) {
   Linearised result;
   result.residuals.resize(rows);
   MatrixXd jacobian(rows, static_cast<Index>(model.columns()));
-  model.evaluate(fit.parameters.shared.data(), fit.level_data(), fit.parameters.cycles[cycle].data(),
-                 result.residuals.data(), jacobian.data());
-  result.common = jacobian.leftCols(common_size(fit));
-  result.own = jacobian.rightCols(own_size(fit));
+  model.evaluate(fit.values(cycle), result.residuals.data(), jacobian.data());
+  result.common = jacobian.leftCols(static_cast<Index>(model.common_parameters()));
+  result.own = jacobian.rightCols(static_cast<Index>(model.own_parameters()));
   return result;
 }
 
-Normal normal_of(const BlockFit& fit, std::size_t cycle) {
-  Linearised lines = linearise(fit, cycle);
+namespace {
+
+Normal normal_of(Linearised lines, std::vector<Index> columns) {
   Normal normal;
+  normal.columns = std::move(columns);
   normal.common = lines.common.transpose() * lines.common;
   normal.cross = lines.common.transpose() * lines.own;
   normal.own = lines.own.transpose() * lines.own;
@@ -45,173 +64,204 @@ Normal normal_of(const BlockFit& fit, std::size_t cycle) {
   return normal;
 }
 
-Selection select(const BlockFit& fit) {
-  Selection selection{MatrixXd::Zero(common_size(fit), kQuantities), MatrixXd::Zero(own_size(fit), kQuantities)};
-  for (Index i = 0; i < static_cast<Index>(kShared); ++i) selection.common(i, i) = 1.0;
-  const double share = 1.0 / static_cast<double>(fit.size());
-  selection.own(1, kOnsetForce) = share;
-  if (fit.level().per_cycle) {
-    selection.own(2, kLevel) = share;
-    return selection;
-  }
-  std::vector<double> values(fit.level().terms);
-  std::vector<double> slopes(fit.level().terms);
-  for (std::size_t cycle = 0; cycle < fit.size(); ++cycle) {
-    const Scales& scales = fit.scales();
-    const double x =
-        2.0 * (fit.reference_s(cycle) - scales.time_begin_s) / (scales.time_end_s - scales.time_begin_s) - 1.0;
-    legendre(x, fit.level().terms, values.data(), slopes.data());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      selection.common(static_cast<Index>(kShared + i), kLevel) += share * values[i];
+/// A row for the globals and the level that all recordings share.
+Normal normal_of(const SteadyRun& run, const Problem& problem, const CommonColumns& columns) {
+  const Parameters& parameters = problem.recordings.front().parameters;
+  const SteadyResidual steady =
+      steady_residual(run, problem.sweep.units, parameters.globals.data(), parameters.level.front());
+  const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
+  std::vector<Index> of_row(columns.of(0).begin(), columns.of(0).begin() + globals);
+  of_row.push_back(columns.level(0));
+  Linearised lines{VectorXd::Constant(1, steady.value), MatrixXd(1, globals + 1), MatrixXd(1, 0)};
+  for (Index i = 0; i < globals; ++i) lines.common(0, i) = steady.by_global[static_cast<std::size_t>(i)];
+  lines.common(0, globals) = steady.by_level;
+  return normal_of(std::move(lines), std::move(of_row));
+}
+
+void add_scattered(const MatrixXd& part, const std::vector<Index>& columns, MatrixXd& sum) {
+  for (Index i = 0; i < part.rows(); ++i) {
+    for (Index j = 0; j < part.cols(); ++j) {
+      sum(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]) += part(i, j);
     }
   }
-  return selection;
 }
 
-std::vector<Index> held_rows(const Held& held) {
-  std::vector<Index> rows;
-  if (held.stiffness) rows.push_back(0);
-  if (held.frequency) rows.push_back(1);
-  if (held.damping) rows.push_back(2);
-  return rows;
-}
-
-void hold_rows(MatrixXd& matrix, const std::vector<Index>& rows) {
-  for (const Index row : rows) {
-    matrix.row(row).setZero();
-    matrix.col(row).setZero();
-    matrix(row, row) = 1.0;
-  }
-}
-
-namespace {
-
-/// The normal equations of all cycles: own parameters cycle by cycle, then the common ones.
+/// The normal equations of a problem: own parameters cycle by cycle, then the common ones.
 class SparseNormal {
  public:
-  SparseNormal(const BlockFit& fit, const Held& held)
-      : fit_(fit),
-        own_(own_size(fit)),
-        common_(common_size(fit)),
-        first_common_(own_ * static_cast<Index>(fit.size())),
-        held_(held_rows(held)) {
-    for (const Index i : held_) add(first_common_ + i, first_common_ + i, 1.0);
-  }
-
-  void add_cycle(std::size_t cycle, const Normal& n) {
-    const Index first_own = own_ * static_cast<Index>(cycle);
-    for (Index i = 0; i < own_; ++i) {
-      for (Index j = 0; j < own_; ++j) add(first_own + i, first_own + j, n.own(i, j));
-      for (Index j = 0; j < common_; ++j) {
-        if (is_held(j)) continue;
-        add(first_own + i, first_common_ + j, n.cross(j, i));
-        add(first_common_ + j, first_own + i, n.cross(j, i));
-      }
-    }
-    for (Index i = 0; i < common_; ++i) {
-      for (Index j = 0; j < common_; ++j) {
-        if (!is_held(i) && !is_held(j)) add(first_common_ + i, first_common_ + j, n.common(i, j));
-      }
+  SparseNormal(const Problem& problem, const std::vector<Normal>& normals, const Held& held)
+      : held_(held), common_(MatrixXd::Zero(CommonColumns(problem).size(), CommonColumns(problem).size())) {
+    for (const Normal& normal : normals) first_common_ += normal.own.rows();
+    for (const Normal& normal : normals) add_cycle(normal);
+    hold_rows(common_, held);
+    for (Index i = 0; i < common_.rows(); ++i) {
+      for (Index j = 0; j < common_.cols(); ++j) add(first_common_ + i, first_common_ + j, common_(i, j));
     }
   }
 
-  /// The ramp from a cycle to the next.
-  void add_ramp(std::size_t first) {
+  /// The ramp from a cycle of the only recording to the next.
+  void add_ramp(const BlockFit& fit, std::size_t first) {
+    const Parameters& p = fit.parameters;
     const RampResidual ramp =
-        ramp_residual(fit_, first, fit_.parameters.shared.data(), fit_.parameters.cycles[first].data(),
-                      fit_.parameters.cycles[first + 1].data());
+        ramp_residual(fit, first, p.globals.data(), p.cycles[first].data(), p.cycles[first + 1].data());
     std::vector<std::pair<Index, double>> row;
-    for (Index i = 0; i < 3; ++i) {
-      if (!is_held(i)) row.emplace_back(first_common_ + i, ramp.d_shared[static_cast<std::size_t>(i)]);
+    for (std::size_t i = 0; i < ramp.d_globals.size(); ++i) {
+      if (!held_[i]) row.emplace_back(first_common_ + static_cast<Index>(i), ramp.d_globals[i]);
     }
-    const Index first_own = own_ * static_cast<Index>(first);
+    const auto own = static_cast<Index>(fit.model(0).own_parameters());
+    const Index first_own = own * static_cast<Index>(first);
     for (Index i = 0; i < 2; ++i) {
       row.emplace_back(first_own + i, ramp.d_first[static_cast<std::size_t>(i)]);
-      row.emplace_back(first_own + own_ + i, ramp.d_second[static_cast<std::size_t>(i)]);
+      row.emplace_back(first_own + own + i, ramp.d_second[static_cast<std::size_t>(i)]);
     }
     for (const auto& [i, left] : row) {
       for (const auto& [j, right] : row) add(i, j, left * right);
     }
   }
 
-  /// S' H^-1 S; not a number where H is singular.
-  [[nodiscard]] MatrixXd inverse_through(const Selection& selection) const {
-    const Index size = first_common_ + common_;
+  [[nodiscard]] CoordinateMatrix inverse_through(const Selection& selection, double cycles) const {
+    const Index size = first_common_ + common_.rows();
     Eigen::SparseMatrix<double> hessian(size, size);
     hessian.setFromTriplets(entries_.begin(), entries_.end());
-    MatrixXd columns = MatrixXd::Zero(size, kQuantities);
-    for (Index row = 0; row < first_common_; row += own_) columns.middleRows(row, own_) = selection.own;
-    columns.bottomRows(common_) = selection.common;
-    for (const Index i : held_) columns.row(first_common_ + i).setZero();
+    MatrixXd columns = MatrixXd::Zero(size, kCoordinates);
+    const Index own = selection.own.rows();
+    for (Index row = 0; own > 0 && row < first_common_; row += own)
+      columns.middleRows(row, own) = selection.own / cycles;
+    columns.bottomRows(common_.rows()) = selection.common;
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      if (held_[i]) columns.row(first_common_ + static_cast<Index>(i)).setZero();
+    }
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(hessian);
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    if (factor.info() != Eigen::Success) return MatrixXd::Constant(kQuantities, kQuantities, kNone);
+    if (factor.info() != Eigen::Success) return CoordinateMatrix::Constant(kNone);
     return columns.transpose() * factor.solve(columns);
   }
 
  private:
-  void add(Index row, Index column, double value) { entries_.emplace_back(row, column, value); }
-  [[nodiscard]] bool is_held(Index i) const { return std::find(held_.begin(), held_.end(), i) != held_.end(); }
+  void add_cycle(const Normal& n) {
+    add_scattered(n.common, n.columns, common_);
+    for (Index i = 0; i < n.own.rows(); ++i) {
+      for (Index j = 0; j < n.own.cols(); ++j) add(next_own_ + i, next_own_ + j, n.own(i, j));
+      for (Index j = 0; j < n.common.rows(); ++j) {
+        const Index column = n.columns[static_cast<std::size_t>(j)];
+        if (column < kGlobals && held_[static_cast<std::size_t>(column)]) continue;
+        add(next_own_ + i, first_common_ + column, n.cross(j, i));
+        add(first_common_ + column, next_own_ + i, n.cross(j, i));
+      }
+    }
+    next_own_ += n.own.rows();
+  }
 
-  const BlockFit& fit_;
-  Index own_, common_, first_common_;
-  std::vector<Index> held_;
+  void add(Index row, Index column, double value) { entries_.emplace_back(row, column, value); }
+
+  Held held_;
+  MatrixXd common_;
+  Index first_common_ = 0;
+  Index next_own_ = 0;
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
-}  // namespace
-
-MatrixXd white_covariance(const BlockFit& fit, const std::vector<Normal>& normals, const Held& held, bool continuous) {
-  SparseNormal sum(fit, held);
-  for (std::size_t cycle = 0; cycle < normals.size(); ++cycle) {
-    sum.add_cycle(cycle, normals[cycle]);
-    if (continuous && cycle + 1 < normals.size() && fit.data(cycle).continuous_with_next) sum.add_ramp(cycle);
-  }
-  return sum.inverse_through(select(fit));
+/// Only the globals that the law has can be held.
+Held held_in(const Problem& problem, Held held) {
+  for (std::size_t i = problem.recordings.front().model(0).globals(); i < held.size(); ++i) held[i] = false;
+  return held;
 }
 
-MatrixXd jackknife_covariance(const BlockFit& fit, const std::vector<Normal>& normals, const Held& held) {
-  const Index common = common_size(fit);
-  const std::size_t cycles = normals.size();
-  const std::vector<Index> held_common = held_rows(held);
-  std::vector<MatrixXd> reduced(cycles);
-  std::vector<VectorXd> score(cycles);
-  std::vector<MatrixXd> response(cycles);  // d own / d common
-  MatrixXd total = MatrixXd::Zero(common, common);
-  for (std::size_t i = 0; i < cycles; ++i) {
-    const Normal& n = normals[i];
-    response[i] = -n.own.ldlt().solve(n.cross.transpose());
-    reduced[i] = n.common + n.cross * response[i];
-    score[i] = n.score + response[i].transpose() * n.own_score;
-    total += reduced[i];
+}  // namespace
+
+std::vector<Normal> normals_of(const Problem& problem) {
+  const CommonColumns columns(problem);
+  std::vector<Normal> normals;
+  for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
+    const BlockFit& recording = problem.recordings[r];
+    for (std::size_t c = 0; c < recording.size(); ++c) {
+      normals.push_back(normal_of(linearise(recording, c), columns.of(r)));
+    }
   }
-  MatrixXd replicates(static_cast<Index>(cycles), static_cast<Index>(kQuantities));
-  double sum_onset = 0.0;
-  double sum_level = 0.0;
-  MatrixXd sum_response = MatrixXd::Zero(own_size(fit), common);
-  for (std::size_t i = 0; i < cycles; ++i) {
-    sum_onset += fit.parameters.cycles[i][1];
-    sum_level += fit.parameters.cycles[i][2];
+  for (std::size_t i = 0; problem.sweep.sharing.level && i < problem.sweep.steady.size(); ++i) {
+    normals.push_back(normal_of(problem.sweep.steady[i], problem, columns));
+  }
+  return normals;
+}
+
+void hold_rows(MatrixXd& matrix, const Held& held) {
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (!held[i]) continue;
+    const auto row = static_cast<Index>(i);
+    matrix.row(row).setZero();
+    matrix.col(row).setZero();
+    matrix(row, row) = 1.0;
+  }
+}
+
+CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Normal>& normals,
+                                  const Selection& selection, const SolveOptions& solved) {
+  SparseNormal sum(problem, normals, held_in(problem, solved.held));
+  const BlockFit& first = problem.recordings.front();
+  for (std::size_t cycle = 0; solved.continuous && cycle + 1 < first.size(); ++cycle) {
+    if (first.data(cycle).continuous_with_next) sum.add_ramp(first, cycle);
+  }
+  double cycles = 0.0;
+  for (const BlockFit& recording : problem.recordings) cycles += static_cast<double>(recording.size());
+  return sum.inverse_through(selection, cycles);
+}
+
+CoordinateMatrix jackknife_covariance(const Problem& problem, const std::vector<Normal>& normals,
+                                      const Selection& selection, const Held& all_held) {
+  const Held held = held_in(problem, all_held);
+  const Index common = CommonColumns(problem).size();
+  const std::size_t units = normals.size();
+  const Index own = selection.own.rows();
+  MatrixXd total = MatrixXd::Zero(common, common);
+  MatrixXd sum_response = MatrixXd::Zero(own, common);  // of d own / d common, where a coordinate hangs on own
+  VectorXd sum_own = VectorXd::Zero(own);
+  std::vector<MatrixXd> reduced(units);
+  std::vector<VectorXd> score(units);
+  std::vector<MatrixXd> response(units);
+  std::vector<VectorXd> owns(units, VectorXd::Zero(own));
+  for (std::size_t i = 0; i < units; ++i) {
+    const Normal& n = normals[i];
+    MatrixXd local = MatrixXd::Zero(n.own.rows(), n.common.rows());
+    if (n.own.rows() > 0) local = -n.own.ldlt().solve(n.cross.transpose());
+    reduced[i] = n.common + n.cross * local;
+    add_scattered(reduced[i], n.columns, total);
+    const VectorXd local_score = n.score + local.transpose() * n.own_score;
+    score[i] = VectorXd::Zero(common);
+    response[i] = MatrixXd::Zero(own, common);
+    for (std::size_t c = 0; c < n.columns.size(); ++c) {
+      score[i](n.columns[c]) += local_score(static_cast<Index>(c));
+      if (own > 0) response[i].col(n.columns[c]) += local.col(static_cast<Index>(c));
+    }
+    if (own == 0) continue;
+    owns[i] = Eigen::Map<const VectorXd>(problem.recordings.front().parameters.cycles[i].data(), own);
+    sum_own += owns[i];
     sum_response += response[i];
   }
-  const double others = static_cast<double>(cycles) - 1.0;
-  const Selection selection = select(fit);
-  for (std::size_t i = 0; i < cycles; ++i) {
-    MatrixXd remaining = total - reduced[i];
-    VectorXd gradient = score[i];
-    hold_rows(remaining, held_common);
-    for (const Index row : held_common) gradient(row) = 0.0;
-    const VectorXd step = remaining.ldlt().solve(gradient);  // dropping r_i'r_i changes the gradient by -score_i
-    const MatrixXd mean_response = (sum_response - response[i]) / others;
-    VectorXd quantities = selection.common.transpose() * step;
-    quantities(kOnsetForce) = (sum_onset - fit.parameters.cycles[i][1]) / others + mean_response.row(1).dot(step);
-    if (fit.level().per_cycle) {
-      quantities(kLevel) = (sum_level - fit.parameters.cycles[i][2]) / others + mean_response.row(2).dot(step);
+  const double others = static_cast<double>(units) - 1.0;
+  MatrixXd replicates(static_cast<Index>(units), Index{kCoordinates});
+  for (std::size_t i = 0; i < units; ++i) {
+    MatrixXd remaining = total;
+    add_scattered(-reduced[i], normals[i].columns, remaining);
+    hold_rows(remaining, held);
+    for (std::size_t row = 0; row < held.size(); ++row) {
+      if (held[row]) score[i](static_cast<Index>(row)) = 0.0;
     }
-    replicates.row(static_cast<Index>(i)) = quantities.transpose();
+    const VectorXd step = remaining.ldlt().solve(score[i]);  // dropping r_i'r_i changes the gradient by -score_i
+    VectorXd coordinates = selection.common.transpose() * step;
+    if (own > 0) {
+      const VectorXd mean_own = (sum_own - owns[i] + (sum_response - response[i]) * step) / others;
+      coordinates += selection.own.transpose() * mean_own;
+    }
+    replicates.row(static_cast<Index>(i)) = coordinates.transpose();
   }
   const MatrixXd centred = replicates.rowwise() - replicates.colwise().mean();
-  return others / static_cast<double>(cycles) * centred.transpose() * centred;
+  return others / static_cast<double>(units) * centred.transpose() * centred;
+}
+
+CoordinateMatrix given(const CoordinateMatrix& covariance, Coordinate held) {
+  const double variance = covariance(held, held);
+  if (!(variance > 0.0)) return covariance;
+  return covariance - covariance.col(held) * covariance.row(held) / variance;
 }
 
 }  // namespace slipfit::fit

@@ -4,54 +4,70 @@
 #include <cstddef>
 #include <vector>
 
+#include "fit/coordinates.hpp"
 #include "fit/problem/block_fit.hpp"
 
 namespace slipfit::fit {
 
+/// Columns of what the cycles of a problem have in common: globals, then levels, differences and drifts of the
+/// recordings, those that there are; shared ones once.
+class CommonColumns {
+ public:
+  explicit CommonColumns(const Problem& problem);
+
+  [[nodiscard]] Eigen::Index size() const { return size_; }
+  [[nodiscard]] Eigen::Index level(std::size_t recording) const { return levels_[recording]; }
+  [[nodiscard]] Eigen::Index difference(std::size_t recording) const { return differences_[recording]; }
+  [[nodiscard]] Eigen::Index drift(std::size_t recording) const { return drifts_[recording]; }
+  /// Of the Jacobian of a recording's cycles, in its order.
+  [[nodiscard]] const std::vector<Eigen::Index>& of(std::size_t recording) const { return of_[recording]; }
+
+ private:
+  Eigen::Index size_ = 0;
+  std::vector<Eigen::Index> levels_, differences_, drifts_;
+  std::vector<std::vector<Eigen::Index>> of_;
+};
+
 /// One cycle's residuals r and their derivatives J at the solution; the samples around the slip come first.
 struct Linearised {
   Eigen::VectorXd residuals;
-  Eigen::MatrixXd common;  // rows x common
-  Eigen::MatrixXd own;     // rows x own
+  Eigen::MatrixXd common;
+  Eigen::MatrixXd own;
 };
 
-/// One cycle's part of the normal equations; `common` are the shared parameters and the level's columns.
+/// One cycle's (or steady recording's, without own parameters) part of the normal equations.
 struct Normal {
-  Eigen::MatrixXd common;  // common x common
-  Eigen::MatrixXd cross;   // common x own
-  Eigen::MatrixXd own;     // own x own
-  Eigen::VectorXd score;   // J' r for common
+  std::vector<Eigen::Index> columns;  ///< of `common` among the problem's
+  Eigen::MatrixXd common;             ///< common x common
+  Eigen::MatrixXd cross;              ///< common x own
+  Eigen::MatrixXd own;                ///< own x own
+  Eigen::VectorXd score;              ///< J' r for common
   Eigen::VectorXd own_score;
   Eigen::VectorXd residuals;
 };
 
-/// How the quantities hang on the common parameters and on each cycle's own ones.
+/// How the coordinates hang on the common parameters and on the mean over the cycles of their own ones.
 struct Selection {
-  Eigen::MatrixXd common;  // common x quantities
-  Eigen::MatrixXd own;     // own x quantities, the same for every cycle: weight of one cycle in the mean
+  Eigen::MatrixXd common;  ///< common x coordinates
+  Eigen::MatrixXd own;     ///< own x coordinates; empty where no coordinate hangs on them
 };
 
-Eigen::Index common_size(const BlockFit& fit);
-Eigen::Index own_size(const BlockFit& fit);
-
 Linearised linearise(const BlockFit& fit, std::size_t cycle);
-Normal normal_of(const BlockFit& fit, std::size_t cycle);
+std::vector<Normal> normals_of(const Problem& problem);
 
-/// Means over all cycles of the fit.
-Selection select(const BlockFit& fit);
+/// Held globals: their rows and columns of a normal matrix become those of exactly known ones.
+void hold_rows(Eigen::MatrixXd& matrix, const Held& held);
 
-/// Rows of the common parameters that are held.
-std::vector<Eigen::Index> held_rows(const Held& held);
+/// Inverse normal matrix seen through the coordinates: S' H^-1 S, with the ramps' coupling of neighbours where
+/// continuous. Not a number where H is singular.
+CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Normal>& normals,
+                                  const Selection& selection, const SolveOptions& solved);
 
-/// Held parameters: their rows and columns of a normal matrix become those of exactly known ones.
-void hold_rows(Eigen::MatrixXd& matrix, const std::vector<Eigen::Index>& rows);
+/// Delete-one-cycle jackknife of the coordinates, one Newton step each: CR3.
+CoordinateMatrix jackknife_covariance(const Problem& problem, const std::vector<Normal>& normals,
+                                      const Selection& selection, const Held& held);
 
-/// Inverse normal matrix seen through the quantities: S' H^-1 S, with the ramps' coupling of neighbours where
-/// continuous.
-Eigen::MatrixXd white_covariance(const BlockFit& fit, const std::vector<Normal>& normals, const Held& held,
-                                 bool continuous);
-
-/// Delete-one-cycle jackknife of the quantities, one Newton step each: CR3.
-Eigen::MatrixXd jackknife_covariance(const BlockFit& fit, const std::vector<Normal>& normals, const Held& held);
+/// What is left of a covariance where one coordinate is held.
+CoordinateMatrix given(const CoordinateMatrix& covariance, Coordinate held);
 
 }  // namespace slipfit::fit

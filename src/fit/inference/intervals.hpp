@@ -1,20 +1,78 @@
 #pragma once
 
+#include <ceres/jet.h>
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "fit/coordinates.hpp"
+#include "fit/inference/student.hpp"
 #include "slipfit/core/estimate.hpp"
 
 namespace slipfit::fit {
-
-/// 97.5 % quantile of Student's t; fewer than 1 degree of freedom count as 1.
-double t_quantile(double degrees_of_freedom);
 
 /// zeta cannot be negative: the part of the estimate's distribution below 0 is cut off. Where 0 is inside the interval,
 /// the upper end leaves 5 % of the rest above it.
 Interval damping_interval(double zeta, double se, double quantile);
 
-/// Value, standard error and symmetric 95 % interval.
-Estimate symmetric(double value, double se, double degrees_of_freedom);
+/// A number that knows its derivatives with respect to the coordinates.
+using Jet = ceres::Jet<double, kCoordinates>;
 
-/// From a logarithm (value, error and interval given) to the quantity itself.
-Estimate exponential(const Estimate& logarithm);
+/// Where the sum of squares is no parabola along one coordinate: how all of them move while it goes through its 95 %
+/// interval.
+struct Profile {
+  CoordinateMatrix held;           ///< covariance with that coordinate held
+  std::vector<Coordinates> moves;  ///< from the best values; the farthest ones are at the ends of the interval
+  /// At a bound every value of the interval is as good as the next: what is left with it held adds in full. Elsewhere
+  /// the ends of the interval are as unlikely as those of the rest, and both add as squares.
+  bool at_bound = false;
+};
+
+/// What is known of the coordinates.
+struct Spread {
+  CoordinateMatrix covariance = CoordinateMatrix::Zero();
+  double degrees_of_freedom = 1.0;
+  /// Of means over few cycles or recordings, with degrees of freedom of its own.
+  CoordinateMatrix scatter = CoordinateMatrix::Zero();
+  double scatter_degrees_of_freedom = 1.0;
+  std::optional<Profile> profile;
+};
+
+/// The 95 % interval of any function of the coordinates, the one place where intervals are made: Student's t with the
+/// degrees of freedom of fit and scatter (Satterthwaite), along a profile where there is one. Where it is not
+/// symmetric, the standard error is that of the longer side.
+class Intervals {
+ public:
+  explicit Intervals(Spread spread) : spread_(std::move(spread)) {}
+
+  [[nodiscard]] Estimate interval_of(const Jet& y) const;
+  /// Symmetric in the logarithm: the sign is known.
+  [[nodiscard]] Estimate interval_of_one_sign(const Jet& y) const;
+  /// Of a quantity that bends over the profile: `at` gives its value where the coordinates have moved.
+  [[nodiscard]] Estimate interval_along(const Jet& y, const std::function<double(const Coordinates&)>& at) const;
+
+  [[nodiscard]] double covariance(const Jet& a, const Jet& b) const {
+    return a.v.dot((spread_.covariance + spread_.scatter) * b.v);
+  }
+  /// By the covariance.
+  [[nodiscard]] double standard_error(const Jet& y) const;
+  /// Of Student's t: those of fit and scatter (Satterthwaite).
+  [[nodiscard]] double degrees_of_freedom(const Jet& y) const;
+  [[nodiscard]] double quantile(const Jet& y) const { return t_quantile(degrees_of_freedom(y)); }
+  [[nodiscard]] const Spread& spread() const { return spread_; }
+
+ private:
+  /// How far below and above its value a quantity reaches, both at least 0.
+  struct Reach {
+    double down = 0.0;
+    double up = 0.0;
+  };
+  [[nodiscard]] Reach reach_of(const Jet& y, const std::function<double(const Coordinates&)>& change) const;
+  [[nodiscard]] Reach reach_of(const Jet& y) const;
+  [[nodiscard]] Estimate estimate(const Jet& y, const Reach& reach) const;
+
+  Spread spread_;
+};
 
 }  // namespace slipfit::fit

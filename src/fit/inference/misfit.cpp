@@ -30,8 +30,7 @@ using Means = std::array<std::optional<double>, kPhases>;
 Means means_of(const BlockFit& fit, std::size_t cycle) {
   const CycleModel& model = fit.model(cycle);
   std::vector<double> residuals(model.residuals());
-  model.evaluate(fit.parameters.shared.data(), fit.level_data(), fit.parameters.cycles[cycle].data(), residuals.data(),
-                 nullptr);
+  model.evaluate(fit.values(cycle), residuals.data(), nullptr);
   std::array<Stack, kPhases> stacks;
   const CycleState state = fit.state(cycle);
   const CycleData& data = fit.data(cycle);
@@ -50,7 +49,7 @@ Means means_of(const BlockFit& fit, std::size_t cycle) {
 }  // namespace
 
 std::optional<std::size_t> phase_of(const CycleState& state, double time_s) {
-  const double share = (time_s - state.onset_s) * state.omega_rad_per_s / state.slip.tau_end;
+  const double share = (time_s - state.onset_s) / state.slip_s();
   const double place = (share + kMargin) / (1.0 + 2.0 * kMargin) * kPhases;
   return place >= 0.0 && place < kPhases ? std::optional(static_cast<std::size_t>(place)) : std::nullopt;
 }
@@ -78,16 +77,10 @@ std::optional<PhaseMisfit> find_misfit(const BlockFit& fit, double tolerated) {
   return worst;
 }
 
-Uncertainty with_misfit(Uncertainty uncertainty, const Eigen::MatrixXd& moves) {
+Uncertainty with_misfit(Uncertainty uncertainty, const Moves& moves) {
   const auto count = static_cast<double>(moves.rows());
-  const Eigen::MatrixXd spread = (count - 1.0) / count * moves.transpose() * moves;
-  Eigen::MatrixXd given_damping = spread;
-  if (spread(kDamping, kDamping) > 0.0) {
-    given_damping -= spread.col(kDamping) * spread.row(kDamping) / spread(kDamping, kDamping);
-  }
   uncertainty.from_refits = true;
-  uncertainty.covariance += spread;
-  uncertainty.covariance_given_damping += given_damping;
+  uncertainty.covariance += (count - 1.0) / count * moves.transpose() * moves;
   return uncertainty;
 }
 

@@ -25,7 +25,7 @@ std::optional<std::size_t> phase_of(const CycleState& state, double time_s);
 std::optional<PhaseMisfit> find_misfit(const BlockFit& fit, double tolerated);
 
 /// Adds the jackknife over the stretches: what the estimates owe to one part of the slip alone. Each row of `moves`:
-/// what a refit without one stretch moves the quantities by.
-Uncertainty with_misfit(Uncertainty uncertainty, const Eigen::MatrixXd& moves);
+/// what a refit without one stretch moves the coordinates by.
+Uncertainty with_misfit(Uncertainty uncertainty, const Moves& moves);
 
 }  // namespace slipfit::fit

@@ -49,24 +49,26 @@ double weight_of(const Linearised& cycle) {
 
 class PhaseMoves {
  public:
-  PhaseMoves(const BlockFit& fit, const Held& held) : fit_(fit), held_rows_(held_rows(held)) {
-    const Index common = common_size(fit);
-    const Index own = own_size(fit);
+  PhaseMoves(const BlockFit& fit, const Held& held) : fit_(fit), held_(held) {
+    const auto common = static_cast<Index>(fit.model(0).common_parameters());
+    const auto own = static_cast<Index>(fit.model(0).own_parameters());
     reduced_.fill(
         {MatrixXd::Zero(common, common), VectorXd::Zero(common), VectorXd::Zero(own), MatrixXd::Zero(own, common)});
     for (std::size_t i = 0; i < fit.size(); ++i) add(i);
   }
 
-  MatrixXd moves() {
+  Moves moves() {
     const Selection selection = select(fit_);
-    MatrixXd moves(kPhases, kQuantities);
+    Moves moves(kPhases, kCoordinates);
     Index known = 0;
     for (Reduced& without : reduced_) {
-      hold_rows(without.hessian, held_rows_);
-      for (const Index row : held_rows_) without.gradient(row) = 0.0;
+      hold_rows(without.hessian, held_);
+      for (std::size_t i = 0; i < held_.size(); ++i) {
+        if (held_[i]) without.gradient(static_cast<Index>(i)) = 0.0;
+      }
       const VectorXd step = without.hessian.ldlt().solve(without.gradient);
       if (!step.allFinite() || !without.own_step.allFinite()) continue;
-      const VectorXd own_step = without.own_step + without.response * step;
+      const VectorXd own_step = (without.own_step + without.response * step) / static_cast<double>(fit_.size());
       moves.row(known++) = (selection.common.transpose() * step + selection.own.transpose() * own_step).transpose();
     }
     return moves.topRows(known);
@@ -97,13 +99,13 @@ class PhaseMoves {
   }
 
   const BlockFit& fit_;
-  std::vector<Index> held_rows_;
+  Held held_;
   std::array<Reduced, kPhases> reduced_;
 };
 
 }  // namespace
 
-MatrixXd moves_by_phase(const BlockFit& fit, const Held& held) {
+Moves moves_by_phase(const BlockFit& fit, const Held& held) {
   return PhaseMoves(fit, held).moves();
 }
 

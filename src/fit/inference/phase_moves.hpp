@@ -2,14 +2,14 @@
 
 #include <Eigen/Core>
 
-#include "fit/problem/block_fit.hpp"
+#include "fit/inference/uncertainty.hpp"
 
 namespace slipfit::fit {
 
-/// What leaving out one stretch of the slips (misfit.hpp) moves the quantities by: a row for each stretch without which
-/// the shared parameters can still be told. One Gauss-Newton step from the solution in place of a refit: within a tenth
-/// of it, where the result is a spread that widens intervals. Joined ramps are let go, which makes the moves larger if
-/// anything.
-Eigen::MatrixXd moves_by_phase(const BlockFit& fit, const Held& held);
+/// What leaving out one stretch of the slips (misfit.hpp) moves the coordinates by: a row for each stretch without
+/// which the shared parameters can still be told. One Gauss-Newton step from the solution in place of a refit: within a
+/// tenth of it, where the result is a spread that widens intervals. Joined ramps are let go, which makes the moves
+/// larger if anything.
+Moves moves_by_phase(const BlockFit& fit, const Held& held);
 
 }  // namespace slipfit::fit

@@ -21,17 +21,17 @@ constexpr std::array kScan{0.03, 0.08, 0.15, 0.25, 0.4, 0.6, kMostDamping};
 struct HeldZeta {
   double zeta = 0.0;
   double distance = 0.0;
-  Eigen::VectorXd quantities;
+  Coordinates coordinates;
 };
 
 class Profiler {
  public:
-  explicit Profiler(const DampedFit& fit) : fit_(fit), blocks_(duplicate(fit.blocks)) {
+  explicit Profiler(const DampedFit& fit) : fit_(fit), blocks_(fit.blocks) {
     best_ = fit.blocks.parameters;
     held_ = fit.held;
-    held_.damping = true;
+    held_[kDamping] = true;
     // The smallest sum of squares by the same rule as all others: a refit from it, zeta held where it is.
-    smallest_ = sum_of_squares(best_.shared[2]).value_or(0.0);
+    smallest_ = sum_of_squares(best_.globals[kDamping]).value_or(0.0);
     const double noise = fit.uncertainty.noise / fit.blocks.scales().noise;
     variance_ = noise * noise;
   }
@@ -39,13 +39,13 @@ class Profiler {
   std::optional<HeldZeta> at(double zeta) {
     const std::optional<double> sum = sum_of_squares(zeta);
     if (!sum) return std::nullopt;
-    return HeldZeta{zeta, std::sqrt(std::max(0.0, (*sum - smallest_) / variance_)), quantities_of(blocks_)};
+    return HeldZeta{zeta, std::sqrt(std::max(0.0, (*sum - smallest_) / variance_)), coordinates_of(blocks_)};
   }
 
   /// Where the distance reaches `wanted`, between the best zeta and `limit`: secant on a distance that is nearly
   /// straight. At the limit where it does not reach it.
   std::optional<HeldZeta> reach(double wanted, double first, double limit) {
-    const double best = best_.shared[2];
+    const double best = best_.globals[kDamping];
     const double low = std::min(best, limit);
     const double high = std::max(best, limit);
     double near = best;
@@ -73,7 +73,7 @@ class Profiler {
 
   std::optional<double> sum_of_squares(double zeta) {
     blocks_.parameters = best_;
-    blocks_.parameters.shared[2] = zeta;
+    blocks_.parameters.globals[kDamping] = zeta;
     const double sum = blocks_.solve({held_, fit_.continuous, false, kIterations, kTolerance});
     return std::isfinite(sum) ? std::optional(sum) : std::nullopt;
   }
@@ -100,14 +100,14 @@ double upper_quantile(double best, double distance_of_zero, double quantile) {
 
 bool needs_profile(const DampedFit& fit, double samples_per_slip) {
   const Uncertainty& uncertainty = fit.uncertainty;
-  if (fit.held.damping || uncertainty.from_cycles || uncertainty.from_refits) return false;
+  if (fit.held[kDamping] || uncertainty.from_cycles || uncertainty.from_refits) return false;
   const double se = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
   return se > kWide || (samples_per_slip < kFewSamples && se > kPinned);
 }
 
 std::optional<DampingProfile> profile_damping(const DampedFit& fit, const BlockFit& centre) {
   Profiler profiler(fit);
-  const double best = fit.blocks.parameters.shared[2];
+  const double best = fit.blocks.parameters.globals[kDamping];
   const double se = std::sqrt(fit.uncertainty.covariance(kDamping, kDamping));
   const double quantile = t_quantile(fit.uncertainty.degrees_of_freedom);
   const std::optional<HeldZeta> zero = profiler.at(0.0);
@@ -122,8 +122,8 @@ std::optional<DampingProfile> profile_damping(const DampedFit& fit, const BlockF
     const std::optional<HeldZeta> other = profiler.at(zeta);
     if (other && other->distance < wanted) high = other;
   }
-  const Eigen::VectorXd origin = quantities_of(centre);
-  return DampingProfile{{low->zeta, high->zeta}, low->quantities - origin, high->quantities - origin};
+  const Coordinates origin = coordinates_of(centre);
+  return DampingProfile{{low->zeta, high->zeta}, low->coordinates - origin, high->coordinates - origin};
 }
 
 }  // namespace slipfit::fit

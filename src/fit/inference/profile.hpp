@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Dense>
 #include <optional>
 
 #include "fit/selection/damped_fit.hpp"
@@ -10,9 +9,9 @@ namespace slipfit::fit {
 
 /// Profile likelihood of zeta: the sum of squares with zeta held and all else free.
 struct DampingProfile {
-  Interval interval;          ///< 95 %, zeta >= 0
-  Eigen::VectorXd move_low;   ///< of the quantities, from the fit that was given to the low end
-  Eigen::VectorXd move_high;  ///< to the high end
+  Interval interval;      ///< 95 %, zeta >= 0
+  Coordinates move_low;   ///< of the coordinates, from the fit that was given to the low end
+  Coordinates move_high;  ///< to the high end
 };
 
 /// Whether the sum of squares is no parabola over the interval of zeta: its standard error above 0.02, or slips of at

@@ -27,19 +27,13 @@ std::vector<double> RoundedCopies::draw(unsigned copy) const {
   return forces;
 }
 
-Uncertainty with_rounding(Uncertainty uncertainty, const Eigen::MatrixXd& moves, const Held& held) {
+Uncertainty with_rounding(Uncertainty uncertainty, const Moves& moves) {
   uncertainty.from_refits = true;
-  const Eigen::MatrixXd spread = moves.transpose() * moves / static_cast<double>(moves.rows());
-  Eigen::MatrixXd given_damping = spread;
-  if (!held.damping && spread(kDamping, kDamping) > 0.0) {
-    given_damping -= spread.col(kDamping) * spread.row(kDamping) / spread(kDamping, kDamping);
-  }
+  const CoordinateMatrix spread = moves.transpose() * moves / static_cast<double>(moves.rows());
   if (uncertainty.from_cycles) {
     uncertainty.covariance += spread;
-    uncertainty.covariance_given_damping += given_damping;
   } else {
     uncertainty.covariance = spread;
-    uncertainty.covariance_given_damping = given_damping;
     uncertainty.degrees_of_freedom = std::min(uncertainty.degrees_of_freedom, static_cast<double>(moves.rows()));
   }
   return uncertainty;

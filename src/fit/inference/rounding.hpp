@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Dense>
 #include <vector>
 
 #include "fit/inference/uncertainty.hpp"
@@ -25,7 +24,7 @@ class RoundedCopies {
 inline constexpr unsigned kRoundedCopies = 24;
 
 /// The spread of refits to such copies in place of the white-noise covariance, or added to that of the jackknife. Each
-/// row of `moves`: what one refit moves the quantities (uncertainty.hpp) by.
-Uncertainty with_rounding(Uncertainty uncertainty, const Eigen::MatrixXd& moves, const Held& held);
+/// row of `moves`: what one refit moves the coordinates by.
+Uncertainty with_rounding(Uncertainty uncertainty, const Moves& moves);
 
 }  // namespace slipfit::fit

@@ -9,7 +9,7 @@ namespace slipfit::fit {
 namespace {
 
 using Eigen::Index;
-using Eigen::VectorXd;
+using Eigen::MatrixXd;
 
 /// Correlation of neighbouring residuals inside the slips, where samples are fitted one by one.
 void measure_lag1(const BlockFit& fit, const std::vector<Normal>& normals, Uncertainty& result) {
@@ -59,6 +59,18 @@ double spread_of_onset_force(const BlockFit& fit) {
   return std::sqrt(square / std::max(1.0, static_cast<double>(fit.size()) - 1.0));
 }
 
+/// u = k V / w_n
+double force_scale(const BlockFit& fit) {
+  const Globals& g = fit.parameters.globals;
+  return std::exp(g[kLogStiffness] - g[kLogFrequency]) * fit.scales().speed_m_per_s;
+}
+
+/// Of all cycles.
+double parameters_of(const BlockFit& fit) {
+  const CycleModel& any = fit.model(0);
+  return static_cast<double>(any.common_parameters() + any.own_parameters() * fit.size());
+}
+
 }  // namespace
 
 double reduced_chi2(const BlockFit& fit) {
@@ -75,37 +87,67 @@ double reduced_chi2(const BlockFit& fit) {
       }
     }
   }
-  const auto parameters = static_cast<double>(common_size(fit) + own_size(fit) * static_cast<Index>(fit.size()));
-  return chi2 / std::max(1.0, samples - parameters);
+  return chi2 / std::max(1.0, samples - parameters_of(fit));
 }
 
-Eigen::VectorXd quantities_of(const BlockFit& fit) {
-  const Selection selection = select(fit);
-  VectorXd common(common_size(fit));
-  std::copy(fit.parameters.shared.begin(), fit.parameters.shared.end(), common.data());
-  std::copy(fit.parameters.level.begin(), fit.parameters.level.end(), common.data() + kShared);
-  VectorXd quantities = selection.common.transpose() * common;
-  for (const Own& own : fit.parameters.cycles) {
-    for (Index i = 0; i < own_size(fit); ++i) {
-      quantities += selection.own.row(i).transpose() * own[static_cast<std::size_t>(i)];
+Coordinates coordinates_of(const BlockFit& fit) {
+  const Parameters& p = fit.parameters;
+  const auto cycles = static_cast<double>(fit.size());
+  const double force = fit.scales().force;
+  Coordinates coordinates = Coordinates::Zero();
+  for (std::size_t i = 0; i < p.globals.size(); ++i) coordinates(static_cast<Index>(i)) = p.globals[i];
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    const double level = fit.model(i).level_at(fit.reference_s(i), fit.level_data(), p.cycles[i].data());
+    coordinates(kLevel) += (level - fit.scales().level) / force / cycles;
+    coordinates(kDifference) += p.cycles[i][1] / cycles;
+  }
+  coordinates(kDifference) += 2.0 * p.globals[kDamping] * force_scale(fit) / force;
+  return coordinates;
+}
+
+/// F_s - F_k = A + c V: the spring force at onset is F_s - c V, and c V = 2 zeta k V / w_n. docs/model.md section 4
+Selection select(const BlockFit& fit) {
+  const CommonColumns columns(Problem{{&fit, 1}});
+  const auto own = static_cast<Index>(fit.model(0).own_parameters());
+  Selection selection{MatrixXd::Zero(columns.size(), kCoordinates), MatrixXd::Zero(own, kCoordinates)};
+  for (Index i = 0; i < static_cast<Index>(fit.model(0).globals()); ++i) selection.common(i, i) = 1.0;
+  const double drag_unit = 2.0 * force_scale(fit) / fit.scales().force;
+  const double drag = drag_unit * fit.parameters.globals[kDamping];
+  selection.common(kLogStiffness, kDifference) = drag;
+  selection.common(kLogFrequency, kDifference) = -drag;
+  selection.common(kDamping, kDifference) = drag_unit;
+  selection.own(1, kDifference) = 1.0;
+  if (fit.level().per_cycle) {
+    selection.own(2, kLevel) = 1.0;
+    return selection;
+  }
+  const Scales& scales = fit.scales();
+  std::vector<double> values(fit.level().terms);
+  std::vector<double> slopes(fit.level().terms);
+  for (std::size_t cycle = 0; cycle < fit.size(); ++cycle) {
+    const double x =
+        2.0 * (fit.reference_s(cycle) - scales.time_begin_s) / (scales.time_end_s - scales.time_begin_s) - 1.0;
+    legendre(x, fit.level().terms, values.data(), slopes.data());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      selection.common(columns.level(0) + static_cast<Index>(i), kLevel) += values[i] / static_cast<double>(fit.size());
     }
   }
-  return quantities;
+  return selection;
 }
 
-Uncertainty estimate_uncertainty(const BlockFit& fit, const Held& held, bool continuous) {
-  std::vector<Normal> normals;
-  normals.reserve(fit.size());
-  for (std::size_t i = 0; i < fit.size(); ++i) normals.push_back(normal_of(fit, i));
+Uncertainty estimate_uncertainty(const BlockFit& fit, const SolveOptions& solved) {
+  const Problem problem{{&fit, 1}};
+  const std::vector<Normal> normals = normals_of(problem);
   Uncertainty result;
   count_residuals(fit, normals, result);
   measure_lag1(fit, normals, result);
   result.onset_force_sd = spread_of_onset_force(fit);
   const auto cycles = static_cast<double>(fit.size());
   double ramps = 0.0;
-  for (std::size_t i = 0; continuous && i + 1 < fit.size(); ++i) ramps += fit.data(i).continuous_with_next ? 1.0 : 0.0;
-  const double white_freedom =
-      result.samples - static_cast<double>(common_size(fit)) - cycles * static_cast<double>(own_size(fit)) + ramps;
+  for (std::size_t i = 0; solved.continuous && i + 1 < fit.size(); ++i) {
+    ramps += fit.data(i).continuous_with_next ? 1.0 : 0.0;
+  }
+  const double white_freedom = result.samples - parameters_of(fit) + ramps;
   const double variance = result.chi2 / std::max(1.0, white_freedom);
   result.noise = fit.scales().noise * std::sqrt(variance);
   result.onset_force_error = error_of_onset_force(normals) * std::sqrt(variance);
@@ -113,16 +155,13 @@ Uncertainty estimate_uncertainty(const BlockFit& fit, const Held& held, bool con
   // White intervals hold where neighbouring residuals are uncorrelated; the bound is four times the error of a
   // correlation, and 0.08 where that is smaller (below it the intervals are short by less than 8 %).
   const double white_bound = std::max(0.08, 4.0 / std::sqrt(std::max(1.0, result.lag1_pairs)));
-  result.from_cycles = std::abs(result.lag1_correlation) > white_bound && !continuous;
-  Held held_damping = held;
-  held_damping.damping = true;
+  result.from_cycles = std::abs(result.lag1_correlation) > white_bound && !solved.continuous;
+  const Selection selection = select(fit);
   if (result.from_cycles) {
-    result.covariance = jackknife_covariance(fit, normals, held);
-    result.covariance_given_damping = jackknife_covariance(fit, normals, held_damping);
+    result.covariance = jackknife_covariance(problem, normals, selection, solved.held);
     result.degrees_of_freedom = std::max(1.0, cycles - 1.0);
   } else {
-    result.covariance = variance * white_covariance(fit, normals, held, continuous);
-    result.covariance_given_damping = variance * white_covariance(fit, normals, held_damping, continuous);
+    result.covariance = variance * white_covariance(problem, normals, selection, solved);
     result.degrees_of_freedom = std::max(1.0, white_freedom);
   }
   return result;

@@ -5,36 +5,42 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <utility>
 
+#include "fit/law/speed_dependent.hpp"
 #include "fit/problem/reduced_rows.hpp"
 #include "fit/problem/solver_log.hpp"
 
 namespace slipfit::fit {
 namespace {
 
-/// Parameter blocks: shared, [level,] own. The cycle's rows are reduced to one a parameter and one more, which must not
-/// be asked of two threads at a time.
+/// Parameter blocks: globals, [difference,] [constant,] [drift,] own. The cycle's rows are reduced to one a parameter
+/// and one more, which must not be asked of two threads at a time.
 class CycleCost : public ceres::CostFunction {
  public:
   explicit CycleCost(const CycleModel& model)
       : model_(model),
+        has_difference_(model.common_parameters() >
+                        model.globals() + (model.has_constant() ? 1 : 0) + model.drift_parameters()),
         residuals_(model.residuals()),
         jacobian_(model.residuals(), model.columns()),
         reduced_(model.columns() + 1, model.columns() + 1) {
     set_num_residuals(static_cast<int>(model.columns() + 1));
-    for (const std::size_t size : {kShared, model.level_parameters(), model.own_parameters()}) {
+    for (const std::size_t size : {model.globals(), std::size_t{has_difference_}, std::size_t{model.has_constant()},
+                                   model.drift_parameters(), model.own_parameters()}) {
       if (size > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(size));
     }
   }
 
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
-    const bool has_level = model_.level_parameters() > 0;
-    const double* level = has_level ? parameters[1] : nullptr;
-    const double* own = parameters[has_level ? 2 : 1];
-    double* jacobian = jacobians != nullptr ? jacobian_.data() : nullptr;
-    if (!model_.evaluate(parameters[0], level, own, residuals_.data(), jacobian)) return false;
+    const auto next_if = [&](bool present) { return present ? *parameters++ : nullptr; };
+    CycleValues values;
+    values.globals = next_if(true);
+    values.difference = next_if(has_difference_);
+    values.constant = next_if(model_.has_constant());
+    values.drift = next_if(model_.drift_parameters() > 0);
+    values.own = next_if(true);
+    if (!model_.evaluate(values, residuals_.data(), jacobians != nullptr ? jacobian_.data() : nullptr)) return false;
     if (jacobians == nullptr) {
       std::fill_n(residuals, num_residuals(), 0.0);
       residuals[0] = residuals_.norm();
@@ -58,13 +64,19 @@ class CycleCost : public ceres::CostFunction {
   }
 
   const CycleModel& model_;
+  bool has_difference_;
   mutable Eigen::VectorXd residuals_;
   mutable Eigen::MatrixXd jacobian_;
   mutable RowMajor reduced_;
 };
 
-/// Parameter blocks: shared, own of the first cycle, own of the second.
-class RampCost : public ceres::SizedCostFunction<1, 3, 2, 2> {
+template <class From>
+void copy_unless_null(const From& from, double* to) {
+  if (to != nullptr) std::copy(from.begin(), from.end(), to);
+}
+
+/// Parameter blocks: globals of Coulomb friction, own of the first cycle, own of the second.
+class RampCost : public ceres::SizedCostFunction<1, globals_of(FrictionLaw::Coulomb), 2, 2> {
  public:
   RampCost(const BlockFit& fit, std::size_t first) : fit_(fit), first_(first) {}
 
@@ -73,12 +85,9 @@ class RampCost : public ceres::SizedCostFunction<1, 3, 2, 2> {
     if (!std::isfinite(ramp.value)) return false;
     residuals[0] = ramp.value;
     if (jacobians == nullptr) return true;
-    const auto copy = [](const auto& from, double* to) {
-      if (to != nullptr) std::copy(from.begin(), from.end(), to);
-    };
-    copy(ramp.d_shared, jacobians[0]);
-    copy(ramp.d_first, jacobians[1]);
-    copy(ramp.d_second, jacobians[2]);
+    copy_unless_null(ramp.d_globals, jacobians[0]);
+    copy_unless_null(ramp.d_first, jacobians[1]);
+    copy_unless_null(ramp.d_second, jacobians[2]);
     return true;
   }
 
@@ -87,126 +96,248 @@ class RampCost : public ceres::SizedCostFunction<1, 3, 2, 2> {
   std::size_t first_;
 };
 
-void hold(ceres::Problem& problem, double* shared, const Held& held) {
-  std::vector<int> constant;
-  if (held.stiffness) constant.push_back(0);
-  if (held.frequency) constant.push_back(1);
-  if (held.damping) constant.push_back(2);
-  if (constant.size() == kShared) {
-    problem.SetParameterBlockConstant(shared);
-  } else if (!constant.empty()) {
-    problem.SetManifold(shared, new ceres::SubsetManifold(static_cast<int>(kShared), constant));
+/// Parameter blocks: globals, level.
+class SteadyCost : public ceres::CostFunction {
+ public:
+  SteadyCost(const SteadyRun& run, const Units& units, std::size_t globals) : run_(run), units_(units) {
+    set_num_residuals(1);
+    *mutable_parameter_block_sizes() = {static_cast<int>(globals), 1};
   }
-}
 
-ceres::Solver::Options solver_options(const SolveOptions& options, std::size_t residuals) {
-  ceres::Solver::Options solver;
-  solver.max_num_iterations = options.max_iterations;
-  // Continuity couples neighbouring cycles: a banded matrix with a border instead of independent blocks.
-  solver.linear_solver_type = options.continuous ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_SCHUR;
-  // Damped steps move a long chain of joined cycles only a part of the way (23 steps at 5000 cycles, 4 undamped); it
-  // starts at the solution for the cycles by themselves.
-  if (options.continuous) solver.initial_trust_region_radius = 1e10;
-  solver.function_tolerance = options.tolerance / static_cast<double>(residuals);
-  solver.gradient_tolerance = 1e-14;
-  solver.parameter_tolerance = 1e-11;
-  solver.logging_type = ceres::SILENT;
-  solver.num_threads = 1;
-  return solver;
-}
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+    const auto count = static_cast<std::size_t>(parameter_block_sizes()[0]);
+    Globals globals{};
+    std::copy_n(parameters[0], count, globals.begin());
+    const SteadyResidual steady = steady_residual(run_, units_, globals.data(), *parameters[1]);
+    if (!std::isfinite(steady.value)) return false;
+    residuals[0] = steady.value;
+    if (jacobians == nullptr) return true;
+    if (jacobians[0] != nullptr) std::copy_n(steady.by_global.begin(), count, jacobians[0]);
+    if (jacobians[1] != nullptr) *jacobians[1] = steady.by_level;
+    return true;
+  }
+
+ private:
+  const SteadyRun& run_;
+  const Units& units_;
+};
+
+/// A Ceres problem of recordings. Inside a group Ceres orders blocks by their address: cycles stand in one array and
+/// every other block is a group, so that the same input gives the same rounding.
+class Bundle {
+ public:
+  Bundle(std::span<BlockFit> recordings, const SweepTerms& sweep, const SolveOptions& options)
+      : recordings_(recordings),
+        sweep_(sweep),
+        options_(options),
+        globals_(recordings.front().parameters.globals),
+        ceres_(make_options()),
+        ordering_(std::make_shared<ceres::ParameterBlockOrdering>()) {
+    for (const BlockFit& recording : recordings_) {
+      owns_.insert(owns_.end(), recording.parameters.cycles.begin(), recording.parameters.cycles.end());
+    }
+    double* own = owns_.empty() ? nullptr : owns_.front().data();
+    for (BlockFit& recording : recordings_) own = add(recording, own);
+    for (const SteadyRun& run : sweep_.steady) {
+      if (!sweep_.sharing.level) break;
+      ceres_.AddResidualBlock(new SteadyCost(run, sweep_.units, globals_of(scales().law)), nullptr, globals_.data(),
+                              first().level.data());
+    }
+    ordering_->AddElementToGroup(globals_.data(), group_);
+    hold();
+  }
+
+  double solve() {
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver_options(), &ceres_, &summary);
+    const Parameters& shared = first();
+    std::size_t next = 0;
+    for (BlockFit& recording : recordings_) {
+      Parameters& parameters = recording.parameters;
+      parameters.globals = globals_;
+      if (sweep_.sharing.level && !parameters.level.empty()) parameters.level[0] = shared.level[0];
+      if (sweep_.sharing.difference) parameters.difference = shared.difference;
+      for (Own& own : parameters.cycles) own = owns_[next++];
+    }
+    return summary.IsSolutionUsable() ? 2.0 * summary.final_cost : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  static ceres::Problem::Options make_options() {
+    ceres::Problem::Options options;
+    options.enable_fast_removal = false;
+    return options;
+  }
+
+  [[nodiscard]] Parameters& first() const { return recordings_.front().parameters; }
+  [[nodiscard]] const Scales& scales() const { return recordings_.front().scales(); }
+
+  /// Returns where the cycles of the next recording stand.
+  double* add(BlockFit& recording, double* own) {
+    Parameters& parameters = recording.parameters;
+    const CycleModel& any = recording.model(0);
+    std::vector<double*> blocks{globals_.data()};
+    const auto add_block = [&](double* block) {
+      blocks.push_back(block);
+      if (!ordering_->IsMember(block)) ordering_->AddElementToGroup(block, group_++);
+    };
+    if (recording.scales().population)
+      add_block(sweep_.sharing.difference ? &first().difference : &parameters.difference);
+    if (any.has_constant()) add_block(sweep_.sharing.level ? first().level.data() : parameters.level.data());
+    if (any.drift_parameters() > 0) add_block(parameters.level.data() + (any.has_constant() ? 1 : 0));
+    for (std::size_t i = 0; i < recording.size(); ++i, own += std::tuple_size_v<Own>) {
+      const CycleModel& model = recording.model(i);
+      blocks.push_back(own);
+      auto* loss = options_.robust ? new ceres::HuberLoss(huber_bound(model.residuals())) : nullptr;
+      ceres_.AddResidualBlock(new CycleCost(model), loss, blocks);
+      blocks.pop_back();
+      ordering_->AddElementToGroup(own, 0);
+      residuals_ += model.residuals();
+    }
+    if (options_.continuous) join_ramps(recording, own - recording.size() * std::tuple_size_v<Own>);
+    return own;
+  }
+
+  void join_ramps(const BlockFit& recording, double* own) {
+    for (std::size_t i = 0; i + 1 < recording.size(); ++i, own += std::tuple_size_v<Own>) {
+      if (!recording.data(i).continuous_with_next) continue;
+      ceres_.AddResidualBlock(new RampCost(recording, i), nullptr, globals_.data(), own, own + std::tuple_size_v<Own>);
+    }
+  }
+
+  void hold() {
+    std::vector<int> constant;
+    const std::size_t count = globals_of(scales().law);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (options_.held[i]) constant.push_back(static_cast<int>(i));
+    }
+    if (constant.size() == count) {
+      ceres_.SetParameterBlockConstant(globals_.data());
+    } else if (!constant.empty()) {
+      ceres_.SetManifold(globals_.data(), new ceres::SubsetManifold(static_cast<int>(count), constant));
+    }
+  }
+
+  [[nodiscard]] ceres::Solver::Options solver_options() const {
+    ceres::Solver::Options solver;
+    solver.max_num_iterations = options_.max_iterations;
+    // Continuity couples neighbouring cycles: a banded matrix with a border instead of independent blocks.
+    solver.linear_solver_type = options_.continuous ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_SCHUR;
+    // Damped steps move a long chain of joined cycles only a part of the way (23 steps at 5000 cycles, 4 undamped); it
+    // starts at the solution for the cycles by themselves.
+    if (options_.continuous) solver.initial_trust_region_radius = 1e10;
+    if (!options_.continuous) solver.linear_solver_ordering = ordering_;
+    solver.function_tolerance = options_.tolerance / static_cast<double>(residuals_);
+    solver.gradient_tolerance = 1e-14;
+    solver.parameter_tolerance = 1e-11;
+    // A step into friction that runs away: shorten it.
+    if (scales().law == FrictionLaw::SpeedDependent) solver.max_num_consecutive_invalid_steps = 20;
+    solver.logging_type = ceres::SILENT;
+    solver.num_threads = 1;
+    return solver;
+  }
+
+  std::span<BlockFit> recordings_;
+  const SweepTerms& sweep_;
+  const SolveOptions& options_;
+  Globals globals_;
+  std::vector<Own> owns_;
+  ceres::Problem ceres_;
+  std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
+  int group_ = 1;
+  std::size_t residuals_ = 0;
+};
 
 }  // namespace
 
-RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const double* shared, const double* own_first,
+RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const double* globals, const double* own_first,
                            const double* own_second) {
   const Scales& scales = fit.scales();
-  CycleState s;
-  if (!fit.model(first).state(shared, own_first, s)) return {std::numeric_limits<double>::quiet_NaN(), {}, {}, {}};
+  const std::optional<CycleState> s = fit.model(first).state(globals, own_first);
+  if (!s) return {std::numeric_limits<double>::quiet_NaN(), {}, {}, {}};
+  const model::StickLine& after = s->motion.after;
   const double weight = 1.0 / (scales.noise * kRampTolerance);
-  const double rate = s.stiffness_N_per_m * scales.speed_m_per_s;
+  const double rate = s->stiffness_N_per_m * scales.speed_m_per_s;
   const double second_onset_s = fit.reference_s(first + 1) + scales.half_period_s * own_second[0];
-  const double elapsed_s = second_onset_s - s.onset_s;
-  const double u = s.force_scale;
+  const double elapsed_s = second_onset_s - s->onset_s;
+  const double u = s->force_scale;
   // d(u I) / d ln u at fixed A: I depends on z0 = A / u
-  const double scale_part = u * (s.after.intercept - s.slip.z0 * s.after.d_z0);
+  const double scale_part = u * (after.intercept - s->z0() * after.d_z0);
   RampResidual ramp;
-  ramp.value = weight * (rate * elapsed_s + u * s.after.intercept - scales.force * own_second[1]);
-  ramp.d_shared = {weight * (rate * elapsed_s + scale_part), -weight * scale_part, weight * u * s.after.d_zeta};
-  ramp.d_first = {-weight * rate * scales.half_period_s, weight * scales.force * s.after.d_z0};
+  ramp.value = weight * (rate * elapsed_s + u * after.intercept - scales.force * own_second[1]);
+  ramp.d_globals = {weight * (rate * elapsed_s + scale_part), -weight * scale_part, weight * u * after.d_zeta};
+  ramp.d_first = {-weight * rate * scales.half_period_s, weight * scales.force * after.d_z0};
   ramp.d_second = {weight * rate * scales.half_period_s, -weight * scales.force};
   return ramp;
+}
+
+/// F_k(V) = F_k(0+) + G expm1(alpha V) / expm1(alpha v_c), G = 2 v_c sqrt(k m) times kFrictionSlope. docs/model.md
+/// section 5
+SteadyResidual steady_residual(const SteadyRun& run, const Units& units, const double* globals, double level) {
+  const double a = globals[kFrictionRate];
+  const double speed = run.speed_m_per_s / units.slip_speed_m_per_s;
+  const SlopeRatio whole = slope_ratio(a);
+  const SlopeRatio part = slope_ratio(a * speed);
+  const double growth = speed * whole.value / part.value;  // expm1(a speed) / expm1(a)
+  const double d_growth =
+      speed * (whole.derivative / part.value - whole.value * part.derivative * speed / (part.value * part.value));
+  const double weight = 1.0 / run.standard_error;
+  const double impedance = std::exp(globals[kLogStiffness] - globals[kLogFrequency]);  // sqrt(k m)
+  const double unit = 2.0 * run.load * units.slip_speed_m_per_s * impedance;
+  const double excess = unit * globals[kFrictionSlope] * growth;
+  SteadyResidual result;
+  result.value = weight * (run.mean_force - run.load * units.force * level - excess);
+  result.by_level = -weight * run.load * units.force;
+  result.by_global[kLogStiffness] = -weight * excess;
+  result.by_global[kLogFrequency] = weight * excess;
+  result.by_global[kFrictionSlope] = -weight * unit * growth;
+  result.by_global[kFrictionRate] = -weight * unit * globals[kFrictionSlope] * d_growth;
+  return result;
 }
 
 double huber_bound(std::size_t residuals) {
   return 3.0 * std::sqrt(static_cast<double>(residuals));
 }
 
-BlockFit::BlockFit(std::vector<CycleData> cycles, std::vector<double> reference_s, Scales scales, LevelModel level)
-    : cycles_(std::move(cycles)), reference_s_(std::move(reference_s)), scales_(scales), level_(std::move(level)) {
-  parameters.level.assign(level_.columns(), 0.0);
-  parameters.cycles.assign(cycles_.size(), Own{});
-  models_.reserve(cycles_.size());
-  for (std::size_t i = 0; i < cycles_.size(); ++i) models_.emplace_back(cycles_[i], scales_, reference_s_[i], level_);
+double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, const SolveOptions& options) {
+  silence_solver_log();
+  return Bundle(recordings, sweep, options).solve();
 }
 
-BlockFit duplicate(const BlockFit& fit) {
-  std::vector<CycleData> cycles;
-  std::vector<double> references_s;
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    cycles.push_back(fit.data(i));
-    references_s.push_back(fit.reference_s(i));
-  }
-  BlockFit same(std::move(cycles), std::move(references_s), fit.scales(), fit.level());
-  same.parameters = fit.parameters;
-  return same;
+BlockFit::BlockFit(std::shared_ptr<const CycleSet> set, const Scales& scales) : set_(std::move(set)), scales_(scales) {
+  models_.reserve(set_->cycles.size());
+  for (std::size_t i = 0; i < set_->cycles.size(); ++i) models_.emplace_back(*set_, i, scales_);
+  if (models_.empty()) return;
+  parameters.level.assign((models_[0].has_constant() ? 1 : 0) + models_[0].drift_parameters(), 0.0);
+  parameters.cycles.assign(models_.size(), Own{});
+}
+
+BlockFit::BlockFit(std::vector<CycleData> cycles, std::vector<double> reference_s, const Scales& scales,
+                   LevelModel level)
+    : BlockFit(std::make_shared<const CycleSet>(std::move(cycles), std::move(reference_s), std::move(level), scales),
+               scales) {}
+
+CycleValues BlockFit::values(std::size_t cycle) const {
+  CycleValues values;
+  values.globals = parameters.globals.data();
+  values.difference = &parameters.difference;
+  values.constant = parameters.level.data();
+  values.drift = parameters.level.data() + (models_[cycle].has_constant() ? 1 : 0);
+  values.own = parameters.cycles[cycle].data();
+  return values;
 }
 
 CycleState BlockFit::state(std::size_t cycle) const {
-  CycleState state;
-  models_[cycle].state(parameters.shared.data(), parameters.cycles[cycle].data(), state);
-  return state;
+  return models_[cycle].state(parameters.globals.data(), parameters.cycles[cycle].data()).value();
 }
 
 double BlockFit::solve(const SolveOptions& options) {
-  silence_solver_log();
-  ceres::Problem::Options ownership;
-  ownership.enable_fast_removal = false;
-  ceres::Problem problem(ownership);
-  double* shared = parameters.shared.data();
-  const auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-  std::size_t residuals = 0;
-  for (const CycleModel& model : models_) residuals += model.residuals();
-  ceres::Solver::Options solver = solver_options(options, residuals);
-  for (std::size_t i = 0; i < models_.size(); ++i) {
-    std::vector<double*> blocks{shared};
-    if (level_.columns() > 0) blocks.push_back(parameters.level.data());
-    blocks.push_back(parameters.cycles[i].data());
-    ceres::LossFunction* loss = nullptr;
-    if (options.robust) loss = new ceres::HuberLoss(huber_bound(models_[i].residuals()));
-    problem.AddResidualBlock(new CycleCost(models_[i]), loss, blocks);
-    ordering->AddElementToGroup(parameters.cycles[i].data(), 0);
-  }
-  // Inside a group Ceres orders blocks by their address: one block a group gives the same rounding in every run.
-  ordering->AddElementToGroup(shared, 1);
-  if (level_.columns() > 0) ordering->AddElementToGroup(parameters.level.data(), 2);
-  for (std::size_t i = 0; options.continuous && i + 1 < models_.size(); ++i) {
-    if (!cycles_[i].continuous_with_next) continue;
-    problem.AddResidualBlock(new RampCost(*this, i), nullptr, shared, parameters.cycles[i].data(),
-                             parameters.cycles[i + 1].data());
-  }
-  hold(problem, shared, options.held);
-  if (!options.continuous) solver.linear_solver_ordering = ordering;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return std::numeric_limits<double>::infinity();
-  return 2.0 * summary.final_cost;
+  return solve_together({this, 1}, {}, options);
 }
 
 double BlockFit::cycle_sum_of_squares(std::size_t cycle) const {
-  const CycleModel& model = models_[cycle];
-  std::vector<double> residuals(model.residuals());
-  if (!model.evaluate(parameters.shared.data(), parameters.level.data(), parameters.cycles[cycle].data(),
-                      residuals.data(), nullptr)) {
+  std::vector<double> residuals(models_[cycle].residuals());
+  if (!models_[cycle].evaluate(values(cycle), residuals.data(), nullptr)) {
     return std::numeric_limits<double>::infinity();
   }
   double sum = 0.0;

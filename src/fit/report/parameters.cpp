@@ -1,267 +1,274 @@
-#include "fit/report/parameters.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "fit/inference/intervals.hpp"
-#include "fit/inference/solution.hpp"
+#include "fit/report/findings.hpp"
+#include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+using Id = ParameterId;
 
 constexpr std::size_t kFewCycles = 5;          // below it a scatter says little: nothing is called identified
 constexpr double kSamplesForIdentified = 3.0;  // in a slip
-constexpr double kDriftMatters = 0.02;
+const char* const kZeroUnknown =
+    "takes the sensor's zero as right, and is off by what that is off; state it with --zero";
 
 class Reporter {
  public:
-  Reporter(const Recording& recording, const TierFits& fits, const Resolution& resolution, FitResult& result)
-      : recording_(recording),
-        resolution_(resolution),
-        result_(result),
-        fit_(recording, fits, resolution),
-        sawtooth_(fits.sawtooth) {}
+  Reporter(const Findings& findings, FitResult& result)
+      : f_(findings), model_(findings.values, findings.units), result_(result) {}
 
   void report() {
-    in_newtons_ = recording_.conditions().quantity == ForceQuantity::Force_N;
     report_stiffness();
     report_friction();
     report_dynamics();
-    if (resolution_.slip_resolved && in_newtons_) report_model();
+    if (f_.law) report_law();
+    report_model();
+    result_.warnings.insert(result_.warnings.end(), f_.warnings.begin(), f_.warnings.end());
+    std::sort(result_.parameters.begin(), result_.parameters.end(),
+              [](const Parameter& a, const Parameter& b) { return a.id < b.id; });
   }
 
  private:
-  [[nodiscard]] ParameterStatus graded(double relative_error, double bound) const {
-    const bool good = fit_.cycles >= kFewCycles && relative_error < bound;
+  /// By which statuses are graded: a quarter of the 95 % interval, which few degrees of freedom make wide.
+  static double relative_error(const Estimate& estimate) {
+    return 0.25 * (estimate.ci95->high - estimate.ci95->low) / std::abs(*estimate.value);
+  }
+
+  /// `doubt`: empty where nothing but its size speaks against the estimate.
+  [[nodiscard]] ParameterStatus graded(Id id, const Estimate& estimate, const std::string& doubt) const {
+    const bool good = doubt.empty() && f_.cycles >= kFewCycles && relative_error(estimate) < info(id).identified_below;
     return good ? ParameterStatus::Identified : ParameterStatus::Weak;
   }
 
-  void add(std::string name, Estimate estimate, ParameterStatus status, std::string note = {}) {
-    if (!note.empty()) estimate.note = std::move(note);
-    result_.parameters.push_back({std::move(name), std::move(estimate), status});
+  void add(Id id, Estimate estimate, ParameterStatus status) {
+    result_.parameters.push_back({id, std::move(estimate), status});
+  }
+  void add(Id id, Estimate estimate, ParameterStatus status, std::string note) {
+    estimate.note = std::move(note);
+    add(id, std::move(estimate), status);
+  }
+  void add_held(Id id, double value) { add(id, {value, 0.0, Interval{value, value}, {}}, ParameterStatus::Fixed); }
+  void add_unknown(Id id, const std::string& why) {
+    add(id, {std::nullopt, std::nullopt, std::nullopt, why}, ParameterStatus::Unidentified);
   }
 
-  static Linear widened(Linear y, double se) {
-    y.se = std::hypot(y.se, se);
-    y.se_given_damping = std::hypot(y.se_given_damping, se);
-    return y;
-  }
-
-  /// Of ln V, and with it of ln k: the data give k V.
-  [[nodiscard]] double speed_error() const { return fit_.held.stiffness ? 0.0 : fit_.relative_speed_se; }
-
-  void report_stiffness() {
-    const char* name = "stiffness_N_per_m";
-    if (!in_newtons_) {
-      add(name, {}, ParameterStatus::Unidentified, "the force is a friction coefficient: give --normal-force");
-    } else if (fit_.held.stiffness) {
-      add(name, {fit_.stiffness, 0.0, Interval{fit_.stiffness, fit_.stiffness}, {}}, ParameterStatus::Fixed);
-    } else {
-      report_free_stiffness(name);
-    }
-  }
-
-  void report_free_stiffness(const char* name) {
-    Linear y = fit_.linear(std::log(fit_.stiffness), unit_gradient(kLogStiffness), 0.0);
-    // Ramps that bend (creep before a slip, a tightening line) have no one slope: k depends on the stretch that is
-    // used, by half of what the halves of the ramps differ.
-    std::string note = few_cycles();
-    if (fit_.bend) {
-      y = widened(y, 0.5 * fit_.bend->log_ratio);
-      note = fmt::format("ramps begin {:.1f} % {} than they end: the interval allows for it",
-                         100.0 * std::abs(fit_.bend->log_ratio), fit_.bend->log_ratio > 0.0 ? "steeper" : "flatter");
-      result_.warnings.push_back({"model_misfit", "the sticks are not straight: " + note});
-    }
-    const double drift = std::abs(fit_.level_trend / (fit_.stiffness * recording_.conditions().speed_m_per_s));
-    if (drift > y.se) {
-      y = widened(y, drift);
-      note =
-          fmt::format("the level rises or falls all along: k is off by {:.1f} % if the sensor drifts", 100.0 * drift);
-    }
-    y = widened(y, speed_error());
-    add(name, exponential(fit_.estimate(y)), drift > kDriftMatters ? ParameterStatus::Weak : graded(y.se, 0.05), note);
-  }
+  [[nodiscard]] Id in_unit(Id force, Id coefficient) const { return f_.in_newtons ? force : coefficient; }
 
   [[nodiscard]] std::string few_cycles() const {
-    return fit_.cycles < kFewCycles ? fmt::format("only {} cycles", fit_.cycles) : std::string();
+    return f_.cycles < kFewCycles ? fmt::format("only {} cycles", f_.cycles) : std::string();
   }
 
-  [[nodiscard]] bool sampled() const { return resolution_.samples_per_slip > kSamplesForIdentified; }
+  /// Why nothing that is read from the slip is identified.
+  [[nodiscard]] std::string slip_doubt() const {
+    if (!f_.slip_doubt.empty()) return f_.slip_doubt;
+    if (f_.samples_per_slip > kSamplesForIdentified) return {};
+    return too_few_samples(f_.samples_per_slip, f_.sample_interval_s);
+  }
+  [[nodiscard]] std::string slip_note() const { return slip_doubt().empty() ? few_cycles() : slip_doubt(); }
 
-  /// Of what is read from the slip: why it is weak.
-  [[nodiscard]] std::string what_is_missing() const {
-    if (sampled()) return few_cycles();
-    return too_few_samples(resolution_.samples_per_slip, recording_.sample_interval_s());
+  void report_stiffness() {
+    if (!f_.in_newtons) {
+      add_unknown(Id::Stiffness, "the force is a friction coefficient: give --normal-force");
+    } else if (f_.held[kLogStiffness]) {
+      add_held(Id::Stiffness, model_.stiffness.a);
+    } else {
+      const Estimate k = f_.intervals.interval_of_one_sign(model_.stiffness);
+      std::string note = f_.stiffness_doubt.empty() ? f_.stiffness_note : f_.stiffness_doubt;
+      add(Id::Stiffness, k, graded(Id::Stiffness, k, f_.stiffness_doubt), note.empty() ? few_cycles() : note);
+    }
   }
 
-  /// Errors fall with the root of the cycles; identified from a quarter on.
-  [[nodiscard]] std::string weak_damping() const {
-    if (!sampled()) return what_is_missing();
-    const double times = std::pow(4.0 * fit_.damping_se / fit_.zeta, 2);
-    const std::string known = fmt::format("known to {:.2g}", fit_.damping_se);
-    return times < 100.0 ? fmt::format("{}: {:.2g} times the cycles, or less noise, would tell it", known, times)
-                         : known + ", from 0 it cannot be told";
-  }
-
-  /// F_s - F_k = A + c V: the spring force at onset is F_s - c V. model.md section 4
   void report_friction() {
-    const std::string difference_name = in_newtons_ ? "friction_difference_N" : "friction_coefficient_difference";
-    const double drag = 2.0 * fit_.zeta * fit_.scale;
-    VectorXd gradient(kQuantities);
-    gradient << drag, -drag, 2.0 * fit_.scale, fit_.force, 0.0;
-    const double spread = fit_.onset_force_sd;
-    difference_ = fit_.linear(fit_.onset_force + drag, gradient, fit_.scatter_variance(spread));
-    // A standard error of a third says less than the bound by the drop.
-    const bool tells = difference_.se < difference_.value / 3.0;
-    if (!resolution_.slip_resolved || !resolution_.damping_resolved || !tells) {
-      report_bounded_friction(difference_name);
+    const Id id = in_unit(Id::FrictionDifference, Id::FrictionCoefficientDifference);
+    if (f_.difference_bounds) {
+      const Interval& bounds = *f_.difference_bounds;
+      std::string note = "between half of the drop and the drop";
+      for (const std::string& why : {f_.slip_unresolved, f_.damping.note}) {
+        if (!why.empty() && note.find(why) == std::string::npos) note += "; " + why;
+      }
+      add(id, {0.5 * (bounds.low + bounds.high), std::nullopt, bounds, {}}, ParameterStatus::Bounded, note);
       return;
     }
-    const bool resolved = resolution_.samples_per_slip > kSamplesForIdentified && !fit_.shape_refused;
-    const ParameterStatus status = resolved ? graded(difference_.se / difference_.value, 0.1) : ParameterStatus::Weak;
-    add(difference_name, fit_.estimate(difference_), status, what_is_missing());
-
-    VectorXd level = unit_gradient(kLevel, fit_.force);
-    report_absolute(in_newtons_ ? "static_friction_N" : "static_friction_coefficient",
-                    fit_.linear(fit_.level + fit_.onset_force + drag, gradient + level, fit_.scatter_variance(spread)),
-                    status);
-    report_absolute(in_newtons_ ? "kinetic_friction_N" : "kinetic_friction_coefficient",
-                    fit_.linear(fit_.level, level, 0.0), status);
+    const Estimate difference = f_.intervals.interval_of_one_sign(model_.difference);
+    const bool ages = f_.law && f_.law->ages;
+    std::string note = slip_note();
+    if (ages) note += fmt::format("{}at a stick time of {:.3g} s", note.empty() ? "" : "; ", f_.units.stick_s);
+    add(id, difference, graded(id, difference, slip_doubt()), note);
+    report_absolute(in_unit(Id::StaticFriction, Id::StaticFrictionCoefficient), model_.level + model_.difference);
+    report_absolute(in_unit(Id::KineticFriction, Id::KineticFrictionCoefficient), model_.level);
+    if (!ages) return;
+    const Estimate ageing = f_.intervals.interval_of(model_.ageing);
+    add(Id::Ageing, ageing, graded(Id::Ageing, ageing, slip_doubt()), slip_note());
   }
 
-  void report_absolute(const std::string& name, const Linear& y, ParameterStatus status) {
-    const bool zero_known = recording_.conditions().zero_force_N.has_value();
-    add(name, fit_.estimate(y), zero_known ? status : ParameterStatus::Weak,
-        zero_known ? "" : "takes the sensor's zero as right, and is off by what that is off; state it with --zero");
-  }
-
-  /// Unresolved slip: F_s - F_k lies between half of the drop (zeta = 0) and the drop (zeta -> 1), lambda >> 1. At
-  /// zeta = 0 the drop also has the part that the drive makes up during the slip; 0.485 leaves room for it.
-  void report_bounded_friction(const std::string& name) {
-    const double spread = t_quantile(static_cast<double>(fit_.cycles) - 1.0) * sawtooth_.drop_sd /
-                          std::sqrt(static_cast<double>(fit_.cycles));
-    const Interval interval{std::max(0.0, 0.485 * (sawtooth_.drop - spread)), sawtooth_.drop + spread};
-    Estimate bounded{
-        0.5 * (interval.low + interval.high), std::nullopt, interval,
-        "between half of the drop and the drop" + (resolution_.reason.empty() ? "" : "; " + resolution_.reason)};
-    add(name, bounded, ParameterStatus::Bounded);
+  /// A force level hangs on the sensor's zero.
+  void report_absolute(Id id, const Jet& y) {
+    const Estimate estimate = f_.intervals.interval_of(y);
+    const ParameterStatus status = graded(id, estimate, slip_doubt());
+    if (f_.zero_known) return add(id, estimate, status, slip_note());
+    add(id, estimate, status == ParameterStatus::Identified ? ParameterStatus::Conditional : status, kZeroUnknown);
   }
 
   void report_dynamics() {
-    const char* frequency = "natural_frequency_rad_per_s";
-    const char* damping = "damping_ratio";
-    if (!resolution_.slip_resolved) {
-      add(frequency, {}, ParameterStatus::Unidentified, resolution_.reason);
-      add(damping, {}, ParameterStatus::Unidentified, resolution_.reason);
+    if (!f_.slip_unresolved.empty()) {
+      add_unknown(Id::NaturalFrequency, f_.slip_unresolved);
+      add_unknown(Id::DampingRatio, f_.slip_unresolved);
       return;
     }
-    const bool resolved = resolution_.samples_per_slip > kSamplesForIdentified && !fit_.shape_refused;
-    if (fit_.held.frequency) {
-      add(frequency, {fit_.omega, 0.0, Interval{fit_.omega, fit_.omega}, {}}, ParameterStatus::Fixed);
+    if (f_.held[kLogFrequency]) {
+      add_held(Id::NaturalFrequency, model_.omega.a);
     } else {
-      const Linear y = fit_.linear(std::log(fit_.omega), unit_gradient(kLogFrequency), 0.0);
-      add(frequency, exponential(fit_.estimate(y)), resolved ? graded(y.se, 0.05) : ParameterStatus::Weak,
-          fit_.shape_refused
-              ? "the slip is not shaped like a damped oscillation: what w_n means is in doubt beyond the interval"
-              : what_is_missing());
+      const Estimate omega = f_.intervals.interval_of_one_sign(model_.omega);
+      add(Id::NaturalFrequency, omega, graded(Id::NaturalFrequency, omega, slip_doubt()), slip_note());
     }
-    report_mass();
-    if (fit_.held.damping) {
-      add(damping, {fit_.zeta, 0.0, fit_.damping_ci, {}}, ParameterStatus::Fixed);
-    } else if (!resolution_.damping_resolved) {
-      add(damping, {}, ParameterStatus::Unidentified, resolution_.reason);
-    } else {
-      const bool sharp = resolved && fit_.damping_se < 0.25 * fit_.zeta;
-      add(damping, {fit_.zeta, fit_.damping_se, fit_.damping_ci, {}}, sharp ? graded(0.0, 1.0) : ParameterStatus::Weak,
-          sharp ? few_cycles() : weak_damping());
-      report_damping_coefficient();
-    }
+    if (f_.in_newtons) report_mass();
+    report_damping();
   }
 
   /// m = k / w_n^2
   void report_mass() {
-    if (!in_newtons_) return;
-    VectorXd gradient = unit_gradient(kLogStiffness);
-    gradient(kLogFrequency) = -2.0;
-    const Linear y =
-        widened(fit_.linear(std::log(fit_.stiffness / (fit_.omega * fit_.omega)), gradient, 0.0), speed_error());
-    const bool both_held = fit_.held.stiffness && fit_.held.frequency;
-    const bool resolved = resolution_.samples_per_slip > kSamplesForIdentified && !fit_.shape_refused;
-    add("mass_kg", exponential(fit_.estimate(y)),
-        both_held  ? ParameterStatus::Fixed
-        : resolved ? graded(y.se, 0.1)
-                   : ParameterStatus::Weak,
-        "effective: k / w_n^2");
+    const Jet m = model_.stiffness / (model_.omega * model_.omega);
+    if (f_.held[kLogStiffness] && f_.held[kLogFrequency]) return add_held(Id::Mass, m.a);
+    const Estimate mass = f_.intervals.interval_of_one_sign(m);
+    const std::string doubt = slip_doubt().empty() ? f_.stiffness_doubt : slip_doubt();
+    add(Id::Mass, mass, graded(Id::Mass, mass, doubt), "effective: k / w_n^2");
   }
 
-  /// c = 2 zeta k / w_n, [Paper] eq. (6)
-  void report_damping_coefficient() {
-    if (!in_newtons_) return;
-    const double unit_c = 2.0 * fit_.stiffness / fit_.omega;
-    VectorXd gradient(kQuantities);
-    gradient << fit_.zeta * unit_c, -fit_.zeta * unit_c, unit_c, 0.0, 0.0;
-    Estimate c =
-        fit_.estimate(widened(fit_.linear(fit_.zeta * unit_c, gradient, 0.0), fit_.zeta * unit_c * speed_error()));
-    c.ci95 = Interval{fit_.damping_ci.low * unit_c, std::max(fit_.damping_ci.high * unit_c, c.ci95->high)};
-    const bool sharp = resolution_.samples_per_slip > kSamplesForIdentified && fit_.damping_se < 0.25 * fit_.zeta;
-    add("damping_coefficient_N_s_per_m", c, sharp ? graded(0.0, 1.0) : ParameterStatus::Weak);
+  void report_damping() {
+    if (f_.held[kDamping]) return add_held(Id::DampingRatio, model_.zeta.a);
+    if (!f_.damping_known()) return add_unknown(Id::DampingRatio, f_.damping.note);
+    const std::string doubt = slip_doubt().empty() ? f_.damping_doubt : slip_doubt();
+    const ParameterStatus status = graded(Id::DampingRatio, f_.damping, doubt);
+    const bool sharp = status == ParameterStatus::Identified;
+    add(Id::DampingRatio, f_.damping, status, sharp ? "" : doubt.empty() ? weak_damping() : doubt);
+    if (!f_.in_newtons) return;
+    // c = 2 zeta k / w_n, [Paper] eq. (6); zeta is never negative, and nor is c.
+    const Jet unit = 2.0 * model_.stiffness / model_.omega;
+    Jet zeta = model_.zeta;
+    zeta.a = f_.free_damping_ratio.value_or(zeta.a);
+    Estimate c = f_.intervals.interval_of(zeta * unit);
+    c.value = std::max(0.0, *c.value);
+    c.ci95 = Interval{f_.damping.ci95->low * unit.a, std::max(f_.damping.ci95->high * unit.a, c.ci95->high)};
+    add(Id::DampingCoefficient, c, status);
   }
 
-  /// Covariance of (ln k, ln w_n, zeta, ln dF) for everything that follows.
-  void report_model() {
-    if (!resolution_.damping_resolved || !(difference_.se < difference_.value / 3.0)) return;
-    const double drag = 2.0 * fit_.zeta * fit_.scale;
-    MatrixXd gradients = MatrixXd::Zero(kQuantities, 4);
-    gradients(kLogStiffness, 0) = gradients(kLogFrequency, 1) = gradients(kDamping, 2) = 1.0;
-    gradients.col(3) << drag, -drag, 2.0 * fit_.scale, fit_.force, 0.0;
-    gradients.col(3) /= difference_.value;
-    MatrixXd covariance = gradients.transpose() * fit_.uncertainty.covariance * gradients;
-    const double spread = fit_.onset_force_sd / difference_.value;
-    covariance(3, 3) += fit_.scatter_variance(spread);
-    covariance(0, 0) += speed_error() * speed_error();
-    ModelEstimate model;
-    model.stiffness_N_per_m = fit_.stiffness;
-    model.natural_frequency_rad_per_s = fit_.omega;
-    model.damping_ratio = fit_.zeta;
-    model.friction_difference_N = difference_.value;
-    model.degrees_of_freedom = std::min(difference_.degrees_of_freedom, fit_.uncertainty.degrees_of_freedom);
-    model.damping_identified = fit_.held.damping || fit_.damping_ci.low > 0.0;
-    Correlation correlation{
-        {"stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio", "friction_difference_N"}, {}};
-    for (Eigen::Index i = 0; i < 4; ++i) {
-      std::vector<double> row;
-      for (Eigen::Index j = 0; j < 4; ++j) {
-        model.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = covariance(i, j);
-        const double scale = std::sqrt(covariance(i, i) * covariance(j, j));
-        row.push_back(i == j ? 1.0 : scale > 0.0 ? covariance(i, j) / scale : 0.0);
-      }
-      correlation.matrix.push_back(row);
+  /// Errors fall with the root of the cycles; identified from a quarter on.
+  [[nodiscard]] std::string weak_damping() const {
+    if (!few_cycles().empty()) return few_cycles();
+    const double se = *f_.damping.standard_error;
+    const double times = std::pow(4.0 * se / *f_.damping.value, 2);
+    const std::string known = fmt::format("known to {:.2g}", se);
+    return times < 100.0 ? fmt::format("{}: {:.2g} times the cycles, or less noise, would tell it", known, times)
+                         : known + ", from 0 it cannot be told";
+  }
+
+  void report_law() {
+    if (!f_.law->depends_on_speed) return withhold_law("not needed or not told: " + f_.law->reason);
+    const Estimate slope = along([](const SlidingModel& model) { return model.slope; });
+    add(Id::FrictionSlope, slope, graded(Id::FrictionSlope, slope, slip_doubt()), slip_doubt());
+    const Estimate alpha = f_.intervals.interval_of_one_sign(model_.alpha);
+    // Nearer to 0 than 3 standard errors: those that come out so large by chance would be reported, the others not.
+    const double relative = relative_error(f_.intervals.interval_of(model_.alpha));
+    if (!(relative < 1.0 / 3.0)) {
+      return withhold_law(
+          fmt::format("only the product f1 alpha can be told: {:.3g} N s/m, 95 % interval {:.3g} to {:.3g}",
+                      *slope.value, slope.ci95->low, slope.ci95->high));
     }
-    result_.estimate = model;
-    result_.correlation = correlation;
+    const std::string bends = "the speeds show little of the curvature; f1 alpha is known better";
+    const auto noted = [&](ParameterStatus status) { return status == ParameterStatus::Weak ? bends : ""; };
+    const ParameterStatus of_alpha = graded(Id::Alpha, alpha, slip_doubt());
+    add(Id::Alpha, alpha, of_alpha, noted(of_alpha));
+    const Estimate f0 = along([](const SlidingModel& model) { return model.level - model.slope / model.alpha; });
+    const Estimate f1 = along([](const SlidingModel& model) { return model.slope / model.alpha; });
+    // f1 = slope / alpha bends with alpha: where alpha is not sharp, the tails reach further than the interval shows.
+    const bool sharp = 2.0 * relative < info(Id::F1).identified_below;
+    const ParameterStatus status = sharp ? graded(Id::F1, f1, slip_doubt()) : ParameterStatus::Weak;
+    report_law_forces(f0, f1, status, noted(status));
   }
 
-  const Recording& recording_;
-  const Resolution& resolution_;
+  void report_law_forces(const Estimate& f0, const Estimate& f1, ParameterStatus status, const std::string& note) {
+    const bool told = f_.zero_known || status != ParameterStatus::Identified;
+    const ParameterStatus of_level = told ? status : ParameterStatus::Conditional;
+    const std::string zero = f_.zero_known ? note : kZeroUnknown;
+    add(Id::F0, f0, of_level, zero);
+    add(Id::F1, f1, status, note);
+    if (!f_.law->reference_normal_force_N) return;
+    const double load = *f_.law->reference_normal_force_N;
+    const auto over_load = [load](const Estimate& force) {
+      return Estimate{*force.value / load,
+                      *force.standard_error / load,
+                      Interval{force.ci95->low / load, force.ci95->high / load},
+                      {}};
+    };
+    add(Id::Mu0, over_load(f0), of_level, zero);
+    add(Id::Mu1, over_load(f1), status, note);
+  }
+
+  [[nodiscard]] Estimate along(const std::function<Jet(const SlidingModel&)>& quantity) const {
+    return f_.intervals.interval_along(quantity(model_), [&](const Coordinates& move) {
+      return quantity(SlidingModel(f_.values + move, f_.units)).a;
+    });
+  }
+
+  void withhold_law(const std::string& reason) {
+    for (const Id id : {Id::Alpha, Id::F0, Id::F1}) add_unknown(id, reason);
+  }
+
+  /// For everything that is computed from the fit. Needs all four of k, w_n, zeta and F_s above F_k.
+  void report_model() {
+    const bool damping_known = f_.held[kDamping] || f_.damping_known();
+    const bool resolved = f_.slip_unresolved.empty() && !f_.difference_bounds && f_.in_newtons;
+    if (!resolved || !damping_known || !(model_.difference.a > 0.0)) return;
+    // In the order of kModelParameters; of the positive ones the logarithm.
+    const std::array<Jet, kModelValues> all{log(model_.stiffness),  log(model_.omega), model_.zeta,
+                                            log(model_.difference), model_.slope,      model_.alpha,
+                                            model_.ageing};
+    ModelEstimate estimate{model_.stiffness.a, model_.omega.a, model_.zeta.a, model_.difference.a};
+    std::vector<std::size_t> used{0, 1, 2, 3};
+    if (f_.law && f_.law->depends_on_speed) {
+      estimate.speed_dependence = SpeedDependence{model_.slope.a, model_.alpha.a};
+      used.insert(used.end(), {4, 5});
+    }
+    if (f_.law && f_.law->ages) {
+      estimate.ageing = Ageing{model_.ageing.a, f_.units.stick_s};
+      used.push_back(6);
+    }
+    Correlation correlation;
+    for (const std::size_t i : used) {
+      correlation.names.emplace_back(info(kModelParameters[i]).key);
+      correlation.matrix.emplace_back();
+      for (const std::size_t j : used) {
+        const double covariance = f_.intervals.covariance(all[i], all[j]);
+        const double scale = f_.intervals.standard_error(all[i]) * f_.intervals.standard_error(all[j]);
+        estimate.covariance[i][j] = covariance;
+        correlation.matrix.back().push_back(i == j ? 1.0 : scale > 0.0 ? covariance / scale : 0.0);
+      }
+    }
+    const Spread& spread = f_.intervals.spread();
+    estimate.degrees_of_freedom =
+        std::min(f_.intervals.degrees_of_freedom(model_.difference), spread.degrees_of_freedom);
+    estimate.damping_identified = f_.held[kDamping] || f_.damping.ci95->low > 0.0;
+    result_.correlation = std::move(correlation);
+    result_.estimate = estimate;
+  }
+
+  const Findings& f_;
+  SlidingModel model_;
   FitResult& result_;
-  const Solution fit_;
-  const SawtoothFit& sawtooth_;
-  bool in_newtons_ = true;
-  Linear difference_;
 };
 
 }  // namespace
 
-void report_parameters(const Recording& recording, const TierFits& fits, const Resolution& resolution,
-                       FitResult& result) {
-  Reporter(recording, fits, resolution, result).report();
+void report_parameters(const Findings& findings, FitResult& result) {
+  Reporter(findings, result).report();
 }
 
 }  // namespace slipfit::fit

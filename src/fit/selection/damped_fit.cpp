@@ -43,9 +43,10 @@ constexpr double kFinal = 1e-3;
 
 class Fitter {
  public:
-  Fitter(const Recording& recording, const Quality& quality, const Segmentation& segmentation, const HeldValues& held)
+  Fitter(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
+         const HeldParameters& held)
       : recording_(recording), quality_(quality), segmentation_(segmentation), held_values_(held) {
-    held_ = {held.stiffness_N_per_m.has_value(), held.omega_rad_per_s.has_value(), held.damping_ratio.has_value()};
+    held_ = held_of(held);
     excluded_ = initial_exclusions(recording, quality);
     scales_ = scales_of(recording, quality, segmentation);
   }
@@ -68,7 +69,7 @@ class Fitter {
     if (!start) return std::nullopt;
     if (is_hopeless(*start)) return finish(std::move(*start));
     std::optional<BlockFit> fit =
-        fit_from(std::move(cycles_), start->level(), start->parameters.shared, kMaxIterations, kRough);
+        fit_from(std::move(cycles_), start->level(), start->parameters.globals, kMaxIterations, kRough);
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
     if (quality_.clock_jitter > kUnevenClock) fit = with_clock_weights(std::move(*fit));
@@ -115,12 +116,12 @@ class Fitter {
   std::optional<BlockFit> fit_probe(const std::vector<CycleData>& probe, const LevelModel& level) {
     std::optional<BlockFit> fit = fit_from_starts(probe, level);
     if (!fit) return std::nullopt;
-    start_ = fit->parameters.shared;
+    start_ = fit->parameters.globals;
     // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
     if (!std::isfinite(fit->solve({held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
     if (!level.per_cycle && probe.size() > level.terms && reduced_chi2(*fit) > kSuspectChi2) {
       std::optional<BlockFit> wandering =
-          fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.shared, kProbeIterations, kRough);
+          fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.globals, kProbeIterations, kRough);
       if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
     }
     refuse_negative_damping(*fit, kRough);
@@ -128,8 +129,8 @@ class Fitter {
   }
 
   [[nodiscard]] bool explains_more(const BlockFit& wandering, const BlockFit& polynomial) const {
-    const Uncertainty rich = estimate_uncertainty(wandering, held_, false);
-    const Uncertainty poor = estimate_uncertainty(polynomial, held_, false);
+    const Uncertainty rich = estimate_uncertainty(wandering, {held_, false});
+    const Uncertainty poor = estimate_uncertainty(polynomial, {held_, false});
     const auto extra = static_cast<double>(wandering.size() - polynomial.level().terms);
     const double noise2 = rich.noise * rich.noise / (scales_.noise * scales_.noise);
     return (poor.chi2 - rich.chi2) / extra > kWanderingRatio * noise2;
@@ -151,10 +152,10 @@ class Fitter {
       for (const double zeta : dampings) {
         const double b = std::sqrt(1.0 - zeta * zeta);
         const double omega =
-            held_values_.omega_rad_per_s.value_or(stretch * std::numbers::pi / (scales_.half_period_s * b));
+            held_values_.natural_frequency_rad_per_s.value_or(stretch * std::numbers::pi / (scales_.half_period_s * b));
         set_start(fit, segmentation_, {std::log(start_stiffness_), std::log(omega), zeta});
         SolveOptions quick{held_, false, true, kQuickIterations, kRough};
-        quick.held.damping = true;
+        quick.held[kDamping] = true;
         const double cost = fit.solve(quick);
         if (cost >= best_cost) continue;
         best_cost = cost;
@@ -168,10 +169,10 @@ class Fitter {
   }
 
   [[nodiscard]] std::optional<BlockFit> fit_from(std::vector<CycleData> cycles, const LevelModel& level,
-                                                 const Shared& shared, int max_iterations, double tolerance) const {
+                                                 const Globals& globals, int max_iterations, double tolerance) const {
     std::vector<double> middles = middles_s(cycles);
     BlockFit fit(std::move(cycles), std::move(middles), scales_, level);
-    set_start(fit, segmentation_, shared);
+    set_start(fit, segmentation_, globals);
     if (!std::isfinite(fit.solve({held_, false, true, max_iterations, tolerance}))) return std::nullopt;
     return fit;
   }
@@ -179,13 +180,13 @@ class Fitter {
   /// A damping ratio clearly below 0 (jackknife where residuals are not white) means that slips are not shaped like the
   /// model's: zeta is held at 0 from here on, and called unidentified.
   void refuse_negative_damping(BlockFit& fit, double tolerance) {
-    const double zeta = fit.parameters.shared[2];
-    if (held_.damping || !(zeta < 0.0) || reduced_chi2(fit) < kSuspectChi2) return;
-    const Uncertainty uncertainty = estimate_uncertainty(fit, held_, false);
+    const double zeta = fit.parameters.globals[2];
+    if (held_[kDamping] || !(zeta < 0.0) || reduced_chi2(fit) < kSuspectChi2) return;
+    const Uncertainty uncertainty = estimate_uncertainty(fit, {held_, false});
     const double se = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
     if (!(zeta + 2.5 * se < 0.0)) return;
     refused_damping_ = zeta;
-    held_.damping = true;
+    held_[kDamping] = true;
     // From the features again: the runaway zeta has dragged the other parameters along.
     set_start(fit, segmentation_, {start_[0], start_[1], 0.0});
     fit.solve({held_, false, true, kMaxIterations, tolerance});
@@ -256,7 +257,7 @@ class Fitter {
     level.lines_Hz = lines_Hz;
     std::vector<double> middles = middles_s(kept);
     BlockFit refit(std::move(kept), std::move(middles), scales_, level);
-    refit.parameters.shared = start.shared;
+    refit.parameters.globals = start.globals;
     std::copy_n(start.level.begin(), level.terms, refit.parameters.level.begin());
     std::size_t old = 0;
     for (std::size_t i = 0; i < refit.size(); ++i) {
@@ -275,10 +276,10 @@ class Fitter {
   const Recording& recording_;
   const Quality& quality_;
   const Segmentation& segmentation_;
-  HeldValues held_values_;
+  HeldParameters held_values_;
   Held held_;
   double start_stiffness_ = 0.0;
-  Shared start_{};
+  Globals start_{};
   std::optional<double> refused_damping_;
   Scales scales_;
   std::vector<std::size_t> excluded_;  // in ascending order
@@ -288,7 +289,7 @@ class Fitter {
 }  // namespace
 
 std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& quality,
-                                    const Segmentation& segmentation, const HeldValues& held) {
+                                    const Segmentation& segmentation, const HeldParameters& held) {
   if (segmentation.slips.size() < kMinCycles) return std::nullopt;
   return Fitter(recording, quality, segmentation, held).fit();
 }

@@ -6,7 +6,7 @@
 #include "fit/inference/misfit.hpp"
 #include "fit/inference/uncertainty.hpp"
 #include "fit/problem/block_fit.hpp"
-#include "fit/problem/held_values.hpp"
+#include "slipfit/fit/parameter.hpp"
 #include "slipfit/signal/cycles.hpp"
 #include "slipfit/signal/quality.hpp"
 
@@ -28,7 +28,7 @@ struct DampedFit {
 /// drift or wander, outliers left out, ramps joined where the data allow it. Empty: fewer than 3 cycles to fit, or no
 /// start converges.
 std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& quality,
-                                    const Segmentation& segmentation, const HeldValues& held);
+                                    const Segmentation& segmentation, const HeldParameters& held);
 
 /// The same cycles and level with zeta held at 0, from the damped solution. Where it `may_lose` and has clearly lost to
 /// the damped fit, it stays rough and its ramps are not joined.

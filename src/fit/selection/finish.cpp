@@ -31,14 +31,14 @@ class Finisher {
 
   /// Empty where the normal equations are singular: the cycles do not tell the shared parameters apart.
   [[nodiscard]] std::optional<DampedFit> finish(DampedFit result) const {
-    result.uncertainty = estimate_uncertainty(result.blocks, result.held, false);
+    result.uncertainty = estimate_uncertainty(result.blocks, {result.held, false});
     if (!is_regular(result.uncertainty, result.held)) return std::nullopt;
     if (!result.blocks.level().per_cycle && !result.uncertainty.from_cycles) join_ramps(result);
     // Noise of a step and more spreads the rounding evenly: it is white then.
     if (quality_.quantisation_step && result.uncertainty.noise < *quality_.quantisation_step) {
-      const Eigen::MatrixXd moves = moves_by_rounding(result);
+      const Moves moves = moves_by_rounding(result);
       if (moves.rows() < kRoundedCopies / 2) return std::nullopt;
-      result.uncertainty = with_rounding(result.uncertainty, moves, result.held);
+      result.uncertainty = with_rounding(result.uncertainty, moves);
     }
     if ((result.misfit = find_misfit(result.blocks, 0.5 * quality_.quantisation_step.value_or(0.0)))) {
       result.uncertainty = with_misfit(result.uncertainty, moves_by_phase(result.blocks, result.held));
@@ -48,12 +48,12 @@ class Finisher {
 
  private:
   /// What refits to rounded copies of the model move the quantities by.
-  [[nodiscard]] Eigen::MatrixXd moves_by_rounding(const DampedFit& result) const {
+  [[nodiscard]] Moves moves_by_rounding(const DampedFit& result) const {
     const Residuals residuals = residuals_of(recording_, result.blocks, {});
     std::vector<double> model(recording_.force().begin(), recording_.force().end());
     for (std::size_t i = 0; i < model.size(); ++i) model[i] -= residuals.value[i];
     const RoundedCopies copies(std::move(model), *quality_.quantisation_step, result.uncertainty.noise);
-    Eigen::MatrixXd moves(kRoundedCopies, kQuantities);
+    Moves moves(kRoundedCopies, kCoordinates);
     Eigen::Index fitted = 0;
     for (unsigned copy = 0; copy < kRoundedCopies; ++copy) {
       const auto time_s = recording_.time_s();
@@ -61,8 +61,7 @@ class Finisher {
           Recording::create({time_s.begin(), time_s.end()}, copies.draw(copy), recording_.conditions());
       BlockFit refit = same_cycles(rounded.value(), result);
       if (!std::isfinite(refit.solve({result.held, result.continuous, true, kFewIterations, kFinal}))) continue;
-      const Eigen::VectorXd moved = quantities_of(refit) - quantities_of(result.blocks);
-      moves.row(fitted++) = moved.transpose();
+      moves.row(fitted++) = (coordinates_of(refit) - coordinates_of(result.blocks)).transpose();
     }
     return moves.topRows(fitted);
   }
@@ -85,9 +84,9 @@ class Finisher {
   }
 
   static bool is_regular(const Uncertainty& uncertainty, const Held& held) {
-    const Eigen::MatrixXd& c = uncertainty.covariance;
-    return c.allFinite() && (held.stiffness || c(kLogStiffness, kLogStiffness) > 0.0) &&
-           (held.frequency || c(kLogFrequency, kLogFrequency) > 0.0) && (held.damping || c(kDamping, kDamping) > 0.0);
+    const CoordinateMatrix& c = uncertainty.covariance;
+    const auto is_known = [&](Coordinate i) { return held[static_cast<std::size_t>(i)] || c(i, i) > 0.0; };
+    return c.allFinite() && is_known(kLogStiffness) && is_known(kLogFrequency) && is_known(kDamping);
   }
 
   /// Joined ramps halve the error of k where the data agree: F test, one degree of freedom a ramp.
@@ -99,7 +98,7 @@ class Finisher {
     if (ramps < 1.0) return;
     const Parameters before = result.blocks.parameters;
     if (std::isfinite(result.blocks.solve({result.held, true, true, kMaxIterations, kFinal}))) {
-      const Uncertainty joined = estimate_uncertainty(result.blocks, result.held, true);
+      const Uncertainty joined = estimate_uncertainty(result.blocks, {result.held, true});
       const double freedom = std::max(1.0, result.uncertainty.degrees_of_freedom);
       const double ratio = (joined.chi2 - result.uncertainty.chi2) / ramps / (result.uncertainty.chi2 / freedom);
       const boost::math::fisher_f_distribution<double> chance(ramps, freedom);

@@ -44,7 +44,7 @@ Residuals residuals_of(const Recording& recording, const BlockFit& fit, const st
       for (std::size_t i = begin; i < end; ++i) residuals.value[i] = force[i] - force_at(time_s[i]);
       std::fill_n(residuals.phase.begin() + static_cast<std::ptrdiff_t>(begin), end - begin, phase);
     };
-    const auto shown = [&](double t_s) { return model.force_at(state, t_s, level, own); };
+    const auto shown = [&](double t_s) { return model.level_at(t_s, level, own) + state.force_at(t_s); };
     const auto stick = [&, rate = state.force_scale * state.omega_rad_per_s](double above) {
       return [&, rate, above](double t_s) {
         return model.level_at(t_s, level, own) + above + rate * (t_s - state.onset_s);
@@ -53,13 +53,13 @@ Residuals residuals_of(const Recording& recording, const BlockFit& fit, const st
     const std::size_t begin = index_at(fit.data(c).window_begin_s);
     const std::size_t end = std::max(begin, index_at(fit.data(c).window_end_s));
     const std::size_t slip_begin = std::clamp(index_at(state.onset_s), begin, end);
-    const std::size_t slip_end =
-        std::clamp(index_at(state.onset_s + state.slip.tau_end / state.omega_rad_per_s), slip_begin, end);
-    const auto [before, after] = model.stick_forces(state);
+    const std::size_t slip_end = std::clamp(index_at(state.onset_s + state.slip_s()), slip_begin, end);
+    const double before = state.force_scale * state.motion.before_slip(0.0).z;
+    const double after = state.force_scale * state.motion.after_slip(0.0).z;
     fill(begin, slip_begin, Phase::Stick, stick(before));
     fill(slip_begin, slip_end, Phase::Slip, shown);
-    state.lag_tau > 0.0 ? fill(slip_end, end, Phase::Stick, shown)  // the sensor still shows the slip
-                        : fill(slip_end, end, Phase::Stick, stick(after));
+    fit.scales().sensor_lag_s > 0.0 ? fill(slip_end, end, Phase::Stick, shown)  // the sensor still shows the slip
+                                    : fill(slip_end, end, Phase::Stick, stick(after));
     if (fit.level().lines_Hz.empty()) continue;
     for (std::size_t i = begin; i < end; ++i) residuals.value[i] -= model.hum_at(time_s[i], level);
   }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/cycle/start.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -34,7 +33,7 @@ double median_slip_s(const BlockFit& blocks) {
   std::vector<double> durations;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const CycleState state = blocks.state(i);
-    durations.push_back(state.slip.tau_end / state.omega_rad_per_s);
+    durations.push_back(state.slip_s());
   }
   return signal::median(durations);
 }
@@ -56,13 +55,13 @@ SawtoothFit fit_sawtooth(const DampedFit& damped) {
     const CycleData& data = blocks.data(i);
     const CycleState state = blocks.state(i);
     // Lines of the fit before and after, continued to the middle of the slip.
-    const double jump = state.force_scale * (state.slip.z0 - state.after.intercept);
+    const double jump = state.force_scale * (state.z0() - state.motion.after.intercept);
     drops.push_back(jump);
     const double middle_s = blocks.reference_s(i);
     const double* own = blocks.parameters.cycles[i].data();
     for (std::size_t j = 0; j < data.time_s.size(); ++j) {
-      const double tau = state.omega_rad_per_s * (data.time_s[j] - state.onset_s);
-      const double z = (data.time_s[j] < middle_s ? state.slip.z0 : state.after.intercept) + tau - state.lag_tau;
+      const double line = data.time_s[j] < middle_s ? state.z0() : state.motion.after.intercept;
+      const double z = line + state.tau_at(data.time_s[j] - blocks.scales().sensor_lag_s);
       const double level = blocks.model(i).level_at(data.time_s[j], blocks.level_data(), own);
       const double residual = data.force[j] - level - state.force_scale * z;
       sum += residual * residual;

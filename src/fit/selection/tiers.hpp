@@ -26,7 +26,7 @@ struct TierFits {
   DampedFit damped;
 
   /// zeta was held by the user.
-  [[nodiscard]] bool damping_held() const { return damped.held.damping && !damped.refused_damping; }
+  [[nodiscard]] bool damping_held() const { return damped.held[kDamping] && !damped.refused_damping; }
   [[nodiscard]] const DampedFit* without_damping() const {
     if (damped.refused_damping) return &damped;
     return undamped ? &*undamped : nullptr;

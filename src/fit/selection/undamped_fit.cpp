@@ -20,10 +20,10 @@ bool is_lost(double loose_chi2, const DampedFit& damped) {
 
 std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
   const BlockFit& from = damped.blocks;
-  BlockFit blocks = duplicate(from);
-  blocks.parameters.shared[2] = 0.0;
+  BlockFit blocks = from;
+  blocks.parameters.globals[2] = 0.0;
   Held held = damped.held;
-  held.damping = true;
+  held[kDamping] = true;
   // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
   SolveOptions rough{held, false, true};
   rough.tolerance = 0.1;
@@ -33,9 +33,9 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
   const bool joined = damped.continuous && !lost;
   if (!lost && !std::isfinite(blocks.solve({held, joined, true}))) return std::nullopt;
   DampedFit result{std::move(blocks), joined, held, damped.refused_damping, damped.excluded, {}, damped.misfit};
-  result.uncertainty = estimate_uncertainty(result.blocks, held, joined);
+  result.uncertainty = estimate_uncertainty(result.blocks, {held, joined});
   // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.
-  const bool is_false = from.parameters.shared[2] < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
+  const bool is_false = from.parameters.globals[2] < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
   return is_false ? std::nullopt : std::optional(std::move(result));
 }
 

@@ -23,7 +23,7 @@ struct Spot {
 Spot spot_of(const Analysis& analysis) {
   Spot spot{analysis.derived.lambda, {}};
   if (!analysis.fit) return spot;
-  const Parameter* const zeta = find_parameter(*analysis.fit, "damping_ratio");
+  const Parameter* const zeta = analysis.fit->find(ParameterId::DampingRatio);
   if (zeta != nullptr && zeta->status != ParameterStatus::Bounded) spot.zeta = zeta->estimate;
   return spot;
 }

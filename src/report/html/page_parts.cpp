@@ -31,8 +31,8 @@ std::string key_number(const std::string& name, const Estimate& estimate, const 
 }
 
 /// Empty where the fit does not have it, or only between bounds.
-Estimate parameter_named(const FitResult& fit, const std::string& name) {
-  const Parameter* const parameter = find_parameter(fit, name);
+Estimate shown_estimate(const FitResult& fit, ParameterId id) {
+  const Parameter* const parameter = fit.find(id);
   if (parameter == nullptr) return {};
   const bool has_value = parameter->status != ParameterStatus::Bounded;
   return has_value ? parameter->estimate : Estimate{{}, {}, parameter->estimate.ci95, {}};
@@ -138,8 +138,8 @@ std::string key_numbers(const Source& source) {
   std::string numbers = key_number("frequency", analysis.frequency.quoted, "Hz") +
                         key_number("pattern spacing V/f", analysis.derived.pattern_spacing_m, "m");
   if (analysis.fit) {
-    numbers += key_number("stiffness", parameter_named(*analysis.fit, "stiffness_N_per_m"), "N/m") +
-               key_number("damping ratio", parameter_named(*analysis.fit, "damping_ratio"), "") +
+    numbers += key_number("stiffness", shown_estimate(*analysis.fit, ParameterId::Stiffness), "N/m") +
+               key_number("damping ratio", shown_estimate(*analysis.fit, ParameterId::DampingRatio), "") +
                key_number("critical speed", analysis.derived.critical_speed_m_per_s, "m/s");
   }
   return "<dl class=\"keys\">\n" + numbers + "</dl>\n<p class=\"guide\">In brackets: 95 % intervals.</p>\n";

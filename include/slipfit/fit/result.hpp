@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfit/core/estimate.hpp"
+#include "slipfit/fit/parameter.hpp"
+
+namespace slipfit {
+
+/// Models from the poorest to the richest; each adds one idea to the one before.
+enum class Tier { Sawtooth, Undamped, Damped, Velocity };
+
+/// One cycle of the table `--cycles`: as detected, and as fitted where the fit uses it. Forces in the unit of the
+/// column.
+struct Cycle {
+  double peak_s = 0.0;
+  double trough_s = 0.0;
+  double peak_force = 0.0;
+  double trough_force = 0.0;
+  bool used = false;                  ///< in the fit
+  std::optional<double> onset_s;      ///< start of slip by the fit
+  std::optional<double> end_s;        ///< end of slip by the fit
+  std::optional<double> onset_force;  ///< spring force at the start of slip, F_s - c V
+  std::optional<double> level_force;  ///< kinetic level F_k of this cycle
+  std::optional<double> residual_rms;
+  std::optional<double> recovery_s;  ///< slip and the stick that makes good its drop: the period that it causes
+  bool left_aside = false;           ///< one of more than a fit needs: not offered to it
+};
+
+/// A tier that was tried, and why it was taken or left.
+struct Candidate {
+  Tier tier = Tier::Sawtooth;
+  std::size_t parameters = 0;  ///< shared ones
+  std::optional<double> rms;   ///< residual, unit of the force column
+  std::optional<double> aicc;  ///< on the effective sample size
+  bool chosen = false;
+  std::string reason;
+};
+
+struct Residual {
+  double rms = 0.0;
+  std::optional<double> reduced_chi2;  ///< against the noise measured on the trace
+  std::optional<double> whiteness_p;   ///< that white residuals show this lag-1 correlation
+};
+
+struct Correlation {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> matrix;  ///< symmetric, ones on the diagonal
+};
+
+/// A point of the fitted curve, at a sample of the recording.
+struct CurvePoint {
+  std::size_t sample = 0;
+  double force = 0.0;
+};
+
+/// How well the cycles look like stick-slip cycles of the model: evidence for the verdict.
+struct Evidence {
+  double relative_residual = 0.0;   ///< residual rms over the mean onset force above F_k
+  double onset_force_spread = 0.0;  ///< standard deviation over mean of the onset force above F_k
+  double onset_force_error = 0.0;   ///< white-noise error of one cycle's onset force, over the mean
+  double restick_share = 0.0;       ///< share of the cycles whose slip ends in stick
+  double decay = 1.0;               ///< median onset force, first half of the cycles over second half
+  double span_share = 0.0;          ///< duration of the cycles over duration of the recording
+  double samples_per_slip = 0.0;
+  double hum_share = 0.0;  ///< amplitude of the fitted mains hum over the mean onset force
+};
+
+/// Friction that depends on the sliding speed v: F_k(v) = F_k(0+) + b (exp(alpha v) - 1) / alpha, the law f0 + f1
+/// exp(alpha v) of docs/model.md section 5 with b = f1 alpha, which stays known where alpha alone is not.
+struct SpeedDependence {
+  double slope_N_s_per_m = 0.0;  ///< b, the slope of F_k at v = 0
+  double alpha_s_per_m = 0.0;
+};
+
+/// Static friction that grows with the stick time before the slip (contact ageing): F_s - F_k(0+) = D + rate
+/// ln(stick / reference), D being ModelEstimate::friction_difference_N. docs/model.md (18)
+struct Ageing {
+  double rate_N = 0.0;
+  double reference_stick_s = 1.0;
+};
+
+/// The fitted model as one point with its covariance, for everything that is computed from it.
+struct ModelEstimate {
+  double stiffness_N_per_m = 0.0;
+  double natural_frequency_rad_per_s = 0.0;
+  double damping_ratio = 0.0;          ///< >= 0
+  double friction_difference_N = 0.0;  ///< F_s - F_k(0+)
+  /// Of kModelParameters, (ln k, ln w_n, zeta, ln (F_s - F_k(0+)), b, alpha, rate of ageing), scatter of the cycles
+  /// included; b and alpha are exactly 0 under Coulomb friction, the last without ageing.
+  std::array<std::array<double, kModelValues>, kModelValues> covariance{};
+  double degrees_of_freedom = 1.0;                    ///< of Student's t
+  bool damping_identified = false;                    ///< zeta is known well enough to ask for critical speeds
+  std::optional<SpeedDependence> speed_dependence{};  ///< empty: Coulomb friction
+  std::optional<Ageing> ageing{};                     ///< empty: the same static friction after every stick
+};
+
+struct FitResult {
+  Tier tier = Tier::Sawtooth;
+  Evidence evidence;
+  std::optional<ModelEstimate> estimate;    ///< empty where the slip is not resolved or forces have no newtons
+  std::vector<std::string> conditional_on;  ///< what the numbers assume ("Coulomb friction", ...)
+  std::vector<Candidate> candidates;
+  Residual residual;
+  std::vector<Parameter> parameters;  ///< in the order of docs/formats.md; absent: the tier does not have it
+  std::optional<Correlation> correlation;
+  std::vector<Cycle> cycles;
+  std::vector<CurvePoint> curve;  ///< samples that the fit covers
+  Warnings warnings;
+
+  /// Null where the fit does not have it.
+  [[nodiscard]] const Parameter* find(ParameterId id) const;
+  /// Empty, without a reason, where the fit does not have it.
+  [[nodiscard]] Estimate estimate_of(ParameterId id) const;
+  [[nodiscard]] Estimate stiffness() const { return estimate_of(ParameterId::Stiffness); }
+  [[nodiscard]] Estimate friction_difference() const { return estimate_of(ParameterId::FrictionDifference); }
+  [[nodiscard]] Estimate natural_frequency() const { return estimate_of(ParameterId::NaturalFrequency); }
+  [[nodiscard]] Estimate damping_ratio() const { return estimate_of(ParameterId::DampingRatio); }
+};
+
+}  // namespace slipfit

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/fit.hpp"
+#include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
+
+namespace slipfit {
+
+/// What a recording of a sweep is used for.
+enum class SweepRole {
+  Cycles,  ///< stick-slip: its cycles are fitted
+  Steady,  ///< steady sliding: its mean force is F_k(V)
+  LeftOut
+};
+
+/// One recording of a sweep (a speed, perhaps a load). The references must outlive the fit.
+struct SweepRecording {
+  const Recording& recording;
+  const Quality& quality;
+  const Segmentation& segmentation;
+  SweepRole role = SweepRole::Cycles;
+};
+
+/// What the fit of a sweep says of one of its recordings; forces as the sensor reads them.
+struct SweepPoint {
+  std::size_t cycles_used = 0;
+  std::optional<double> rms;     ///< residual, N
+  Estimate kinetic_friction_N;   ///< F_k at the driving speed by the friction law
+  Estimate mean_steady_force_N;  ///< steady sliding: as measured
+  Estimate spacing_m;            ///< periodic displacement by the model at this speed
+  Estimate spacing_left_out_m;   ///< the same from a fit without this recording: what proves the model
+};
+
+/// Parameters shared by a sweep. `fit` holds tier (Damped or Velocity), candidates, parameters and correlation; it has
+/// no cycles and no curve.
+struct SweepFit {
+  FitResult fit;
+  std::vector<SweepPoint> points;  ///< in the order of the recordings
+  bool level_shared = false;       ///< one F_k(0+) for all recordings: the data agree with it
+  bool difference_shared = false;  ///< one F_s for all speeds: the data agree with it
+};
+
+/// Fits k, w_n, zeta, F_s, f0, f1, alpha to all recordings at once; each cycle keeps its own onset and static friction.
+/// Empty where fewer than two recordings have cycles that can be fitted.
+std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, const FitOptions& options = {});
+
+}  // namespace slipfit

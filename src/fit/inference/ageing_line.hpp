@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "fit/inference/sweep_coordinates.hpp"
+
+namespace slipfit::fit {
+
+/// F_s - F_k(0+) / Units::force of each recording.
+Eigen::VectorXd differences_of(const SweepSolution& solution);
+
+/// F_s - F_k(0+) = D + rate ln(stick / Units::stick_s) through the recordings' own values. At one speed a larger
+/// F_s - F_k makes a longer stick, ageing or not: what moves the stick time here is the driving speed (instrumental
+/// variable ln V).
+struct AgeingLine {
+  Eigen::VectorXd difference_weights, rate_weights;  ///< of the recordings' own F_s - F_k(0+)
+  double residual_variance = 0.0;                    ///< of one recording around the line
+};
+
+/// Needs three recordings or more with each its own F_s - F_k(0+), and at different speeds.
+AgeingLine ageing_line(const SweepSolution& solution);
+
+/// Ages where recordings have each their own static friction and it falls with ln V by more than chance: fewer than one
+/// sweep of 100 without ageing is taken for one that ages.
+StaticFriction static_friction_of(const SweepSolution& solution);
+
+}  // namespace slipfit::fit

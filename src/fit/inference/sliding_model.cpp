@@ -1,0 +1,82 @@
+#include "fit/inference/sliding_model.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "fit/law/speed_dependent.hpp"
+#include "model/ageing.hpp"
+
+namespace slipfit::fit {
+
+SlidingModel::SlidingModel(const Coordinates& values, const Units& units) {
+  const auto jet = [&](int i) { return Jet(values(i), i); };
+  stiffness = exp(jet(kLogStiffness));
+  omega = exp(jet(kLogFrequency));
+  zeta = jet(kDamping);
+  const SlopeRatio ratio = slope_ratio(values(kFrictionRate));
+  Jet ratio_jet(ratio.value);
+  ratio_jet.v(kFrictionRate) = ratio.derivative;
+  slope = 2.0 * jet(kFrictionSlope) * ratio_jet * stiffness / omega;
+  alpha = jet(kFrictionRate) / units.slip_speed_m_per_s;
+  level = units.level + units.force * jet(kLevel);
+  difference = units.force * jet(kDifference);
+  ageing = units.force * jet(kAgeing);
+  reference_stick_s_ = units.stick_s;
+}
+
+Jet SlidingModel::excess_friction(double speed_m_per_s) const {
+  const Jet rate = alpha * speed_m_per_s;
+  if (std::abs(rate.a) < 1e-6) return slope * speed_m_per_s * (1.0 + 0.5 * rate);
+  return slope * (exp(rate) - 1.0) / alpha;
+}
+
+std::optional<Jet> SlidingModel::spacing(double speed_m_per_s, double load) const {
+  const std::optional<Jet> aged_N = aged_difference_N(speed_m_per_s, load);
+  if (!aged_N) return std::nullopt;
+  const std::optional<Cycle> limit = cycle(speed_m_per_s, load, *aged_N);
+  if (!limit) return std::nullopt;
+  return speed_m_per_s * limit->period_s;
+}
+
+std::optional<SlidingModel::Cycle> SlidingModel::cycle(double speed_m_per_s, double load,
+                                                       const Jet& difference_N) const {
+  const Jet u = stiffness * speed_m_per_s / omega;
+  const Jet z0 = load * difference_N / u - 2.0 * zeta;  // the slip starts from F_s - cV
+  const Jet scaled_slope = load * slope * omega / stiffness;
+  const Jet rate = alpha * speed_m_per_s;
+  const auto track = model::VelocityTrack::solve(z0.a, zeta.a, scaled_slope.a, rate.a);
+  if (!track || !track->resticks()) return std::nullopt;
+  const auto jet = [&](double value, const auto& p) {
+    Jet y(value);
+    y.v = p.d_z0 * z0.v + p.d_zeta * zeta.v + p.d_slope * scaled_slope.v + p.d_rate * rate.v;
+    return y;
+  };
+  const model::TrackLine line = track->after();
+  const Jet tau_period = z0 - jet(line.intercept, line);
+  const model::TrackEnd& end = track->end();
+  Jet tau_slip(end.tau);
+  tau_slip.v = -jet(end.first.value, end.first).v / end.second.value;  // z'(tau) = 1 holds at the end
+  return Cycle{tau_period / omega, (tau_period - tau_slip) / omega};
+}
+
+std::optional<Jet> SlidingModel::aged_difference_N(double speed_m_per_s, double load) const {
+  if (ageing.a == 0.0) return difference;
+  const auto stick_of = [&](double difference_N) -> std::optional<Jet> {
+    Jet held_N(difference_N, kDifference);
+    const std::optional<Cycle> limit = cycle(speed_m_per_s, load, held_N);
+    return limit ? std::optional(limit->stick_s) : std::nullopt;
+  };
+  const model::AgeingLaw law{difference.a, ageing.a, reference_stick_s_};
+  const std::optional<double> solution_N =
+      model::aged_difference_N(law, [&](double difference_N) -> std::optional<model::StickTime> {
+        const std::optional<Jet> stick_s = stick_of(difference_N);
+        if (!stick_s) return std::nullopt;
+        return model::StickTime{stick_s->a, stick_s->v(kDifference)};
+      });
+  if (!solution_N) return std::nullopt;
+  Jet stick_s = *stick_of(*solution_N);
+  const double by_difference = std::exchange(stick_s.v(kDifference), 0.0);
+  return model::aged_difference_N(*solution_N, difference, ageing, stick_s, by_difference, reference_stick_s_);
+}
+
+}  // namespace slipfit::fit

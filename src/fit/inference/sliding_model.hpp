@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "fit/inference/intervals.hpp"
+
+namespace slipfit::fit {
+
+/// The coordinates in SI with their derivatives. Forces at the reference load.
+struct SlidingModel {
+  Jet stiffness, omega, zeta, slope, alpha, level, difference, ageing;
+
+  SlidingModel(const Coordinates& values, const Units& units);
+
+  /// b (exp(alpha v) - 1) / alpha: how far F_k(v) lies above F_k(0+).
+  [[nodiscard]] Jet excess_friction(double speed_m_per_s) const;
+  /// V times the period of the limit cycle; empty where there is none.
+  [[nodiscard]] std::optional<Jet> spacing(double speed_m_per_s, double load) const;
+
+  /// The limit cycle of a given F_s - F_k(0+) at the reference load; empty where there is none.
+  struct Cycle {
+    Jet period_s, stick_s;
+  };
+  [[nodiscard]] std::optional<Cycle> cycle(double speed_m_per_s, double load, const Jet& difference_N) const;
+
+ private:
+  /// After the sticks of this speed.
+  [[nodiscard]] std::optional<Jet> aged_difference_N(double speed_m_per_s, double load) const;
+
+  double reference_stick_s_ = 1.0;
+};
+
+}  // namespace slipfit::fit

@@ -1,0 +1,113 @@
+#include "fit/inference/sweep_coordinates.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "fit/inference/ageing_line.hpp"
+#include "fit/inference/covariance.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// One value a recording, or one that they share.
+VectorXd shared_or_own(const VectorXd& of_recordings, bool shared) {
+  return shared ? VectorXd(of_recordings.head(1)) : of_recordings;
+}
+
+VectorXd levels_of(const SweepSolution& solution) {
+  VectorXd levels(static_cast<Index>(solution.recordings.size()));
+  for (Index r = 0; r < levels.size(); ++r) {
+    levels(r) = solution.recordings[static_cast<std::size_t>(r)].parameters.level[0];
+  }
+  return shared_or_own(levels, solution.sweep.sharing.level);
+}
+
+/// Squared standard error of the mean of what the recordings have each for themselves.
+double variance_of_mean(const VectorXd& values) {
+  const auto count = static_cast<double>(values.size());
+  if (values.size() < 2) return 0.0;
+  return (values.array() - values.mean()).square().sum() / (count * (count - 1.0));
+}
+
+/// Without ageing a level line: the mean.
+AgeingLine static_friction_line(const SweepSolution& solution, StaticFriction kind) {
+  if (kind == StaticFriction::Ages) return ageing_line(solution);
+  const VectorXd differences = shared_or_own(differences_of(solution), solution.sweep.sharing.difference);
+  const Index count = differences.size();
+  return {VectorXd::Constant(count, 1.0 / static_cast<double>(count)), VectorXd::Zero(count),
+          static_cast<double>(count) * variance_of_mean(differences)};
+}
+
+Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
+  const CommonColumns columns(solution.problem());
+  Selection selection{MatrixXd::Zero(columns.size(), kCoordinates), {}};
+  for (Index i = 0; i < static_cast<Index>(solution.recordings.front().model(0).globals()); ++i) {
+    selection.common(i, i) = 1.0;
+  }
+  const Index levels = levels_of(solution).size();
+  for (Index r = 0; r < levels; ++r) {
+    selection.common(columns.level(static_cast<std::size_t>(r)), kLevel) = 1.0 / static_cast<double>(levels);
+  }
+  for (Index r = 0; r < line.rate_weights.size(); ++r) {
+    const Index column = columns.difference(static_cast<std::size_t>(r));
+    selection.common(column, kDifference) = line.difference_weights(r);
+    selection.common(column, kAgeing) = line.rate_weights(r);
+  }
+  return selection;
+}
+
+}  // namespace
+
+Coordinates coordinates_of(const SweepSolution& solution, StaticFriction kind) {
+  const AgeingLine line = static_friction_line(solution, kind);
+  const VectorXd differences = shared_or_own(differences_of(solution), solution.sweep.sharing.difference);
+  Coordinates values;
+  const Globals& globals = solution.recordings.front().parameters.globals;
+  for (std::size_t i = 0; i < globals.size(); ++i) values(static_cast<Index>(i)) = globals[i];
+  values(kLevel) = levels_of(solution).mean();
+  values(kDifference) = line.difference_weights.dot(differences);
+  values(kAgeing) = line.rate_weights.dot(differences);
+  return values;
+}
+
+Spread spread_of(const SweepData& data, const SweepSolution& solution, StaticFriction kind) {
+  const Problem problem = solution.problem();
+  const std::vector<Normal> normals = normals_of(problem);
+  const AgeingLine line = static_friction_line(solution, kind);
+  const Selection selection = selection_of(solution, line);
+  const bool correlated = std::any_of(data.fitted.begin(), data.fitted.end(),
+                                      [&](std::size_t i) { return data.single[i]->uncertainty.from_cycles; });
+  Spread spread;
+  if (correlated) {
+    spread.covariance = jackknife_covariance(problem, normals, selection, solution.held);
+    spread.degrees_of_freedom = std::max(1.0, static_cast<double>(normals.size()) - 1.0);
+  } else {
+    const double variance = std::max(1.0, solution.chi2 / solution.degrees_of_freedom);
+    spread.covariance = variance * white_covariance(problem, normals, selection, {solution.held});
+    spread.degrees_of_freedom = static_cast<double>(solution.cycles());
+  }
+  spread.covariance(kLevel, kLevel) += variance_of_mean(levels_of(solution));
+  MatrixXd scatter(line.rate_weights.size(), 2);
+  scatter << line.difference_weights, line.rate_weights;
+  spread.covariance.block<2, 2>(kDifference, kDifference) += line.residual_variance * scatter.transpose() * scatter;
+  // A line through few recordings counts for fewer than the cycles do.
+  if (kind == StaticFriction::Ages) {
+    const double recordings = std::max(1.0, static_cast<double>(solution.recordings.size()) - 2.0);
+    spread.degrees_of_freedom = std::min(spread.degrees_of_freedom, recordings);
+  }
+  return spread;
+}
+
+Coordinates with_damping_cut(const Coordinates& values, const CoordinateMatrix& covariance) {
+  const double variance = covariance(kDamping, kDamping);
+  if (!(values(kDamping) < 0.0) || !(variance > 0.0)) return values;
+  Coordinates cut = values - covariance.col(kDamping) * (values(kDamping) / variance);
+  cut(kDamping) = 0.0;
+  return cut;
+}
+
+}  // namespace slipfit::fit

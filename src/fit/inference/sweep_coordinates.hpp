@@ -1,0 +1,23 @@
+#pragma once
+
+#include "fit/inference/intervals.hpp"
+#include "fit/selection/sweep_solution.hpp"
+
+namespace slipfit::fit {
+
+/// Of a sweep: static friction is constant, or ages as its recordings say.
+enum class StaticFriction { Constant, Ages };
+
+/// The coordinates of a sweep at its solution: levels and differences of their own are means over the recordings, or a
+/// line through them where static friction ages.
+Coordinates coordinates_of(const SweepSolution& solution, StaticFriction kind);
+
+/// White noise, or the jackknife over cycles where residuals of a recording correlate; scatter of the recordings' own
+/// levels and differences included.
+Spread spread_of(const SweepData& data, const SweepSolution& solution, StaticFriction kind);
+
+/// zeta cannot be negative: where its best value is, the best values given zeta = 0 (by the covariance, to second
+/// order).
+Coordinates with_damping_cut(const Coordinates& values, const CoordinateMatrix& covariance);
+
+}  // namespace slipfit::fit

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "fit/cycle/cycle_data.hpp"
+#include "fit/observation/sensor_lag.hpp"
+#include "model/phasor.hpp"
+#include "model/slip.hpp"
+
+namespace slipfit::fit {
+
+/// One cycle under Coulomb friction as the sensor shows it, in the units of model/slip.hpp: closed form.
+class CoulombCycle {
+ public:
+  using Point = model::WavePoint;
+
+  /// `z0`: spring force above F_k at the onset. Needs z0 + 2 zeta > 0 and |zeta| < 1.
+  CoulombCycle(double z0, double zeta, double lag_tau, ForceView view)
+      : slip(model::solve_slip(z0, zeta)), after(model::stick_after(slip)), lag_tau_(lag_tau), view_(view) {}
+
+  model::Slip slip;
+  model::StickLine after;
+
+  /// Force above the level in units of k V / w_n, at any tau = w_n (t - onset).
+  [[nodiscard]] Point at(double tau) const {
+    if (lag_tau_ > 0.0) return SensorLag{lag_tau_, transmitted()}.wave_at(slip, tau);
+    if (tau <= 0.0) return before_slip(tau);
+    if (tau > slip.tau_end) return after_slip(tau);
+    const double decay = std::exp(-slip.zeta * tau);
+    return in_slip(tau, decay * std::cos(slip.b * tau), decay * std::sin(slip.b * tau));
+  }
+  /// Of the straight sticks before and after the slip.
+  [[nodiscard]] Point before_slip(double tau) const { return as_shown({slip.z0 + tau, 1.0, 0.0, 1.0}); }
+  [[nodiscard]] Point after_slip(double tau) const {
+    return as_shown({after.intercept + tau, after.d_z0, after.d_zeta, 1.0});
+  }
+
+  /// Derivatives of the force with respect to the law's coordinates, of the point's.
+  [[nodiscard]] static std::array<double, 1> by_law(const Point& point) { return {point.d_zeta}; }
+  [[nodiscard]] static double by_log_omega(const Point& point) { return point.d_log_omega; }
+
+  /// The cycle at samples in ascending order. At even steps (`step_tau`; 0: uneven) a slip's cosine and sine turn by
+  /// the same angle from sample to sample.
+  class Samples {
+   public:
+    Samples(const CoulombCycle& cycle, double step_tau)
+        : cycle_(cycle),
+          turns_evenly_(step_tau > 0.0 && cycle.lag_tau_ == 0.0),
+          phasor_(cycle.slip.zeta, cycle.slip.b, step_tau) {}
+
+    Point at(double tau) {
+      if (!turns_evenly_ || !(tau > 0.0) || !(tau <= cycle_.slip.tau_end)) return cycle_.at(tau);
+      started_ ? phasor_.step() : phasor_.start(tau);
+      started_ = true;
+      return cycle_.in_slip(tau, phasor_.c(), phasor_.s());
+    }
+
+   private:
+    const CoulombCycle& cycle_;
+    bool turns_evenly_;
+    bool started_ = false;
+    model::Phasor phasor_;
+  };
+
+ private:
+  [[nodiscard]] bool transmitted() const { return view_ == ForceView::Transmitted; }
+
+  /// From exp(-zeta tau) cos b tau and exp(-zeta tau) sin b tau.
+  [[nodiscard]] Point in_slip(double tau, double c, double bs) const {
+    const double s = bs / slip.b;
+    return transmitted() ? model::transmitted_wave(slip, tau, c, s) : model::slip_wave(slip, tau, c, s);
+  }
+
+  /// A straight ramp lags by T, and so by kV T.
+  [[nodiscard]] Point as_shown(Point stick) const {
+    if (transmitted()) {
+      stick.z += 2.0 * slip.zeta;
+      stick.d_zeta += 2.0;
+    }
+    stick.z -= lag_tau_;
+    stick.d_log_omega -= lag_tau_;
+    return stick;
+  }
+
+  double lag_tau_;
+  ForceView view_;
+};
+
+}  // namespace slipfit::fit

@@ -1,0 +1,124 @@
+#include "fit/problem/sweep_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "signal/robust.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+double spread_of_levels(const DampedFit& fit) {
+  const double mean = (level_of(fit) - fit.blocks.scales().level) / fit.blocks.scales().force;
+  double square = 0.0;
+  for (const Own& own : fit.blocks.parameters.cycles) square += (own[2] - mean) * (own[2] - mean);
+  return fit.blocks.scales().force * std::sqrt(square / std::max(1.0, static_cast<double>(fit.blocks.size()) - 1.0));
+}
+
+/// From the end of a slip to the next onset, roughly.
+double typical_stick_s(const BlockFit& blocks) {
+  const double period_s = median_period_s(blocks);
+  const CycleState state = blocks.state(blocks.size() / 2);
+  return std::max(0.05 * period_s, period_s - state.slip_s());
+}
+
+/// Mean of a steady recording; its error from stretches, which see wander as well as noise.
+SteadyRun steady_run(const Recording& recording, double load) {
+  const auto force = recording.force();
+  std::vector<double> means;
+  for (std::size_t part = 0; part < kSteadyStretches; ++part) {
+    const std::size_t begin = part * force.size() / kSteadyStretches;
+    const std::size_t end = (part + 1) * force.size() / kSteadyStretches;
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) sum += force[i];
+    if (end > begin) means.push_back(sum / static_cast<double>(end - begin));
+  }
+  SteadyRun run{recording.conditions().speed_m_per_s, load, 0.0, 0.0};
+  const auto count = static_cast<double>(means.size());
+  for (const double mean : means) run.mean_force += mean / count;
+  double square = 0.0;
+  for (const double mean : means) square += (mean - run.mean_force) * (mean - run.mean_force);
+  run.standard_error = std::sqrt(square / (count * std::max(1.0, count - 1.0)));
+  return run;
+}
+
+}  // namespace
+
+double mean_onset_force(const DampedFit& fit) {
+  double sum = 0.0;
+  for (const Own& own : fit.blocks.parameters.cycles) sum += own[1];
+  return fit.blocks.scales().force * sum / static_cast<double>(fit.blocks.size());
+}
+
+double level_of(const DampedFit& fit) {
+  const BlockFit& blocks = fit.blocks;
+  if (!blocks.level().per_cycle) return blocks.scales().level + blocks.scales().force * blocks.parameters.level[0];
+  double sum = 0.0;
+  for (const Own& own : blocks.parameters.cycles) sum += own[2];
+  return blocks.scales().level + blocks.scales().force * sum / static_cast<double>(blocks.size());
+}
+
+Scales scales_in_sweep(const DampedFit& fit, double load, const Units& units, FrictionLaw law) {
+  Scales scales = fit.blocks.scales();
+  scales.noise = fit.uncertainty.noise;
+  scales.law = law;
+  Population population;
+  population.load = load;
+  population.force = load * units.force;
+  population.slip_speed_m_per_s = units.slip_speed_m_per_s;
+  const double mean = std::abs(mean_onset_force(fit));
+  // Cycles without any scatter still carry the error of their own onset force.
+  population.onset_sd = std::max(fit.uncertainty.onset_force_sd * scales.force, 1e-5 * mean);
+  if (fit.blocks.level().per_cycle) {
+    // A level that wanders is no independent draw in each cycle: all of them together count as one.
+    population.level_sd =
+        std::max(spread_of_levels(fit), 1e-5 * mean) * std::sqrt(static_cast<double>(fit.blocks.size()));
+  }
+  scales.population = population;
+  return scales;
+}
+
+double median_period_s(const BlockFit& blocks) {
+  std::vector<double> intervals_s;
+  for (std::size_t c = 1; c < blocks.size(); ++c) {
+    intervals_s.push_back(blocks.reference_s(c) - blocks.reference_s(c - 1));
+  }
+  return signal::median(intervals_s);
+}
+
+SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
+  SweepData data;
+  data.loads_known = std::all_of(recordings.begin(), recordings.end(), [](const SweepRecording& sweep) {
+    return sweep.recording.conditions().normal_force_N.has_value();
+  });
+  const double reference = data.loads_known ? *recordings.front().recording.conditions().normal_force_N : 1.0;
+  for (const SweepRecording& sweep : recordings) {
+    data.loads.push_back(data.loads_known ? *sweep.recording.conditions().normal_force_N / reference : 1.0);
+    data.single.emplace_back();
+    if (sweep.role == SweepRole::Cycles) {
+      data.single.back() = fit_damped(sweep.recording, sweep.quality, sweep.segmentation, options.held);
+    }
+    data.steady_of.emplace_back();
+    if (sweep.role == SweepRole::Steady) {
+      data.steady_of.back() = data.steady.size();
+      data.steady.push_back(steady_run(sweep.recording, data.loads.back()));
+    }
+    if (data.single.back()) data.fitted.push_back(data.single.size() - 1);
+  }
+  std::vector<double> forces;
+  std::vector<double> impedances;
+  std::vector<double> sticks_s;
+  for (const std::size_t i : data.fitted) {
+    sticks_s.push_back(typical_stick_s(data.single[i]->blocks));
+    const Globals& globals = data.single[i]->blocks.parameters.globals;
+    forces.push_back(std::abs(mean_onset_force(*data.single[i])) / data.loads[i]);
+    impedances.push_back(std::exp(globals[kLogStiffness] - globals[kLogFrequency]));
+  }
+  if (forces.empty()) return data;
+  data.units.force = signal::median(forces);
+  data.units.slip_speed_m_per_s = data.units.force / signal::median(impedances);
+  data.units.stick_s = signal::median(sticks_s);
+  return data;
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fit/selection/damped_fit.hpp"
+#include "slipfit/fit/sweep.hpp"
+
+namespace slipfit::fit {
+
+/// A steady recording is cut into so many for the error of its mean force.
+inline constexpr std::size_t kSteadyStretches = 10;
+
+/// The recordings of a sweep, fitted one by one: data, levels and starts of the joint fit. Recordings whose cycles
+/// cannot be fitted are empty.
+struct SweepData {
+  std::vector<std::optional<DampedFit>> single;  ///< in the order of the recordings
+  std::vector<SteadyRun> steady;
+  std::vector<std::optional<std::size_t>> steady_of;  ///< index into `steady` of each recording
+  std::vector<double> loads;                          ///< normal force over the first recording's; 1 where not known
+  bool loads_known = false;
+  Units units;
+  std::vector<std::size_t> fitted;  ///< recordings with cycles
+};
+
+/// From onset to onset; a cycle that could not be fitted makes one interval long.
+double median_period_s(const BlockFit& blocks);
+
+SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options);
+
+/// Of a recording on its own: F_s - cV above F_k, and the force level F_k(0+), means over its cycles.
+double mean_onset_force(const DampedFit& fit);
+double level_of(const DampedFit& fit);
+
+/// How a recording enters the fit of the sweep.
+Scales scales_in_sweep(const DampedFit& fit, double load, const Units& units, FrictionLaw law);
+
+}  // namespace slipfit::fit

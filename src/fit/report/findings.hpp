@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fit/inference/sliding_model.hpp"
+#include "slipfit/fit/result.hpp"
+
+namespace slipfit::fit {
+
+/// What is known of friction that depends on the speed; of a sweep only.
+struct LawFindings {
+  bool depends_on_speed = false;
+  std::string reason;                                ///< why it does, or not
+  bool ages = false;                                 ///< static friction grows with the stick time
+  std::optional<double> reference_normal_force_N{};  ///< known for all recordings
+};
+
+/// All that the parameters of a fit are made from, of one recording or a sweep.
+struct Findings {
+  Coordinates values;  ///< zeta >= 0
+  Units units;
+  Intervals intervals;
+  Estimate damping;                            ///< zeta; without value where it cannot be told, with the reason
+  Held held{};                                 ///< by the user
+  std::optional<double> free_damping_ratio{};  ///< best zeta where that is negative
+  bool in_newtons = true;
+  bool zero_known = false;  ///< of the sensor
+  std::size_t cycles = 0;
+  double samples_per_slip = 0.0;
+  double sample_interval_s = 0.0;
+  /// Why nothing that is read from the slip is identified; empty: no reason.
+  std::string slip_doubt{};
+  /// Why k is not identified, whatever its interval; empty: no reason.
+  std::string stiffness_doubt{};
+  std::string stiffness_note{};
+  std::string damping_doubt{};                  ///< why zeta is not identified
+  std::string slip_unresolved{};                ///< why w_n and F_s - F_k cannot be read from the slip; empty: they can
+  std::optional<Interval> difference_bounds{};  ///< all that is known of F_s - F_k
+  std::optional<LawFindings> law{};
+  Warnings warnings{};
+
+  [[nodiscard]] bool damping_known() const { return damping.value.has_value(); }
+};
+
+/// Fills parameters, correlation and model estimate.
+void report_parameters(const Findings& findings, FitResult& result);
+
+}  // namespace slipfit::fit

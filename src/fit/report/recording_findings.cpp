@@ -1,0 +1,159 @@
+#include "fit/report/recording_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fit/inference/covariance.hpp"
+#include "fit/inference/profile.hpp"
+#include "fit/selection/ramps.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+constexpr double kBendSigmas = 3.0;
+constexpr double kDriftMatters = 0.02;
+
+/// Where the free zeta lies below 0, the fit with zeta = 0 is the best one.
+bool is_at_bound(const TierFits& fits) {
+  return fits.damped.blocks.parameters.globals[kDamping] < 0.0 && !fits.damping_held() && fits.undamped.has_value();
+}
+
+/// What makes k uncertain beside the fit.
+struct StiffnessFindings {
+  double variance = 0.0;  ///< of ln k
+  std::string doubt, note;
+  Warnings warnings;
+};
+
+StiffnessFindings stiffness_of(const Recording& recording, const BlockFit& blocks, double log_k_error) {
+  StiffnessFindings result;
+  const Conditions& conditions = recording.conditions();
+  const double stiffness = std::exp(blocks.parameters.globals[kLogStiffness]);
+  // Ramps that bend (creep before a slip, a tightening line) have no one slope: k depends on the stretch that is used,
+  // by half of what the halves of the ramps differ.
+  const std::optional<RampBend> bend = ramp_bend(blocks);
+  if (bend && std::abs(bend->log_ratio) > kBendSigmas * bend->standard_error) {
+    result.variance += std::pow(0.5 * bend->log_ratio, 2);
+    result.note = fmt::format("ramps begin {:.1f} % {} than they end: the interval allows for it",
+                              100.0 * std::abs(bend->log_ratio), bend->log_ratio > 0.0 ? "steeper" : "flatter");
+    result.warnings.push_back({"model_misfit", "the sticks are not straight: " + result.note});
+  }
+  const double drift = std::abs(level_trend(blocks) / (stiffness * conditions.speed_m_per_s));
+  if (drift > std::hypot(log_k_error, std::sqrt(result.variance))) {
+    result.variance += drift * drift;
+    result.note =
+        fmt::format("the level rises or falls all along: k is off by {:.1f} % if the sensor drifts", 100.0 * drift);
+    if (drift > kDriftMatters) result.doubt = result.note;
+  }
+  // The data give k V.
+  result.variance += std::pow(conditions.speed_standard_error_m_per_s.value_or(0.0) / conditions.speed_m_per_s, 2);
+  return result;
+}
+
+Spread spread_of(const DampedFit& fit) {
+  Spread spread;
+  spread.covariance = fit.uncertainty.covariance;
+  spread.degrees_of_freedom = fit.uncertainty.degrees_of_freedom;
+  // With cycles as the units of resampling the scatter is already in the covariance.
+  if (fit.uncertainty.from_cycles) return spread;
+  const auto cycles = static_cast<double>(fit.blocks.size());
+  spread.scatter(kDifference, kDifference) = fit.uncertainty.onset_force_sd * fit.uncertainty.onset_force_sd / cycles;
+  spread.scatter_degrees_of_freedom = cycles - 1.0;
+  return spread;
+}
+
+/// zeta with its interval, and how the other coordinates follow it where the sum of squares is no parabola.
+struct DampingFindings {
+  Estimate estimate;
+  std::optional<Profile> profile;
+};
+
+DampingFindings damping_of(const TierFits& fits, const Resolution& resolution, const BlockFit& blocks) {
+  const Uncertainty& uncertainty = fits.damped.uncertainty;
+  const CoordinateMatrix& covariance = uncertainty.covariance;
+  const double variance = covariance(kDamping, kDamping);
+  const double se = std::sqrt(std::max(0.0, variance));
+  const double quantile = t_quantile(uncertainty.degrees_of_freedom);
+  const double zeta = std::max(0.0, blocks.parameters.globals[kDamping]);
+  DampingFindings result{{zeta, se, Interval{zeta, zeta}, {}}, std::nullopt};
+  if (fits.damped.held[kDamping]) return result;
+  result.estimate.ci95 = damping_interval(fits.damped.blocks.parameters.globals[kDamping], se, quantile);
+  const bool at_bound = is_at_bound(fits);
+  std::optional<DampingProfile> along;
+  if (resolution.slip_resolved && needs_profile(fits.damped, resolution.samples_per_slip)) {
+    along = profile_damping(fits.damped, blocks);
+  }
+  if (along) result.estimate.ci95 = along->interval;
+  if (!along && !at_bound) return result;
+  result.profile = Profile{
+      at_bound && !uncertainty.from_refits ? fits.undamped->uncertainty.covariance : given(covariance, kDamping),
+      {},
+      at_bound};
+  if (along) {
+    result.profile->moves = {along->move_low, along->move_high};
+  } else if (variance > 0.0) {
+    result.profile->moves = {covariance.col(kDamping) / variance * result.estimate.ci95->high};
+  }
+  return result;
+}
+
+/// Unresolved slip: F_s - F_k lies between half of the drop (zeta = 0) and the drop (zeta -> 1), lambda >> 1. At zeta =
+/// 0 the drop also has the part that the drive makes up during the slip; 0.485 leaves room for it.
+Interval bounds_by_drop(const SawtoothFit& sawtooth, double cycles) {
+  const double spread = t_quantile(cycles - 1.0) * sawtooth.drop_sd / std::sqrt(cycles);
+  return {std::max(0.0, 0.485 * (sawtooth.drop - spread)), sawtooth.drop + spread};
+}
+
+}  // namespace
+
+Findings findings_of(const Recording& recording, const TierFits& fits, const Resolution& resolution) {
+  const BlockFit& blocks = is_at_bound(fits) ? fits.undamped->blocks : fits.damped.blocks;
+  Spread spread = spread_of(fits.damped);
+  DampingFindings damping = damping_of(fits, resolution, blocks);
+  spread.profile = std::move(damping.profile);
+  Held held = fits.damped.held;
+  held[kDamping] = fits.damping_held();
+  StiffnessFindings stiffness;
+  if (!held[kLogStiffness]) {
+    stiffness = stiffness_of(recording, blocks, std::sqrt(spread.covariance(kLogStiffness, kLogStiffness)));
+  }
+  spread.covariance(kLogStiffness, kLogStiffness) += stiffness.variance;
+  if (spread.profile) spread.profile->held(kLogStiffness, kLogStiffness) += stiffness.variance;
+
+  Coordinates values = coordinates_of(blocks);
+  values(kDamping) = std::max(0.0, values(kDamping));
+  Findings findings{values,
+                    {blocks.scales().force, blocks.scales().level},
+                    Intervals(std::move(spread)),
+                    std::move(damping.estimate),
+                    held};
+  findings.in_newtons = recording.conditions().quantity == ForceQuantity::Force_N;
+  findings.zero_known = recording.conditions().zero_force_N.has_value();
+  findings.cycles = blocks.size();
+  findings.samples_per_slip = resolution.samples_per_slip;
+  findings.sample_interval_s = recording.sample_interval_s();
+  // A sensor that lags, or creep, moves w_n more than leaving out parts of the slip shows.
+  if (fits.damped.refused_damping || fits.damped.misfit) {
+    findings.slip_doubt =
+        "the slip is not shaped like a damped oscillation: what w_n means is in doubt beyond the interval";
+  }
+  findings.stiffness_doubt = std::move(stiffness.doubt);
+  findings.stiffness_note = std::move(stiffness.note);
+  findings.warnings = std::move(stiffness.warnings);
+  if (!resolution.slip_resolved) findings.slip_unresolved = resolution.reason;
+  if (!resolution.damping_resolved) {
+    findings.damping = {std::nullopt, std::nullopt, std::nullopt, resolution.reason};
+  }
+  // A standard error of a third says less than the bound by the drop.
+  const Estimate difference = findings.intervals.interval_of(SlidingModel(findings.values, findings.units).difference);
+  const bool tells = *difference.standard_error < *difference.value / 3.0;
+  if (!resolution.slip_resolved || !resolution.damping_resolved || !tells) {
+    findings.difference_bounds = bounds_by_drop(fits.sawtooth, static_cast<double>(blocks.size()));
+  }
+  return findings;
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,200 @@
+#include "fit/selection/sweep_solution.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "fit/inference/covariance.hpp"
+#include "fit/problem/block_fit.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+constexpr double kRough = 0.1;
+constexpr double kFinal = 1e-4;
+constexpr int kQuickIterations = 10;
+constexpr int kMaxIterations = 50;
+/// What the recordings share is believed unless chance would hardly give such a disagreement.
+constexpr double kShareChance = 1e-3;
+/// Dependence on the speed is believed beyond this chance.
+constexpr double kLawChance = 0.01;
+
+/// The recordings `used` of the sweep, as their own fits left them.
+SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, const std::vector<std::size_t>& used) {
+  SweepSolution solution;
+  solution.sweep = {sharing, data.steady, data.units};
+  for (const std::size_t i : used) {
+    const DampedFit& single = *data.single[i];
+    const Scales scales = scales_in_sweep(single, data.loads[i], data.units, law);
+    BlockFit recording(single.blocks.set(), scales);
+    const auto& level = single.blocks.parameters.level;
+    const std::ptrdiff_t skip = single.blocks.level().terms > 0 ? 1 : 0;
+    std::copy(level.begin() + skip, level.end(), recording.parameters.level.begin() + 1);
+    recording.parameters.level[0] = level_of(single) / scales.population->force;
+    recording.parameters.difference = mean_onset_force(single) / scales.population->force;
+    recording.parameters.cycles = single.blocks.parameters.cycles;
+    solution.recordings.push_back(std::move(recording));
+  }
+  return solution;
+}
+
+/// Residual rows over parameters: each stick bin counts as its two rows, as it does in chi2.
+double residual_freedom(const SweepSolution& solution) {
+  double freedom = -static_cast<double>(CommonColumns(solution.problem()).size());
+  if (solution.sweep.sharing.level) freedom += static_cast<double>(solution.sweep.steady.size());
+  const std::size_t globals = solution.recordings.front().model(0).globals();
+  for (std::size_t i = 0; i < globals; ++i) freedom += solution.held[i] ? 1.0 : 0.0;
+  for (const BlockFit& recording : solution.recordings) {
+    for (std::size_t c = 0; c < recording.size(); ++c) {
+      freedom += static_cast<double>(recording.model(c).residuals()) -
+                 static_cast<double>(recording.model(c).own_parameters());
+    }
+  }
+  return std::max(1.0, freedom);
+}
+
+double solve(SweepSolution& solution, const Held& held, int max_iterations, double tolerance) {
+  return solve_together(solution.recordings, solution.sweep, {held, false, true, max_iterations, tolerance});
+}
+
+std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held) {
+  solution.held = held;
+  solution.chi2 = solve(solution, held, kMaxIterations, kFinal);
+  if (!std::isfinite(solution.chi2)) return std::nullopt;
+  solution.degrees_of_freedom = residual_freedom(solution);
+  return solution;
+}
+
+class SweepFitter {
+ public:
+  SweepFitter(const SweepData& data, const FitOptions& options) : data_(data), fixed_(options.held) {}
+
+  [[nodiscard]] std::optional<SweepFits> fit() const {
+    std::optional<SweepSolution> free = fit_velocity({false, false});
+    if (!free) return std::nullopt;
+    SweepSolution velocity = with_shares(std::move(*free));
+    std::optional<SweepSolution> coulomb = coulomb_like(velocity);
+    SweepFits fits{std::move(velocity), std::move(coulomb)};
+    const double extra = 2.0;  // slope and rate
+    fits.p_value = fits.coulomb ? chance(fits.coulomb->chi2 - fits.velocity.chi2, extra, fits.velocity) : 0.0;
+    fits.depends_on_speed = fits.p_value < kLawChance;
+    return fits;
+  }
+
+ private:
+  /// Chance of such a gain in chi2 by `extra` parameters (or constraints taken off).
+  static double chance(double gain, double extra, const SweepSolution& rich) {
+    const double ratio = gain / extra / (rich.chi2 / rich.degrees_of_freedom);
+    if (!(ratio > 0.0)) return 1.0;
+    const boost::math::fisher_f_distribution<double> by_chance(extra, rich.degrees_of_freedom);
+    return boost::math::cdf(boost::math::complement(by_chance, ratio));
+  }
+
+  /// From the medians of the recordings' own fits.
+  void set_globals(SweepSolution& solution) const {
+    Globals globals{};
+    for (const Coordinate i : {kLogStiffness, kLogFrequency, kDamping}) {
+      std::vector<double> values;
+      for (const std::size_t r : data_.fitted) values.push_back(data_.single[r]->blocks.parameters.globals[i]);
+      globals[i] = signal::median(values);
+    }
+    globals[kDamping] = std::clamp(globals[kDamping], 0.0, 0.3);
+    if (fixed_.stiffness_N_per_m) globals[kLogStiffness] = std::log(*fixed_.stiffness_N_per_m);
+    if (fixed_.natural_frequency_rad_per_s) globals[kLogFrequency] = std::log(*fixed_.natural_frequency_rad_per_s);
+    if (fixed_.damping_ratio) globals[kDamping] = *fixed_.damping_ratio;
+    std::vector<double> levels;
+    std::vector<double> differences;
+    for (const BlockFit& recording : solution.recordings) {
+      levels.push_back(recording.parameters.level[0]);
+      differences.push_back(recording.parameters.difference);
+    }
+    for (BlockFit& recording : solution.recordings) {
+      recording.parameters.globals = globals;
+      if (solution.sweep.sharing.level) recording.parameters.level[0] = signal::median(levels);
+      if (solution.sweep.sharing.difference) recording.parameters.difference = signal::median(differences);
+    }
+  }
+
+  /// Several rates: a wrong sign of alpha is a minimum of its own.
+  [[nodiscard]] std::optional<SweepSolution> fit_velocity(Sharing sharing) const {
+    const Held held = held_of(fixed_);
+    std::optional<SweepSolution> best;
+    for (const double rate : {-1.0, 1.0, -4.0}) {
+      SweepSolution start = start_of(data_, sharing, FrictionLaw::SpeedDependent, data_.fitted);
+      set_globals(start);
+      for (BlockFit& recording : start.recordings) recording.parameters.globals[kFrictionRate] = rate;
+      Held quick = held;
+      quick[kFrictionRate] = true;
+      start.chi2 = solve(start, quick, kQuickIterations, kRough);
+      if (std::isfinite(start.chi2) && (!best || start.chi2 < best->chi2)) best = std::move(start);
+    }
+    return best ? at_minimum(std::move(*best), held) : std::nullopt;
+  }
+
+  /// Sharing as much as the data agree with: both, then one of the two, else nothing.
+  [[nodiscard]] SweepSolution with_shares(SweepSolution free) const {
+    const std::size_t runs = data_.fitted.size();
+    for (const Sharing sharing : {Sharing{true, true}, Sharing{false, true}, Sharing{true, false}}) {
+      std::optional<SweepSolution> shared = fit_velocity(sharing);
+      if (!shared) continue;
+      // With more freedom no fit can be worse: where it is, it had ended in another minimum.
+      if (shared->chi2 < free.chi2) {
+        std::optional<SweepSolution> better = released(*shared);
+        if (better && better->chi2 < free.chi2) free = std::move(*better);
+      }
+      const double steady = sharing.level ? static_cast<double>(data_.steady.size()) : 0.0;
+      const double shared_kinds = (sharing.level ? 1.0 : 0.0) + (sharing.difference ? 1.0 : 0.0);
+      const double constraints = static_cast<double>(runs - 1) * shared_kinds + steady;
+      if (chance(shared->chi2 - free.chi2, constraints, free) > kShareChance) return std::move(*shared);
+    }
+    return free;
+  }
+
+  /// From a shared solution on with nothing shared.
+  [[nodiscard]] std::optional<SweepSolution> released(const SweepSolution& shared) const {
+    SweepSolution free = shared;
+    free.sweep.sharing = {};
+    return at_minimum(std::move(free), shared.held);
+  }
+
+  [[nodiscard]] std::optional<SweepSolution> coulomb_like(const SweepSolution& velocity) const {
+    SweepSolution start = start_of(data_, velocity.sweep.sharing, FrictionLaw::Coulomb, data_.fitted);
+    set_globals(start);
+    return at_minimum(std::move(start), held_of(fixed_));
+  }
+
+  const SweepData& data_;
+  HeldParameters fixed_;
+};
+
+}  // namespace
+
+std::size_t SweepSolution::cycles() const {
+  std::size_t count = 0;
+  for (const BlockFit& recording : recordings) count += recording.size();
+  return count;
+}
+
+std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options) {
+  return SweepFitter(data, options).fit();
+}
+
+std::optional<SweepSolution> with_rate(const SweepSolution& solution, double rate) {
+  SweepSolution moved = solution;
+  for (BlockFit& recording : moved.recordings) recording.parameters.globals[kFrictionRate] = rate;
+  Held held = solution.held;
+  held[kFrictionRate] = true;
+  return at_minimum(std::move(moved), held);
+}
+
+std::optional<SweepSolution> leave_out(const SweepSolution& solution, std::size_t recording) {
+  if (solution.recordings.size() < 3) return std::nullopt;
+  SweepSolution others = solution;
+  others.recordings.erase(others.recordings.begin() + static_cast<std::ptrdiff_t>(recording));
+  return at_minimum(std::move(others), solution.held);
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fit/problem/sweep_data.hpp"
+
+namespace slipfit::fit {
+
+/// The fit of a sweep at its minimum.
+struct SweepSolution {
+  std::vector<BlockFit> recordings;  ///< those with cycles
+  SweepTerms sweep;
+  Held held{};
+  double chi2 = 0.0;  ///< in units of each recording's own noise
+  double degrees_of_freedom = 0.0;
+
+  [[nodiscard]] Problem problem() const { return {recordings, sweep}; }
+  [[nodiscard]] std::size_t cycles() const;
+  [[nodiscard]] const Population& population(std::size_t recording) const {
+    return *recordings[recording].scales().population;
+  }
+};
+
+struct SweepFits {
+  SweepSolution velocity;
+  std::optional<SweepSolution> coulomb;  ///< with the same shares; empty: it has no minimum
+  bool depends_on_speed = false;         ///< velocity explains more than chance would
+  double p_value = 1.0;                  ///< that Coulomb friction gives such a difference by chance
+};
+
+/// Both laws, with everything shared between the recordings that the data agree with. Empty where no start converges.
+std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options);
+
+/// The same fit with alpha v_c held at this rate, started from the solution.
+std::optional<SweepSolution> with_rate(const SweepSolution& solution, double rate);
+
+/// The same fit without one of its recordings, started from the solution; empty where fewer than two are left.
+std::optional<SweepSolution> leave_out(const SweepSolution& solution, std::size_t recording);
+
+}  // namespace slipfit::fit

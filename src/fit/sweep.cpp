@@ -1,0 +1,267 @@
+#include "slipfit/fit/sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fit/inference/intervals.hpp"
+#include "fit/inference/sliding_model.hpp"
+#include "fit/inference/sweep_outcome.hpp"
+#include "fit/report/findings.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit {
+namespace {
+
+using fit::LeftOut;
+using fit::StaticFriction;
+using fit::SweepData;
+using fit::SweepOutcome;
+using fit::SweepSolution;
+
+/// Below it a sweep is one speed: damping and friction that depends on speed cannot be told apart.
+constexpr double kLeastSpeedRatio = 1.3;
+/// Reduced chi2 of a model that leaves something unexplained (the noise is that of each recording's own fit).
+constexpr double kMisfitChi2 = 1.5;
+
+bool is_misfit(const SweepSolution& solution) {
+  return solution.chi2 > kMisfitChi2 * solution.degrees_of_freedom;
+}
+
+/// Which friction law, and the sentence that says why.
+struct LawChoice {
+  bool velocity = false;
+  std::string reason;
+};
+
+double speed_ratio(std::span<const SweepRecording> recordings) {
+  double low = HUGE_VAL;
+  double high = 0.0;
+  for (const SweepRecording& sweep : recordings) {
+    if (sweep.role == SweepRole::LeftOut) continue;
+    low = std::min(low, sweep.recording.conditions().speed_m_per_s);
+    high = std::max(high, sweep.recording.conditions().speed_m_per_s);
+  }
+  return high / low;
+}
+
+LawChoice choose_by_chance(const fit::SweepFits& fits, double speeds) {
+  if (speeds < kLeastSpeedRatio) {
+    return {false, fmt::format("the speeds span a factor of {:.2g} only: one speed cannot tell alpha", speeds)};
+  }
+  const std::string chance = fmt::format("chance of such a gain under Coulomb friction: {:.2g}", fits.p_value);
+  if (!fits.depends_on_speed) return {false, "Coulomb friction explains the sweep; " + chance};
+  return {true, chance};
+}
+
+/// Where residuals are larger than the noise, misfit pays for parameters too: what counts is whether the law holds from
+/// one recording to the other.
+LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
+  return {velocity_error < coulomb_error,
+          fmt::format("residuals are well above the noise; spacing predicted without each recording is off by {:.2g} % "
+                      "with F_k(v), by {:.2g} % under Coulomb friction",
+                      100.0 * std::expm1(velocity_error), 100.0 * std::expm1(coulomb_error))};
+}
+
+/// Speed-dependent friction has two parameters more, its mean slope and its rate.
+std::vector<Candidate> candidates_of(const fit::SweepFits& fits, const LawChoice& choice) {
+  const double noise2 = fits.velocity.chi2 / fits.velocity.degrees_of_freedom;
+  const auto cycles = static_cast<double>(fits.velocity.cycles());
+  const auto aicc = [&](const SweepSolution& solution, double parameters) -> std::optional<double> {
+    if (!(cycles > parameters + 1.0)) return std::nullopt;
+    return solution.chi2 / noise2 + 2.0 * parameters +
+           2.0 * parameters * (parameters + 1.0) / (cycles - parameters - 1.0);
+  };
+  const std::optional<double> of_coulomb = fits.coulomb ? aicc(*fits.coulomb, 5.0) : std::nullopt;
+  return {{Tier::Damped, 5, std::nullopt, of_coulomb, !choice.velocity, choice.reason},
+          {Tier::Velocity, 7, std::nullopt, aicc(fits.velocity, 7.0), choice.velocity, choice.reason}};
+}
+
+double samples_per_slip(std::span<const SweepRecording> recordings, const SweepData& data) {
+  std::vector<double> samples;
+  for (const std::size_t i : data.fitted) {
+    const fit::BlockFit& blocks = data.single[i]->blocks;
+    const fit::CycleState state = blocks.state(blocks.size() / 2);
+    samples.push_back(state.slip_s() / recordings[i].recording.sample_interval_s());
+  }
+  return signal::median(samples);
+}
+
+/// Over all cycles of all recordings.
+double residual_rms(const SweepSolution& solution) {
+  double square = 0.0;
+  for (const fit::BlockFit& recording : solution.recordings) {
+    square += recording.scales().noise * recording.scales().noise * static_cast<double>(recording.size());
+  }
+  return std::sqrt(square / static_cast<double>(solution.cycles()));
+}
+
+Estimate unknown(const std::string& why) {
+  return {std::nullopt, std::nullopt, std::nullopt, why};
+}
+
+/// Empty, with a reason, where there is none or where it is known to worse than a factor.
+Estimate spacing_of(const std::optional<fit::Jet>& spacing, const fit::Intervals& intervals,
+                    const std::string& why_none) {
+  if (!spacing) return unknown(why_none);
+  if (!(intervals.quantile(*spacing) * intervals.standard_error(*spacing) <
+        std::log(fit::kWidestFactor) * spacing->a)) {
+    return unknown("the interval reaches beyond a factor of 2 either way");
+  }
+  return intervals.interval_of_one_sign(*spacing);
+}
+
+class Assembler {
+ public:
+  Assembler(std::span<const SweepRecording> recordings, const SweepData& data, const SweepOutcome& outcome)
+      : recordings_(recordings),
+        data_(data),
+        outcome_(outcome),
+        values_(fit::with_damping_cut(outcome.values, outcome.spread.covariance)),
+        model_(values_, data.units),
+        intervals_(outcome.spread) {}
+
+  [[nodiscard]] SweepFit assemble(const LawChoice& choice) const {
+    SweepFit sweep;
+    const SweepSolution& solution = outcome_.solution;
+    sweep.level_shared = solution.sweep.sharing.level;
+    sweep.difference_shared = solution.sweep.sharing.difference;
+    sweep.fit.tier = choice.velocity ? Tier::Velocity : Tier::Damped;
+    sweep.fit.conditional_on.emplace_back(choice.velocity ? "F_k(v) = f0 + f1 exp(alpha v)" : "Coulomb friction");
+    sweep.fit.residual.rms = residual_rms(solution);
+    if (std::any_of(data_.loads.begin(), data_.loads.end(), [](double load) { return load != 1.0; })) {
+      sweep.fit.conditional_on.push_back(fmt::format("normal force {:g} N", *reference_normal_force_N()));
+    }
+    sweep.fit.residual.reduced_chi2 = solution.chi2 / solution.degrees_of_freedom;
+    add_warnings(sweep);
+    fit::report_parameters(findings(choice), sweep.fit);
+    for (std::size_t i = 0; i < recordings_.size(); ++i) sweep.points.push_back(point_of(i));
+    return sweep;
+  }
+
+ private:
+  [[nodiscard]] std::optional<double> reference_normal_force_N() const {
+    return recordings_.front().recording.conditions().normal_force_N;
+  }
+
+  [[nodiscard]] fit::Findings findings(const LawChoice& choice) const {
+    const SweepSolution& solution = outcome_.solution;
+    fit::Findings findings{values_, data_.units, intervals_, damping(), solution.held};
+    if (outcome_.values(fit::kDamping) < 0.0) findings.free_damping_ratio = outcome_.values(fit::kDamping);
+    findings.zero_known = std::all_of(recordings_.begin(), recordings_.end(), [](const SweepRecording& sweep) {
+      return sweep.recording.conditions().zero_force_N.has_value();
+    });
+    findings.cycles = solution.cycles();
+    findings.samples_per_slip = samples_per_slip(recordings_, data_);
+    findings.sample_interval_s = recordings_[data_.fitted.front()].recording.sample_interval_s();
+    if (is_misfit(solution)) {
+      findings.slip_doubt = findings.stiffness_doubt =
+          "residuals are well above the noise: the interval cannot hold what the model lacks";
+    }
+    // Only recordings with one level and one static friction tell damping from friction that depends on the speed.
+    if (!solution.sweep.sharing.level || !solution.sweep.sharing.difference) {
+      findings.damping_doubt = "holds for Coulomb friction only: the recordings share no level or static friction";
+    }
+    findings.law = fit::LawFindings{choice.velocity, choice.reason, outcome_.static_friction == StaticFriction::Ages};
+    if (data_.loads_known) findings.law->reference_normal_force_N = reference_normal_force_N();
+    return findings;
+  }
+
+  /// zeta cannot be negative: its interval is cut at 0.
+  [[nodiscard]] Estimate damping() const {
+    fit::Jet free = model_.zeta;
+    free.a = outcome_.values(fit::kDamping);
+    Estimate zeta = intervals_.interval_of(free);
+    if (zeta.ci95->high <= 0.0 && !outcome_.solution.held[fit::kDamping]) {
+      return unknown("the best value is negative: the slips are not shaped like a damped oscillation");
+    }
+    zeta.value = std::max(0.0, *zeta.value);
+    zeta.ci95->low = std::max(0.0, zeta.ci95->low);
+    return zeta;
+  }
+
+  void add_warnings(SweepFit& sweep) const {
+    if (outcome_.disagree) {
+      sweep.fit.warnings.push_back(
+          {"recordings_disagree",
+           "the recordings of the sweep do not agree on one set of parameters: intervals are widened to hold what "
+           "leaving out each recording changes"});
+    }
+    if (outcome_.static_friction == StaticFriction::Ages) {
+      sweep.fit.warnings.push_back({"static_friction_ages",
+                                    "static friction is larger after longer sticks: predictions take it to grow with "
+                                    "the logarithm of the stick time (ageing_N)"});
+    } else if (!sweep.difference_shared) {
+      sweep.fit.warnings.push_back({"static_friction_differs",
+                                    "static friction differs between the recordings (ageing, or another state of the "
+                                    "surface): F_s - F_k is their mean"});
+    }
+    if (!sweep.level_shared) {
+      sweep.fit.warnings.push_back({"level_differs",
+                                    "the force level differs between the recordings by more than friction that depends "
+                                    "on the speed would make it: a sensor's zero, or another state of the surface"});
+    }
+  }
+
+  [[nodiscard]] SweepPoint point_of(std::size_t i) const {
+    const double speed = recordings_[i].recording.conditions().speed_m_per_s;
+    const double load = data_.loads[i];
+    SweepPoint point;
+    point.kinetic_friction_N = intervals_.interval_of(load * (model_.level + model_.excess_friction(speed)));
+    point.spacing_m = spacing_of(model_.spacing(speed, load), intervals_, "no stick-slip at this speed");
+    const auto fitted = std::find(data_.fitted.begin(), data_.fitted.end(), i);
+    if (fitted != data_.fitted.end()) {
+      const auto run = static_cast<std::size_t>(fitted - data_.fitted.begin());
+      point.cycles_used = outcome_.solution.recordings[run].size();
+      point.rms = outcome_.solution.recordings[run].scales().noise;
+      point.spacing_left_out_m = spacing_without(outcome_.left_out[run], speed, load);
+    }
+    if (data_.steady_of[i]) {
+      const fit::SteadyRun& steady = data_.steady[*data_.steady_of[i]];
+      point.mean_steady_force_N =
+          fit::symmetric(steady.mean_force, steady.standard_error, static_cast<double>(fit::kSteadyStretches) - 1.0);
+    }
+    return point;
+  }
+
+  [[nodiscard]] Estimate spacing_without(const std::optional<LeftOut>& one, double speed, double load) const {
+    if (!one) return unknown("too few recordings to leave one out");
+    const fit::SlidingModel model(fit::with_damping_cut(one->values, one->spread.covariance), data_.units);
+    return spacing_of(model.spacing(speed, load), fit::Intervals(one->spread),
+                      "no stick-slip at this speed by the others");
+  }
+
+  std::span<const SweepRecording> recordings_;
+  const SweepData& data_;
+  const SweepOutcome& outcome_;
+  fit::Coordinates values_;
+  fit::SlidingModel model_;
+  fit::Intervals intervals_;
+};
+
+}  // namespace
+
+std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
+  const SweepData data = fit::prepare_sweep(recordings, options);
+  if (data.fitted.size() < 2) return std::nullopt;
+  const std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
+  if (!fits) return std::nullopt;
+  LawChoice choice = options.tier ? LawChoice{*options.tier == Tier::Velocity, "asked for by --tier"}
+                                  : choose_by_chance(*fits, speed_ratio(recordings));
+  // It fits once without each recording: not for a law that is left.
+  std::optional<SweepOutcome> outcome;
+  if (choice.velocity || !fits->coulomb) outcome.emplace(fit::outcome_of(data, fits->velocity));
+  if (choice.velocity && !options.tier && fits->coulomb && is_misfit(fits->velocity)) {
+    SweepOutcome coulomb = fit::outcome_of(data, *fits->coulomb);
+    choice = choose_by_left_out(fit::left_out_error(*outcome), fit::left_out_error(coulomb));
+    if (!choice.velocity) outcome.emplace(std::move(coulomb));
+  }
+  if (!outcome) outcome.emplace(fit::outcome_of(data, *fits->coulomb));
+  SweepFit sweep = Assembler(recordings, data, *outcome).assemble(choice);
+  sweep.fit.candidates = candidates_of(*fits, choice);
+  return sweep;
+}
+
+}  // namespace slipfit
