@@ -70,8 +70,7 @@ std::string series_members(const std::string& name, const std::vector<double>& v
   Span span;
   for (const double value : values) span.add(value);
   const double low = span.empty() ? 0.0 : span.low();
-  const double high = span.empty() ? 0.0 : span.high();
-  const double range = high - low;
+  const double range = span.range();
   const auto level_of = [&](double value) {
     return static_cast<std::uint16_t>(range > 0.0 ? std::lround(kLevels * ((value - low) / range)) : 0);
   };
@@ -80,7 +79,7 @@ std::string series_members(const std::string& name, const std::vector<double>& v
   for (const double value : values) {
     levels.push_back(std::isfinite(value) ? level_of(value) : kMissing);
   }
-  return fmt::format(",\"{0}_low\":{1},\"{0}_high\":{2}", name, low, high) +
+  return fmt::format(",\"{0}_low\":{1},\"{0}_high\":{2}", name, low, low + range) +
          packed_member(name + "_levels", packed(levels));
 }
 
