@@ -12,6 +12,7 @@
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/selection/qualify.hpp"
 #include "measured.hpp"
+#include "ranges.hpp"
 #include "recording_checks.hpp"
 #include "signals.hpp"
 #include "slipfit/sweep.hpp"
@@ -44,8 +45,9 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   Analysis analysis;
   analysis.verdict = judgement.verdict;
   analysis.verdict_reason = std::move(judgement.reason);
-  analysis.frequency = report_frequency(recording, signals, judgement.verdict, fit ? &*fit : nullptr);
-  analysis.cycles = summarise_cycles(recording, signals.segmentation, fit ? &*fit : nullptr);
+  if (fit) fit = in_range(*std::move(fit), recording.conditions());
+  analysis.frequency = in_range(report_frequency(recording, signals, judgement.verdict, fit ? &*fit : nullptr));
+  analysis.cycles = in_range(summarise_cycles(recording, signals.segmentation, fit ? &*fit : nullptr));
   analysis.cycle_table = fit ? fit->cycles : fit::detected_cycles(recording, signals.segmentation);
   if (fit && analysis.verdict != Verdict::StickSlip) fit = fit::without_parameters(*std::move(fit));
   if (fit && analysis.frequency.quoted.value) {
@@ -56,6 +58,7 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
     analysis.derived.measured_spacing_En = Estimate{{}, {}, {}, "needs a fitted model"};
   }
   add_measured_spacing(recording, analysis.frequency, analysis.cycles, analysis.derived);
+  analysis.derived = in_range(std::move(analysis.derived));
   analysis.quality = std::move(signals.quality);
   analysis.fit = std::move(fit);
   analysis.tests = run_short_tests(recording, analysis);
@@ -147,7 +150,11 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
     recordings.push_back({entry.recording, signals.back().quality, signals.back().segmentation, sweep.roles.back()});
   }
   sweep.joint = fit_sweep(recordings, options);
-  sweep.derived = derive_from_sweep(sweep.joint ? sweep.joint->fit : FitResult{});
+  if (sweep.joint) {
+    sweep.joint->fit = in_range(std::move(sweep.joint->fit), {});
+    for (SweepPoint& point : sweep.joint->points) point = in_range(std::move(point));
+  }
+  sweep.derived = in_range(derive_from_sweep(sweep.joint ? sweep.joint->fit : FitResult{}));
   sweep.joint_reason = describe_roles(sweep.roles);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
   if (sweep.joint) {

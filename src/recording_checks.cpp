@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace slipfit {
 namespace {
@@ -50,10 +52,15 @@ double product(const Column& a, const Column& b) {
   return sum;
 }
 
+/// Zeros where the values differ by their rounding alone.
 Column centred(Column values) {
+  constexpr double kRounding = 1e-12;
   double mean = 0.0;
+  double largest = 0.0;
   for (const double value : values) mean += value / static_cast<double>(values.size());
-  for (double& value : values) value -= mean;
+  for (const double value : values) largest = std::max(largest, std::abs(value - mean));
+  const bool is_constant = largest <= kRounding * std::abs(mean);
+  for (double& value : values) value = is_constant ? 0.0 : value - mean;
   return values;
 }
 
@@ -70,8 +77,9 @@ Column without_trend(Column values, const Column& time) {
   return values;
 }
 
-/// Two-sided, of a correlation r with this many degrees of freedom.
+/// Two-sided, of a correlation r with this many degrees of freedom; no number where r is none.
 double chance_of(double r, double freedom) {
+  if (std::isnan(r)) return r;
   const double t = std::abs(r) * std::sqrt(freedom / std::max(1e-12, 1.0 - r * r));
   return 2.0 * boost::math::cdf(boost::math::complement(boost::math::students_t_distribution<double>(freedom), t));
 }
@@ -160,6 +168,15 @@ ShortTest test_resonance(const FitResult& fit, double resonance_Hz) {
                           : "in its own rhythm: k, w_n and zeta may be the load cell's")};
 }
 
+/// Cycles alike to the last digit leave a test nothing to divide by: it is then not known.
+ShortTest finite(ShortTest test) {
+  for (const auto& number : {test.value, test.standard_error, test.p_value}) {
+    if (!number || std::isfinite(*number)) continue;
+    return {test.name, {}, {}, {}, "the cycles are too much alike for the test " + test.name};
+  }
+  return test;
+}
+
 }  // namespace
 
 std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysis& analysis) {
@@ -176,6 +193,7 @@ std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysi
   }
   if (conditions.mass_kg) tests.push_back(test_mass(fit, *conditions.mass_kg));
   if (conditions.sensor_resonance_Hz) tests.push_back(test_resonance(fit, *conditions.sensor_resonance_Hz));
+  for (ShortTest& test : tests) test = finite(std::move(test));
   return tests;
 }
 

@@ -56,7 +56,7 @@ void hold(const std::string& text, slipfit::HeldParameters& held) {
   }
   const double value = plain_number("--fix " + name, text.substr(equals + 1), "SI");
   constexpr double kNoLimit = 1e300;
-  const bool is_share = slipfit::info(*known).range == slipfit::ParameterRange::ZeroToOne;
+  const bool is_share = *known == slipfit::ParameterId::DampingRatio;
   if (is_share ? value < 0.0 || value >= 1.0 : value <= 0.0 || value >= kNoLimit) {
     throw Failure(ExitCode::WrongUsage, fmt::format("--fix {}: {} is out of range, expected a value {}", name, value,
                                                     is_share ? "at least 0 and below 1" : "above 0"));

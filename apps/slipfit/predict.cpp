@@ -81,7 +81,8 @@ std::vector<double> speed_range(const std::vector<std::string>& parts) {
   std::vector<double> speeds(count, last);
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-    speeds[i] = first * std::exp(share * (std::log(last) - std::log(first)));
+    const double root = std::exp(0.5 * share * (std::log(last) - std::log(first)));  // its square may be no number
+    speeds[i] = first * root * root;
   }
   return speeds;
 }

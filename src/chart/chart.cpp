@@ -24,12 +24,20 @@ constexpr double kRight = 16.0;
 constexpr double kAxisRoom = 52.0;  // below the axes: values and label
 constexpr double kLineHeight = 18.0;
 constexpr double kLeastStep = 18.0;  // between values of the axis at the left
+constexpr double kDigit = 6.6;       // mean width of one at 12 px
+constexpr double kBetween = 6.0;     // least gap between two values below
 
 /// One panel: from values to pixels.
 class PanelDrawing {
  public:
   PanelDrawing(Drawing& drawing, const Panel& panel, double top, std::string id)
-      : drawing_(drawing), panel_(panel), top_(top), bottom_(top + panel.height_px), id_(std::move(id)) {}
+      : drawing_(drawing),
+        panel_(panel),
+        x_(drawable(panel.x)),
+        y_(drawable(panel.y)),
+        top_(top),
+        bottom_(top + panel.height_px),
+        id_(std::move(id)) {}
 
   /// `number`: of the panel in its picture.
   void draw(std::size_t number) {
@@ -42,44 +50,62 @@ class PanelDrawing {
     for (const Line& line : panel_.lines) drawing_.path(path_of(line.points), drawing_.stroke_style(line));
     drawing_.raw("</g>\n");
     for (const Markers& markers : panel_.markers) {
-      for (const Point& p : markers.points) drawing_.marker(x_of(p.x), y_of(p.y), markers.colour, markers.shape);
+      for (const Point& p : markers.points) {
+        if (has_place(p)) drawing_.marker(x_of(p.x), y_of(p.y), markers.colour, markers.shape);
+      }
     }
-    for (const Note& note : panel_.notes) draw_note(note);
+    for (const Note& note : panel_.notes) {
+      if (has_place(note.at)) draw_note(note);
+    }
     draw_legend(drawing_, panel_, {kLeft, top_, kWidth, panel_.height_px}, id_);
   }
 
  private:
   static double share(const Axis& axis, double value) {
-    if (axis.scale == Scale::Logarithmic) return std::log(value / axis.low) / std::log(axis.high / axis.low);
+    if (axis.scale == Scale::Logarithmic) {
+      return (std::log(value) - std::log(axis.low)) / (std::log(axis.high) - std::log(axis.low));
+    }
     return (value - axis.low) / (axis.high - axis.low);
   }
   /// Far outside values are held near the axes: SVG programs draw huge coordinates badly.
-  [[nodiscard]] double x_of(double x) const { return kLeft + kWidth * std::clamp(share(panel_.x, x), -3.0, 4.0); }
-  [[nodiscard]] double y_of(double y) const {
-    return bottom_ - panel_.height_px * std::clamp(share(panel_.y, y), -3.0, 4.0);
+  [[nodiscard]] double x_of(double x) const { return kLeft + kWidth * std::clamp(share(x_, x), -3.0, 4.0); }
+  [[nodiscard]] double y_of(double y) const { return bottom_ - panel_.height_px * std::clamp(share(y_, y), -3.0, 4.0); }
+
+  [[nodiscard]] bool has_place(const Point& point) const {
+    return std::isfinite(x_of(point.x)) && std::isfinite(y_of(point.y));
   }
 
   [[nodiscard]] std::string path_of(const std::vector<Point>& points) const {
     std::string data;
     bool pen_down = false;
     for (const Point& point : points) {
-      const double x = x_of(point.x);
-      const double y = y_of(point.y);
-      const bool finite = std::isfinite(x) && std::isfinite(y);
-      if (finite) fmt::format_to(std::back_inserter(data), "{}{:.1f} {:.1f}", pen_down ? "L" : "M", x, y);
-      pen_down = finite;
+      const bool has = has_place(point);
+      if (has) {
+        fmt::format_to(std::back_inserter(data), "{}{:.1f} {:.1f}", pen_down ? "L" : "M", x_of(point.x), y_of(point.y));
+      }
+      pen_down = has;
     }
     return data;
   }
 
+  /// As many as have room beside each other.
+  [[nodiscard]] std::vector<Tick> ticks_below() const {
+    std::vector<Tick> ticks = ticks_of(x_);
+    std::size_t longest = 0;
+    for (const Tick& tick : ticks) longest = std::max(longest, tick.text.size());
+    const int room = static_cast<int>(kWidth / (kDigit * static_cast<double>(longest) + kBetween));
+    const bool is_crowded = x_.scale == Scale::Linear && static_cast<int>(ticks.size()) > room;
+    return is_crowded ? ticks_of(x_, std::max(1, room - 1)) : ticks;
+  }
+
   void draw_grid() {
-    for (const Tick& tick : panel_.x.label.empty() ? std::vector<Tick>{} : ticks_of(panel_.x)) {
+    for (const Tick& tick : panel_.x.label.empty() ? std::vector<Tick>{} : ticks_below()) {
       const double x = x_of(tick.value);
       drawing_.line(x, top_, x, bottom_, "class=\"grid\"");
       if (!tick.text.empty()) drawing_.text(x, bottom_ + 17.0, tick.text, "value", " text-anchor=\"middle\"");
     }
     const int most_steps = std::clamp(static_cast<int>(panel_.height_px / kLeastStep), 3, 8);
-    for (const Tick& tick : panel_.y.label.empty() ? std::vector<Tick>{} : ticks_of(panel_.y, most_steps)) {
+    for (const Tick& tick : panel_.y.label.empty() ? std::vector<Tick>{} : ticks_of(y_, most_steps)) {
       const double y = y_of(tick.value);
       drawing_.line(kLeft, y, kLeft + kWidth, y, "class=\"grid\"");
       if (!tick.text.empty()) drawing_.text(kLeft - 7.0, y + 4.0, tick.text, "value", " text-anchor=\"end\"");
@@ -112,6 +138,8 @@ class PanelDrawing {
 
   Drawing& drawing_;
   const Panel& panel_;
+  Axis x_;
+  Axis y_;
   double top_;
   double bottom_;
   std::string id_;

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace slipfit::chart {
 namespace {
@@ -17,12 +20,27 @@ double step_for(double range, int most_steps) {
   return 10.0 * power;
 }
 
+/// Power of ten of the first digit.
+double exponent_of(double value) {
+  return std::floor(std::log10(std::abs(value)));
+}
+
+/// With the digits that tell it from its neighbours: a clock of the year 1970 needs ten before its point.
+std::string text_of(double value, double step) {
+  constexpr double kFew = 6.0;
+  constexpr double kMost = 16.0;  // that a double has
+  const double digits = value == 0.0 ? kFew : exponent_of(value) - exponent_of(step) + 1.0;
+  return fmt::format("{:.{}g}", value, static_cast<int>(std::clamp(digits, kFew, kMost)));
+}
+
 std::vector<Tick> linear_ticks(const Axis& axis, int most_steps) {
   const double step = step_for(axis.high - axis.low, most_steps);
+  const double first = std::ceil(axis.low / step - kSlack);
   std::vector<Tick> ticks;
-  for (double n = std::ceil(axis.low / step - kSlack); n * step <= axis.high + kSlack * step; ++n) {
-    const double value = n * step + 0.0;  // not -0
-    ticks.push_back({value, fmt::format("{:.6g}", value)});
+  for (int i = 0; i <= most_steps; ++i) {
+    const double value = (first + i) * step + 0.0;  // not -0
+    if (value > axis.high + kSlack * step) break;
+    ticks.push_back({value, text_of(value, step)});
   }
   return ticks;
 }
@@ -34,9 +52,13 @@ bool carries_value(const Axis& axis, int part) {
 }
 
 std::vector<Tick> logarithmic_ticks(const Axis& axis) {
+  constexpr int kMostDecades = 24;  // beyond them some decades stand for all
+  const int first = static_cast<int>(std::floor(std::log10(axis.low) + kSlack));
+  const int last = static_cast<int>(std::floor(std::log10(axis.high) + kSlack));
+  const int stride = 1 + (last - first) / kMostDecades;
   std::vector<Tick> ticks;
-  for (double decade = std::floor(std::log10(axis.low) + kSlack); std::pow(10.0, decade) <= axis.high; ++decade) {
-    for (int part = 1; part < 10; ++part) {
+  for (int decade = first; decade <= last; decade += stride) {
+    for (int part = 1; part < (stride == 1 ? 10 : 2); ++part) {
       const double value = part * std::pow(10.0, decade);
       if (value < axis.low * (1.0 - kSlack) || value > axis.high * (1.0 + kSlack)) continue;
       ticks.push_back({value, carries_value(axis, part) ? fmt::format("{:.6g}", value) : std::string()});
@@ -45,7 +67,43 @@ std::vector<Tick> logarithmic_ticks(const Axis& axis) {
   return ticks;
 }
 
+constexpr double kLargest = 1e300;  // differences and sums of two such numbers are finite
+constexpr double kSmallest = 1e-300;
+
+Axis drawable_linear(Axis axis) {
+  constexpr double kLeastShare =
+      64.0 * std::numeric_limits<double>::epsilon();  // eight doubles for each of eight steps
+  const double least = std::max(kSmallest, kLeastShare * std::max(std::abs(axis.low), std::abs(axis.high)));
+  if (axis.high - axis.low >= least) return axis;
+  const double middle = axis.low + 0.5 * (axis.high - axis.low);
+  axis.low = middle - 0.5 * least;
+  axis.high = middle + 0.5 * least;
+  return axis;
+}
+
+Axis drawable_logarithmic(Axis axis) {
+  constexpr double kLeastRatio = 1.001;
+  axis.low = std::max(axis.low, kSmallest);
+  axis.high = std::max(axis.high, axis.low);
+  if (axis.high >= kLeastRatio * axis.low) return axis;
+  axis.low /= kLeastRatio;
+  axis.high *= kLeastRatio;
+  return axis;
+}
+
 }  // namespace
+
+Axis drawable(Axis axis) {
+  const bool is_linear = axis.scale == Scale::Linear;
+  if (std::isnan(axis.low) || std::isnan(axis.high)) {
+    axis.low = is_linear ? 0.0 : 1.0;
+    axis.high = axis.low + 1.0;
+  }
+  if (axis.high < axis.low) std::swap(axis.low, axis.high);
+  axis.low = std::clamp(axis.low, -kLargest, kLargest);
+  axis.high = std::clamp(axis.high, -kLargest, kLargest);
+  return is_linear ? drawable_linear(std::move(axis)) : drawable_logarithmic(std::move(axis));
+}
 
 std::vector<Tick> ticks_of(const Axis& axis, int most_steps) {
   return axis.scale == Scale::Linear ? linear_ticks(axis, most_steps) : logarithmic_ticks(axis);

@@ -7,9 +7,18 @@
 namespace slipfit {
 namespace {
 
+// No sensor reads beyond these, and the fourth powers of what lies between are still numbers. (Instruments that follow
+// SCPI write 9.9e37 for infinity and 9.91e37 for what is not a number.)
+constexpr double kLargest = 9e36;
+constexpr double kSmallest = 1e-36;
+
 // Counted, not searched: without a way out of the loop the compiler works on several values at once.
-bool all_finite(const std::vector<double>& values) {
-  return std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }) == 0;
+bool all_readable(const std::vector<double>& values) {
+  return std::count_if(values.begin(), values.end(), [](double v) { return !(std::abs(v) <= kLargest); }) == 0;
+}
+
+void flush_to_zero(std::vector<double>& values) {
+  for (double& value : values) value = std::abs(value) < kSmallest ? 0.0 : value;
 }
 
 std::vector<double> positive_steps(const std::vector<double>& time_s, std::size_t stride) {
@@ -65,7 +74,9 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
                                     Provenance provenance) {
   if (time_s.size() != force.size()) return Error{"length_mismatch", "time and force differ in length"};
   if (time_s.size() < 2) return Error{"too_few_samples", "fewer than 2 samples with a time and a force"};
-  if (!all_finite(time_s) || !all_finite(force)) return Error{"not_finite", "time or force is not finite"};
+  if (!all_readable(time_s) || !all_readable(force)) {
+    return Error{"not_finite", "time or force is not finite, or beyond 9e36: what instruments write for an overload"};
+  }
   if (!std::is_sorted(time_s.begin(), time_s.end())) return Error{"time_decreases", "time runs backwards"};
   if (time_s.front() == time_s.back()) return Error{"time_constant", "all samples have the same time"};
   if (!std::isfinite(conditions.speed_m_per_s) || conditions.speed_m_per_s <= 0.0) {
@@ -75,7 +86,10 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
     return Error{"normal_force_not_positive", "the normal force must be a positive number of newtons"};
   }
   Recording recording;
+  flush_to_zero(force);
   recording.sample_interval_s_ = median_positive_step(time_s);
+  if (!(recording.sample_interval_s_ >= kSmallest))
+    return Error{"time_constant", "the clock steps by less than 1e-36 s"};
   recording.clock_is_even_ = is_even(time_s);
   recording.time_s_ = std::move(time_s);
   recording.force_ = std::move(force);

@@ -6,37 +6,36 @@ namespace slipfit {
 namespace {
 
 using Id = ParameterId;
-using Range = ParameterRange;
 
 // identified_below: 5 % for what straight ramps and the timing of slips tell, 10 % for forces and what follows from two
 // of them, a quarter for what a slip tells by its shape alone. Conventions; the coverage of what they let through is in
 // docs/accuracy.md.
 constexpr std::array kTable{
-    ParameterInfo{Id::Stiffness, "stiffness_N_per_m", "tangential stiffness k", "N/m", Range::Positive, 0.05, true},
-    ParameterInfo{Id::FrictionDifference, "friction_difference_N", "static minus kinetic friction", "N",
-                  Range::Positive, 0.1},
+    ParameterInfo{Id::Stiffness, "stiffness_N_per_m", "tangential stiffness k", "N/m", kNotNegative, 0.05, true},
+    ParameterInfo{Id::FrictionDifference, "friction_difference_N", "static minus kinetic friction", "N", kNotNegative,
+                  0.1},
     ParameterInfo{Id::FrictionCoefficientDifference, "friction_coefficient_difference",
-                  "static minus kinetic coefficient", "", Range::Positive, 0.1},
-    ParameterInfo{Id::Ageing, "ageing_N", "static friction's growth with ln stick time", "N", Range::Any, 0.25},
-    ParameterInfo{Id::StaticFriction, "static_friction_N", "static friction F_s", "N", Range::Any, 0.1},
+                  "static minus kinetic coefficient", "", kNotNegative, 0.1},
+    ParameterInfo{Id::Ageing, "ageing_N", "static friction's growth with ln stick time", "N", kAnyNumber, 0.25},
+    ParameterInfo{Id::StaticFriction, "static_friction_N", "static friction F_s", "N", kAnyNumber, 0.1, false, true},
     ParameterInfo{Id::StaticFrictionCoefficient, "static_friction_coefficient", "static friction coefficient", "",
-                  Range::Any, 0.1},
-    ParameterInfo{Id::KineticFriction, "kinetic_friction_N", "kinetic friction F_k", "N", Range::Any, 0.1},
+                  kAnyNumber, 0.1, false, true},
+    ParameterInfo{Id::KineticFriction, "kinetic_friction_N", "kinetic friction F_k", "N", kAnyNumber, 0.1, false, true},
     ParameterInfo{Id::KineticFrictionCoefficient, "kinetic_friction_coefficient", "kinetic friction coefficient", "",
-                  Range::Any, 0.1},
-    ParameterInfo{Id::NaturalFrequency, "natural_frequency_rad_per_s", "natural frequency w_n", "rad/s",
-                  Range::Positive, 0.05, true},
-    ParameterInfo{Id::Mass, "mass_kg", "effective mass m", "kg", Range::Positive, 0.1},
-    ParameterInfo{Id::DampingRatio, "damping_ratio", "damping ratio zeta", "", Range::ZeroToOne, 0.25, true},
+                  kAnyNumber, 0.1, false, true},
+    ParameterInfo{Id::NaturalFrequency, "natural_frequency_rad_per_s", "natural frequency w_n", "rad/s", kNotNegative,
+                  0.05, true},
+    ParameterInfo{Id::Mass, "mass_kg", "effective mass m", "kg", kNotNegative, 0.1},
+    ParameterInfo{Id::DampingRatio, "damping_ratio", "damping ratio zeta", "", kShare, 0.25, true},
     ParameterInfo{Id::DampingCoefficient, "damping_coefficient_N_s_per_m", "damping coefficient c", "N s/m",
-                  Range::NonNegative, 0.25},
+                  kNotNegative, 0.25},
     ParameterInfo{Id::FrictionSlope, "friction_slope_N_s_per_m", "slope of friction at rest f1 alpha", "N s/m",
-                  Range::Any, 0.25},
-    ParameterInfo{Id::Alpha, "alpha_s_per_m", "velocity dependence alpha", "s/m", Range::Any, 0.25},
-    ParameterInfo{Id::F0, "f0_N", "friction at high speed f0", "N", Range::Any, 0.25},
-    ParameterInfo{Id::F1, "f1_N", "velocity-dependent friction f1", "N", Range::Any, 0.25},
-    ParameterInfo{Id::Mu0, "mu0", "friction coefficient mu0", "", Range::Any, 0.25},
-    ParameterInfo{Id::Mu1, "mu1", "friction coefficient mu1", "", Range::Any, 0.25}};
+                  kAnyNumber, 0.25},
+    ParameterInfo{Id::Alpha, "alpha_s_per_m", "velocity dependence alpha", "s/m", kAnyNumber, 0.25},
+    ParameterInfo{Id::F0, "f0_N", "friction at high speed f0", "N", kAnyNumber, 0.25},
+    ParameterInfo{Id::F1, "f1_N", "velocity-dependent friction f1", "N", kAnyNumber, 0.25},
+    ParameterInfo{Id::Mu0, "mu0", "friction coefficient mu0", "", kAnyNumber, 0.25},
+    ParameterInfo{Id::Mu1, "mu1", "friction coefficient mu1", "", kAnyNumber, 0.25}};
 
 }  // namespace
 

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLongestNumber = 63;
+constexpr double kOverload = 9e36;  // SCPI instruments write 9.9e37 for infinity and 9.91e37 for what is not a number
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
@@ -36,6 +37,7 @@ Parsed parse_point(std::string_view text) {
   const auto [end, error] = std::from_chars(begin, text.data() + text.size(), parsed.value);
   if (error != std::errc()) return {};
   parsed.length = static_cast<std::size_t>(end - text.data());
+  if (std::abs(parsed.value) > kOverload) parsed.value = kNone;
   return parsed;
 }
 

@@ -5,6 +5,8 @@
 
 namespace slipfit::reading {
 
+bool is_utf8(std::string_view text);
+
 /// UTF-8 as it is; anything else is taken for Latin-1 and converted.
 std::string to_utf8(std::string_view text);
 

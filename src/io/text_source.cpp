@@ -27,7 +27,17 @@ NulCounts count_nul(std::string_view bytes) {
   return counts;
 }
 
-/// NUL, or more than a tenth of control characters, or more than a third of bytes beyond ASCII.
+/// Whether the bytes are UTF-8, the last character perhaps cut.
+bool begins_as_utf8(std::string_view bytes) {
+  constexpr std::size_t kLongest = 3;  // part of a character
+  for (std::size_t cut = 0; cut <= std::min(kLongest, bytes.size()); ++cut) {
+    if (is_utf8(bytes.substr(0, bytes.size() - cut))) return true;
+  }
+  return false;
+}
+
+/// NUL, or more than a tenth of control characters, or, where it is no UTF-8 in any script, more than a third of bytes
+/// beyond ASCII.
 bool looks_binary(std::string_view bytes) {
   std::size_t control = 0;
   std::size_t high = 0;
@@ -37,7 +47,7 @@ bool looks_binary(std::string_view bytes) {
     if (byte < 0x20 && std::strchr("\t\n\v\f\r\x1A", c) == nullptr) ++control;
     if (byte >= 0x80) ++high;
   }
-  return control * 10 > bytes.size() || high * 3 > bytes.size();
+  return control * 10 > bytes.size() || (high * 3 > bytes.size() && !begins_as_utf8(bytes));
 }
 
 void append_utf8(std::string& text, unsigned unit) {
@@ -91,7 +101,9 @@ Result<std::unique_ptr<TextSource>> TextSource::open(const std::filesystem::path
   if (source->raw_.empty()) return Error{"empty_file", name + ": the file is empty; export the recording again"};
   source->detect_encoding();
   if (!source->is_utf16() && looks_binary(source->raw_)) {
-    return Error{"binary_file", name + ": not a text file; export the recording as CSV or text"};
+    return Error{
+        "binary_file",
+        name + ": not a text file in UTF-8, Latin-1 or UTF-16 with a byte order mark; export it as CSV or text"};
   }
   const auto size = std::filesystem::file_size(file, ignored);
   if (!ignored) source->estimated_size_ = static_cast<std::size_t>(source->is_utf16() ? size / 2 : size);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "predict/delta.hpp"
+#include "slipfit/core/range.hpp"
 
 namespace slipfit {
 namespace {
@@ -24,7 +25,8 @@ class Predictor {
     }
   }
 
-  [[nodiscard]] const predict::CriticalPoint& critical() const { return critical_; }
+  [[nodiscard]] Estimate critical_speed_m_per_s() const { return within(critical_.speed_m_per_s, kNotNegative); }
+  [[nodiscard]] Estimate critical_lambda() const { return within(critical_.lambda, kNotNegative); }
 
   [[nodiscard]] PredictedMotion motion_at(double speed_m_per_s) const {
     PredictedMotion row;
@@ -44,7 +46,7 @@ class Predictor {
     } else if (model_.has_covariance && model_.estimate.speed_dependence && may_be_either(motion.total_damping_ratio)) {
       row.note = "the data cannot tell whether steady sliding is stable at this speed";
     }
-    return row;
+    return in_range(std::move(row));
   }
 
  private:
@@ -104,6 +106,18 @@ class Predictor {
     return std::abs(y.a) <= propagation_.quantile() * propagation_.standard_error(y);
   }
 
+  static PredictedMotion in_range(PredictedMotion row) {
+    for (Estimate* const quantity : {&row.lambda, &row.period_s, &row.frequency_Hz, &row.slip_time_s, &row.stick_time_s,
+                                     &row.periodic_displacement_m, &row.micro_vibration_spacing_m}) {
+      *quantity = within(std::move(*quantity), kNotNegative);
+    }
+    if (!row.period_s.value) row.frequency_Hz = row.period_s;  // not 0
+    row.sticking_degree = within(std::move(row.sticking_degree), kShare);
+    row.force_peak_N = within(std::move(row.force_peak_N), kAnyNumber);
+    row.force_trough_N = within(std::move(row.force_trough_N), kAnyNumber);
+    return row;
+  }
+
   static void withdraw_intervals(PredictedMotion& row, std::string note) {
     row.note = std::move(note);
     for (Estimate* const quantity :
@@ -134,7 +148,7 @@ PredictionModel stated_model(const Slider& slider, const Friction& friction) {
 
 Prediction predict_at(const PredictionModel& model, std::span<const double> speeds_m_per_s) {
   const Predictor predictor(model);
-  Prediction prediction{predictor.critical().speed_m_per_s, predictor.critical().lambda, {}};
+  Prediction prediction{predictor.critical_speed_m_per_s(), predictor.critical_lambda(), {}};
   for (const double speed_m_per_s : speeds_m_per_s) prediction.rows.push_back(predictor.motion_at(speed_m_per_s));
   return prediction;
 }

@@ -50,6 +50,7 @@ std::string_view words_of(Limit limit) {
 }
 
 std::string percent(double part, double whole) {
+  if (!std::isfinite(part) || !std::isfinite(whole)) return "-";
   // Of a value at 0 (zeta at its bound) the error itself.
   return whole == 0.0 ? fmt::format("{:.2g}", part) : fmt::format("{:.2g} %", 100.0 * part / std::abs(whole));
 }

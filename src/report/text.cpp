@@ -90,10 +90,11 @@ std::string quantity_text(std::optional<double> value, const std::string& SI_uni
   if (!value) return "-";
   const DisplayUnit unit = display_unit(SI_unit, value);
   const std::string text = rounded(*value * unit.per_SI, std::nullopt);
-  return unit.unit.empty() ? text : text + " " + unit.unit;
+  return unit.unit.empty() || text == "-" ? text : text + " " + unit.unit;
 }
 
 std::string stated_text(double value, const std::string& SI_unit) {
+  if (!std::isfinite(value)) return "-";
   const DisplayUnit unit = display_unit(SI_unit, value);
   return fmt::format("{:.6g} {}", value * unit.per_SI, unit.unit);
 }

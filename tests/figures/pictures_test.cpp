@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <optional>
 #include <regex>
+#include <set>
 #include <stdexcept>
 
 #include "chart/chart.hpp"
@@ -79,4 +81,46 @@ TEST_CASE("ticks are round numbers inside the axis") {
   CHECK(texts({"", 0.5, 60.0, chart::Scale::Logarithmic}) == "..... 1........ 10.....");
   CHECK(texts({"", 0.5, 30.0, chart::Scale::Logarithmic}) == " 0.5.... 1 2.. 5.... 10 20.");
   CHECK(texts({"", 3.0, 8.0, chart::Scale::Logarithmic}) == " 3 4 5 6 7 8");
+}
+
+TEST_CASE("axes of every width are drawn: finite, with a bounded number of different ticks") {
+  constexpr double kHuge = 1.7e308;
+  struct Ends {
+    double low, high;
+  };
+  const std::vector<Ends> ends = {{0.3, 0.1 + 0.2},    {1e15, 1e15 + 10.0},  {1e16, 1e16 + 2.0}, {0.0, 0.0},
+                                  {5e-324, 1e-323},    {-kHuge, kHuge},      {kHuge, kHuge},     {1e-300, 1e300},
+                                  {-5e-324, 5e-324},   {2.0, 1.0},           {-1.0, -1.0},       {1.7e9, 1.7e9 + 0.01},
+                                  {0.0, std::nan("")}, {INFINITY, INFINITY}, {-INFINITY, 1.0},   {0.0, 5e-324}};
+  for (const Ends& e : ends) {
+    for (const chart::Scale scale : {chart::Scale::Linear, chart::Scale::Logarithmic}) {
+      CAPTURE(e.low, e.high, scale == chart::Scale::Linear);
+      const chart::Axis axis = chart::drawable({"x", e.low, e.high, scale});
+      CHECK(std::isfinite(axis.high - axis.low));
+      CHECK(axis.low < axis.high);
+      const auto ticks = chart::ticks_of(axis);
+      CHECK(ticks.size() <= 9 * 25);
+      std::set<double> values;
+      for (const chart::Tick& tick : ticks) values.insert(tick.value);
+      CHECK(values.size() == ticks.size());
+      chart::Chart picture;
+      chart::Panel panel;
+      panel.x = panel.y = {"x", e.low, e.high, scale};
+      panel.lines.push_back({"line", chart::Colour::Blue, chart::Stroke::Solid, {{e.low, e.high}, {e.high, e.low}}});
+      panel.markers.push_back({"points", chart::Colour::Blue, chart::Shape::Dot, {{e.low, e.low}, {INFINITY, NAN}}});
+      panel.notes.push_back({{e.high, NAN}, "note"});
+      picture.panels = {panel};
+      const std::string svg = chart::to_svg(picture);
+      CHECK(svg.size() < 60'000);
+      CHECK_FALSE(std::regex_search(svg, std::regex(R"(\b(nan|inf)\b)")));
+    }
+  }
+}
+
+TEST_CASE("ticks of a narrow axis far from zero have the digits that tell them apart") {
+  std::set<std::string> texts;
+  const auto ticks = chart::ticks_of(chart::drawable({"time", 1e15, 1e15 + 20.0, chart::Scale::Linear}));
+  for (const chart::Tick& tick : ticks) texts.insert(tick.text);
+  CHECK(ticks.size() >= 5);
+  CHECK(texts.size() == ticks.size());
 }

@@ -94,3 +94,30 @@ TEST_CASE("ageing comes back, although a strong contact sticks longer by itself"
   }
   CHECK(inside >= 88);  // of 95 expected; the plain slope, 1.2 N, is far outside in all of them
 }
+
+TEST_CASE("short tests: cycles alike to the last digit leave nothing to test, and no infinite number") {
+  const Recording clock = Recording::create({0.0, 110.0}, {0.0, 1.0},
+                                            [] {
+                                              Conditions conditions;
+                                              conditions.speed_m_per_s = 1.0;
+                                              return conditions;
+                                            }())
+                              .value();
+  Analysis alike = cycles_of({}, 5);
+  double time_s = 0.0;
+  bool is_odd = false;
+  for (Cycle& cycle : alike.fit->cycles) {  // sticks of one length, onsets that differ by turns
+    cycle.onset_s = cycle.end_s = time_s += 2.0;
+    cycle.recovery_s = 2.0;
+    cycle.onset_force = is_odd ? 1.0 : 1.5;
+    is_odd = !is_odd;
+  }
+  for (const ShortTest& test : run_short_tests(clock, alike)) {
+    CAPTURE(test.name, test.finding);
+    for (const auto& number : {test.value, test.standard_error, test.p_value})
+      CHECK((!number || std::isfinite(*number)));
+    CHECK(test.finding.find("inf") == std::string::npos);
+    CHECK(test.finding.find("nan") == std::string::npos);
+  }
+  CHECK_FALSE(find(run_short_tests(clock, alike), "ageing").value);
+}

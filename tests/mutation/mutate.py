@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""mutate.py SLIPFIT RECORDINGS... [--mutants N] [--seed S] [--keep DIR]: recordings damaged at random, and what slipfit fit says.
+"""mutate.py SLIPFIT RECORDINGS... [--mutants N] [--seed S] [--report] [--plots] [--keep DIR]: recordings damaged at random, and what
+slipfit fit says.
 
 RECORDINGS are files or folders. Each mutant must end within 5 s of processor time (other work on the machine does not count):
-with exit code 0 and one JSON document, or with 2 or 3 and one line of error. Prints a table by damage and outcome; exit 1 where
-one broke the rule (kept in DIR)."""
+with exit code 0 and one JSON document whose numbers keep their promises, or with 2 or 3 and one line of error. With --report and
+--plots it writes the page and the pictures too, in which no number is infinite. Prints a table by damage and outcome; exit 1
+where one broke the rule (kept in DIR)."""
 
 import argparse
 import collections
@@ -12,6 +14,8 @@ import json
 import os
 import pathlib
 import random
+import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -110,9 +114,54 @@ def refuse_constant(name):
     raise ValueError(f"{name} is no JSON")
 
 
-def outcome(slipfit, file):
-    """A word for the table, and what is wrong (None: nothing)."""
-    command = ["prlimit", f"--cpu={LONGEST_S}", "--", slipfit, "fit", file, "--speed", "10mm/s", "--json"]
+NO_NUMBER = re.compile(r"(?<!\w)(inf|nan)(?!\w)")
+MAY_BE_NEGATIVE = re.compile(r"_force_N$|^(static|kinetic)_friction|^(clip|zero)_|^f[01]_N$|^alpha|_En$|^(mean_steady|measured)")
+
+
+def broken_promises(node, key="document"):
+    """Of a document: a value outside its interval, an interval below 0 where the quantity cannot be, an infinite number in words."""
+    if isinstance(node, str) and NO_NUMBER.search(node):
+        yield f"{key}: {node}"
+    if isinstance(node, list):
+        for item in node:
+            yield from broken_promises(item, key)
+    if not isinstance(node, dict):
+        return
+    unit = "_Hz" if "value_Hz" in node else ""
+    value, ends = node.get("value" + unit), node.get("ci95" + unit)
+    if ends and not ends[0] <= (ends[0] if value is None else value) <= ends[1]:
+        yield f"{key}: {value} outside {ends}"
+    if ends and ends[0] < 0 and not MAY_BE_NEGATIVE.search(key):
+        yield f"{key}: {ends} reaches below 0"
+    if "note" in node and node.get("status") in ("identified", "weak", "bounded", "fixed") and (value is None or ends is None):
+        yield f"{key}: {node['status']} without a value or an interval"
+    for name, child in node.items():
+        yield from broken_promises(child, name)
+
+
+def bad_pictures(folder):
+    """Pages (their scripts aside) and pictures with an infinite number."""
+    for file in sorted(pathlib.Path(folder).rglob("*.*ml")) + sorted(pathlib.Path(folder).rglob("*.svg")):
+        text = re.sub(r"<script.*?</script>", "", file.read_text(encoding="utf-8", errors="strict"), flags=re.DOTALL)
+        found = NO_NUMBER.search(text)
+        if found:
+            yield f"{file.name}: ...{text[max(0, found.start() - 60):found.end() + 20]}..."
+
+
+def outcome(slipfit, file, pictures):
+    """A word for the table, and what is wrong (None: nothing). `pictures`: options that write them into the folder FILE.out."""
+    folder = pathlib.Path(file + ".out")
+    folder.mkdir()
+    places = {"--report": folder / "page.html", "--plots": folder / "plots"}
+    command = ["prlimit", f"--cpu={LONGEST_S}", "--as=4000000000", "--", slipfit, "fit", file, "--speed", "10mm/s", "--json", "--quiet"]
+    command += [word for option in pictures for word in (option, str(places[option]))]
+    try:
+        return outcome_of(command, folder)
+    finally:
+        shutil.rmtree(folder)
+
+
+def outcome_of(command, folder):
     run = subprocess.run(command, capture_output=True, timeout=100 * LONGEST_S, check=False)
     if -run.returncode in (signal.SIGXCPU, signal.SIGKILL):
         return "too long", f"no end within {LONGEST_S} s"
@@ -121,7 +170,8 @@ def outcome(slipfit, file):
             document = json.loads(run.stdout, parse_constant=refuse_constant)
         except ValueError as error:
             return "bad JSON", str(error)
-        return document["status"], None
+        broken = [*broken_promises(document), *bad_pictures(folder)]
+        return ("broken promise", "; ".join(broken)) if broken else (document["status"], None)
     message = run.stderr.decode("utf-8", errors="replace")
     if run.returncode not in (2, 3):
         return f"exit {run.returncode}", message
@@ -149,11 +199,11 @@ def mutant(source, seed):
     return data, chosen[0].__name__
 
 
-def try_mutant(slipfit, folder, source, seed):
+def try_mutant(slipfit, folder, source, seed, pictures):
     data, damage = mutant(source, seed)
     file = pathlib.Path(folder) / f"{seed}.csv"
     file.write_bytes(data)
-    word, fault = outcome(slipfit, str(file))
+    word, fault = outcome(slipfit, str(file), pictures)
     file.unlink()
     return source, seed, damage, word, fault, data if fault else None
 
@@ -173,15 +223,18 @@ def main():
     parser.add_argument("recordings", nargs="+")
     parser.add_argument("--mutants", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--report", action="store_true")
+    parser.add_argument("--plots", action="store_true")
     parser.add_argument("--keep")
     arguments = parser.parse_args()
+    pictures = [option for option in ("--report", "--plots") if getattr(arguments, option[2:])]
     files = files_in(arguments.recordings)
     if not files:
         sys.exit("no recordings found")
     counts = collections.defaultdict(collections.Counter)
     faults = 0
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        jobs = [pool.submit(try_mutant, arguments.slipfit, folder, files[i % len(files)], arguments.seed * 1_000_000 + i)
+        jobs = [pool.submit(try_mutant, arguments.slipfit, folder, files[i % len(files)], arguments.seed * 1_000_000 + i, pictures)
                 for i in range(arguments.mutants)]
         for job in concurrent.futures.as_completed(jobs):
             source, seed, damage, word, fault, data = job.result()

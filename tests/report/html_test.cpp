@@ -196,3 +196,22 @@ TEST_CASE("any number of cycles gives a page (6 cycles once ended the program)")
     CHECK_THAT(section(page_of(recording, fitted(recording)), "trace-section"), Contains("<svg"));
   }
 }
+
+TEST_CASE("a force that differs in its last digit alone is a flat trace, not a picture of rounding") {
+  std::vector<double> time_s;
+  std::vector<double> force;
+  for (int i = 0; i < 500; ++i) {
+    time_s.push_back(0.001 * i);
+    force.push_back(i % 2 == 0 ? 0.3 : 0.1 + 0.2);
+  }
+  slipfit::Conditions conditions;
+  conditions.speed_m_per_s = 0.01;
+  const auto recording = slipfit::Recording::create(std::move(time_s), std::move(force), conditions).value();
+  const std::string page = page_of(recording, fitted(recording));
+  CHECK(page.size() < 400'000);
+  if (!slipfit::has_interactive_trace()) return;
+  const std::size_t begin = page.find("\"force_low\":");
+  REQUIRE(begin != std::string::npos);
+  const std::string low = page.substr(begin + 12, page.find(',', begin) - begin - 12);
+  CHECK_THAT(page, Contains("\"force_high\":" + low + ","));
+}

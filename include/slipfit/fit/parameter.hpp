@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "slipfit/core/estimate.hpp"
+#include "slipfit/core/range.hpp"
 
 namespace slipfit {
 
@@ -32,23 +33,16 @@ enum class ParameterId : std::size_t {
   Mu1
 };
 
-/// Values that a parameter can have.
-enum class ParameterRange {
-  Positive,   ///< its interval is symmetric in the logarithm
-  ZeroToOne,  ///< the damping ratio: 0 <= zeta < 1
-  NonNegative,
-  Any
-};
-
 struct ParameterInfo {
   ParameterId id{};
   std::string_view key;    ///< in JSON and CSV, unit included
   std::string_view words;  ///< for people
   std::string_view unit;   ///< SI; empty for a pure number
-  ParameterRange range = ParameterRange::Any;
+  Range range;
   /// Identified needs a standard error below this share of the value (by a quarter of the 95 % interval).
   double identified_below = 0.0;
-  bool can_be_held = false;  ///< by HeldParameters
+  bool can_be_held = false;    ///< by HeldParameters
+  bool hangs_on_zero = false;  ///< a force level: off by what the sensor's zero is off
 };
 
 /// The one table of them.

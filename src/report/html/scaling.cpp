@@ -10,6 +10,7 @@ namespace slipfit::html {
 namespace {
 
 constexpr double kRoom = 0.05;              // of the range, on both sides
+constexpr double kVisible = 1e-9;           // of the largest: below it are the last digits of a constant
 constexpr const char* kNoBreak = "\u00A0";  // a number and its unit stay on one line
 constexpr double kLogRoom = 1.3;            // factor on both sides
 
@@ -46,10 +47,15 @@ void Span::add(double value) {
   high_ = is_first ? value : std::max(high_, value);
 }
 
+double Span::range() const {
+  if (empty()) return 0.0;
+  const double range = high_ - low_;
+  return range > kVisible * std::max(std::abs(low_), std::abs(high_)) ? range : 0.0;
+}
+
 chart::Axis Span::linear_axis(const std::string& label) const {
   if (empty()) return {label, 0.0, 1.0, chart::Scale::Linear};
-  const double range = high_ - low_;
-  const double room = range > 0.0 ? kRoom * range : std::max(0.5 * std::abs(low_), 1e-12);
+  const double room = range() > 0.0 ? kRoom * range() : std::max(0.5 * std::abs(low_), 1e-12);
   return {label, low_ - room, high_ + room, chart::Scale::Linear};
 }
 

@@ -28,6 +28,8 @@ class Span {
   [[nodiscard]] bool empty() const { return !(low_ <= high_); }
   [[nodiscard]] double low() const { return low_; }
   [[nodiscard]] double high() const { return high_; }
+  /// From the lowest to the highest; 0 where they differ in digits that no sensor and no clock has.
+  [[nodiscard]] double range() const;
   /// With a twentieth of the range on both sides; never of no length.
   [[nodiscard]] chart::Axis linear_axis(const std::string& label) const;
   /// From the smallest to the largest with a little room; the numbers are positive.

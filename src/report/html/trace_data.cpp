@@ -70,7 +70,7 @@ std::string series_members(const std::string& name, const std::vector<double>& v
   Span span;
   for (const double value : values) span.add(value);
   const double low = span.empty() ? 0.0 : span.low();
-  const double range = span.empty() ? 0.0 : span.high() - low;
+  const double range = span.range();
   const auto level_of = [&](double value) {
     return static_cast<std::uint16_t>(range > 0.0 ? std::lround(kLevels * ((value - low) / range)) : 0);
   };

@@ -1,0 +1,125 @@
+#include "ranges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "slipfit/core/range.hpp"
+
+namespace slipfit {
+namespace {
+
+/// A force level is not negative where the sensor's zero is known: else it stands on an unknown one.
+Range range_of(const Parameter& parameter, const Conditions& conditions) {
+  const ParameterInfo& row = info(parameter.id);
+  const bool has_zero = conditions.zero_force_N && parameter.estimate.value.value_or(-1.0) >= 0.0;
+  return row.hangs_on_zero && has_zero ? kNotNegative : row.range;
+}
+
+/// One without a value or an interval is unidentified, and its value is withdrawn.
+Parameter within(Parameter parameter, const Range& range) {
+  parameter.estimate = within(std::move(parameter.estimate), range);
+  Estimate& estimate = parameter.estimate;
+  if (parameter.status == ParameterStatus::Unidentified || (estimate.value && estimate.ci95)) return parameter;
+  parameter.status = ParameterStatus::Unidentified;
+  if (estimate.note.empty()) estimate.note = "the data give no value with an interval";
+  estimate.value = estimate.standard_error = std::nullopt;
+  estimate.ci95 = std::nullopt;
+  return parameter;
+}
+
+bool all_finite(const ModelEstimate& model) {
+  const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
+  double sum = model.stiffness_N_per_m + model.natural_frequency_rad_per_s + model.damping_ratio +
+               model.friction_difference_N + law.slope_N_s_per_m + law.alpha_s_per_m +
+               model.ageing.value_or(Ageing{}).rate_N;
+  for (const auto& row : model.covariance) {
+    for (const double cell : row) sum += std::abs(cell);
+  }
+  return std::isfinite(sum);
+}
+
+bool all_finite(const Correlation& correlation) {
+  for (const std::vector<double>& row : correlation.matrix) {
+    for (const double cell : row) {
+      if (!std::isfinite(cell)) return false;
+    }
+  }
+  return true;
+}
+
+SpectralFrequency in_range(SpectralFrequency spectral) {
+  spectral.value_Hz = within(spectral.value_Hz, kNotNegative);
+  spectral.standard_error_Hz = spectral.value_Hz ? within(spectral.standard_error_Hz, kNotNegative) : std::nullopt;
+  spectral.false_alarm_probability = within(spectral.false_alarm_probability, kShare).value_or(1.0);
+  std::erase_if(spectral.harmonics_Hz, [](double frequency_Hz) { return !std::isfinite(frequency_Hz); });
+  std::erase_if(spectral.suspicious_lines,
+                [](const SuspiciousLine& line) { return !std::isfinite(line.frequency_Hz); });
+  return spectral;
+}
+
+}  // namespace
+
+FitResult in_range(FitResult fit, const Conditions& conditions) {
+  for (Parameter& parameter : fit.parameters) {
+    const Range range = range_of(parameter, conditions);
+    parameter = within(std::move(parameter), range);
+  }
+  if ((fit.estimate && !all_finite(*fit.estimate)) || (fit.correlation && !all_finite(*fit.correlation))) {
+    fit.estimate = std::nullopt;  // nothing can be derived from it
+    fit.correlation = std::nullopt;
+  }
+  fit.residual.reduced_chi2 = within(fit.residual.reduced_chi2, kNotNegative);
+  fit.residual.whiteness_p = within(fit.residual.whiteness_p, kShare);
+  for (Candidate& candidate : fit.candidates) {
+    candidate.rms = within(candidate.rms, kNotNegative);
+    candidate.aicc = within(candidate.aicc, kAnyNumber);
+  }
+  return fit;
+}
+
+FrequencyReport in_range(FrequencyReport frequency) {
+  frequency.quoted = within(std::move(frequency.quoted), kNotNegative);
+  frequency.counted = within(std::move(frequency.counted), kNotNegative);
+  frequency.spectral = in_range(std::move(frequency.spectral));
+  if (!frequency.quoted.value) frequency.method = "none";
+  return frequency;
+}
+
+CycleStatistics in_range(CycleStatistics cycles) {
+  for (auto* const time_s : {&cycles.period_s, &cycles.period_sd_s, &cycles.slip_time_s, &cycles.stick_time_s}) {
+    *time_s = within(*time_s, kNotNegative);
+  }
+  cycles.sticking_degree = within(cycles.sticking_degree, kShare);
+  for (auto* const force : {&cycles.peak_force, &cycles.trough_force}) *force = within(*force, kAnyNumber);
+  for (auto* const spread : {&cycles.peak_force_sd, &cycles.force_drop, &cycles.force_drop_sd}) {
+    *spread = within(*spread, kNotNegative);
+  }
+  return cycles;
+}
+
+Derived in_range(Derived derived) {
+  for (Estimate* const quantity :
+       {&derived.lambda, &derived.lambda_critical, &derived.critical_speed_m_per_s, &derived.periodic_displacement_m,
+        &derived.pattern_spacing_m, &derived.micro_vibration_spacing_m, &derived.impulse_rate_per_m}) {
+    *quantity = within(std::move(*quantity), kNotNegative);
+  }
+  derived.gamma = within(std::move(derived.gamma), {1.0, std::numeric_limits<double>::infinity()});
+  derived.pattern_spacing_sd_m = within(derived.pattern_spacing_sd_m, kNotNegative);
+  if (derived.measured_spacing_En) {
+    derived.measured_spacing_En = within(*std::move(derived.measured_spacing_En), kAnyNumber);
+  }
+  return derived;
+}
+
+SweepPoint in_range(SweepPoint point) {
+  point.rms = within(point.rms, kNotNegative);
+  point.kinetic_friction_N = within(std::move(point.kinetic_friction_N), kAnyNumber);
+  point.mean_steady_force_N = within(std::move(point.mean_steady_force_N), kAnyNumber);
+  point.spacing_m = within(std::move(point.spacing_m), kNotNegative);
+  point.spacing_left_out_m = within(std::move(point.spacing_left_out_m), kNotNegative);
+  return point;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "slipfit/pipeline.hpp"
+#include "slipfit/sweep.hpp"
+
+namespace slipfit {
+
+// Every number of a result in the range of its quantity (`within`), or unknown: text, page, tables and JSON show the
+// same. Before anything is derived from the numbers.
+FitResult in_range(FitResult fit, const Conditions& conditions);
+FrequencyReport in_range(FrequencyReport frequency);
+CycleStatistics in_range(CycleStatistics cycles);
+Derived in_range(Derived derived);
+SweepPoint in_range(SweepPoint point);
+
+}  // namespace slipfit
