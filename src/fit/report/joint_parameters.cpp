@@ -7,11 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "fit/report/limits.hpp"
+
 namespace slipfit::fit {
 namespace {
-
-constexpr std::size_t kFewCycles = 5;
-constexpr double kSamplesForIdentified = 3.0;
 
 class SweepReporter {
  public:

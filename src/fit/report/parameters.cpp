@@ -9,6 +9,7 @@
 
 #include "fit/inference/intervals.hpp"
 #include "fit/inference/solution.hpp"
+#include "fit/report/limits.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kFewCycles = 5;          // below it a scatter says little: nothing is called identified
-constexpr double kSamplesForIdentified = 3.0;  // in a slip
 constexpr double kDriftMatters = 0.02;
 
 class Reporter {

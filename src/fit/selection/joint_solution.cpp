@@ -12,10 +12,10 @@
 namespace slipfit::fit {
 namespace {
 
-constexpr double kRough = 0.1;
-constexpr double kFinal = 1e-4;
-constexpr int kQuickIterations = 10;
-constexpr int kMaxIterations = 50;
+constexpr double kRoughJointTolerance = 0.1;
+constexpr double kJointTolerance = 1e-4;
+constexpr int kQuickJointIterations = 10;
+constexpr int kMostJointIterations = 50;
 /// What the recordings share is believed unless chance would hardly give such a disagreement.
 constexpr double kShareChance = 1e-3;
 /// Dependence on the speed is believed beyond this chance.
@@ -43,7 +43,7 @@ double residual_freedom(const JointProblem& problem, const JointHeld& held) {
 }
 
 std::optional<JointSolution> at_minimum(std::unique_ptr<JointProblem> problem, const JointHeld& held) {
-  const double chi2 = problem->solve(held, kMaxIterations, kFinal);
+  const double chi2 = problem->solve(held, kMostJointIterations, kJointTolerance);
   if (!std::isfinite(chi2)) return std::nullopt;
   const double freedom = residual_freedom(*problem, held);
   return JointSolution{std::move(problem), held, chi2, freedom};
@@ -123,7 +123,7 @@ class SweepFitter {
       problem->parameters.shared[kFrictionRate] = rate;
       JointHeld quick = held;
       quick[kFrictionRate] = true;
-      const double chi2 = problem->solve(quick, kQuickIterations, kRough);
+      const double chi2 = problem->solve(quick, kQuickJointIterations, kRoughJointTolerance);
       if (chi2 >= best_chi2) continue;
       best_chi2 = chi2;
       best = problem->parameters;
