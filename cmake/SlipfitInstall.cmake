@@ -36,6 +36,9 @@ if(SLIPFIT_BUILD_TESTS)
   set(consumer_script "${PROJECT_SOURCE_DIR}/tests/consumer/run.cmake")
   add_test(NAME consumer/find_package
     COMMAND "${CMAKE_COMMAND}" ${consumer_settings} "-DWORK_DIR=${PROJECT_BINARY_DIR}/consumer" -P "${consumer_script}")
+  add_test(NAME consumer/subproject
+    COMMAND "${CMAKE_COMMAND}" -S "${PROJECT_SOURCE_DIR}/tests/consumer/subproject" -B "${PROJECT_BINARY_DIR}/consumer-subproject"
+      -G "${CMAKE_GENERATOR}" "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" "-DSLIPFIT_SOURCE_DIR=${PROJECT_SOURCE_DIR}")
   find_program(SLIPFIT_SHLIBDEPS dpkg-shlibdeps)
   if(SLIPFIT_SHLIBDEPS)
     add_test(NAME consumer/debian_package
