@@ -24,11 +24,6 @@ install(FILES "${PROJECT_SOURCE_DIR}/docs/fit.schema.json" "${PROJECT_SOURCE_DIR
   DESTINATION "${CMAKE_INSTALL_DATADIR}/slipfit")
 
 if(SLIPFIT_BUILD_TESTS)
-  find_package(Python3 COMPONENTS Interpreter)
-  if(Python3_FOUND)
-    add_test(NAME lint/layers
-      COMMAND "${Python3_EXECUTABLE}" "${PROJECT_SOURCE_DIR}/scripts/check_layers.py" "${PROJECT_SOURCE_DIR}")
-  endif()
   set(consumer_settings
     "-DSLIPFIT_BUILD_DIR=${PROJECT_BINARY_DIR}" "-DCONSUMER_SOURCE_DIR=${PROJECT_SOURCE_DIR}/tests/consumer"
     "-DCXX_COMPILER=${CMAKE_CXX_COMPILER}" "-DCXX_FLAGS=${CMAKE_CXX_FLAGS}" "-DBUILD_TYPE=${CMAKE_BUILD_TYPE}"
