@@ -18,18 +18,12 @@ install(FILES
   "${PROJECT_BINARY_DIR}/slipfit-config-version.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindFFTW3.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindNettle.cmake"
-  "${PROJECT_SOURCE_DIR}/cmake/FindUDUNITS2.cmake"
   DESTINATION "${SLIPFIT_CMAKE_DIR}")
 install(FILES "${PROJECT_SOURCE_DIR}/docs/fit.schema.json" "${PROJECT_SOURCE_DIR}/docs/predict.schema.json"
   "${PROJECT_SOURCE_DIR}/LICENSE"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/slipfit")
 
 if(SLIPFIT_BUILD_TESTS)
-  find_package(Python3 COMPONENTS Interpreter)
-  if(Python3_FOUND)
-    add_test(NAME lint/layers
-      COMMAND "${Python3_EXECUTABLE}" "${PROJECT_SOURCE_DIR}/scripts/check_layers.py" "${PROJECT_SOURCE_DIR}")
-  endif()
   set(consumer_settings
     "-DSLIPFIT_BUILD_DIR=${PROJECT_BINARY_DIR}" "-DCONSUMER_SOURCE_DIR=${PROJECT_SOURCE_DIR}/tests/consumer"
     "-DCXX_COMPILER=${CMAKE_CXX_COMPILER}" "-DCXX_FLAGS=${CMAKE_CXX_FLAGS}" "-DBUILD_TYPE=${CMAKE_BUILD_TYPE}"
@@ -37,6 +31,9 @@ if(SLIPFIT_BUILD_TESTS)
   set(consumer_script "${PROJECT_SOURCE_DIR}/tests/consumer/run.cmake")
   add_test(NAME consumer/find_package
     COMMAND "${CMAKE_COMMAND}" ${consumer_settings} "-DWORK_DIR=${PROJECT_BINARY_DIR}/consumer" -P "${consumer_script}")
+  add_test(NAME consumer/subproject
+    COMMAND "${CMAKE_COMMAND}" -S "${PROJECT_SOURCE_DIR}/tests/consumer/subproject" -B "${PROJECT_BINARY_DIR}/consumer-subproject"
+      -G "${CMAKE_GENERATOR}" "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" "-DSLIPFIT_SOURCE_DIR=${PROJECT_SOURCE_DIR}")
   find_program(SLIPFIT_SHLIBDEPS dpkg-shlibdeps)
   if(SLIPFIT_SHLIBDEPS)
     add_test(NAME consumer/debian_package

@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
+double elapsed_s(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
@@ -23,7 +23,7 @@ SpectrumLook look_at_spectrum(const Recording& recording, const Signals& signals
   const auto start = Clock::now();
   const std::vector<bool>& impulses = signals.quality.impulse_mask;
   const Spectrum spectrum = compute_spectrum(recording, impulses);
-  const double transform_s = seconds_since(start);
+  const double transform_s = elapsed_s(start);
   slips_found.get();
   const auto resumed = Clock::now();
   // A count that scatters may be of noise or hum: it would draw the spectrum to its own multiple.
@@ -33,7 +33,7 @@ SpectrumLook look_at_spectrum(const Recording& recording, const Signals& signals
                     *counted.standard_error < kSureCount * *counted.value;
   const std::optional<double> hint_Hz = sure ? counted.value : std::nullopt;
   SpectralFrequency spectral = find_frequency(recording, spectrum, hint_Hz, impulses);
-  return {std::move(spectral), transform_s + seconds_since(resumed)};
+  return {std::move(spectral), transform_s + elapsed_s(resumed)};
 }
 
 SpectrumLook look_at_spectrum(const Recording& recording, const Signals& signals) {
@@ -48,7 +48,7 @@ Signals look_at(const Recording& recording) {
   signals.quality = assess_quality(recording);
   signals.segmentation = find_slips(recording, signals.quality);
   signals.spectral = look_at_spectrum(recording, signals).spectral;
-  signals.seconds = seconds_since(start);
+  signals.seconds = elapsed_s(start);
   return signals;
 }
 

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <memory>
 
+#include "close_file.hpp"
 #include "failure.hpp"
 
 using nlohmann::json;
@@ -16,10 +17,6 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kLargestDocument = std::size_t{64} << 20U;  // a thousand times a real one
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { (void)std::fclose(file); }
-};
 
 std::string content_of(const std::string& file) {
   const std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(file.c_str(), "rb"));

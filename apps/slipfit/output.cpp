@@ -10,6 +10,7 @@
 #include <memory>
 #include <system_error>
 
+#include "close_file.hpp"
 #include "failure.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -17,9 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { (void)std::fclose(file); }
-};
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
 [[noreturn]] void cannot_write(const OutputFile& output, int error_number) {

@@ -5,7 +5,7 @@
 namespace slipfit::batch {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + "\"";
@@ -20,7 +20,7 @@ std::string csv_line(const std::vector<std::string>& cells) {
     const std::string& cell = cells[i];
     const bool is_plain = cell.find_first_of(",;\"\n\r\t#") == std::string::npos &&
                           (cell.empty() || (cell.front() != ' ' && cell.back() != ' '));
-    line += is_plain ? cell : quoted(cell);
+    line += is_plain ? cell : in_quotes(cell);
   }
   return line;
 }

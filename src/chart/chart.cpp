@@ -21,8 +21,7 @@ namespace {
 constexpr double kLeft = 74.0;
 constexpr double kWidth = 610.0;  // of the axes
 constexpr double kRight = 16.0;
-constexpr double kAxisRoom = 52.0;  // below the axes: values and label
-constexpr double kLineHeight = 18.0;
+constexpr double kAxisRoom = 52.0;   // below the axes: values and label
 constexpr double kLeastStep = 18.0;  // between values of the axis at the left
 constexpr double kDigit = 6.6;       // mean width of one at 12 px
 constexpr double kBetween = 6.0;     // least gap between two values below
@@ -169,7 +168,7 @@ std::string to_svg(const Chart& chart) {
   Drawing drawing(Palette::File);
   double y = 24.0;
   drawing.text(kLeft, y, chart.title, "title");
-  for (const std::string& remark : chart.remarks) drawing.text(kLeft, y += kLineHeight, remark, "remark");
+  for (const std::string& remark : chart.remarks) drawing.text(kLeft, y += kLineHeight_px, remark, "remark");
   y = draw_panels(drawing, chart.panels, y + 14.0, "");
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "

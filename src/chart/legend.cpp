@@ -8,7 +8,6 @@ namespace slipfit::chart {
 namespace {
 
 // Pixels.
-constexpr double kLineHeight = 18.0;
 constexpr double kCharacter = 6.6;  // mean width of a letter at 12 px
 constexpr double kSample = 26.0;    // length of a line in the legend
 constexpr double kGap = 22.0;       // between two entries in a row
@@ -52,7 +51,7 @@ std::vector<Spot> rows_of(const std::vector<Entry>& entries, double width_px) {
   std::vector<Spot> spots;
   Spot next;
   for (const Entry& entry : entries) {
-    if (next.x > 0.0 && next.x + entry.width() - kGap > width_px) next = {0.0, next.y + kLineHeight};
+    if (next.x > 0.0 && next.x + entry.width() - kGap > width_px) next = {0.0, next.y + kLineHeight_px};
     spots.push_back(next);
     next.x += entry.width();
   }
@@ -64,12 +63,12 @@ void draw_box(Drawing& drawing, const Panel& panel, const Frame& frame, const st
   double longest = 0.0;
   for (const Entry& entry : entries) longest = std::max(longest, letters_in(entry.name));
   const double width = kSample + 22.0 + kCharacter * longest;
-  const double height = 10.0 + kLineHeight * static_cast<double>(entries.size());
+  const double height = 10.0 + kLineHeight_px * static_cast<double>(entries.size());
   const double left = frame.left + 8.0 + panel.legend.right * (frame.width - 16.0 - width);
   double y = frame.top + 8.0 + (1.0 - panel.legend.up) * (frame.height - 16.0 - height);
   drawing.box(left, y, width, height, "class=\"legend\"");
-  y += 5.0 - 0.5 * kLineHeight;
-  for (const Entry& entry : entries) draw_entry(drawing, entry, {left + 7.0, y += kLineHeight}, id);
+  y += 5.0 - 0.5 * kLineHeight_px;
+  for (const Entry& entry : entries) draw_entry(drawing, entry, {left + 7.0, y += kLineHeight_px}, id);
 }
 
 }  // namespace
@@ -77,14 +76,14 @@ void draw_box(Drawing& drawing, const Panel& panel, const Frame& frame, const st
 double legend_height_px(const Panel& panel, double width_px) {
   const std::vector<Entry> entries = entries_of(panel);
   if (panel.legend_at == LegendAt::Inside || entries.empty()) return 0.0;
-  return rows_of(entries, width_px).back().y + kLineHeight + 6.0;
+  return rows_of(entries, width_px).back().y + kLineHeight_px + 6.0;
 }
 
 void draw_legend(Drawing& drawing, const Panel& panel, const Frame& frame, const std::string& id) {
   const std::vector<Entry> entries = entries_of(panel);
   if (entries.empty()) return;
   if (panel.legend_at == LegendAt::Inside) return draw_box(drawing, panel, frame, entries, id);
-  const double top = frame.top - legend_height_px(panel, frame.width) + 0.5 * kLineHeight;
+  const double top = frame.top - legend_height_px(panel, frame.width) + 0.5 * kLineHeight_px;
   const std::vector<Spot> spots = rows_of(entries, frame.width);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     draw_entry(drawing, entries[i], {frame.left + spots[i].x, top + spots[i].y}, id);

@@ -5,6 +5,8 @@
 
 namespace slipfit::chart {
 
+constexpr double kLineHeight_px = 18.0;
+
 /// The room inside the axes of a panel, in pixels.
 struct Frame {
   double left = 0.0;

@@ -1,19 +1,12 @@
 #include "slipfit/core/units.hpp"
 
-#include <udunits2.h>
-
-#include <algorithm>
-#include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
-#include "core/unit_spellings.hpp"
+#include "core/unit_text.hpp"
 
 namespace slipfit {
 namespace {
@@ -59,120 +52,32 @@ std::string join(std::initializer_list<std::string_view> parts) {
   return text;
 }
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
-struct Replacement {
-  std::string_view from;
-  std::string_view to;
-};
-
-// Both micro signs (U+00B5, U+03BC), the dots, minus and superscripts of a typeset unit, in UTF-8.
-constexpr std::array kReplacements = std::to_array<Replacement>({
-    {"\xC2\xB5", "u"},
-    {"\xCE\xBC", "u"},
-    {"\xC2\xB7", "."},
-    {"\xE2\x8B\x85", "."},
-    {"\xE2\x88\x92", "-"},
-    {"\xE2\x81\xBB", "-"},
-    {"\xC2\xB9", "1"},
-    {"\xC2\xB2", "2"},
-    {"\xE2\x88\x95", "/"},
-});
-
-/// Typeset and Latin-1 spellings become the ASCII that UDUNITS-2 knows; a final dot ("mm/min.") goes.
-std::string normalise(std::string_view unit) {
-  std::string text;
-  for (std::size_t i = 0; i < unit.size();) {
-    const auto rest = unit.substr(i);
-    const auto* const found = std::find_if(kReplacements.begin(), kReplacements.end(),
-                                           [&](const Replacement& r) { return rest.starts_with(r.from); });
-    if (found != kReplacements.end()) {
-      text += found->to;
-      i += found->from.size();
-    } else if (static_cast<unsigned char>(rest[0]) >= 0xC2 && rest.size() > 1 && (rest[1] & 0xC0) == 0x80) {
-      text += rest.substr(0, 2);  // another UTF-8 letter
-      i += 2;
-    } else {
-      text += rest[0] == '\xB5' ? 'u' : rest[0] == '\xB7' ? '.' : rest[0];  // Latin-1
-      ++i;
-    }
-  }
-  while (text.size() > 1 && text.back() == '.') text.pop_back();
-  return text;
-}
-
-template <class Table>
-std::optional<double> look_up(const Table& table, std::string_view text, Dimension dimension) {
-  for (const Spelling& entry : table) {
-    if (entry.dimension == dimension && entry.text == text) return entry.scale;
+/// The factor to the SI unit of a dimension. Scales and load cells show masses where a force is meant ("g", "lb"), and
+/// turns are counted as frequencies ("rpm"). A quotient of equal units ("mV/V") is no friction coefficient.
+std::optional<double> factor_in(const ParsedUnit& unit, std::string_view text, Dimension dimension) {
+  const auto is = [&unit](const Powers& powers) { return unit.powers == powers; };
+  const auto given_if = [&unit](bool fits) { return fits ? std::optional(unit.factor) : std::nullopt; };
+  switch (dimension) {
+    case Dimension::Time:
+      return given_if(is(kSecond));
+    case Dimension::Length:
+      return given_if(is(kMetre));
+    case Dimension::Speed:
+      return given_if(is(kSpeed));
+    case Dimension::Force:
+      if (is(kKilogram)) return unit.factor * kStandardGravity_m_per_s2;
+      return given_if(is(kNewton));
+    case Dimension::Frequency:
+      return given_if(is(kPerSecond) || is(kTurnsPerSecond));
+    case Dimension::Mass:
+      return given_if(is(kKilogram));
+    case Dimension::AngularSpeed:
+      if (is(kTurnsPerSecond)) return unit.factor * kTurn_rad;
+      return given_if(is(kRadiansPerSecond));
+    case Dimension::Dimensionless:
+      return given_if(is(kPureNumber) && text.find('/') == std::string_view::npos);
   }
   return std::nullopt;
-}
-
-struct FreeSystem {
-  void operator()(ut_system* system) const { ut_free_system(system); }
-};
-struct FreeUnit {
-  void operator()(ut_unit* unit) const { ut_free(unit); }
-};
-struct FreeConverter {
-  void operator()(cv_converter* converter) const { cv_free(converter); }
-};
-using Unit = std::unique_ptr<ut_unit, FreeUnit>;
-
-/// UDUNITS-2 prints what it does not like; it has one handler a process, which is put back afterwards.
-class Silence {
- public:
-  Silence() : previous_(ut_set_error_message_handler(ut_ignore)) {}
-  ~Silence() { ut_set_error_message_handler(previous_); }
-  Silence(const Silence&) = delete;
-  Silence(Silence&&) = delete;
-  Silence& operator=(const Silence&) = delete;
-  Silence& operator=(Silence&&) = delete;
-
- private:
-  ut_error_message_handler previous_;
-};
-
-/// The factor between two units of the same dimension; nothing for offsets, logarithms and reciprocals
-/// (UDUNITS-2 converts seconds to hertz when asked).
-std::optional<double> linear_factor(ut_unit* from, ut_unit* to) {
-  if (ut_are_convertible(from, to) == 0) return std::nullopt;
-  const std::unique_ptr<cv_converter, FreeConverter> converter(ut_get_converter(from, to));
-  if (!converter) return std::nullopt;
-  const double one = cv_convert_double(converter.get(), 1.0);
-  const double two = cv_convert_double(converter.get(), 2.0);
-  const bool linear = cv_convert_double(converter.get(), 0.0) == 0.0 && std::abs(two - 2.0 * one) <= 1e-12 * one;
-  return linear && one > 0.0 && std::isfinite(one) ? std::optional(one) : std::nullopt;
-}
-
-bool contains_radian(ut_unit* unit) {
-  std::array<char, 256> text{};
-  const int length = ut_format(unit, text.data(), text.size() - 1, UT_ASCII | UT_DEFINITION);
-  return length > 0 && std::string_view(text.data()).find("rad") != std::string_view::npos;
-}
-
-/// By UDUNITS-2, whose parser has global state: one caller at a time.
-std::optional<double> ask_udunits(const std::string& text, Dimension dimension) {
-  if (dimension == Dimension::Dimensionless || text.empty() || text.find('@') != std::string::npos) return std::nullopt;
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  const Silence silence;
-  static const std::unique_ptr<ut_system, FreeSystem> system(ut_read_xml(nullptr));
-  if (!system) return std::nullopt;
-  const Unit unit(ut_parse(system.get(), text.c_str(), UT_UTF8));
-  if (!unit || contains_radian(unit.get()) != (dimension == Dimension::AngularSpeed)) return std::nullopt;
-  const Unit si(ut_parse(system.get(), std::string(name_of(dimension).si_unit).c_str(), UT_ASCII));
-  if (const auto factor = linear_factor(unit.get(), si.get())) return factor;
-  if (dimension != Dimension::Force) return std::nullopt;
-  // Scales and load cells show masses where a force is meant: "g", "mg", "lb".
-  const Unit kilogram(ut_parse(system.get(), "kg", UT_ASCII));
-  const auto mass_kg = linear_factor(unit.get(), kilogram.get());
-  return mass_kg ? std::optional(*mass_kg * kStandardGravity_m_per_s2) : std::nullopt;
 }
 
 /// On one line, whatever was given: a message is.
@@ -187,11 +92,9 @@ std::string shown(std::string_view text) {
 }  // namespace
 
 Result<UnitScale> parse_unit(std::string_view unit, Dimension dimension) {
-  const std::string text = normalise(trim(unit));
-  auto scale = look_up(kSpellings, text, dimension);
-  if (!scale) scale = look_up(kWords, lower(text), dimension);
-  if (!scale) scale = ask_udunits(text, dimension);
-  if (!scale) scale = look_up(kSpellings, lower(text), dimension);  // "MM/S"
+  const std::string_view text = trim(unit);
+  const auto parsed = read_unit(text);
+  const auto scale = parsed ? factor_in(*parsed, text, dimension) : std::nullopt;
   if (scale) return UnitScale{*scale};
   const DimensionName name = name_of(dimension);
   return Error{"unknown_unit", join({"'", shown(unit), "' is not a unit of ", name.quantity, "; expected one such as ",

@@ -15,14 +15,14 @@ namespace {
 
 using chart::Colour, chart::Shape, chart::Stroke;
 
-constexpr double kLargestLambda = 6.0;
-constexpr std::array<Colour, 3> kColours{Colour::Blue, Colour::Vermillion, Colour::Green};
+constexpr double kLargestDampedLambda = 6.0;
+constexpr std::array<Colour, 3> kDampedColours{Colour::Blue, Colour::Vermillion, Colour::Green};
 
 /// Denser towards the limits, where the curves are steep; both limits are among them.
 std::vector<double> lambdas_from(double first, double critical) {
   std::vector<double> lambdas{critical};
   for (const double part : evenly_spaced(0.0, 1.0, 200)) {
-    lambdas.push_back(first + (kLargestLambda - first) * part * part);
+    lambdas.push_back(first + (kLargestDampedLambda - first) * part * part);
   }
   std::sort(lambdas.begin(), lambdas.end());
   return lambdas;
@@ -30,7 +30,7 @@ std::vector<double> lambdas_from(double first, double critical) {
 
 chart::Line undamped_curve(Table& table) {
   chart::Line line{"ζ = 0, eq. (22)", Colour::Black, Stroke::Solid, {{0.0, 0.0}}};
-  for (const double lambda : evenly_spaced(0.0, kLargestLambda, 200)) {
+  for (const double lambda : evenly_spaced(0.0, kLargestDampedLambda, 200)) {
     if (lambda == 0.0) continue;
     line.points.push_back({lambda, scaled_motion(lambda, 0.0).cycle->sticking_degree});
     table.add({0.0, lambda, line.points.back().y, scaled_paper_cycle(lambda, 0.0).value().sticking_degree});
@@ -74,7 +74,7 @@ void add_keys(chart::Panel& panel) {
 
 chart::Chart chart_of(chart::Panel whole) {
   whole.height_px = 300.0;
-  whole.x = {"stick-slip parameter λ  [-]", 0.0, kLargestLambda, chart::Scale::Linear};
+  whole.x = {"stick-slip parameter λ  [-]", 0.0, kLargestDampedLambda, chart::Scale::Linear};
   whole.y = {"sticking degree  [-]", 0.0, 0.8, chart::Scale::Linear};
   chart::Panel close = whole;  // the same close to the limits, without the legend
   for (chart::Line& line : close.lines) line.name.clear();
@@ -110,7 +110,7 @@ std::vector<FigureFile> damped_sticking_degree() {
   chart::Panel panel;
   panel.lines.push_back(undamped_curve(table));
   for (std::size_t i = 0; i < kPrintedLimits.size(); ++i) {
-    add_damped_curves(kPrintedLimits.at(i), kColours.at(i), table, limits, panel);
+    add_damped_curves(kPrintedLimits.at(i), kDampedColours.at(i), table, limits, panel);
   }
   return {
       {"figure_7.csv", table.csv()}, {"figure_7_limits.csv", limits.csv()}, {"figure_7.svg", to_svg(chart_of(panel))}};

@@ -18,7 +18,7 @@ namespace {
 
 using chart::Colour, chart::Stroke;
 
-constexpr std::array<Colour, 4> kColours{Colour::Blue, Colour::Vermillion, Colour::Green, Colour::Purple};
+constexpr std::array<Colour, 4> kWaveColours{Colour::Blue, Colour::Vermillion, Colour::Green, Colour::Purple};
 constexpr std::array<double, 4> kLambdas{0.5, 1.0, 2.0, 5.0};          // assumed
 constexpr std::array<double, 4> kFrictionRatios{1.25, 1.5, 2.0, 2.5};  // assumed but for 2.5
 constexpr double kForceLambda = 2.0;                                   // figure 6
@@ -59,14 +59,14 @@ std::vector<FigureFile> velocity_ratio() {
 
   for (std::size_t i = 0; i < kLambdas.size(); ++i) {
     const model::Slip slip = model::solve_slip(kLambdas.at(i), 0.0);
-    chart::Line line{fmt::format("λ = {}", kLambdas.at(i)), kColours.at(i), Stroke::Solid, {}};
+    chart::Line line{fmt::format("λ = {}", kLambdas.at(i)), kWaveColours.at(i), Stroke::Solid, {}};
     for (const double tau : times_of(slip, 1)) {
       const double ratio = state_at(slip, tau).speed_ratio;
       table.add({kLambdas.at(i), tau, ratio});
       line.points.push_back({tau, ratio});
     }
-    panel.markers.push_back({"", kColours.at(i), chart::Shape::Ring, {{slip.tau_end, 0.0}}});
-    panel.markers.push_back({"", kColours.at(i), chart::Shape::Cross, {{line.points.back().x, 0.0}}});
+    panel.markers.push_back({"", kWaveColours.at(i), chart::Shape::Ring, {{slip.tau_end, 0.0}}});
+    panel.markers.push_back({"", kWaveColours.at(i), chart::Shape::Cross, {{line.points.back().x, 0.0}}});
     panel.lines.push_back(line);
   }
   panel.x = {kTimeLabel, 0.0, 14.0, chart::Scale::Linear};
@@ -91,7 +91,7 @@ std::vector<FigureFile> spring_force() {
   for (std::size_t i = 0; i < kFrictionRatios.size(); ++i) {
     const double ratio = kFrictionRatios.at(i);
     chart::Line line{
-        fmt::format("γ = {}{}", ratio, ratio == 2.5 ? "" : " (assumed)"), kColours.at(i), Stroke::Solid, {}};
+        fmt::format("γ = {}{}", ratio, ratio == 2.5 ? "" : " (assumed)"), kWaveColours.at(i), Stroke::Solid, {}};
     for (const double tau : times) {
       const double force = 1.0 / (ratio - 1.0) + state_at(slip, tau).z / kForceLambda;  // [Paper] eqs (26), (27)
       table.add({ratio, tau, force});

@@ -5,35 +5,24 @@
 #include <span>
 #include <vector>
 
+#include "core/unit_text.hpp"
 #include "io/cells.hpp"
 #include "io/message.hpp"
 #include "io/vocabulary.hpp"
-#include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {
 namespace {
 
-/// Both micro signs become "u".
-std::string with_u(std::string_view unit) {
-  std::string text;
-  while (!unit.empty()) {
-    const bool is_micro = unit.starts_with("\xC2\xB5") || unit.starts_with("\xCE\xBC");
-    text += is_micro ? 'u' : unit.front();
-    unit.remove_prefix(is_micro ? 2 : 1);
-  }
-  return text;
-}
-
-bool measures(std::string_view unit, Dimension dimension) {
-  return parse_unit(unit, dimension).ok();
-}
-
-/// "Force (left)" keeps its brackets, "Force (daN)" does not: asks UDUNITS-2 where the list does not know.
+/// "Force (left)" keeps its brackets, "Force (daN)" does not.
 bool is_unit_in_brackets(std::string_view text) {
   const UnitClass known = classify_unit(text);
-  if (known != UnitClass::NotAUnit) return known != UnitClass::None;
-  return text.size() <= 12 && (measures(text, Dimension::Force) || measures(text, Dimension::Time) ||
-                               measures(text, Dimension::Length) || measures(text, Dimension::Speed));
+  return known != UnitClass::NotAUnit && known != UnitClass::None;
+}
+
+/// Words that name a column as often as a unit: behind a blank or an underscore they are no unit ("Force_Min").
+bool may_be_a_word(std::string_view unit) {
+  const bool is_letter = unit.size() == 1 && unit != "s" && unit != "N" && unit != "g" && unit != "m" && unit != "h";
+  return is_letter || std::find(kWordsNotUnits.begin(), kWordsNotUnits.end(), unit) != kWordsNotUnits.end();
 }
 
 struct NameAndUnit {
@@ -58,8 +47,8 @@ NameAndUnit take_suffix(std::string_view name) {
     const std::string_view unit = trim(name.substr(at + separator.size()));
     const UnitClass unit_class = classify_unit(unit);
     const bool is_loose = separator == "_" || separator == " ";  // "Sensor A", "Channel 1", "Load C"
-    const bool is_letter = unit.size() == 1 && unit != "s" && unit != "N" && unit != "g" && unit != "m" && unit != "h";
-    if (unit_class == UnitClass::None || unit_class == UnitClass::NotAUnit || (is_loose && is_letter)) continue;
+    if (unit_class == UnitClass::None || unit_class == UnitClass::NotAUnit || (is_loose && may_be_a_word(unit)))
+      continue;
     return {trim(name.substr(0, at)), unit};
   }
   return {name, {}};
@@ -136,10 +125,16 @@ RoleAndRank role_of(const std::vector<std::string>& words, UnitClass unit) {
 
 UnitClass classify_unit(std::string_view unit) {
   if (unit.empty()) return UnitClass::None;
-  const std::string text = with_u(unit);
-  const auto* const found =
-      std::find_if(kUnits.begin(), kUnits.end(), [&](const KnownUnit& k) { return k.text == text; });
-  return found == kUnits.end() ? UnitClass::NotAUnit : found->unit_class;
+  const bool is_letter =
+      unit.size() == 1 && std::string_view("smhgNJWVACK1-%\xB0").find(unit) == std::string_view::npos;
+  const auto parsed = is_letter ? std::nullopt : read_unit(unit);
+  if (!parsed) return UnitClass::NotAUnit;
+  if (parsed->powers == kSecond) return UnitClass::Time;
+  if (parsed->powers == kMetre) return UnitClass::Length;
+  if (parsed->powers == kNewton) return UnitClass::Force;
+  if (parsed->powers == kKilogram) return UnitClass::Mass;
+  const bool is_number = parsed->powers == kPureNumber && unit.find('/') == std::string_view::npos;
+  return is_number ? UnitClass::One : UnitClass::Other;
 }
 
 ColumnName read_name(std::string_view name_cell, std::string_view unit_cell) {

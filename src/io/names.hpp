@@ -8,7 +8,7 @@ namespace slipfit::reading {
 /// What a column holds as far as its name and unit tell.
 enum class Role { Unknown, Time, TangentialForce, NormalForce, FrictionCoefficient, Displacement, Other };
 
-/// A coarse look at a unit text by a list of the usual ones: enough to tell columns apart, without loading UDUNITS-2.
+/// What a unit measures, as far as columns are told apart by it.
 enum class UnitClass { None, NotAUnit, Time, Length, Force, Mass, One, Other };
 
 struct ColumnName {

@@ -14,12 +14,12 @@ namespace {
 
 constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 /// A cell, and its number where it is nothing but one.
 struct NumberCell {
   std::string_view text;
-  double value = kNone;
+  double value = kNoValue;
 };
 
 /// The cells of one line that matter; without text where the line ends before them.
@@ -32,7 +32,7 @@ struct Wanted {
 struct Reading {
   double time = 0.0;
   double force = 0.0;
-  double displacement = kNone;  ///< NaN: none
+  double displacement = kNoValue;  ///< NaN: none
 
   [[nodiscard]] bool is_complete() const { return std::isfinite(time) && std::isfinite(force); }
 };
@@ -107,7 +107,7 @@ class RowReader {
 /// Nearly all lines of a recording: time and force are plain numbers. NaN where anything is not.
 Reading RowReader::read_plain(const char* cell) const {
   const char point = dialect_.decimal_comma ? ',' : '.';
-  Reading reading{kNone, kNone};
+  Reading reading{kNoValue, kNoValue};
   for (std::size_t column = 0;; ++column) {
     if (column == time_column_ || column == force_column_) {
       const ShortDecimal number = read_short_decimal(cell, nullptr, point);
@@ -132,7 +132,7 @@ void RowReader::add_carefully(const char* line, unsigned number) {
   }
   const double time_s = has_clock() ? reading.time * time_scale_ : next_count_s();
   const double displacement =
-      plan_.choice.displacement ? wanted.displacement.value * plan_.choice.displacement->scale : kNone;
+      plan_.choice.displacement ? wanted.displacement.value * plan_.choice.displacement->scale : kNoValue;
   keep({time_s, reading.force * force_scale_, displacement}, number);
 }
 
@@ -172,7 +172,7 @@ double RowReader::number_in(std::string_view text, std::size_t column) const {
   const Cell cell = read_cell(text, dialect_.decimal_comma);
   const bool is_number = cell.kind == CellKind::Number && (cell.tag.empty() || cell.tag == described.tag);
   const bool is_clock = cell.kind == CellKind::Clock && described.clocks > described.numbers;
-  return is_number || is_clock ? cell.value : kNone;
+  return is_number || is_clock ? cell.value : kNoValue;
 }
 
 Reading RowReader::read_carefully(const Wanted& wanted) const {

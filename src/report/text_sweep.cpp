@@ -10,7 +10,7 @@
 namespace slipfit {
 namespace {
 
-std::string cell(const Estimate& estimate, const std::string& SI_unit) {
+std::string estimate_cell(const Estimate& estimate, const std::string& SI_unit) {
   if (!estimate.value) return "-";
   const EstimateRow row = estimate_row(estimate, SI_unit);
   return fmt::format("{} {} {}", row.value, row.unit, row.interval);
@@ -31,8 +31,8 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
     table.add({one_line(entries[i].id), stated_text(entries[i].recording.conditions().speed_m_per_s, "m/s"),
                fmt::format("{}{}", name_of(sweep.recordings[i].verdict),
                            sweep.roles[i] == SweepRole::LeftOut ? " (left out)" : ""),
-               point != nullptr ? cell(point->kinetic_friction_N, "N") : "-", cell(measured, "m"),
-               point != nullptr ? cell(point->spacing_left_out_m, "m") : "-",
+               point != nullptr ? estimate_cell(point->kinetic_friction_N, "N") : "-", estimate_cell(measured, "m"),
+               point != nullptr ? estimate_cell(point->spacing_left_out_m, "m") : "-",
                point != nullptr ? off_by(point->spacing_left_out_m, measured) : ""});
   }
   return "\nRecordings\n" + table.text();
@@ -42,7 +42,8 @@ std::string limit_text(const Derived& derived) {
   const Estimate& speed = derived.critical_speed_m_per_s;
   std::string text = "\nEnd of stick-slip by the fitted model\n  critical speed  ";
   if (!speed.value || !speed.note.empty()) return text + one_line(speed.note) + "\n";
-  return text + fmt::format("{}, lambda there {}\n", cell(speed, "m/s"), cell(derived.lambda_critical, ""));
+  return text +
+         fmt::format("{}, lambda there {}\n", estimate_cell(speed, "m/s"), estimate_cell(derived.lambda_critical, ""));
 }
 
 }  // namespace

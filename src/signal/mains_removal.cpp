@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include "signal/mains.hpp"
 #include "signal/transform.hpp"
+#include "signal/turn.hpp"
 
 namespace slipfit::signal {
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// Complex amplitude of one frequency, phase counted from the first sample.
 std::complex<double> amplitude_of(const std::vector<double>& values, double mean, double step_s, double frequency_Hz) {

@@ -3,21 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 #include "signal/robust.hpp"
 #include "signal/segments.hpp"
 #include "signal/student.hpp"
+#include "signal/turn.hpp"
 
 namespace slipfit::signal {
 namespace {
 
 constexpr std::size_t kMostSegments = 1024;
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kChance = 1.0;  // even phases gain more by a walk in one recording of seven
-/// Power of the likelihood where phases show no walk: static friction that scatters by a ten-thousandth of the drop does
-/// not show, and the interval has to hold all the same (benchmarks/frequency_coverage: 90 % of them did with 0.7).
+/// Power of the likelihood where phases show no walk: static friction that scatters by a ten-thousandth of the drop
+/// does not show, and the interval has to hold all the same (benchmarks/frequency_coverage: 90 % of them did with 0.7).
 constexpr double kHidden = 0.35;
 
 /// A phase in every segment, in radians of the fundamental, and the place of the segment.

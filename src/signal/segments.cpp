@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
+
+#include "signal/turn.hpp"
 
 namespace slipfit::signal {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr std::size_t kEnoughToLeaveOne = 12;
 
 /// exp(-i w t) over the samples: by rotation where the clock is even, else by sine and cosine of every time.

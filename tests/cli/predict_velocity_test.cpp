@@ -5,10 +5,9 @@
 #include "slipfit/model/velocity.hpp"
 
 TEST_CASE("predict from stated friction that depends on the speed gives the exact cycle") {
-  const test::ProgramResult result =
-      test::slipfit({"predict", "--stiffness", "900", "--natural-frequency", "150", "--damping-ratio", "0.06",
-                     "--static-friction", "3", "--f0", "1.6", "--f1", "0.4", "--alpha=-8", "--speeds", "10mm/s,40mm/s",
-                     "--json"});
+  const test::ProgramResult result = test::slipfit(
+      {"predict", "--stiffness", "900", "--natural-frequency", "150", "--damping-ratio", "0.06", "--static-friction",
+       "3", "--f0", "1.6", "--f1", "0.4", "--alpha=-8", "--speeds", "10mm/s,40mm/s", "--json"});
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
   const nlohmann::json prediction = nlohmann::json::parse(result.out);

@@ -60,7 +60,8 @@ TEST_CASE("mains: hum that is counted among scattering slips is not quoted, or t
       CHECK((quoted.value.has_value() || !quoted.note.empty()));
     }
     INFO("jitter " << jitter << ", answered " << answered);
-    CHECK(wrong <= 1);  // intervals of 95 %: two of fourteen have a chance of 15 %, but only a few are off by 5 % at all
+    CHECK(wrong <=
+          1);  // intervals of 95 %: two of fourteen have a chance of 15 %, but only a few are off by 5 % at all
     if (jitter < 0.2) CHECK(answered >= 10);
   }
 }

@@ -5,12 +5,6 @@
 #include "demand.hpp"
 #include "slipfit/core/units.hpp"
 
-/// UDUNITS-2's parser loses the text of each identifier of a unit that it refuses: a few bytes.
-extern "C" const char*
-__lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier): the sanitizer's own name
-  return "leak:libudunits2";
-}
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using slipfit::Dimension;
   const std::string_view text(reinterpret_cast<const char*>(data), size);

@@ -23,7 +23,7 @@ struct UnitScale {
   double scale = 1.0;
 };
 
-/// "mm/min", "gf", "um/s", "mN", "µs", "%" ... by UDUNITS-2, with the spellings that testers use beside it.
+/// "mm/min", "gf", "um/s", "mN", "µs", "%" ... with SI prefixes, products, quotients and powers of them.
 /// Error `unknown_unit` where the text is no unit or has another dimension.
 Result<UnitScale> parse_unit(std::string_view unit, Dimension dimension);
 

@@ -15,8 +15,8 @@ namespace slipfit::fit {
 namespace {
 
 constexpr int kFewIterations = 12;  // from the solution to one beside it
-constexpr int kMaxIterations = 60;
-constexpr double kFinal = 1e-3;  // SolveOptions::tolerance
+constexpr int kMostIterations = 60;
+constexpr double kFinishTolerance = 1e-3;  // SolveOptions::tolerance
 
 std::vector<double> references_of(const BlockFit& fit) {
   std::vector<double> references_s;
@@ -60,7 +60,8 @@ class Finisher {
       const auto rounded =
           Recording::create({time_s.begin(), time_s.end()}, copies.draw(copy), recording_.conditions());
       BlockFit refit = same_cycles(rounded.value(), result);
-      if (!std::isfinite(refit.solve({result.held, result.continuous, true, kFewIterations, kFinal}))) continue;
+      if (!std::isfinite(refit.solve({result.held, result.continuous, true, kFewIterations, kFinishTolerance})))
+        continue;
       moves.row(fitted++) = (coordinates_of(refit) - coordinates_of(result.blocks)).transpose();
     }
     return moves.topRows(fitted);
@@ -97,7 +98,7 @@ class Finisher {
     }
     if (ramps < 1.0) return;
     const Parameters before = result.blocks.parameters;
-    if (std::isfinite(result.blocks.solve({result.held, true, true, kMaxIterations, kFinal}))) {
+    if (std::isfinite(result.blocks.solve({result.held, true, true, kMostIterations, kFinishTolerance}))) {
       const Uncertainty joined = estimate_uncertainty(result.blocks, {result.held, true});
       const double freedom = std::max(1.0, result.uncertainty.degrees_of_freedom);
       const double ratio = (joined.chi2 - result.uncertainty.chi2) / ramps / (result.uncertainty.chi2 / freedom);

@@ -13,10 +13,10 @@
 namespace slipfit::fit {
 namespace {
 
-constexpr double kRough = 0.1;
-constexpr double kFinal = 1e-4;
-constexpr int kQuickIterations = 10;
-constexpr int kMaxIterations = 50;
+constexpr double kSweepRough = 0.1;
+constexpr double kSweepFinal = 1e-4;
+constexpr int kSweepQuickIterations = 10;
+constexpr int kSweepMaxIterations = 50;
 /// What the recordings share is believed unless chance would hardly give such a disagreement.
 constexpr double kShareChance = 1e-3;
 /// Dependence on the speed is believed beyond this chance.
@@ -62,7 +62,7 @@ double solve(SweepSolution& solution, const Held& held, int max_iterations, doub
 
 std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held) {
   solution.held = held;
-  solution.chi2 = solve(solution, held, kMaxIterations, kFinal);
+  solution.chi2 = solve(solution, held, kSweepMaxIterations, kSweepFinal);
   if (!std::isfinite(solution.chi2)) return std::nullopt;
   solution.degrees_of_freedom = residual_freedom(solution);
   return solution;
@@ -128,7 +128,7 @@ class SweepFitter {
       for (BlockFit& recording : start.recordings) recording.parameters.globals[kFrictionRate] = rate;
       Held quick = held;
       quick[kFrictionRate] = true;
-      start.chi2 = solve(start, quick, kQuickIterations, kRough);
+      start.chi2 = solve(start, quick, kSweepQuickIterations, kSweepRough);
       if (std::isfinite(start.chi2) && (!best || start.chi2 < best->chi2)) best = std::move(start);
     }
     return best ? at_minimum(std::move(*best), held) : std::nullopt;

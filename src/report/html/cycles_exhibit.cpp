@@ -13,10 +13,10 @@ namespace {
 using chart::Colour, chart::Panel, chart::Point, chart::Stroke;
 
 constexpr std::size_t kMostCycles = 30;
-constexpr std::size_t kColumns = 110;  // of one cycle
-constexpr double kBefore = 0.3;        // periods before the slip
-constexpr double kAfter = 0.8;         // periods after it
-constexpr double kSlipBefore = 1.0;    // slip times, close up
+constexpr std::size_t kCycleColumns = 110;  // of one cycle
+constexpr double kBefore = 0.3;             // periods before the slip
+constexpr double kAfter = 0.8;              // periods after it
+constexpr double kSlipBefore = 1.0;         // slip times, close up
 constexpr double kSlipAfter = 2.5;
 
 /// What each cycle is laid on: the onset and F_k by the fit, else the turning points.
@@ -67,7 +67,7 @@ std::vector<Point> laid(const Source& source, std::span<const double> force, con
       samples_between(source.recording, anchor.time_s - window.before_s, anchor.time_s + window.after_s);
   const double scale = source.force_unit.per_SI;
   std::vector<Point> points = envelope(source.recording.time_s().subspan(range.first, range.last - range.first),
-                                       force.subspan(range.first, range.last - range.first), kColumns);
+                                       force.subspan(range.first, range.last - range.first), kCycleColumns);
   for (Point& point : points) point = {point.x - anchor.time_s, scale * (point.y - anchor.force)};
   return points;
 }

@@ -25,7 +25,7 @@ std::vector<Point> pairs_of(const Source& source) {
   return chosen;
 }
 
-chart::Panel panel_of(const Source& source, const std::vector<Point>& pairs) {
+chart::Panel pairs_panel(const Source& source, const std::vector<Point>& pairs) {
   const std::string unit = source.force_unit.unit;
   const Estimate& reflection = source.background.reflection;
   Span peaks;
@@ -85,7 +85,7 @@ Exhibit pairs_exhibit(const Source& source) {
   const std::vector<Point> pairs = pairs_of(source);
   exhibit.absent = reason_for_none(source, pairs);
   if (!exhibit.absent.empty()) return exhibit;
-  exhibit.chart = chart::Chart{"Peaks and troughs", {}, {panel_of(source, pairs)}};
+  exhibit.chart = chart::Chart{"Peaks and troughs", {}, {pairs_panel(source, pairs)}};
   exhibit.label = fmt::format("trough against peak of {} slips, with the line of the fitted damping, slope -{:.3g}",
                               pairs.size(), *source.background.reflection.value);
   return exhibit;

@@ -11,7 +11,7 @@ namespace {
 
 using chart::Colour, chart::Point, chart::Shape, chart::Stroke;
 
-constexpr int kColumns = 600;               // on the logarithmic axis
+constexpr int kSpectrumColumns = 600;       // on the logarithmic axis
 constexpr double kDepth = 3e-5;             // of the highest line: below is noise that nobody reads
 constexpr double kBelowFundamental = 20.0;  // where the axis begins
 constexpr std::size_t kMostHarmonics = 20;
@@ -30,7 +30,7 @@ double height_at(const Spectrum& spectrum, double frequency_Hz, double scale) {
 std::vector<Point> highest_bins(const Spectrum& spectrum, double low_Hz, double scale) {
   std::vector<Point> points;
   const double high_Hz = spectrum.bin_Hz * static_cast<double>(spectrum.power.size() - 1);
-  const double columns_per_log = kColumns / std::log(high_Hz / low_Hz);
+  const double columns_per_log = kSpectrumColumns / std::log(high_Hz / low_Hz);
   int last_column = -1;
   for (std::size_t i = 1; i < spectrum.power.size(); ++i) {
     const double frequency_Hz = spectrum.bin_Hz * static_cast<double>(i);
@@ -47,7 +47,7 @@ std::vector<Point> highest_bins(const Spectrum& spectrum, double low_Hz, double 
   return points;
 }
 
-chart::Panel panel_of(const Source& source, const std::vector<Point>& points) {
+chart::Panel spectrum_panel(const Source& source, const std::vector<Point>& points) {
   const DisplayUnit unit = source.force_unit;
   const Spectrum& spectrum = source.background.spectrum;
   chart::Panel panel;
@@ -98,7 +98,7 @@ Exhibit spectrum_exhibit(const Source& source) {
   if (spectrum.power.size() > 2) {
     const std::vector<Point> points = highest_bins(spectrum, low_Hz, source.force_unit.per_SI);
     const bool has_force = std::any_of(points.begin(), points.end(), [](const Point& point) { return point.y > 0.0; });
-    if (points.size() > 2 && has_force) exhibit.chart = chart::Chart{"Spectrum", {}, {panel_of(source, points)}};
+    if (points.size() > 2 && has_force) exhibit.chart = chart::Chart{"Spectrum", {}, {spectrum_panel(source, points)}};
   }
   if (!exhibit.chart) exhibit.absent = "The recording is too short, or too even, for a spectrum.";
   exhibit.label = frequency.quoted.value

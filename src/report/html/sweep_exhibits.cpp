@@ -13,8 +13,8 @@ namespace {
 
 using chart::Colour, chart::Panel, chart::Point, chart::Shape, chart::Stroke;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kColumns = 610;
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kSweepColumns = 610;
 
 /// One quantity of the recordings over speed, in SI.
 struct Series {
@@ -54,7 +54,7 @@ class SpeedPanel {
       if (!series.estimates[i].ci95) continue;
       bars.points.push_back(point(speed, series.estimates[i].ci95->low));
       bars.points.push_back(point(speed, series.estimates[i].ci95->high));
-      bars.points.push_back({kNone, kNone});
+      bars.points.push_back({kGap, kGap});
     }
     panel_.markers.push_back(std::move(markers));
     panel_.lines.push_back(std::move(bars));
@@ -223,7 +223,7 @@ Exhibit sweep_traces_exhibit(const SweepSource& source) {
   for (const SweepEntry& entry : source.entries) {
     const Recording& recording = entry.recording;
     const DisplayUnit unit = force_unit_of(recording);
-    std::vector<Point> points = envelope(recording.time_s(), recording.force(), kColumns);
+    std::vector<Point> points = envelope(recording.time_s(), recording.force(), kSweepColumns);
     Span heights;
     for (Point& point : points) {
       point.y *= unit.per_SI;

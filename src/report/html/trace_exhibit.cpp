@@ -11,9 +11,9 @@ namespace {
 
 using chart::Colour, chart::Panel, chart::Point, chart::Shape, chart::Stroke;
 
-constexpr std::size_t kColumns = 610;     // of the picture: one a pixel
-constexpr std::size_t kCyclesClose = 5;   // seen close up
-constexpr std::size_t kFewSamples = 150;  // of the close-up: so few are drawn one by one
+constexpr std::size_t kTraceColumns = 610;  // of the picture: one a pixel
+constexpr std::size_t kCyclesClose = 5;     // seen close up
+constexpr std::size_t kFewSamples = 150;    // of the close-up: so few are drawn one by one
 
 /// A piece of the recording in the units of the chart.
 struct Piece {
@@ -49,8 +49,8 @@ Panel force_panel(const Piece& piece, const std::string& label, double width_px)
   panel.height_px = 220.0;
   panel.legend_at = chart::LegendAt::Above;
   panel.lines = {
-      {"measured", Colour::Grey, Stroke::Solid, envelope(piece.time_s, piece.force, kColumns), width_px},
-      {"fit", Colour::Vermillion, Stroke::Solid, envelope(piece.time_s, piece.fitted, kColumns), width_px + 0.4}};
+      {"measured", Colour::Grey, Stroke::Solid, envelope(piece.time_s, piece.force, kTraceColumns), width_px},
+      {"fit", Colour::Vermillion, Stroke::Solid, envelope(piece.time_s, piece.fitted, kTraceColumns), width_px + 0.4}};
   panel.x = time_axis(piece, "time [s]");
   panel.y = axis_of(panel.lines.front().points, label);
   return panel;
@@ -97,7 +97,7 @@ Panel close_up(const Piece& piece, const Source& source, const std::string& labe
 Panel residual_panel(const Piece& piece, const std::string& unit) {
   Panel panel;
   panel.height_px = 90.0;
-  panel.lines = {{"", Colour::Blue, Stroke::Solid, envelope(piece.time_s, piece.residual, kColumns), 1.2}};
+  panel.lines = {{"", Colour::Blue, Stroke::Solid, envelope(piece.time_s, piece.residual, kTraceColumns), 1.2}};
   panel.x = time_axis(piece, "time [s]");
   panel.y = axis_of(panel.lines.front().points, label_with_unit("residual", unit));
   return panel;
