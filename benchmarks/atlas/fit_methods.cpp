@@ -23,7 +23,7 @@ Estimate middle_of(const std::vector<double>& values) {
 
 FitAnswer read_parameters(const std::vector<slipfit::Parameter>& parameters) {
   constexpr std::array<std::string_view, kFitParameters> kKeys{"stiffness_N_per_m", "natural_frequency_rad_per_s",
-                                                          "damping_ratio", "friction_difference_N"};
+                                                               "damping_ratio", "friction_difference_N"};
   FitAnswer answer;
   for (const slipfit::Parameter& parameter : parameters) {
     const auto key = std::find(kKeys.begin(), kKeys.end(), parameter.name());

@@ -49,7 +49,8 @@ std::map<std::string, double> bounds_of(const Scene& scene) {
   if (analysis.verdict != Verdict::StickSlip) return bounds;
   for (const slipfit::Parameter& parameter : analysis.fit->parameters) {
     if (!parameter.estimate.standard_error) continue;
-    bounds[std::string(parameter.name())] = *parameter.estimate.standard_error * scene.noise_rms_N / analysis.fit->residual.rms;
+    bounds[std::string(parameter.name())] =
+        *parameter.estimate.standard_error * scene.noise_rms_N / analysis.fit->residual.rms;
   }
   return bounds;
 }

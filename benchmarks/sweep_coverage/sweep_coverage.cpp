@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "fit/selection/joint_solution.hpp"
+#include "fit/selection/sweep_solution.hpp"
 #include "sweeps.hpp"
 
 namespace {
@@ -75,12 +75,9 @@ void add_predictions(const Sweep& sweep, const std::string& family, std::vector<
 
 std::vector<Row> study(std::uint64_t seed) {
   static const std::map<slipfit::ParameterStatus, std::string> kStatus{
-      {slipfit::ParameterStatus::Identified, "identified"},
-      {slipfit::ParameterStatus::Weak, "weak"},
-      {slipfit::ParameterStatus::Bounded, "bounded"},
-      {slipfit::ParameterStatus::Unidentified, "unidentified"},
-      {slipfit::ParameterStatus::Fixed, "fixed"},
-      {slipfit::ParameterStatus::Conditional, "conditional"}};
+      {slipfit::ParameterStatus::Identified, "identified"}, {slipfit::ParameterStatus::Weak, "weak"},
+      {slipfit::ParameterStatus::Bounded, "bounded"},       {slipfit::ParameterStatus::Unidentified, "unidentified"},
+      {slipfit::ParameterStatus::Fixed, "fixed"},           {slipfit::ParameterStatus::Conditional, "conditional"}};
   const Sweep sweep = sweep_coverage::make_sweep(seed);
   const std::string family = sweep.truth.alpha_s_per_m < 0.0 ? "alpha<0" : "alpha>0";
   const slipfit::SweepAnalysis analysis = slipfit::analyze_sweep(sweep.entries, {});
@@ -90,7 +87,8 @@ std::vector<Row> study(std::uint64_t seed) {
   for (const slipfit::Parameter& parameter : analysis.joint->fit.parameters) {
     const auto truth = truths.find(std::string(parameter.name()));
     if (truth == truths.end() || !parameter.estimate.value) continue;
-    rows.push_back({seed, family, std::string(parameter.name()), kStatus.at(parameter.status), truth->second, parameter.estimate});
+    rows.push_back(
+        {seed, family, std::string(parameter.name()), kStatus.at(parameter.status), truth->second, parameter.estimate});
   }
   for (std::size_t i = 0; i < sweep.entries.size(); ++i) {
     const auto truth = sweep.truth.spacing_m(sweep.entries[i].recording.conditions().speed_m_per_s);
@@ -152,15 +150,9 @@ double seconds_of_one_fit(const Sweep& sweep) {
     recordings.push_back({entry.recording, qualities.back(), slips.back(), SweepRole::Cycles});
   }
   const fit::SweepData data = fit::prepare_sweep(recordings, {});
-  const std::optional<fit::SweepFits> fits = fit::fit_sweep(data, {});
-  fit::JointProblem& problem = *fits->velocity.problem;
-  const fit::Shared& alone = data.single.front()->blocks.parameters.shared;
-  problem.parameters.shared = {alone[0], alone[1], alone[2], 0.0, -1.0};
-  for (std::size_t r = 0; r < problem.size(); ++r) {
-    problem.parameters.cycles[r] = problem.recording(r).parameters.cycles;
-  }
+  const std::optional<fit::SweepFits> fits = fit::solve_sweep(data, {});
   const auto start = std::chrono::steady_clock::now();
-  problem.solve({}, 50, 1e-4);
+  fit::with_rate(fits->velocity, -1.0);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

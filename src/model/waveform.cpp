@@ -138,7 +138,8 @@ std::optional<WaveformSensitivity> damped_waveform_sensitivity(const Slider& sli
                                                                double speed_m_per_s, const SampleTimes& times) {
   const std::optional<Periodic> p = periodic(slider, friction, speed_m_per_s);
   if (!p) return std::nullopt;
-  WaveformSensitivity result{std::vector<double>(times.count), std::vector<double>(times.count * kSensitivityParameters)};
+  WaveformSensitivity result{std::vector<double>(times.count),
+                             std::vector<double>(times.count * kSensitivityParameters)};
   const ChainRule chain(*p, slider, friction, speed_m_per_s);
   const double step = p->w_n * times.step_s;
   const auto put = [&](std::size_t i, const model::WavePoint& wave, double tau, std::size_t cycle) {

@@ -74,10 +74,10 @@ Json parameters_json(const FitResult& fit) {
   Json json = Json::object();
   for (const Parameter& parameter : fit.parameters) {
     json[std::string(parameter.name())] = {{"value", number(parameter.estimate.value)},
-                            {"se", number(parameter.estimate.standard_error)},
-                            {"ci95", interval(parameter.estimate.ci95)},
-                            {"status", name_of(parameter.status)},
-                            {"note", parameter.estimate.note}};
+                                           {"se", number(parameter.estimate.standard_error)},
+                                           {"ci95", interval(parameter.estimate.ci95)},
+                                           {"status", name_of(parameter.status)},
+                                           {"note", parameter.estimate.note}};
   }
   return json;
 }

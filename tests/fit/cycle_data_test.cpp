@@ -154,9 +154,10 @@ TEST_CASE("residuals are data minus model in sticks and slips, and nothing where
     for (std::size_t i = index_at(r.recording, fit.data(c).window_begin_s); i < end; ++i) {
       if (std::binary_search(excluded.begin(), excluded.end(), i)) continue;
       const double t_s = r.recording.time_s()[i];
-      expected[i] = r.recording.force()[i] -
-                    (fit.model(c).level_at(t_s, fit.level_data(), fit.parameters.cycles[c].data()) + state.force_at(t_s)) -
-                    fit.model(c).hum_at(t_s, fit.level_data());
+      expected[i] =
+          r.recording.force()[i] -
+          (fit.model(c).level_at(t_s, fit.level_data(), fit.parameters.cycles[c].data()) + state.force_at(t_s)) -
+          fit.model(c).hum_at(t_s, fit.level_data());
       const bool slips = t_s > state.onset_s && t_s < state.onset_s + state.slip_s();
       CHECK(residuals.phase[i] == (slips ? Phase::Slip : Phase::Stick));
     }

@@ -9,6 +9,7 @@
 #include "fit/cycle/start.hpp"
 #include "fit/level/level_order.hpp"
 #include "fit/problem/block_fit.hpp"
+#include "fit/problem/ramp_residual.hpp"
 
 using namespace slipfit;
 using namespace slipfit::fit;

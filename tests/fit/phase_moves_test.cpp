@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "fit/problem/solve.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/signal/quality.hpp"
@@ -62,7 +63,7 @@ TEST_CASE("one step without a stretch of the slips moves the quantities nearly a
   Eigen::MatrixXd refitted(fit::kPhases, before.size());
   for (int phase = 0; phase < fit::kPhases; ++phase) {
     fit::BlockFit refit = without(damped->blocks, static_cast<std::size_t>(phase));
-    REQUIRE(std::isfinite(refit.solve({damped->held, false, true})));
+    REQUIRE(std::isfinite(fit::solve(refit, {damped->held, false, true})));
     refitted.row(phase) = (fit::coordinates_of(refit) - before).transpose();
   }
   // Only the spread over the stretches is used; the step is linear, the refit is not.

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "fit/problem/ramp_residual.hpp"
+
 namespace slipfit::fit {
 
 using Eigen::Index;

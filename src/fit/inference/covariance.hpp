@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fit/coordinates.hpp"
-#include "fit/problem/block_fit.hpp"
+#include "fit/problem/solve.hpp"
 
 namespace slipfit::fit {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fit/inference/intervals.hpp"
+#include "fit/problem/solve.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -74,7 +75,7 @@ class Profiler {
   std::optional<double> sum_of_squares(double zeta) {
     blocks_.parameters = best_;
     blocks_.parameters.globals[kDamping] = zeta;
-    const double sum = blocks_.solve({held_, fit_.continuous, false, kIterations, kTolerance});
+    const double sum = solve(blocks_, {held_, fit_.continuous, false, kIterations, kTolerance});
     return std::isfinite(sum) ? std::optional(sum) : std::nullopt;
   }
 

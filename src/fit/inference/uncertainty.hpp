@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 
 #include "fit/inference/covariance.hpp"
-#include "fit/problem/block_fit.hpp"
+#include "fit/problem/solve.hpp"
 
 namespace slipfit::fit {
 

@@ -107,6 +107,25 @@ Interval bounds_by_drop(const SawtoothFit& sawtooth, double cycles) {
   return {std::max(0.0, 0.485 * (sawtooth.drop - spread)), sawtooth.drop + spread};
 }
 
+/// Why what is read from the slip cannot be told, or not surely.
+void state_doubts(const TierFits& fits, const Resolution& resolution, Findings& findings) {
+  // A sensor that lags, or creep, moves w_n more than leaving out parts of the slip shows.
+  if (fits.damped.refused_damping || fits.damped.misfit) {
+    findings.slip_doubt =
+        "the slip is not shaped like a damped oscillation: what w_n means is in doubt beyond the interval";
+  }
+  if (!resolution.slip_resolved) findings.slip_unresolved = resolution.reason;
+  if (!resolution.damping_resolved) {
+    findings.damping = {std::nullopt, std::nullopt, std::nullopt, resolution.reason};
+  }
+  // A standard error of a third says less than the bound by the drop.
+  const Estimate difference = findings.intervals.interval_of(SlidingModel(findings.values, findings.units).difference);
+  const bool tells = *difference.standard_error < *difference.value / 3.0;
+  if (!resolution.slip_resolved || !resolution.damping_resolved || !tells) {
+    findings.difference_bounds = bounds_by_drop(fits.sawtooth, static_cast<double>(findings.cycles));
+  }
+}
+
 }  // namespace
 
 Findings findings_of(const Recording& recording, const TierFits& fits, const Resolution& resolution) {
@@ -135,24 +154,10 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   findings.cycles = blocks.size();
   findings.samples_per_slip = resolution.samples_per_slip;
   findings.sample_interval_s = recording.sample_interval_s();
-  // A sensor that lags, or creep, moves w_n more than leaving out parts of the slip shows.
-  if (fits.damped.refused_damping || fits.damped.misfit) {
-    findings.slip_doubt =
-        "the slip is not shaped like a damped oscillation: what w_n means is in doubt beyond the interval";
-  }
   findings.stiffness_doubt = std::move(stiffness.doubt);
   findings.stiffness_note = std::move(stiffness.note);
   findings.warnings = std::move(stiffness.warnings);
-  if (!resolution.slip_resolved) findings.slip_unresolved = resolution.reason;
-  if (!resolution.damping_resolved) {
-    findings.damping = {std::nullopt, std::nullopt, std::nullopt, resolution.reason};
-  }
-  // A standard error of a third says less than the bound by the drop.
-  const Estimate difference = findings.intervals.interval_of(SlidingModel(findings.values, findings.units).difference);
-  const bool tells = *difference.standard_error < *difference.value / 3.0;
-  if (!resolution.slip_resolved || !resolution.damping_resolved || !tells) {
-    findings.difference_bounds = bounds_by_drop(fits.sawtooth, static_cast<double>(blocks.size()));
-  }
+  state_doubts(fits, resolution, findings);
   return findings;
 }
 

@@ -10,6 +10,7 @@
 #include "fit/cycle/start.hpp"
 #include "fit/level/level_order.hpp"
 #include "fit/level/mains_hum.hpp"
+#include "fit/problem/solve.hpp"
 #include "fit/selection/clipping.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/outliers.hpp"
@@ -118,7 +119,7 @@ class Fitter {
     if (!fit) return std::nullopt;
     start_ = fit->parameters.globals;
     // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
-    if (!std::isfinite(fit->solve({held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
+    if (!std::isfinite(solve(*fit, {held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
     if (!level.per_cycle && probe.size() > level.terms && reduced_chi2(*fit) > kSuspectChi2) {
       std::optional<BlockFit> wandering =
           fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.globals, kProbeIterations, kRough);
@@ -156,7 +157,7 @@ class Fitter {
         set_start(fit, segmentation_, {std::log(start_stiffness_), std::log(omega), zeta});
         SolveOptions quick{held_, false, true, kQuickIterations, kRough};
         quick.held[kDamping] = true;
-        const double cost = fit.solve(quick);
+        const double cost = solve(fit, quick);
         if (cost >= best_cost) continue;
         best_cost = cost;
         best = fit.parameters;
@@ -173,7 +174,7 @@ class Fitter {
     std::vector<double> middles = middles_s(cycles);
     BlockFit fit(std::move(cycles), std::move(middles), scales_, level);
     set_start(fit, segmentation_, globals);
-    if (!std::isfinite(fit.solve({held_, false, true, max_iterations, tolerance}))) return std::nullopt;
+    if (!std::isfinite(solve(fit, {held_, false, true, max_iterations, tolerance}))) return std::nullopt;
     return fit;
   }
 
@@ -189,7 +190,7 @@ class Fitter {
     held_[kDamping] = true;
     // From the features again: the runaway zeta has dragged the other parameters along.
     set_start(fit, segmentation_, {start_[0], start_[1], 0.0});
-    fit.solve({held_, false, true, kMaxIterations, tolerance});
+    solve(fit, {held_, false, true, kMaxIterations, tolerance});
   }
 
   /// Residuals of half the friction drop: no stick-slip, whatever more cycles would say.
@@ -209,7 +210,7 @@ class Fitter {
       const std::vector<std::size_t> bad = unexplained_slips(fit);
       const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals.value), outliers);
       if (outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty()) {
-        if (pass == 0) fit.solve({held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
+        if (pass == 0) solve(fit, {held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
         return fit;
       }
       excluded_ = united(excluded_, united(outliers, censored));
@@ -229,7 +230,7 @@ class Fitter {
       std::vector<double> middles = middles_s(cycles);
       BlockFit weighted(std::move(cycles), std::move(middles), scales_, fit.level());
       weighted.parameters = fit.parameters;
-      if (!std::isfinite(weighted.solve({held_, false, true, kMaxIterations, kFinal}))) return fit;
+      if (!std::isfinite(solve(weighted, {held_, false, true, kMaxIterations, kFinal}))) return fit;
       fit = std::move(weighted);
     }
     return fit;
@@ -264,7 +265,7 @@ class Fitter {
       while (old + 1 < slips.size() && slips[old] < refit.data(i).slip) ++old;  // a last slip may be new
       refit.parameters.cycles[i] = start.cycles[old];
     }
-    if (!std::isfinite(refit.solve({held_, false, true, kMaxIterations, kFinal}))) return std::nullopt;
+    if (!std::isfinite(solve(refit, {held_, false, true, kMaxIterations, kFinal}))) return std::nullopt;
     return refit;
   }
 

@@ -9,6 +9,7 @@
 #include "fit/inference/misfit.hpp"
 #include "fit/inference/phase_moves.hpp"
 #include "fit/inference/rounding.hpp"
+#include "fit/problem/solve.hpp"
 #include "fit/selection/outliers.hpp"
 
 namespace slipfit::fit {
@@ -60,7 +61,7 @@ class Finisher {
       const auto rounded =
           Recording::create({time_s.begin(), time_s.end()}, copies.draw(copy), recording_.conditions());
       BlockFit refit = same_cycles(rounded.value(), result);
-      if (!std::isfinite(refit.solve({result.held, result.continuous, true, kFewIterations, kFinishTolerance})))
+      if (!std::isfinite(solve(refit, {result.held, result.continuous, true, kFewIterations, kFinishTolerance})))
         continue;
       moves.row(fitted++) = (coordinates_of(refit) - coordinates_of(result.blocks)).transpose();
     }
@@ -98,7 +99,7 @@ class Finisher {
     }
     if (ramps < 1.0) return;
     const Parameters before = result.blocks.parameters;
-    if (std::isfinite(result.blocks.solve({result.held, true, true, kMostIterations, kFinishTolerance}))) {
+    if (std::isfinite(solve(result.blocks, {result.held, true, true, kMostIterations, kFinishTolerance}))) {
       const Uncertainty joined = estimate_uncertainty(result.blocks, {result.held, true});
       const double freedom = std::max(1.0, result.uncertainty.degrees_of_freedom);
       const double ratio = (joined.chi2 - result.uncertainty.chi2) / ramps / (result.uncertainty.chi2 / freedom);

@@ -8,6 +8,7 @@
 
 #include "fit/inference/covariance.hpp"
 #include "fit/problem/block_fit.hpp"
+#include "fit/problem/solve.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fit/problem/solve.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/tiers.hpp"
 
@@ -27,11 +28,11 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
   // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
   SolveOptions rough{held, false, true};
   rough.tolerance = 0.1;
-  const double loose_chi2 = blocks.solve(rough);
+  const double loose_chi2 = solve(blocks, rough);
   if (!std::isfinite(loose_chi2)) return std::nullopt;
   const bool lost = may_lose && is_lost(loose_chi2, damped);
   const bool joined = damped.continuous && !lost;
-  if (!lost && !std::isfinite(blocks.solve({held, joined, true}))) return std::nullopt;
+  if (!lost && !std::isfinite(solve(blocks, {held, joined, true}))) return std::nullopt;
   DampedFit result{std::move(blocks), joined, held, damped.refused_damping, damped.excluded, {}, damped.misfit};
   result.uncertainty = estimate_uncertainty(result.blocks, {held, joined});
   // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.

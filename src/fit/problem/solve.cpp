@@ -1,0 +1,266 @@
+#include "fit/problem/solve.hpp"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "fit/problem/ramp_residual.hpp"
+#include "fit/problem/reduced_rows.hpp"
+#include "fit/problem/solver_log.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+/// Parameter blocks: globals, [difference,] [constant,] [drift,] own. The cycle's rows are reduced to one a parameter
+/// and one more, which must not be asked of two threads at a time.
+class CycleCost : public ceres::CostFunction {
+ public:
+  explicit CycleCost(const CycleModel& model)
+      : model_(model),
+        has_difference_(model.common_parameters() >
+                        model.globals() + (model.has_constant() ? 1 : 0) + model.drift_parameters()),
+        residuals_(model.residuals()),
+        jacobian_(model.residuals(), model.columns()),
+        reduced_(model.columns() + 1, model.columns() + 1) {
+    set_num_residuals(static_cast<int>(model.columns() + 1));
+    for (const std::size_t size : {model.globals(), std::size_t{has_difference_}, std::size_t{model.has_constant()},
+                                   model.drift_parameters(), model.own_parameters()}) {
+      if (size > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(size));
+    }
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+    const auto next_if = [&](bool present) { return present ? *parameters++ : nullptr; };
+    CycleValues values;
+    values.globals = next_if(true);
+    values.difference = next_if(has_difference_);
+    values.constant = next_if(model_.has_constant());
+    values.drift = next_if(model_.drift_parameters() > 0);
+    values.own = next_if(true);
+    if (!model_.evaluate(values, residuals_.data(), jacobians != nullptr ? jacobian_.data() : nullptr)) return false;
+    if (jacobians == nullptr) {
+      std::fill_n(residuals, num_residuals(), 0.0);
+      residuals[0] = residuals_.norm();
+    } else {
+      reduce_rows(jacobian_, residuals_, reduced_);
+      put_reduced(residuals, jacobians);
+    }
+    return true;
+  }
+
+ private:
+  void put_reduced(double* residuals, double** jacobians) const {
+    Eigen::Map<Eigen::VectorXd>(residuals, reduced_.rows()) = reduced_.rightCols<1>();
+    Eigen::Index column = 0;
+    for (const int size : parameter_block_sizes()) {
+      if (*jacobians != nullptr)
+        Eigen::Map<RowMajor>(*jacobians, reduced_.rows(), size) = reduced_.middleCols(column, size);
+      column += size;
+      ++jacobians;
+    }
+  }
+
+  const CycleModel& model_;
+  bool has_difference_;
+  mutable Eigen::VectorXd residuals_;
+  mutable Eigen::MatrixXd jacobian_;
+  mutable RowMajor reduced_;
+};
+
+template <class From>
+void copy_unless_null(const From& from, double* to) {
+  if (to != nullptr) std::copy(from.begin(), from.end(), to);
+}
+
+/// Parameter blocks: globals of Coulomb friction, own of the first cycle, own of the second.
+class RampCost : public ceres::SizedCostFunction<1, globals_of(FrictionLaw::Coulomb), 2, 2> {
+ public:
+  RampCost(const BlockFit& fit, std::size_t first) : fit_(fit), first_(first) {}
+
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+    const RampResidual ramp = ramp_residual(fit_, first_, parameters[0], parameters[1], parameters[2]);
+    if (!std::isfinite(ramp.value)) return false;
+    residuals[0] = ramp.value;
+    if (jacobians == nullptr) return true;
+    copy_unless_null(ramp.d_globals, jacobians[0]);
+    copy_unless_null(ramp.d_first, jacobians[1]);
+    copy_unless_null(ramp.d_second, jacobians[2]);
+    return true;
+  }
+
+ private:
+  const BlockFit& fit_;
+  std::size_t first_;
+};
+
+/// Parameter blocks: globals, level.
+class SteadyCost : public ceres::CostFunction {
+ public:
+  SteadyCost(const SteadyRun& run, const Units& units, std::size_t globals) : run_(run), units_(units) {
+    set_num_residuals(1);
+    *mutable_parameter_block_sizes() = {static_cast<int>(globals), 1};
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+    const auto count = static_cast<std::size_t>(parameter_block_sizes()[0]);
+    Globals globals{};
+    std::copy_n(parameters[0], count, globals.begin());
+    const SteadyResidual steady = steady_residual(run_, units_, globals.data(), *parameters[1]);
+    if (!std::isfinite(steady.value)) return false;
+    residuals[0] = steady.value;
+    if (jacobians == nullptr) return true;
+    if (jacobians[0] != nullptr) std::copy_n(steady.by_global.begin(), count, jacobians[0]);
+    if (jacobians[1] != nullptr) *jacobians[1] = steady.by_level;
+    return true;
+  }
+
+ private:
+  const SteadyRun& run_;
+  const Units& units_;
+};
+
+/// A Ceres problem of recordings. Inside a group Ceres orders blocks by their address: cycles stand in one array and
+/// every other block is a group, so that the same input gives the same rounding.
+class Bundle {
+ public:
+  Bundle(std::span<BlockFit> recordings, const SweepTerms& sweep, const SolveOptions& options)
+      : recordings_(recordings),
+        sweep_(sweep),
+        options_(options),
+        globals_(recordings.front().parameters.globals),
+        ceres_(make_options()),
+        ordering_(std::make_shared<ceres::ParameterBlockOrdering>()) {
+    for (const BlockFit& recording : recordings_) {
+      owns_.insert(owns_.end(), recording.parameters.cycles.begin(), recording.parameters.cycles.end());
+    }
+    double* own = owns_.empty() ? nullptr : owns_.front().data();
+    for (BlockFit& recording : recordings_) own = add(recording, own);
+    for (const SteadyRun& run : sweep_.steady) {
+      if (!sweep_.sharing.level) break;
+      ceres_.AddResidualBlock(new SteadyCost(run, sweep_.units, globals_of(scales().law)), nullptr, globals_.data(),
+                              first().level.data());
+    }
+    ordering_->AddElementToGroup(globals_.data(), group_);
+    hold();
+  }
+
+  double solve() {
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver_options(), &ceres_, &summary);
+    const Parameters& shared = first();
+    std::size_t next = 0;
+    for (BlockFit& recording : recordings_) {
+      Parameters& parameters = recording.parameters;
+      parameters.globals = globals_;
+      if (sweep_.sharing.level && !parameters.level.empty()) parameters.level[0] = shared.level[0];
+      if (sweep_.sharing.difference) parameters.difference = shared.difference;
+      for (Own& own : parameters.cycles) own = owns_[next++];
+    }
+    return summary.IsSolutionUsable() ? 2.0 * summary.final_cost : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  static ceres::Problem::Options make_options() {
+    ceres::Problem::Options options;
+    options.enable_fast_removal = false;
+    return options;
+  }
+
+  [[nodiscard]] Parameters& first() const { return recordings_.front().parameters; }
+  [[nodiscard]] const Scales& scales() const { return recordings_.front().scales(); }
+
+  /// Returns where the cycles of the next recording stand.
+  double* add(BlockFit& recording, double* own) {
+    Parameters& parameters = recording.parameters;
+    const CycleModel& any = recording.model(0);
+    std::vector<double*> blocks{globals_.data()};
+    const auto add_block = [&](double* block) {
+      blocks.push_back(block);
+      if (!ordering_->IsMember(block)) ordering_->AddElementToGroup(block, group_++);
+    };
+    if (recording.scales().population)
+      add_block(sweep_.sharing.difference ? &first().difference : &parameters.difference);
+    if (any.has_constant()) add_block(sweep_.sharing.level ? first().level.data() : parameters.level.data());
+    if (any.drift_parameters() > 0) add_block(parameters.level.data() + (any.has_constant() ? 1 : 0));
+    for (std::size_t i = 0; i < recording.size(); ++i, own += std::tuple_size_v<Own>) {
+      const CycleModel& model = recording.model(i);
+      blocks.push_back(own);
+      auto* loss = options_.robust ? new ceres::HuberLoss(huber_bound(model.residuals())) : nullptr;
+      ceres_.AddResidualBlock(new CycleCost(model), loss, blocks);
+      blocks.pop_back();
+      ordering_->AddElementToGroup(own, 0);
+      residuals_ += model.residuals();
+    }
+    if (options_.continuous) join_ramps(recording, own - recording.size() * std::tuple_size_v<Own>);
+    return own;
+  }
+
+  void join_ramps(const BlockFit& recording, double* own) {
+    for (std::size_t i = 0; i + 1 < recording.size(); ++i, own += std::tuple_size_v<Own>) {
+      if (!recording.data(i).continuous_with_next) continue;
+      ceres_.AddResidualBlock(new RampCost(recording, i), nullptr, globals_.data(), own, own + std::tuple_size_v<Own>);
+    }
+  }
+
+  void hold() {
+    std::vector<int> constant;
+    const std::size_t count = globals_of(scales().law);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (options_.held[i]) constant.push_back(static_cast<int>(i));
+    }
+    if (constant.size() == count) {
+      ceres_.SetParameterBlockConstant(globals_.data());
+    } else if (!constant.empty()) {
+      ceres_.SetManifold(globals_.data(), new ceres::SubsetManifold(static_cast<int>(count), constant));
+    }
+  }
+
+  [[nodiscard]] ceres::Solver::Options solver_options() const {
+    ceres::Solver::Options solver;
+    solver.max_num_iterations = options_.max_iterations;
+    // Continuity couples neighbouring cycles: a banded matrix with a border instead of independent blocks.
+    solver.linear_solver_type = options_.continuous ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_SCHUR;
+    // Damped steps move a long chain of joined cycles only a part of the way (23 steps at 5000 cycles, 4 undamped); it
+    // starts at the solution for the cycles by themselves.
+    if (options_.continuous) solver.initial_trust_region_radius = 1e10;
+    if (!options_.continuous) solver.linear_solver_ordering = ordering_;
+    solver.function_tolerance = options_.tolerance / static_cast<double>(residuals_);
+    solver.gradient_tolerance = 1e-14;
+    solver.parameter_tolerance = 1e-11;
+    // A step into friction that runs away: shorten it.
+    if (scales().law == FrictionLaw::SpeedDependent) solver.max_num_consecutive_invalid_steps = 20;
+    solver.logging_type = ceres::SILENT;
+    solver.num_threads = 1;
+    return solver;
+  }
+
+  std::span<BlockFit> recordings_;
+  const SweepTerms& sweep_;
+  const SolveOptions& options_;
+  Globals globals_;
+  std::vector<Own> owns_;
+  ceres::Problem ceres_;
+  std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
+  int group_ = 1;
+  std::size_t residuals_ = 0;
+};
+
+}  // namespace
+
+double huber_bound(std::size_t residuals) {
+  return 3.0 * std::sqrt(static_cast<double>(residuals));
+}
+
+double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, const SolveOptions& options) {
+  silence_solver_log();
+  return Bundle(recordings, sweep, options).solve();
+}
+
+double solve(BlockFit& fit, const SolveOptions& options) {
+  return solve_together({&fit, 1}, {}, options);
+}
+
+}  // namespace slipfit::fit
