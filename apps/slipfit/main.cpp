@@ -1,5 +1,3 @@
-#include <malloc.h>
-
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
@@ -71,22 +69,10 @@ int run(int argc, char** argv) {
   return code_of(ExitCode::Analysed);
 }
 
-/// Arrays of a recording come and go: given back to the system each time, every page of them costs a fault again (a
-/// tenth of the time of a fit). Larger ones are given back: holes of their size would
-/// add up.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int kLargest = 4 << 20;
-  mallopt(M_MMAP_THRESHOLD, kLargest);
-  mallopt(M_TRIM_THRESHOLD, 8 * kLargest);
-#endif
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   (void)std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk, not a death
-  keep_freed_memory();
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
