@@ -1,16 +1,21 @@
 #pragma once
 
 #include <glog/logging.h>
+#include <glog/vlog_is_on.h>
 
 #include <mutex>
 
 namespace slipfit::fit {
 
 /// A start outside the model is an ordinary answer here; Ceres reports it on standard error, and this library never
-/// prints.
+/// prints. GLOG_v and GLOG_vmodule in the environment would let its solvers write into standard output.
 inline void silence_solver_log() {
   static std::once_flag once;
-  std::call_once(once, [] { FLAGS_minloglevel = google::GLOG_FATAL; });
+  std::call_once(once, [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    FLAGS_v = 0;
+    google::SetVLOGLevel("*", 0);
+  });
 }
 
 }  // namespace slipfit::fit
