@@ -1,7 +1,6 @@
 #pragma once
 
 #include <glog/logging.h>
-#include <glog/vlog_is_on.h>
 
 #include <mutex>
 
@@ -14,7 +13,7 @@ inline void silence_solver_log() {
   std::call_once(once, [] {
     FLAGS_minloglevel = google::GLOG_FATAL;
     FLAGS_v = 0;
-    google::SetVLOGLevel("*", 0);
+    FLAGS_vmodule.clear();
   });
 }
 

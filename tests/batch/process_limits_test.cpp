@@ -32,16 +32,12 @@ TEST_CASE("where no other process can be started the work is done with fewer, do
   std::filesystem::permissions(scene.path(""), std::filesystem::perms::all);
   for (const std::string limit : {"1", "3", "6"}) {
     CAPTURE(limit);
-    // A limit on processes does not hold for root.
-    const auto run =
-        in_shell(scene,
-                 "if [ \"$(id -u)\" = 0 ]; then exec setpriv --reuid 54321 --regid 54321 --clear-groups sh -c "
-                 "'ulimit -u " +
-                     limit +
-                     "; exec \"$0\" batch \"$1\" --out \"$2\" --jobs 64' \"$0\" \"$1\" \"$2\"; "
-                     "else ulimit -u " +
-                     limit + "; exec \"$0\" batch \"$1\" --out \"$2\" --jobs 64; fi",
-                 "out" + limit);
+    const std::string command = "prlimit --nproc=" + limit + " \"$0\" batch \"$1\" --out \"$2\" --jobs 64";
+    // The limit does not hold for root.
+    const auto run = in_shell(scene,
+                              "[ \"$(id -u)\" = 0 ] && exec setpriv --reuid 54321 --regid 54321 --clear-groups " +
+                                  command + "; exec " + command,
+                              "out" + limit);
     CAPTURE(run.err);
     if (run.exit_code == 126 || run.exit_code == 127) {
       WARN("skipped: another user may not run this program");

@@ -34,7 +34,7 @@ class Interrupted {
 
   /// Goes on from these bytes of results.jsonl, and demands the files of the whole run.
   void check_resumed_from(const std::string& results, const std::string& more_journal = "begin 0\nbeg") const {
-    nlohmann::json unfinished = record();
+    auto unfinished = nlohmann::ordered_json::parse(content_of(scene_.path("out/run.json")));
     unfinished["finished"] = false;
     (void)scene_.file("out/run.json", unfinished.dump());
     (void)scene_.file("out/journal", journal_of(lines_of(whole_.results)) + more_journal);
@@ -133,7 +133,7 @@ TEST_CASE("a recording at which the process died three times has failed, and is 
   REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 0);
   const auto whole = files_in(scene.path("out"));
   const auto leave = [&](const std::string& journal) {
-    auto record = nlohmann::json::parse(content_of(scene.path("out/run.json")));
+    auto record = nlohmann::ordered_json::parse(content_of(scene.path("out/run.json")));
     record["finished"] = false;
     (void)scene.file("out/run.json", record.dump());
     (void)scene.file("out/results.jsonl", "");
