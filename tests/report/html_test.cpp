@@ -25,7 +25,6 @@ slipfit::Recording sawtooth(const std::string& file = "run.csv", int samples = 2
   conditions.speed_m_per_s = 0.01;
   slipfit::Provenance provenance;
   provenance.file = file;
-  provenance.input_digest = slipfit::digest_of("abc");
   return slipfit::Recording::create(std::move(time_s), std::move(force), conditions, std::move(provenance)).value();
 }
 
