@@ -25,7 +25,7 @@ namespace {
 /// serve for many.
 constexpr std::size_t kWaitingEach = 64;
 
-constexpr double kLongest_s = 1e9;  // what the clock can hold
+constexpr double kLongest_s = 1e9;                      // what the clock can hold
 constexpr std::size_t kHeader = sizeof(std::uint64_t);  // length of a reply, or number of a job
 
 bool send_all(int socket, std::string_view bytes) {
@@ -135,8 +135,8 @@ void ProcessPool::begin_jobs(std::vector<Answer>& answers) {
       return;
     }
     child->job = job;
-    child->deadline =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(waiting.limit_s, kLongest_s)));
+    child->deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                         std::chrono::duration<double>(std::min(waiting.limit_s, kLongest_s)));
     (void)send_all(child->socket.get(), header_of(job));  // a child that is gone is found out by poll
   }
 }
