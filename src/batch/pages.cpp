@@ -116,14 +116,18 @@ std::optional<Error> add_slot(BatchPage& page, const BatchReport& report, const 
 
 }  // namespace
 
+void remove_page_leftovers(const BatchReport& report, const WorkList& list) {
+  remove_leftovers(report.file.parent_path() / kFolder, [&](std::string_view name) {
+    const std::size_t slot = slot_of(name);
+    return slot < list.is_mine.size() && list.is_mine[slot];  // another shard may be at work beside this one
+  });
+}
+
 std::optional<Error> prepare_pages(const BatchReport& report, const WorkList& list) {
   const fs::path folder = report.file.parent_path();
   if (auto error = make_folder(folder.empty() ? "." : folder)) return error;
   if (auto error = make_folder(folder / kFolder)) return error;
-  remove_leftovers(folder / kFolder, [&](std::string_view name) {
-    const std::size_t slot = slot_of(name);
-    return slot < list.is_mine.size() && list.is_mine[slot];  // another shard may be at work beside this one
-  });
+  remove_page_leftovers(report, list);
   remove_leftovers(folder.empty() ? "." : folder,
                    [&](std::string_view name) { return name == report.file.filename(); });
   return check_replaceable(report.file);

@@ -19,6 +19,9 @@ namespace slipfit::batch {
 /// Errors: cannot_write; not_a_page where the index would replace a file that is none.
 std::optional<Error> prepare_pages(const BatchReport& report, const WorkList& list);
 
+/// What processes that were killed left of pages of this list.
+void remove_page_leftovers(const BatchReport& report, const WorkList& list);
+
 /// Whose page it is.
 struct PageKey {
   std::size_t slot = 0;  ///< of the work list

@@ -93,6 +93,7 @@ std::optional<Error> Run::work_through(const Next& next) {
   auto error = take_all(next);
   if (stopped_ && !error) error = wait_for_begun();
   pool_.kill_all();
+  if (options_.report && !in_hand_.empty()) remove_page_leftovers(*options_.report, list_);
   for (const auto& [job, item] : in_hand_) {
     auto not_noted = log_.add_end(item.key.slot);
     if (not_noted && !error) error = std::move(not_noted);
