@@ -17,7 +17,6 @@ install(FILES
   "${PROJECT_BINARY_DIR}/slipfit-config.cmake"
   "${PROJECT_BINARY_DIR}/slipfit-config-version.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindFFTW3.cmake"
-  "${PROJECT_SOURCE_DIR}/cmake/FindNettle.cmake"
   DESTINATION "${SLIPFIT_CMAKE_DIR}")
 install(FILES "${PROJECT_SOURCE_DIR}/docs/fit.schema.json" "${PROJECT_SOURCE_DIR}/docs/predict.schema.json"
   "${PROJECT_SOURCE_DIR}/LICENSE"

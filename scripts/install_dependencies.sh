@@ -5,7 +5,7 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
-  nlohmann-json3-dev libfmt-dev libjs-dygraphs nettle-dev)
+  nlohmann-json3-dev libfmt-dev libjs-dygraphs libxxhash-dev)
 case "${1:-test}" in
   test) packages+=(catch2 python3 python3-jsonschema slurm-wlm munge locales dpkg-dev file) ;;
   browser)

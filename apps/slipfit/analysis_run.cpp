@@ -16,7 +16,6 @@
 #include "failure.hpp"
 #include "output.hpp"
 #include "slipfit/background.hpp"
-#include "slipfit/io/file_hash.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/report/csv.hpp"
 #include "slipfit/report/html.hpp"
@@ -76,7 +75,7 @@ std::string content_of(const OutputFile& output, const AnalysisArguments& argume
   if (output.option == "--cycles") return slipfit::cycles_to_csv(recording, analysis);
   if (output.option == "--curve") return slipfit::curve_to_csv(recording, analysis);
   if (output.option != "--report") return document(arguments, recording, analysis);
-  const slipfit::ReportOrigin origin{arguments.command_line, slipfit::sha256_of_file(arguments.recording.file)};
+  const slipfit::ReportOrigin origin{arguments.command_line};
   return slipfit::to_html(recording, analysis, background, origin);
 }
 

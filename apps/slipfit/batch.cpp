@@ -1,6 +1,7 @@
 #include "slipfit/batch/batch.hpp"
 
 #include <fmt/format.h>
+#include <sched.h>
 
 #include <charconv>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "fit_options.hpp"
 #include "output.hpp"
 #include "progress_line.hpp"
+#include "quantities.hpp"
 #include "stop_signals.hpp"
 
 namespace {
@@ -24,6 +26,7 @@ struct BatchArguments {
   std::string manifest;
   std::string out;
   std::optional<std::size_t> jobs;
+  std::string timeout = "10min";
   std::optional<std::string> shard;
   bool resume = false;
   bool joint_groups = false;
@@ -36,7 +39,9 @@ struct BatchArguments {
 void add_options(CLI::App& command, BatchArguments& arguments) {
   command.add_option("MANIFEST", arguments.manifest, "CSV: id,file,speed_m_per_s, one row a recording")->required();
   command.add_option("--out", arguments.out, "Folder of the results; made where it is missing")->required();
-  command.add_option("--jobs", arguments.jobs, "Recordings at a time; without it one a core");
+  command.add_option("--jobs", arguments.jobs, "Recordings at a time; without it one a core that this process may use");
+  command.add_option("--timeout", arguments.timeout, "Longest time for a recording; then it counts as failed")
+      ->capture_default_str();
   command.add_flag("--resume", arguments.resume, "Go on with what the folder holds");
   command.add_option("--shard", arguments.shard, "I/N: the I-th of N parts of the manifest, I from 1");
   command.add_flag("--joint-groups", arguments.joint_groups, "Fit the recordings of each group together, too");
@@ -60,8 +65,17 @@ slipfit::Shard shard_from(const std::string& text) {
                 fmt::format("--shard: bad '{}', expected I/N with I from 1 to N (Slurm: --array=1-N)", text));
 }
 
+/// What a batch system, a container or taskset leaves of the machine's cores.
+std::size_t usable_cores() {
+#ifdef __linux__
+  cpu_set_t cores;
+  if (::sched_getaffinity(0, sizeof(cores), &cores) == 0) return static_cast<std::size_t>(CPU_COUNT(&cores));
+#endif
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
 std::size_t jobs_from(const std::optional<std::size_t>& jobs) {
-  if (!jobs) return std::max(1U, std::thread::hardware_concurrency());
+  if (!jobs) return usable_cores();
   if (*jobs >= 1 && *jobs <= kMostJobs) return *jobs;
   throw Failure(ExitCode::WrongUsage, fmt::format("--jobs: {} is out of range, expected 1 to {}", *jobs, kMostJobs));
 }
@@ -86,6 +100,7 @@ slipfit::BatchOptions options_from(const BatchArguments& arguments) {
   options.folder = arguments.out;
   options.fit = fit_options_from(arguments.tier, arguments.fixed, FitKind::Single);
   options.jobs = jobs_from(arguments.jobs);
+  options.timeout_s = positive_quantity("--timeout", arguments.timeout, slipfit::Dimension::Time);
   options.resume = arguments.resume;
   if (arguments.shard) options.shard = shard_from(*arguments.shard);
   if (arguments.report) options.report = report_from(arguments);

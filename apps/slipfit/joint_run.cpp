@@ -8,7 +8,6 @@
 #include "failure.hpp"
 #include "output.hpp"
 #include "slipfit/background.hpp"
-#include "slipfit/io/file_hash.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/sweep_html.hpp"
@@ -45,14 +44,6 @@ std::string name_of_fit(const JointArguments& arguments) {
   return arguments.group ? *arguments.group : std::filesystem::path(arguments.manifest).stem().string();
 }
 
-slipfit::SweepOrigin origin_of(const JointArguments& arguments, const std::vector<slipfit::SweepEntry>& entries) {
-  slipfit::SweepOrigin origin{name_of_fit(arguments), arguments.command_line, {}};
-  for (const slipfit::SweepEntry& entry : entries) {
-    origin.file_sha256.push_back(slipfit::sha256_of_file(entry.recording.provenance().file));
-  }
-  return origin;
-}
-
 }  // namespace
 
 void run_joint(const JointArguments& arguments, const slipfit::FitOptions& options) {
@@ -70,9 +61,9 @@ void run_joint(const JointArguments& arguments, const slipfit::FitOptions& optio
       arguments.json ? slipfit::to_json(entries, sweep, layout) + "\n" : slipfit::to_text(entries, sweep, layout.id);
   for (const OutputFile& output : outputs) {
     const bool is_report = output.option == "--report";
-    write_file(output, is_report
-                           ? to_html(entries, sweep, predict_around(entries, sweep), origin_of(arguments, entries))
-                           : document);
+    write_file(output,
+               is_report ? to_html(entries, sweep, predict_around(entries, sweep), {layout.id, arguments.command_line})
+                         : document);
     if (!arguments.quiet) say(fmt::format("wrote '{}'", output.file));
   }
   if (!arguments.out) write_standard_output(document);

@@ -1,5 +1,10 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -24,7 +29,10 @@ std::string command_line(const CLI::App& program) {
 /// CLI11's errors as one line; --help and --version arrive here too and are no errors.
 int report_parse_result(const CLI::App& program, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-    return program.exit(error, std::cout, std::cerr);
+    const int code = program.exit(error, std::cout, std::cerr);
+    if (std::cout.flush()) return code;
+    say(std::string("cannot write to standard output: ") + std::strerror(errno));
+    return code_of(ExitCode::WrongUsage);
   }
   say(std::string(error.what()) + " (see " + command_line(program) + " --help)");
   return code_of(ExitCode::WrongUsage);
@@ -69,10 +77,20 @@ int run(int argc, char** argv) {
   return code_of(ExitCode::Analysed);
 }
 
+/// A file that the program opens would take the number of a closed standard stream, and messages would run into it.
+/// Standard output is opened so that writing fails: a result that nobody can read is an error.
+void open_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) >= 0) continue;
+    (void)::open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY);  // the lowest free number
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   (void)std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk, not a death
+  open_standard_streams();
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {

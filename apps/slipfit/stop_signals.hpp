@@ -4,7 +4,8 @@
 
 #include "failure.hpp"
 
-/// While it lives, Ctrl-C and SIGTERM are remembered instead of ending the program; the second one ends it at once.
+/// While it lives, Ctrl-C and SIGTERM are remembered instead of ending the program; the second one ends it at once, as
+/// do two seconds in which the program has not come to its end.
 class StopSignals {
  public:
   StopSignals();

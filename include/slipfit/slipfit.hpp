@@ -4,9 +4,9 @@
 
 #include "slipfit/background.hpp"
 #include "slipfit/batch/batch.hpp"
+#include "slipfit/core/digest.hpp"
 #include "slipfit/core/units.hpp"
 #include "slipfit/figures/figures.hpp"
-#include "slipfit/io/file_hash.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/model/motion.hpp"

@@ -7,9 +7,10 @@
 #include <utility>
 
 #include "batch/final_files.hpp"
+#include "batch/folder_check.hpp"
 #include "batch/folder_lock.hpp"
-#include "batch/ledger.hpp"
 #include "batch/pages.hpp"
+#include "batch/result_log.hpp"
 #include "batch/run.hpp"
 #include "batch/run_file.hpp"
 #include "batch/work_list.hpp"
@@ -20,34 +21,32 @@ namespace {
 
 using namespace batch;
 
-/// Whether the folder's results may be gone on with. A folder without any is begun afresh, whosever it was.
-std::optional<Error> check_resume(const BatchOptions& options, const std::optional<RunRecord>& before,
-                                  const RunRecord& now) {
-  const std::string folder = one_line(options.folder.string());
-  if (!before) {
-    return Error{"folder_of_another_batch",
-                 folder + ": holds a results.jsonl without the run.json of its batch; choose another folder"};
-  }
-  const auto differs = difference(*before, now);
-  if (differs) {
-    return Error{"folder_of_another_batch",
-                 fmt::format("{}: belongs to another batch: {}; put that back and use --resume, or choose another "
-                             "folder with --out",
-                             folder, *differs)};
-  }
-  if (options.resume) return std::nullopt;
-  return Error{"results_present", folder +
-                                      ": holds results of this batch; go on with --resume, or choose another "
-                                      "folder with --out"};
-}
-
-Result<std::unique_ptr<Ledger>> open_ledger(const BatchOptions& options, const WorkList& list, const RunRecord& now) {
-  const std::size_t slots = list.is_mine.size();
-  if (!has_results(options.folder)) return Ledger::begin(options.folder, slots);
-  const auto before = read_record(options.folder);
+/// Opens the log of results and writes run.json. Whatever moment a kill comes: the folder is ours by its run.json
+/// before any other file is in it, and lines that were found are in the journal before run.json says that they are not
+/// all.
+Result<std::unique_ptr<ResultLog>> open_log(const BatchOptions& options, const BatchHooks& hooks, const WorkList& list,
+                                            const RunRecord& now) {
+  const auto before = check_folder(options.folder);
   if (!before) return before.error();
-  if (auto error = check_resume(options, before.value(), now)) return *error;
-  return Ledger::go_on(options.folder, slots, list.slots);
+  if (auto error = check_same_batch(options.folder, before.value(), now)) return *error;
+  const bool goes_on = before.value() && !difference(*before.value(), now);
+  if (goes_on && !options.resume && has_results(options.folder)) {
+    return Error{"results_present", one_line(options.folder.string()) +
+                                        ": holds results of this batch; go on with --resume, or choose another "
+                                        "folder with --out"};
+  }
+  const std::size_t slots = list.is_mine.size();
+  FoundResults found = goes_on ? find_results(options.folder, *before.value(), slots, list.slots) : no_results(slots);
+  if (found.damaged > 0 && hooks.tell) {
+    hooks.tell(
+        fmt::format("{} results are not in results.jsonl as they were written, and are fitted again", found.damaged));
+  }
+  if (!goes_on) {
+    if (auto error = write_record(options.folder, now)) return *error;
+  }
+  if (auto error = write_journal(options.folder, found)) return *error;
+  if (auto error = write_record(options.folder, now)) return *error;
+  return ResultLog::open(options.folder, std::move(found));
 }
 
 void tell_ignored_columns(const BatchOptions& options, const BatchHooks& hooks) {
@@ -59,9 +58,8 @@ void tell_ignored_columns(const BatchOptions& options, const BatchHooks& hooks) 
 
 /// Rows are told apart by their number, so that the manifest must be the same from the first look to the last.
 std::optional<Error> check_unchanged(const BatchOptions& options, const WorkList& list) {
-  const auto digest = file_digest(options.manifest);
-  if (!digest) return digest.error();
-  if (digest.value() == list.manifest_digest) return std::nullopt;
+  const auto digest = manifest_digest(options.manifest);
+  if (digest && digest.value() == list.manifest_digest) return std::nullopt;
   return Error{"manifest_changed", one_line(options.manifest.string()) +
                                        ": was edited while the batch ran; put it back as it was and go on with "
                                        "--resume"};
@@ -73,19 +71,23 @@ std::optional<Error> fit_all(Run& run) {
 }
 
 /// Whatever happened before, what is done is on the disk and run.json says how far it came.
-std::optional<Error> close(const BatchOptions& options, const WorkList& list, Run& run, Ledger& ledger,
+std::optional<Error> close(const BatchOptions& options, const WorkList& list, Run& run, ResultLog& log,
                            RunRecord record) {
-  if (auto error = ledger.sync()) return error;
+  if (auto error = log.sync()) return error;
   if (!run.stopped()) {
     if (auto error = check_unchanged(options, list)) return error;
-    if (auto error = write_final_files(options.folder, options.manifest, list, ledger)) return error;
+    const auto digests = write_final_files(options.folder, options.manifest, list, log);
+    if (!digests) return digests.error();
+    record.digests = digests.value();
     if (options.report && options.shard.count == 1) {
-      if (auto error = write_index(*options.report, options.manifest, list, ledger)) return error;
+      if (auto error = write_index(*options.report, options.manifest, list, log)) return error;
     }
   }
   record.progress = run.progress();
   record.finished = !run.stopped();
-  return write_record(options.folder, record);
+  if (auto error = write_record(options.folder, record)) return error;
+  if (record.finished) remove_journal(options.folder);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -96,20 +98,21 @@ Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& ho
   const auto lock = FolderLock::take(options.folder);
   if (!lock) return lock.error();
   if (options.report) {
-    if (auto error = prepare_pages(*options.report)) return *error;
+    if (auto error = prepare_pages(*options.report, list.value())) return *error;
   }
   const RunRecord record = begin_record(options, list.value().manifest_digest, list.value().rows);
-  auto opened = open_ledger(options, list.value(), record);
+  auto opened = open_log(options, hooks, list.value(), record);
   if (!opened) return opened.error();
-  const std::unique_ptr<Ledger> ledger = std::move(opened).value();
-  if (auto error = write_record(options.folder, record)) return *error;
+  const std::unique_ptr<ResultLog> log = std::move(opened).value();
   tell_ignored_columns(options, hooks);
   std::error_code ignored;
   std::filesystem::remove(options.folder / "summary.csv", ignored);  // of an earlier run: it comes back at the end
 
-  Run run(options, hooks, list.value(), *ledger);
-  if (auto error = fit_all(run)) return *error;
-  if (auto error = close(options, list.value(), run, *ledger, record)) return *error;
+  Run run(options, hooks, list.value(), *log);
+  const auto failed = fit_all(run);
+  run.tell_replaced();
+  if (failed) return *failed;
+  if (auto error = close(options, list.value(), run, *log, record)) return *error;
   return BatchOutcome{run.stopped() ? BatchEnd::Stopped : BatchEnd::Finished, run.progress()};
 }
 

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "slipfit/core/digest.hpp"
 #include "slipfit/core/result.hpp"
 
 // Files that survive a kill at any byte. Errors are cannot_write, in one line.
@@ -32,6 +34,12 @@ class FileHandle {
 
 Error cannot_write(const std::filesystem::path& file, int error_number);
 
+/// Waits until the disk knows which files are in the folder.
+std::optional<Error> sync_folder(const std::filesystem::path& folder);
+
+/// Removes what a killed process left of files that were being replaced, those that `is_ours` by their names.
+void remove_leftovers(const std::filesystem::path& folder, const std::function<bool(std::string_view name)>& is_ours);
+
 /// A file of whole lines that grows at its end.
 class LineFile {
  public:
@@ -54,14 +62,22 @@ class LineFile {
   std::uint64_t size_;
 };
 
-/// A new file beside `file` that takes its place when all is written: readers see the old content or the new.
+/// A new file beside `file` that takes its place when all is written: readers see the old content or the new. Unless
+/// that comes so far, it is removed.
 class Replacement {
  public:
   static Result<Replacement> open(const std::filesystem::path& file);
+  ~Replacement();
+  Replacement(Replacement&& other) noexcept = default;
+  Replacement& operator=(Replacement&&) = delete;
+  Replacement(const Replacement&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
 
   std::optional<Error> append(std::string_view text);
   /// Writes what is left, waits for the disk and renames.
   std::optional<Error> finish();
+  /// Of all that was appended.
+  [[nodiscard]] Digest digest() const { return digester_.digest(); }
 
  private:
   Replacement(std::filesystem::path file, std::filesystem::path temporary, FileHandle handle)
@@ -72,6 +88,7 @@ class Replacement {
   std::filesystem::path temporary_;
   FileHandle handle_;
   std::string buffer_;
+  Digester digester_;
 };
 
 std::optional<Error> replace_file(const std::filesystem::path& file, std::string_view content);

@@ -19,12 +19,12 @@ std::string code_of(const std::string& failure) {
   return cells && cells->size() > 1 ? (*cells)[1] : std::string();
 }
 
-std::optional<Error> add_slot(FinalFiles& files, const Ledger& ledger, std::size_t slot, const SummaryKey& key) {
-  const Ledger::Kind kind = ledger.kind_of(slot);
-  if (kind == Ledger::Kind::Nothing) return std::nullopt;
-  const auto line = ledger.line_of(slot);
+std::optional<Error> add_slot(FinalFiles& files, const ResultLog& log, std::size_t slot, const SummaryKey& key) {
+  const ResultLog::Kind kind = log.kind_of(slot);
+  if (kind == ResultLog::Kind::Nothing) return std::nullopt;
+  const auto line = log.line_of(slot);
   if (!line) return line.error();
-  if (kind == Ledger::Kind::Failure) {
+  if (kind == ResultLog::Kind::Failure) {
     return files.add_failure(line.value(), summary_of_failure(key, code_of(line.value())));
   }
   const auto summary = summary_of_result(key, line.value());
@@ -57,28 +57,28 @@ std::optional<Error> FinalFiles::add_failure(const std::string& failure, const s
   return append_line(summary_, summary);
 }
 
-std::optional<Error> FinalFiles::finish() {
+Result<FileDigests> FinalFiles::finish() {
   for (Replacement* const file : {&results_, &failures_, &summary_}) {
-    if (auto error = file->finish()) return error;
+    if (auto error = file->finish()) return *error;
   }
-  return std::nullopt;
+  return FileDigests{results_.digest().text(), summary_.digest().text(), failures_.digest().text()};
 }
 
-std::optional<Error> write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
-                                       const WorkList& list, const Ledger& ledger) {
+Result<FileDigests> write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
+                                      const WorkList& list, const ResultLog& log) {
   auto opened = FinalFiles::open(folder);
   if (!opened) return opened.error();
   FinalFiles files = std::move(opened).value();
   const auto add_entry = [&](const ManifestEntry& entry) {
-    return add_slot(files, ledger, entry.row - 1, {entry.row, entry.id, entry.group, one_line(entry.file.string())});
+    return add_slot(files, log, entry.row - 1, {entry.row, entry.id, entry.group, one_line(entry.file.string())});
   };
   const auto add_group = [&](std::size_t group) {
     const Group& found = list.groups[group];
-    return add_slot(files, ledger, list.slot_of_group(group),
-                    {found.last_row, id_of_group(found.name), found.name, ""});
+    return add_slot(files, log, list.slot_of_group(group), {found.last_row, id_of_group(found.name), found.name, ""});
   };
   auto failed = for_each_result(manifest, list, add_entry, add_group);
-  return failed ? failed : files.finish();
+  if (failed) return *failed;
+  return files.finish();
 }
 
 }  // namespace slipfit::batch

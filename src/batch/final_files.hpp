@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "batch/files.hpp"
-#include "batch/ledger.hpp"
+#include "batch/result_log.hpp"
+#include "batch/run_file.hpp"
 #include "batch/work_list.hpp"
 #include "slipfit/core/result.hpp"
 
@@ -21,7 +22,7 @@ class FinalFiles {
   /// Lines without their ends.
   std::optional<Error> add_result(const std::string& document, const std::string& summary);
   std::optional<Error> add_failure(const std::string& failure, const std::string& summary);
-  std::optional<Error> finish();
+  Result<FileDigests> finish();
 
  private:
   FinalFiles(Replacement results, Replacement summary, Replacement failures)
@@ -33,7 +34,7 @@ class FinalFiles {
 };
 
 /// From what came in, in whatever order. Slots without a line are left out.
-std::optional<Error> write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
-                                       const WorkList& list, const Ledger& ledger);
+Result<FileDigests> write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
+                                      const WorkList& list, const ResultLog& log);
 
 }  // namespace slipfit::batch

@@ -11,7 +11,8 @@ namespace slipfit::batch {
 /// lock of a dead one is void; the file `lock` only says whose it is.
 class FolderLock {
  public:
-  /// Makes the folder where it is missing. Errors: folder_in_use, cannot_write.
+  /// Makes the folder where it is missing. Errors: folder_in_use, cannot_write, folder_of_another_batch where the file
+  /// `lock` is somebody else's.
   static Result<FolderLock> take(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(FolderLock&&) noexcept = default;

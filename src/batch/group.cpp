@@ -1,20 +1,10 @@
 #include "slipfit/background.hpp"
 #include "slipfit/batch/batch.hpp"
-#include "slipfit/io/file_hash.hpp"
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/sweep_html.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit {
-namespace {
-
-SweepOrigin origin_of(const std::string& id, const std::vector<ManifestEntry>& members, const BatchReport& report) {
-  SweepOrigin origin{id, report.command_line + "  # " + id, {}};
-  for (const ManifestEntry& entry : members) origin.file_sha256.push_back(sha256_of_file(entry.file.string()));
-  return origin;
-}
-
-}  // namespace
 
 GroupFit group_fit(const FitOptions& options, const std::optional<BatchReport>& report) {
   return [options, report](const std::string& id, const std::vector<ManifestEntry>& members) -> Result<BatchFit> {
@@ -25,9 +15,10 @@ GroupFit group_fit(const FitOptions& options, const std::optional<BatchReport>& 
     layout.layout = JsonLayout::OneLine;
     const SweepAnalysis sweep = analyze_sweep(entries.value(), options);
     BatchFit fit{to_json(entries.value(), sweep, layout), {}, {}};
-    if (report)
-      fit.page =
-          to_html(entries.value(), sweep, predict_around(entries.value(), sweep), origin_of(id, members, *report));
+    if (report) {
+      fit.page = to_html(entries.value(), sweep, predict_around(entries.value(), sweep),
+                         SweepOrigin{id, report->command_line + "  # " + id});
+    }
     return fit;
   };
 }

@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "batch/final_files.hpp"
+#include "batch/folder_check.hpp"
 #include "batch/folder_lock.hpp"
-#include "batch/ledger.hpp"
+#include "batch/result_log.hpp"
 #include "batch/run_file.hpp"
 #include "batch/summary.hpp"
 #include "slipfit/batch/batch.hpp"
@@ -70,6 +71,21 @@ class ShardReader {
   std::optional<SummaryPlace> place_;
 };
 
+/// A shard's files are those that were written, to the byte.
+std::optional<Error> check_files(const fs::path& folder, const FileDigests& digests) {
+  for (const auto& [name, written] :
+       {std::pair("results.jsonl", digests.results), std::pair("summary.csv", digests.summary),
+        std::pair("failures.csv", digests.failures)}) {
+    const auto digest = digest_of_file((folder / name).string());
+    if (digest && digest->text() == written) continue;
+    return Error{"not_as_written",
+                 fmt::format("{}: was damaged or changed since it was written; slipfit batch --resume "
+                             "with this folder makes it again",
+                             one_line((folder / name).string()))};
+  }
+  return std::nullopt;
+}
+
 Result<RunRecord> record_of(const fs::path& folder) {
   auto record = read_record(folder);
   if (!record) return record.error();
@@ -79,6 +95,7 @@ Result<RunRecord> record_of(const fs::path& folder) {
                                     "wrote"};
   }
   if (!record.value()->finished) return not_finished(folder);
+  if (auto error = check_files(folder, record.value()->digests)) return *error;
   return *std::move(record).value();
 }
 
@@ -112,20 +129,6 @@ Result<RunRecord> common_record(const std::vector<fs::path>& shards) {
                                              fmt::join(missing, ", "), one_line(common.manifest))};
 }
 
-/// Results of another batch are not overwritten; those of the same one are what would be written now.
-std::optional<Error> check_target(const fs::path& folder, const RunRecord& now) {
-  if (!has_results(folder)) return std::nullopt;
-  const auto before = read_record(folder);
-  if (!before) return before.error();
-  const auto differs =
-      before.value() ? difference(*before.value(), now) : std::optional<std::string>("it has no run.json");
-  if (!differs) return std::nullopt;
-  return Error{"folder_of_another_batch",
-               fmt::format("{}: holds results of another batch: {}; choose another folder with "
-                           "--out",
-                           one_line(folder.string()), *differs)};
-}
-
 /// Rows in the manifest's order, none left out and none twice.
 Result<BatchProgress> merge_rows(std::vector<ShardReader>& readers, std::size_t rows, FinalFiles& files) {
   BatchProgress progress;
@@ -153,18 +156,23 @@ Result<BatchProgress> merge_rows(std::vector<ShardReader>& readers, std::size_t 
                            last_row + 1)};
 }
 
-Result<BatchProgress> write_merged(const std::vector<fs::path>& shards, const fs::path& folder, std::size_t rows) {
+std::optional<Error> write_merged(const std::vector<fs::path>& shards, const fs::path& folder, RunRecord& record) {
   std::vector<ShardReader> readers;
   for (const fs::path& shard : shards) {
-    if (auto error = readers.emplace_back(shard).open()) return *error;
+    if (auto error = readers.emplace_back(shard).open()) return error;
   }
   auto opened = FinalFiles::open(folder);
   if (!opened) return opened.error();
   FinalFiles files = std::move(opened).value();
-  auto progress = merge_rows(readers, rows, files);
-  if (!progress) return progress;
-  if (auto error = files.finish()) return *error;
-  return progress;
+  const auto progress = merge_rows(readers, record.rows, files);
+  if (!progress) return progress.error();
+  const auto digests = files.finish();
+  if (!digests) return digests.error();
+  const double seconds = record.progress.seconds;
+  record.progress = progress.value();
+  record.progress.seconds = seconds;
+  record.digests = digests.value();
+  return std::nullopt;
 }
 
 }  // namespace
@@ -182,13 +190,15 @@ Result<BatchProgress> merge_batches(const std::vector<fs::path>& shards, const f
   }
   const auto lock = FolderLock::take(folder);
   if (!lock) return lock.error();
-  if (auto error = check_target(folder, record)) return *error;
-  auto progress = write_merged(shards, folder, record.rows);
-  if (!progress) return progress;
-  const double seconds = record.progress.seconds;
-  record.progress = progress.value();
-  record.progress.seconds = seconds;
+  const auto before = check_folder(folder);
+  if (!before) return before.error();
+  if (auto error = check_same_batch(folder, before.value(), record)) return *error;
+  record.finished = false;
   if (auto error = write_record(folder, record)) return *error;
+  if (auto error = write_merged(shards, folder, record)) return *error;
+  record.finished = true;
+  if (auto error = write_record(folder, record)) return *error;
+  remove_journal(folder);
   return record.progress;
 }
 

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <fstream>
+#include <limits>
 #include <system_error>
 #include <utility>
 
-#include "batch/digest.hpp"
 #include "batch/files.hpp"
 #include "io/csv_fields.hpp"
 #include "report/batch_html.hpp"
@@ -35,12 +36,19 @@ std::string page_name(const PageKey& key) {
   return fmt::format("{:05}-{}.html", key.slot + 1, name);
 }
 
+/// Of a page's name; beyond all slots where it is none.
+std::size_t slot_of(std::string_view name) {
+  std::size_t number = 0;
+  const auto read = std::from_chars(name.data(), name.data() + name.size(), number);
+  return read.ec == std::errc() ? number - 1 : std::numeric_limits<std::size_t>::max();
+}
+
 fs::path page_file(const BatchReport& report, const PageKey& key) {
   return report.file.parent_path() / kFolder / page_name(key);
 }
 
 std::string mark_of(std::string_view document) {
-  return fmt::format("<!-- slipfit.page/1 {:016x} ", digest(document));
+  return fmt::format("<!-- slipfit.page/1 {} ", digest_of(document).text());
 }
 
 /// Nothing but a page is replaced: an input stays as it is.
@@ -86,12 +94,12 @@ BatchPageFailure failure_of(const std::string& line) {
   return {cells[0], cells[1], cells[2]};
 }
 
-std::optional<Error> add_slot(BatchPage& page, const BatchReport& report, const Ledger& ledger, const PageKey& key) {
-  const Ledger::Kind kind = ledger.kind_of(key.slot);
-  if (kind == Ledger::Kind::Nothing) return std::nullopt;
-  const auto line = ledger.line_of(key.slot);
+std::optional<Error> add_slot(BatchPage& page, const BatchReport& report, const ResultLog& log, const PageKey& key) {
+  const ResultLog::Kind kind = log.kind_of(key.slot);
+  if (kind == ResultLog::Kind::Nothing) return std::nullopt;
+  const auto line = log.line_of(key.slot);
   if (!line) return line.error();
-  if (kind == Ledger::Kind::Failure) {
+  if (kind == ResultLog::Kind::Failure) {
     page.failures.push_back(failure_of(line.value()));
     return std::nullopt;
   }
@@ -108,10 +116,20 @@ std::optional<Error> add_slot(BatchPage& page, const BatchReport& report, const 
 
 }  // namespace
 
-std::optional<Error> prepare_pages(const BatchReport& report) {
+void remove_page_leftovers(const BatchReport& report, const WorkList& list) {
+  remove_leftovers(report.file.parent_path() / kFolder, [&](std::string_view name) {
+    const std::size_t slot = slot_of(name);
+    return slot < list.is_mine.size() && list.is_mine[slot];  // another shard may be at work beside this one
+  });
+}
+
+std::optional<Error> prepare_pages(const BatchReport& report, const WorkList& list) {
   const fs::path folder = report.file.parent_path();
   if (auto error = make_folder(folder.empty() ? "." : folder)) return error;
   if (auto error = make_folder(folder / kFolder)) return error;
+  remove_page_leftovers(report, list);
+  remove_leftovers(folder.empty() ? "." : folder,
+                   [&](std::string_view name) { return name == report.file.filename(); });
   return check_replaceable(report.file);
 }
 
@@ -129,13 +147,13 @@ std::optional<std::string> sparkline_on_page(const BatchReport& report, const Pa
 }
 
 std::optional<Error> write_index(const BatchReport& report, const fs::path& manifest, const WorkList& list,
-                                 const Ledger& ledger) {
+                                 const ResultLog& log) {
   BatchPage page{manifest.filename().string(), {}, {}};
   const auto add_entry = [&](const ManifestEntry& entry) {
-    return add_slot(page, report, ledger, {entry.row - 1, entry.id});
+    return add_slot(page, report, log, {entry.row - 1, entry.id});
   };
   const auto add_group = [&](std::size_t group) {
-    return add_slot(page, report, ledger, {list.slot_of_group(group), id_of_group(list.groups[group].name)});
+    return add_slot(page, report, log, {list.slot_of_group(group), id_of_group(list.groups[group].name)});
   };
   auto failed = for_each_result(manifest, list, add_entry, add_group);
   return failed ? failed : replace_page(report.file, to_html(page));

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "batch/ledger.hpp"
+#include "batch/result_log.hpp"
 #include "batch/work_list.hpp"
 #include "slipfit/batch/batch.hpp"
 #include "slipfit/core/result.hpp"
@@ -17,7 +17,10 @@
 namespace slipfit::batch {
 
 /// Errors: cannot_write; not_a_page where the index would replace a file that is none.
-std::optional<Error> prepare_pages(const BatchReport& report);
+std::optional<Error> prepare_pages(const BatchReport& report, const WorkList& list);
+
+/// What processes that were killed left of pages of this list.
+void remove_page_leftovers(const BatchReport& report, const WorkList& list);
 
 /// Whose page it is.
 struct PageKey {
@@ -32,8 +35,8 @@ std::optional<Error> write_page(const BatchReport& report, const PageKey& key, s
 /// From the page at hand; nothing where there is none that belongs to the document.
 std::optional<std::string> sparkline_on_page(const BatchReport& report, const PageKey& key, std::string_view document);
 
-/// Of what the ledger holds, in the manifest's order. Errors: those of ManifestReader, cannot_write, not_a_page.
+/// Of what the log holds, in the manifest's order. Errors: those of ManifestReader, cannot_write, not_a_page.
 std::optional<Error> write_index(const BatchReport& report, const std::filesystem::path& manifest, const WorkList& list,
-                                 const Ledger& ledger);
+                                 const ResultLog& log);
 
 }  // namespace slipfit::batch

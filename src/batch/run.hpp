@@ -1,29 +1,36 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
-#include <mutex>
+#include <cstddef>
+#include <functional>
+#include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "batch/crew.hpp"
-#include "batch/ledger.hpp"
 #include "batch/pages.hpp"
+#include "batch/process_pool.hpp"
+#include "batch/result_log.hpp"
 #include "batch/work_list.hpp"
+#include "batch/worker.hpp"
 #include "slipfit/batch/batch.hpp"
 #include "slipfit/core/result.hpp"
 
 namespace slipfit::batch {
 
-/// The work of one call of run_batch: what has no result yet is fitted on several threads and put into the ledger.
+/// The work of one call of run_batch: what has no result yet, or one of other bytes, is fitted in several processes and
+/// put into the log.
 class Run {
  public:
   /// All outlive the run.
-  Run(const BatchOptions& options, const BatchHooks& hooks, const WorkList& list, Ledger& ledger);
+  Run(const BatchOptions& options, const BatchHooks& hooks, const WorkList& list, ResultLog& log);
 
   /// Each returns when all is done, or after a stop. Errors: those of ManifestReader, cannot_write.
   std::optional<Error> fit_recordings();
   std::optional<Error> fit_groups();
+  /// Says which recordings were replaced, or are gone, since they were fitted.
+  void tell_replaced() const;
 
   [[nodiscard]] bool stopped() const { return stopped_; }
   [[nodiscard]] BatchProgress progress() const;
@@ -31,31 +38,36 @@ class Run {
  private:
   using Clock = std::chrono::steady_clock;
   using Members = std::vector<ManifestEntry>;
+  using Next = std::function<Result<std::optional<WorkItem>>()>;
 
-  /// No result yet, or no page where there shall be one.
-  [[nodiscard]] bool is_to_do(const PageKey& key) const;
-  std::optional<Task> next_recording(ManifestReader& reader);
-  std::optional<Task> task_for_group(std::size_t group, const Members& members);
+  std::optional<Error> work_through(const Next& next);
+  std::optional<Error> take_all(const Next& next);
+  std::optional<Error> take_answers();
+  std::optional<Error> wait_for_begun();
+  std::optional<Error> hand_out(const Next& next);
+  void begin(WorkItem item);
+  [[nodiscard]] double limit_of(const WorkItem& item) const;
+  std::optional<Error> take_in(const WorkItem& item, const Answer& answer);
+  std::optional<Error> take_result(std::size_t slot, std::string_view document);
+  std::optional<Error> take_failure(const WorkItem& item, const Error& failure);
   /// Of some groups, in the order of the work list.
   [[nodiscard]] Result<std::vector<Members>> members_of(std::size_t first_group, std::size_t count) const;
-  void take_in(const PageKey& key, const Result<BatchFit>& fit);
-  void keep(Error error);
-  [[nodiscard]] std::optional<Error> first_error();
-  Watch watch();
+  std::optional<Error> watch();
 
   const BatchOptions& options_;
   const BatchHooks& hooks_;
   const WorkList& list_;
-  Ledger& ledger_;
+  ResultLog& log_;
+  ProcessPool pool_;
+  std::map<std::size_t, WorkItem> in_hand_;  ///< by the number of the job
+  std::vector<WorkItem> alone_;              ///< whose process died: tried again when nothing else is at work
+  std::map<std::size_t, unsigned> deaths_;   ///< in this run, by slot
+  bool has_more_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_sync_ = start_;
-  std::size_t total_ = 0;
-  std::size_t before_ = 0;
-  std::atomic<std::size_t> fitted_ = 0;
-  std::atomic<std::size_t> failed_ = 0;
+  BatchProgress counts_;
+  std::vector<std::string> replaced_, gone_;  ///< ids
   bool stopped_ = false;
-  std::mutex error_mutex_;
-  std::optional<Error> error_;  ///< the first that keeps the batch from going on
 };
 
 }  // namespace slipfit::batch

@@ -52,6 +52,7 @@ Json to_json(const RunRecord& record) {
               {"options", Json::parse(record.options)},
               {"shard", {{"index", record.shard.index}, {"count", record.shard.count}}},
               {"jobs", record.jobs},
+              {"timeout_s", record.timeout_s},
               {"rows", record.rows},
               {"total", progress.total},
               {"before", progress.before},
@@ -59,7 +60,11 @@ Json to_json(const RunRecord& record) {
               {"failed", progress.failed},
               {"started", record.started},
               {"seconds", progress.seconds},
-              {"finished", record.finished}};
+              {"finished", record.finished},
+              {"digests",
+               {{"results", record.digests.results},
+                {"summary", record.digests.summary},
+                {"failures", record.digests.failures}}}};
 }
 
 RunRecord from_json(const Json& json) {
@@ -71,25 +76,30 @@ RunRecord from_json(const Json& json) {
   record.shard.index = json.at("shard").at("index").get<std::size_t>();
   record.shard.count = json.at("shard").at("count").get<std::size_t>();
   record.jobs = json.at("jobs").get<std::size_t>();
+  record.timeout_s = json.at("timeout_s").get<double>();
   record.rows = json.at("rows").get<std::size_t>();
   record.progress.total = json.at("total").get<std::size_t>();
   record.progress.failed = json.at("failed").get<std::size_t>();
   record.progress.seconds = json.at("seconds").get<double>();
   record.started = json.at("started").get<std::string>();
   record.finished = json.at("finished").get<bool>();
+  const Json& digests = json.at("digests");
+  record.digests = {digests.at("results").get<std::string>(), digests.at("summary").get<std::string>(),
+                    digests.at("failures").get<std::string>()};
   return record;
 }
 
 }  // namespace
 
-RunRecord begin_record(const BatchOptions& options, std::uint64_t manifest_digest, std::size_t rows) {
+RunRecord begin_record(const BatchOptions& options, const Digest& manifest_digest, std::size_t rows) {
   RunRecord record;
   record.version = SLIPFIT_VERSION;
   record.manifest = one_line(options.manifest.string());
-  record.manifest_digest = fmt::format("fnv1a-{:016x}", manifest_digest);
+  record.manifest_digest = manifest_digest.text();
   record.options = options_text(options);
   record.shard = options.shard;
   record.jobs = options.jobs;
+  record.timeout_s = options.timeout_s;
   record.rows = rows;
   record.started = utc_now();
   return record;

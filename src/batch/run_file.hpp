@@ -1,15 +1,20 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "slipfit/batch/batch.hpp"
+#include "slipfit/core/digest.hpp"
 #include "slipfit/core/result.hpp"
 
 namespace slipfit::batch {
+
+/// Of the files of a finished batch, as text; by them a damaged one is known.
+struct FileDigests {
+  std::string results, summary, failures;
+};
 
 /// What run.json says: what was run, and how far it came.
 struct RunRecord {
@@ -19,14 +24,16 @@ struct RunRecord {
   std::string options;  ///< JSON text of what changes the results
   Shard shard;
   std::size_t jobs = 1;
+  double timeout_s = 0.0;
   std::size_t rows = 0;  ///< of the whole manifest
   BatchProgress progress;
   std::string started;  ///< UTC, ISO 8601
   bool finished = false;
+  FileDigests digests;  ///< once it is finished
 };
 
 /// Of a run that begins now.
-RunRecord begin_record(const BatchOptions& options, std::uint64_t manifest_digest, std::size_t rows);
+RunRecord begin_record(const BatchOptions& options, const Digest& manifest_digest, std::size_t rows);
 
 std::optional<Error> write_record(const std::filesystem::path& folder, const RunRecord& record);
 

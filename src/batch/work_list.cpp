@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <unordered_map>
 #include <utility>
 
-#include "batch/digest.hpp"
 #include "batch/shards.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -69,7 +67,7 @@ class Pieces {
 };
 
 constexpr auto kWritten =
-    std::to_array<std::string_view>({"results.jsonl", "summary.csv", "failures.csv", "run.json", "lock"});
+    std::to_array<std::string_view>({"results.jsonl", "summary.csv", "failures.csv", "run.json", "journal", "lock"});
 
 /// The manifest or a recording that the batch would write over, by the same name or another (a link).
 std::optional<Error> check_not_written(const std::filesystem::path& input, const std::filesystem::path& folder) {
@@ -82,30 +80,22 @@ std::optional<Error> check_not_written(const std::filesystem::path& input, const
   return std::nullopt;
 }
 
-/// Five looks at the disk for each row would be too many: a recording is suspected by its name.
+/// Six looks at the disk for each row would be too many: a recording is suspected by its name.
 bool has_written_name(const ManifestEntry& entry) {
   return std::find(kWritten.begin(), kWritten.end(), entry.file.filename().string()) != kWritten.end();
 }
 
 /// Reads the manifest once more, to tell which ids stand in it twice.
-std::optional<Error> find_duplicate(const std::filesystem::path& manifest, std::vector<std::uint64_t> suspects) {
+std::optional<Error> find_duplicate(const std::filesystem::path& manifest, std::vector<Digest> suspects) {
+  if (suspects.empty()) return std::nullopt;
   std::unordered_map<std::string, std::size_t> lines;
   return for_each_entry(manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
-    if (!std::binary_search(suspects.begin(), suspects.end(), digest(entry.id))) return std::nullopt;
+    if (!std::binary_search(suspects.begin(), suspects.end(), digest_of(entry.id))) return std::nullopt;
     const auto [first, is_new] = lines.try_emplace(entry.id, entry.line);
     if (is_new) return std::nullopt;
     return Error{"duplicate_id", fmt::format("{}:{}: column 'id': '{}' stands in line {} too, expected another id",
                                              one_line(manifest.string()), entry.line, entry.id, first->second)};
   });
-}
-
-std::optional<Error> check_ids(const BatchOptions& options, const WorkList& list) {
-  std::vector<std::uint64_t> suspects = list.slots.repeated();
-  if (suspects.empty()) return std::nullopt;
-  if (auto error = find_duplicate(options.manifest, std::move(suspects))) return error;
-  return Error{"duplicate_id", one_line(options.manifest.string()) +
-                                   ": two ids have the same digest by chance; change the spelling of one (all ids with "
-                                   "a common letter in front will do)"};
 }
 
 }  // namespace
@@ -140,16 +130,10 @@ std::string id_of_group(const std::string& name) {
   return "group:" + name;
 }
 
-Result<std::uint64_t> file_digest(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string chunk(std::size_t{1} << 16, '\0');
-  std::uint64_t result = kEmptyDigest;
-  while (stream) {
-    stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-    result = digest(std::string_view(chunk.data(), static_cast<std::size_t>(stream.gcount())), result);
-  }
-  if (stream.eof()) return result;
-  return Error{"not_readable", one_line(file.string()) + ": reading failed; check the disk"};
+Result<Digest> manifest_digest(const std::filesystem::path& manifest) {
+  if (const auto digest = digest_of_file(manifest.string())) return *digest;
+  return Error{"not_readable", one_line(manifest.string()) +
+                                   ": is no regular file, or cannot be read; a batch reads its manifest several times"};
 }
 
 Result<WorkList> list_work(const BatchOptions& options) {
@@ -157,6 +141,9 @@ Result<WorkList> list_work(const BatchOptions& options) {
   GroupTable groups;
   Pieces pieces;
   const bool is_sharded = options.shard.count > 1;
+  const auto digest = manifest_digest(options.manifest);
+  std::error_code ignored;
+  if (!digest && std::filesystem::is_fifo(options.manifest, ignored)) return digest.error();  // reading it would block
   if (auto error = check_not_written(options.manifest, options.folder)) return *error;
   auto failed = for_each_entry(options.manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
     if (has_written_name(entry)) {
@@ -179,8 +166,7 @@ Result<WorkList> list_work(const BatchOptions& options) {
     list.is_mine.push_back(list.is_mine[list.groups[g].first_row - 1]);
   }
   list.slots.sort();
-  if (auto error = check_ids(options, list)) return *error;
-  const auto digest = file_digest(options.manifest);
+  if (auto error = find_duplicate(options.manifest, list.slots.repeated())) return *error;
   if (!digest) return digest.error();
   list.manifest_digest = digest.value();
   return list;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -10,6 +9,7 @@
 
 #include "batch/id_index.hpp"
 #include "slipfit/batch/batch.hpp"
+#include "slipfit/core/digest.hpp"
 #include "slipfit/core/result.hpp"
 
 namespace slipfit::batch {
@@ -24,7 +24,7 @@ struct Group {
 /// What a batch has to do. The entries are not kept but read again when they are needed. Rows count from 1. A slot is
 /// where the result of a row or a group is kept: rows first, then groups in the order of their last rows.
 struct WorkList {
-  std::uint64_t manifest_digest = 0;
+  Digest manifest_digest;
   std::size_t rows = 0;
   std::vector<bool> is_mine;  ///< of each slot: it is this shard's
   std::vector<Group> groups;  ///< fitted together; empty where groups are not fitted
@@ -48,7 +48,7 @@ std::optional<Error> for_each_result(const std::filesystem::path& manifest, cons
 /// "group:NAME", the id of a group's result.
 std::string id_of_group(const std::string& name);
 
-/// Of a file's bytes. Error: not_readable.
-Result<std::uint64_t> file_digest(const std::filesystem::path& file);
+/// Error: not_readable, also of a pipe.
+Result<Digest> manifest_digest(const std::filesystem::path& manifest);
 
 }  // namespace slipfit::batch

@@ -73,6 +73,8 @@ std::optional<Error> check_rows(const Rows& rows, const RowPlan& plan, const std
 Provenance describe_rows(const Rows& rows, const RowPlan& plan, const std::string& file) {
   Provenance provenance;
   provenance.file = file;
+  provenance.input_digest = rows.digest;
+  provenance.input_bytes = rows.bytes;
   provenance.assumed = plan.choice.assumed;
   provenance.rows_without_number = rows.without_number;
   provenance.rows_backward_in_time = rows.backward;

@@ -223,12 +223,16 @@ void RowReader::keep(const Reading& reading, unsigned number) {
 
 Rows read_rows(const std::string& file, std::unique_ptr<TextSource> source, const RowPlan& plan) {
   RowReader reader(plan);
+  const std::shared_ptr<const Digester> digester = source->digester();
   ::io::LineReader lines(file.c_str(), std::move(source));
   while (const char* line = lines.next_line()) {
     const unsigned number = lines.get_file_line();
     if (number >= plan.layout.first_data_line) reader.add(line, number);
   }
-  return reader.finish();
+  Rows rows = reader.finish();
+  rows.digest = digester->digest();
+  rows.bytes = digester->bytes();
+  return rows;
 }
 
 }  // namespace slipfit::reading

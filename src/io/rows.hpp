@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,8 @@ struct Rows {
   unsigned first_backward_line = 0;
   unsigned first_text_line = 0;
   std::optional<TimeWindow> clock;  ///< where a window was asked for: what the clock covers inside and outside it
+  Digest digest;                    ///< of the whole file
+  std::uint64_t bytes = 0;
 };
 
 /// One pass, 16 bytes a sample and the reader's own buffer. Throws what LineReader and its source throw; `file` is the

@@ -99,6 +99,7 @@ Result<std::unique_ptr<TextSource>> TextSource::open(const std::filesystem::path
   source->raw_.resize(std::fread(source->raw_.data(), 1, kProbe, source->file_.get()));
   if (std::ferror(source->file_.get()) != 0) return open_error(name, errno);
   if (source->raw_.empty()) return Error{"empty_file", name + ": the file is empty; export the recording again"};
+  source->digester_->add(source->raw_);
   source->detect_encoding();
   if (!source->is_utf16() && looks_binary(source->raw_)) {
     return Error{
@@ -136,6 +137,7 @@ std::size_t TextSource::read_raw(char* buffer, std::size_t size) {
   if (kept == size) return size;
   const std::size_t got = std::fread(buffer + kept, 1, size - kept, file_.get());
   if (std::ferror(file_.get()) != 0) throw std::system_error(errno, std::generic_category(), "reading failed");
+  digester_->add({buffer + kept, got});
   return kept + got;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "io/line_reader.hpp"
+#include "slipfit/core/digest.hpp"
 #include "slipfit/core/result.hpp"
 
 namespace slipfit::reading {
@@ -27,6 +28,8 @@ class TextSource final : public ::io::ByteSourceBase {
   [[nodiscard]] bool head_is_everything() const { return ended_; }
   /// Of the text, not exact; 0 where the file does not say (a pipe).
   [[nodiscard]] std::size_t estimated_size() const { return estimated_size_; }
+  /// Of the file's bytes as they are read; it outlives the source, which a LineReader takes.
+  [[nodiscard]] std::shared_ptr<const Digester> digester() const { return digester_; }
   [[nodiscard]] bool is_utf16() const { return encoding_ != Encoding::Bytes; }
 
   int read(char* buffer, int size) override;
@@ -45,6 +48,7 @@ class TextSource final : public ::io::ByteSourceBase {
   std::size_t fill(char* buffer, std::size_t size);
 
   std::unique_ptr<std::FILE, CloseFile> file_;
+  std::shared_ptr<Digester> digester_ = std::make_shared<Digester>();
   Encoding encoding_ = Encoding::Bytes;
   std::string raw_;  ///< read while opening
   std::size_t raw_used_ = 0;

@@ -28,7 +28,10 @@ Json quality_json(const Recording& recording, const Quality& quality) {
 
 Json recording_json(const Recording& recording, const Quality& quality) {
   const Conditions& conditions = recording.conditions();
-  return Json{{"file", recording.provenance().file},
+  const Provenance& provenance = recording.provenance();
+  return Json{{"file", provenance.file},
+              {"input_digest", provenance.input_digest ? Json(provenance.input_digest->text()) : Json()},
+              {"input_bytes", provenance.input_bytes ? Json(*provenance.input_bytes) : Json()},
               {"samples", recording.size()},
               {"sample_rate_Hz", number(1.0 / recording.sample_interval_s())},
               {"duration_s", number(recording.duration_s())},
@@ -41,7 +44,7 @@ Json recording_json(const Recording& recording, const Quality& quality) {
               {"mass_kg", number(conditions.mass_kg)},
               {"sensor_bandwidth_Hz", number(conditions.sensor_bandwidth_Hz)},
               {"sensor_resonance_Hz", number(conditions.sensor_resonance_Hz)},
-              {"assumed", recording.provenance().assumed},
+              {"assumed", provenance.assumed},
               {"quality", quality_json(recording, quality)}};
 }
 

@@ -1,5 +1,10 @@
-#include <atomic>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "manifests.hpp"
@@ -17,7 +22,8 @@ namespace {
 
 /// Stands in for a joint fit: a document that lists the members.
 Result<BatchFit> list_members(const std::string& id, const std::vector<ManifestEntry>& members) {
-  nlohmann::ordered_json document{{"id", id}, {"status", "stick_slip"}, {"members", nlohmann::json::array()}};
+  nlohmann::ordered_json document{
+      {"schema", "slipfit.fit/1"}, {"id", id}, {"status", "stick_slip"}, {"members", nlohmann::json::array()}};
   for (const ManifestEntry& member : members) document["members"].push_back(member.id);
   return BatchFit{document.dump(), {}, {}};
 }
@@ -101,16 +107,55 @@ TEST_CASE("a fit that throws is that recording's failure") {
   CHECK_THAT(files_in(scene.path("out")).failures, Catch::Contains("group:g0,out_of_memory,"));
 }
 
+TEST_CASE("a fit that ends its process is tried three times, and touches no other") {
+  const BatchScene scene(6);
+  BatchOptions options = options_for(scene, "out");
+  options.fit_group = [&scene](const std::string& id, const std::vector<ManifestEntry>& members) -> Result<BatchFit> {
+    if (id != "group:g1") return list_members(id, members);
+    std::ofstream(scene.path("tries"), std::ios::app) << "x";
+    (void)std::raise(SIGKILL);
+    return list_members(id, members);
+  };
+  run_ok(options, 1);
+  CHECK(test::content_of(scene.path("tries")) == "xxx");
+  CHECK(ids_in(scene.path("out")).size() == 7);
+  CHECK_THAT(files_in(scene.path("out")).failures,
+             Catch::Contains("\ngroup:g1,crashed,") && Catch::Contains("3 times (signal 9, Killed)"));
+}
+
+TEST_CASE("what is thrown ends no batch") {
+  const BatchScene scene(3);
+  BatchOptions options = options_for(scene, "out");
+  options.fit_group = [](const std::string&, const std::vector<ManifestEntry>&) -> Result<BatchFit> { throw 1; };
+  run_ok(options, 2);
+  CHECK_THAT(files_in(scene.path("out")).failures, Catch::Contains("group:g0,internal_error,"));
+}
+
+TEST_CASE("a fit that takes longer than the timeout has failed; a group has the time of its members") {
+  const BatchScene scene(6);  // g0: 0 3, g1: 1 4
+  BatchOptions options = options_for(scene, "out");
+  options.timeout_s = 1.0;
+  options.fit_group = [](const std::string& id, const std::vector<ManifestEntry>& members) {
+    ::usleep(id == "group:g1" ? 20'000'000 : 1'300'000);
+    return list_members(id, members);
+  };
+  const auto start = std::chrono::steady_clock::now();
+  run_ok(options, 1);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(15));
+  CHECK_THAT(files_in(scene.path("out")).failures,
+             Catch::Contains("\ngroup:g1,timed_out,") && Catch::Contains("after 2 s"));
+  CHECK(ids_in(scene.path("out")).size() == 7);
+}
+
 TEST_CASE("a batch that is told to stop finishes what has begun, and can be gone on with") {
   const BatchScene scene(8);
   BatchOptions options = options_for(scene, "out");
-  std::atomic<bool> stop = false;
-  options.fit_group = [&stop](const std::string& id, const std::vector<ManifestEntry>& members) {
-    stop = true;
+  options.fit_group = [&scene](const std::string& id, const std::vector<ManifestEntry>& members) {
+    (void)scene.file("stop", "");  // it runs in another process
     return list_members(id, members);
   };
   slipfit::BatchHooks hooks;
-  hooks.should_stop = [&stop] { return stop.load(); };
+  hooks.should_stop = [&scene] { return std::filesystem::exists(scene.path("stop")); };
   const auto stopped = slipfit::run_batch(options, hooks);
   REQUIRE(stopped.ok());
   CHECK(stopped.value().end == slipfit::BatchEnd::Stopped);

@@ -83,7 +83,28 @@ TEST_CASE("a merge of what does not belong together is refused") {
   REQUIRE(merge(shards, out).exit_code == 0);
   CHECK(merge(shards, out).exit_code == 0);  // a merge job that Slurm starts twice
   std::filesystem::remove(shards[1] + "/summary.csv");
-  check_refused({"merge", shards[0], shards[1], "--out", out}, "not complete");
+  check_refused({"merge", shards[0], shards[1], "--out", out}, "summary.csv: was damaged or changed");
+}
+
+TEST_CASE("a shard that is not as it was written is refused") {
+  const BatchScene scene(4);
+  const auto shards = run_shards(scene, 2);
+  const std::string file = shards[0] + "/results.jsonl";
+  const std::string written = test::content_of(file);
+  const auto lines = test::lines_of(written);
+  REQUIRE(lines.size() == 2);
+  std::string number = written;
+  number[number.find(R"("value":1)") + 8] = '2';
+  const std::string other = test::content_of(shards[1] + "/results.jsonl");
+  for (const std::string& damaged :
+       {written.substr(0, written.size() - 20), lines[1] + "\n" + lines[0] + "\n", number, "[" + written, other}) {
+    (void)scene.file("shard1/results.jsonl", damaged);
+    check_refused({"merge", shards[0], shards[1], "--out", scene.path("merged")}, "damaged or changed");
+  }
+  (void)scene.file("shard1/results.jsonl", written);
+  (void)scene.file("shard1/summary.csv", test::content_of(shards[0] + "/summary.csv") + "\n");
+  check_refused({"merge", shards[0], shards[1], "--out", scene.path("merged")}, "summary.csv: was damaged or changed");
+  CHECK_FALSE(std::filesystem::exists(scene.path("merged")));
 }
 
 TEST_CASE("shards that were cut at different sizes of the files are noticed") {

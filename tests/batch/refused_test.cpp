@@ -95,6 +95,9 @@ TEST_CASE("a full disk ends a batch with one line, and the folder can be gone on
   CHECK(test::lines_in(run.err) == 1);
   CHECK_THAT(run.err, Catch::Contains("results.jsonl: cannot be written") && Catch::Contains("--resume"));
   CHECK(test::content_of(scene.path("small/results.jsonl")).back() != '\n');
+  for (const auto& entry : std::filesystem::directory_iterator(scene.path("small"))) {
+    CHECK_THAT(entry.path().filename().string(), !Catch::EndsWith(".new"));
+  }
   CHECK(batch(scene.manifest(), scene.path("small"), {"--resume"}).exit_code == 0);
   CHECK(test::files_in(scene.path("small")) == test::files_in(scene.path("out")));
 }
@@ -137,4 +140,45 @@ TEST_CASE("the folder of another batch is refused, and --resume says why") {
   std::filesystem::remove(out + "/run.json");
   check_refused({"batch", scene.manifest(), "--out", out, "--resume"}, "without the run.json");
   CHECK(test::files_in(out) == before);
+}
+
+TEST_CASE("files of the names of a batch that no batch wrote stay as they are") {
+  const BatchScene scene(2);
+  REQUIRE(batch(scene.manifest(), scene.path("shard"), {"--shard", "1/1"}).exit_code == 0);
+  for (const std::string name : {"results.jsonl", "summary.csv", "failures.csv", "run.json", "journal", "lock"}) {
+    CAPTURE(name);
+    const test::TemporaryFolder own;
+    const std::string content = "my own, for years\n";
+    (void)own.file(name, content);
+    for (const std::string option : {"--quiet", "--resume"}) {
+      check_refused({"batch", scene.manifest(), "--out", own.path(""), option}, "choose another");
+    }
+    check_refused({"merge", scene.path("shard"), "--out", own.path("")}, "choose another");
+    CHECK(own.names() == std::vector<std::string>{name});
+    CHECK(test::content_of(own.path(name)) == content);
+  }
+}
+
+TEST_CASE("symbolic links in the folder of a batch are not followed") {
+  const BatchScene scene(2);
+  const std::string victim = scene.file("victim", "precious\n");
+  for (const std::string name : {"results.jsonl", "summary.csv", "failures.csv", "run.json", "journal", "lock"}) {
+    CAPTURE(name);
+    const test::TemporaryFolder own;
+    std::filesystem::create_symlink(victim, own.path(name));
+    check_refused({"batch", scene.manifest(), "--out", own.path("")}, "symbolic link");
+    CHECK(test::content_of(victim) == "precious\n");
+    CHECK(own.names() == std::vector<std::string>{name});
+  }
+  REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 0);
+  std::filesystem::remove(scene.path("out/failures.csv"));
+  std::filesystem::create_symlink(victim, scene.path("out/failures.csv"));
+  check_refused({"batch", scene.manifest(), "--out", scene.path("out"), "--resume"}, "symbolic link");
+  CHECK(test::content_of(victim) == "precious\n");
+}
+
+TEST_CASE("a manifest that is a pipe is refused and not waited for") {
+  const BatchScene scene(1);
+  REQUIRE(test::run_program("mkfifo", {scene.path("pipe")}).exit_code == 0);
+  check_refused({"batch", scene.path("pipe"), "--out", scene.path("out")}, "no regular file");
 }

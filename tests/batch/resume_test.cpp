@@ -3,6 +3,7 @@
 
 #include "manifests.hpp"
 #include "refusal.hpp"
+#include "slipfit/core/digest.hpp"
 
 using test::batch;
 using test::BatchScene;
@@ -13,6 +14,16 @@ using test::lines_of;
 
 namespace {
 
+/// As the journal of an unfinished batch has them.
+std::string journal_of(const std::vector<std::string>& lines) {
+  std::string journal;
+  for (std::size_t slot = 0; slot < lines.size(); ++slot) {
+    journal += "begin " + std::to_string(slot) + "\ndone " + std::to_string(slot) + " " +
+               slipfit::digest_of(lines[slot]).text() + "\n";
+  }
+  return journal;
+}
+
 /// A finished batch, and what a kill would leave of it.
 class Interrupted {
  public:
@@ -22,17 +33,22 @@ class Interrupted {
   }
 
   /// Goes on from these bytes of results.jsonl, and demands the files of the whole run.
-  void check_resumed_from(const std::string& results) const {
+  void check_resumed_from(const std::string& results, const std::string& more_journal = "begin 0\nbeg") const {
+    auto unfinished = nlohmann::ordered_json::parse(content_of(scene_.path("out/run.json")));
+    unfinished["finished"] = false;
+    (void)scene_.file("out/run.json", unfinished.dump());
+    (void)scene_.file("out/journal", journal_of(lines_of(whole_.results)) + more_journal);
     std::filesystem::remove(scene_.path("out/summary.csv"));
     (void)scene_.file("out/results.jsonl", results);
     (void)scene_.file("out/failures.csv", "id,co");
-    (void)scene_.file("out/lock", "process 1 on nowhere");
-    (void)scene_.file("out/.results.jsonl.new", "left over");
+    (void)scene_.file("out/lock", "slipfit batch, process 1 on nowhere");
+    (void)scene_.file("out/.results.jsonl.a1B2c3.new", "left over");
     const auto run = batch(scene_.manifest(), scene_.path("out"), {"--resume", "--jobs", "2"});
     CAPTURE(run.err, results.size());
     CHECK(run.exit_code == 0);
     CHECK(files_in(scene_.path("out")) == whole_);
-    CHECK_FALSE(std::filesystem::exists(scene_.path("out/.results.jsonl.new")));
+    CHECK_FALSE(std::filesystem::exists(scene_.path("out/.results.jsonl.a1B2c3.new")));
+    CHECK_FALSE(std::filesystem::exists(scene_.path("out/journal")));
     CHECK_FALSE(std::filesystem::exists(scene_.path("out/lock")));
   }
 
@@ -80,6 +96,60 @@ TEST_CASE("a resumed batch does not do again what is there") {
   CHECK(run.record()["fitted"] == 2);
 }
 
+TEST_CASE("an altered line is done again, whatever was altered in it") {
+  const Interrupted run(4);
+  const auto lines = lines_of(run.results());
+  const auto with = [&](std::size_t line, std::string from, const std::string& to) {
+    auto altered = lines;
+    const std::size_t place = altered[line].find(from);
+    REQUIRE(place != std::string::npos);
+    altered[line].replace(place, from.size(), to);
+    return altered[0] + "\n" + altered[1] + "\n" + altered[2] + "\n" + altered[3] + "\n";
+  };
+  const std::string number = R"("value":1)";
+  run.check_resumed_from(with(1, number, R"("value":2)"));
+  CHECK(run.record()["before"] == 3);
+  run.check_resumed_from(with(1, R"("id":"r1")", R"("id":"r2")"));
+  CHECK(run.record()["before"] == 3);
+  run.check_resumed_from(with(2, R"("id":"r2")", R"("id":"stranger")"));
+  run.check_resumed_from(with(2, "{", "["));
+}
+
+TEST_CASE("where results.jsonl of a finished batch was altered, it is said and done again") {
+  const BatchScene scene(3);
+  REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 0);
+  const auto whole = files_in(scene.path("out"));
+  std::string altered = whole.results;
+  altered[altered.find(R"("value":1)") + 8] = '2';
+  (void)scene.file("out/results.jsonl", altered);
+  const auto run = batch(scene.manifest(), scene.path("out"), {"--resume"});
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Catch::Contains("not in results.jsonl as they were written"));
+  CHECK(files_in(scene.path("out")) == whole);
+}
+
+TEST_CASE("a recording at which the process died three times has failed, and is tried again when all is done") {
+  const BatchScene scene(3);
+  REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 0);
+  const auto whole = files_in(scene.path("out"));
+  const auto leave = [&](const std::string& journal) {
+    auto record = nlohmann::ordered_json::parse(content_of(scene.path("out/run.json")));
+    record["finished"] = false;
+    (void)scene.file("out/run.json", record.dump());
+    (void)scene.file("out/results.jsonl", "");
+    (void)scene.file("out/journal", journal);
+  };
+  leave("begin 1\nbegin 1\n");
+  CHECK(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 0);
+  CHECK(files_in(scene.path("out")) == whole);
+  leave("begin 1\nbegin 1\nbegin 2\nend 2\nbegin 1\n");
+  CHECK(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 1);
+  CHECK(lines_of(files_in(scene.path("out")).results).size() == 2);
+  CHECK_THAT(files_in(scene.path("out")).failures, Catch::Contains("\nr1,crashed,") && Catch::Contains("3 times"));
+  CHECK(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 0);
+  CHECK(files_in(scene.path("out")) == whole);
+}
+
 TEST_CASE("a folder that is empty, or holds nothing but a beginning, starts afresh") {
   const BatchScene scene(2);
   REQUIRE(batch(scene.manifest(), scene.path("whole")).exit_code == 0);
@@ -87,7 +157,6 @@ TEST_CASE("a folder that is empty, or holds nothing but a beginning, starts afre
   CHECK(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 0);
   CHECK(files_in(scene.path("out")) == files_in(scene.path("whole")));
   (void)scene.file("out/results.jsonl", "{\"schema\":\"slipf");
-  (void)scene.file("out/run.json", "{\"torn");
   CHECK(batch(scene.manifest(), scene.path("out")).exit_code == 0);
   CHECK(files_in(scene.path("out")) == files_in(scene.path("whole")));
 }
@@ -135,5 +204,5 @@ TEST_CASE("two batches on one folder exclude each other") {
   const auto run = test::run_program("sh", {"-c", both, SLIPFIT_EXECUTABLE, long_manifest(scene), scene.path("out")});
   CAPTURE(run.err);
   CHECK(run.exit_code == 2);
-  CHECK_THAT(run.err, Catch::Contains("is working in this folder") && Catch::Contains("process "));
+  CHECK_THAT(run.err, Catch::Contains("lock: in use by process ") && Catch::Contains(" on "));
 }

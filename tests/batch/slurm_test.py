@@ -145,9 +145,9 @@ def kill_one_task(folder):
         for lock in folder.glob(f"results/shard-*-of-{SHARDS}/lock"):
             words = lock.read_text().split() if lock.exists() else []
             results = lock.parent / "results.jsonl"
-            if len(words) > 1 and results.exists() and results.stat().st_size > 0:
+            if len(words) > 3 and results.exists() and results.stat().st_size > 0:
                 try:
-                    os.kill(int(words[1]), signal.SIGKILL)
+                    os.kill(int(words[3]), signal.SIGKILL)
                 except ProcessLookupError:
                     continue
                 return lock.parent.name

@@ -231,7 +231,103 @@ def links(arguments, folder):
     return "refused where they are the input"
 
 
-CHECKS = [too_little_memory, full_disk, small_disk, small_files_only, endless_line, many_columns, many_rows, odd_names, links]
+def batch(arguments, folder, out, *options, **limits):
+    return run([arguments.slipfit, "batch", os.path.join(folder, "runs.csv"), "--out", out, "--resume", "--quiet", *options], **limits)
+
+
+def write_batch(arguments, folder):
+    """Eight recordings, and what an undisturbed batch makes of them."""
+    for i in range(8):
+        model = "--stiffness 1000 --natural-frequency 200 --damping-ratio 0.05 --static-friction 6 --kinetic-friction 4".split()
+        options = f"--speed 0.02 --duration 1 --sample-rate 1000 --noise 0.02 --seed {i + 1} --quiet".split()
+        subprocess.run([arguments.slipfit, "simulate", *model, *options, "--out", f"{folder}/r{i}.csv"], check=True)
+    pathlib.Path(folder, "runs.csv").write_text("id,file,speed_m_per_s\n" + "".join(f"x{i},r{i}.csv,0.02\n" for i in range(8)))
+    whole = os.path.join(folder, "whole")
+    demand(batch(arguments, folder, whole, "--report", whole + "/pages/index.html").returncode == 0, "the undisturbed batch")
+    return contents(whole)
+
+
+def contents(out):
+    """Of every file but run.json."""
+    return {str(file.relative_to(out)): file.read_bytes() for file in sorted(pathlib.Path(out).rglob("*"))
+            if file.is_file() and file.name != "run.json"}
+
+
+def batch_on_small_disk(arguments, folder, options, larger, sizes):
+    """A batch on file systems that fill up at ever later places; enlarged, --resume brings the files of an undisturbed one."""
+    whole = write_batch(arguments, folder)
+    disk = os.path.join(folder, "disk")
+    os.mkdir(disk)
+    failed = 0
+    for size in sizes:
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", options.format(size), "tmpfs", disk], capture_output=True, check=False)
+        if mounted.returncode != 0:
+            return "skipped: no right to mount"
+        try:
+            out = os.path.join(disk, "out")
+            result = batch(arguments, folder, out, "--report", out + "/pages/index.html")
+            if result.returncode != 0:
+                failed += 1
+                demand_error(result, 2, "No space left")
+                left = [str(file) for file in pathlib.Path(disk).rglob(".*.new")]
+                demand(not left, f"left over: {left}")
+            subprocess.run(["mount", "-o", "remount," + larger, disk], check=True)
+            result = batch(arguments, folder, out, "--report", out + "/pages/index.html")
+            demand(result.returncode == 0, f"--resume at {size}: {result.stderr[:300]}")
+            demand(contents(out) == whole, f"the files after a disk of {size} are not those of an undisturbed batch")
+        finally:
+            subprocess.run(["umount", disk], check=True)
+    return f"{failed} of {len(sizes)} runs met the end of the disk with one line; --resume brought the same files in all"
+
+
+def batch_full_disk(arguments, folder):
+    step = 64 if arguments.long else 512
+    return batch_on_small_disk(arguments, folder, "size={}k", "size=64m", list(range(8, 4096, step)))
+
+
+def batch_without_inodes(arguments, folder):
+    return batch_on_small_disk(arguments, folder, "nr_inodes={}", "nr_inodes=1000", list(range(2, 24, 1 if arguments.long else 4)))
+
+
+def batch_little_memory(arguments, folder):
+    """From what just starts the program: never an abort; recordings that found no memory are failures, fitted by --resume."""
+    whole = write_batch(arguments, folder)
+    if run([arguments.slipfit, "--version"], memory=1 << 30).returncode != 0:
+        return "skipped: this program reserves addresses without limit (sanitizers)"
+    said = {}
+    for megabytes in range(40, 400, 12 if arguments.long else 60):
+        out = os.path.join(folder, f"out{megabytes}")
+        result = batch(arguments, folder, out, "--jobs", "64", memory=megabytes * MEGABYTE)
+        demand(result.returncode in (0, 1, 2, 3, 127), f"{megabytes} MB: exit {result.returncode}: {result.stderr[:300]}")
+        said[result.returncode] = said.get(result.returncode, 0) + 1
+        result = batch(arguments, folder, out, "--report", out + "/pages/index.html")
+        demand(result.returncode == 0 and contents(out) == whole, f"--resume after {megabytes} MB: {result.stderr[:300]}")
+    return "exit codes and how often: " + str(said)
+
+
+def batch_of_another_user(arguments, folder):
+    """A lock that another user holds is told with process, host and user."""
+    if os.getuid() != 0:
+        return "skipped: not root"
+    write_batch(arguments, folder)
+    os.chmod(folder, 0o755)
+    out = os.path.join(folder, "out")
+    os.mkdir(out)
+    os.chmod(out, 0o777)
+    hold = ("import fcntl, os, sys, time; os.setuid(54321); f = open(sys.argv[1], 'w'); fcntl.lockf(f, fcntl.LOCK_EX); "
+            "f.write('slipfit batch, process %d on here' % os.getpid()); f.flush(); print(os.getpid(), flush=True); time.sleep(600)")
+    holder = subprocess.Popen([sys.executable, "-c", hold, out + "/lock"], stdout=subprocess.PIPE, text=True)
+    try:
+        process = holder.stdout.readline().strip()
+        result = batch(arguments, folder, out)
+        demand_error(result, 2, f"process {process}", "on here", "54321")
+        return result.stderr.decode().strip()
+    finally:
+        holder.kill()
+        holder.wait()
+
+
+CHECKS = [batch_full_disk, batch_without_inodes, batch_little_memory, batch_of_another_user, too_little_memory, full_disk, small_disk, small_files_only, endless_line, many_columns, many_rows, odd_names, links]
 
 
 def main():

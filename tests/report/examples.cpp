@@ -21,6 +21,8 @@ slipfit::Recording small_recording(slipfit::ForceQuantity quantity, const std::s
   conditions.quantity = quantity;
   slipfit::Provenance provenance;
   provenance.file = file;
+  provenance.input_digest = slipfit::digest_of("abc");
+  provenance.input_bytes = 3;
   provenance.assumed = {"time in seconds"};
   provenance.warnings = {{"rows_left_out", "two rows were left out"}};
   provenance.rows_without_number = 2;

@@ -57,7 +57,7 @@ struct Sweep {
   [[nodiscard]] html::Exhibit spacing_exhibit() const {
     return html::sweep_spacing_exhibit({entries, analysis, prediction});
   }
-  [[nodiscard]] std::string page() const { return to_html(entries, analysis, prediction, {"dry", {}, {}}); }
+  [[nodiscard]] std::string page() const { return to_html(entries, analysis, prediction, {"dry", {}}); }
 };
 
 }  // namespace

@@ -33,7 +33,7 @@ struct BatchFit {
   std::string sparkline;  ///< the trace as a small SVG path; empty: none
 };
 
-/// Fits the recordings of a group together; the document's id is `id`. Called from several threads.
+/// Fits the recordings of a group together; the document's id is `id`. Called in other processes.
 using GroupFit = std::function<Result<BatchFit>(const std::string& id, const std::vector<ManifestEntry>& members)>;
 
 /// The joint fit (slipfit/sweep.hpp) as `slipfit fit --joint --json` writes it, with its page where there is a report.
@@ -43,8 +43,9 @@ struct BatchOptions {
   std::filesystem::path manifest;
   std::filesystem::path folder;  ///< of the results; made where it is missing
   FitOptions fit;
-  std::size_t jobs = 1;  ///< recordings at a time, >= 1
-  bool resume = false;   ///< go on with what the folder holds
+  std::size_t jobs = 1;      ///< recordings at a time, >= 1
+  double timeout_s = 600.0;  ///< of a recording; a group has that of its recordings together
+  bool resume = false;       ///< go on with what the folder holds
   Shard shard;
   GroupFit fit_group;  ///< empty: recordings on their own only
   std::optional<BatchReport> report;
@@ -60,7 +61,8 @@ struct BatchProgress {
 
 /// How a batch talks to its caller; each may be empty. All are called from the thread that called run_batch.
 struct BatchHooks {
-  std::function<bool()> should_stop;  ///< asked ten times a second; recordings in flight are still finished
+  std::function<bool()>
+      should_stop;  ///< asked ten times a second; recordings in flight have a second to come to their end
   std::function<void(const BatchProgress&)> show_progress;
   std::function<void(const std::string&)> tell;
 };
@@ -74,14 +76,16 @@ struct BatchOutcome {
 
 /// Fits every recording of a manifest on its own (and every group together) and writes results.jsonl, summary.csv,
 /// failures.csv and run.json as docs/formats.md says. A recording that fails is a row of failures.csv and no error.
-/// Memory: the recordings in flight and at most 60 bytes a row, with a report 1.5 kB. After a stop, an error or a kill
-/// at any moment, `resume` goes on. Errors: those of ManifestReader, duplicate_id, empty_manifest, folder_in_use,
+/// Fits run in child processes (fork): the calling process should have no other threads at work. One that crashes,
+/// hangs or takes too much memory fails alone. Memory: the recordings in flight and at most 80 bytes a row, with a
+/// report 1.5 kB. After a stop, an error or a kill at any moment, `resume` goes on; what was fitted of other bytes than
+/// a file holds now is fitted again. Errors: those of ManifestReader, duplicate_id, empty_manifest, folder_in_use,
 /// folder_of_another_batch, results_present, manifest_changed, not_a_page, cannot_write.
 Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& hooks = {});
 
 /// Puts the finished shards of one batch together, in the manifest's order: the files that one machine would have
-/// written. The progress counts their recordings. Errors: not_a_batch, not_finished, shards_differ, shards_missing,
-/// folder_in_use, folder_of_another_batch, cannot_write.
+/// written. The progress counts their recordings. Errors: not_a_batch, not_finished, not_as_written, shards_differ,
+/// shards_missing, folder_in_use, folder_of_another_batch, cannot_write.
 Result<BatchProgress> merge_batches(const std::vector<std::filesystem::path>& shards,
                                     const std::filesystem::path& folder);
 

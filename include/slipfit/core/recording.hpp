@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "slipfit/core/digest.hpp"
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/result.hpp"
 
@@ -36,11 +38,13 @@ struct Conditions {
 /// Where the numbers came from and what the reader had to assume, count or leave out.
 struct Provenance {
   std::string file;
-  std::vector<std::string> assumed;       ///< sentences, in the order of the decisions
-  Warnings warnings;                      ///< found while reading (speed against displacement, backward time, ...)
-  std::size_t rows_without_number = 0;    ///< nan, inf, empty or text cells in the chosen columns: left out
-  std::size_t rows_backward_in_time = 0;  ///< left out
-  std::size_t rows_repeating_time = 0;    ///< kept: same time stamp as the row before
+  std::optional<Digest> input_digest;        ///< of the bytes that were parsed; empty: not from a file
+  std::optional<std::uint64_t> input_bytes;  ///< their number
+  std::vector<std::string> assumed;          ///< sentences, in the order of the decisions
+  Warnings warnings;                         ///< found while reading (speed against displacement, backward time, ...)
+  std::size_t rows_without_number = 0;       ///< nan, inf, empty or text cells in the chosen columns: left out
+  std::size_t rows_backward_in_time = 0;     ///< left out
+  std::size_t rows_repeating_time = 0;       ///< kept: same time stamp as the row before
 };
 
 /// Time and tangential force of one run: at least 2 samples, all finite, time never decreasing and not constant.

@@ -12,8 +12,7 @@ namespace slipfit {
 
 /// What a reader needs to repeat the analysis, beside the recording's own conditions.
 struct ReportOrigin {
-  std::string command_line;                ///< as typed; empty: not by command line
-  std::optional<std::string> file_sha256;  ///< of the recording's file
+  std::string command_line;  ///< as typed; empty: not by command line
 };
 
 /// One self-contained page: no network, readable on paper (docs/report.md). `analysis` should hold the fitted curve

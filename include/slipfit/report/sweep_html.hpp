@@ -12,9 +12,8 @@ namespace slipfit {
 
 /// What a reader needs to repeat a joint fit.
 struct SweepOrigin {
-  std::string name;                                     ///< of the group or the manifest
-  std::string command_line;                             ///< as typed; empty: not by command line
-  std::vector<std::optional<std::string>> file_sha256;  ///< of each recording's file, in the order of the entries
+  std::string name;          ///< of the group or the manifest
+  std::string command_line;  ///< as typed; empty: not by command line
 };
 
 /// One self-contained page of a speed sweep: shared parameters, spacing and friction over speed, what a fit without

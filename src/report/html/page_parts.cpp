@@ -221,8 +221,8 @@ std::string repeat_part(const Source& source, const ReportOrigin& origin) {
   const Provenance& provenance = source.recording.provenance();
   std::string facts = fact("program", fmt::format("slipfit {}", SLIPFIT_VERSION)) +
                       fact("file", provenance.file.empty() ? "not from a file" : provenance.file) +
-                      "<dt>SHA-256 of the file</dt><dd><code>" +
-                      text(origin.file_sha256.value_or("not known (no regular file)")) + "</code></dd>\n";
+                      "<dt>digest of its bytes</dt><dd><code>" +
+                      (provenance.input_digest ? provenance.input_digest->text() : "none") + "</code></dd>\n";
   facts += command_fact(origin.command_line);
   facts += fact("driving speed", stated_text(conditions.speed_m_per_s, "m/s"));
   if (conditions.speed_standard_error_m_per_s) {

@@ -102,10 +102,9 @@ std::string recordings_of(const SweepSource& source) {
 std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
   std::string facts = fact("program", fmt::format("slipfit {}", SLIPFIT_VERSION)) + command_fact(origin.command_line);
   for (std::size_t i = 0; i < source.entries.size(); ++i) {
-    const bool has_hash = i < origin.file_sha256.size() && origin.file_sha256[i];
+    const Provenance& provenance = source.entries[i].recording.provenance();
     facts += fmt::format("<dt>{}</dt><dd>{}<br><code>{}</code></dd>\n", text(source.entries[i].id),
-                         text(source.entries[i].recording.provenance().file),
-                         has_hash ? "SHA-256 " + text(*origin.file_sha256[i]) : "SHA-256 not known");
+                         text(provenance.file), provenance.input_digest ? provenance.input_digest->text() : "");
   }
   return "<section id=\"repeat\" class=\"flows\">\n<h2>To repeat this</h2>\n<dl class=\"facts\">\n" + facts +
          "</dl>\n</section>\n";

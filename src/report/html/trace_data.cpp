@@ -1,13 +1,14 @@
 #include "report/html/trace_data.hpp"
 
 #include <fmt/format.h>
-#include <nettle/base64.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <string_view>
+#include <utility>
 
 #include "report/html/markup.hpp"
 #include "report/html/scaling.hpp"
@@ -22,9 +23,18 @@ constexpr std::uint16_t kMissing = 65535;
 constexpr double kTicks = 4294967295.0;
 constexpr double kEvenClock = 0.02;  // largest deviation, in steps: below what the eye can tell
 
-std::string base64(const void* bytes, std::size_t count) {
-  std::string text(BASE64_ENCODE_RAW_LENGTH(count), '\0');
-  base64_encode_raw(text.data(), count, static_cast<const std::uint8_t*>(bytes));
+/// RFC 4648.
+std::string base64(std::vector<unsigned char> bytes) {
+  constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const std::size_t padding = (3 - bytes.size() % 3) % 3;
+  bytes.resize(bytes.size() + padding);
+  std::string text;
+  text.reserve(bytes.size() / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const unsigned three = unsigned{bytes[i]} << 16U | unsigned{bytes[i + 1]} << 8U | bytes[i + 2];
+    for (const unsigned shift : {18U, 12U, 6U, 0U}) text += kAlphabet[three >> shift & 63U];
+  }
+  std::fill(text.end() - static_cast<std::ptrdiff_t>(padding), text.end(), '=');
   return text;
 }
 
@@ -38,7 +48,7 @@ std::string packed(const std::vector<Number>& numbers) {
       bytes.push_back(static_cast<unsigned char>(number >> (8 * byte)));
     }
   }
-  return base64(bytes.data(), bytes.size());
+  return base64(std::move(bytes));
 }
 
 /// All samples, or the lowest and the highest of each group, in order: two a group, so that they lie evenly in time.

@@ -1,0 +1,219 @@
+#include "batch/process_pool.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+namespace slipfit::batch {
+namespace {
+
+/// Jobs that wait for each process: a fork costs about a millisecond and what a first fit sets up, so that it should
+/// serve for many.
+constexpr std::size_t kWaitingEach = 64;
+
+constexpr double kLongest_s = 1e9;                      // what the clock can hold
+constexpr std::size_t kHeader = sizeof(std::uint64_t);  // length of a reply, or number of a job
+
+bool send_all(int socket, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t sent = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (sent < 0 && errno != EINTR) return false;
+    if (sent > 0) bytes.remove_prefix(static_cast<std::size_t>(sent));
+  }
+  return true;
+}
+
+std::string header_of(std::uint64_t number) {
+  std::string bytes(kHeader, '\0');
+  std::memcpy(bytes.data(), &number, kHeader);
+  return bytes;
+}
+
+std::uint64_t number_in(std::string_view bytes) {
+  std::uint64_t number = 0;
+  std::memcpy(&number, bytes.data(), kHeader);
+  return number;
+}
+
+std::optional<std::uint64_t> receive_number(int socket) {
+  std::array<char, kHeader> bytes{};
+  for (;;) {
+    const ssize_t count = ::recv(socket, bytes.data(), bytes.size(), MSG_WAITALL);
+    if (count == static_cast<ssize_t>(kHeader)) return number_in({bytes.data(), bytes.size()});
+    if (count >= 0 || errno != EINTR) return std::nullopt;
+  }
+}
+
+std::string describe_end(int status) {
+  if (!WIFSIGNALED(status)) return fmt::format("exit code {}", WEXITSTATUS(status));
+  return fmt::format("signal {}, {}", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
+}
+
+Answer do_here(std::size_t number, const ProcessPool::Job& job) {
+  try {
+    return {number, Answer::End::Replied, job()};
+  } catch (...) {
+    return {number, Answer::End::Died, "not enough memory"};
+  }
+}
+
+int wait_for(pid_t pid) {
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+}  // namespace
+
+bool ProcessPool::wants_more() const {
+  return waiting_.size() < kWaitingEach * most_;
+}
+
+std::size_t ProcessPool::add(Job job, double limit_s) {
+  waiting_.push_back({std::move(job), limit_s});
+  return first_ + waiting_.size() - 1;
+}
+
+std::vector<Answer> ProcessPool::wait(std::chrono::milliseconds longest) {
+  std::vector<Answer> answers;
+  begin_jobs(answers);
+  std::vector<pollfd> polled;
+  for (const Child& child : children_) polled.push_back({child.socket.get(), POLLIN, 0});
+  const bool has_answers = !answers.empty();
+  (void)::poll(polled.data(), polled.size(), has_answers ? 0 : static_cast<int>(longest.count()));
+  std::size_t place = 0;
+  for (auto child = children_.begin(); child != children_.end(); ++place) {
+    if (polled[place].revents != 0) receive(*child, answers);
+    if (child->pid != 0 && child->job && Clock::now() >= child->deadline) {
+      answers.push_back({*child->job, Answer::End::TimedOut, {}});
+      bury(*child);
+    }
+    child = child->pid == 0 ? children_.erase(child) : std::next(child);
+  }
+  return answers;
+}
+
+std::vector<std::size_t> ProcessPool::drop_waiting() {
+  first_ += waiting_.size();
+  waiting_.clear();
+  std::vector<std::size_t> begun;
+  for (const Child& child : children_) {
+    if (child.job) begun.push_back(*child.job);
+  }
+  return begun;
+}
+
+void ProcessPool::kill_all() {
+  for (Child& child : children_) bury(child);
+  children_.clear();
+}
+
+void ProcessPool::begin_jobs(std::vector<Answer>& answers) {
+  while (!waiting_.empty()) {
+    Child* const child = child_for(first_);
+    if (child == nullptr && !children_.empty()) return;  // all are busy
+    const Waiting waiting = std::move(waiting_.front());
+    waiting_.pop_front();
+    const std::size_t job = first_++;
+    if (child == nullptr) {
+      answers.push_back(do_here(job, waiting.job));
+      return;
+    }
+    child->job = job;
+    child->deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                         std::chrono::duration<double>(std::min(waiting.limit_s, kLongest_s)));
+    (void)send_all(child->socket.get(), header_of(job));  // a child that is gone is found out by poll
+  }
+}
+
+ProcessPool::Child* ProcessPool::child_for(std::size_t job) {
+  for (auto child = children_.begin(); child != children_.end();) {
+    if (!child->job && child->known_end > job) return &*child;
+    if (!child->job) bury(*child);
+    child = child->pid == 0 ? children_.erase(child) : std::next(child);
+  }
+  return children_.size() < most_ ? start_child() : nullptr;
+}
+
+ProcessPool::Child* ProcessPool::start_child() {
+  std::array<int, 2> sockets{-1, -1};
+  const pid_t parent = ::getpid();
+  const bool has_sockets = ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) == 0;
+  FileHandle ours(sockets[0]);
+  FileHandle theirs(sockets[1]);
+  const pid_t pid = has_sockets ? ::fork() : -1;
+  if (pid == 0) {
+    for (Child& sibling : children_) sibling.socket = {};  // else they would outlive the parent: no end of file
+    ours = {};
+    serve(theirs.get(), parent);
+  }
+  if (pid < 0) {
+    most_ = std::max<std::size_t>(1, children_.size());
+    return nullptr;
+  }
+  Child& child = children_.emplace_back();
+  child.pid = pid;
+  child.socket = std::move(ours);
+  child.known_end = first_ + waiting_.size();
+  return &child;
+}
+
+/// Nothing of the parent's is touched at the end: no buffers are written, no destructors run.
+void ProcessPool::serve(int socket, pid_t parent) const {
+  for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, SIG_IGN);  // the parent sees to them
+#ifdef __linux__
+  (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+  if (::getppid() != parent) ::_exit(1);
+  try {
+    while (const auto job = receive_number(socket)) {
+      const std::string reply = waiting_.at(*job - first_).job();
+      if (!send_all(socket, header_of(reply.size())) || !send_all(socket, reply)) break;
+    }
+  } catch (...) {
+    ::_exit(1);
+  }
+  ::_exit(0);
+}
+
+void ProcessPool::receive(Child& child, std::vector<Answer>& answers) {
+  std::array<char, std::size_t{64} * 1024> chunk{};
+  const ssize_t count = ::recv(child.socket.get(), chunk.data(), chunk.size(), MSG_DONTWAIT);
+  if (count < 0 && (errno == EINTR || errno == EAGAIN)) return;
+  if (count > 0) {
+    child.received.append(chunk.data(), static_cast<std::size_t>(count));
+    const bool is_whole =
+        child.received.size() >= kHeader && child.received.size() - kHeader >= number_in(child.received);
+    if (!is_whole) return;
+    answers.push_back({*child.job, Answer::End::Replied, child.received.substr(kHeader)});
+    child.received.clear();
+    child.job.reset();
+    return;
+  }
+  const int status = wait_for(child.pid);
+  child.pid = 0;
+  if (child.job) answers.push_back({*child.job, Answer::End::Died, describe_end(status)});
+}
+
+void ProcessPool::bury(Child& child) {
+  (void)::kill(child.pid, SIGKILL);
+  (void)wait_for(child.pid);
+  child.pid = 0;
+}
+
+}  // namespace slipfit::batch

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "batch/pages.hpp"
+#include "batch/result_log.hpp"
+#include "slipfit/batch/batch.hpp"
+#include "slipfit/core/result.hpp"
+
+// What happens in a process that fits, and what it tells the one that began it.
+
+namespace slipfit::batch {
+
+/// A recording or a group, and how it is fitted.
+struct WorkItem {
+  PageKey key;
+  std::vector<std::filesystem::path> inputs;
+  std::function<Result<BatchFit>()> fit;
+};
+
+std::string name_of(const WorkItem& item);
+
+Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions& options);
+
+struct Reply {
+  enum class Kind : char {
+    Fitted = 'R',
+    FittedAnew = 'N',  ///< the recording was replaced since its last fit
+    Kept = 'K',
+    KeptUnread = 'U',  ///< the recording is gone
+    Failed = 'F',
+    Stop = 'S'  ///< the batch cannot go on
+  };
+  Kind kind = Kind::Kept;
+  std::string document;
+  Error error;
+};
+
+/// Fits the item unless its result is there and of the same bytes, and writes its page. The reply as text.
+std::string work_on(const WorkItem& item, const BatchOptions& options, ResultLog& log);
+
+Reply read_reply(const std::string& text);
+
+}  // namespace slipfit::batch
