@@ -9,11 +9,11 @@
 namespace slipfit::batch {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
-InputState compare_input(const Json& recording, const std::filesystem::path& file) {
-  const Json digest = recording.value("input_digest", Json());
-  const Json bytes = recording.value("input_bytes", Json());
+InputState compare_input(const PlainJson& recording, const std::filesystem::path& file) {
+  const PlainJson digest = recording.value("input_digest", PlainJson());
+  const PlainJson bytes = recording.value("input_bytes", PlainJson());
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) return InputState::Gone;
@@ -26,14 +26,14 @@ InputState compare_input(const Json& recording, const std::filesystem::path& fil
 }  // namespace
 
 InputState compare_inputs(const std::string& document, const std::vector<std::filesystem::path>& inputs) {
-  const Json json = Json::parse(document, nullptr, false);
+  const PlainJson json = PlainJson::parse(document, nullptr, false);
   if (!json.is_object()) return InputState::Changed;
-  Json recordings = json.value("recordings", Json::array());
-  if (json.contains("recording")) recordings = Json::array({Json{{"recording", json["recording"]}}});
+  PlainJson recordings = json.value("recordings", PlainJson::array());
+  if (json.contains("recording")) recordings = PlainJson::array({PlainJson{{"recording", json["recording"]}}});
   if (recordings.size() != inputs.size()) return InputState::Changed;
   InputState state = InputState::Same;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const InputState found = compare_input(recordings[i].value("recording", Json::object()), inputs[i]);
+    const InputState found = compare_input(recordings[i].value("recording", PlainJson::object()), inputs[i]);
     if (found == InputState::Changed) return found;
     if (found == InputState::Gone) state = found;
   }

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kResults = "results.jsonl";
 constexpr const char* kFailures = "failures.csv";
 constexpr const char* kJournal = "journal";
-constexpr unsigned char kMostTries = 255;
+constexpr unsigned char kMostCountedTries = 255;
 
 std::optional<std::string> id_of(const std::string& document) {
   const auto json = nlohmann::json::parse(document, nullptr, false);
@@ -47,7 +47,7 @@ std::vector<JournalEntry> read_journal(const std::filesystem::path& folder, std:
     std::size_t slot = 0;
     if (!(words >> word >> slot) || slot >= slots) continue;
     JournalEntry& entry = entries[slot];
-    if (word == "begin") entry.tries = std::min<unsigned char>(entry.tries, kMostTries - 1) + 1;
+    if (word == "begin") entry.tries = std::min<unsigned char>(entry.tries, kMostCountedTries - 1) + 1;
     if (word == "done" || word == "end") entry.tries = 0;
     if (word == "done") entry.done = line;
   }
