@@ -39,7 +39,7 @@ def noise_in_slips(rng):
 
 def _scattered(rng, spread):
     rig = draw_rig(rng)
-    factors = np.exp(spread * rng.standard_normal(200) - 0.5 * spread**2)
+    factors = np.maximum(0.3, np.exp(spread * rng.standard_normal(200) - 0.5 * spread**2))
     motion = rig.run(factors=factors)
     result = scene(rig, motion, known=K_ONLY if spread > 0.5 else ("stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio"))
     return result
@@ -91,11 +91,15 @@ def level_walk(rng):
     return _level(rng, lambda t, T: rng.uniform(0.3, 1.0) * np.cumsum(rng.standard_normal(len(t))) / np.sqrt(len(t)))
 
 
+def averaged(force, kernel):
+    return np.convolve(np.pad(force, (len(kernel) // 2, len(kernel) - 1 - len(kernel) // 2), "edge"), kernel, "valid")
+
+
 def boxcar(rng):
     rig = draw_rig(rng, per_slip=(20, 60))
     motion = rig.run()
     width = int(rng.integers(3, 12))
-    return scene(rig, motion, np.convolve(motion.force + rig.white(len(motion.force)), np.ones(width) / width, "same"), noise=False)
+    return scene(rig, motion, averaged(motion.force + rig.white(len(motion.force)), np.ones(width) / width), noise=False)
 
 
 def first_order(rng):
@@ -111,7 +115,7 @@ def sinc3(rng):
     motion = rig.run()
     box = np.ones(int(rng.integers(3, 8)))
     kernel = np.convolve(np.convolve(box, box), box)
-    return scene(rig, motion, np.convolve(motion.force, kernel / kernel.sum(), "same"))
+    return scene(rig, motion, averaged(motion.force, kernel / kernel.sum()))
 
 
 def sensor_ring(rng):

@@ -71,7 +71,10 @@ def _strokes(rng, strokes):
     speed = np.where((time_s / one).astype(int) % 2 == 0, speed, -speed)
     motion = simulate(rig.model, rig.step, speed, static, kinetic, start_force=rig.start_force())
     result = scene(rig, motion)
-    result.truth["kind"] = "reciprocating"
+    gaps = np.diff(result.truth["slips_s"])
+    within = gaps[gaps < 2.0 * np.median(gaps)]  # not from the last slip of a stroke to the first of the next
+    result.truth |= {"kind": "reciprocating", "frequency_Hz": float(1 / within.mean()), "spacing_m": float(rig.speed * within.mean()),
+                     "any_stretch": True}
     return result
 
 
@@ -219,7 +222,7 @@ def clocked(rng):
 
 def clutch_like(rng):
     """All that the measured clutch shows: run-up, creep, ring, pick-up, ripple, scatter, release."""
-    rig = draw_rig(rng, per_slip=(60, 120), slips=(12, 22), ratio=(6, 15), noise=(0.02, 0.06), zeta=(0.3, 0.6))
+    rig = draw_rig(rng, per_slip=(60, 120), slips=(12, 22), ratio=(6, 15), noise=(0.02, 0.06), zeta=(0.1, 0.3))
     rig.model.creep_force, rig.model.creep_share = 0.5 * rig.drop, 0.5
     rig.model.sensor_omega, rig.model.sensor_damping = rig.model.omega * rng.uniform(2, 4), 0.05
     spread = rng.uniform(0.05, 0.4)

@@ -1,0 +1,212 @@
+#include "signal/events.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "signal/robust.hpp"
+#include "signal/smoothing.hpp"
+
+namespace slipfit::signal {
+namespace {
+
+struct Look {
+  std::vector<Fall> falls;
+  double drop = 0.0;       ///< median
+  double asymmetry = 1.0;  ///< median rise over median fall, in time
+  double hysteresis = 0.0;
+  double score = 0.0;
+};
+
+double drop_of(const Fall& fall, const std::vector<double>& values) {
+  return values[fall.peak] - values[fall.trough];
+}
+
+double rate(const std::vector<double>& values, std::size_t from, std::size_t to) {
+  return std::abs(values[to] - values[from]) / static_cast<double>(std::max<std::size_t>(1, to - from));
+}
+
+/// A slip in two steps: what rises between is small and short.
+bool is_pause(const std::vector<double>& values, const Fall& first, const Fall& second) {
+  constexpr double kSmall = 0.5;
+  constexpr double kShort = 1.5;
+  const double rise = values[second.peak] - values[first.trough];
+  const auto rise_time = static_cast<double>(second.peak - first.trough);
+  const auto fall_time = static_cast<double>(first.trough - first.peak + second.trough - second.peak);
+  return rise < kSmall * std::min(drop_of(first, values), drop_of(second, values)) && rise_time < kShort * fall_time;
+}
+
+/// Falls whose rise between is nearly as quick as they are belong together: the body or the load cell rings. Where the
+/// rises that are left are no slower than those, nothing rings: it is a wave. Then the falls as they were.
+std::vector<Fall> joined(const std::vector<Fall>& falls, const std::vector<double>& values) {
+  constexpr double kAsQuick = 0.4;
+  constexpr double kSlower = 0.3;
+  constexpr std::size_t kFewest = 3;
+  std::vector<Fall> result;
+  std::vector<double> sticks, rings;
+  double before = 0.0;
+  std::size_t low = 0;
+  for (std::size_t i = 0; i < falls.size(); ++i) {
+    const Fall& fall = falls[i];
+    const double own = rate(values, fall.peak, fall.trough);
+    const double rise = result.empty() ? 0.0 : rate(values, low, fall.peak);
+    const bool rings_on = rise > kAsQuick * std::max(own, before) ||
+                          (!result.empty() && is_pause(values, falls[i - 1], fall));
+    before = own;
+    low = fall.trough;
+    if (!result.empty()) (rings_on ? rings : sticks).push_back(rise);
+    if (!rings_on) {
+      result.push_back(fall);
+    } else if (values[fall.trough] < values[result.back().trough]) {
+      result.back().trough = fall.trough;
+    }
+  }
+  const bool told_apart = median(std::move(sticks)) < kSlower * median(std::move(rings));
+  return told_apart && result.size() >= kFewest ? result : falls;
+}
+
+std::vector<double> drops_of(const std::vector<Fall>& falls, const std::vector<double>& values) {
+  std::vector<double> drops;
+  drops.reserve(falls.size());
+  for (const Fall& fall : falls) drops.push_back(drop_of(fall, values));
+  return drops;
+}
+
+double asymmetry_of(const std::vector<Fall>& falls) {
+  std::vector<double> rises, times;
+  for (std::size_t i = 0; i < falls.size(); ++i) {
+    times.push_back(static_cast<double>(falls[i].trough - falls[i].peak));
+    if (i > 0) rises.push_back(static_cast<double>(falls[i].peak - falls[i - 1].trough));
+  }
+  return median(std::move(rises)) / std::max(1.0, median(std::move(times)));
+}
+
+/// The falls of one trace at hystereses that grow: each pass goes over the turning points of the one before.
+class Falls {
+ public:
+  Falls(const std::vector<double>& values, double smallest) : values_(values) {
+    Zigzag zigzag(smallest);
+    for (std::size_t i = 0; i < values.size(); ++i) zigzag.add(i, values[i]);
+    turns_ = zigzag.turns();
+  }
+
+  void coarsen(double hysteresis) { turns_ = zigzag_of(hysteresis).turns(); }
+
+  [[nodiscard]] std::vector<Fall> beyond(double hysteresis) const {
+    return joined(zigzag_of(hysteresis).falls(), values_);
+  }
+
+ private:
+  [[nodiscard]] Zigzag zigzag_of(double hysteresis) const {
+    Zigzag zigzag(hysteresis);
+    for (const std::size_t i : turns_) zigzag.add(i, values_[i]);
+    return zigzag;
+  }
+
+  const std::vector<double>& values_;
+  std::vector<std::size_t> turns_;
+};
+
+/// Falls on either side of which the force rises as quickly are a wave's, where most are sudden.
+void leave_waves(std::vector<Fall>& falls, const std::vector<double>& values) {
+  constexpr double kAsQuick = 0.65;
+  std::vector<Fall> sudden;
+  for (std::size_t i = 0; i < falls.size(); ++i) {
+    const double own = kAsQuick * rate(values, falls[i].peak, falls[i].trough);
+    const bool before = i > 0 && rate(values, falls[i - 1].trough, falls[i].peak) > own;
+    const bool after = i + 1 < falls.size() && rate(values, falls[i].trough, falls[i + 1].peak) > own;
+    if (!(before && after)) sudden.push_back(falls[i]);
+  }
+  if (2 * sudden.size() > falls.size()) falls = std::move(sudden);
+}
+
+/// Falls of at least a quarter of the median, seen with a hysteresis to match, none below `least`.
+Look look_beyond(const Falls& falls, double hysteresis, double least, const std::vector<double>& values) {
+  Look look;
+  look.hysteresis = std::max({least, hysteresis});
+  look.falls = falls.beyond(look.hysteresis);
+  const double quarter = 0.25 * median(drops_of(look.falls, values));
+  std::erase_if(look.falls, [&](const Fall& fall) { return drop_of(fall, values) < quarter; });
+  leave_waves(look.falls, values);
+  look.drop = median(drops_of(look.falls, values));
+  look.asymmetry = asymmetry_of(look.falls);
+  return look;
+}
+
+constexpr double kMostAsymmetry = 6.0;  // quicker falls than this are not told from each other by sampling and smoothing
+
+double score_of(const Look& look, double noise) {
+  if (look.falls.size() < 2) return 0.0;
+  constexpr double kClear = 40.0;  // beyond, a larger fall is no better seen
+  const double stands_out = 1.0 / (1.0 / kClear + noise / look.drop);
+  return stands_out * std::sqrt(static_cast<double>(look.falls.size())) * std::min(look.asymmetry, kMostAsymmetry);
+}
+
+/// What one scale shows best.
+struct Scale {
+  Smoothed trace;
+  double noise = 0.0;
+  double floor = 0.0;
+  Look best;
+};
+
+Scale look_at_scale(Smoothed trace, double noise) {
+  Scale scale{std::move(trace), noise, 0.0, {}};
+  const std::vector<double>& values = scale.trace.values;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double range = values.empty() ? 0.0 : *high - *low;
+  if (!(range > 0.0)) return scale;
+  // Noise makes no turning point of 8 standard deviations; rounding errors are no motion.
+  scale.floor = std::max(8.0 * noise, 1e-9 * range);
+  Falls falls(values, scale.floor);
+  const Falls all = falls;
+  constexpr double kRatio = 1.5;
+  for (double hysteresis = std::max(scale.floor, 1e-3 * range); hysteresis < range; hysteresis *= kRatio) {
+    falls.coarsen(hysteresis);
+    Look look = look_beyond(falls, hysteresis, scale.floor, values);
+    look.score = score_of(look, noise);
+    if (look.score > scale.best.score) scale.best = std::move(look);
+  }
+  // As small a hysteresis as the counted falls allow: it finds each fall's own turning points.
+  Look last = look_beyond(all, 0.25 * scale.best.drop, scale.floor, values);
+  last.score = score_of(last, noise);
+  if (scale.best.drop > 0.0) scale.best = std::move(last);
+  return scale;
+}
+
+bool shows_the_same(const Look& fine, const Look& best) {
+  const auto count = [](const Look& look) { return static_cast<double>(look.falls.size()); };
+  constexpr double kAlike = 0.02;
+  return std::abs(count(fine) - count(best)) <= kAlike * count(best) &&
+         std::min(fine.asymmetry, kMostAsymmetry) > 0.8 * std::min(best.asymmetry, kMostAsymmetry);
+}
+
+}  // namespace
+
+Events find_events(std::span<const double> force, double noise) {
+  const RunningMeans means(force);
+  std::vector<Scale> scales;
+  std::size_t best = 0;
+  for (double width = 1.0; width <= 0.02 * static_cast<double>(force.size()) || width < 2.0; width *= 1.5) {
+    const auto samples = static_cast<std::size_t>(std::lround(width));
+    Smoothed trace = means.over(samples, std::max<std::size_t>(1, samples / 3));
+    if (samples == 1) trace.values.assign(force.begin(), force.end());
+    const double left = std::max(noise / std::sqrt(width), samples == 1 ? 0.0 : noise_of(trace));
+    scales.push_back(look_at_scale(std::move(trace), left));
+    if (scales.back().best.score > scales[best].best.score) best = scales.size() - 1;
+  }
+  std::size_t chosen = 0;
+  while (chosen < best && !shows_the_same(scales[chosen].best, scales[best].best)) ++chosen;
+  const Scale& scale = scales[chosen];
+  Events events;
+  events.width = scale.trace.width;
+  events.noise = scale.noise;
+  events.hysteresis = scale.best.hysteresis;
+  events.asymmetry = scale.best.asymmetry;
+  for (const Fall& fall : scale.best.falls) {
+    events.falls.push_back({scale.trace.sample(fall.peak), scale.trace.sample(fall.trough)});
+  }
+  return events;
+}
+
+}  // namespace slipfit::signal
