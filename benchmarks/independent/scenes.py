@@ -92,7 +92,8 @@ def control(rig, kind, force, time_s=None, noise=True, frequency=None):
     """A recording without stick-slip; `frequency`: of an oscillation that may be quoted as such."""
     force = force + rig.white(len(force)) if noise else force
     time_s = np.arange(len(force)) * rig.step if time_s is None else time_s
-    return Scene(time_s, force, {"kind": kind, "speed_m_per_s": rig.speed, "frequency_Hz": frequency, "spacing_m": None,
+    return Scene(time_s, force, {"kind": kind, "speed_m_per_s": rig.speed, "frequency_Hz": frequency,
+                                 "spacing_m": rig.speed / frequency if frequency else None,
                                  "stretch_s": [float(time_s[0]), float(time_s[-1])], "parameters": {}, "slips_s": []})
 
 
