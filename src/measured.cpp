@@ -4,59 +4,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "fit/inference/student.hpp"
 #include "fitted_frequency.hpp"
 #include "recording_checks.hpp"
-#include "signal/robust.hpp"
+#include "slip_counts.hpp"
 
 namespace slipfit {
 namespace {
 
-constexpr double kGapSteps = 3.5;
 /// Above this scatter of the intervals the harmonic fit is no better than the count (docs/accuracy.md).
 constexpr double kRegular = 0.01;
+/// Above this scatter the count is quoted even beside a fit.
+constexpr double kCounted = 0.15;
 /// Scatter of the cycles sets spectrum and count less far apart than this; another repetition (hum, noise) farther.
 constexpr double kContradiction = 0.3;
 
 /// Cycles shorter than this many lags of the sensor: 8 of them pass before a ramp is fitted, and the slip takes some.
 constexpr double kForgotten = 14.0;
-
-struct MeanAndSpread {
-  double mean = 0.0;
-  double sd = 0.0;
-  double count = 0.0;
-};
-
-MeanAndSpread describe(const std::vector<double>& values) {
-  MeanAndSpread result;
-  result.count = static_cast<double>(values.size());
-  if (values.empty()) return result;
-  result.mean = std::accumulate(values.begin(), values.end(), 0.0) / result.count;
-  for (const double value : values) result.sd += (value - result.mean) * (value - result.mean);
-  result.sd = values.size() > 1 ? std::sqrt(result.sd / (result.count - 1.0)) : 0.0;
-  return result;
-}
-
-/// From slip to slip, without the first slip and without intervals that hold a gap.
-std::vector<double> intervals_s(const Recording& recording, const Segmentation& segmentation) {
-  const auto time_s = recording.time_s();
-  const double gap_s = kGapSteps * recording.sample_interval_s();
-  const bool may_have_gaps = !recording.clock_is_even();
-  std::vector<double> intervals;
-  for (std::size_t i = 2; i < segmentation.slips.size(); ++i) {
-    const DetectedSlip& first = segmentation.slips[i - 1];
-    const DetectedSlip& second = segmentation.slips[i];
-    bool whole = true;
-    for (std::size_t j = first.peak + 1; may_have_gaps && j <= second.trough; ++j) {
-      whole = whole && time_s[j] - time_s[j - 1] <= gap_s;
-    }
-    if (whole) intervals.push_back(second.middle_s - first.middle_s);
-  }
-  return intervals;
-}
 
 /// Of the two frequencies; empty where one of them is.
 std::optional<double> relative_difference(const SpectralFrequency& spectral, const Estimate& counted) {
@@ -71,8 +41,9 @@ bool is_sharper(const SpectralFrequency& spectral, const Estimate& fitted) {
   if (!spectral.value_Hz || !spectral.regular_standard_error_Hz) return false;
   constexpr double kFarApart = 4.0;  // standard errors
   const double difference_Hz = std::abs(*spectral.value_Hz - *fitted.value);
+  constexpr double kAlike = 0.05;  // an interval that scatter has made wide holds lines that are not the slips'
   return *spectral.regular_standard_error_Hz < *fitted.standard_error &&
-         difference_Hz < kFarApart * *fitted.standard_error;
+         difference_Hz < std::min(kFarApart * *fitted.standard_error, kAlike * *fitted.value);
 }
 
 /// A line of the mains swings far enough to be counted as slips.
@@ -82,76 +53,100 @@ bool hum_makes_falls(const Signals& signals) {
                      [&](const SuspiciousLine& line) { return line.swing > signals.segmentation.hysteresis; });
 }
 
-/// With an interval that holds what the spectrum shows, where counting and spectrum do not agree: hum or noise may have
-/// made slips, scatter of the cycles may have blurred the lines.
-Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
-  const double spectral_Hz = *spectral.value_Hz;
-  counted.note = fmt::format("the spectrum shows {:.4g} Hz, to which the interval reaches", spectral_Hz);
-  if (!counted.ci95) return counted;
-  const double half_Hz = 2.0 * spectral.standard_error_Hz.value_or(0.0);
-  counted.ci95->low = std::min(counted.ci95->low, spectral_Hz - half_Hz);
-  counted.ci95->high = std::max(counted.ci95->high, spectral_Hz + half_Hz);
-  const double longer = std::max(*counted.value - counted.ci95->low, counted.ci95->high - *counted.value);
-  counted.standard_error = std::max(*counted.standard_error, longer / 1.96);
-  return counted;
+/// Peak to peak of the sine at this frequency.
+double swing_at(const Recording& recording, double frequency_Hz) {
+  const std::span<const double> time_s = recording.time_s();
+  const std::span<const double> force = recording.force();
+  const double mean = std::accumulate(force.begin(), force.end(), 0.0) / static_cast<double>(force.size());
+  std::complex<double> sum = 0.0;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    sum += (force[i] - mean) * std::polar(1.0, -2.0 * std::numbers::pi * frequency_Hz * (time_s[i] - time_s[0]));
+  }
+  return 4.0 * std::abs(sum) / static_cast<double>(force.size());
+}
+
+/// Whether a spectral line is the slips' own: their frequency or a harmonic of it.
+bool is_of_slips(double line_Hz, const Estimate& slips) {
+  if (!slips.value) return false;
+  const double order = std::max(1.0, std::round(line_Hz / *slips.value));
+  const double scatter = 3.0 * slips.standard_error.value_or(0.0) / *slips.value;
+  return std::abs(line_Hz / (order * *slips.value) - 1.0) < std::max(0.05, scatter);
+}
+
+/// What repeats beside the slips.
+std::vector<SuspiciousLine> lines_beside(const Recording& recording, const SpectralFrequency& spectral,
+                                         const Estimate& quoted) {
+  std::vector<SuspiciousLine> lines = spectral.suspicious_lines;
+  if (spectral.value_Hz && !is_of_slips(*spectral.value_Hz, quoted)) {
+    const char* const reason = quoted.value
+                                   ? "not the slips: pick-up, ripple of the drive, ringing or a wave of the level"
+                                   : "repeats without slips: pick-up, ripple of the drive or an oscillation";
+    lines.push_back({*spectral.value_Hz, reason, swing_at(recording, *spectral.value_Hz)});
+  }
+  return lines;
+}
+
+/// Slips of a fit that is the model's: its cycles, or the spectrum where these are regular and it is the sharper.
+std::optional<FrequencyReport> of_fit(const Recording& recording, const Signals& signals, const FitResult& fit) {
+  const auto fitted = fitted_frequency(fit, recording);
+  if (!fitted) return std::nullopt;
+  FrequencyReport report;
+  report.method = "fitted_cycles";
+  report.quoted = *fitted;
+  if (is_sharper(signals.spectral, *fitted)) {
+    report.method = "harmonic_least_squares";
+    const double freedom = std::max(1.0, static_cast<double>(signals.segmentation.slips.size()) - 3.0);
+    report.quoted = fit::symmetric(*signals.spectral.value_Hz, *signals.spectral.regular_standard_error_Hz, freedom);
+  }
+  return report;
+}
+
+/// Slips or swings without a fit: the spectrum where they are regular and it shows their frequency, else the count.
+FrequencyReport of_trace(const Recording& recording, const Signals& signals, Verdict verdict) {
+  const SpectralFrequency& spectral = signals.spectral;
+  FrequencyReport report;
+  report.method = "none";
+  const Estimate counted = count_frequency(recording, signals.segmentation);
+  const Intervals intervals = intervals_of(recording, signals.segmentation);
+  const MeanAndSpread interval = describe(intervals.seconds);
+  const std::optional<double> difference = relative_difference(spectral, counted);
+  const bool agree = difference && *difference < 0.05;
+  const bool regular = intervals.broken == 0 && interval.count >= 2.0 && interval.sd < kRegular * interval.mean;
+  const bool hidden = verdict == Verdict::OscillatorySlip && !agree;  // the count may be of noise or of hum
+  if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || hidden)) {
+    report.method = "harmonic_least_squares";
+    report.quoted =
+        fit::symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
+  } else if (counted.value && !(hidden && hum_makes_falls(signals))) {
+    report.method = "slip_counting";
+    report.quoted = counted;
+  } else {
+    report.quoted.note = "hum of the mains may have made slips, and the spectrum shows no other repetition";
+  }
+  return report;
 }
 
 }  // namespace
 
-Estimate count_frequency(const Recording& recording, const Segmentation& segmentation) {
-  const MeanAndSpread interval = describe(intervals_s(recording, segmentation));
-  if (interval.count < 1.0) return {std::nullopt, std::nullopt, std::nullopt, "fewer than 3 slips"};
-  const double value = 1.0 / interval.mean;
-  if (interval.count < 2.0) return {value, std::nullopt, std::nullopt, "one interval tells no error"};
-  return fit::symmetric(value, value * interval.sd / interval.mean / std::sqrt(interval.count), interval.count - 1.0);
-}
-
 FrequencyReport report_frequency(const Recording& recording, const Signals& signals, Verdict verdict,
                                  const FitResult* fit) {
-  const Segmentation& segmentation = signals.segmentation;
-  const SpectralFrequency& spectral = signals.spectral;
+  const bool slides = verdict == Verdict::StickSlip || verdict == Verdict::OscillatorySlip;
   FrequencyReport report;
-  report.spectral = spectral;
-  report.counted = count_frequency(recording, segmentation);
   report.method = "none";
-  if (fit != nullptr && verdict == Verdict::StickSlip) {
-    if (const auto fitted = fitted_frequency(*fit, recording)) {
-      report.method = "fitted_cycles";
-      report.quoted = *fitted;
-      if (is_sharper(spectral, *fitted)) {
-        report.method = "harmonic_least_squares";
-        const double freedom = std::max(1.0, static_cast<double>(segmentation.slips.size()) - 3.0);
-        report.quoted = fit::symmetric(*spectral.value_Hz, *spectral.regular_standard_error_Hz, freedom);
-      }
-      return report;
-    }
+  report.quoted.note = verdict == Verdict::SteadySliding ? "steady sliding has no slips"
+                                                         : "no slips can be told: nothing that repeats is quoted";
+  if (slides) {
+    const bool broken = intervals_of(recording, signals.segmentation).broken > 0;
+    // Slips that scatter are counted: what the fit's cycles cause is another mean than that of those that came.
+    const MeanAndSpread interval = describe(intervals_of(recording, signals.segmentation).seconds);
+    const bool scatters = interval.count > 7.0 && interval.sd > kCounted * interval.mean;
+    const bool usable = fit != nullptr && verdict == Verdict::StickSlip && !broken && !scatters;
+    const std::optional<FrequencyReport> fitted = usable ? of_fit(recording, signals, *fit) : std::nullopt;
+    report = fitted ? *fitted : of_trace(recording, signals, verdict);
   }
-  const MeanAndSpread interval = describe(intervals_s(recording, segmentation));
-  const std::optional<double> difference = relative_difference(spectral, report.counted);
-  const bool agree = difference && *difference < 0.05;
-  // Without sticks, what was counted may be the noise or the hum on a slower repetition.
-  const bool cycles_seen =
-      verdict == Verdict::StickSlip || (verdict == Verdict::OscillatorySlip && (agree || !spectral.value_Hz));
-  const bool regular = interval.count >= 2.0 && interval.sd < kRegular * interval.mean;
-  if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || !cycles_seen)) {
-    report.method = "harmonic_least_squares";
-    report.quoted =
-        fit::symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
-    if (agree || verdict != Verdict::Undetermined) return report;
-  }
-  const bool contradict = difference && *difference > kContradiction;
-  const bool may_count_hum = !spectral.value_Hz && hum_makes_falls(signals);
-  if (report.counted.value && (cycles_seen || agree) && !contradict && !may_count_hum) {
-    report.method = "slip_counting";
-    report.quoted = agree || !spectral.value_Hz ? report.counted : reaching(report.counted, spectral);
-  }
-  if (!report.quoted.value) {
-    report.quoted.note = contradict ? fmt::format("counting slips gives {:.4g} Hz, the spectrum {:.4g} Hz",
-                                                  *report.counted.value, *spectral.value_Hz)
-                         : may_count_hum && cycles_seen
-                             ? "hum of the mains may have made slips, and the spectrum shows no other repetition"
-                             : "no repetition stands out of the noise";
-  }
+  report.spectral = signals.spectral;
+  report.counted = count_frequency(recording, signals.segmentation);
+  report.lines = lines_beside(recording, signals.spectral, report.quoted);
   return report;
 }
 
@@ -178,9 +173,13 @@ CycleStatistics summarise_cycles(const Recording& recording, const Segmentation&
     result.peak_force_sd = peak.sd;
     result.force_drop_sd = drop.sd;
   }
-  const MeanAndSpread interval = describe(intervals_s(recording, segmentation));
+  const MeanAndSpread interval = describe(intervals_of(recording, segmentation).seconds);
   if (interval.count >= 1.0) result.period_s = interval.mean;
-  if (interval.count >= 2.0) result.period_sd_s = interval.sd;
+  if (interval.count >= 2.0) {
+    result.period_sd_s = interval.sd;
+    result.period_cv = interval.sd / interval.mean;
+    result.drop_cv = drop.sd / drop.mean;
+  }
   if (fit == nullptr) return result;
   std::vector<double> slips;
   for (const Cycle& cycle : fit->cycles) {
@@ -235,14 +234,8 @@ Warnings collect_warnings(const Recording& recording, const Analysis& analysis) 
     const bool newtons = recording.conditions().quantity == ForceQuantity::Force_N;
     warn("quantised", fmt::format("forces are multiples of {:.3g}{}", *quality.quantisation_step, newtons ? " N" : ""));
   }
-  for (const SuspiciousLine& line : analysis.frequency.spectral.suspicious_lines) {
+  for (const SuspiciousLine& line : analysis.frequency.lines) {
     warn("suspicious_line", fmt::format("line at {:.4g} Hz: {}", line.frequency_Hz, line.reason));
-  }
-  const auto& spectral = analysis.frequency.spectral.value_Hz;
-  const auto& counted = analysis.frequency.counted.value;
-  if (spectral && counted && std::abs(*spectral / *counted - 1.0) > 0.05) {
-    warn("frequencies_disagree",
-         fmt::format("the spectrum shows {:.4g} Hz, counting slips {:.4g} Hz", *spectral, *counted));
   }
   const auto& bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz;
   if (bandwidth_Hz && analysis.cycles.period_s) {

@@ -5,14 +5,10 @@
 
 namespace slipfit {
 
-/// Frequency from the mean interval between slips, in Hz; empty below 3 slips. The first slip starts from rest and is
-/// left out, and so are intervals across a gap of the recording.
-Estimate count_frequency(const Recording& recording, const Segmentation& segmentation);
-
-/// Both frequencies and the one to quote: harmonic least squares where the cycles are regular, counting where they
-/// scatter. Where a fit shows stick-slip: the cycles of the fit (fitted_frequency.hpp), harmonic least squares where
-/// they are regular and it is the sharper. Quoted only where there is a repetition: a count of noise is no frequency,
-/// one of what may be hum only where the spectrum shows it too; where the two differ the interval holds both.
+/// Both frequencies and the one to quote, which is of slips (or of an oscillation that is the motion): the cycles of a
+/// fit that is the model's (fitted_frequency.hpp), or harmonic least squares where they are regular and it is the
+/// sharper; without such a fit the count, or harmonic least squares where they agree on regular slips. Steady sliding
+/// and what cannot be told quote none. `fit`: empty unless its cycles are the model's.
 FrequencyReport report_frequency(const Recording& recording, const Signals& signals, Verdict verdict,
                                  const FitResult* fit);
 

@@ -6,6 +6,7 @@
 #include <future>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "ranges.hpp"
 #include "recording_checks.hpp"
 #include "signals.hpp"
+#include "slip_counts.hpp"
 #include "slipfit/sweep.hpp"
 #include "sweep_checks.hpp"
 #include "verdict.hpp"
@@ -46,11 +48,12 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   analysis.verdict = judgement.verdict;
   analysis.verdict_reason = std::move(judgement.reason);
   if (fit) fit = in_range(*std::move(fit), recording.conditions());
-  analysis.frequency = in_range(report_frequency(recording, signals, judgement.verdict, fit ? &*fit : nullptr));
+  const FitResult* const cycles_of = judgement.model_fits ? &*fit : nullptr;
+  analysis.frequency = in_range(report_frequency(recording, signals, judgement.verdict, cycles_of));
   analysis.cycles = in_range(summarise_cycles(recording, signals.segmentation, fit ? &*fit : nullptr));
   analysis.cycle_table = fit ? fit->cycles : fit::detected_cycles(recording, signals.segmentation);
-  if (fit && analysis.verdict != Verdict::StickSlip) fit = fit::without_parameters(*std::move(fit));
-  if (fit && analysis.frequency.quoted.value) {
+  if (fit && !judgement.model_fits) fit = fit::without_parameters(*std::move(fit));
+  if (fit && judgement.model_fits && analysis.frequency.quoted.value) {
     fit = fit::qualified_by_mains(*std::move(fit), *analysis.frequency.quoted.value, recording.duration_s());
   }
   if (fit) analysis.derived = derive_from_model(*fit, recording.conditions());
@@ -63,6 +66,11 @@ Analysis conclude(const Recording& recording, Signals signals, Judgement judgeme
   analysis.fit = std::move(fit);
   analysis.tests = run_short_tests(recording, analysis);
   analysis.warnings = collect_warnings(recording, analysis);
+  if (analysis.verdict == Verdict::StickSlip) {
+    for (Warning& warning : warn_of_changes(recording, signals.segmentation)) {
+      analysis.warnings.push_back(std::move(warning));
+    }
+  }
   analysis.timing.frequency_s = signals.seconds;
   return analysis;
 }
@@ -88,66 +96,86 @@ void look_beneath_hum(const Recording& recording, const FitOptions& options, Fit
   fitted.fit = std::move(other);
 }
 
-/// The spectrum is computed beside the search for slips and judged beside the fit, in a thread where one is to be had.
-Fitted look_and_fit(const Recording& recording, const FitOptions& options) {
+/// The spectrum is judged beside the fit, in a thread where one is to be had.
+Fitted fit_signals(const Recording& recording, Signals signals, const FitOptions& options) {
   constexpr std::size_t kLarge = 1000000;  // the arrays of spectrum and fit together would be large
-  const auto start = Clock::now();
   Fitted fitted;
-  Signals& signals = fitted.signals;
-  signals.quality = assess_quality(recording);
-  std::future<SpectrumLook> look;  // waits for the thread when it goes,
-  std::promise<void> slips_found;  // so the promise that the thread waits for goes first
+  fitted.signals = std::move(signals);
   // Named, and so copied: where there is no thread, async begins anew with what it was given.
-  const auto look_meanwhile = [&, found = slips_found.get_future().share()] {
-    return look_at_spectrum(recording, signals, found);
-  };
-  look = std::async(look_meanwhile);
-  signals.segmentation = find_slips(recording, signals.quality);
-  slips_found.set_value();
-  signals.seconds = seconds_since(start);
+  const auto look_meanwhile = [&] { return look_at_spectrum(recording, fitted.signals); };
+  std::future<SpectrumLook> look = std::async(look_meanwhile);
   if (recording.size() >= kLarge) look.wait();
   const auto fit_start = Clock::now();
-  fitted.fit = fit_recording(recording, signals.quality, signals.segmentation, options);
+  fitted.fit = fit_recording(recording, fitted.signals.quality, fitted.signals.segmentation, options);
   SpectrumLook looked = look.get();
-  signals.spectral = std::move(looked.spectral);
-  signals.seconds += looked.seconds;
-  if (may_be_hum(signals)) look_beneath_hum(recording, options, fitted);
+  fitted.signals.spectral = std::move(looked.spectral);
+  fitted.signals.seconds += looked.seconds;
+  if (may_be_hum(fitted.signals)) look_beneath_hum(recording, options, fitted);
   fitted.seconds = seconds_since(fit_start);
   return fitted;
 }
 
-Analysis judge_and_conclude(const Recording& recording, Fitted fitted) {
-  const Signals& signals = fitted.signals;
-  Judgement judgement = judge_fit(recording, signals.quality, signals.segmentation, signals.spectral,
-                                  fitted.fit ? &*fitted.fit : nullptr);
-  Analysis analysis = conclude(recording, std::move(fitted.signals), std::move(judgement), std::move(fitted.fit));
-  analysis.timing.fit_s = fitted.seconds;
+/// What was found in the stretch that slides, told of the whole recording.
+Analysis told_of_whole(Analysis analysis, const Recording& recording, Sliding sliding) {
+  const std::span<const double> used = sliding.of(recording).time_s();
+  analysis.sliding = {used.front(), used.back()};
+  analysis.quality = std::move(sliding.whole_quality);
+  if (analysis.fit) {
+    for (CurvePoint& point : analysis.fit->curve) point.sample += sliding.begin;
+  }
   return analysis;
+}
+
+Analysis judge_and_conclude(const Recording& recording, Sliding sliding, Fitted fitted) {
+  const Recording& used = sliding.of(recording);
+  const Signals& signals = fitted.signals;
+  Judgement judgement = judge_fit(used, signals.segmentation, signals.spectral, fitted.fit ? &*fitted.fit : nullptr);
+  Analysis analysis = conclude(used, std::move(fitted.signals), std::move(judgement), std::move(fitted.fit));
+  analysis.timing.fit_s = fitted.seconds;
+  return told_of_whole(std::move(analysis), recording, std::move(sliding));
+}
+
+/// The fit tells at least one parameter.
+bool has_values(const Analysis& analysis) {
+  return analysis.fit && std::any_of(analysis.fit->parameters.begin(), analysis.fit->parameters.end(),
+                                     [](const Parameter& parameter) { return parameter.estimate.value.has_value(); });
 }
 
 }  // namespace
 
 Analysis analyze(const Recording& recording) {
-  Signals signals = look_at(recording);
-  Judgement judgement = judge_shape(recording, signals.quality, signals.segmentation, signals.spectral);
-  return conclude(recording, std::move(signals), std::move(judgement), std::nullopt);
+  Sliding sliding = find_sliding(recording);
+  const Recording& used = sliding.of(recording);
+  Signals signals = sliding.signals;
+  SpectrumLook looked = look_at_spectrum(used, signals);
+  signals.spectral = std::move(looked.spectral);
+  signals.seconds += looked.seconds;
+  Judgement judgement = judge_shape(used, signals.segmentation, signals.spectral);
+  Analysis analysis = conclude(used, std::move(signals), std::move(judgement), std::nullopt);
+  return told_of_whole(std::move(analysis), recording, std::move(sliding));
 }
 
 Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) {
-  return judge_and_conclude(recording, look_and_fit(recording, options));
+  Sliding sliding = find_sliding(recording);
+  Fitted fitted = fit_signals(sliding.of(recording), sliding.signals, options);
+  return judge_and_conclude(recording, std::move(sliding), std::move(fitted));
 }
 
 SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options) {
   SweepAnalysis sweep;
-  std::vector<Signals> signals;
+  std::vector<Sliding> slidings;
   std::vector<SweepRecording> recordings;
-  signals.reserve(entries.size());
+  slidings.reserve(entries.size());
   for (const SweepEntry& entry : entries) {
-    Fitted fitted = look_and_fit(entry.recording, {});
-    signals.push_back(fitted.signals);
-    sweep.recordings.push_back(judge_and_conclude(entry.recording, std::move(fitted)));
-    sweep.roles.push_back(role_of(entry.recording, sweep.recordings.back().verdict));
-    recordings.push_back({entry.recording, signals.back().quality, signals.back().segmentation, sweep.roles.back()});
+    Sliding& sliding = slidings.emplace_back(find_sliding(entry.recording));
+    const Recording& used = sliding.of(entry.recording);
+    Fitted fitted = fit_signals(used, sliding.signals, {});
+    sliding.signals = fitted.signals;
+    sweep.recordings.push_back(judge_and_conclude(entry.recording, sliding, std::move(fitted)));
+    // Slips that no model comes close to are none of a joint fit's either.
+    const bool stranger = sweep.recordings.back().verdict == Verdict::StickSlip && !has_values(sweep.recordings.back());
+    sweep.roles.push_back(stranger ? SweepRole::LeftOut : role_of(used, sweep.recordings.back().verdict));
+    recordings.push_back({used, sliding.signals.quality, sliding.signals.segmentation, sweep.roles.back()});
   }
   sweep.joint = fit_sweep(recordings, options);
   if (sweep.joint) {

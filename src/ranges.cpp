@@ -93,7 +93,8 @@ CycleStatistics in_range(CycleStatistics cycles) {
   }
   cycles.sticking_degree = within(cycles.sticking_degree, kShare);
   for (auto* const force : {&cycles.peak_force, &cycles.trough_force}) *force = within(*force, kAnyNumber);
-  for (auto* const spread : {&cycles.peak_force_sd, &cycles.force_drop, &cycles.force_drop_sd}) {
+  for (auto* const spread :
+       {&cycles.peak_force_sd, &cycles.force_drop, &cycles.force_drop_sd, &cycles.drop_cv, &cycles.period_cv}) {
     *spread = within(*spread, kNotNegative);
   }
   return cycles;

@@ -23,7 +23,10 @@ struct Point {
 };
 
 std::optional<Point> point_of(const Recording& recording, const Analysis& analysis) {
-  const Estimate& frequency = analysis.frequency.quoted;
+  // What is not quoted, because it may not be slips, is just what the comparison of speeds can tell.
+  const FrequencyReport& report = analysis.frequency;
+  const Estimate spectral{report.spectral.value_Hz, report.spectral.standard_error_Hz, {}, {}};
+  const Estimate& frequency = report.quoted.value ? report.quoted : spectral;
   if (!frequency.value || !frequency.standard_error || !analysis.cycles.slip_time_s) return std::nullopt;
   Point point;
   point.log_speed = std::log(recording.conditions().speed_m_per_s);

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -29,6 +32,13 @@ constexpr double kMuchHum = 0.1;    // hum over the onset force: less cannot pas
 constexpr double kMainsRhythm =
     5e-3;                            // the mains keeps its frequency to 0.1 %, intervals of few samples are less exact
 constexpr double kNoiseDrop = 14.0;  // drop over noise below which turning points may be noise alone
+// Rise over fall, in time: 1 for waves and noise; at least 2.3 for straight sticks where the fall is below kSineFall.
+constexpr double kSudden = 3.0;
+constexpr double kSuddenShare = 0.9;
+constexpr double kSquare = 1.3;
+constexpr std::size_t kFewestSudden = 5;
+constexpr double kRhythm = 0.25;  // scatter over mean of the intervals of what repeats
+constexpr double kRipple = 0.1;   // of the mean force: smaller round swings are pick-up or ripple on steady sliding
 
 /// Time of the fall from 80 % to 20 % over the period, median: 0.205 for a sine, 0.3 for an even triangle, less for
 /// slips.
@@ -42,8 +52,34 @@ double fall_share(const Segmentation& segmentation) {
 }
 
 /// Noise alone makes turning points of this size.
-bool is_faint(const Quality& quality, const Segmentation& segmentation) {
-  return median_drop(segmentation) < kNoiseDrop * quality.noise_rms;
+bool is_faint(const Segmentation& segmentation) {
+  return median_drop(segmentation) < kNoiseDrop * segmentation.noise;
+}
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// How much longer the rises take than the falls before them, cycle by cycle.
+std::vector<double> rises_over_falls(const Segmentation& segmentation) {
+  std::vector<double> ratios;
+  for (const DetectedSlip& slip : segmentation.slips) {
+    if (slip.rise_s > 0.0 && slip.fall_s > 0.0) ratios.push_back(slip.rise_s / slip.fall_s);
+  }
+  return ratios;
+}
+
+/// Intervals between the falls scatter no more than those of a repetition do.
+bool keeps_rhythm(const Segmentation& segmentation) {
+  double mean = 0.0, square = 0.0, count = 0.0;
+  for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
+    const double interval_s = segmentation.slips[i].middle_s - segmentation.slips[i - 1].middle_s;
+    count += 1.0;
+    const double step = interval_s - mean;
+    mean += step / count;
+    square += step * (interval_s - mean);
+  }
+  return count > 1.0 && std::sqrt(square / (count - 1.0)) < kRhythm * mean;
 }
 
 bool is_sine_like(const Segmentation& segmentation) {
@@ -60,17 +96,27 @@ bool ends_flat(const Recording& recording, const Segmentation& segmentation) {
   return last_s - recording.time_s().front() < kSpanShare * recording.duration_s();
 }
 
-std::optional<Judgement> judge_counts(const Recording& recording, const Quality& quality,
-                                      const Segmentation& segmentation, const SpectralFrequency& spectral) {
+/// All falls lie close together near the end: the release and its ring-down.
+bool is_release(const Recording& recording, const Segmentation& segmentation) {
+  const double first_s = segmentation.slips.front().middle_s - recording.time_s().front();
+  const double last_s = segmentation.slips.back().middle_s - recording.time_s().front();
+  return first_s > kSpanShare * recording.duration_s() && last_s - first_s < 0.3 * recording.duration_s();
+}
+
+std::optional<Judgement> judge_counts(const Recording& recording, const Segmentation& segmentation,
+                                      const SpectralFrequency& spectral) {
   const std::size_t count = segmentation.slips.size();
   if (count == 0) return Judgement{Verdict::SteadySliding, "the force has no falls beyond its noise"};
-  if (is_faint(quality, segmentation) && no_repetition(spectral)) {
+  if (is_faint(segmentation) && no_repetition(spectral)) {
     return Judgement{Verdict::SteadySliding, "the force moves no more than its noise, without repetition"};
   }
+  if (!slips_are_sudden(segmentation) && is_release(recording, segmentation)) {
+    return Judgement{Verdict::SteadySliding, "no falls but those of the release at the end"};
+  }
+  if (count < 4 && ends_flat(recording, segmentation)) {
+    return Judgement{Verdict::SteadySliding, fmt::format("{} fall(s) at the start, then no more", count)};
+  }
   if (count < 3) {
-    if (ends_flat(recording, segmentation)) {
-      return Judgement{Verdict::SteadySliding, fmt::format("{} fall(s) at the start, then no more", count)};
-    }
     return Judgement{Verdict::Undetermined,
                      fmt::format("only {} slip(s): at least 3 are needed; record longer", count)};
   }
@@ -84,11 +130,61 @@ std::optional<Judgement> judge_counts(const Recording& recording, const Quality&
   return std::nullopt;
 }
 
+/// The spectrum shows the rhythm of the falls, whatever they scatter by.
+bool spectrum_agrees(const Segmentation& segmentation, const SpectralFrequency& spectral) {
+  constexpr double kAlike = 0.1;
+  if (!spectral.value_Hz || segmentation.slips.size() < kFewestSudden) return false;
+  std::vector<double> intervals_s;  // their median: falls that were missed do not count
+  for (std::size_t i = 2; i < segmentation.slips.size(); ++i) {
+    intervals_s.push_back(segmentation.slips[i].middle_s - segmentation.slips[i - 1].middle_s);
+  }
+  return std::abs(*spectral.value_Hz * signal::median(std::move(intervals_s)) - 1.0) < kAlike;
+}
+
+std::optional<Judgement> judge_ripple(const Recording& recording, const Segmentation& segmentation) {
+  const double share = median_drop(segmentation) / std::abs(mean_of(recording.force()));
+  if (share > kRipple || slips_are_sudden(segmentation)) return std::nullopt;
+  return Judgement{Verdict::SteadySliding,
+                   fmt::format("swings of {:.1f} % of the force, no sudden falls: pick-up or ripple on steady sliding",
+                               100.0 * share)};
+}
+
+/// What the trace shows by itself where no slip of the model is close to it.
+Judgement judge_without_model(const Recording& recording, const Segmentation& segmentation,
+                              const SpectralFrequency& spectral) {
+  const double ratio = signal::median(rises_over_falls(segmentation));
+  if (slips_are_sudden(segmentation)) {
+    return {Verdict::StickSlip,
+            fmt::format("{} sudden falls after rises that take {:.1f} times as long; no slip of the model is close to "
+                        "them, so that its parameters stay unknown",
+                        segmentation.slips.size(), ratio)};
+  }
+  if (auto ripple = judge_ripple(recording, segmentation)) return *ripple;
+  if (spectrum_agrees(segmentation, spectral)) {
+    return {Verdict::OscillatorySlip,
+            fmt::format("swings without straight sticks: the force rises in {:.1f} times the time that it falls in",
+                        ratio)};
+  }
+  if (!keeps_rhythm(segmentation)) {
+    return {Verdict::SteadySliding,
+            "the force wanders: its falls are no more sudden than its rises and keep no rhythm"};
+  }
+  return {Verdict::Undetermined,
+          fmt::format("the swings are no stick-slip cycles: the force rises in {:.1f} times the time that it falls in",
+                      ratio)};
+}
+
 /// Swings without sticks that can be told; empty where slips come to rest.
-std::optional<Judgement> judge_round_swings(const Quality& quality, const Segmentation& segmentation,
+std::optional<Judgement> judge_round_swings(const Recording& recording, const Segmentation& segmentation,
                                             const Evidence& e) {
   const bool sine_like = is_sine_like(segmentation);
-  if ((sine_like || e.restick_share < kRestickShare) && is_faint(quality, segmentation)) {
+  if (e.restick_share < kSineRestickShare) {
+    if (auto ripple = judge_ripple(recording, segmentation)) return ripple;
+  }
+  if (!sine_like && signal::median(rises_over_falls(segmentation)) < kSquare) {
+    return Judgement{Verdict::Undetermined, "the force rises as suddenly as it falls: no sticks"};
+  }
+  if ((sine_like || e.restick_share < kRestickShare) && is_faint(segmentation)) {
     return Judgement{Verdict::Undetermined,
                      "the swings are not much larger than the noise: no sticks can be told from it"};
   }
@@ -122,20 +218,26 @@ double mains_share(const Segmentation& segmentation) {
   return std::abs(at_50 - 1.0) < std::abs(at_60 - 1.0) ? at_50 : at_60;
 }
 
-bool slips_stand_out(const Quality& quality, const Segmentation& segmentation) {
-  return !is_faint(quality, segmentation) && !is_sine_like(segmentation);
+bool slips_are_sudden(const Segmentation& segmentation) {
+  const std::vector<double> ratios = rises_over_falls(segmentation);
+  if (ratios.size() + 1 < kFewestSudden || signal::median(ratios) < kSudden) return false;
+  const auto sudden = std::count_if(ratios.begin(), ratios.end(), [](double ratio) { return ratio > 0.5 * kSudden; });
+  return static_cast<double>(sudden) >= kSuddenShare * static_cast<double>(ratios.size());
 }
 
-Judgement judge_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-                    const SpectralFrequency& spectral, const FitResult* fit) {
-  if (auto early = judge_counts(recording, quality, segmentation, spectral)) return *early;
-  if (fit == nullptr) {
-    return {Verdict::Undetermined, "fewer than 3 cycles have enough samples on both ramps and can be fitted"};
-  }
+bool slips_stand_out(const Segmentation& segmentation) {
+  return !is_faint(segmentation) && !is_sine_like(segmentation);
+}
+
+Judgement judge_fit(const Recording& recording, const Segmentation& segmentation, const SpectralFrequency& spectral,
+                    const FitResult* fit) {
+  if (auto early = judge_counts(recording, segmentation, spectral)) return *early;
+  if (fit == nullptr) return judge_without_model(recording, segmentation, spectral);
   const Evidence& e = fit->evidence;
   std::size_t used = 0;
   for (const Cycle& cycle : fit->cycles) used += cycle.used ? 1 : 0;
-  if (used < 5 && (e.onset_force_spread > 0.2 || e.relative_residual > 0.04)) {
+  const bool sudden = slips_are_sudden(segmentation);
+  if (used < 5 && !sudden && (e.onset_force_spread > 0.2 || e.relative_residual > 0.04)) {
     return {Verdict::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
   }
   // Hum as large as the drop is what the detector sees, and the fit that follows it finds wrong slips good.
@@ -144,32 +246,32 @@ Judgement judge_fit(const Recording& recording, const Quality& quality, const Se
   }
   const bool close = e.relative_residual < kCloseFit && e.onset_force_spread < kWideSpread;
   const bool loose = e.relative_residual < kLooseFit && e.onset_force_spread < kModestSpread;
-  const bool died = e.decay > kDecay || e.span_share < kSpanShare;
+  const bool died = !sudden && keeps_rhythm(segmentation) && (e.decay > kDecay || e.span_share < kSpanShare);
   if (died && (close || loose || e.restick_share < kRestickShare)) {
     return {Verdict::OscillatorySlip, "the swings die out: a ring-down to steady sliding"};
   }
-  if (!close && !loose) {
-    return {
-        Verdict::Undetermined,
-        fmt::format("the swings are no stick-slip cycles: residual {:.0f} % of the friction drop, its spread {:.0f} %",
-                    100.0 * e.relative_residual, 100.0 * e.onset_force_spread)};
-  }
+  const bool rests = e.restick_share >= kRestickShare;
+  if ((!close && !loose) || (sudden && !rests)) return judge_without_model(recording, segmentation, spectral);
   if (is_sine_like(segmentation) && std::abs(mains_share(segmentation) - 1.0) < kMainsRhythm) {
     return {Verdict::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
   }
-  if (auto round = judge_round_swings(quality, segmentation, e)) return *round;
+  if (auto round = judge_round_swings(recording, segmentation, e)) return *round;
+  if (!close && !sudden) return judge_without_model(recording, segmentation, spectral);
   return {Verdict::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
-                      100.0 * e.relative_residual)};
+                      100.0 * e.relative_residual),
+          true};
 }
 
-Judgement judge_shape(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-                      const SpectralFrequency& spectral) {
-  if (auto early = judge_counts(recording, quality, segmentation, spectral)) return *early;
-  if (is_faint(quality, segmentation)) {
+Judgement judge_shape(const Recording& recording, const Segmentation& segmentation, const SpectralFrequency& spectral) {
+  if (auto early = judge_counts(recording, segmentation, spectral)) return *early;
+  if (slips_are_sudden(segmentation)) {
+    return {Verdict::StickSlip, "the force falls much faster than it rises (no model fitted)"};
+  }
+  if (is_faint(segmentation)) {
     return {Verdict::Undetermined, "the falls are not much larger than the noise: only a fit can tell"};
   }
-  if (!is_sine_like(segmentation)) {
+  if (!is_sine_like(segmentation) && signal::median(rises_over_falls(segmentation)) > kSquare) {
     return {Verdict::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   }
   return {Verdict::Undetermined, "the force falls about as slowly as it rises: only a fit can tell"};

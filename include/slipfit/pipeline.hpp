@@ -22,7 +22,8 @@ struct FrequencyReport {
   Estimate quoted;     ///< Hz; empty where neither method finds one
   std::string method;  ///< "fitted_cycles", "harmonic_least_squares", "slip_counting" or "none"
   SpectralFrequency spectral;
-  Estimate counted;  ///< Hz, from the mean interval between slips
+  Estimate counted;                   ///< Hz, from the mean interval between slips
+  std::vector<SuspiciousLine> lines;  ///< repetitions that are not the slips: never quoted
 };
 
 /// Statistics over the cycles of one recording; forces in the unit of the force column.
@@ -32,6 +33,7 @@ struct CycleStatistics {
   std::size_t used = 0;   ///< cycles in the fit (0 without one)
   std::optional<double> period_s, period_sd_s, slip_time_s, stick_time_s, sticking_degree;
   std::optional<double> peak_force, peak_force_sd, trough_force, force_drop, force_drop_sd;
+  std::optional<double> drop_cv, period_cv;  ///< standard deviation over mean
 };
 
 /// A one-line test of what the fit takes for granted. `name`: period_drift (value: relative change over the recording),
@@ -52,9 +54,16 @@ struct Timing {
   double total_s = 0.0;  ///< filled by the caller: from opening the file to the result
 };
 
+/// Seconds on the recording's own clock.
+struct TimeSpan {
+  double begin_s = 0.0;
+  double end_s = 0.0;
+};
+
 /// Everything that is known about one recording.
 struct Analysis {
-  Quality quality;
+  Quality quality;   ///< of the whole recording
+  TimeSpan sliding;  ///< the stretch that everything else is of: without run-up, stop, release and pauses
   Verdict verdict = Verdict::Undetermined;
   std::string verdict_reason;  ///< one plain sentence
   Warnings warnings;           ///< of the reader, the analysis and the fit

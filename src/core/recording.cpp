@@ -98,4 +98,19 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
   return recording;
 }
 
+Recording Recording::part(std::size_t begin, std::size_t end) const {
+  const auto cut = [&](const std::vector<double>& values) {
+    return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                               values.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  Recording recording;
+  recording.time_s_ = cut(time_s_);
+  recording.force_ = cut(force_);
+  recording.sample_interval_s_ = median_positive_step(recording.time_s_);
+  recording.clock_is_even_ = is_even(recording.time_s_);
+  recording.conditions_ = conditions_;
+  recording.provenance_ = provenance_;
+  return recording;
+}
+
 }  // namespace slipfit

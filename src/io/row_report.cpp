@@ -85,6 +85,7 @@ Provenance describe_rows(const Rows& rows, const RowPlan& plan, const std::strin
                                              counted(rows.text_lines, "line"), rows.text_lines == 1 ? "was" : "were",
                                              rows.first_text_line));
   }
+  provenance.window_given = plan.window.has_value();
   if (plan.window) {
     provenance.assumed.push_back(fmt::format("Only the window {}:{} s was read; {}.", plan.window->begin_s,
                                              plan.window->end_s, describe_range(rows)));

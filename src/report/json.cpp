@@ -25,7 +25,7 @@ std::string id_of(const Recording& recording, const JsonOptions& options) {
 std::string to_json(const Recording& recording, const Analysis& analysis, const JsonOptions& options) {
   const ForceQuantity quantity = recording.conditions().quantity;
   Json json{{"schema", "slipfit.fit/1"}, {"version", SLIPFIT_VERSION}, {"id", id_of(recording, options)}};
-  json["recording"] = recording_json(recording, analysis.quality);
+  json["recording"] = recording_json(recording, analysis);
   json["status"] = name_of(analysis.verdict);
   json["status_reason"] = analysis.verdict_reason;
   json["warnings"] = warnings_json(analysis.warnings);

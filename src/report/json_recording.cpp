@@ -26,7 +26,7 @@ Json quality_json(const Recording& recording, const Quality& quality) {
 
 }  // namespace
 
-Json recording_json(const Recording& recording, const Quality& quality) {
+Json recording_json(const Recording& recording, const Analysis& analysis) {
   const Conditions& conditions = recording.conditions();
   const Provenance& provenance = recording.provenance();
   return Json{{"file", provenance.file},
@@ -45,7 +45,8 @@ Json recording_json(const Recording& recording, const Quality& quality) {
               {"sensor_bandwidth_Hz", number(conditions.sensor_bandwidth_Hz)},
               {"sensor_resonance_Hz", number(conditions.sensor_resonance_Hz)},
               {"assumed", provenance.assumed},
-              {"quality", quality_json(recording, quality)}};
+              {"sliding_s", {number(analysis.sliding.begin_s), number(analysis.sliding.end_s)}},
+              {"quality", quality_json(recording, analysis.quality)}};
 }
 
 Json warnings_json(const Warnings& warnings) {
@@ -61,6 +62,11 @@ Json frequency_json(const FrequencyReport& frequency) {
   for (const SuspiciousLine& line : frequency.spectral.suspicious_lines) {
     lines.push_back({{"frequency_Hz", number(line.frequency_Hz)}, {"reason", line.reason}});
   }
+  Json beside = Json::array();
+  for (const SuspiciousLine& line : frequency.lines) {
+    beside.push_back(
+        {{"frequency_Hz", number(line.frequency_Hz)}, {"swing", number(line.swing)}, {"reason", line.reason}});
+  }
   Json json{
       {"value_Hz", number(frequency.quoted.value)},
       {"se_Hz", number(frequency.quoted.standard_error)},
@@ -69,6 +75,7 @@ Json frequency_json(const FrequencyReport& frequency) {
       {"false_alarm_probability", number(frequency.spectral.false_alarm_probability)},
       {"harmonics", std::move(harmonics)},
       {"suspicious_lines", std::move(lines)},
+      {"lines", std::move(beside)},
       {"spectral",
        {{"value_Hz", number(frequency.spectral.value_Hz)}, {"se_Hz", number(frequency.spectral.standard_error_Hz)}}},
       {"counted",
@@ -79,6 +86,17 @@ Json frequency_json(const FrequencyReport& frequency) {
   return json;
 }
 
+namespace {
+
+/// Periods that scatter by less than a tenth keep a rhythm.
+Json regularity(const CycleStatistics& cycles) {
+  constexpr double kRhythm = 0.1;
+  if (!cycles.period_cv) return nullptr;
+  return *cycles.period_cv < kRhythm ? "regular" : "irregular";
+}
+
+}  // namespace
+
 Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity) {
   Json json{{"count", cycles.count},
             {"minor", cycles.minor},
@@ -87,7 +105,10 @@ Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity) {
             {"period_sd_s", number(cycles.period_sd_s)},
             {"slip_time_s", number(cycles.slip_time_s)},
             {"stick_time_s", number(cycles.stick_time_s)},
-            {"sticking_degree", number(cycles.sticking_degree)}};
+            {"sticking_degree", number(cycles.sticking_degree)},
+            {"drop_cv", number(cycles.drop_cv)},
+            {"period_cv", number(cycles.period_cv)},
+            {"regularity", regularity(cycles)}};
   ForceKeys forces(json, quantity);
   forces.put("peak_force", cycles.peak_force);
   forces.put("peak_force_sd", cycles.peak_force_sd);

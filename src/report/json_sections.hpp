@@ -6,7 +6,7 @@
 namespace slipfit {
 
 // One function a section of the document (docs/formats.md).
-Json recording_json(const Recording& recording, const Quality& quality);
+Json recording_json(const Recording& recording, const Analysis& analysis);
 Json warnings_json(const Warnings& warnings);
 Json frequency_json(const FrequencyReport& frequency);
 Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity);

@@ -11,7 +11,7 @@ namespace {
 Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole role, const SweepPoint* point) {
   const ForceQuantity quantity = entry.recording.conditions().quantity;
   Json json{{"id", entry.id}};
-  json["recording"] = recording_json(entry.recording, analysis.quality);
+  json["recording"] = recording_json(entry.recording, analysis);
   json["status"] = name_of(analysis.verdict);
   json["status_reason"] = analysis.verdict_reason;
   json["role"] = name_of(role);

@@ -108,7 +108,7 @@ std::string to_text(const Recording& recording, const Analysis& analysis) {
   const bool moves_like_model = analysis.verdict == Verdict::StickSlip || analysis.verdict == Verdict::OscillatorySlip;
   if (moves_like_model) text += predicted_text(analysis.derived);
   text += tests_text(analysis.tests);
-  text += recording_text(recording, analysis.quality);
+  text += recording_text(recording, analysis);
   text += warnings_text(analysis.warnings);
   text += assumed_text(recording.provenance().assumed);
   return text;

@@ -65,7 +65,7 @@ std::string frequency_text(const FrequencyReport& frequency) {
   } else {
     table.add({"quoted", "none"});
   }
-  return "\nFrequency\n" + table.text() + lines_text(frequency.spectral.suspicious_lines);
+  return "\nFrequency\n" + table.text() + lines_text(frequency.lines);
 }
 
 std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity) {
@@ -112,7 +112,8 @@ std::string predicted_text(const Derived& derived) {
   return title + table.text() + (derived.regime ? regime_text(derived) : std::string());
 }
 
-std::string recording_text(const Recording& recording, const Quality& quality) {
+std::string recording_text(const Recording& recording, const Analysis& analysis) {
+  const Quality& quality = analysis.quality;
   const Conditions& conditions = recording.conditions();
   const Provenance& provenance = recording.provenance();
   std::string text = "\nRecording\n";
@@ -130,6 +131,12 @@ std::string recording_text(const Recording& recording, const Quality& quality) {
   count(provenance.rows_without_number, "rows without a number");
   count(provenance.rows_backward_in_time, "rows backward in time");
   count(provenance.rows_repeating_time, "repeated time stamps");
+  const TimeSpan& sliding = analysis.sliding;
+  if (sliding.end_s - sliding.begin_s < recording.duration_s()) {
+    text += fmt::format(
+        "\n  sliding from {:.6g} to {:.6g} s: all that follows is of this stretch (--window T0:T1 chooses another)",
+        sliding.begin_s, sliding.end_s);
+  }
   return text + "\n";
 }
 

@@ -18,7 +18,7 @@ std::string frequency_text(const FrequencyReport& frequency);
 std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity);
 std::string spacing_text(const Recording& recording, const Derived& derived);
 std::string predicted_text(const Derived& derived);
-std::string recording_text(const Recording& recording, const Quality& quality);
+std::string recording_text(const Recording& recording, const Analysis& analysis);
 
 /// "key   value ± error unit   [low, high]" for a table of estimates; SI_unit gets a prefix where that reads better.
 struct EstimateRow {

@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "signal/events.hpp"
 #include "signal/mains_removal.hpp"
 #include "signal/mask.hpp"
 #include "signal/robust.hpp"
+#include "signal/stretch.hpp"
 #include "signal/zigzag.hpp"
 
 namespace slipfit {
 namespace {
 
 using signal::Fall;
-using signal::Zigzag;
 
 /// Median of three neighbours, impulses held at the last good value before.
 std::vector<double> smooth(std::span<const double> force, const std::vector<bool>& impulses) {
@@ -28,41 +28,6 @@ std::vector<double> smooth(std::span<const double> force, const std::vector<bool
     before = here;
   }
   return smoothed;
-}
-
-std::vector<double> drops_of(const std::vector<Fall>& falls, const std::vector<double>& force) {
-  std::vector<double> drops;
-  drops.reserve(falls.size());
-  for (const Fall& fall : falls) drops.push_back(force[fall.peak] - force[fall.trough]);
-  return drops;
-}
-
-/// The drop at which the sorted drops reach half of their sum: the size that carries the motion, however many small
-/// falls there are beside.
-double carrying_drop(std::vector<double> drops) {
-  std::sort(drops.begin(), drops.end());
-  const double half = 0.5 * std::accumulate(drops.begin(), drops.end(), 0.0);
-  double sum = 0.0;
-  for (const double drop : drops) {
-    sum += drop;
-    if (sum >= half) return drop;
-  }
-  return drops.empty() ? 0.0 : drops.back();
-}
-
-/// Of the values without the 0.5 % at either end; some of them are enough.
-double central_range(const std::vector<double>& force) {
-  std::vector<double> values;
-  const std::size_t stride = signal::stride_for(force.size());
-  values.reserve(force.size() / stride + 1);
-  for (std::size_t i = 0; i < force.size(); i += stride) values.push_back(force[i]);
-  const auto at = [&](double share) {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-  };
-  const double low = at(0.005);
-  return at(0.995) - low;
 }
 
 /// Last time before `from`, or first after it, at which the force is beyond `level`; linear between samples.
@@ -89,7 +54,7 @@ double crossing_after(std::span<const double> time_s, const std::vector<double>&
 }
 
 DetectedSlip describe(const Fall& fall, std::span<const double> time_s, const std::vector<double>& force) {
-  DetectedSlip slip{fall.peak, fall.trough, force[fall.peak], force[fall.trough], 0.0, 0.0};
+  DetectedSlip slip{fall.peak, fall.trough, force[fall.peak], force[fall.trough], 0.0, 0.0, 0.0};
   const auto level = [&](double share) { return slip.trough_force + share * slip.drop(); };
   // The fastest part of the fall: the last sample above the middle before the force is first below it for good.
   std::size_t middle = fall.trough;
@@ -102,58 +67,40 @@ DetectedSlip describe(const Fall& fall, std::span<const double> time_s, const st
   return slip;
 }
 
-}  // namespace
-
-namespace {
-
-/// The falls of one trace at several thresholds, none below `smallest`: only the first look goes over all samples.
-class Falls {
- public:
-  Falls(const std::vector<double>& force, double smallest) : force_(force) {
-    Zigzag zigzag(smallest);
-    for (std::size_t i = 0; i < force.size(); ++i) zigzag.add(i, force[i]);
-    turns_ = zigzag.turns();
+/// Time of the quickest rise from 20 % to 80 % between a trough and the peak after it.
+double rise_time_s(std::span<const double> time_s, const std::vector<double>& force, std::size_t trough,
+                   std::size_t peak) {
+  const double rise = force[peak] - force[trough];
+  const double low = force[trough] + 0.2 * rise;
+  const double high = force[trough] + 0.8 * rise;
+  const auto crossing_s = [&](std::size_t i, double level) {
+    return time_s[i] + (level - force[i]) / (force[i + 1] - force[i]) * (time_s[i + 1] - time_s[i]);
+  };
+  double low_s = time_s[trough];
+  for (std::size_t i = trough; i < peak; ++i) {
+    if (force[i] <= low && force[i + 1] > low) low_s = crossing_s(i, low);
+    if (force[i] < high && force[i + 1] >= high) return crossing_s(i, high) - low_s;
   }
-
-  [[nodiscard]] std::vector<Fall> beyond(double hysteresis) const {
-    Zigzag zigzag(hysteresis);
-    for (const std::size_t i : turns_) zigzag.add(i, force_[i]);
-    return zigzag.falls();
-  }
-
- private:
-  const std::vector<double>& force_;
-  std::vector<std::size_t> turns_;
-};
+  return time_s[peak] - low_s;
+}
 
 Segmentation find_slips_in(std::span<const double> raw, const Recording& recording, const Quality& quality) {
-  const std::vector<double> force = smooth(raw, quality.impulse_mask);
-  const double range = central_range(force);
-  if (!(range > 0.0)) return {};
-  // Noise makes no turning point below 10 standard deviations; beyond 0.35 of the range nothing would be left to find.
-  const double noise_floor = std::min(10.0 * quality.noise_rms, 0.35 * range);
-  const Falls all(force, noise_floor);
-  double hysteresis = std::max(0.05 * range, noise_floor);
-  for (int pass = 0; pass < 4; ++pass) {
-    const double next = std::max(noise_floor, 0.4 * carrying_drop(drops_of(all.beyond(hysteresis), force)));
-    const bool settled = std::abs(next - hysteresis) <= 1e-3 * hysteresis;
-    hysteresis = next;
-    if (settled || !(hysteresis > 0.0)) break;
-  }
-  if (!(hysteresis > 0.0)) return {};
-
-  const double typical = signal::median(drops_of(all.beyond(hysteresis), force));
+  const signal::Events events = signal::find_events(smooth(raw, quality.impulse_mask), quality.noise_rms);
   Segmentation segmentation;
-  segmentation.hysteresis = std::max(noise_floor, 0.25 * typical);
-  const std::vector<Fall> falls = all.beyond(segmentation.hysteresis);
-  const double quarter = 0.25 * signal::median(drops_of(falls, force));
-  for (const Fall& fall : falls) {
-    if (force[fall.peak] - force[fall.trough] < quarter) continue;
-    segmentation.slips.push_back(describe(fall, recording.time_s(), force));
+  segmentation.hysteresis = events.hysteresis;
+  segmentation.minor = events.minor;
+  segmentation.noise = events.noise;
+  segmentation.smoothed_over = events.width;
+  for (const Fall& fall : events.falls) {
+    std::vector<DetectedSlip>& slips = segmentation.slips;
+    if (!slips.empty()) {
+      slips.back().rise_s = rise_time_s(recording.time_s(), events.trace, slips.back().trough, fall.peak);
+    }
+    slips.push_back(describe(fall, recording.time_s(), events.trace));
   }
-  const double smallest = std::max(noise_floor, 0.1 * typical);
-  segmentation.minor = all.beyond(smallest).size();
-  segmentation.minor -= std::min(segmentation.minor, segmentation.slips.size());
+  const signal::Stretch sliding = signal::sliding_stretch(events.trace, events.falls);
+  segmentation.sliding_begin = sliding.begin;
+  segmentation.sliding_end = sliding.end;
   return segmentation;
 }
 

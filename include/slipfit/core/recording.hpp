@@ -45,6 +45,7 @@ struct Provenance {
   std::size_t rows_without_number = 0;       ///< nan, inf, empty or text cells in the chosen columns: left out
   std::size_t rows_backward_in_time = 0;     ///< left out
   std::size_t rows_repeating_time = 0;       ///< kept: same time stamp as the row before
+  bool window_given = false;                 ///< the user chose what part to read: nothing else is left out
 };
 
 /// Time and tangential force of one run: at least 2 samples, all finite, time never decreasing and not constant.
@@ -65,6 +66,9 @@ class Recording {
   [[nodiscard]] double sample_interval_s() const { return sample_interval_s_; }
   /// Whether every time stamp lies within a quarter of a step of an even clock (printed decimals do, gaps do not).
   [[nodiscard]] bool clock_is_even() const { return clock_is_even_; }
+
+  /// Samples [begin, end), at least 2 of them at different times: the same conditions, the same provenance.
+  [[nodiscard]] Recording part(std::size_t begin, std::size_t end) const;
 
  private:
   Recording() = default;

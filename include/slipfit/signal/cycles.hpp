@@ -17,6 +17,7 @@ struct DetectedSlip {
   double trough_force = 0.0;
   double middle_s = 0.0;  ///< when the force crosses the middle of the fall
   double fall_s = 0.0;    ///< from 80 % to 20 % of the fall: not blurred by noise on the ramps
+  double rise_s = 0.0;    ///< from 20 % to 80 % of the rise to the next slip; 0 after the last
 
   [[nodiscard]] double drop() const { return peak_force - trough_force; }
 };
@@ -26,11 +27,16 @@ struct Segmentation {
   std::vector<DetectedSlip> slips;  ///< counted slips: drop at least a quarter of the median drop
   std::size_t minor = 0;            ///< smaller ones
   double hysteresis = 0.0;          ///< swing that makes a turning point, unit of the force column
+  double noise = 0.0;               ///< standard deviation at the time scale of the slips, unit of the force column
+  std::size_t smoothed_over = 1;    ///< samples; more than one where ringing or noise would hide the slips
+  std::size_t sliding_begin = 0;    ///< the slips follow each other from this sample
+  std::size_t sliding_end = 0;      ///< to the one before this
   std::vector<double> mains_Hz;     ///< lines that were taken off the force before looking
 };
 
-/// Slips by turning points with hysteresis: the level may wander, noise and quantisation below the hysteresis count for
-/// nothing, isolated impulses are passed over. Fewer than one fall larger than the noise: no slips.
+/// Slips are sudden falls after slow rises, found at their own time scale: the level may wander, noise and quantisation
+/// below the hysteresis count for nothing, isolated impulses are passed over, ringing after a slip belongs to it. Waves
+/// have falls too, as slow as their rises. Fewer than one fall larger than the noise: no slips.
 Segmentation find_slips(const Recording& recording, const Quality& quality);
 
 /// Hum whose swing is below this share of a drop moves no turning point beyond the hysteresis; the fit finds it in the

@@ -68,6 +68,18 @@ SampleRange middle_cycles(const Source& source) {
   return samples_between(source.recording, cycles[first]->trough_s, cycles[first + count]->trough_s);
 }
 
+/// Grey behind what slides, where that is not all.
+void mark_sliding(Panel& panel, const Source& source) {
+  const TimeSpan& sliding = source.analysis.sliding;
+  if (!(sliding.end_s - sliding.begin_s < source.recording.duration_s()) || !(sliding.end_s > sliding.begin_s)) return;
+  const auto corner = [](double x, double y) { return chart::Point{x, y}; };
+  panel.areas.push_back({"sliding",
+                         Colour::Grey,
+                         chart::Fill::Plain,
+                         {corner(sliding.begin_s, panel.y.low), corner(sliding.end_s, panel.y.low),
+                          corner(sliding.end_s, panel.y.high), corner(sliding.begin_s, panel.y.high)}});
+}
+
 /// Where slips begin and end by the fit, else the turning points.
 void add_cycle_marks(Panel& panel, const Source& source) {
   const double scale = source.force_unit.per_SI;
@@ -119,6 +131,7 @@ Exhibit trace_exhibit(const Source& source) {
                              "that the model lacks.";
   chart::Chart chart{"Recording and fit", {}, {}};
   chart.panels.push_back(force_panel(cut(source, {0, recording.size()}), label, 1.0));
+  mark_sliding(chart.panels.back(), source);
   const SampleRange close = shows_cycles(source.analysis) ? middle_cycles(source) : SampleRange{};
   if (close.last > close.first + 2) {
     const Piece piece = cut(source, close);

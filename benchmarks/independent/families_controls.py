@@ -1,0 +1,80 @@
+"""Negative controls: steady sliding, waves, a ring-down."""
+from families_inside import NONE
+from families_outside import extended
+from scenes import control, draw_rig, lines, np, red
+
+
+def _steady(rng, noise_of):
+    rig = draw_rig(rng)
+    n = int(rng.integers(4000, 12000))
+    return control(rig, "steady", rig.kinetic + rig.drop * noise_of(n, np.arange(n) * rig.step, rig))
+
+
+def steady_white(rng):
+    return _steady(rng, lambda n, t, r: 0.0 * t)
+
+
+def steady_red(rng):
+    return _steady(rng, lambda n, t, r: 0.3 * red(rng, n, 10 ** rng.uniform(0.5, 3)))
+
+
+def steady_walk(rng):
+    return _steady(rng, lambda n, t, r: np.cumsum(rng.standard_normal(n)) / np.sqrt(n))
+
+
+def steady_pickup(rng):
+    return _steady(rng, lambda n, t, r: lines(rng, t, 10 ** rng.uniform(-2.5, -0.5) / r.step, [0.3, 0.1 * rng.integers(0, 2)]))
+
+
+def steady_ripple(rng):
+    return _steady(rng, lambda n, t, r: 0.05 * red(rng, n, 30) + lines(rng, t, 0.01 / r.step, [0.05, 0.1]) + lines(rng, t, 0.25 / r.step, [0.1]))
+
+
+def steady_run(rng):
+    """Rest, loading ramp, steady sliding with pick-up, release."""
+    rig = draw_rig(rng)
+    rig.drop, drop = 1e-6 * rig.drop, rig.drop
+    motion = rig.run((rig.count + 1) * rig.period_s, start=0.0)
+    rig.drop = drop
+    motion.force += lines(rng, motion.time_s, rng.uniform(0.02, 0.3) / rig.step, [rng.uniform(0.05, 0.4) * drop])
+    motion.slips = motion.slips[:0]
+    result = extended(rig, motion, rng, (0, motion.time_s[-1]), NONE)
+    return control(rig, "steady", result.force, result.time_s, noise=False)
+
+
+def _wave(rng, shape):
+    rig = draw_rig(rng)
+    frequency = 10 ** rng.uniform(-2.3, -1) / rig.step
+    t = np.arange(int(rng.uniform(15, 60) / frequency / rig.step)) * rig.step
+    return control(rig, "wave", rig.kinetic + rig.drop * shape(2 * np.pi * frequency * t + rng.uniform(0, 6)), frequency=frequency)
+
+
+def sine(rng):
+    return _wave(rng, np.sin)
+
+
+def sine_harmonics(rng):
+    a, b, p, q = rng.uniform(0, 0.4), rng.uniform(0, 0.2), rng.uniform(0, 6), rng.uniform(0, 6)
+    return _wave(rng, lambda w: np.sin(w) + a * np.sin(2 * w + p) + b * np.sin(3 * w + q))
+
+
+def square(rng):
+    return _wave(rng, lambda w: np.sign(np.sin(w)))
+
+
+def triangle(rng):
+    return _wave(rng, lambda w: 2 / np.pi * np.arcsin(np.sin(w)))
+
+
+def ringdown(rng):
+    """One breakaway, then free decay to steady sliding."""
+    rig = draw_rig(rng)
+    w, z = rig.model.omega, rng.uniform(0.01, 0.05)
+    t = np.arange(int(rng.uniform(3, 8) / (z * w) / rig.step)) * rig.step
+    ramp = np.linspace(0.3, 1, int(6 / w / rig.step)) * rig.drop
+    ring = rig.drop * np.exp(-z * w * t) * np.cos(w * np.sqrt(1 - z * z) * t)
+    return control(rig, "ringdown", rig.kinetic + np.concatenate([ramp, ring]), frequency=w / 2 / np.pi)
+
+
+FAMILIES = [steady_white, steady_red, steady_walk, steady_pickup, steady_ripple, steady_run, sine, sine_harmonics, square, triangle,
+            ringdown]

@@ -1,0 +1,205 @@
+/* Stick-slip of one body on a spring, by fixed-step Runge-Kutta with located events: shares no code with slipfit.
+   Forces in N, times in s. Compiled and called by simulator.py. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  double stiffness, omega, damping_ratio; /* k, sqrt(k / m), parallel to the spring */
+  double stribeck_force, stribeck_speed;  /* falls off from the kinetic friction's excess at rest */
+  double quadratic;                       /* N s^2/m^2 */
+  double weakening_length;                /* D_c: friction falls from static to kinetic over this sliding distance */
+  double ageing, ageing_time;             /* B ln(1 + t/t_c) added to the static friction */
+  double creep_force, creep_share;        /* creep in stick: share * V * exp(-(F_s - F) / force) */
+  double reload_force, reload_length;     /* stiffer after a slip: A (1 - exp(-s / l)) */
+  double stiffening;                      /* N/m^3 */
+  double sensor_omega, sensor_damping;    /* second-order sensor; 0: none */
+  double precursor_at, precursor_share;   /* small fall at this share of the way to F_s */
+  double aftershock_s, aftershock_share;  /* small fall so long after a slip */
+} Model;
+
+/* What changes with time, one value a sample; static friction further takes a factor for each slip. */
+typedef struct {
+  const double *speed, *static_friction, *kinetic_friction, *slip_factor;
+  long samples, factors;
+  double step;
+  int substeps;
+} Course;
+
+typedef struct {
+  double force, velocity, slid, sensor, sensor_rate, since_slip;
+} State;
+
+static double sign_of(double x) { return x < 0 ? -1.0 : 1.0; }
+
+static double friction(const Model *m, double kinetic, double excess, double speed, double slid) {
+  double f = kinetic + m->quadratic * speed * speed;
+  if (m->stribeck_speed > 0) f += m->stribeck_force * exp(-fabs(speed) / m->stribeck_speed);
+  if (m->weakening_length > 0 && slid < m->weakening_length) f += excess * (1.0 - slid / m->weakening_length);
+  return f;
+}
+
+static double tangent(const Model *m, const State *s, int sliding) {
+  double k = m->stiffness;
+  if (m->stiffening > 0) k += 3.0 * m->stiffening * pow(s->force / m->stiffness, 2);
+  if (m->reload_length > 0 && !sliding) k += m->reload_force / m->reload_length * exp(-s->since_slip / m->reload_length);
+  return k;
+}
+
+static State rate(const Model *m, const State *s, double drive, double kinetic, double static_friction, int sliding,
+                  double direction) {
+  State d;
+  memset(&d, 0, sizeof d);
+  const double mass = m->stiffness / (m->omega * m->omega);
+  const double damper = 2.0 * m->damping_ratio * m->stiffness / m->omega;
+  double velocity = 0.0;
+  if (sliding) {
+    velocity = s->velocity;
+    const double f = direction * friction(m, kinetic, static_friction - kinetic, velocity, s->slid);
+    d.velocity = (s->force + damper * (drive - velocity) - f) / mass;
+    d.slid = fabs(velocity);
+  } else {
+    d.since_slip = fabs(drive);
+    if (m->creep_force > 0) velocity = m->creep_share * drive * exp(-(static_friction - fabs(s->force)) / m->creep_force);
+  }
+  d.force = tangent(m, s, sliding) * (drive - velocity);
+  if (m->sensor_omega > 0) {
+    d.sensor = s->sensor_rate;
+    d.sensor_rate = m->sensor_omega * m->sensor_omega * (s->force - s->sensor) -
+                    2.0 * m->sensor_damping * m->sensor_omega * s->sensor_rate;
+  }
+  return d;
+}
+
+static State moved(State s, State d, double h) {
+  double *a = (double *)&s;
+  const double *b = (const double *)&d;
+  for (size_t i = 0; i < sizeof(State) / sizeof(double); ++i) a[i] += h * b[i];
+  return s;
+}
+
+static State stepped(const Model *m, State s, double h, double drive, double kinetic, double fs, int sliding, double direction) {
+  const State a = rate(m, &s, drive, kinetic, fs, sliding, direction);
+  State p = moved(s, a, 0.5 * h);
+  const State b = rate(m, &p, drive, kinetic, fs, sliding, direction);
+  p = moved(s, b, 0.5 * h);
+  const State c = rate(m, &p, drive, kinetic, fs, sliding, direction);
+  p = moved(s, c, h);
+  const State d = rate(m, &p, drive, kinetic, fs, sliding, direction);
+  s = moved(s, a, h / 6), s = moved(s, b, h / 3), s = moved(s, c, h / 3);
+  return moved(s, d, h / 6);
+}
+
+typedef struct {
+  double onset_s, end_s, onset_force, end_force;
+} Slip;
+
+typedef struct {
+  State state;
+  int sliding, precursor_due, aftershock_due;
+  double direction, stick_s, low_force, drop, fs;
+  long slips;
+} Motion;
+
+static void small_falls(const Model *m, Motion *o) {
+  const double size = fabs(o->state.force);
+  if (o->precursor_due && size > o->low_force + m->precursor_at * (o->fs - o->low_force)) {
+    o->state.force -= sign_of(o->state.force) * m->precursor_share * (o->fs - o->low_force);
+    o->precursor_due = 0;
+  }
+  if (o->aftershock_due && o->stick_s > m->aftershock_s) {
+    o->state.force -= sign_of(o->state.force) * m->aftershock_share * o->drop;
+    o->aftershock_due = 0;
+  }
+}
+
+static void begin_slip(const Model *m, Motion *o, double drive, double now, Slip *slips) {
+  const double damper = 2.0 * m->damping_ratio * m->stiffness / m->omega;
+  o->sliding = 1;
+  o->direction = sign_of(o->state.force + damper * drive);
+  o->state.velocity = 0.0;
+  o->state.slid = 0.0;
+  slips[o->slips].onset_s = now;
+  slips[o->slips].onset_force = o->state.force;
+  slips[o->slips].end_s = -1.0;
+}
+
+static void end_slip(const Model *m, Motion *o, double now, Slip *slips) {
+  slips[o->slips].end_s = now;
+  slips[o->slips].end_force = o->state.force;
+  o->drop = fabs(slips[o->slips].onset_force - o->state.force);
+  ++o->slips;
+  o->sliding = 0;
+  o->state.velocity = 0.0;
+  o->state.since_slip = 0.0;
+  o->stick_s = 0.0;
+  o->low_force = fabs(o->state.force);
+  o->precursor_due = m->precursor_share > 0;
+  o->aftershock_due = m->aftershock_share > 0;
+}
+
+/* `force`: what the sensor shows at every sample. Returns the number of slips (at most `most`); the last may be open. */
+long simulate(const Model *m, const Course *course, double start_force, double *force, Slip *slips, long most) {
+  Motion o;
+  memset(&o, 0, sizeof o);
+  o.state.force = o.state.sensor = start_force;
+  o.low_force = start_force;
+  o.state.since_slip = 1e9;
+  const double h = course->step / course->substeps;
+  const double damper = 2.0 * m->damping_ratio * m->stiffness / m->omega;
+  for (long i = 0; i < course->samples; ++i) {
+    force[i] = m->sensor_omega > 0 ? o.state.sensor : o.state.force;
+    const double drive = course->speed[i], kinetic = course->kinetic_friction[i];
+    for (int j = 0; j < course->substeps && o.slips < most - 1; ++j) {
+      const double now = (i + (double)j / course->substeps) * course->step;
+      if (!o.sliding) {
+        o.fs = course->static_friction[i] * course->slip_factor[o.slips % course->factors] +
+               kinetic * (1.0 - course->slip_factor[o.slips % course->factors]);
+        if (m->ageing_time > 0) o.fs += m->ageing * log1p(o.stick_s / m->ageing_time);
+        small_falls(m, &o);
+        if (fabs(o.state.force + damper * drive) >= o.fs) begin_slip(m, &o, drive, now, slips);
+      }
+      const State before = o.state;
+      o.state = stepped(m, before, h, drive, kinetic, o.fs, o.sliding, o.direction);
+      if (o.sliding && o.direction * o.state.velocity <= 0.0 && o.state.slid > 0.0 && before.velocity != 0.0) {
+        const double share = before.velocity / (before.velocity - o.state.velocity);
+        o.state = stepped(m, before, share * h, drive, kinetic, o.fs, 1, o.direction);
+        end_slip(m, &o, now + share * h, slips);
+        o.state = stepped(m, o.state, (1.0 - share) * h, drive, kinetic, o.fs, 0, o.direction);
+      } else if (!o.sliding) {
+        o.stick_s += h;
+      }
+    }
+  }
+  return o.slips;
+}
+
+/* LuGre friction: bristles of stiffness sigma0 (N/m), damping sigma1, Stribeck level between static and kinetic. */
+void simulate_lugre(double k, double omega, double zeta, double fs, double fk, double stribeck_speed, double sigma0,
+                    double sigma1, double speed, double step, long samples, int substeps, double *force) {
+  const double mass = k / (omega * omega), damper = 2.0 * zeta * k / omega, h = step / substeps;
+  double s = fk / k, v = 0.0, z = fk / sigma0;
+  for (long i = 0; i < samples; ++i) {
+    force[i] = k * s;
+    for (int j = 0; j < substeps; ++j) {
+      const double g = (fk + (fs - fk) * exp(-pow(v / stribeck_speed, 2))) / sigma0;
+      /* z is stiff: exponential step at constant v; the body semi-implicitly */
+      const double decay = fabs(v) / g;
+      const double zdot = v - decay * z;
+      const double znew = decay * h > 1e-12 ? z * exp(-decay * h) + v / decay * (1.0 - exp(-decay * h)) : z + v * h;
+      const double f = sigma0 * znew + sigma1 * zdot;
+      v += h * (k * s + damper * (speed - v) - f) / mass;
+      s += h * (speed - v);
+      z = znew;
+    }
+  }
+}
+
+int write_csv(const char *path, const double *time, const double *force, long samples) {
+  FILE *file = fopen(path, "w");
+  if (!file) return 1;
+  fputs("time_s,force_N\n", file);
+  for (long i = 0; i < samples; ++i) fprintf(file, "%.9g,%.7g\n", time[i], force[i]);
+  return fclose(file);
+}

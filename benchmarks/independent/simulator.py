@@ -1,0 +1,80 @@
+"""The simulator of simulator.c for Python: compiled on first use, shares no code with slipfit. Needs numpy and gcc."""
+import ctypes
+import dataclasses
+import hashlib
+import pathlib
+import subprocess
+import tempfile
+
+import numpy as np
+
+SOURCE = pathlib.Path(__file__).with_name("simulator.c")
+SLIP = np.dtype([("onset_s", float), ("end_s", float), ("onset_force", float), ("end_force", float)])
+DOUBLES = np.ctypeslib.ndpointer(float, flags="C_CONTIGUOUS")
+
+
+class Model(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_double) for name in (
+        "stiffness omega damping_ratio stribeck_force stribeck_speed quadratic weakening_length ageing ageing_time "
+        "creep_force creep_share reload_force reload_length stiffening sensor_omega sensor_damping precursor_at "
+        "precursor_share aftershock_s aftershock_share").split()]
+
+
+class Course(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_void_p) for name in ("speed", "static_friction", "kinetic_friction", "slip_factor")] + [
+        ("samples", ctypes.c_long), ("factors", ctypes.c_long), ("step", ctypes.c_double), ("substeps", ctypes.c_int)]
+
+
+def load():
+    digest = hashlib.sha1(SOURCE.read_bytes()).hexdigest()[:12]
+    library = pathlib.Path(tempfile.gettempdir()) / f"slipfit_simulator_{digest}.so"
+    if not library.exists():
+        made = library.with_suffix(f".{id(digest)}")
+        subprocess.run(["gcc", "-O2", "-shared", "-fPIC", "-o", made, SOURCE, "-lm"], check=True)
+        made.rename(library)
+    return ctypes.CDLL(str(library))
+
+
+LIBRARY = load()
+
+
+@dataclasses.dataclass
+class Motion:
+    """What was simulated: force at every sample before noise, and the slips."""
+    time_s: np.ndarray
+    force: np.ndarray
+    slips: np.ndarray
+
+
+def simulate(model, step, speed, static_friction, kinetic_friction, factors=(1.0,), start_force=0.0):
+    """`speed` (m/s), and both frictions (N), one value a sample; `factors`: F_s - F_k of each slip over its mean."""
+    columns = [np.ascontiguousarray(np.broadcast_to(c, speed.shape), float) for c in (speed, static_friction, kinetic_friction)]
+    factors = np.ascontiguousarray(factors, float)
+    fastest = max(model.omega, model.sensor_omega)
+    substeps = max(1, int(np.ceil(step * fastest / 0.05)))
+    course = Course(*[c.ctypes.data for c in columns], factors.ctypes.data, len(speed), len(factors), step, substeps)
+    force = np.zeros(len(speed))
+    slips = np.zeros(5000, SLIP)
+    run = LIBRARY.simulate
+    run.restype = ctypes.c_long
+    run.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_double, DOUBLES, ctypes.c_void_p, ctypes.c_long]
+    count = run(ctypes.byref(model), ctypes.byref(course), start_force, force, slips.ctypes.data, len(slips))
+    return Motion(np.arange(len(speed)) * step, force, slips[:count])
+
+
+def simulate_lugre(k, omega, zeta, fs, fk, stribeck_speed, sigma0, sigma1, speed, step, samples):
+    force = np.zeros(samples)
+    run = LIBRARY.simulate_lugre
+    run.argtypes = [ctypes.c_double] * 10 + [ctypes.c_long, ctypes.c_int, DOUBLES]
+    mass = k / omega**2
+    substeps = max(1, int(np.ceil(step * np.sqrt((sigma0 + k) / mass) / 0.1)))
+    run(k, omega, zeta, fs, fk, stribeck_speed, sigma0, sigma1, speed, step, samples, substeps, force)
+    return force
+
+
+def write_csv(path, time_s, force):
+    run = LIBRARY.write_csv
+    run.argtypes = [ctypes.c_char_p, DOUBLES, DOUBLES, ctypes.c_long]
+    time_s, force = (np.ascontiguousarray(c, float) for c in (time_s, force))
+    if run(str(path).encode(), time_s, force, len(time_s)):
+        raise OSError(f"cannot write {path}")

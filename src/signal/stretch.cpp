@@ -1,0 +1,157 @@
+#include "signal/stretch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "signal/robust.hpp"
+
+namespace slipfit::signal {
+namespace {
+
+constexpr std::size_t kFewest = 4;
+
+double share_of(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// What is usual among the falls of a trace.
+struct Usual {
+  double drop = 0.0;        ///< median
+  double large_drop = 0.0;  ///< 90 % are smaller
+  double interval = 0.0;    ///< samples, median
+  double long_interval = 0.0;
+  double rise_rate = 0.0;  ///< force a sample, median
+};
+
+class Train {
+ public:
+  Train(const std::vector<double>& force, const std::vector<Fall>& falls) : force_(force), falls_(falls) {
+    std::vector<double> drops, intervals, rates;
+    for (std::size_t i = 0; i < falls.size(); ++i) {
+      drops.push_back(drop(i));
+      if (i == 0) continue;
+      intervals.push_back(interval(i));
+      rates.push_back((peak(i) - trough(i - 1)) / static_cast<double>(falls[i].peak - falls[i - 1].trough + 1));
+    }
+    usual_ = {median(drops), share_of(drops, 0.9), median(intervals), share_of(intervals, 0.9), median(rates)};
+  }
+
+  [[nodiscard]] double peak(std::size_t i) const { return force_[falls_[i].peak]; }
+  [[nodiscard]] double trough(std::size_t i) const { return force_[falls_[i].trough]; }
+  [[nodiscard]] double drop(std::size_t i) const { return peak(i) - trough(i); }
+  [[nodiscard]] double interval(std::size_t i) const {
+    return static_cast<double>(falls_[i].peak - falls_[i - 1].peak);
+  }
+  [[nodiscard]] const Usual& usual() const { return usual_; }
+
+  /// Whether fall i belongs to the same sliding as the one before: no pause between them, no other level.
+  [[nodiscard]] bool follows(std::size_t i) const {
+    const double loading = (peak(i) - trough(i - 1)) / usual_.rise_rate;
+    const double patience = std::max(2.5 * usual_.long_interval, 2.5 * loading);
+    return interval(i) < patience && std::abs(peak(i) - peak(i - 1)) < 1.5 * usual_.large_drop;
+  }
+
+ private:
+  const std::vector<double>& force_;
+  const std::vector<Fall>& falls_;
+  Usual usual_;
+};
+
+/// Falls [first, last] of the longest train.
+struct Run {
+  std::size_t first = 0;
+  std::size_t last = 0;
+
+  [[nodiscard]] std::size_t count() const { return last - first + 1; }
+};
+
+Run longest_run(const Train& train, std::size_t falls) {
+  Run best{0, 0};
+  Run run{0, 0};
+  for (std::size_t i = 1; i < falls; ++i) {
+    run = train.follows(i) ? Run{run.first, i} : Run{i, i};
+    if (run.count() > best.count()) best = run;
+  }
+  return best;
+}
+
+/// Lowest and highest force that the run's cycles reach, with room for half a drop.
+struct Band {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+Band band_of(const Train& train, Run run) {
+  std::vector<double> peaks, troughs;
+  for (std::size_t i = run.first; i <= run.last; ++i) {
+    peaks.push_back(train.peak(i));
+    if (i < run.last) troughs.push_back(train.trough(i));
+  }
+  const double room = 0.5 * train.usual().large_drop;
+  return {*std::min_element(troughs.begin(), troughs.end()) - room,
+          *std::max_element(peaks.begin(), peaks.end()) + room};
+}
+
+bool within(const std::vector<double>& force, std::size_t begin, std::size_t end, Band band) {
+  return std::all_of(force.begin() + static_cast<std::ptrdiff_t>(begin),
+                     force.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](double f) { return f >= band.low && f <= band.high; });
+}
+
+/// Back from the first peak along its stick, down to the trough of the slips that follow.
+std::size_t begin_of(const std::vector<double>& force, const std::vector<Fall>& falls, const Train& train, Run run,
+                     double reach) {
+  std::vector<double> troughs;
+  for (std::size_t i = run.first; i <= std::min(run.last, run.first + 4); ++i) troughs.push_back(train.trough(i));
+  const double low = median(std::move(troughs));
+  const std::size_t peak = falls[run.first].peak;
+  const std::size_t earliest = peak - std::min(peak, static_cast<std::size_t>(reach));
+  std::size_t begin = peak;
+  while (begin > earliest && force[begin - 1] > low) --begin;
+  return begin;
+}
+
+/// On from the last trough as far as the force stays in the band.
+std::size_t end_of(const std::vector<double>& force, const std::vector<Fall>& falls, Run run, Band band, double reach) {
+  std::size_t end = falls[run.last].trough + 1;
+  const std::size_t latest = std::min(force.size(), falls[run.last].peak + static_cast<std::size_t>(reach));
+  while (end < latest && force[end] >= band.low) ++end;
+  return end;
+}
+
+}  // namespace
+
+Stretch sliding_stretch(const std::vector<double>& force, const std::vector<Fall>& falls) {
+  const Stretch whole{0, force.size()};
+  if (falls.size() < kFewest) return whole;
+  const Train train(force, falls);
+  if (!(train.usual().rise_rate > 0.0)) return whole;
+  Run run = longest_run(train, falls.size());
+  if (run.count() < kFewest) return whole;
+  Band band = band_of(train, run);
+  Stretch stretch;
+  // The last fall is the release where the force does not stay among the others' troughs.
+  const bool released = train.trough(run.last) < band.low;
+  if (released) {
+    stretch.end = falls[run.last].peak;
+    --run.last;
+    band = band_of(train, run);
+  }
+  double longest = train.usual().interval;
+  for (std::size_t i = run.first + 1; i <= run.last; ++i) longest = std::max(longest, train.interval(i));
+  stretch.begin = begin_of(force, falls, train, run, 1.2 * longest);
+  if (!released) stretch.end = end_of(force, falls, run, band, 1.2 * longest);
+  const double usual = train.usual().interval;
+  if (static_cast<double>(stretch.begin) < usual && within(force, 0, stretch.begin, band)) stretch.begin = 0;
+  if (static_cast<double>(force.size() - stretch.end) < usual && within(force, stretch.end, force.size(), band)) {
+    stretch.end = force.size();
+  }
+  return stretch;
+}
+
+}  // namespace slipfit::signal

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "signal/zigzag.hpp"
+
+namespace slipfit::signal {
+
+/// Samples [begin, end) of a trace.
+struct Stretch {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// The stretch in which slips follow each other: without the loading ramp before the first, without what comes after
+/// the last (stop, release and its ring-down, steady sliding), and the longest of several (pauses, strokes). The whole
+/// trace where fewer than 4 falls follow each other, and where less than a usual stick of ordinary force would be cut.
+Stretch sliding_stretch(const std::vector<double>& force, const std::vector<Fall>& falls);
+
+}  // namespace slipfit::signal

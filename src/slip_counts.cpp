@@ -1,0 +1,145 @@
+#include "slip_counts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "fit/inference/intervals.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit {
+namespace {
+
+constexpr double kGapSteps = 3.5;
+/// Intervals whose median deviation is below this share of the median are regular: few far ones among them are broken.
+constexpr double kRegularRest = 0.03;
+constexpr double kFar = 0.12;        // of the median, at least
+constexpr double kFewBroken = 0.15;  // of all intervals
+constexpr std::size_t kFewestForChange = 10;
+constexpr double kBeyondScatter = 6.0;  // standard errors; the best of many splits reaches 3 to 4 by chance
+constexpr double kNotable = 0.2;        // relative change
+
+/// Standard error over mean of the mean of a stationary series (Bartlett's weights; never below what independent values
+/// would have by half, which few values cannot show).
+double relative_error(const std::vector<double>& values, const MeanAndSpread& of) {
+  const std::size_t lags = static_cast<std::size_t>(std::cbrt(of.count));
+  double variance = of.sd * of.sd;
+  const double independent = variance;
+  for (std::size_t lag = 1; lag <= lags && lag + 1 < values.size(); ++lag) {
+    double product = 0.0;
+    for (std::size_t i = lag; i < values.size(); ++i) product += (values[i] - of.mean) * (values[i - lag] - of.mean);
+    const double weight = 1.0 - static_cast<double>(lag) / static_cast<double>(lags + 1);
+    variance += 2.0 * weight * product / of.count;
+  }
+  return std::sqrt(std::max(variance, 0.5 * independent) / of.count) / of.mean;
+}
+
+/// Where a series is split best into two levels, and how far apart they are in standard errors.
+struct Split {
+  std::size_t at = 0;
+  double before = 0.0;
+  double after = 0.0;
+  double apart = 0.0;
+};
+
+Split best_split(const std::vector<double>& values) {
+  Split best;
+  const std::size_t edge = std::max<std::size_t>(4, values.size() / 6);
+  for (std::size_t at = edge; at + edge <= values.size(); ++at) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(at);
+    const MeanAndSpread before = describe({values.begin(), middle});
+    const MeanAndSpread after = describe({middle, values.end()});
+    const double error = std::sqrt(before.sd * before.sd / before.count + after.sd * after.sd / after.count +
+                                   1e-6 * before.mean * before.mean);
+    const double apart = std::abs(after.mean - before.mean) / error;
+    if (apart > best.apart) best = {at, before.mean, after.mean, apart};
+  }
+  return best;
+}
+
+bool is_change(const Split& split) {
+  return split.apart > kBeyondScatter && std::abs(split.after / split.before - 1.0) > kNotable;
+}
+
+}  // namespace
+
+MeanAndSpread describe(const std::vector<double>& values) {
+  MeanAndSpread result;
+  result.count = static_cast<double>(values.size());
+  if (values.empty()) return result;
+  result.mean = std::accumulate(values.begin(), values.end(), 0.0) / result.count;
+  for (const double value : values) result.sd += (value - result.mean) * (value - result.mean);
+  result.sd = values.size() > 1 ? std::sqrt(result.sd / (result.count - 1.0)) : 0.0;
+  return result;
+}
+
+Intervals intervals_of(const Recording& recording, const Segmentation& segmentation) {
+  const auto time_s = recording.time_s();
+  const double gap_s = kGapSteps * recording.sample_interval_s();
+  const bool may_have_gaps = !recording.clock_is_even();
+  Intervals intervals;
+  for (std::size_t i = 2; i < segmentation.slips.size(); ++i) {
+    const DetectedSlip& first = segmentation.slips[i - 1];
+    const DetectedSlip& second = segmentation.slips[i];
+    bool whole = true;
+    for (std::size_t j = first.peak + 1; may_have_gaps && j <= second.trough; ++j) {
+      whole = whole && time_s[j] - time_s[j - 1] <= gap_s;
+    }
+    if (whole) intervals.seconds.push_back(second.middle_s - first.middle_s);
+  }
+  const double usual = signal::median(intervals.seconds);
+  std::vector<double> deviations;
+  for (const double interval_s : intervals.seconds) deviations.push_back(std::abs(interval_s - usual));
+  const double deviation = signal::median(deviations);
+  if (intervals.seconds.size() < 8 || deviation > kRegularRest * usual) return intervals;
+  const double far = std::max(kFar * usual, 8.0 * deviation);
+  const auto broken = std::count_if(deviations.begin(), deviations.end(), [&](double d) { return d > far; });
+  if (static_cast<double>(broken) > kFewBroken * static_cast<double>(deviations.size())) return intervals;
+  intervals.broken = static_cast<std::size_t>(broken);
+  std::erase_if(intervals.seconds, [&](double interval_s) { return std::abs(interval_s - usual) > far; });
+  return intervals;
+}
+
+Estimate count_frequency(const Recording& recording, const Segmentation& segmentation) {
+  const std::vector<double> intervals_s = intervals_of(recording, segmentation).seconds;
+  const MeanAndSpread interval = describe(intervals_s);
+  if (interval.count < 1.0) return {std::nullopt, std::nullopt, std::nullopt, "fewer than 3 slips"};
+  const double value = 1.0 / interval.mean;
+  if (interval.count < 2.0) return {value, std::nullopt, std::nullopt, "one interval tells no error"};
+  return fit::symmetric(value, value * relative_error(intervals_s, interval), interval.count - 1.0);
+}
+
+Warnings warn_of_changes(const Recording& recording, const Segmentation& segmentation) {
+  Warnings warnings;
+  const std::vector<DetectedSlip>& slips = segmentation.slips;
+  const Intervals intervals = intervals_of(recording, segmentation);
+  if (intervals.broken > 0) {
+    warnings.push_back({"broken_rhythm",
+                        fmt::format("{} interval(s) between slips do not fit the rhythm of the others: the stage stood "
+                                    "still, or samples are missing while the clock ran on; they do not count",
+                                    intervals.broken)});
+  }
+  if (slips.size() < kFewestForChange + 2) return warnings;
+  std::vector<double> seconds, drops;
+  for (std::size_t i = 2; i < slips.size(); ++i) {
+    seconds.push_back(slips[i].middle_s - slips[i - 1].middle_s);
+    drops.push_back(slips[i].drop());
+  }
+  const Split interval = best_split(seconds);
+  const Split drop = best_split(drops);
+  if (!is_change(interval) && !is_change(drop)) return warnings;
+  const bool pace = is_change(interval) && interval.apart >= drop.apart;
+  const Split& split = pace ? interval : drop;
+  warnings.push_back(
+      {"changes_on_the_way",
+       fmt::format("{} changes from {:.4g}{} before {:.6g} s to {:.4g}{} after it: one number for both is a mean; use "
+                   "--window T0:T1 for each part",
+                   pace ? "the interval between slips" : "the drop", split.before, pace ? " s" : "",
+                   slips[split.at + 2].middle_s, split.after, pace ? " s" : "")});
+  return warnings;
+}
+
+}  // namespace slipfit

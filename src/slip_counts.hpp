@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "slipfit/core/estimate.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/core/result.hpp"
+#include "slipfit/signal/cycles.hpp"
+
+namespace slipfit {
+
+/// Mean and standard deviation of some values.
+struct MeanAndSpread {
+  double mean = 0.0;
+  double sd = 0.0;
+  double count = 0.0;
+};
+
+MeanAndSpread describe(const std::vector<double>& values);
+
+/// From slip to slip: without the first slip, without intervals that hold a gap of the clock, and without the few that
+/// fall far outside of a regular rest (`broken`: the stage stood still, or samples are missing while the clock ran on).
+struct Intervals {
+  std::vector<double> seconds;
+  std::size_t broken = 0;
+};
+
+Intervals intervals_of(const Recording& recording, const Segmentation& segmentation);
+
+/// Frequency from the mean interval between slips, in Hz; empty below 3 slips. The interval allows for slips that come
+/// in clusters (or regularly): the variance of the mean is that of a stationary series, correlation of neighbours
+/// included.
+Estimate count_frequency(const Recording& recording, const Segmentation& segmentation);
+
+/// What changes on the way: the interval or the drop before and after the moment that sets them apart best, where that
+/// is beyond their scatter.
+Warnings warn_of_changes(const Recording& recording, const Segmentation& segmentation);
+
+}  // namespace slipfit
