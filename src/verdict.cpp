@@ -96,8 +96,11 @@ bool ends_flat(const Recording& recording, const Segmentation& segmentation) {
   return last_s - recording.time_s().front() < kSpanShare * recording.duration_s();
 }
 
-/// All falls lie close together near the end: the release and its ring-down.
+/// All falls lie close together near the end, and the force does not rise again: the release and its ring-down.
 bool is_release(const Recording& recording, const Segmentation& segmentation) {
+  const DetectedSlip& last = segmentation.slips.back();
+  const auto after = recording.force().subspan(last.trough);
+  if (*std::max_element(after.begin(), after.end()) > last.trough_force + 0.5 * last.drop()) return false;
   const double first_s = segmentation.slips.front().middle_s - recording.time_s().front();
   const double last_s = segmentation.slips.back().middle_s - recording.time_s().front();
   return first_s > kSpanShare * recording.duration_s() && last_s - first_s < 0.3 * recording.duration_s();

@@ -148,11 +148,17 @@ constexpr double kAlike = 1.05;  // of two numbers of falls
 constexpr double kMostAsymmetry =
     6.0;  // quicker falls than this are not told from each other by sampling and smoothing
 
+/// A single fall has no rise to the next one: it counts where the force took its time to get there.
 double score_of(const Look& look, double noise) {
-  if (look.falls.size() < 2) return 0.0;
+  constexpr double kLeastAlone = 2.5;
+  if (look.falls.empty()) return 0.0;
+  const Fall& first = look.falls.front();
+  const auto length = static_cast<double>(first.trough - first.peak);
+  if (look.falls.size() == 1 && static_cast<double>(first.peak) < kLeastAlone * length) return 0.0;
   constexpr double kClear = 40.0;  // beyond, a larger fall is no better seen
   const double stands_out = 1.0 / (1.0 / kClear + noise / look.drop);
-  return stands_out * std::sqrt(static_cast<double>(look.falls.size())) * std::min(look.asymmetry, kMostAsymmetry);
+  const double asymmetry = look.falls.size() == 1 ? 1.0 : std::min(look.asymmetry, kMostAsymmetry);
+  return stands_out * std::sqrt(static_cast<double>(look.falls.size())) * asymmetry;
 }
 
 /// What one scale shows best.
