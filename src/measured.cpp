@@ -14,6 +14,7 @@
 #include "fitted_frequency.hpp"
 #include "recording_checks.hpp"
 #include "slip_counts.hpp"
+#include "verdict.hpp"
 
 namespace slipfit {
 namespace {
@@ -44,13 +45,6 @@ bool is_sharper(const SpectralFrequency& spectral, const Estimate& fitted) {
   constexpr double kAlike = 0.05;  // an interval that scatter has made wide holds lines that are not the slips'
   return *spectral.regular_standard_error_Hz < *fitted.standard_error &&
          difference_Hz < std::min(kFarApart * *fitted.standard_error, kAlike * *fitted.value);
-}
-
-/// A line of the mains swings far enough to be counted as slips.
-bool hum_makes_falls(const Signals& signals) {
-  const auto& lines = signals.spectral.suspicious_lines;
-  return std::any_of(lines.begin(), lines.end(),
-                     [&](const SuspiciousLine& line) { return line.swing > signals.segmentation.hysteresis; });
 }
 
 /// Peak to peak of the sine at this frequency.
@@ -101,6 +95,27 @@ std::optional<FrequencyReport> of_fit(const Recording& recording, const Signals&
   return report;
 }
 
+/// Noise is so large that slips are missed.
+bool noise_hides_slips(const Signals& signals) {
+  constexpr double kHiding = 6.0;  // drop over noise of a sample; simulated slips are missed below 3
+  return median_drop(signals.segmentation) < kHiding * signals.quality.noise_rms;
+}
+
+/// With an interval that holds what the spectrum shows, which of the same scattering slips knows no more than the
+/// count.
+Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
+  const double spectral_Hz = *spectral.value_Hz;
+  counted.note = fmt::format("the spectrum shows {:.4g} Hz, to which the interval reaches", spectral_Hz);
+  if (!counted.ci95) return counted;
+  const double half_Hz =
+      std::max(2.0 * spectral.standard_error_Hz.value_or(0.0), 0.5 * (counted.ci95->high - counted.ci95->low));
+  counted.ci95->low = std::min(counted.ci95->low, spectral_Hz - half_Hz);
+  counted.ci95->high = std::max(counted.ci95->high, spectral_Hz + half_Hz);
+  const double longer = std::max(*counted.value - counted.ci95->low, counted.ci95->high - *counted.value);
+  counted.standard_error = std::max(*counted.standard_error, longer / 1.96);
+  return counted;
+}
+
 /// Slips or swings without a fit: the spectrum where they are regular and it shows their frequency, else the count.
 FrequencyReport of_trace(const Recording& recording, const Signals& signals, Verdict verdict) {
   const SpectralFrequency& spectral = signals.spectral;
@@ -112,16 +127,23 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, Ver
   const std::optional<double> difference = relative_difference(spectral, counted);
   const bool agree = difference && *difference < 0.05;
   const bool regular = intervals.broken == 0 && interval.count >= 2.0 && interval.sd < kRegular * interval.mean;
+  // A repetition near the count may be that of the slips, with some hidden or made by hum. One far from it is another
+  // thing: pick-up, ringing.
+  constexpr double kNear = 2.0;  // spectrum over count, less one
+  const bool near = difference && *difference < kNear;
+  const bool far = !difference || *difference > kContradiction;
+  const bool contradict = far && (noise_hides_slips(signals) || (near && may_be_hum(signals)));
   const bool hidden = verdict == Verdict::OscillatorySlip && !agree;  // the count may be of noise or of hum
   if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || hidden)) {
     report.method = "harmonic_least_squares";
     report.quoted =
         fit::symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
-  } else if (counted.value && !(hidden && hum_makes_falls(signals))) {
+  } else if (counted.value && !contradict) {
     report.method = "slip_counting";
-    report.quoted = counted;
+    report.quoted = near && !agree ? reaching(counted, spectral) : counted;
   } else {
-    report.quoted.note = "hum of the mains may have made slips, and the spectrum shows no other repetition";
+    report.quoted.note =
+        "hum or noise as large as the slips may have made or hidden some, and the spectrum does not agree";
   }
   return report;
 }

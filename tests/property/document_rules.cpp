@@ -34,9 +34,10 @@ bool is_share(std::string_view key) {
   return std::find(kShares.begin(), kShares.end(), key) != kShares.end();
 }
 
-/// Times and frequencies by their unit, spreads and residuals by their name.
+/// Times and frequencies by their unit, spreads and residuals by their name. The stretch that slides stands on the
+/// recording's own clock, which may begin anywhere.
 bool is_not_negative(std::string_view key) {
-  const bool by_unit = key.ends_with("_Hz") || key.ends_with("_s") || key == "harmonics";
+  const bool by_unit = key.ends_with("_Hz") || (key.ends_with("_s") && key != "sliding_s") || key == "harmonics";
   const bool by_name = key.find("_sd_") != key.npos || key.find("rms") != key.npos || key == "force_drop_N";
   return by_unit || by_name || is_share(key) ||
          std::find(kNotNegative.begin(), kNotNegative.end(), key) != kNotNegative.end();

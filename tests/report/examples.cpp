@@ -68,6 +68,7 @@ slipfit::Analysis full_analysis() {
   analysis.frequency.quoted = {5.4321, 0.0123, Interval{5.408, 5.4562}, ""};
   analysis.frequency.method = "slip_counting";
   analysis.frequency.spectral = {5.43, 0.02, 1e-9, {5.43, 10.86}, {{50.0, "mains 50 Hz"}}};
+  analysis.frequency.lines = analysis.frequency.spectral.suspicious_lines;
   analysis.frequency.counted = {5.4321, 0.0123, Interval{5.408, 5.4562}, ""};
   analysis.cycles.count = 4;
   analysis.cycles.minor = 1;
