@@ -95,6 +95,13 @@ std::optional<FrequencyReport> of_fit(const Recording& recording, const Signals&
   return report;
 }
 
+/// A line of the mains swings far enough to be counted as slips.
+bool hum_makes_falls(const Signals& signals) {
+  const auto& lines = signals.spectral.suspicious_lines;
+  return std::any_of(lines.begin(), lines.end(),
+                     [&](const SuspiciousLine& line) { return line.swing > signals.segmentation.hysteresis; });
+}
+
 /// Noise is so large that slips are missed.
 bool noise_hides_slips(const Signals& signals) {
   constexpr double kHiding = 6.0;  // drop over noise of a sample; simulated slips are missed below 3
@@ -107,8 +114,9 @@ Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
   const double spectral_Hz = *spectral.value_Hz;
   counted.note = fmt::format("the spectrum shows {:.4g} Hz, to which the interval reaches", spectral_Hz);
   if (!counted.ci95) return counted;
+  // The line's own error, and that of the scatter of the slips, which the count shows.
   const double half_Hz =
-      std::max(2.0 * spectral.standard_error_Hz.value_or(0.0), 0.5 * (counted.ci95->high - counted.ci95->low));
+      std::hypot(2.0 * spectral.standard_error_Hz.value_or(0.0), 0.5 * (counted.ci95->high - counted.ci95->low));
   counted.ci95->low = std::min(counted.ci95->low, spectral_Hz - half_Hz);
   counted.ci95->high = std::max(counted.ci95->high, spectral_Hz + half_Hz);
   const double longer = std::max(*counted.value - counted.ci95->low, counted.ci95->high - *counted.value);
@@ -132,7 +140,8 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, Ver
   constexpr double kNear = 2.0;  // spectrum over count, less one
   const bool near = difference && *difference < kNear;
   const bool far = !difference || *difference > kContradiction;
-  const bool contradict = far && (noise_hides_slips(signals) || (near && may_be_hum(signals)));
+  const bool contradict =
+      far && (noise_hides_slips(signals) || (near && may_be_hum(signals)) || (!difference && hum_makes_falls(signals)));
   const bool hidden = verdict == Verdict::OscillatorySlip && !agree;  // the count may be of noise or of hum
   if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || hidden)) {
     report.method = "harmonic_least_squares";
