@@ -108,8 +108,7 @@ bool noise_hides_slips(const Signals& signals) {
   return median_drop(signals.segmentation) < kHiding * signals.quality.noise_rms;
 }
 
-/// With an interval that holds what the spectrum shows, which of the same scattering slips knows no more than the
-/// count.
+/// With an interval that holds what the spectrum shows.
 Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
   const double spectral_Hz = *spectral.value_Hz;
   counted.note = fmt::format("the spectrum shows {:.4g} Hz, to which the interval reaches", spectral_Hz);
@@ -167,11 +166,11 @@ FrequencyReport report_frequency(const Recording& recording, const Signals& sign
   report.quoted.note = verdict == Verdict::SteadySliding ? "steady sliding has no slips"
                                                          : "no slips can be told: nothing that repeats is quoted";
   if (slides) {
-    const bool broken = intervals_of(recording, signals.segmentation).broken > 0;
+    const Intervals intervals = intervals_of(recording, signals.segmentation);
     // Slips that scatter are counted: what the fit's cycles cause is another mean than that of those that came.
-    const MeanAndSpread interval = describe(intervals_of(recording, signals.segmentation).seconds);
+    const MeanAndSpread interval = describe(intervals.seconds);
     const bool scatters = interval.count > 7.0 && interval.sd > kCounted * interval.mean;
-    const bool usable = fit != nullptr && verdict == Verdict::StickSlip && !broken && !scatters;
+    const bool usable = fit != nullptr && verdict == Verdict::StickSlip && intervals.broken == 0 && !scatters;
     const std::optional<FrequencyReport> fitted = usable ? of_fit(recording, signals, *fit) : std::nullopt;
     report = fitted ? *fitted : of_trace(recording, signals, verdict);
   }

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "fit/inference/intervals.hpp"
+#include "fit/inference/student.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -45,13 +45,36 @@ struct Split {
   double apart = 0.0;
 };
 
+/// Of the values from begin to end, by their running sums: linear in their number however many splits are tried.
+class RunningSums {
+ public:
+  explicit RunningSums(const std::vector<double>& values) : origin_(describe(values).mean) {
+    for (const double value : values) {
+      const double off = value - origin_;  // from the mean of all, so that the squares cancel little
+      sums_.push_back(sums_.back() + off);
+      squares_.push_back(squares_.back() + off * off);
+    }
+  }
+
+  [[nodiscard]] MeanAndSpread between(std::size_t begin, std::size_t end) const {
+    const auto count = static_cast<double>(end - begin);
+    const double mean = (sums_[end] - sums_[begin]) / count;
+    const double square = std::max(0.0, squares_[end] - squares_[begin] - count * mean * mean);
+    return {origin_ + mean, std::sqrt(square / std::max(1.0, count - 1.0)), count};
+  }
+
+ private:
+  double origin_;
+  std::vector<double> sums_{0.0}, squares_{0.0};
+};
+
 Split best_split(const std::vector<double>& values) {
+  const RunningSums sums(values);
   Split best;
   const std::size_t edge = std::max<std::size_t>(4, values.size() / 6);
   for (std::size_t at = edge; at + edge <= values.size(); ++at) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(at);
-    const MeanAndSpread before = describe({values.begin(), middle});
-    const MeanAndSpread after = describe({middle, values.end()});
+    const MeanAndSpread before = sums.between(0, at);
+    const MeanAndSpread after = sums.between(at, values.size());
     const double error = std::sqrt(before.sd * before.sd / before.count + after.sd * after.sd / after.count +
                                    1e-6 * before.mean * before.mean);
     const double apart = std::abs(after.mean - before.mean) / error;
