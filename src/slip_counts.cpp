@@ -25,7 +25,7 @@ constexpr double kNotable = 0.2;        // relative change
 /// Standard error over mean of the mean of a stationary series (Bartlett's weights; never below what independent values
 /// would have by half, which few values cannot show).
 double relative_error(const std::vector<double>& values, const MeanAndSpread& of) {
-  const std::size_t lags = static_cast<std::size_t>(std::cbrt(of.count));
+  const auto lags = static_cast<std::size_t>(std::cbrt(of.count));
   double variance = of.sd * of.sd;
   const double independent = variance;
   for (std::size_t lag = 1; lag <= lags && lag + 1 < values.size(); ++lag) {
