@@ -16,6 +16,7 @@
 #include "analysis/short_tests.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/sweep_checks.hpp"
+#include "analysis/transients.hpp"
 #include "analysis/warnings.hpp"
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/selection/qualify.hpp"
@@ -24,14 +25,18 @@
 namespace slipfit {
 namespace {
 
-/// The fit with the statuses that its numbers deserve: none where the motion is not the model's, none identified where
-/// the cycles keep in step with the mains.
-std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classification& motion,
-                                 const FrequencyReport& frequency, double duration_s) {
+/// The fit as far as its numbers can be believed: no parameters where the motion is not the model's, no natural
+/// frequency where the slips are not inertial, nothing identified where the cycles keep in step with the mains.
+std::optional<FitResult> qualify(std::optional<FitResult> fit, bool is_of_model, const Analysis& analysis,
+                                 double duration_s) {
   if (!fit) return fit;
-  if (!motion.model_fits) return fit::without_parameters(*std::move(fit));
-  if (!frequency.quoted.value) return fit;
-  return fit::qualified_by_mains(*std::move(fit), *frequency.quoted.value, duration_s);
+  if (!is_of_model) return fit::without_parameters(*std::move(fit));
+  const std::optional<double>& ring_Hz = analysis.transients.ring_down_frequency_Hz.value;
+  const std::optional<double>& slips_Hz = analysis.frequency.quoted.value;
+  const std::optional<double>& drop = analysis.cycles.force_drop;
+  if (ring_Hz && drop) fit = fit::qualified_by_ring_down(*std::move(fit), *ring_Hz, *drop);
+  if (slips_Hz) fit = fit::qualified_by_mains(*std::move(fit), *slips_Hz, duration_s);
+  return fit;
 }
 
 /// What follows from the fit and from what was measured, at the recording's own speed.
@@ -45,9 +50,9 @@ Derived derive(const Recording& recording, const Analysis& analysis) {
 }
 
 /// The fitted curve counts its samples in the part that slides: told in samples of the whole recording.
-std::optional<FitResult> told_of_whole(std::optional<FitResult> fit, std::size_t begin) {
+std::optional<FitResult> told_of_whole(std::optional<FitResult> fit, const Detected& detected) {
   if (!fit) return fit;
-  for (CurvePoint& point : fit->curve) point.sample += begin;
+  for (CurvePoint& point : fit->curve) point.sample = detected.sample_of(point.sample);
   return fit;
 }
 
@@ -62,14 +67,18 @@ Analysis conclude(const Detected& detected, Estimates estimates, Classification 
   analysis.frequency =
       in_range(quote_frequency(recording, estimates.signals, motion.verdict, motion.model_fits ? fit : nullptr));
   analysis.cycles = in_range(summarise_cycles(recording, slips, fit));
+  if (analysis.cycles.period_cv) {
+    analysis.cycles.regularity = regularity_of(analysis.cycles, analysis.frequency.quoted, recording.conditions());
+  }
   analysis.cycle_table = fit != nullptr ? fit->cycles : fit::detected_cycles(recording, slips);
-  analysis.fit = qualify(std::move(estimates.fit), motion, analysis.frequency, recording.duration_s());
+  analysis.transients = in_range(find_transients(detected, motion.verdict));
+  analysis.fit = qualify(std::move(estimates.fit), motion.model_fits, analysis, recording.duration_s());
   analysis.verdict = motion.verdict;
   analysis.verdict_reason = std::move(motion.reason);
   analysis.derived = derive(recording, analysis);
   analysis.tests = run_short_tests(recording, analysis);
-  analysis.warnings = collect_warnings(recording, slips, analysis);
-  analysis.fit = told_of_whole(std::move(analysis.fit), detected.begin);
+  analysis.warnings = collect_warnings(detected, slips, analysis);
+  analysis.fit = told_of_whole(std::move(analysis.fit), detected);
   analysis.timing.frequency_s = detected.seconds + estimates.frequency_s;
   analysis.timing.fit_s = estimates.fit_s;
   return analysis;

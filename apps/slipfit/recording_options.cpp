@@ -36,6 +36,8 @@ void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
                      "Bandwidth (-3 dB) of the sensor, first order: 500 (Hz), 2kHz; the fit lets its model lag by it");
   command.add_option("--sensor-resonance", arguments.sensor_resonance,
                      "Natural frequency of the load cell: 800 (Hz), 2kHz");
+  command.add_option("--drive-period", arguments.drive_period,
+                     "Period of what may set the rhythm, a motor's step or an excitation: 20ms");
   command.add_option("--force-view", arguments.force_view, "Force that the sensor sees: spring, transmitted, contact")
       ->capture_default_str();
   command.add_option("--time-column", arguments.time_column, "Name or 1-based number");
@@ -68,6 +70,9 @@ slipfit::Conditions conditions_from(const RecordingArguments& arguments) {
   if (arguments.sensor_resonance) {
     conditions.sensor_resonance_Hz =
         positive_quantity("--sensor-resonance", *arguments.sensor_resonance, Dimension::Frequency);
+  }
+  if (arguments.drive_period) {
+    conditions.drive_period_s = positive_quantity("--drive-period", *arguments.drive_period, Dimension::Time);
   }
   if (arguments.zero) conditions.zero_force_N = quantity("--zero", *arguments.zero, Dimension::Force);
   conditions.force_view = force_view(arguments.force_view);

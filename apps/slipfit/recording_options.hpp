@@ -16,6 +16,7 @@ struct RecordingArguments {
   std::optional<std::string> normal_force;
   std::optional<std::string> zero;
   std::optional<std::string> sensor_bandwidth;
+  std::optional<std::string> drive_period;
   std::optional<std::string> sensor_resonance;
   std::optional<std::string> mass;
   std::string force_view = "spring";

@@ -26,6 +26,9 @@ struct FrequencyReport {
   std::vector<SuspiciousLine> lines;  ///< repetitions that are not the slips: never quoted
 };
 
+/// How slips follow each other: at a rhythm of their own, irregularly, or at that of the stated drive.
+enum class Regularity { Regular, Irregular, Clocked };
+
 /// Statistics over the cycles of one recording; forces in the unit of the force column.
 struct CycleStatistics {
   std::size_t count = 0;  ///< slips whose drop is at least a quarter of the median drop
@@ -34,6 +37,7 @@ struct CycleStatistics {
   std::optional<double> period_s, period_sd_s, slip_time_s, stick_time_s, sticking_degree;
   std::optional<double> peak_force, peak_force_sd, trough_force, force_drop, force_drop_sd;
   std::optional<double> drop_cv, period_cv;  ///< standard deviation over mean
+  std::optional<Regularity> regularity;      ///< empty below 3 slips
 };
 
 /// A one-line test of what the fit takes for granted. `name`: period_drift (value: relative change over the recording),
@@ -60,6 +64,14 @@ struct TimeSpan {
   double end_s = 0.0;
 };
 
+/// What a recording shows before it slides and after it; each empty, with a reason, where it does not.
+struct Transients {
+  Estimate loading_stiffness_N_per_m;  ///< slope of the first loading ramp over the speed
+  Estimate breakaway_force;            ///< first peak, as the force column counts it
+  Estimate ring_down_frequency_Hz;     ///< of a free oscillation after the release, or of a motion that died out
+  Estimate ring_down_damping_ratio;
+};
+
 /// Everything that is known about one recording.
 struct Analysis {
   Quality quality;   ///< of the whole recording
@@ -72,6 +84,7 @@ struct Analysis {
   std::vector<Cycle> cycle_table;
   std::optional<FitResult> fit;  ///< empty: not asked for, or no cycles to fit
   Derived derived;
+  Transients transients;
   std::vector<ShortTest> tests;  ///< only where the verdict is stick-slip with a fit
   Timing timing;
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/slip_intervals.hpp"
+#include "core/thresholds.hpp"
 #include "fit/inference/student.hpp"
 
 namespace slipfit {
@@ -25,7 +26,24 @@ CycleStatistics with_stick_times(CycleStatistics result, const FitResult& fit) {
   return result;
 }
 
+/// Slips that keep time with the drive: one to so many of its periods, or two to each (friction that goes as the square
+/// of an excitation).
+bool is_clocked(double drive_period_s, const Estimate& slips_Hz) {
+  if (!slips_Hz.value || !slips_Hz.standard_error) return false;
+  const double periods = 1.0 / (*slips_Hz.value * drive_period_s);
+  const double nearest = periods < 0.75 ? 0.5 : std::round(periods);
+  const double sure = *slips_Hz.standard_error / *slips_Hz.value;
+  return nearest <= thresholds::kMostDriveSteps && sure * nearest < thresholds::kSureOfDrive &&
+         std::abs(periods / nearest - 1.0) < 2.0 * sure + thresholds::kMainsRhythm;
+}
+
 }  // namespace
+
+Regularity regularity_of(const CycleStatistics& cycles, const Estimate& slips_Hz, const Conditions& conditions) {
+  if (cycles.period_cv.value_or(1.0) > thresholds::kEvenRhythm) return Regularity::Irregular;
+  const bool clocked = conditions.drive_period_s && is_clocked(*conditions.drive_period_s, slips_Hz);
+  return clocked ? Regularity::Clocked : Regularity::Regular;
+}
 
 CycleStatistics summarise_cycles(const Recording& recording, const Segmentation& segmentation, const FitResult* fit) {
   CycleStatistics result;

@@ -4,6 +4,7 @@
 
 #include "analysis/slip_shape.hpp"
 #include "analysis/stopwatch.hpp"
+#include "signal/repeats.hpp"
 
 namespace slipfit {
 
@@ -11,19 +12,22 @@ Detected detect(const Recording& recording) {
   const Stopwatch stopwatch;
   Detected detected;
   detected.whole = &recording;
+  detected.kept = signal::first_of_repeats(recording.force());
+  if (!detected.kept.empty()) detected.part = recording.selected(detected.kept);
   Signals& signals = detected.signals;
-  signals.quality = assess_quality(recording);
-  signals.segmentation = find_slips(recording, signals.quality);
+  signals.quality = assess_quality(detected.recording());
+  signals.segmentation = find_slips(detected.recording(), signals.quality);
   detected.whole_quality = signals.quality;
-  const Segmentation& seen = signals.segmentation;
-  const bool whole = seen.sliding_begin == 0 && seen.sliding_end == recording.size();
+  const std::size_t begin = signals.segmentation.sliding_begin;
+  const std::size_t end = signals.segmentation.sliding_end;
+  const bool whole = begin == 0 && end == detected.recording().size();
   if (!whole && !recording.provenance().window_given) {
-    Recording part = recording.part(seen.sliding_begin, seen.sliding_end);
+    Recording part = detected.recording().part(begin, end);
     Quality quality = assess_quality(part);
     Segmentation slips = find_slips(part, quality);
     // A ring-down is told by what comes after it, waves and noise by the whole.
     if (slips_are_sudden(slips)) {
-      detected.begin = seen.sliding_begin;
+      detected.begin = begin;
       detected.part = std::move(part);
       signals.quality = std::move(quality);
       signals.segmentation = std::move(slips);

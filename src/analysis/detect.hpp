@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "slipfit/core/recording.hpp"
 #include "slipfit/signal/cycles.hpp"
@@ -17,17 +18,24 @@ struct Signals {
   SpectralFrequency spectral;
 };
 
-/// The stretch of a recording that slides, with its quality and slips: the whole, where the user chose what to read.
-/// Refers to the recording that it was made of.
+/// The stretch of a recording that slides, with its quality and slips: the whole, where the user chose what to read. Of
+/// values that a logger read more than once each is taken once. Refers to the recording that it was made of.
 struct Detected {
   const Recording* whole = nullptr;
   std::optional<Recording> part;  ///< empty: the whole recording slides
   std::size_t begin = 0;          ///< first sample of the part
+  std::vector<std::size_t> kept;  ///< samples of the recording that the part counts; empty: all of them
   Quality whole_quality;
   Signals signals;       ///< of the part; no spectrum yet
   double seconds = 0.0;  ///< that the detection took
 
   [[nodiscard]] const Recording& recording() const { return part ? *part : *whole; }
+  /// The recording's sample that is number i of the part.
+  [[nodiscard]] std::size_t sample_of(std::size_t i) const { return kept.empty() ? begin + i : kept[begin + i]; }
+  /// Samples of the recording in the mean behind one of the part: 1 where none are repeated.
+  [[nodiscard]] double repeats() const {
+    return kept.empty() ? 1.0 : static_cast<double>(whole->size()) / static_cast<double>(kept.size());
+  }
 };
 
 Detected detect(const Recording& recording);

@@ -123,6 +123,15 @@ Derived in_range(Derived derived) {
   return derived;
 }
 
+Transients in_range(Transients transients) {
+  Transients t;
+  t.loading_stiffness_N_per_m = within(std::move(transients.loading_stiffness_N_per_m), kNotNegative);
+  t.breakaway_force = within(std::move(transients.breakaway_force), kAnyNumber);
+  t.ring_down_frequency_Hz = within(std::move(transients.ring_down_frequency_Hz), kNotNegative);
+  t.ring_down_damping_ratio = within(std::move(transients.ring_down_damping_ratio), kShare);
+  return t;
+}
+
 std::optional<SweepFit> in_range(std::optional<SweepFit> sweep) {
   if (!sweep) return sweep;
   sweep->fit = in_range(std::move(sweep->fit), {});

@@ -13,6 +13,7 @@ FitResult in_range(FitResult fit, const Conditions& conditions);
 FrequencyReport in_range(FrequencyReport frequency);
 CycleStatistics in_range(CycleStatistics cycles);
 Derived in_range(Derived derived);
+Transients in_range(Transients transients);
 std::optional<SweepFit> in_range(std::optional<SweepFit> sweep);
 
 }  // namespace slipfit

@@ -15,4 +15,21 @@ MeanAndSpread describe(const std::vector<double>& values) {
   return result;
 }
 
+Slope slope_of(std::span<const double> x, std::span<const double> y) {
+  const auto count = static_cast<double>(x.size());
+  const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / count;
+  const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / count;
+  double cross = 0.0, square = 0.0, rest = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    cross += (x[i] - mean_x) * (y[i] - mean_y);
+    square += (x[i] - mean_x) * (x[i] - mean_x);
+  }
+  const double slope = cross / square;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double off = y[i] - mean_y - slope * (x[i] - mean_x);
+    rest += off * off;
+  }
+  return {slope, x.size() > 2 ? std::sqrt(rest / (count - 2.0) / square) : 0.0};
+}
+
 }  // namespace slipfit

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -11,15 +12,25 @@
 
 namespace slipfit {
 
-Warnings collect_warnings(const Recording& recording, const Segmentation& slips, const Analysis& analysis) {
-  Warnings warnings = recording.provenance().warnings;
+namespace {
+
+Warnings warn_of_quality(const Detected& detected) {
+  const Recording& recording = detected.recording();
+  const Quality& quality = detected.whole_quality;
+  Warnings warnings;
   const auto warn = [&](const char* code, std::string message) { warnings.push_back({code, std::move(message)}); };
-  const Quality& quality = analysis.quality;
   if (quality.gaps > 0) {
     warn("gaps", fmt::format("{} gap(s) in the clock, the longest {:.3g} s", quality.gaps, quality.longest_gap_s));
   }
   if (quality.clock_jitter > thresholds::kUnevenClock) {
     warn("uneven_clock", fmt::format("the time step varies by {:.0f} %", 100.0 * quality.clock_jitter));
+  }
+  if (detected.repeats() > 1.0) {
+    warn("repeated_values",
+         fmt::format(
+             "each value stands {:.3g} times: the logger is quicker than the converter; each is taken once, every "
+             "{:.3g} s",
+             detected.repeats(), recording.sample_interval_s()));
   }
   if (quality.clipped_samples > 0) {
     warn("clipped", fmt::format("{} samples at a level where the sensor saturates: left out", quality.clipped_samples));
@@ -31,23 +42,44 @@ Warnings collect_warnings(const Recording& recording, const Segmentation& slips,
     const bool newtons = recording.conditions().quantity == ForceQuantity::Force_N;
     warn("quantised", fmt::format("forces are multiples of {:.3g}{}", *quality.quantisation_step, newtons ? " N" : ""));
   }
+  return warnings;
+}
+
+Warnings warn_of_sensor(const Conditions& conditions, const CycleStatistics& cycles) {
+  if (!conditions.sensor_bandwidth_Hz || !cycles.period_s) return {};
+  const double lags = *cycles.period_s * 2.0 * std::numbers::pi * *conditions.sensor_bandwidth_Hz;
+  if (lags > thresholds::kForgottenLags) return {};
+  return {
+      {"sensor_too_slow", fmt::format("a cycle lasts {:.2g} times the sensor's lag: one slip is hardly forgotten when "
+                                      "the next begins, and little of the ramps is left to fit",
+                                      lags)}};
+}
+
+Warnings warn_of_clock(const Conditions& conditions, const CycleStatistics& cycles) {
+  if (cycles.regularity != Regularity::Clocked) return {};
+  return {{"clocked",
+           fmt::format("slips keep time with the drive, whose period is {:.4g} ms: it sets frequency and spacing, "
+                       "which tell nothing of other speeds",
+                       1e3 * *conditions.drive_period_s)}};
+}
+
+}  // namespace
+
+Warnings collect_warnings(const Detected& detected, const Segmentation& slips, const Analysis& analysis) {
+  const Recording& recording = detected.recording();
+  Warnings warnings = recording.provenance().warnings;
+  const auto append = [&](Warnings more) {
+    warnings.insert(warnings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  };
+  append(warn_of_quality(detected));
   for (const SuspiciousLine& line : analysis.frequency.lines) {
-    warn("suspicious_line", fmt::format("line at {:.4g} Hz: {}", line.frequency_Hz, line.reason));
+    warnings.push_back({"suspicious_line", fmt::format("line at {:.4g} Hz: {}", line.frequency_Hz, line.reason)});
   }
-  const auto& bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz;
-  if (bandwidth_Hz && analysis.cycles.period_s) {
-    const double lags = *analysis.cycles.period_s * 2.0 * std::numbers::pi * *bandwidth_Hz;
-    if (lags < thresholds::kForgottenLags) {
-      warn("sensor_too_slow", fmt::format("a cycle lasts {:.2g} times the sensor's lag: one slip is hardly forgotten "
-                                          "when the next begins, and little of the ramps is left to fit",
-                                          lags));
-    }
-  }
-  for (Warning& warning : warn_of(analysis.tests)) warnings.push_back(std::move(warning));
-  if (analysis.fit) warnings.insert(warnings.end(), analysis.fit->warnings.begin(), analysis.fit->warnings.end());
-  if (analysis.verdict == Verdict::StickSlip) {
-    for (Warning& warning : warn_of_changes(recording, slips)) warnings.push_back(std::move(warning));
-  }
+  append(warn_of_sensor(recording.conditions(), analysis.cycles));
+  append(warn_of_clock(recording.conditions(), analysis.cycles));
+  append(warn_of(analysis.tests));
+  if (analysis.fit) append(analysis.fit->warnings);
+  if (analysis.verdict == Verdict::StickSlip) append(warn_of_changes(recording, slips));
   return warnings;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 
+#include "analysis/detect.hpp"
 #include "slipfit/analysis.hpp"
 #include "slipfit/signal/cycles.hpp"
 
 namespace slipfit {
 
 /// Of the reader, the quality, the lines beside the slips, the short tests, the fit, and of what changes on the way.
-Warnings collect_warnings(const Recording& recording, const Segmentation& slips, const Analysis& analysis);
+Warnings collect_warnings(const Detected& detected, const Segmentation& slips, const Analysis& analysis);
 
 }  // namespace slipfit

@@ -98,19 +98,33 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
   return recording;
 }
 
-Recording Recording::part(std::size_t begin, std::size_t end) const {
-  const auto cut = [&](const std::vector<double>& values) {
-    return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                               values.begin() + static_cast<std::ptrdiff_t>(end));
-  };
+Recording Recording::with_samples(std::vector<double> time_s, std::vector<double> force) const {
   Recording recording;
-  recording.time_s_ = cut(time_s_);
-  recording.force_ = cut(force_);
+  recording.time_s_ = std::move(time_s);
+  recording.force_ = std::move(force);
   recording.sample_interval_s_ = median_positive_step(recording.time_s_);
   recording.clock_is_even_ = is_even(recording.time_s_);
   recording.conditions_ = conditions_;
   recording.provenance_ = provenance_;
   return recording;
+}
+
+Recording Recording::part(std::size_t begin, std::size_t end) const {
+  const auto cut = [&](const std::vector<double>& values) {
+    return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                               values.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  return with_samples(cut(time_s_), cut(force_));
+}
+
+Recording Recording::selected(std::span<const std::size_t> samples) const {
+  const auto pick = [&](const std::vector<double>& values) {
+    std::vector<double> picked;
+    picked.reserve(samples.size());
+    for (const std::size_t i : samples) picked.push_back(values[i]);
+    return picked;
+  };
+  return with_samples(pick(time_s_), pick(force_));
 }
 
 }  // namespace slipfit

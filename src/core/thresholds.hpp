@@ -114,6 +114,17 @@ inline constexpr double kAnotherThing = 2.0;
 
 // ## Slips and what changes on the way
 
+/// Scatter over mean of the intervals of slips that keep a rhythm. [1; convention]
+inline constexpr double kEvenRhythm = 0.1;
+
+/// Largest number of drive periods to a slip. [count; convention]
+inline constexpr double kMostDriveSteps = 10.0;
+
+/// Relative standard error of the slips' frequency, times the number of drive periods to a slip, up to which agreement
+/// with the drive is no chance. [1; derived: neighbouring multiples are 1 / (number of periods) apart, 2 standard
+/// errors either side are a fifth of it]
+inline constexpr double kSureOfDrive = 0.05;
+
 /// Step of the clock over its median, above which it is a gap. [1; convention]
 inline constexpr double kGapSteps = 3.5;
 
@@ -135,6 +146,36 @@ inline constexpr double kBeyondScatter = 6.0;
 
 /// Smallest relative change that is told. [1; convention]
 inline constexpr double kNotableChange = 0.2;
+
+/// Mean length of a run of equal values, from which on the logger is quicker than the converter. [samples; convention]
+inline constexpr double kShortestRepeat = 1.5;
+
+/// Largest variance of the length of such runs. [samples^2; derived: 1/4 at most between two neighbouring lengths, 3/4
+/// and more for values that repeat by chance; two equal readings in twenty are allowed for]
+inline constexpr double kEvenRepeats = 0.45;
+
+/// Usual change from run to run over the smallest one, below which values repeat because they are rounded.
+/// [1; convention]
+inline constexpr double kRoundingSteps = 3.0;
+
+// ## Before and after the sliding
+
+/// Rise of a run-up over the usual drop of a slip. [1; convention: a stick rises by about one drop]
+inline constexpr double kRunUp = 1.5;
+
+/// Largest share of a recording without slips behind its first peak that has fallen back to a quarter of the rise: the
+/// release at its end. [1; convention]
+inline constexpr double kReleased = 0.2;
+
+/// Fewest half periods of a ring-down, the first one aside. [count; convention]
+inline constexpr std::size_t kFewestSwings = 4;
+
+/// Swing of a ring-down over the noise. [1; derived: noise makes no turning point of 8 standard deviations]
+inline constexpr double kSwingOverNoise = 8.0;
+
+/// Natural frequency of the slips over that of the rig's free ring-down, below which slips are not inertial.
+/// [1; convention: contact stiffness and moved mass differ by less than a factor of four between the two]
+inline constexpr double kInertialSlip = 0.5;
 
 // ## Fit beneath the mains
 

@@ -37,6 +37,7 @@ std::string to_json(const Recording& recording, const Analysis& analysis, const 
     json["correlation"] = correlation_json(*analysis.fit);
   }
   json["derived"] = derived_json(analysis.derived);
+  json["transients"] = transients_json(analysis.transients, quantity);
   json["tests"] = tests_json(analysis.tests);
   if (options.timing) json["timing"] = timing_json(analysis.timing);
   return text_of(json, options.layout);

@@ -43,6 +43,7 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
               {"zero_force_N", number(conditions.zero_force_N)},
               {"mass_kg", number(conditions.mass_kg)},
               {"sensor_bandwidth_Hz", number(conditions.sensor_bandwidth_Hz)},
+              {"drive_period_s", number(conditions.drive_period_s)},
               {"sensor_resonance_Hz", number(conditions.sensor_resonance_Hz)},
               {"assumed", provenance.assumed},
               {"sliding_s", {number(analysis.sliding.begin_s), number(analysis.sliding.end_s)}},
@@ -86,17 +87,6 @@ Json frequency_json(const FrequencyReport& frequency) {
   return json;
 }
 
-namespace {
-
-/// Periods that scatter by less than a tenth keep a rhythm.
-Json regularity(const CycleStatistics& cycles) {
-  constexpr double kRhythm = 0.1;
-  if (!cycles.period_cv) return nullptr;
-  return *cycles.period_cv < kRhythm ? "regular" : "irregular";
-}
-
-}  // namespace
-
 Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity) {
   Json json{{"count", cycles.count},
             {"minor", cycles.minor},
@@ -108,7 +98,7 @@ Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity) {
             {"sticking_degree", number(cycles.sticking_degree)},
             {"drop_cv", number(cycles.drop_cv)},
             {"period_cv", number(cycles.period_cv)},
-            {"regularity", regularity(cycles)}};
+            {"regularity", cycles.regularity ? Json(name_of(*cycles.regularity)) : Json()}};
   ForceKeys forces(json, quantity);
   forces.put("peak_force", cycles.peak_force);
   forces.put("peak_force_sd", cycles.peak_force_sd);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "report/json_values.hpp"
-#include "slipfit/pipeline.hpp"
+#include "slipfit/analysis.hpp"
 
 namespace slipfit {
 
@@ -15,5 +15,6 @@ Json parameters_json(const FitResult& fit);
 Json correlation_json(const FitResult& fit);
 Json tests_json(const std::vector<ShortTest>& tests);
 Json derived_json(const Derived& derived);
+Json transients_json(const Transients& transients, ForceQuantity quantity);
 
 }  // namespace slipfit

@@ -76,4 +76,16 @@ std::string_view name_of(SweepRole role) {
   return "left_out";
 }
 
+std::string_view name_of(Regularity regularity) {
+  switch (regularity) {
+    case Regularity::Regular:
+      return "regular";
+    case Regularity::Irregular:
+      return "irregular";
+    case Regularity::Clocked:
+      return "clocked";
+  }
+  return "";
+}
+
 }  // namespace slipfit

@@ -14,5 +14,6 @@ std::string_view name_of(ForceQuantity quantity);
 std::string_view name_of(Verdict verdict);
 std::string_view name_of(ParameterStatus status);
 std::string_view name_of(SweepRole role);
+std::string_view name_of(Regularity regularity);
 
 }  // namespace slipfit

@@ -8,7 +8,7 @@
 #include "signal/mask.hpp"
 #include "signal/robust.hpp"
 #include "signal/stretch.hpp"
-#include "signal/zigzag.hpp"
+#include "signal/turning_points.hpp"
 
 namespace slipfit {
 namespace {

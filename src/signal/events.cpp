@@ -86,22 +86,22 @@ double asymmetry_of(const std::vector<Fall>& falls) {
 class Falls {
  public:
   Falls(const std::vector<double>& values, double smallest) : values_(values) {
-    Zigzag zigzag(smallest);
-    for (std::size_t i = 0; i < values.size(); ++i) zigzag.add(i, values[i]);
-    turns_ = zigzag.turns();
+    TurningPoints turns(smallest);
+    for (std::size_t i = 0; i < values.size(); ++i) turns.add(i, values[i]);
+    turns_ = turns.turns();
   }
 
-  void coarsen(double hysteresis) { turns_ = zigzag_of(hysteresis).turns(); }
+  void coarsen(double hysteresis) { turns_ = turning_points(hysteresis).turns(); }
 
   [[nodiscard]] std::vector<Fall> beyond(double hysteresis) const {
-    return joined(zigzag_of(hysteresis).falls(), values_);
+    return joined(turning_points(hysteresis).falls(), values_);
   }
 
  private:
-  [[nodiscard]] Zigzag zigzag_of(double hysteresis) const {
-    Zigzag zigzag(hysteresis);
-    for (const std::size_t i : turns_) zigzag.add(i, values_[i]);
-    return zigzag;
+  [[nodiscard]] TurningPoints turning_points(double hysteresis) const {
+    TurningPoints turns(hysteresis);
+    for (const std::size_t i : turns_) turns.add(i, values_[i]);
+    return turns;
   }
 
   const std::vector<double>& values_;

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "signal/zigzag.hpp"
+#include "signal/turning_points.hpp"
 
 namespace slipfit::signal {
 

@@ -31,6 +31,7 @@ struct Conditions {
   std::optional<double> sensor_bandwidth_Hz;
   std::optional<double>
       sensor_resonance_Hz;                   ///< > 0, of the load cell as it is mounted: a frequency near it is doubted
+  std::optional<double> drive_period_s;      ///< > 0, of what may set the rhythm: a motor's step, an excitation
   std::optional<double> mass_kg;             ///< > 0, of the moving body: held against k / w_n^2, never forced
   std::optional<double> measured_spacing_m;  ///< > 0, of the worn surface: a prediction is held against it
 };
@@ -70,8 +71,12 @@ class Recording {
   /// Samples [begin, end), at least 2 of them at different times: the same conditions, the same provenance.
   [[nodiscard]] Recording part(std::size_t begin, std::size_t end) const;
 
+  /// These samples, ascending, at least 2 of them at different times: the same conditions, the same provenance.
+  [[nodiscard]] Recording selected(std::span<const std::size_t> samples) const;
+
  private:
   Recording() = default;
+  [[nodiscard]] Recording with_samples(std::vector<double> time_s, std::vector<double> force) const;
 
   std::vector<double> time_s_;
   std::vector<double> force_;

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
 #include <string>
 
+#include "core/thresholds.hpp"
 #include "signal/mains.hpp"
 
 namespace slipfit::fit {
@@ -33,6 +35,34 @@ FitResult qualified_by_mains(FitResult fit, double frequency_Hz, double duration
     parameter.status = ParameterStatus::Weak;
     parameter.estimate.note = reason;
   }
+  return fit;
+}
+
+FitResult qualified_by_ring_down(FitResult fit, double ring_down_frequency_Hz, double force_drop) {
+  const Estimate natural = fit.natural_frequency();
+  if (!natural.value) return fit;
+  const double slip_Hz = *natural.value / (2.0 * std::numbers::pi);
+  if (slip_Hz > thresholds::kInertialSlip * ring_down_frequency_Hz) return fit;
+  const std::string reason = fmt::format("slips as slow as {:.3g} Hz are not inertial: the rig rings at {:.3g} Hz",
+                                         slip_Hz, ring_down_frequency_Hz);
+  fit.warnings.push_back({"slips_not_inertial", reason + "; natural frequency, mass and damping stay unknown"});
+  const Interval bounds{0.5 * force_drop, force_drop};
+  for (Parameter& parameter : fit.parameters) {
+    const bool hangs_on_inertia = parameter.id == ParameterId::NaturalFrequency || parameter.id == ParameterId::Mass ||
+                                  parameter.id == ParameterId::DampingRatio ||
+                                  parameter.id == ParameterId::DampingCoefficient;
+    if (parameter.status == ParameterStatus::Fixed) continue;
+    if (hangs_on_inertia) {
+      parameter.status = ParameterStatus::Unidentified;
+      parameter.estimate = {std::nullopt, std::nullopt, std::nullopt, reason};
+    } else if (parameter.id == ParameterId::FrictionDifference) {
+      parameter.status = ParameterStatus::Bounded;
+      parameter.estimate = {0.75 * force_drop, std::nullopt, bounds,
+                            "between half of the drop and all of it: " + reason};
+    }
+  }
+  fit.correlation.reset();
+  fit.estimate.reset();
   return fit;
 }
 

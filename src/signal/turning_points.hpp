@@ -14,9 +14,9 @@ struct Fall {
 
 /// Falls of at least `hysteresis`, each bounded by rises of at least as much (or by the ends of the trace). Noise
 /// smaller than the hysteresis makes no turning point, however often it crosses a level. Values come in their order.
-class Zigzag {
+class TurningPoints {
  public:
-  explicit Zigzag(double hysteresis) : hysteresis_(hysteresis) {}
+  explicit TurningPoints(double hysteresis) : hysteresis_(hysteresis) {}
 
   void add(std::size_t i, double value) {
     if (falling_) {

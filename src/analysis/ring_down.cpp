@@ -1,0 +1,102 @@
+#include "analysis/ring_down.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "analysis/statistics.hpp"
+#include "core/thresholds.hpp"
+#include "fit/inference/student.hpp"
+#include "signal/robust.hpp"
+#include "signal/smoothing.hpp"
+#include "signal/turning_points.hpp"
+
+namespace slipfit {
+namespace {
+
+/// Swings between neighbouring turning points, in order.
+struct Swings {
+  std::vector<double> half_periods_s;
+  std::vector<double> log_sizes;
+};
+
+struct Start {
+  std::size_t begin = 0;  ///< sample from which on the fall is looked for
+  double noise = 0.0;     ///< standard deviation of a sample
+  double least_fall = 0.0;
+};
+
+/// After the largest fall of the trace smoothed over `width` samples, without the swing that follows it.
+Swings swings_of(const Recording& recording, const Start& start, std::size_t width) {
+  const signal::Smoothed trace = signal::RunningMeans(recording.force().subspan(start.begin)).over(width, 1);
+  const double noise = start.noise / std::sqrt(static_cast<double>(width));
+  signal::TurningPoints turning_points(std::max(thresholds::kSwingOverNoise * noise, 1e-3 * start.least_fall));
+  for (std::size_t i = 0; i < trace.values.size(); ++i) turning_points.add(i, trace.values[i]);
+  const std::vector<std::size_t> turns = turning_points.turns();
+  const auto size_of = [&](std::size_t i) { return std::abs(trace.values[turns[i + 1]] - trace.values[turns[i]]); };
+  std::size_t largest = 0;  // falls begin at even turns
+  for (std::size_t i = 2; i + 1 < turns.size(); i += 2) largest = size_of(i) > size_of(largest) ? i : largest;
+  Swings swings;
+  if (turns.size() < 2 || size_of(largest) < start.least_fall) return swings;
+  for (std::size_t i = largest + 2; i + 1 < turns.size(); ++i) {
+    swings.half_periods_s.push_back(recording.time_s()[start.begin + turns[i + 1]] -
+                                    recording.time_s()[start.begin + turns[i]]);
+    swings.log_sizes.push_back(std::log(size_of(i)));
+  }
+  return swings;
+}
+
+/// Without what comes after the swings have stopped to shrink at their rhythm: noise, or another motion.
+Swings ring_of(Swings swings) {
+  std::size_t count = std::min<std::size_t>(swings.half_periods_s.size(), 1);
+  const auto in_rhythm = [&](std::size_t i) {
+    const double ratio = swings.half_periods_s[i] / swings.half_periods_s[i - 1];
+    return ratio > 0.5 && ratio < 2.0 && (i < 2 || swings.log_sizes[i] < swings.log_sizes[i - 2]);
+  };
+  while (count < swings.half_periods_s.size() && in_rhythm(count)) ++count;
+  swings.half_periods_s.resize(count);
+  swings.log_sizes.resize(count);
+  return swings;
+}
+
+}  // namespace
+
+std::optional<RingDown> find_ring_down(const Recording& recording, std::size_t begin, double noise, double least_fall) {
+  if (begin + 8 > recording.size()) return std::nullopt;
+  Swings swings;
+  for (std::size_t width = 1; begin + 8 * width < recording.size(); width *= 2) {
+    Swings wider = ring_of(swings_of(recording, {begin, noise, least_fall}, width));
+    const double half_s = signal::median(wider.half_periods_s);
+    // Over a quarter of a half period it shifts no turning point and leaves less noise on each.
+    const bool follows = width == 1 || static_cast<double>(width) * recording.sample_interval_s() < 0.25 * half_s;
+    if (follows && wider.half_periods_s.size() >= swings.half_periods_s.size()) swings = std::move(wider);
+  }
+  if (swings.half_periods_s.size() < thresholds::kFewestSwings) return std::nullopt;
+  const MeanAndSpread half = describe(swings.half_periods_s);
+  // Noise lengthens swings: small ones, of a few times the hysteresis, would let the ring seem to last.
+  const double small = std::log(3.0 * thresholds::kSwingOverNoise * noise);
+  std::size_t large = swings.log_sizes.size();
+  while (large > thresholds::kFewestSwings && swings.log_sizes[large - 1] < small) --large;
+  swings.log_sizes.resize(large);
+  std::vector<double> order(large);
+  std::iota(order.begin(), order.end(), 0.0);
+  const Slope decay = slope_of(order, swings.log_sizes);
+  if (decay.value + 2.0 * decay.standard_error > 0.0) return std::nullopt;
+  // Between turning points the swing shrinks by exp(-pi zeta / sqrt(1 - zeta^2)); a turning point is timed to a sample.
+  const double decrement = -decay.value / std::numbers::pi;
+  const double ratio = decrement / std::hypot(1.0, decrement);
+  // Both ends of the line lie higher or lower by what noise does to the smallest swing.
+  const double by_noise = 2.0 * noise / std::exp(swings.log_sizes.back()) / static_cast<double>(large);
+  const double decay_se = std::hypot(decay.standard_error, by_noise);
+  const double ratio_se = decay_se / std::numbers::pi / std::pow(std::hypot(1.0, decrement), 3);
+  const double frequency_Hz = 0.5 / half.mean;
+  const double timing = recording.sample_interval_s() / half.mean / half.count;
+  const double frequency_se_Hz = frequency_Hz * std::hypot(half.sd / half.mean / std::sqrt(half.count), timing);
+  return RingDown{fit::symmetric(frequency_Hz, frequency_se_Hz, half.count - 1.0),
+                  fit::symmetric(ratio, ratio_se, static_cast<double>(large) - 2.0)};
+}
+
+}  // namespace slipfit

@@ -1,0 +1,158 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "slipfit/core/recording.hpp"
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+namespace {
+
+struct Run {
+  double speed_m_per_s = 0.001;
+  double stiffness_N_per_m = 8000.0;  // of the loading ramp and the sticks
+  double ring_Hz = 40.0;
+  double ring_ratio = 0.05;
+  double noise_N = 0.004;
+  double slip_s = 0.004;  // half a period of the slips
+  std::size_t repeats = 1;
+};
+
+constexpr double kRate_Hz = 4000.0;
+constexpr double kBreakaway_N = 2.4;
+constexpr double kDrop_N = 0.6;
+
+/// 0.5 s of rest, a loading ramp, slips of half a cosine from 2.0 N, release to rest at 6 s with a free ring-down.
+Recording run_with_release(const Run& run) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise(0.0, run.noise_N);
+  std::vector<double> time_s, force;
+  double load = 0.0, slip_from = 0.0, since_slip_s = 1.0;
+  bool first = true;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(7.0 * kRate_Hz); ++i) {
+    const double t = static_cast<double>(i) / kRate_Hz;
+    const double dt = 1.0 / kRate_Hz;
+    if (t > 0.5 && t < 6.0) {
+      since_slip_s += dt;
+      if (since_slip_s < run.slip_s) {
+        load = slip_from - 0.5 * kDrop_N * (1.0 - std::cos(std::numbers::pi * since_slip_s / run.slip_s));
+      } else {
+        load += run.stiffness_N_per_m * run.speed_m_per_s * dt;
+      }
+      if (since_slip_s >= run.slip_s && load > (first ? kBreakaway_N : 2.0)) {
+        slip_from = load;
+        since_slip_s = 0.0;
+        first = false;
+      }
+    }
+    double shown = load;
+    if (t >= 6.0) {
+      const double phase = 2.0 * std::numbers::pi * run.ring_Hz * (t - 6.0);
+      shown = 1.6 * std::exp(-run.ring_ratio * phase) * std::cos(phase);
+    }
+    time_s.push_back(t);
+    const bool repeats = i % run.repeats != 0 && !force.empty();
+    force.push_back(repeats ? force.back() : shown + noise(random));
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = run.speed_m_per_s;
+  return Recording::create(std::move(time_s), std::move(force), conditions).value();
+}
+
+bool holds(const Estimate& estimate, double truth) {
+  return estimate.ci95 && estimate.ci95->low <= truth && truth <= estimate.ci95->high;
+}
+
+bool warns(const Analysis& analysis, const std::string& code) {
+  return std::any_of(analysis.warnings.begin(), analysis.warnings.end(),
+                     [&](const Warning& warning) { return warning.code == code; });
+}
+
+}  // namespace
+
+TEST_CASE("loading ramp, breakaway and ring-down are measured outside the sliding", "[transients]") {
+  const Run run;
+  const Analysis analysis = analyze(run_with_release(run));
+  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  const Transients& found = analysis.transients;
+  REQUIRE(found.loading_stiffness_N_per_m.value);
+  CHECK(*found.loading_stiffness_N_per_m.value == Approx(run.stiffness_N_per_m).epsilon(0.02));
+  CHECK(holds(found.loading_stiffness_N_per_m, run.stiffness_N_per_m));
+  REQUIRE(found.breakaway_force.value);
+  CHECK(*found.breakaway_force.value == Approx(kBreakaway_N).epsilon(0.01));
+  REQUIRE(found.ring_down_frequency_Hz.value);
+  CHECK(*found.ring_down_frequency_Hz.value == Approx(run.ring_Hz).epsilon(0.03));
+  CHECK(holds(found.ring_down_frequency_Hz, run.ring_Hz));
+  CHECK(*found.ring_down_damping_ratio.value == Approx(run.ring_ratio).epsilon(0.2));
+  CHECK(holds(found.ring_down_damping_ratio, run.ring_ratio));
+}
+
+TEST_CASE("a recording that holds neither run-up nor release tells nothing of them", "[transients]") {
+  const Recording whole = run_with_release({});
+  const Analysis analysis = analyze(whole.part(6000, 22000));
+  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  CHECK_FALSE(analysis.transients.loading_stiffness_N_per_m.value);
+  CHECK_FALSE(analysis.transients.ring_down_frequency_Hz.value);
+  CHECK_FALSE(analysis.transients.loading_stiffness_N_per_m.note.empty());
+}
+
+TEST_CASE("noise alone has no transients", "[transients]") {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(1.0, 0.01);
+  std::vector<double> time_s, force;
+  for (int i = 0; i < 20000; ++i) {
+    time_s.push_back(i / kRate_Hz);
+    force.push_back(noise(random));
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = 0.001;
+  const Analysis analysis = analyze(Recording::create(time_s, force, conditions).value());
+  CHECK_FALSE(analysis.transients.breakaway_force.value);
+  CHECK_FALSE(analysis.transients.ring_down_frequency_Hz.value);
+}
+
+TEST_CASE("slips far slower than the ring-down of the rig give no natural frequency", "[transients]") {
+  Run run;
+  run.ring_Hz = 400.0;
+  run.slip_s = 0.02;  // 25 Hz
+  const Analysis analysis = analyze_and_fit(run_with_release(run), {});
+  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  REQUIRE(analysis.fit);
+  CHECK(warns(analysis, "slips_not_inertial"));
+  CHECK_FALSE(analysis.fit->natural_frequency().value);
+  CHECK(analysis.fit->stiffness().value);
+}
+
+TEST_CASE("values that a logger repeats are taken once", "[repeats]") {
+  Run run;
+  run.repeats = 4;
+  const Analysis repeated = analyze_and_fit(run_with_release(run), {});
+  CHECK(warns(repeated, "repeated_values"));
+  run.repeats = 1;
+  const Analysis plain = analyze_and_fit(run_with_release(run), {});
+  CHECK_FALSE(warns(plain, "repeated_values"));
+  REQUIRE(repeated.frequency.quoted.value);
+  CHECK(*repeated.frequency.quoted.value == Approx(*plain.frequency.quoted.value).epsilon(0.002));
+}
+
+TEST_CASE("slips in time with the stated drive are clocked", "[regularity]") {
+  const Recording free = run_with_release({});
+  const Analysis own = analyze(free);
+  REQUIRE(own.cycles.regularity == Regularity::Regular);
+  const auto with_drive = [&](double period_s) {
+    Conditions conditions = free.conditions();
+    conditions.drive_period_s = period_s;
+    const auto copy = [](std::span<const double> values) { return std::vector<double>(values.begin(), values.end()); };
+    return analyze(Recording::create(copy(free.time_s()), copy(free.force()), conditions).value());
+  };
+  const double period_s = 1.0 / *own.frequency.quoted.value;
+  CHECK(with_drive(period_s).cycles.regularity == Regularity::Clocked);
+  CHECK(with_drive(period_s / 2.0).cycles.regularity == Regularity::Clocked);
+  CHECK(with_drive(2.0 * period_s).cycles.regularity == Regularity::Clocked);
+  CHECK(with_drive(1.03 * period_s).cycles.regularity == Regularity::Regular);
+  CHECK(warns(with_drive(period_s), "clocked"));
+}
+
+}  // namespace slipfit
