@@ -5,16 +5,15 @@
 #include <optional>
 #include <string>
 
+#include "output.hpp"
 #include "recording_options.hpp"
 #include "slipfit/pipeline.hpp"
 
 /// What `analyze` and `fit` share: which results to write, and where.
 struct AnalysisArguments {
   RecordingArguments recording;
-  bool json = false;
+  DocumentOptions document;
   bool timing = false;
-  bool quiet = false;
-  std::optional<std::string> out;
   std::optional<std::string> cycles;
   std::optional<std::string> curve;
   std::optional<std::string> report;  ///< HTML file

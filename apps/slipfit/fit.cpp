@@ -1,4 +1,5 @@
 #include <memory>
+#include <set>
 
 #include "analysis_run.hpp"
 #include "commands.hpp"
@@ -17,38 +18,19 @@ struct FitArguments {
   std::vector<std::string> only;
 };
 
-/// The recordings of a joint fit, their speeds and units stand in the manifest.
+/// The manifest says how the recordings of a joint fit were made: only what is not about a recording goes with it.
 JointArguments joint_arguments(const FitArguments& arguments, const CLI::App& command) {
-  for (const char* option : {"REC",
-                             "--speed",
-                             "--speed-uncertainty",
-                             "--radius",
-                             "--normal-force",
-                             "--zero",
-                             "--mass",
-                             "--sensor-bandwidth",
-                             "--sensor-resonance",
-                             "--force-view",
-                             "--time-column",
-                             "--force-column",
-                             "--time-unit",
-                             "--force-unit",
-                             "--sample-rate",
-                             "--window",
-                             "--cycles",
-                             "--curve",
-                             "--plots",
-                             "--timing"}) {
-    if (command.count(option) == 0) continue;
+  static const std::set<std::string> kAllowed{"--joint", "--group", "--only",   "--tier", "--fix",
+                                              "--json",  "--out",   "--report", "--quiet"};
+  for (const CLI::Option* const option : command.get_options()) {
+    if (option->count() == 0 || kAllowed.count(option->get_name()) > 0) continue;
     throw Failure(ExitCode::WrongUsage,
-                  std::string(option) + " does not go with --joint: the manifest says how each recording was made");
+                  option->get_name() + " does not go with --joint: the manifest says how each recording was made");
   }
   return {*arguments.joint,
           arguments.group,
           arguments.only,
-          arguments.analysis.json,
-          arguments.analysis.quiet,
-          arguments.analysis.out,
+          arguments.analysis.document,
           arguments.analysis.report,
           arguments.analysis.command_line};
 }

@@ -5,15 +5,9 @@
 
 namespace {
 
-double positive(const JsonNode& node) {
-  const std::optional<double> value = node.number("a number > 0");
-  if (!value || !(*value > 0.0)) node.fail("a number > 0");
-  return *value;
-}
-
 slipfit::RecordingPlan conditions_of(const JsonNode& recording) {
-  return {positive(recording.member("speed_m_per_s")), positive(recording.member("sample_rate_Hz")),
-          positive(recording.member("duration_s"))};
+  return {recording.member("speed_m_per_s").positive(), recording.member("sample_rate_Hz").positive(),
+          recording.member("duration_s").positive()};
 }
 
 std::optional<double> median(std::vector<double> values) {
@@ -36,7 +30,7 @@ RecordedConditions read_recorded_conditions(const std::string& file) {
   std::vector<double> scatter;
   if (!document.has("recordings")) {
     result.recordings = {conditions_of(document.member("recording"))};
-    result.noise_rms_N = positive(document.member("model").member("residual").member("rms_N"));
+    result.noise_rms_N = document.member("model").member("residual").member("rms_N").positive();
     add_scatter(document.member("cycles"), scatter);
     result.force_drop_sd_N = median(scatter);
     return result;
@@ -50,7 +44,7 @@ RecordedConditions read_recorded_conditions(const std::string& file) {
     if (member.member("role").text() != "cycles" || !member.has("joint")) continue;
     if (member.member("joint").member("rms_N").is_null()) continue;
     result.recordings.push_back(conditions_of(member.member("recording")));
-    noise.push_back(positive(member.member("joint").member("rms_N")));
+    noise.push_back(member.member("joint").member("rms_N").positive());
     add_scatter(member.member("cycles"), scatter);
   }
   if (noise.empty()) members.fail("recordings with cycles in the joint fit");

@@ -162,12 +162,12 @@ std::optional<std::vector<double>> standard_errors(const JsonNode& document, con
 
 /// From standard errors and correlation; leaves `model` without covariance where the document has none.
 void read_covariance(const JsonNode& document, slipfit::PredictionModel& model) {
-  if (!document.has("correlation") || document.member("correlation").is_null()) return;
-  const JsonNode correlation = document.member("correlation");
-  const JsonNode names = correlation.member("names");
+  const std::optional<JsonNode> correlation = document.known("correlation");
+  if (!correlation) return;
+  const JsonNode names = correlation->member("names");
   const std::vector<std::size_t> places = places_of(model.estimate);
   const std::vector<std::size_t> rows = rows_of(names, places);
-  const JsonNode matrix = correlation.member("matrix");
+  const JsonNode matrix = correlation->member("matrix");
   const std::size_t size = names.array_size();
   if (matrix.array_size() != size) matrix.fail(fmt::format("{} rows", size));
   const std::optional<std::vector<double>> errors = standard_errors(document, model.estimate, rows);
@@ -183,14 +183,14 @@ void read_covariance(const JsonNode& document, slipfit::PredictionModel& model) 
 
 /// From the correlation: there it has a value also where the data tell it only together with others.
 double working_value(const std::string& file, const JsonNode& document, const char* name) {
-  if (!document.has("correlation") || document.member("correlation").is_null()) {
+  const std::optional<JsonNode> correlation = document.known("correlation");
+  if (!correlation) {
     refuse_document(file,
                     fmt::format("cannot predict: {} needs correlation (with its values), which is missing", name));
   }
-  const JsonNode correlation = document.member("correlation");
-  const JsonNode values = correlation.member("values");
-  if (values.array_size() != correlation.member("names").array_size()) values.fail("as many numbers as names");
-  const JsonNode node = values.element(row_of(correlation.member("names"), name));
+  const JsonNode values = correlation->member("values");
+  if (values.array_size() != correlation->member("names").array_size()) values.fail("as many numbers as names");
+  const JsonNode node = values.element(row_of(correlation->member("names"), name));
   const std::optional<double> value = node.number("a number");
   if (!value) node.fail("a number");
   return *value;
@@ -204,12 +204,10 @@ std::optional<slipfit::SpeedDependence> speed_dependence(const std::string& file
 
 std::optional<slipfit::Ageing> ageing(const std::string& file, const JsonNode& document) {
   if (!document.has("model") || !document.member("model").has("ageing_reference_s")) return std::nullopt;
-  const JsonNode reference = document.member("model").member("ageing_reference_s");
-  const std::optional<double> stick_s = reference.number("a number > 0");
-  if (!stick_s || !(*stick_s > 0.0)) reference.fail("a number > 0");
+  const double stick_s = document.member("model").member("ageing_reference_s").positive();
   const double rate_N = working_value(file, document, key_of(slipfit::ParameterId::Ageing));
   if (!(rate_N > 0.0)) refuse_document(file, "cannot predict: ageing_N is not above 0");
-  return slipfit::Ageing{rate_N, *stick_s};
+  return slipfit::Ageing{rate_N, stick_s};
 }
 
 std::optional<slipfit::Estimate> kinetic_friction_N(const JsonNode& parameters) {

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "failure.hpp"
-#include "output.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/report/sweep.hpp"
@@ -47,9 +46,8 @@ std::string name_of_fit(const JointArguments& arguments) {
 }  // namespace
 
 void run_joint(const JointArguments& arguments, const slipfit::FitOptions& options) {
-  std::vector<OutputFile> outputs;
-  if (arguments.out) outputs.push_back({"--out", *arguments.out});
-  if (arguments.report) outputs.push_back({"--report", *arguments.report});
+  const std::vector<OutputFile> outputs =
+      outputs_of({{"--out", arguments.document.out}, {"--report", arguments.report}});
   check_outputs(outputs, arguments.manifest);
   const std::vector<ManifestEntry> manifest = read_manifest(arguments);
   for (const ManifestEntry& entry : manifest) check_outputs(outputs, entry.file.string());
@@ -57,14 +55,11 @@ void run_joint(const JointArguments& arguments, const slipfit::FitOptions& optio
   const slipfit::SweepAnalysis sweep = slipfit::analyze_sweep(entries, options);
   slipfit::JsonOptions layout;
   layout.id = name_of_fit(arguments);
-  const std::string document =
-      arguments.json ? slipfit::to_json(entries, sweep, layout) + "\n" : slipfit::to_text(entries, sweep, layout.id);
-  for (const OutputFile& output : outputs) {
-    const bool is_report = output.option == "--report";
-    write_file(output,
-               is_report ? to_html(entries, sweep, predict_around(entries, sweep), {layout.id, arguments.command_line})
-                         : document);
-    if (!arguments.quiet) say(fmt::format("wrote '{}'", output.file));
-  }
-  if (!arguments.out) write_standard_output(document);
+  write_results(arguments.document, outputs, [&](const std::string& option) {
+    if (option == "--report") {
+      return to_html(entries, sweep, predict_around(entries, sweep), {layout.id, arguments.command_line});
+    }
+    return arguments.document.json ? slipfit::to_json(entries, sweep, layout) + "\n"
+                                   : slipfit::to_text(entries, sweep, layout.id);
+  });
 }

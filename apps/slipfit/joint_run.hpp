@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "output.hpp"
 #include "slipfit/fit/fit.hpp"
 
 /// `fit --joint`: one parameter set for the recordings of a manifest's group.
@@ -11,9 +12,7 @@ struct JointArguments {
   std::string manifest;
   std::optional<std::string> group;
   std::vector<std::string> only;  ///< ids; empty: all of the group
-  bool json = false;
-  bool quiet = false;
-  std::optional<std::string> out;
+  DocumentOptions document;
   std::optional<std::string> report;
   std::string command_line;  ///< as typed, for the report
 };

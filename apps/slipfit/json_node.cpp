@@ -66,6 +66,11 @@ JsonNode JsonNode::member(const std::string& key) const {
   return {file_, *found, place_of(key)};
 }
 
+std::optional<JsonNode> JsonNode::known(const std::string& key) const {
+  const bool is_known = has(key) && !member(key).is_null();
+  return is_known ? std::optional(member(key)) : std::nullopt;
+}
+
 JsonNode JsonNode::element(std::size_t index) const {
   return {file_, content_.at(index), fmt::format("{}[{}]", place_, index)};
 }
@@ -84,6 +89,12 @@ std::optional<double> JsonNode::number(const std::string& expected) const {
   if (content_.is_null()) return std::nullopt;
   if (!content_.is_number()) fail(expected);
   return content_.get<double>();
+}
+
+double JsonNode::positive() const {
+  const std::optional<double> value = number("a number > 0");
+  if (!value || !(*value > 0.0)) fail("a number > 0");
+  return *value;
 }
 
 std::optional<bool> JsonNode::flag() const {

@@ -21,11 +21,14 @@ class JsonNode {
   [[nodiscard]] bool is_null() const { return content_.is_null(); }
   [[nodiscard]] bool has(const std::string& key) const { return content_.contains(key); }
   [[nodiscard]] JsonNode member(const std::string& key) const;
+  /// The member, where there is one and it is not null.
+  [[nodiscard]] std::optional<JsonNode> known(const std::string& key) const;
   [[nodiscard]] JsonNode element(std::size_t index) const;  ///< index < array_size()
   [[nodiscard]] std::size_t array_size() const;
   [[nodiscard]] std::string text() const;
   /// Empty where it is null.
   [[nodiscard]] std::optional<double> number(const std::string& expected = "a number or null") const;
+  [[nodiscard]] double positive() const;
   /// Empty where it is null.
   [[nodiscard]] std::optional<bool> flag() const;
   [[noreturn]] void fail(const std::string& expected) const;

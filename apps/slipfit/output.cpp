@@ -36,7 +36,7 @@ int write_all(const std::string& path, const char* mode, const std::string& cont
   return std::fclose(file.release()) == 0 ? 0 : errno;
 }
 
-/// Two names of one file, also where neither exists yet.
+/// Two names of one file, also where neither exists so far.
 bool same_file(const fs::path& first, const fs::path& second) {
   std::error_code ignored;
   if (fs::equivalent(first, second, ignored)) return true;
@@ -58,6 +58,20 @@ void check_place(const OutputFile& output) {
 }
 
 }  // namespace
+
+void add_document_options(CLI::App& command, DocumentOptions& options, const std::string& text) {
+  command.add_flag("--json", options.json, "One JSON document in place of the " + text);
+  command.add_option("--out", options.out, "Write the " + text + " or the JSON document to this file");
+  command.add_flag("--quiet", options.quiet, "No messages on standard error but errors");
+}
+
+std::vector<OutputFile> outputs_of(std::initializer_list<std::pair<const char*, std::optional<std::string>>> options) {
+  std::vector<OutputFile> outputs;
+  for (const auto& [option, file] : options) {
+    if (file) outputs.push_back({option, *file});
+  }
+  return outputs;
+}
 
 void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -105,6 +119,15 @@ void write_file(const OutputFile& output, const std::string& content) {
   if (failed == 0) return;
   fs::remove(temporary, error);
   cannot_write(output, failed);
+}
+
+void write_results(const DocumentOptions& options, const std::vector<OutputFile>& outputs,
+                   const std::function<std::string(const std::string& option)>& content_of) {
+  for (const OutputFile& output : outputs) {
+    write_file(output, content_of(output.option));
+    if (!options.quiet) say(fmt::format("wrote '{}'", output.file));
+  }
+  if (!options.out) write_standard_output(content_of("--out"));
 }
 
 void write_standard_output(const std::string& content) {

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <initializer_list>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// A file that an option names, and the option for messages.
@@ -8,6 +13,19 @@ struct OutputFile {
   std::string option;
   std::string file;
 };
+
+/// What every command that writes a document takes.
+struct DocumentOptions {
+  bool json = false;
+  bool quiet = false;
+  std::optional<std::string> out;
+};
+
+/// `text`: what stands in the help for the document without --json.
+void add_document_options(CLI::App& command, DocumentOptions& options, const std::string& text);
+
+/// The options that were given.
+std::vector<OutputFile> outputs_of(std::initializer_list<std::pair<const char*, std::optional<std::string>>> options);
 
 /// Before any work: throws Failure(WrongUsage) where an output is the input, is named twice, is a folder, or has no
 /// folder.
@@ -19,6 +37,10 @@ void make_folder(const OutputFile& folder);
 /// Through a temporary file beside it and a rename: readers see the old content or the new, never a part.
 /// What is no regular file (a pipe, /dev/stdout) is written directly.
 void write_file(const OutputFile& output, const std::string& content);
+
+/// Writes each file and says so; the document, which is the content of --out, goes to standard output without --out.
+void write_results(const DocumentOptions& options, const std::vector<OutputFile>& outputs,
+                   const std::function<std::string(const std::string& option)>& content_of);
 
 void write_standard_output(const std::string& content);
 

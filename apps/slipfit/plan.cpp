@@ -19,9 +19,7 @@ struct PlanArguments {
   std::string file;
   std::optional<std::string> target;
   std::optional<std::string> speed;
-  bool json = false;
-  bool quiet = false;
-  std::optional<std::string> out;
+  DocumentOptions document;
 };
 
 constexpr const char* kSpacing = "periodic_displacement_m";
@@ -52,18 +50,16 @@ slipfit::PlanBasis basis_from(const std::string& file, const FitDocument& docume
 
 void run(const PlanArguments& arguments) {
   const std::optional<slipfit::PlanTarget> target = target_from(arguments);
-  std::vector<OutputFile> outputs;
-  if (arguments.out) outputs.push_back({"--out", *arguments.out});
+  const std::vector<OutputFile> outputs = outputs_of({{"--out", arguments.document.out}});
   check_outputs(outputs, arguments.file);
   const FitDocument document = read_fit_document(arguments.file);
   const auto plan = slipfit::plan_next(basis_from(arguments.file, document), target);
   if (!plan) throw Failure(ExitCode::WrongUsage, fmt::format("{}: {}", arguments.file, plan.error().message));
   const slipfit::PredictionSource source{arguments.file, document.conditional_on};
-  const std::string text =
-      arguments.json ? slipfit::to_json(plan.value(), source) + "\n" : slipfit::to_text(plan.value(), source);
-  if (!arguments.out) return write_standard_output(text);
-  write_file(outputs.front(), text);
-  if (!arguments.quiet) say(fmt::format("wrote '{}'", *arguments.out));
+  write_results(arguments.document, outputs, [&](const std::string&) {
+    return arguments.document.json ? slipfit::to_json(plan.value(), source) + "\n"
+                                   : slipfit::to_text(plan.value(), source);
+  });
 }
 
 }  // namespace
@@ -77,8 +73,6 @@ void add_plan_command(CLI::App& program) {
       "--for", arguments->target,
       "Parameter to narrow, by its key in the document, or periodic_displacement_m; else the worst known");
   command->add_option("--at", arguments->speed, "Speed of the predicted spacing to narrow");
-  command->add_flag("--json", arguments->json, "One JSON document in place of the text");
-  command->add_option("--out", arguments->out, "Write the text or the JSON document to this file");
-  command->add_flag("--quiet", arguments->quiet, "No messages on standard error but errors");
+  add_document_options(*command, arguments->document, "text");
   command->callback([arguments] { run(*arguments); });
 }

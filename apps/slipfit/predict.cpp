@@ -29,9 +29,7 @@ struct PredictArguments {
   std::optional<std::string> file;
   std::optional<std::string> speeds;
   ModelArguments model;
-  bool json = false;
-  bool quiet = false;
-  std::optional<std::string> out;
+  DocumentOptions document;
   std::optional<std::string> csv;
 };
 
@@ -40,10 +38,8 @@ void add_options(CLI::App& command, PredictArguments& arguments) {
   command.add_option("--speeds", arguments.speeds,
                      "A:B:N, N speeds from A to B in equal ratios: 1mm/s:1m/s:50; or a list: 5mm/s,10mm/s");
   add_model_options(command, arguments.model);
-  command.add_flag("--json", arguments.json, "One JSON document in place of the table");
-  command.add_option("--out", arguments.out, "Write the table or the JSON document to this file");
+  add_document_options(command, arguments.document, "table");
   command.add_option("--csv", arguments.csv, "Write one row a speed: value, low and high of every quantity (CSV)");
-  command.add_flag("--quiet", arguments.quiet, "No messages on standard error but errors");
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -101,21 +97,14 @@ std::vector<double> speeds_from(const std::string& text) {
   return speeds;
 }
 
-std::vector<OutputFile> outputs_of(const PredictArguments& arguments) {
-  std::vector<OutputFile> outputs;
-  if (arguments.out) outputs.push_back({"--out", *arguments.out});
-  if (arguments.csv) outputs.push_back({"--csv", *arguments.csv});
-  return outputs;
-}
-
-void check_places(const PredictArguments& arguments) {
-  for (const OutputFile& output : outputs_of(arguments)) {
+void check_places(const PredictArguments& arguments, const std::vector<OutputFile>& outputs) {
+  for (const OutputFile& output : outputs) {
     std::error_code ignored;
     if (!arguments.file || !std::filesystem::equivalent(output.file, *arguments.file, ignored)) continue;
     throw Failure(ExitCode::WrongUsage,
                   fmt::format("{}: '{}' is the fit document itself, choose another file", output.option, output.file));
   }
-  check_outputs(outputs_of(arguments), "");
+  check_outputs(outputs, "");
 }
 
 /// A model, and where it comes from.
@@ -152,16 +141,15 @@ Basis basis_from(const PredictArguments& arguments, const CLI::App& command) {
 void run(const PredictArguments& arguments, const CLI::App& command) {
   const std::vector<double> speeds_m_per_s =
       speeds_from(required(arguments.speeds, "--speeds", "A:B:N or a list, for example --speeds 1mm/s:1m/s:50"));
-  check_places(arguments);
+  const std::vector<OutputFile> outputs = outputs_of({{"--out", arguments.document.out}, {"--csv", arguments.csv}});
+  check_places(arguments, outputs);
   const Basis basis = basis_from(arguments, command);
   const slipfit::Prediction prediction = slipfit::predict_at(basis.model, speeds_m_per_s);
-  const std::string document =
-      arguments.json ? slipfit::to_json(prediction, basis.source) + "\n" : slipfit::to_text(prediction, basis.source);
-  for (const OutputFile& output : outputs_of(arguments)) {
-    write_file(output, output.option == "--csv" ? slipfit::prediction_to_csv(prediction) : document);
-    if (!arguments.quiet) say(fmt::format("wrote '{}'", output.file));
-  }
-  if (!arguments.out) write_standard_output(document);
+  write_results(arguments.document, outputs, [&](const std::string& option) {
+    if (option == "--csv") return slipfit::prediction_to_csv(prediction);
+    return arguments.document.json ? slipfit::to_json(prediction, basis.source) + "\n"
+                                   : slipfit::to_text(prediction, basis.source);
+  });
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "failure.hpp"
 #include "quantities.hpp"
 
@@ -10,86 +12,91 @@ using slipfit::Dimension;
 namespace {
 
 /// Units are checked before the file is opened: a misspelt option is wrong usage, not a bad recording.
-void check_unit(const std::string& option, const std::string& unit, Dimension dimension) {
+std::string checked_unit(const std::string& option, const std::string& unit, Dimension dimension) {
+  const bool is_coefficient = dimension == Dimension::Force && slipfit::parse_unit(unit, Dimension::Dimensionless);
   const auto scale = slipfit::parse_unit(unit, dimension);
-  if (!scale) throw Failure(ExitCode::WrongUsage, fmt::format("{}: {}", option, scale.error().message));
+  if (!scale && !is_coefficient) {
+    throw Failure(ExitCode::WrongUsage, fmt::format("{}: {}", option, scale.error().message));
+  }
+  return unit;
 }
 
-void check_force_unit(const std::string& unit) {
-  if (slipfit::parse_unit(unit, Dimension::Dimensionless)) return;
-  check_unit("--force-unit", unit, Dimension::Force);
+/// An option whose text is read by `read(option, text)`.
+template <class Target, class Read>
+CLI::Option* add_read_option(CLI::App& command, const std::string& option, Target& target, const Read& read,
+                             const std::string& help) {
+  const auto take = [&target, option, read](const std::string& text) { target = read(option, text); };
+  return command.add_option_function<std::string>(option, take, help);
+}
+
+auto above_zero(Dimension dimension) {
+  return [dimension](const std::string& option, const std::string& text) {
+    return positive_quantity(option, text, dimension);
+  };
+}
+
+auto unit_of(Dimension dimension) {
+  return
+      [dimension](const std::string& option, const std::string& text) { return checked_unit(option, text, dimension); };
+}
+
+/// What moves, what measures it and what drives it.
+void add_instrument_options(CLI::App& command, slipfit::Conditions& conditions) {
+  add_read_option(command, "--mass", conditions.mass_kg, above_zero(Dimension::Mass),
+                  "Moving mass: 0.0307 (kg), '30.7 g'; held against k / w_n^2");
+  add_read_option(command, "--sensor-bandwidth", conditions.sensor_bandwidth_Hz, above_zero(Dimension::Frequency),
+                  "Bandwidth (-3 dB) of the sensor, first order: 500 (Hz), 2kHz; the fit lets its model lag by it");
+  add_read_option(command, "--sensor-resonance", conditions.sensor_resonance_Hz, above_zero(Dimension::Frequency),
+                  "Natural frequency of the load cell: 800 (Hz), 2kHz");
+  add_read_option(command, "--drive-period", conditions.drive_period_s, above_zero(Dimension::Time),
+                  "Period of what may set the rhythm, a motor's step or an excitation: 20ms");
+  add_read_option(
+      command, "--force-view", conditions.force_view,
+      [](const std::string&, const std::string& text) { return force_view(text); },
+      "Force that the sensor sees: spring, transmitted, contact")
+      ->default_str("spring");
 }
 
 }  // namespace
 
 void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
+  slipfit::Conditions& conditions = arguments.conditions;
+  slipfit::ReadOptions& options = arguments.options;
   command.add_option("REC", arguments.file, "Recording: text with a time and a force column")->required();
   command.add_option("--speed", arguments.speed,
                      "Driving speed: 0.01 (m/s), 10mm/s, '600 mm/min'; 60rpm with --radius");
   command.add_option("--speed-uncertainty", arguments.speed_uncertainty,
                      "Standard error of the speed: 0.1mm/s, or a percentage: 1%");
   command.add_option("--radius", arguments.radius, "Distance of the contact from the axis: 12mm");
-  command.add_option("--normal-force", arguments.normal_force, "Normal force: 5 (N), '41 gf'");
-  command.add_option("--zero", arguments.zero, "Sensor reading at no force (N); absolute forces need it");
-  command.add_option("--mass", arguments.mass, "Moving mass: 0.0307 (kg), '30.7 g'; held against k / w_n^2");
-  command.add_option("--sensor-bandwidth", arguments.sensor_bandwidth,
-                     "Bandwidth (-3 dB) of the sensor, first order: 500 (Hz), 2kHz; the fit lets its model lag by it");
-  command.add_option("--sensor-resonance", arguments.sensor_resonance,
-                     "Natural frequency of the load cell: 800 (Hz), 2kHz");
-  command.add_option("--drive-period", arguments.drive_period,
-                     "Period of what may set the rhythm, a motor's step or an excitation: 20ms");
-  command.add_option("--force-view", arguments.force_view, "Force that the sensor sees: spring, transmitted, contact")
-      ->capture_default_str();
-  command.add_option("--time-column", arguments.time_column, "Name or 1-based number");
-  command.add_option("--force-column", arguments.force_column, "Name or 1-based number");
-  command.add_option("--time-unit", arguments.time_unit, "Unit of the time column: ms, min");
-  command.add_option("--force-unit", arguments.force_unit, "Unit of the force column: mN, gf; 1 for a coefficient");
-  command.add_option("--sample-rate", arguments.sample_rate, "Sampling rate (Hz), for a recording without a clock");
-  command.add_option("--window", arguments.window, "T0:T1, seconds on the recording's own clock");
+  add_read_option(command, "--normal-force", conditions.normal_force_N, above_zero(Dimension::Force),
+                  "Normal force: 5 (N), '41 gf'");
+  add_read_option(
+      command, "--zero", conditions.zero_force_N,
+      [](const std::string& option, const std::string& text) { return quantity(option, text, Dimension::Force); },
+      "Sensor reading at no force (N); absolute forces need it");
+  add_instrument_options(command, conditions);
+  command.add_option("--time-column", options.time_column, "Name or 1-based number");
+  command.add_option("--force-column", options.force_column, "Name or 1-based number");
+  add_read_option(command, "--time-unit", options.time_unit, unit_of(Dimension::Time),
+                  "Unit of the time column: ms, min");
+  add_read_option(command, "--force-unit", options.force_unit, unit_of(Dimension::Force),
+                  "Unit of the force column: mN, gf; 1 for a coefficient");
+  add_read_option(command, "--sample-rate", options.sample_rate_Hz, above_zero(Dimension::Frequency),
+                  "Sampling rate (Hz), for a recording without a clock");
+  add_read_option(
+      command, "--window", options.window,
+      [](const std::string&, const std::string& text) { return time_window(text); },
+      "T0:T1, seconds on the recording's own clock");
 }
 
 slipfit::Conditions conditions_from(const RecordingArguments& arguments) {
-  if (!arguments.speed) {
-    throw Failure(ExitCode::WrongUsage, "--speed is missing: give the driving speed, for example --speed 10mm/s");
-  }
-  slipfit::Conditions conditions;
-  conditions.speed_m_per_s = driving_speed(*arguments.speed, arguments.radius);
+  const std::string& speed = required(arguments.speed, "--speed", "the driving speed, for example --speed 10mm/s");
+  slipfit::Conditions conditions = arguments.conditions;
+  conditions.speed_m_per_s = driving_speed(speed, arguments.radius);
   if (arguments.radius) (void)positive_quantity("--radius", *arguments.radius, Dimension::Length);
   if (arguments.speed_uncertainty) {
     conditions.speed_standard_error_m_per_s =
         speed_standard_error(*arguments.speed_uncertainty, conditions.speed_m_per_s, arguments.radius);
   }
-  if (arguments.normal_force) {
-    conditions.normal_force_N = positive_quantity("--normal-force", *arguments.normal_force, Dimension::Force);
-  }
-  if (arguments.mass) conditions.mass_kg = positive_quantity("--mass", *arguments.mass, Dimension::Mass);
-  if (arguments.sensor_bandwidth) {
-    conditions.sensor_bandwidth_Hz =
-        positive_quantity("--sensor-bandwidth", *arguments.sensor_bandwidth, Dimension::Frequency);
-  }
-  if (arguments.sensor_resonance) {
-    conditions.sensor_resonance_Hz =
-        positive_quantity("--sensor-resonance", *arguments.sensor_resonance, Dimension::Frequency);
-  }
-  if (arguments.drive_period) {
-    conditions.drive_period_s = positive_quantity("--drive-period", *arguments.drive_period, Dimension::Time);
-  }
-  if (arguments.zero) conditions.zero_force_N = quantity("--zero", *arguments.zero, Dimension::Force);
-  conditions.force_view = force_view(arguments.force_view);
   return conditions;
-}
-
-slipfit::ReadOptions read_options_from(const RecordingArguments& arguments) {
-  slipfit::ReadOptions options;
-  options.time_column = arguments.time_column;
-  options.force_column = arguments.force_column;
-  options.time_unit = arguments.time_unit;
-  options.force_unit = arguments.force_unit;
-  if (options.time_unit) check_unit("--time-unit", *options.time_unit, Dimension::Time);
-  if (options.force_unit) check_force_unit(*options.force_unit);
-  if (arguments.sample_rate) {
-    options.sample_rate_Hz = positive_quantity("--sample-rate", *arguments.sample_rate, Dimension::Frequency);
-  }
-  if (arguments.window) options.window = time_window(*arguments.window);
-  return options;
 }

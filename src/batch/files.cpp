@@ -6,12 +6,10 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "slipfit/report/text.hpp"
@@ -19,20 +17,12 @@
 namespace slipfit::batch {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::size_t kBuffer = std::size_t{1} << 18;
 constexpr mode_t kMode = 0666;
 constexpr std::string_view kNew = ".new";
-constexpr std::size_t kRandomLength = 6;  // of the X of mkostemps
-
-/// 0, or the errno of the write that failed.
-int write_all(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno != EINTR) return errno;
-    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
+constexpr std::string_view kRandom = "XXXXXX";  // for mkostemps
 
 /// What the user's umask takes away from a new file's mode; it can only be asked for by setting it.
 mode_t file_mask() {
@@ -41,71 +31,91 @@ mode_t file_mask() {
   return mask;
 }
 
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
+}
+
 }  // namespace
+
+Error file_error(std::string code, const fs::path& file, std::string_view message) {
+  return {std::move(code), fmt::format("{}: {}", one_line(file.string()), message)};
+}
+
+Error cannot_write(const fs::path& file, int error_number) {
+  return file_error(
+      "cannot_write", file,
+      fmt::format("cannot be written ({}); mend that, then go on with --resume", std::strerror(error_number)));
+}
 
 FileHandle::~FileHandle() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
-FileHandle::FileHandle(FileHandle&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-FileHandle& FileHandle::operator=(FileHandle&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_);
-  return *this;
+
+CheckedFile::CheckedFile(fs::path file, int descriptor) : name(std::move(file)), handle(descriptor) {
+  check(descriptor >= 0);
 }
 
-Error cannot_write(const std::filesystem::path& file, int error_number) {
-  return {"cannot_write", fmt::format("{}: cannot be written ({}); mend that, then go on with --resume",
-                                      one_line(file.string()), std::strerror(error_number))};
+bool CheckedFile::check(bool succeeded) {
+  if (!succeeded && !error) error = cannot_write(name, errno);
+  return !error;
 }
 
-std::optional<Error> sync_folder(const std::filesystem::path& folder) {
-  const std::filesystem::path place = folder.empty() ? "." : folder;
-  const FileHandle handle(::open(place.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!handle) return std::nullopt;                                        // a folder that may be written and not read
-  if (::fsync(handle.get()) == 0 || errno == EINVAL) return std::nullopt;  // some file systems have no such thing
-  return cannot_write(folder, errno);
+void CheckedFile::write(std::string_view text) {
+  while (!error && !text.empty()) {
+    const ssize_t written = ::write(handle.get(), text.data(), text.size());
+    check(written >= 0 || errno == EINTR);
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
 }
 
-void remove_leftovers(const std::filesystem::path& folder, const std::function<bool(std::string_view name)>& is_ours) {
+void CheckedFile::sync() {
+  if (!error) check(::fdatasync(handle.get()) == 0);
+}
+
+void CheckedFile::sync_folder() {
+  const FileHandle folder(::open(folder_of(name).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!folder) return;                                   // a folder that may be written and not read
+  check(::fsync(folder.get()) == 0 || errno == EINVAL);  // some file systems cannot sync folders
+}
+
+void remove_leftovers(const fs::path& folder, const std::function<bool(std::string_view name)>& is_ours) {
   std::error_code error;
-  std::vector<std::filesystem::path> leftovers;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+  std::vector<fs::path> leftovers;
+  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
     const std::string name = entry.path().filename().string();
-    const std::size_t tail = 1 + kRandomLength + kNew.size();
+    const std::size_t tail = 1 + kRandom.size() + kNew.size();
     if (name.size() <= 1 + tail || name.front() != '.' || !name.ends_with(kNew)) continue;
     if (is_ours(std::string_view(name).substr(1, name.size() - 1 - tail))) leftovers.push_back(entry.path());
   }
-  for (const std::filesystem::path& leftover : leftovers) std::filesystem::remove(leftover, error);
+  for (const fs::path& leftover : leftovers) fs::remove(leftover, error);
 }
 
-Result<LineFile> LineFile::open(const std::filesystem::path& file, std::uint64_t kept) {
-  FileHandle handle(::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, kMode));
-  if (!handle) return cannot_write(file, errno);
+LineFile::LineFile(const fs::path& file, std::uint64_t kept)
+    : file_(file, ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, kMode)), size_(kept) {
   struct stat status {};
-  if (::fstat(handle.get(), &status) != 0) return cannot_write(file, errno);
+  if (!file_.check(::fstat(file_.handle.get(), &status) == 0)) return;
   const bool has_more = S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) > kept;
-  if (has_more && ::ftruncate(handle.get(), static_cast<off_t>(kept)) != 0) return cannot_write(file, errno);
-  if (auto error = sync_folder(file.parent_path())) return *error;
-  return LineFile(file, std::move(handle), kept);
+  if (has_more) file_.check(::ftruncate(file_.handle.get(), static_cast<off_t>(kept)) == 0);
+  file_.sync_folder();
 }
 
-Result<std::uint64_t> LineFile::append(std::string_view line) {
-  std::string text(line);
-  text += '\n';
-  if (const int failed = write_all(handle_.get(), text); failed != 0) return cannot_write(file_, failed);
-  return std::exchange(size_, size_ + text.size());
+std::uint64_t LineFile::append(std::string_view line) {
+  file_.write(fmt::format("{}\n", line));
+  return std::exchange(size_, size_ + line.size() + 1);
 }
 
-std::optional<Error> LineFile::sync() {
-  if (::fdatasync(handle_.get()) == 0) return std::nullopt;
-  return cannot_write(file_, errno);
+const std::optional<Error>& LineFile::sync() {
+  file_.sync();
+  return file_.error;
 }
 
 Result<std::string> LineFile::line_at(std::uint64_t place) const {
   std::string line;
   std::array<char, 16384> chunk{};
   for (;;) {
-    const ssize_t count = ::pread(handle_.get(), chunk.data(), chunk.size(), static_cast<off_t>(place + line.size()));
-    if (count <= 0) return Error{"not_readable", one_line(file_.string()) + ": a line that was written is gone"};
+    const ssize_t count =
+        ::pread(file_.handle.get(), chunk.data(), chunk.size(), static_cast<off_t>(place + line.size()));
+    if (count <= 0) return file_error("not_readable", file_.name, "a line that was written is gone");
     const std::string_view text(chunk.data(), static_cast<std::size_t>(count));
     const std::size_t end = text.find('\n');
     line += text.substr(0, end);
@@ -113,47 +123,37 @@ Result<std::string> LineFile::line_at(std::uint64_t place) const {
   }
 }
 
-Result<Replacement> Replacement::open(const std::filesystem::path& file) {
-  const std::string pattern =
-      "." + file.filename().string() + "." + std::string(kRandomLength, 'X') + std::string(kNew);
-  std::string temporary = (file.parent_path() / pattern).string();
-  FileHandle handle(::mkostemps(temporary.data(), static_cast<int>(kNew.size()), O_CLOEXEC));
-  if (!handle) return cannot_write(file, errno);
-  Replacement replacement(file, temporary, std::move(handle));
-  if (::fchmod(replacement.handle_.get(), kMode & ~file_mask()) != 0) return cannot_write(file, errno);
-  return replacement;
+Replacement::Replacement(const fs::path& file)
+    : temporary_((file.parent_path() / fmt::format(".{}.{}{}", file.filename().string(), kRandom, kNew)).string()),
+      file_(file, ::mkostemps(temporary_.data(), static_cast<int>(kNew.size()), O_CLOEXEC)) {
+  if (!file_.error) file_.check(::fchmod(file_.handle.get(), kMode & ~file_mask()) == 0);
 }
 
 Replacement::~Replacement() {
-  if (handle_) (void)::unlink(temporary_.c_str());
+  if (file_.handle) (void)::unlink(temporary_.c_str());
 }
 
-std::optional<Error> Replacement::append(std::string_view text) {
+void Replacement::append(std::string_view text) {
   digester_.add(text);
   buffer_ += text;
-  return buffer_.size() < kBuffer ? std::nullopt : flush();
-}
-
-std::optional<Error> Replacement::flush() {
-  if (const int failed = write_all(handle_.get(), buffer_); failed != 0) return cannot_write(file_, failed);
+  if (buffer_.size() < kBuffer) return;
+  file_.write(buffer_);
   buffer_.clear();
-  return std::nullopt;
 }
 
 std::optional<Error> Replacement::finish() {
-  if (auto error = flush()) return error;
-  if (::fdatasync(handle_.get()) != 0) return cannot_write(file_, errno);
-  if (::rename(temporary_.c_str(), file_.c_str()) != 0) return cannot_write(file_, errno);
-  handle_ = {};
-  return sync_folder(file_.parent_path());
+  file_.write(buffer_);
+  file_.sync();
+  if (file_.error || !file_.check(::rename(temporary_.c_str(), file_.name.c_str()) == 0)) return file_.error;
+  file_.handle = FileHandle();
+  file_.sync_folder();
+  return file_.error;
 }
 
-std::optional<Error> replace_file(const std::filesystem::path& file, std::string_view content) {
-  auto replacement = Replacement::open(file);
-  if (!replacement) return replacement.error();
-  Replacement text = std::move(replacement).value();
-  if (auto error = text.append(content)) return error;
-  return text.finish();
+std::optional<Error> replace_file(const fs::path& file, std::string_view content) {
+  Replacement replacement(file);
+  replacement.append(content);
+  return replacement.finish();
 }
 
 }  // namespace slipfit::batch

@@ -1,18 +1,33 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "slipfit/core/digest.hpp"
 #include "slipfit/core/result.hpp"
 
-// Files that survive a kill at any byte. Errors are cannot_write, in one line.
+// Files that survive a kill at any byte. A file keeps its first error (cannot_write, one line) and writes nothing more.
 
 namespace slipfit::batch {
+
+/// What a batch writes into its folder, beside the lock.
+constexpr const char* kResults = "results.jsonl";
+constexpr const char* kSummary = "summary.csv";
+constexpr const char* kFailures = "failures.csv";
+constexpr const char* kRunFile = "run.json";
+constexpr const char* kJournal = "journal";  // until the batch is finished
+constexpr std::array<std::string_view, 5> kFolderFiles{kResults, kSummary, kFailures, kRunFile, kJournal};
+constexpr const char* kLock = "lock";
+
+/// An error about a file, on one line.
+Error file_error(std::string code, const std::filesystem::path& file, std::string_view message);
+Error cannot_write(const std::filesystem::path& file, int error_number);
 
 /// A POSIX file descriptor that closes itself.
 class FileHandle {
@@ -20,8 +35,11 @@ class FileHandle {
   FileHandle() = default;
   explicit FileHandle(int descriptor) : descriptor_(descriptor) {}
   ~FileHandle();
-  FileHandle(FileHandle&& other) noexcept;
-  FileHandle& operator=(FileHandle&& other) noexcept;
+  FileHandle(FileHandle&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  FileHandle& operator=(FileHandle&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+  }
   FileHandle(const FileHandle&) = delete;
   FileHandle& operator=(const FileHandle&) = delete;
 
@@ -32,61 +50,67 @@ class FileHandle {
   int descriptor_ = -1;
 };
 
-Error cannot_write(const std::filesystem::path& file, int error_number);
+/// An open file that keeps the first error of what is done with it.
+struct CheckedFile {
+  CheckedFile(std::filesystem::path file, int descriptor);
 
-/// Waits until the disk knows which files are in the folder.
-std::optional<Error> sync_folder(const std::filesystem::path& folder);
+  /// Takes errno for the reason of a call that failed. Returns whether all calls have succeeded so far.
+  bool check(bool succeeded);
+  void write(std::string_view text);
+  /// Waits until the disk has what was written before.
+  void sync();
+  /// Waits until the disk knows which files are in the folder.
+  void sync_folder();
 
-/// Removes what a killed process left of files that were being replaced, those that `is_ours` by their names.
+  std::filesystem::path name;
+  FileHandle handle;
+  std::optional<Error> error;
+};
+
+/// Removes the temporary files that a killed process left; `is_ours` is asked for the name of the file that each would
+/// have replaced.
 void remove_leftovers(const std::filesystem::path& folder, const std::function<bool(std::string_view name)>& is_ours);
 
 /// A file of whole lines that grows at its end.
 class LineFile {
  public:
   /// Keeps the first `kept` bytes of what is there and cuts off the rest.
-  static Result<LineFile> open(const std::filesystem::path& file, std::uint64_t kept);
+  LineFile(const std::filesystem::path& file, std::uint64_t kept);
 
   /// The line must hold no line end; one is added. Returns the place where it begins.
-  Result<std::uint64_t> append(std::string_view line);
-  /// Waits until the disk has everything that was appended before.
-  std::optional<Error> sync();
+  std::uint64_t append(std::string_view line);
+  /// Waits until the disk has everything that was appended before. The first error of all.
+  const std::optional<Error>& sync();
+  [[nodiscard]] const std::optional<Error>& error() const { return file_.error; }
   /// The line that begins at `place`, without its end. Errors: not_readable.
   [[nodiscard]] Result<std::string> line_at(std::uint64_t place) const;
 
  private:
-  LineFile(std::filesystem::path file, FileHandle handle, std::uint64_t size)
-      : file_(std::move(file)), handle_(std::move(handle)), size_(size) {}
-
-  std::filesystem::path file_;
-  FileHandle handle_;
+  CheckedFile file_;
   std::uint64_t size_;
 };
 
 /// A new file beside `file` that takes its place when all is written: readers see the old content or the new. Unless
-/// that comes so far, it is removed.
+/// `finish` succeeds, it is removed.
 class Replacement {
  public:
-  static Result<Replacement> open(const std::filesystem::path& file);
+  explicit Replacement(const std::filesystem::path& file);
   ~Replacement();
-  Replacement(Replacement&& other) noexcept = default;
-  Replacement& operator=(Replacement&&) = delete;
   Replacement(const Replacement&) = delete;
   Replacement& operator=(const Replacement&) = delete;
+  Replacement(Replacement&&) = delete;
+  Replacement& operator=(Replacement&&) = delete;
 
-  std::optional<Error> append(std::string_view text);
-  /// Writes what is left, waits for the disk and renames.
+  void append(std::string_view text);
+  /// Writes what is left, waits for the disk and renames. The first error of all.
   std::optional<Error> finish();
+  [[nodiscard]] const std::optional<Error>& error() const { return file_.error; }
   /// Of all that was appended.
   [[nodiscard]] Digest digest() const { return digester_.digest(); }
 
  private:
-  Replacement(std::filesystem::path file, std::filesystem::path temporary, FileHandle handle)
-      : file_(std::move(file)), temporary_(std::move(temporary)), handle_(std::move(handle)) {}
-  std::optional<Error> flush();
-
-  std::filesystem::path file_;
-  std::filesystem::path temporary_;
-  FileHandle handle_;
+  std::string temporary_;
+  CheckedFile file_;
   std::string buffer_;
   Digester digester_;
 };

@@ -1,17 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <set>
 #include <system_error>
 #include <utility>
 
 #include "batch/final_files.hpp"
-#include "batch/folder_check.hpp"
-#include "batch/folder_lock.hpp"
+#include "batch/folder.hpp"
 #include "batch/result_log.hpp"
 #include "batch/run_file.hpp"
-#include "batch/summary.hpp"
+#include "batch/tables.hpp"
 #include "slipfit/batch/batch.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -23,38 +23,32 @@ using namespace batch;
 namespace fs = std::filesystem;
 
 Error not_finished(const fs::path& folder) {
-  return {"not_finished", one_line(folder.string()) +
-                              ": its files are not complete; finish it with slipfit batch "
-                              "--resume, then merge"};
+  return file_error("not_finished", folder,
+                    "its files are not complete; finish it with slipfit batch --resume, then merge");
 }
 
 /// The three files of a shard, line by line in the order of its summary.
 class ShardReader {
  public:
   explicit ShardReader(const fs::path& folder)
-      : folder_(folder),
-        summary_(folder / "summary.csv"),
-        results_(folder / "results.jsonl"),
-        failures_(folder / "failures.csv") {}
+      : folder_(folder), summary_(folder / kSummary), results_(folder / kResults), failures_(folder / kFailures) {}
 
   /// Behind the lines of names. Errors: not_finished.
   std::optional<Error> open() {
     std::string names;
-    if (!std::getline(summary_, names) || names != summary_names() || !std::getline(failures_, names)) {
-      return not_finished(folder_);
-    }
-    return advance();
+    const bool are_ours = std::getline(summary_, names) && names == summary_names() && std::getline(failures_, names);
+    return are_ours ? advance() : not_finished(folder_);
   }
 
   [[nodiscard]] bool at_end() const { return !place_; }
   [[nodiscard]] const SummaryPlace& place() const { return *place_; }
 
-  /// Hands the current row on and goes to the next one.
+  /// Writes the current row and goes to the next one.
   std::optional<Error> move_to(FinalFiles& files) {
     std::string line;
     if (!std::getline(place_->has_failed ? failures_ : results_, line)) return not_finished(folder_);
-    auto error = place_->has_failed ? files.add_failure(line, row_) : files.add_result(line, row_);
-    return error ? error : advance();
+    place_->has_failed ? files.add_failure(line, row_) : files.add_result(line, row_);
+    return advance();
   }
 
  private:
@@ -71,32 +65,25 @@ class ShardReader {
   std::optional<SummaryPlace> place_;
 };
 
-/// A shard's files are those that were written, to the byte.
-std::optional<Error> check_files(const fs::path& folder, const FileDigests& digests) {
-  for (const auto& [name, written] :
-       {std::pair("results.jsonl", digests.results), std::pair("summary.csv", digests.summary),
-        std::pair("failures.csv", digests.failures)}) {
-    const auto digest = digest_of_file((folder / name).string());
-    if (digest && digest->text() == written) continue;
-    return Error{"not_as_written",
-                 fmt::format("{}: was damaged or changed since it was written; slipfit batch --resume "
-                             "with this folder makes it again",
-                             one_line((folder / name).string()))};
-  }
-  return std::nullopt;
-}
-
+/// Of a shard that is finished and whose files are as they were written, to the byte.
 Result<RunRecord> record_of(const fs::path& folder) {
-  auto record = read_record(folder);
-  if (!record) return record.error();
-  if (!record.value()) {
-    return Error{"not_a_batch", one_line(folder.string()) +
-                                    ": holds no run.json; expected a folder that slipfit batch "
-                                    "wrote"};
+  const auto found = read_record(folder);
+  if (!found) return found.error();
+  if (!found.value()) {
+    return file_error("not_a_batch", folder, "holds no run.json; expected a folder that slipfit batch wrote");
   }
-  if (!record.value()->finished) return not_finished(folder);
-  if (auto error = check_files(folder, record.value()->digests)) return *error;
-  return *std::move(record).value();
+  const RunRecord& record = *found.value();
+  if (!record.finished) return not_finished(folder);
+  const std::array<std::pair<const char*, std::string>, 3> written{
+      {{kResults, record.digests.results}, {kSummary, record.digests.summary}, {kFailures, record.digests.failures}}};
+  for (const auto& [name, text] : written) {
+    const auto digest = digest_of_file((folder / name).string());
+    if (digest && digest->text() == text) continue;
+    return file_error("not_as_written", folder / name,
+                      "was damaged or changed since it was written; slipfit batch --resume with this folder makes it "
+                      "again");
+  }
+  return record;
 }
 
 /// What the shards have in common; all of them must be there, once.
@@ -109,19 +96,21 @@ Result<RunRecord> common_record(const std::vector<fs::path>& shards) {
     RunRecord shard = record.value();
     if (&folder == &shards.front()) {
       common = shard;
+      common.progress.seconds = 0.0;
       for (std::size_t i = 1; i <= shard.shard.count; ++i) missing.insert(i);
     }
     const std::size_t index = std::exchange(shard.shard.index, common.shard.index);
     if (const auto differs = difference(common, shard)) {
-      return Error{"shards_differ",
-                   fmt::format("{}: belongs to another batch than '{}': {}; merge the shards of one batch",
-                               one_line(folder.string()), one_line(shards.front().string()), *differs)};
+      return file_error("shards_differ", folder,
+                        fmt::format("belongs to another batch than '{}': {}; merge the shards of one batch",
+                                    one_line(shards.front().string()), *differs));
     }
     if (missing.erase(index) == 0) {
-      return Error{"shards_differ", fmt::format("{}: is shard {} of {}, which was given before; give each shard once",
-                                                one_line(folder.string()), index, shard.shard.count)};
+      return file_error(
+          "shards_differ", folder,
+          fmt::format("is shard {} of {}, which was given before; give each shard once", index, shard.shard.count));
     }
-    if (&folder != &shards.front()) common.progress.seconds += shard.progress.seconds;
+    common.progress.seconds += shard.progress.seconds;
   }
   common.shard = {};
   if (missing.empty()) return common;
@@ -129,7 +118,7 @@ Result<RunRecord> common_record(const std::vector<fs::path>& shards) {
                                              fmt::join(missing, ", "), one_line(common.manifest))};
 }
 
-/// Rows in the manifest's order, none left out and none twice.
+/// Rows in the manifest's order, none left out and none twice. Counts them.
 Result<BatchProgress> merge_rows(std::vector<ShardReader>& readers, std::size_t rows, FinalFiles& files) {
   BatchProgress progress;
   std::size_t last_row = 0;
@@ -139,16 +128,12 @@ Result<BatchProgress> merge_rows(std::vector<ShardReader>& readers, std::size_t 
     for (ShardReader& reader : readers) {
       if (!reader.at_end() && (first == nullptr || key(reader) < key(*first))) first = &reader;
     }
-    if (first == nullptr) break;
-    const SummaryPlace place = first->place();
-    if (place.row != last_row + (place.is_group ? 0 : 1)) break;
-    last_row = place.row;
+    if (first == nullptr && last_row == rows) return progress;
+    if (first == nullptr || first->place().row != last_row + (first->place().is_group ? 0 : 1)) break;
+    last_row = first->place().row;
     ++progress.total;
-    ++(place.has_failed ? progress.failed : progress.fitted);
+    ++(first->place().has_failed ? progress.failed : progress.fitted);
     if (auto error = first->move_to(files)) return *error;
-  }
-  if (last_row == rows && std::all_of(readers.begin(), readers.end(), [](const auto& r) { return r.at_end(); })) {
-    return progress;
   }
   return Error{"shards_differ",
                fmt::format("row {} of the manifest is in no shard, or in two: the recordings' sizes changed "
@@ -161,17 +146,14 @@ std::optional<Error> write_merged(const std::vector<fs::path>& shards, const fs:
   for (const fs::path& shard : shards) {
     if (auto error = readers.emplace_back(shard).open()) return error;
   }
-  auto opened = FinalFiles::open(folder);
-  if (!opened) return opened.error();
-  FinalFiles files = std::move(opened).value();
+  FinalFiles files(folder);
   const auto progress = merge_rows(readers, record.rows, files);
   if (!progress) return progress.error();
   const auto digests = files.finish();
   if (!digests) return digests.error();
-  const double seconds = record.progress.seconds;
-  record.progress = progress.value();
-  record.progress.seconds = seconds;
   record.digests = digests.value();
+  const double seconds = std::exchange(record.progress, progress.value()).seconds;
+  record.progress.seconds = seconds;
   return std::nullopt;
 }
 
@@ -184,9 +166,7 @@ Result<BatchProgress> merge_batches(const std::vector<fs::path>& shards, const f
   for (const fs::path& shard : shards) {
     std::error_code ignored;
     if (!fs::equivalent(shard, folder, ignored)) continue;
-    return Error{"folder_of_another_batch", one_line(folder.string()) +
-                                                ": is one of the shards; choose another folder "
-                                                "with --out"};
+    return file_error("folder_of_another_batch", folder, "is one of the shards; choose another folder with --out");
   }
   const auto lock = FolderLock::take(folder);
   if (!lock) return lock.error();

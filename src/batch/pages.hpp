@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,32 +7,25 @@
 
 #include "batch/result_log.hpp"
 #include "batch/work_list.hpp"
-#include "slipfit/batch/batch.hpp"
+#include "slipfit/batch/options.hpp"
 #include "slipfit/core/result.hpp"
 
 // The pages of a batch. That of a recording is written when it is fitted; its last line says to which document it
-// belongs and holds the sparkline, so that the index can be made at any time from results.jsonl and the pages at hand.
+// belongs and holds the sparkline, so that the index can be made at any time from results.jsonl and the pages.
 
 namespace slipfit::batch {
 
 /// Errors: cannot_write; not_a_page where the index would replace a file that is none.
 std::optional<Error> prepare_pages(const BatchReport& report, const WorkList& list);
 
-/// What processes that were killed left of pages of this list.
+/// Removes the temporary files of pages of this list that killed processes left.
 void remove_page_leftovers(const BatchReport& report, const WorkList& list);
 
-/// Whose page it is.
-struct PageKey {
-  std::size_t slot = 0;  ///< of the work list
-  std::string id;
-};
-
 /// Errors: as above.
-std::optional<Error> write_page(const BatchReport& report, const PageKey& key, std::string_view document,
-                                std::string_view page, std::string_view sparkline);
+std::optional<Error> write_page(const BatchReport& report, const SlotKey& key, const BatchFit& fit);
 
-/// From the page at hand; nothing where there is none that belongs to the document.
-std::optional<std::string> sparkline_on_page(const BatchReport& report, const PageKey& key, std::string_view document);
+/// From the page; nothing where there is none that belongs to the document.
+std::optional<std::string> sparkline_on_page(const BatchReport& report, const SlotKey& key, std::string_view document);
 
 /// Of what the log holds, in the manifest's order. Errors: those of ManifestReader, cannot_write, not_a_page.
 std::optional<Error> write_index(const BatchReport& report, const std::filesystem::path& manifest, const WorkList& list,

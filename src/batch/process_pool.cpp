@@ -25,8 +25,10 @@ namespace {
 /// serve for many.
 constexpr std::size_t kWaitingEach = 64;
 
-constexpr double kLongest_s = 1e9;                      // what the clock can hold
-constexpr std::size_t kHeader = sizeof(std::uint64_t);  // length of a reply, or number of a job
+constexpr double kLongest_s = 1e9;  // what the clock can hold
+
+// A child receives the number of a job as 8 bytes; its reply is a line.
+using JobNumber = std::uint64_t;
 
 bool send_all(int socket, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -37,38 +39,9 @@ bool send_all(int socket, std::string_view bytes) {
   return true;
 }
 
-std::string header_of(std::uint64_t number) {
-  std::string bytes(kHeader, '\0');
-  std::memcpy(bytes.data(), &number, kHeader);
-  return bytes;
-}
-
-std::uint64_t number_in(std::string_view bytes) {
-  std::uint64_t number = 0;
-  std::memcpy(&number, bytes.data(), kHeader);
-  return number;
-}
-
-std::optional<std::uint64_t> receive_number(int socket) {
-  std::array<char, kHeader> bytes{};
-  for (;;) {
-    const ssize_t count = ::recv(socket, bytes.data(), bytes.size(), MSG_WAITALL);
-    if (count == static_cast<ssize_t>(kHeader)) return number_in({bytes.data(), bytes.size()});
-    if (count >= 0 || errno != EINTR) return std::nullopt;
-  }
-}
-
 std::string describe_end(int status) {
   if (!WIFSIGNALED(status)) return fmt::format("exit code {}", WEXITSTATUS(status));
   return fmt::format("signal {}, {}", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
-}
-
-Answer do_here(std::size_t number, const ProcessPool::Job& job) {
-  try {
-    return {number, Answer::End::Replied, job()};
-  } catch (...) {
-    return {number, Answer::End::Died, "not enough memory"};
-  }
 }
 
 int wait_for(pid_t pid) {
@@ -101,7 +74,7 @@ std::vector<Answer> ProcessPool::wait(std::chrono::milliseconds longest) {
     if (polled[place].revents != 0) receive(*child, answers);
     if (child->pid != 0 && child->job && Clock::now() >= child->deadline) {
       answers.push_back({*child->job, Answer::End::TimedOut, {}});
-      bury(*child);
+      end_child(*child);
     }
     child = child->pid == 0 ? children_.erase(child) : std::next(child);
   }
@@ -119,7 +92,7 @@ std::vector<std::size_t> ProcessPool::drop_waiting() {
 }
 
 void ProcessPool::kill_all() {
-  for (Child& child : children_) bury(child);
+  for (Child& child : children_) end_child(child);
   children_.clear();
 }
 
@@ -130,21 +103,26 @@ void ProcessPool::begin_jobs(std::vector<Answer>& answers) {
     const Waiting waiting = std::move(waiting_.front());
     waiting_.pop_front();
     const std::size_t job = first_++;
-    if (child == nullptr) {
-      answers.push_back(do_here(job, waiting.job));
+    if (child == nullptr) {  // no process can be started
+      try {
+        answers.push_back({job, Answer::End::Replied, waiting.job()});
+      } catch (...) {
+        answers.push_back({job, Answer::End::Died, "not enough memory"});
+      }
       return;
     }
     child->job = job;
     child->deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                          std::chrono::duration<double>(std::min(waiting.limit_s, kLongest_s)));
-    (void)send_all(child->socket.get(), header_of(job));  // a child that is gone is found out by poll
+    const JobNumber number = job;  // a child that is gone is noticed by poll
+    (void)::send(child->socket.get(), &number, sizeof(number), MSG_NOSIGNAL);
   }
 }
 
 ProcessPool::Child* ProcessPool::child_for(std::size_t job) {
   for (auto child = children_.begin(); child != children_.end();) {
     if (!child->job && child->known_end > job) return &*child;
-    if (!child->job) bury(*child);
+    if (!child->job) end_child(*child);
     child = child->pid == 0 ? children_.erase(child) : std::next(child);
   }
   return children_.size() < most_ ? start_child() : nullptr;
@@ -173,17 +151,19 @@ ProcessPool::Child* ProcessPool::start_child() {
   return &child;
 }
 
-/// Nothing of the parent's is touched at the end: no buffers are written, no destructors run.
+/// Ends without writing the parent's buffers or running its destructors.
 void ProcessPool::serve(int socket, pid_t parent) const {
-  for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, SIG_IGN);  // the parent sees to them
+  for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, SIG_IGN);  // the parent handles them
 #ifdef __linux__
   (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
   if (::getppid() != parent) ::_exit(1);
   try {
-    while (const auto job = receive_number(socket)) {
-      const std::string reply = waiting_.at(*job - first_).job();
-      if (!send_all(socket, header_of(reply.size())) || !send_all(socket, reply)) break;
+    JobNumber job = 0;
+    while (::recv(socket, &job, sizeof(job), MSG_WAITALL) == static_cast<ssize_t>(sizeof(job))) {
+      std::string reply = waiting_.at(job - first_).job();
+      std::replace(reply.begin(), reply.end(), '\n', ' ');
+      if (!send_all(socket, reply + "\n")) break;
     }
   } catch (...) {
     ::_exit(1);
@@ -197,10 +177,9 @@ void ProcessPool::receive(Child& child, std::vector<Answer>& answers) {
   if (count < 0 && (errno == EINTR || errno == EAGAIN)) return;
   if (count > 0) {
     child.received.append(chunk.data(), static_cast<std::size_t>(count));
-    const bool is_whole =
-        child.received.size() >= kHeader && child.received.size() - kHeader >= number_in(child.received);
-    if (!is_whole) return;
-    answers.push_back({*child.job, Answer::End::Replied, child.received.substr(kHeader)});
+    if (child.received.back() != '\n') return;
+    child.received.pop_back();
+    answers.push_back({*child.job, Answer::End::Replied, std::move(child.received)});
     child.received.clear();
     child.job.reset();
     return;
@@ -210,7 +189,7 @@ void ProcessPool::receive(Child& child, std::vector<Answer>& answers) {
   if (child.job) answers.push_back({*child.job, Answer::End::Died, describe_end(status)});
 }
 
-void ProcessPool::bury(Child& child) {
+void ProcessPool::end_child(Child& child) {
   (void)::kill(child.pid, SIGKILL);
   (void)wait_for(child.pid);
   child.pid = 0;

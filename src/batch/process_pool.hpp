@@ -23,12 +23,12 @@ struct Answer {
   std::string text;  ///< the reply, or how the process died ("signal 9, Killed")
 };
 
-/// Runs jobs in child processes: one that crashes, hangs or takes all memory is ended alone, whatever it was about to
-/// do. A child does many jobs; it knows those that were waiting when it was forked. Where the system starts no more
-/// processes, fewer do the work, and without any the calling process. That must have no other threads at work.
+/// Runs jobs in child processes: one that crashes, hangs or takes all memory ends alone. A child does many jobs; it
+/// knows those that were waiting when it was forked. Where the system starts no more processes, fewer do the work, and
+/// without any the calling process, which must have no other threads.
 class ProcessPool {
  public:
-  using Job = std::function<std::string()>;  ///< called in the child
+  using Job = std::function<std::string()>;  ///< called in the child; replies with one line
 
   explicit ProcessPool(std::size_t most) : most_(most) {}
   ~ProcessPool() { kill_all(); }
@@ -66,7 +66,7 @@ class ProcessPool {
   Child* start_child();
   [[noreturn]] void serve(int socket, pid_t parent) const;
   void receive(Child& child, std::vector<Answer>& answers);
-  void bury(Child& child);
+  void end_child(Child& child);
 
   std::size_t most_;
   std::size_t first_ = 0;  ///< number of the first waiting job

@@ -3,27 +3,30 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "batch/files.hpp"
-#include "batch/id_index.hpp"
 #include "batch/run_file.hpp"
+#include "batch/tables.hpp"
+#include "batch/work_list.hpp"
 #include "slipfit/core/result.hpp"
 
-// The results as they come in: results.jsonl and failures.csv in the order of finishing, and the file `journal`, which
-// lives until the batch is finished:
+// The results in the order of finishing: results.jsonl and failures.csv, and the file `journal`, which exists until the
+// batch is finished:
 //   begin SLOT        a fit begins; where its process dies nothing follows
 //   done SLOT DIGEST  of the line in results.jsonl, by which a damaged line is known
 //   end SLOT          it failed, or was stopped
 
 namespace slipfit::batch {
 
-/// What a folder holds of a batch that began before. Slots are those of the work list.
+/// What a folder holds of a batch that began before.
 struct FoundResults {
+  explicit FoundResults(std::size_t slots) : tries(slots, 0) {}
+
   struct Line {
     std::size_t slot = 0;
     std::uint64_t offset = 0;
@@ -35,10 +38,7 @@ struct FoundResults {
   std::size_t damaged = 0;           ///< results that were written and are not there as they were
 };
 
-/// Nothing found.
-FoundResults no_results(std::size_t slots);
-FoundResults find_results(const std::filesystem::path& folder, const RunRecord& before, std::size_t slots,
-                          const IdIndex& slot_of_id);
+FoundResults find_results(const std::filesystem::path& folder, const RunRecord& before, const WorkList& list);
 
 /// In place of the one of a run before.
 std::optional<Error> write_journal(const std::filesystem::path& folder, const FoundResults& found);
@@ -46,30 +46,29 @@ void remove_journal(const std::filesystem::path& folder);
 
 class ResultLog {
  public:
-  /// Keeps what was found; failures are tried again.
-  static Result<std::unique_ptr<ResultLog>> open(const std::filesystem::path& folder, FoundResults found);
+  /// Keeps the results that were found; failures are tried again.
+  ResultLog(const std::filesystem::path& folder, FoundResults found);
 
-  /// Called in the process that fits.
-  std::optional<Error> begin(std::size_t slot);
-  std::optional<Error> add_result(std::size_t slot, std::string_view document);
-  std::optional<Error> add_failure(std::size_t slot, const std::string& id, const Error& failure);
+  /// A fit begins. Called in the process that fits.
+  void begin(std::size_t slot);
+  void add_result(std::size_t slot, std::string_view document);
+  void add_failure(std::size_t slot, const std::string& id, const Error& failure);
   /// The fit was stopped, or brought nothing new.
-  std::optional<Error> add_end(std::size_t slot);
+  void add_end(std::size_t slot);
   /// Waits until the disk has what was added before.
-  std::optional<Error> sync();
+  void sync();
+  /// The first error of what was done: cannot_write. Nothing is written after it.
+  [[nodiscard]] std::optional<Error> error() const;
 
   enum class Kind : unsigned char { Nothing, Result, Failure };
   [[nodiscard]] Kind kind_of(std::size_t slot) const { return kinds_[slot]; }
+  [[nodiscard]] bool has_result(std::size_t slot) const { return kind_of(slot) == Kind::Result; }
   /// The line of a slot that has one.
   [[nodiscard]] Result<std::string> line_of(std::size_t slot) const;
   /// Fits in runs before whose process died.
   [[nodiscard]] unsigned tries_of(std::size_t slot) const { return tries_[slot]; }
 
-  ResultLog(LineFile results, LineFile failures, LineFile journal, FoundResults found);
-
  private:
-  std::optional<Error> note(const std::string& line);
-
   LineFile results_;
   LineFile failures_;
   LineFile journal_;
@@ -78,10 +77,17 @@ class ResultLog {
   std::vector<unsigned char> tries_;
 };
 
-/// The line of names of failures.csv, without its end.
-std::string failure_names();
+/// A line of the log, and what the manifest says about its recording or group.
+struct LoggedResult {
+  std::size_t slot = 0;
+  SummaryKey key;
+  bool has_failed = false;
+  std::string line;
+};
 
-/// Whether results.jsonl holds a whole line.
-bool has_results(const std::filesystem::path& folder);
+/// Calls `use` with what the log holds, in the manifest's order, each group behind the last of its recordings, until it
+/// returns an error. Errors: also those of ManifestReader, not_readable.
+std::optional<Error> for_each_result(const std::filesystem::path& manifest, const WorkList& list, const ResultLog& log,
+                                     const std::function<std::optional<Error>(const LoggedResult&)>& use);
 
 }  // namespace slipfit::batch

@@ -2,19 +2,17 @@
 
 #include <chrono>
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "batch/pages.hpp"
 #include "batch/process_pool.hpp"
 #include "batch/result_log.hpp"
 #include "batch/work_list.hpp"
 #include "batch/worker.hpp"
-#include "slipfit/batch/batch.hpp"
+#include "slipfit/batch/options.hpp"
 #include "slipfit/core/result.hpp"
 
 namespace slipfit::batch {
@@ -26,9 +24,8 @@ class Run {
   /// All outlive the run.
   Run(const BatchOptions& options, const BatchHooks& hooks, const WorkList& list, ResultLog& log);
 
-  /// Each returns when all is done, or after a stop. Errors: those of ManifestReader, cannot_write.
-  std::optional<Error> fit_recordings();
-  std::optional<Error> fit_groups();
+  /// Returns when all is done, or after a stop. Errors: those of ManifestReader, cannot_write.
+  std::optional<Error> fit_all();
   /// Says which recordings were replaced, or are gone, since they were fitted.
   void tell_replaced() const;
 
@@ -38,31 +35,29 @@ class Run {
  private:
   using Clock = std::chrono::steady_clock;
   using Members = std::vector<ManifestEntry>;
-  using Next = std::function<Result<std::optional<WorkItem>>()>;
 
-  std::optional<Error> work_through(const Next& next);
-  std::optional<Error> take_all(const Next& next);
-  std::optional<Error> take_answers();
-  std::optional<Error> wait_for_begun();
-  std::optional<Error> hand_out(const Next& next);
-  void begin(WorkItem item);
-  [[nodiscard]] double limit_of(const WorkItem& item) const;
-  std::optional<Error> take_in(const WorkItem& item, const Answer& answer);
-  std::optional<Error> take_result(std::size_t slot, std::string_view document);
-  std::optional<Error> take_failure(const WorkItem& item, const Error& failure);
+  std::optional<Error> fit_groups(std::size_t first_group, std::size_t count);
   /// Of some groups, in the order of the work list.
   [[nodiscard]] Result<std::vector<Members>> members_of(std::size_t first_group, std::size_t count) const;
-  std::optional<Error> watch();
+  std::optional<Error> offer(WorkItem item);
+  std::optional<Error> finish(std::optional<Error> error);
+  void begin(WorkItem item);
+  std::optional<Error> wait_and_watch();
+  std::optional<Error> take_answers();
+  std::optional<Error> wait_for_begun();
+  [[nodiscard]] double limit_of(const WorkItem& item) const;
+  std::optional<Error> take(const WorkItem& item, const Answer& answer);
+  void take_result(std::size_t slot, std::string_view document);
+  void take_failure(const WorkItem& item, const Error& failure);
 
   const BatchOptions& options_;
   const BatchHooks& hooks_;
   const WorkList& list_;
   ResultLog& log_;
   ProcessPool pool_;
-  std::map<std::size_t, WorkItem> in_hand_;  ///< by the number of the job
-  std::vector<WorkItem> alone_;              ///< whose process died: tried again when nothing else is at work
+  std::map<std::size_t, WorkItem> at_work_;  ///< by the number of the job
+  std::vector<WorkItem> suspects_;           ///< whose process died: tried again when nothing else runs
   std::map<std::size_t, unsigned> deaths_;   ///< in this run, by slot
-  bool has_more_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_sync_ = start_;
   BatchProgress counts_;

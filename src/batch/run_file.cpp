@@ -1,11 +1,10 @@
 #include "batch/run_file.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <chrono>
+#include <array>
+#include <ctime>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "batch/files.hpp"
@@ -13,15 +12,52 @@
 #include "slipfit/report/text.hpp"
 
 namespace slipfit::batch {
-namespace {
 
+namespace {
 using Json = nlohmann::ordered_json;
+}  // namespace
+
+// For nlohmann::json.
+static void to_json(Json& json, const JsonText& options) {
+  json = Json::parse(options.text);
+}
+static void from_json(const Json& json, JsonText& options) {
+  options.text = json.dump();
+}
+
+namespace {
 
 constexpr const char* kSchema = "slipfit.run/1";
 
+/// Calls `use` with every member of a record and its place in run.json: writing and reading have one list.
+template <class Record, class Use>
+void for_each_member(Record& record, const Use& use) {
+  use("/version", record.version);
+  use("/manifest", record.manifest);
+  use("/manifest_digest", record.manifest_digest);
+  use("/options", record.options);
+  use("/shard/index", record.shard.index);
+  use("/shard/count", record.shard.count);
+  use("/jobs", record.jobs);
+  use("/timeout_s", record.timeout_s);
+  use("/rows", record.rows);
+  use("/total", record.progress.total);
+  use("/before", record.progress.before);
+  use("/fitted", record.progress.fitted);
+  use("/failed", record.progress.failed);
+  use("/started", record.started);
+  use("/seconds", record.progress.seconds);
+  use("/finished", record.finished);
+  use("/digests/results", record.digests.results);
+  use("/digests/summary", record.digests.summary);
+  use("/digests/failures", record.digests.failures);
+}
+
 std::string utc_now() {
-  const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  std::array<char, 32> text{};
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", ::gmtime_r(&now, &parts))};
 }
 
 std::string options_text(const BatchOptions& options) {
@@ -39,56 +75,6 @@ std::string options_text(const BatchOptions& options) {
       .dump();
 }
 
-std::string shard_text(const Shard& shard) {
-  return fmt::format("{}/{}", shard.index, shard.count);
-}
-
-Json to_json(const RunRecord& record) {
-  const BatchProgress& progress = record.progress;
-  return Json{{"schema", kSchema},
-              {"version", record.version},
-              {"manifest", record.manifest},
-              {"manifest_digest", record.manifest_digest},
-              {"options", Json::parse(record.options)},
-              {"shard", {{"index", record.shard.index}, {"count", record.shard.count}}},
-              {"jobs", record.jobs},
-              {"timeout_s", record.timeout_s},
-              {"rows", record.rows},
-              {"total", progress.total},
-              {"before", progress.before},
-              {"fitted", progress.fitted},
-              {"failed", progress.failed},
-              {"started", record.started},
-              {"seconds", progress.seconds},
-              {"finished", record.finished},
-              {"digests",
-               {{"results", record.digests.results},
-                {"summary", record.digests.summary},
-                {"failures", record.digests.failures}}}};
-}
-
-RunRecord from_json(const Json& json) {
-  RunRecord record;
-  record.version = json.at("version").get<std::string>();
-  record.manifest = json.at("manifest").get<std::string>();
-  record.manifest_digest = json.at("manifest_digest").get<std::string>();
-  record.options = json.at("options").dump();
-  record.shard.index = json.at("shard").at("index").get<std::size_t>();
-  record.shard.count = json.at("shard").at("count").get<std::size_t>();
-  record.jobs = json.at("jobs").get<std::size_t>();
-  record.timeout_s = json.at("timeout_s").get<double>();
-  record.rows = json.at("rows").get<std::size_t>();
-  record.progress.total = json.at("total").get<std::size_t>();
-  record.progress.failed = json.at("failed").get<std::size_t>();
-  record.progress.seconds = json.at("seconds").get<double>();
-  record.started = json.at("started").get<std::string>();
-  record.finished = json.at("finished").get<bool>();
-  const Json& digests = json.at("digests");
-  record.digests = {digests.at("results").get<std::string>(), digests.at("summary").get<std::string>(),
-                    digests.at("failures").get<std::string>()};
-  return record;
-}
-
 }  // namespace
 
 RunRecord begin_record(const BatchOptions& options, const Digest& manifest_digest, std::size_t rows) {
@@ -96,7 +82,7 @@ RunRecord begin_record(const BatchOptions& options, const Digest& manifest_diges
   record.version = SLIPFIT_VERSION;
   record.manifest = one_line(options.manifest.string());
   record.manifest_digest = manifest_digest.text();
-  record.options = options_text(options);
+  record.options.text = options_text(options);
   record.shard = options.shard;
   record.jobs = options.jobs;
   record.timeout_s = options.timeout_s;
@@ -106,36 +92,43 @@ RunRecord begin_record(const BatchOptions& options, const Digest& manifest_diges
 }
 
 std::optional<Error> write_record(const std::filesystem::path& folder, const RunRecord& record) {
-  return replace_file(folder / "run.json", to_json(record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  Json json;
+  json["schema"] = kSchema;
+  for_each_member(record, [&](const char* place, const auto& value) { json[Json::json_pointer(place)] = value; });
+  return replace_file(folder / kRunFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 Result<std::optional<RunRecord>> read_record(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "run.json";
+  const std::filesystem::path file = folder / kRunFile;
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return std::optional<RunRecord>();
   std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const Json json = Json::parse(stream, nullptr, false);
   try {
-    const Json json = Json::parse(text);
-    if (json.at("schema") == kSchema) return std::optional(from_json(json));
+    if (json.at("schema") == kSchema) {
+      RunRecord record;
+      for_each_member(record,
+                      [&](const char* place, auto& value) { json.at(Json::json_pointer(place)).get_to(value); });
+      return std::optional(record);
+    }
   } catch (const Json::exception&) {
-    // falls through: not one of ours
+    // A key is missing or of another kind: the file is not from here.
   }
-  return Error{"folder_of_another_batch",
-               one_line(file.string()) + ": was not written by slipfit batch; choose another folder"};
+  return file_error("folder_of_another_batch", file, "was not written by slipfit batch; choose another folder");
 }
 
 std::optional<std::string> difference(const RunRecord& before, const RunRecord& now) {
-  if (before.version != now.version) {
-    return fmt::format("the version of slipfit was {}, now it is {}", before.version, now.version);
-  }
+  const auto changed = [](const char* what, const auto& was, const auto& is) {
+    return fmt::format("the {} {}, now {}", what, was, is);
+  };
+  if (before.version != now.version) return changed("version of slipfit was", before.version, "it is " + now.version);
   if (before.manifest_digest != now.manifest_digest) {
     return fmt::format("the manifest was another one ('{}'), or has been edited since", before.manifest);
   }
-  if (before.options != now.options) return fmt::format("the options were {}, now {}", before.options, now.options);
-  if (before.shard.index != now.shard.index || before.shard.count != now.shard.count) {
-    return fmt::format("the shard was {}, now {}", shard_text(before.shard), shard_text(now.shard));
-  }
+  if (before.options != now.options) return changed("options were", before.options.text, now.options.text);
+  const auto text_of = [](const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); };
+  if (text_of(before.shard) != text_of(now.shard))
+    return changed("shard was", text_of(before.shard), text_of(now.shard));
   return std::nullopt;
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "slipfit/batch/batch.hpp"
+#include "slipfit/batch/options.hpp"
 #include "slipfit/core/digest.hpp"
 #include "slipfit/core/result.hpp"
 
@@ -16,12 +16,18 @@ struct FileDigests {
   std::string results, summary, failures;
 };
 
+/// JSON as text.
+struct JsonText {
+  std::string text;
+  friend bool operator==(const JsonText&, const JsonText&) = default;
+};
+
 /// What run.json says: what was run, and how far it came.
 struct RunRecord {
   std::string version;
   std::string manifest;
   std::string manifest_digest;
-  std::string options;  ///< JSON text of what changes the results
+  JsonText options;  ///< what changes the results
   Shard shard;
   std::size_t jobs = 1;
   double timeout_s = 0.0;
@@ -37,10 +43,10 @@ RunRecord begin_record(const BatchOptions& options, const Digest& manifest_diges
 
 std::optional<Error> write_record(const std::filesystem::path& folder, const RunRecord& record);
 
-/// Nothing where the folder has none. Error: folder_of_another_batch where it is not ours.
+/// Nothing where the folder has none. Error: folder_of_another_batch where no batch wrote it.
 Result<std::optional<RunRecord>> read_record(const std::filesystem::path& folder);
 
-/// What keeps `now` from going on with what `before` began ("the manifest has changed"), or nothing.
+/// What keeps `now` from continuing what `before` began ("the manifest has changed"), or nothing.
 std::optional<std::string> difference(const RunRecord& before, const RunRecord& now);
 
 }  // namespace slipfit::batch

@@ -3,76 +3,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <optional>
-#include <string_view>
+#include <numeric>
+#include <queue>
 #include <system_error>
 #include <unordered_map>
-#include <utility>
 
-#include "batch/shards.hpp"
+#include "batch/files.hpp"
+#include "io/message.hpp"
+#include "slipfit/io/manifest.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit::batch {
 namespace {
 
-constexpr std::uint64_t kSizeOfNothing = 4096;  // opening a file costs something too, also a missing one
-
-std::uint64_t size_of(const std::filesystem::path& file) {
+std::uint64_t cost_of(const std::filesystem::path& file) {
+  constexpr std::uint64_t kOpening = 4096;  // opening a file costs something too, also a missing one
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
-  return kSizeOfNothing + (error ? 0 : size);
+  return kOpening + (error ? 0 : size);
 }
-
-/// The groups as the rows pass by.
-class GroupTable {
- public:
-  const Group& add(const ManifestEntry& entry) {
-    const auto [place, is_new] = index_.try_emplace(entry.group, groups_.size());
-    if (is_new) groups_.push_back({entry.group, entry.row, entry.row});
-    Group& group = groups_[place->second];
-    group.last_row = entry.row;
-    return group;
-  }
-
-  std::vector<Group> by_last_row() && {
-    std::sort(groups_.begin(), groups_.end(), [](const Group& a, const Group& b) { return a.last_row < b.last_row; });
-    return std::move(groups_);
-  }
-
- private:
-  std::vector<Group> groups_;
-  std::unordered_map<std::string, std::size_t> index_;
-};
-
-/// Which rows stay together on one shard, and how large they are.
-class Pieces {
- public:
-  void add(const ManifestEntry& entry, std::size_t first_row) {
-    sizes_.push_back(0);
-    first_rows_.push_back(static_cast<std::uint32_t>(first_row));
-    sizes_[first_row - 1] += size_of(entry.file);
-  }
-
-  [[nodiscard]] std::vector<bool> rows_of(const Shard& shard) const {
-    const std::vector<std::uint32_t> shard_of = spread(sizes_, shard.count);
-    std::vector<bool> is_mine;
-    for (const std::uint32_t first_row : first_rows_) is_mine.push_back(shard_of[first_row - 1] == shard.index);
-    return is_mine;
-  }
-
- private:
-  std::vector<std::uint64_t> sizes_;  ///< of a row and of the later members of its group, whose own are 0
-  std::vector<std::uint32_t> first_rows_;
-};
-
-constexpr auto kWritten =
-    std::to_array<std::string_view>({"results.jsonl", "summary.csv", "failures.csv", "run.json", "journal", "lock"});
 
 /// The manifest or a recording that the batch would write over, by the same name or another (a link).
 std::optional<Error> check_not_written(const std::filesystem::path& input, const std::filesystem::path& folder) {
-  std::error_code ignored;
-  for (const std::string_view name : kWritten) {
+  std::vector<std::string_view> written(kFolderFiles.begin(), kFolderFiles.end());
+  written.emplace_back(kLock);
+  for (const std::string_view name : written) {
+    std::error_code ignored;
     if (!std::filesystem::equivalent(input, folder / name, ignored)) continue;
     return Error{"output_is_input", fmt::format("--out: '{}' is '{}' of the results, choose another folder",
                                                 one_line(input.string()), name)};
@@ -82,23 +38,111 @@ std::optional<Error> check_not_written(const std::filesystem::path& input, const
 
 /// Six looks at the disk for each row would be too many: a recording is suspected by its name.
 bool has_written_name(const ManifestEntry& entry) {
-  return std::find(kWritten.begin(), kWritten.end(), entry.file.filename().string()) != kWritten.end();
+  const std::string name = entry.file.filename().string();
+  return name == kLock || std::find(kFolderFiles.begin(), kFolderFiles.end(), name) != kFolderFiles.end();
 }
 
+/// Collects what the rows of a manifest say.
+class WorkCollector {
+ public:
+  explicit WorkCollector(const BatchOptions& options) : options_(options) {}
+
+  std::optional<Error> add(const ManifestEntry& entry) {
+    if (has_written_name(entry)) {
+      if (auto error = check_not_written(entry.file, options_.folder)) return error;
+    }
+    list_.slots.add(entry.id, entry.row - 1);
+    list_.rows = entry.row;
+    const std::size_t first_row = options_.fit_group && !entry.group.empty() ? add_member(entry) : entry.row;
+    if (options_.shard.count == 1) return std::nullopt;
+    first_rows_.push_back(static_cast<std::uint32_t>(first_row));
+    costs_.push_back(0);
+    costs_[first_row - 1] += cost_of(entry.file);
+    return std::nullopt;
+  }
+
+  WorkList finish() {
+    const std::vector<std::uint32_t> shard_of = spread(costs_, options_.shard.count);
+    list_.is_mine.assign(list_.rows, true);
+    for (std::size_t i = 0; i < first_rows_.size(); ++i) {
+      list_.is_mine[i] = shard_of[first_rows_[i] - 1] == options_.shard.index;
+    }
+    std::vector<Group>& groups = list_.groups;
+    std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.last_row < b.last_row; });
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      list_.slots.add(id_of_group(groups[g].name), list_.slot_of_group(g));
+      list_.is_mine.push_back(list_.is_mine[groups[g].first_row - 1]);
+    }
+    list_.slots.sort();
+    return std::move(list_);
+  }
+
+ private:
+  /// Returns the first row of the entry's group.
+  std::size_t add_member(const ManifestEntry& entry) {
+    const auto [place, is_new] = group_of_name_.try_emplace(entry.group, list_.groups.size());
+    if (is_new) list_.groups.push_back({entry.group, entry.row, entry.row});
+    Group& group = list_.groups[place->second];
+    group.last_row = entry.row;
+    return group.first_row;
+  }
+
+  const BatchOptions& options_;
+  WorkList list_;
+  std::unordered_map<std::string, std::size_t> group_of_name_;
+  std::vector<std::uint64_t> costs_;       ///< of a row and of the later members of its group, whose own are 0
+  std::vector<std::uint32_t> first_rows_;  ///< of each row's group, which stays on one shard
+};
+
 /// Reads the manifest once more, to tell which ids stand in it twice.
-std::optional<Error> find_duplicate(const std::filesystem::path& manifest, std::vector<Digest> suspects) {
+std::optional<Error> find_duplicate(const std::filesystem::path& manifest, const std::vector<Digest>& suspects) {
   if (suspects.empty()) return std::nullopt;
   std::unordered_map<std::string, std::size_t> lines;
   return for_each_entry(manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
     if (!std::binary_search(suspects.begin(), suspects.end(), digest_of(entry.id))) return std::nullopt;
     const auto [first, is_new] = lines.try_emplace(entry.id, entry.line);
-    if (is_new) return std::nullopt;
-    return Error{"duplicate_id", fmt::format("{}:{}: column 'id': '{}' stands in line {} too, expected another id",
-                                             one_line(manifest.string()), entry.line, entry.id, first->second)};
+    return is_new ? std::nullopt
+                  : std::optional(reading::duplicate_id(one_line(manifest.string()), entry, first->second));
   });
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> spread(const std::vector<std::uint64_t>& sizes, std::size_t shards) {
+  std::vector<std::uint32_t> largest_first(sizes.size());
+  std::iota(largest_first.begin(), largest_first.end(), 0U);
+  std::stable_sort(largest_first.begin(), largest_first.end(),
+                   [&sizes](std::uint32_t a, std::uint32_t b) { return sizes[a] > sizes[b]; });
+  using Load = std::pair<std::uint64_t, std::uint32_t>;  // so far, shard
+  std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
+  for (std::uint32_t shard = 1; shard <= shards; ++shard) loads.emplace(0, shard);
+  std::vector<std::uint32_t> shard_of(sizes.size());
+  for (const std::uint32_t piece : largest_first) {
+    const auto [load, shard] = loads.top();
+    loads.pop();
+    shard_of[piece] = shard;
+    loads.emplace(load + sizes[piece], shard);
+  }
+  return shard_of;
+}
+
+void IdIndex::sort() {
+  std::sort(entries_.begin(), entries_.end());
+}
+
+std::optional<std::size_t> IdIndex::find(std::string_view id) const {
+  const Digest wanted = digest_of(id);
+  const auto found = std::lower_bound(entries_.begin(), entries_.end(), std::pair(wanted, std::size_t{0}));
+  return found == entries_.end() || found->first != wanted ? std::nullopt : std::optional(found->second);
+}
+
+std::vector<Digest> IdIndex::repeated() const {
+  std::vector<Digest> digests;
+  for (std::size_t i = 1; i < entries_.size(); ++i) {
+    if (entries_[i].first == entries_[i - 1].first) digests.push_back(entries_[i].first);
+  }
+  return digests;
+}
 
 std::optional<Error> for_each_entry(const std::filesystem::path& manifest,
                                     const std::function<std::optional<Error>(const ManifestEntry&)>& use) {
@@ -113,59 +157,26 @@ std::optional<Error> for_each_entry(const std::filesystem::path& manifest,
   }
 }
 
-std::optional<Error> for_each_result(const std::filesystem::path& manifest, const WorkList& list,
-                                     const std::function<std::optional<Error>(const ManifestEntry&)>& use_entry,
-                                     const std::function<std::optional<Error>(std::size_t group)>& use_group) {
-  std::size_t group = 0;
-  return for_each_entry(manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
-    if (auto error = use_entry(entry)) return error;
-    for (; group < list.groups.size() && list.groups[group].last_row == entry.row; ++group) {
-      if (auto error = use_group(group)) return error;
-    }
-    return std::nullopt;
-  });
-}
-
 std::string id_of_group(const std::string& name) {
   return "group:" + name;
 }
 
 Result<Digest> manifest_digest(const std::filesystem::path& manifest) {
   if (const auto digest = digest_of_file(manifest.string())) return *digest;
-  return Error{"not_readable", one_line(manifest.string()) +
-                                   ": is no regular file, or cannot be read; a batch reads its manifest several times"};
+  return file_error("not_readable", manifest,
+                    "is no regular file, or cannot be read; a batch reads its manifest several times");
 }
 
 Result<WorkList> list_work(const BatchOptions& options) {
-  WorkList list;
-  GroupTable groups;
-  Pieces pieces;
-  const bool is_sharded = options.shard.count > 1;
   const auto digest = manifest_digest(options.manifest);
   std::error_code ignored;
   if (!digest && std::filesystem::is_fifo(options.manifest, ignored)) return digest.error();  // reading it would block
   if (auto error = check_not_written(options.manifest, options.folder)) return *error;
-  auto failed = for_each_entry(options.manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
-    if (has_written_name(entry)) {
-      if (auto error = check_not_written(entry.file, options.folder)) return error;
-    }
-    list.slots.add(entry.id, entry.row - 1);
-    list.rows = entry.row;
-    const bool is_member = options.fit_group && !entry.group.empty();
-    const std::size_t first_row = is_member ? groups.add(entry).first_row : entry.row;
-    if (is_sharded) pieces.add(entry, first_row);
-    return std::nullopt;
-  });
+  WorkCollector collector(options);
+  auto failed = for_each_entry(options.manifest, [&](const ManifestEntry& entry) { return collector.add(entry); });
   if (failed) return *failed;
-  const std::string name = one_line(options.manifest.string());
-  if (list.rows == 0) return Error{"empty_manifest", name + ": holds no recordings; expected a line for each"};
-  list.is_mine = is_sharded ? pieces.rows_of(options.shard) : std::vector<bool>(list.rows, true);
-  list.groups = std::move(groups).by_last_row();
-  for (std::size_t g = 0; g < list.groups.size(); ++g) {
-    list.slots.add(id_of_group(list.groups[g].name), list.slot_of_group(g));
-    list.is_mine.push_back(list.is_mine[list.groups[g].first_row - 1]);
-  }
-  list.slots.sort();
+  WorkList list = collector.finish();
+  if (list.rows == 0) return reading::empty_manifest(one_line(options.manifest.string()));
   if (auto error = find_duplicate(options.manifest, list.slots.repeated())) return *error;
   if (!digest) return digest.error();
   list.manifest_digest = digest.value();

@@ -1,18 +1,38 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "batch/id_index.hpp"
-#include "slipfit/batch/batch.hpp"
+#include "slipfit/batch/options.hpp"
 #include "slipfit/core/digest.hpp"
 #include "slipfit/core/result.hpp"
 
 namespace slipfit::batch {
+
+/// Spreads pieces of work over `shards` so that none is much larger than the others: the largest first, each to the
+/// shard with the least so far. Returns the shard of each piece, from 1. Same sizes, same answer, on every machine.
+std::vector<std::uint32_t> spread(const std::vector<std::uint64_t>& sizes, std::size_t shards);
+
+/// Finds the slot that belongs to an id, in 24 bytes an id: digests in place of the ids.
+class IdIndex {
+ public:
+  void add(std::string_view id, std::size_t slot) { entries_.emplace_back(digest_of(id), slot); }
+  /// After the last `add`, before any question.
+  void sort();
+  [[nodiscard]] std::optional<std::size_t> find(std::string_view id) const;
+  /// Digests of the ids that were added more than once.
+  [[nodiscard]] std::vector<Digest> repeated() const;
+
+ private:
+  std::vector<std::pair<Digest, std::size_t>> entries_;
+};
 
 /// A group of the manifest; its result stands behind that of the last of its recordings.
 struct Group {
@@ -33,17 +53,19 @@ struct WorkList {
   [[nodiscard]] std::size_t slot_of_group(std::size_t group) const { return rows + group; }
 };
 
-/// Reads the whole manifest once and checks every row. Errors: those of ManifestReader, duplicate_id, empty_manifest.
+/// A slot and the id of its recording or group.
+struct SlotKey {
+  std::size_t slot = 0;
+  std::string id;
+};
+
+/// Reads the whole manifest once and checks every row. Errors: those of ManifestReader, duplicate_id, empty_manifest,
+/// output_is_input.
 Result<WorkList> list_work(const BatchOptions& options);
 
 /// Calls `use` with every entry of a manifest until it returns an error. Errors: also those of ManifestReader.
 std::optional<Error> for_each_entry(const std::filesystem::path& manifest,
                                     const std::function<std::optional<Error>(const ManifestEntry&)>& use);
-
-/// The same in the order of the results: each group behind the last of its recordings, by its place in the work list.
-std::optional<Error> for_each_result(const std::filesystem::path& manifest, const WorkList& list,
-                                     const std::function<std::optional<Error>(const ManifestEntry&)>& use_entry,
-                                     const std::function<std::optional<Error>(std::size_t group)>& use_group);
 
 /// "group:NAME", the id of a group's result.
 std::string id_of_group(const std::string& name);

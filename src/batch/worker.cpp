@@ -1,58 +1,103 @@
 #include "batch/worker.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <string_view>
+#include <system_error>
 
-#include "batch/inputs.hpp"
+#include "batch/files.hpp"
+#include "batch/pages.hpp"
 #include "report/batch_html.hpp"
 #include "slipfit/background.hpp"
+#include "slipfit/io/manifest.hpp"
+#include "slipfit/io/recording_reader.hpp"
 #include "slipfit/pipeline.hpp"
 #include "slipfit/report/html.hpp"
 #include "slipfit/report/json.hpp"
+#include "slipfit/report/sweep.hpp"
+#include "slipfit/report/sweep_html.hpp"
 #include "slipfit/report/text.hpp"
+#include "slipfit/sweep.hpp"
 
 namespace slipfit::batch {
 namespace {
 
-// A reply as text: the letter of its kind, then a document, or code and message on two lines.
+using DocumentJson = nlohmann::json;
 
-std::string text_of(Reply::Kind kind, std::string_view content = {}) {
+/// A reply as one line: the letter of its kind, then a document, or code, blank and message.
+std::string reply_text(Reply::Kind kind, std::string_view content = {}) {
   return static_cast<char>(kind) + std::string(content);
 }
 
-std::string text_of(Reply::Kind kind, const Error& error) {
-  return text_of(kind, error.code + "\n" + error.message);
+std::string reply_text(Reply::Kind kind, const Error& error) {
+  return reply_text(kind, error.code + " " + error.message);
 }
 
-/// One recording's trouble stays its own.
-Result<BatchFit> guarded(const WorkItem& item) {
-  const std::string name = name_of(item);
-  constexpr const char* kReport = ": internal error, please report it with the recording";
+/// An exception is the failure of this recording alone.
+Result<BatchFit> fit_without_exceptions(const WorkItem& item) {
+  const std::string bug = name_of(item) + ": internal error, please report it with the recording";
   try {
     return item.fit();
   } catch (const std::bad_alloc&) {
-    return Error{"out_of_memory", name + ": not enough memory; give a part of it as window, or fewer --jobs"};
+    return Error{"out_of_memory", name_of(item) + ": not enough memory; give a part of it as window, or fewer --jobs"};
   } catch (const std::exception& error) {
-    return Error{"internal_error", name + kReport + ": " + one_line(error.what())};
+    return Error{"internal_error", bug + ": " + one_line(error.what())};
   } catch (...) {
-    return Error{"internal_error", name + kReport};
+    return Error{"internal_error", bug};
   }
 }
 
 std::string fit_reply(const WorkItem& item, const BatchOptions& options, ResultLog& log, Reply::Kind kind) {
-  if (const auto error = log.begin(item.key.slot)) return text_of(Reply::Kind::Stop, *error);
-  const auto fit = guarded(item);
-  if (!fit) return text_of(Reply::Kind::Failed, fit.error());
-  const BatchFit& kept = fit.value();
-  if (options.report && !kept.page.empty()) {
-    const auto error = write_page(*options.report, item.key, kept.document, kept.page, kept.sparkline);
-    if (error) return text_of(Reply::Kind::Stop, *error);
+  log.begin(item.key.slot);
+  if (const auto error = log.error()) return reply_text(Reply::Kind::Stop, *error);
+  const auto fit = fit_without_exceptions(item);
+  if (!fit) return reply_text(Reply::Kind::Failed, fit.error());
+  if (options.report && !fit.value().page.empty()) {
+    const auto error = write_page(*options.report, item.key, fit.value());
+    if (error) return reply_text(Reply::Kind::Stop, *error);
   }
-  return text_of(kind, kept.document);
+  return reply_text(kind, fit.value().document);
+}
+
+/// Gone: a file cannot be read, and none is known to have changed.
+enum class InputState { Same, Changed, Gone };
+
+InputState compare_input(const DocumentJson& recording, const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) return InputState::Gone;
+  const DocumentJson digest = recording.value("input_digest", DocumentJson());
+  if (!digest.is_string() || recording.value("input_bytes", DocumentJson()) != size) return InputState::Changed;
+  const auto now = digest_of_file(file.string());
+  if (!now) return InputState::Gone;
+  return digest == now->text() ? InputState::Same : InputState::Changed;
+}
+
+/// Whether the files of a recording, or of a group's recordings, are those that a document was made of, by their sizes
+/// and digests.
+InputState compare_inputs(const std::string& document, const std::vector<std::filesystem::path>& inputs) {
+  const DocumentJson json = DocumentJson::parse(document, nullptr, false);
+  if (!json.is_object()) return InputState::Changed;
+  const DocumentJson recordings =
+      json.contains("recording") ? DocumentJson::array({json}) : json.value("recordings", DocumentJson::array());
+  if (recordings.size() != inputs.size()) return InputState::Changed;
+  InputState state = InputState::Same;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const InputState found = compare_input(recordings[i].value("recording", DocumentJson::object()), inputs[i]);
+    if (found == InputState::Changed) return found;
+    if (found == InputState::Gone) state = found;
+  }
+  return state;
+}
+
+JsonOptions layout_of(const std::string& id) {
+  JsonOptions layout;
+  layout.id = id;
+  layout.layout = JsonLayout::OneLine;
+  return layout;
 }
 
 }  // namespace
@@ -68,12 +113,9 @@ Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions
   FitOptions fit = options.fit;
   fit.curve = options.report.has_value();
   const Analysis analysis = analyze_and_fit(recording, fit);
-  JsonOptions layout;
-  layout.id = entry.id;
-  layout.layout = JsonLayout::OneLine;
-  BatchFit result{to_json(recording, analysis, layout), {}, {}};
+  BatchFit result{to_json(recording, analysis, layout_of(entry.id)), {}, {}};
   if (!options.report) return result;
-  const ReportOrigin origin{fmt::format("{}  # row {}: {}", options.report->command_line, entry.row, entry.id)};
+  const ReportOrigin origin{options.report->command_line + "  # row " + std::to_string(entry.row) + ": " + entry.id};
   result.page = to_html(recording, analysis, gather_background(recording, analysis), origin);
   result.sparkline = sparkline_of(recording);
   return result;
@@ -81,21 +123,39 @@ Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions
 
 std::string work_on(const WorkItem& item, const BatchOptions& options, ResultLog& log) {
   const std::size_t slot = item.key.slot;
-  const auto line = log.kind_of(slot) == ResultLog::Kind::Result ? log.line_of(slot) : Error{};
+  const auto line = log.has_result(slot) ? log.line_of(slot) : Error{};
   if (!line) return fit_reply(item, options, log, Reply::Kind::Fitted);
   const InputState inputs = compare_inputs(line.value(), item.inputs);
   if (inputs == InputState::Changed) return fit_reply(item, options, log, Reply::Kind::FittedAnew);
-  if (inputs == InputState::Gone) return text_of(Reply::Kind::KeptUnread);
+  if (inputs == InputState::Gone) return reply_text(Reply::Kind::KeptUnread);
   const bool has_page = !options.report || sparkline_on_page(*options.report, item.key, line.value());
-  return has_page ? text_of(Reply::Kind::Kept) : fit_reply(item, options, log, Reply::Kind::Fitted);
+  return has_page ? reply_text(Reply::Kind::Kept) : fit_reply(item, options, log, Reply::Kind::Fitted);
 }
 
 Reply read_reply(const std::string& text) {
   const auto kind = static_cast<Reply::Kind>(text.front());
-  std::string content = text.substr(1);
-  if (kind != Reply::Kind::Failed && kind != Reply::Kind::Stop) return {kind, std::move(content), {}};
-  const std::size_t end = std::min(content.find('\n'), content.size());
-  return {kind, {}, {content.substr(0, end), content.substr(std::min(end + 1, content.size()))}};
+  const std::string content = text.substr(1);
+  if (kind != Reply::Kind::Failed && kind != Reply::Kind::Stop) return {kind, content, {}};
+  const std::size_t end = content.find(' ');  // codes hold none
+  return {kind, {}, {content.substr(0, end), content.substr(end + 1)}};
 }
 
 }  // namespace slipfit::batch
+
+namespace slipfit {
+
+GroupFit group_fit(const FitOptions& options, const std::optional<BatchReport>& report) {
+  return [options, report](const std::string& id, const std::vector<ManifestEntry>& members) -> Result<BatchFit> {
+    const auto entries = read_sweep(members);
+    if (!entries) return entries.error();
+    const SweepAnalysis sweep = analyze_sweep(entries.value(), options);
+    BatchFit fit{to_json(entries.value(), sweep, batch::layout_of(id)), {}, {}};
+    if (report) {
+      fit.page = to_html(entries.value(), sweep, predict_around(entries.value(), sweep),
+                         SweepOrigin{id, report->command_line + "  # " + id});
+    }
+    return fit;
+  };
+}
+
+}  // namespace slipfit

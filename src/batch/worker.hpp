@@ -5,18 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "batch/pages.hpp"
 #include "batch/result_log.hpp"
-#include "slipfit/batch/batch.hpp"
+#include "batch/work_list.hpp"
+#include "slipfit/batch/options.hpp"
 #include "slipfit/core/result.hpp"
 
-// What happens in a process that fits, and what it tells the one that began it.
+// What happens in a process that fits, and its reply to the process that started it.
 
 namespace slipfit::batch {
 
 /// A recording or a group, and how it is fitted.
 struct WorkItem {
-  PageKey key;
+  SlotKey key;
   std::vector<std::filesystem::path> inputs;
   std::function<Result<BatchFit>()> fit;
 };
@@ -32,14 +32,14 @@ struct Reply {
     Kept = 'K',
     KeptUnread = 'U',  ///< the recording is gone
     Failed = 'F',
-    Stop = 'S'  ///< the batch cannot go on
+    Stop = 'S'  ///< the batch cannot continue
   };
   Kind kind = Kind::Kept;
   std::string document;
   Error error;
 };
 
-/// Fits the item unless its result is there and of the same bytes, and writes its page. The reply as text.
+/// Fits the item unless its result exists and is of the same bytes, and writes its page. The reply as text.
 std::string work_on(const WorkItem& item, const BatchOptions& options, ResultLog& log);
 
 Reply read_reply(const std::string& text);

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <string>
 
+#include "core/word_list.hpp"
+
 namespace slipfit {
 namespace {
 
 constexpr std::size_t kLongestUnit = 64;
+constexpr char kUnitSeparator = '|';  // no unit holds it
 
 struct Replacement {
   std::string_view from;
@@ -82,7 +85,7 @@ std::string lower(std::string_view text) {
 }
 
 bool matches(std::string_view text, const Unit& unit, const Prefix& prefix) {
-  return text.starts_with(prefix.text) && text.substr(prefix.text.size()) == unit.text;
+  return text.starts_with(prefix.text) && is_in(unit.texts, text.substr(prefix.text.size()), kUnitSeparator);
 }
 
 template <class Table>
@@ -95,14 +98,14 @@ std::optional<ParsedUnit> with_prefix(std::string_view text, const Unit& unit, c
 }
 
 std::optional<ParsedUnit> in_table(std::string_view text) {
-  const auto* const whole =
-      std::find_if(kUnitTable.begin(), kUnitTable.end(), [&](const Unit& unit) { return unit.text == text; });
+  const auto* const whole = std::find_if(kUnitTable.begin(), kUnitTable.end(),
+                                         [&](const Unit& unit) { return is_in(unit.texts, text, kUnitSeparator); });
   if (whole != kUnitTable.end()) return ParsedUnit{whole->factor, whole->powers};
   const std::string_view singular = text.ends_with('s') ? text.substr(0, text.size() - 1) : text;
   for (const Unit& unit : kUnitTable) {
     if (unit.prefixes == Prefixes::None) continue;
     const bool is_word = unit.prefixes == Prefixes::Word;
-    if (is_word && unit.text == singular) return ParsedUnit{unit.factor, unit.powers};
+    if (is_word && is_in(unit.texts, singular, kUnitSeparator)) return ParsedUnit{unit.factor, unit.powers};
     const auto found = is_word ? with_prefix(singular, unit, kWordPrefixes) : with_prefix(text, unit, kPrefixes);
     if (found) return found;
   }

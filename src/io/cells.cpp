@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "core/word_list.hpp"
 #include "io/short_decimal.hpp"
 
 namespace slipfit::reading {
@@ -19,9 +20,6 @@ constexpr double kOverload = 9e36;  // SCPI instruments write 9.9e37 for infinit
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
 }
 
 struct Parsed {
@@ -61,15 +59,12 @@ Parsed parse(std::string_view text, bool decimal_comma) {
 }
 
 bool is_missing(std::string_view text) {
-  static constexpr auto kWords = std::to_array<std::string_view>(
-      {"nan",  "na",       "n/a",     "#n/a",     "null",     "none",    "inf",    "+inf",   "-inf", "+nan",
-       "-nan", "infinity", "ol",      "overload", "overflow", "err",     "error",  "-",      "--",   "---",
-       "----", "#value!",  "#div/0!", "1.#qnan",  "1.#inf",   "-1.#ind", "1.#ind", "invalid"});
+  constexpr std::string_view kWords =
+      "nan na n/a #n/a null none inf +inf -inf +nan -nan infinity ol overload overflow err error - -- --- ---- #value! "
+      "#div/0! 1.#qnan 1.#inf -1.#ind 1.#ind invalid";
   constexpr std::size_t kLongest = 8;
   if (text.size() > kLongest) return false;
-  std::string word(text);
-  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+  return is_in(kWords, lower(text));
 }
 
 /// hh:mm:ss with an optional fraction; anything else gives no number.
@@ -95,7 +90,37 @@ bool is_tag(std::string_view text) {
   return std::isalpha(first) != 0 || first >= 0x80 || first == '%' || first == '[' || first == '(';
 }
 
+/// Takes a quoted field off the front of `rest`; nothing where its quote is not closed.
+std::optional<std::string> take_quoted(std::string_view& rest) {
+  std::string field;
+  for (std::size_t i = 1; i < rest.size(); ++i) {
+    if (rest[i] != '"') {
+      field += rest[i];
+    } else if (i + 1 < rest.size() && rest[i + 1] == '"') {
+      field += rest[i++];
+    } else {
+      rest.remove_prefix(i + 1);
+      return field;
+    }
+  }
+  return std::nullopt;
+}
+
+/// A tab that is the delimiter is no blank.
+std::string_view skip_blanks(std::string_view text, char delimiter) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t') && text.front() != delimiter) {
+    text.remove_prefix(1);
+  }
+  return text;
+}
+
 }  // namespace
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
 
 std::string_view trim(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -158,6 +183,24 @@ void split(std::string_view line, char delimiter, std::vector<std::string_view>&
     cells.emplace_back(cell, static_cast<std::size_t>(end - cell));
     if (end == line_end) return;
     cell = end + 1;
+  }
+}
+
+std::optional<std::vector<std::string>> csv_fields(std::string_view line, char delimiter) {
+  std::vector<std::string> fields;
+  for (;;) {
+    line = skip_blanks(line, delimiter);
+    std::optional<std::string> quoted;
+    if (!line.empty() && line.front() == '"') {
+      quoted = take_quoted(line);
+      if (!quoted) return std::nullopt;
+    }
+    const std::size_t end = std::min(line.find(delimiter), line.size());
+    const std::string_view plain = trim(line.substr(0, end));
+    if (quoted && !plain.empty()) return std::nullopt;
+    fields.push_back(quoted ? *std::move(quoted) : std::string(plain));
+    if (end == line.size()) return fields;
+    line.remove_prefix(end + 1);
   }
 }
 

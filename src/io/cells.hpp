@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,7 +35,7 @@ double plain_number(std::string_view text, bool decimal_comma);
 
 /// Every cell of a line. Quotes protect delimiters and stay in the cell.
 std::vector<std::string_view> split(std::string_view line, char delimiter);
-/// The same into a vector that many lines take turns to use.
+/// The same into a vector that is used again for every line.
 void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells);
 
 /// The end of the cell that begins at `cell` (for blanks: that begins there with no blank), at the latest that of the
@@ -53,7 +55,13 @@ inline const char* end_of_cell(const char* cell, const char* line_end, char deli
   return cell;
 }
 
+/// The fields of one line of CSV: blanks around them go, quotes go, "" inside quotes is one quote. Nothing where a
+/// quote is not closed, or is followed by more text.
+std::optional<std::vector<std::string>> csv_fields(std::string_view line, char delimiter);
+
 std::string_view trim(std::string_view text);
+/// ASCII letters only.
+std::string lower(std::string_view text);
 std::string_view unquote(std::string_view text);
 
 }  // namespace slipfit::reading

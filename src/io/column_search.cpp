@@ -13,11 +13,6 @@ namespace {
 
 constexpr std::size_t kMostListed = 24;
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 template <class Matches>
 std::vector<std::size_t> columns_where(const Layout& layout, const Matches& matches) {
   std::vector<std::size_t> found;
@@ -77,7 +72,7 @@ Result<std::size_t> find_column(const Layout& layout, const std::string& wanted,
   return found.front();
 }
 
-Result<std::vector<std::size_t>> find_time_column(const Layout& layout, const std::string& file) {
+Result<std::size_t> find_time_column(const Layout& layout, const std::string& file) {
   auto found = best_columns(layout, [](const Column& column, std::size_t) {
     if (column.name.role != Role::Time || !column.may_be_numeric()) return 0;
     return column.name.rank + (column.never_decreases ? 8 : 0) +
@@ -100,7 +95,11 @@ Result<std::vector<std::size_t>> find_time_column(const Layout& layout, const st
                  fmt::format("{}: {} and {} may both be the time; {}; choose one with --time-column", file,
                              describe(layout, found[0]), describe(layout, found[1]), list_columns(layout))};
   }
-  return found;
+  if (!found.empty()) return found.front();
+  return Error{"no_time_column",
+               fmt::format("{}: no time column; {}; give the sampling rate with --sample-rate, or the "
+                           "column with --time-column",
+                           file, list_columns(layout))};
 }
 
 }  // namespace slipfit::reading

@@ -34,7 +34,7 @@ std::vector<std::size_t> best_columns(const Layout& layout, const ScoreOf& score
   return best;
 }
 
-/// Where the time is: the column, or nothing where no column qualifies. Errors: ambiguous_time_column.
-Result<std::vector<std::size_t>> find_time_column(const Layout& layout, const std::string& file);
+/// Where the time is. Errors: no_time_column, ambiguous_time_column.
+Result<std::size_t> find_time_column(const Layout& layout, const std::string& file);
 
 }  // namespace slipfit::reading

@@ -12,7 +12,7 @@
 namespace slipfit::reading {
 namespace {
 
-/// What `choose_columns` was asked, handed from step to step.
+/// The arguments of `choose_columns`.
 struct Request {
   const Layout& layout;
   const ReadOptions& options;
@@ -25,10 +25,8 @@ Error unit_error(const Request& request, std::size_t column, const std::string& 
 }
 
 bool mentions(const std::string& name, std::initializer_list<std::string_view> words) {
-  std::string lower = name;
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return std::any_of(words.begin(), words.end(),
-                     [&](std::string_view w) { return lower.find(w) != std::string::npos; });
+                     [text = lower(name)](std::string_view w) { return text.find(w) != std::string::npos; });
 }
 
 struct GuessedUnit {
@@ -52,61 +50,44 @@ GuessedUnit guess_time_unit(const Column& column) {
   return {"s", "no unit is given"};
 }
 
+/// The unit is that of the option, else that of the name, else a guess.
 Result<Channel> time_channel(const Request& request, std::size_t column) {
   const Column& found = request.layout.columns[column];
   const std::string name = describe(request.layout, column);
-  if (found.clocks > found.numbers) {
-    return Channel{column, 1.0, ForceQuantity::Force_N, fmt::format("Time is {}, a clock (h:min:s).", name)};
-  }
-  if (request.options.time_unit) {
-    const auto scale = parse_unit(*request.options.time_unit, Dimension::Time);
-    if (!scale) return unit_error(request, column, scale.error().message, "--time-unit");
-    return Channel{column, scale.value().scale, ForceQuantity::Force_N,
-                   fmt::format("Time is {}, in {} (as told).", name, printable(*request.options.time_unit))};
-  }
-  if (!found.name.unit.empty()) {
-    const auto scale = parse_unit(found.name.unit, Dimension::Time);
-    if (!scale) return unit_error(request, column, scale.error().message, "--time-unit");
-    return Channel{column, scale.value().scale, ForceQuantity::Force_N,
-                   fmt::format("Time is {}, in {}.", name, found.name.unit)};
-  }
+  const auto& told = request.options.time_unit;
   const GuessedUnit guess = guess_time_unit(found);
-  return Channel{column, parse_unit(guess.unit, Dimension::Time).value().scale, ForceQuantity::Force_N,
-                 fmt::format("Time is {}, taken to be in {} ({}).", name, guess.unit, guess.why)};
+  const bool is_guess = !told && found.name.unit.empty();
+  const std::string unit = is_guess ? std::string(guess.unit) : told.value_or(found.name.unit);
+  Channel channel{column, 1.0, ForceQuantity::Force_N, fmt::format("Time is {}, a clock (h:min:s).", name)};
+  if (found.clocks > found.numbers) return channel;
+  const auto scale = parse_unit(unit, Dimension::Time);
+  if (!scale) return unit_error(request, column, scale.error().message, "--time-unit");
+  channel.scale = scale.value().scale;
+  channel.sentence = is_guess ? fmt::format("Time is {}, taken to be in {} ({}).", name, unit, guess.why)
+                              : fmt::format("Time is {}, in {}{}.", name, printable(unit), told ? " (as told)" : "");
+  return channel;
 }
 
+/// Nothing where the sampling rate is the clock.
 Result<std::optional<Channel>> choose_time(const Request& request) {
   const auto& [layout, options, file] = request;
-  std::optional<std::size_t> column;
-  if (options.time_column) {
-    const auto found = find_column(layout, *options.time_column, "--time-column", file);
-    if (!found) return found.error();
-    column = found.value();
-  } else if (!options.sample_rate_Hz) {
-    const auto found = find_time_column(layout, file);
-    if (!found) return found.error();
-    if (found.value().empty()) {
-      return Error{"no_time_column",
-                   fmt::format("{}: no time column; {}; give the sampling rate with --sample-rate, or the "
-                               "column with --time-column",
-                               file, list_columns(layout))};
-    }
-    column = found.value().front();
-  }
-  if (!column) return std::optional<Channel>{};
-  const auto channel = time_channel(request, *column);
+  if (!options.time_column && options.sample_rate_Hz) return std::optional<Channel>();
+  const auto column = options.time_column ? find_column(layout, *options.time_column, "--time-column", file)
+                                          : find_time_column(layout, file);
+  if (!column) return column.error();
+  const auto channel = time_channel(request, column.value());
   if (!channel) return channel.error();
-  return std::optional<Channel>(channel.value());
+  return std::optional(channel.value());
 }
 
-/// What is said about a clock that is counted from the sampling rate.
-std::string say_no_clock(const Layout& layout, double sample_rate_Hz) {
-  std::string said = fmt::format("Time is counted from 0 at {} samples a second (as told).", sample_rate_Hz);
+/// About a clock that is counted from the sampling rate.
+std::string counted_clock_sentence(const Layout& layout, double sample_rate_Hz) {
+  std::string sentence = fmt::format("Time is counted from 0 at {} samples a second (as told).", sample_rate_Hz);
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     if (layout.columns[c].name.role == Role::Time)
-      said += fmt::format(" The times in {} are not used.", describe(layout, c));
+      sentence += fmt::format(" The times in {} are not used.", describe(layout, c));
   }
-  return said;
+  return sentence;
 }
 
 /// Candidates for the force, best first in rank; a "load" beside a friction coefficient is the normal load.
@@ -134,12 +115,9 @@ Result<std::size_t> choose_force(const Request& request, std::optional<std::size
   const auto& [layout, options, file] = request;
   if (options.force_column) return find_column(layout, *options.force_column, "--force-column", file);
   auto candidates = force_candidates(layout, time);
-  if (candidates.size() > 1) {
-    std::vector<std::size_t> varying;
-    for (const std::size_t c : candidates) {
-      if (layout.columns[c].varies) varying.push_back(c);
-    }
-    if (varying.size() == 1) candidates = varying;
+  const auto varies = [&](std::size_t c) { return layout.columns[c].varies; };
+  if (std::count_if(candidates.begin(), candidates.end(), varies) == 1) {
+    candidates = {*std::find_if(candidates.begin(), candidates.end(), varies)};
   }
   if (candidates.empty()) {
     return Error{"no_force_column",
@@ -194,15 +172,15 @@ std::optional<Channel> choose_displacement(const Layout& layout, const Choice& c
   return std::nullopt;
 }
 
-std::vector<std::string> say_layout(const Layout& layout) {
-  std::vector<std::string> said;
+std::vector<std::string> layout_sentences(const Layout& layout) {
+  std::vector<std::string> sentences;
   if (layout.skipped_lines > 0) {
-    said.push_back(fmt::format("{} before the data {} skipped.", counted(layout.skipped_lines, "line"),
-                               layout.skipped_lines == 1 ? "was" : "were"));
+    sentences.push_back(fmt::format("{} before the data {} skipped.", counted(layout.skipped_lines, "line"),
+                                    layout.skipped_lines == 1 ? "was" : "were"));
   }
-  if (layout.dialect.decimal_comma) said.emplace_back("The comma is the decimal sign.");
-  if (!layout.has_names) said.emplace_back("The columns have no names.");
-  return said;
+  if (layout.dialect.decimal_comma) sentences.emplace_back("The comma is the decimal sign.");
+  if (!layout.has_names) sentences.emplace_back("The columns have no names.");
+  return sentences;
 }
 
 }  // namespace
@@ -227,9 +205,10 @@ Result<Choice> choose_columns(const Layout& layout, const ReadOptions& options, 
   if (!force) return force.error();
   choice.force = force.value();
   choice.displacement = choose_displacement(layout, choice);
-  choice.assumed = say_layout(layout);
-  choice.assumed.push_back(choice.time ? choice.time->said : say_no_clock(layout, *options.sample_rate_Hz));
-  choice.assumed.push_back(choice.force.said);
+  choice.assumed = layout_sentences(layout);
+  choice.assumed.push_back(choice.time ? choice.time->sentence
+                                       : counted_clock_sentence(layout, *options.sample_rate_Hz));
+  choice.assumed.push_back(choice.force.sentence);
   return choice;
 }
 

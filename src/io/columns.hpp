@@ -17,7 +17,7 @@ struct Channel {
   std::size_t column = 0;
   double scale = 1.0;
   ForceQuantity quantity = ForceQuantity::Force_N;  ///< of the force channel
-  std::string said;                                 ///< the sentence for Provenance::assumed
+  std::string sentence;                             ///< for Provenance::assumed
 };
 
 /// Which columns are read, and how.

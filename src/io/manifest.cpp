@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <exception>
 #include <set>
 #include <string_view>
@@ -10,7 +9,6 @@
 #include <utility>
 
 #include "io/cells.hpp"
-#include "io/csv_fields.hpp"
 #include "io/line_reader.hpp"
 #include "io/manifest_columns.hpp"
 #include "io/message.hpp"
@@ -105,23 +103,12 @@ class ManifestReader::Implementation {
                                counted(cells->size(), "field"), printable(trim(line)), columns_.count)};
     }
     for (const ManifestColumn& column : columns_.read) {
-      const std::string& cell = (*cells)[column.index];
-      if (cell.empty() && !is_needed(column)) continue;
-      auto result = cell.empty() ? missing_value(column) : with_cell(std::move(entry), column, cell, delimiter_ == ';');
+      auto result = with_cell(std::move(entry), column, (*cells)[column.index], delimiter_ == ';');
       if (!result) return Error{result.error().code, fmt::format("{}: {}", place(), result.error().message)};
       entry = std::move(result).value();
     }
     entry.file = folder_ / entry.file;
     return entry;
-  }
-
-  static bool is_needed(const ManifestColumn& column) {
-    return column.field == ManifestField::Id || column.field == ManifestField::File ||
-           column.field == ManifestField::Speed;
-  }
-
-  static Result<ManifestEntry> missing_value(const ManifestColumn& column) {
-    return Error{"missing_value", fmt::format("column '{}': the field is empty, expected a value", column.name)};
   }
 
   std::string name_;
@@ -171,32 +158,17 @@ Result<std::vector<ManifestEntry>> read_manifest_group(const std::filesystem::pa
     if (!entry->group.empty()) groups.insert(entry->group);
     if (group && entry->group != *group) continue;
     const auto [first, is_new] = line_of_id.emplace(entry->id, entry->line);
-    if (!is_new) {
-      return Error{"duplicate_id", fmt::format("{}:{}: column 'id': '{}' stands in line {} too, expected another id",
-                                               name, entry->line, entry->id, first->second)};
-    }
+    if (!is_new) return duplicate_id(name, *entry, first->second);
     entries.push_back(*std::move(entry));
   }
   if (!entries.empty()) return entries;
-  if (!group) return Error{"empty_manifest", name + ": holds no recordings; expected a line for each"};
+  if (!group) return empty_manifest(name);
   return Error{"unknown_group", fmt::format("{}: no recording of group '{}', expected one of: {}", name,
                                             printable(*group), fmt::join(groups, ", "))};
 }
 
 Error in_words_of_manifest(Error error) {
-  constexpr auto kColumns =
-      std::to_array<std::pair<std::string_view, std::string_view>>({{"--time-column", "time_column"},
-                                                                    {"--force-column", "force_column"},
-                                                                    {"--time-unit", "time_unit"},
-                                                                    {"--force-unit", "force_unit"},
-                                                                    {"--sample-rate", "sample_rate_Hz"},
-                                                                    {"--window", "window_s"}});
-  for (const auto& [option, column] : kColumns) {
-    const std::string words = fmt::format("the manifest's {}", column);
-    for (std::size_t at = 0; (at = error.message.find(option, at)) != std::string::npos; at += words.size()) {
-      error.message.replace(at, option.size(), words);
-    }
-  }
+  error.message = with_columns_for_options(std::move(error.message));
   return error;
 }
 

@@ -10,43 +10,115 @@
 
 #include "io/cells.hpp"
 #include "io/message.hpp"
+#include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {
 namespace {
 
-enum class Range { AboveZero, NotNegative, Any };
+using SetNumber = void (*)(ManifestEntry&, double);
+using SetText = std::optional<Error> (*)(ManifestEntry&, const std::string&);
 
-struct KnownColumn {
+Error refusal(const char* code, const std::string& cell, const char* expected) {
+  return {code, fmt::format("bad value '{}', expected {}", printable(cell), expected)};
+}
+
+std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell) {
+  const bool has_slash = cell.find_first_of("/\\") != std::string::npos;
+  const bool has_control =
+      std::any_of(cell.begin(), cell.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+  if (has_slash || has_control || cell.starts_with("group:")) {
+    return refusal("bad_id", cell, "a name without slash or control character that does not begin with 'group:'");
+  }
+  entry.id = to_utf8(cell);
+  return std::nullopt;
+}
+
+std::optional<Error> set_force_view(ManifestEntry& entry, const std::string& cell) {
+  constexpr auto kViews = std::to_array<std::pair<std::string_view, ForceView>>(
+      {{"spring", ForceView::Spring}, {"transmitted", ForceView::Transmitted}, {"contact", ForceView::Contact}});
+  const auto* const view = std::find_if(kViews.begin(), kViews.end(), [&](const auto& v) { return v.first == cell; });
+  if (view == kViews.end()) return refusal("unknown_force_view", cell, "spring, transmitted or contact");
+  entry.conditions.force_view = view->second;
+  return std::nullopt;
+}
+
+template <Dimension dimension, std::optional<std::string> ReadOptions::*target>
+std::optional<Error> set_unit(ManifestEntry& entry, const std::string& cell) {
+  const Result<UnitScale> unit = parse_unit(cell, dimension);
+  const bool is_coefficient = dimension == Dimension::Force && parse_unit(cell, Dimension::Dimensionless);
+  if (!unit && !is_coefficient) return Error{"unknown_unit", printable(unit.error().message)};
+  entry.options.*target = cell;
+  return std::nullopt;
+}
+
+template <auto ReadOptions::*target>
+std::optional<Error> set_option(ManifestEntry& entry, const std::string& cell) {
+  entry.options.*target = cell;
+  return std::nullopt;
+}
+
+template <auto Conditions::*target>
+void set_condition(ManifestEntry& entry, double number) {
+  entry.conditions.*target = number;
+}
+
+}  // namespace
+
+struct ManifestField {
+  enum class Bound { AboveZero, NotNegative, None };
   std::string_view base;
-  ManifestField field;
-  std::optional<Dimension> dimension;  ///< empty: text
-  std::string_view full_name;          ///< with its SI unit, for messages
-  Range range = Range::Any;            ///< of a number
+  std::string_view suffix{};             ///< behind the base: the SI unit of the full name
+  std::optional<Dimension> dimension{};  ///< empty: text
+  Bound bound = Bound::None;
+  SetNumber set_number = nullptr;  ///< nothing and `dimension`: a window
+  SetText set_text = nullptr;
+  std::string_view option{};  ///< of the command line, that says the same
+  bool is_needed = false;
+
+  [[nodiscard]] std::string full_name() const { return std::string(base) + std::string(suffix); }
 };
 
-// A name that begins like another one stands before it.
-constexpr std::array kKnownColumns = std::to_array<KnownColumn>({
-    {"id", ManifestField::Id, std::nullopt, "id"},
-    {"file", ManifestField::File, std::nullopt, "file"},
-    {"speed_se", ManifestField::SpeedStandardError, Dimension::Speed, "speed_se_m_per_s", Range::NotNegative},
-    {"speed", ManifestField::Speed, Dimension::Speed, "speed_m_per_s", Range::AboveZero},
-    {"normal_force", ManifestField::NormalForce, Dimension::Force, "normal_force_N", Range::AboveZero},
-    {"zero_force", ManifestField::ZeroForce, Dimension::Force, "zero_force_N"},
-    {"force_view", ManifestField::ForceView, std::nullopt, "force_view"},
-    {"group", ManifestField::Group, std::nullopt, "group"},
-    {"time_column", ManifestField::TimeColumn, std::nullopt, "time_column"},
-    {"force_column", ManifestField::ForceColumn, std::nullopt, "force_column"},
-    {"time_unit", ManifestField::TimeUnit, std::nullopt, "time_unit"},
-    {"force_unit", ManifestField::ForceUnit, std::nullopt, "force_unit"},
-    {"sample_rate", ManifestField::SampleRate, Dimension::Frequency, "sample_rate_Hz", Range::AboveZero},
-    {"window", ManifestField::Window, Dimension::Time, "window_s"},
-    {"measured_spacing", ManifestField::MeasuredSpacing, Dimension::Length, "measured_spacing_m", Range::AboveZero},
-});
+namespace {
 
-const KnownColumn& known_column(ManifestField field) {
-  return *std::find_if(kKnownColumns.begin(), kKnownColumns.end(),
-                       [field](const KnownColumn& column) { return column.field == field; });
-}
+using Bound = ManifestField::Bound;
+
+// A name that begins like another one stands before it.
+constexpr std::array kFields = std::to_array<ManifestField>({
+    {.base = "id", .set_text = set_id, .is_needed = true},
+    {.base = "file",
+     .set_text = [](ManifestEntry& entry, const std::string& cell) -> std::optional<Error> {
+       entry.file = cell;
+       return std::nullopt;
+     },
+     .is_needed = true},
+    {"speed_se", "_m_per_s", Dimension::Speed, Bound::NotNegative,
+     set_condition<&Conditions::speed_standard_error_m_per_s>},
+    {.base = "speed",
+     .suffix = "_m_per_s",
+     .dimension = Dimension::Speed,
+     .bound = Bound::AboveZero,
+     .set_number = set_condition<&Conditions::speed_m_per_s>,
+     .is_needed = true},
+    {"normal_force", "_N", Dimension::Force, Bound::AboveZero, set_condition<&Conditions::normal_force_N>},
+    {"zero_force", "_N", Dimension::Force, Bound::None, set_condition<&Conditions::zero_force_N>},
+    {.base = "force_view", .set_text = set_force_view},
+    {.base = "group",
+     .set_text = [](ManifestEntry& entry,
+                    const std::string& cell) -> std::
+                                                 optional<Error> {
+                                                   entry.group = to_utf8(cell);
+                                                   return std::nullopt;
+                                                 }},
+    {.base = "time_column", .set_text = set_option<&ReadOptions::time_column>, .option = "--time-column"},
+    {.base = "force_column", .set_text = set_option<&ReadOptions::force_column>, .option = "--force-column"},
+    {.base = "time_unit", .set_text = set_unit<Dimension::Time, &ReadOptions::time_unit>, .option = "--time-unit"},
+    {.base = "force_unit", .set_text = set_unit<Dimension::Force, &ReadOptions::force_unit>, .option = "--force-unit"},
+    {"sample_rate", "_Hz", Dimension::Frequency, Bound::AboveZero,
+     [](ManifestEntry& entry, double number) { entry.options.sample_rate_Hz = number; }, nullptr, "--sample-rate"},
+    {.base = "window", .suffix = "_s", .dimension = Dimension::Time, .option = "--window"},
+    {"drive_period", "_s", Dimension::Time, Bound::AboveZero, set_condition<&Conditions::drive_period_s>},
+    {"measured_spacing", "_m", Dimension::Length, Bound::AboveZero, set_condition<&Conditions::measured_spacing_m>},
+});
 
 /// "mm_per_s" is "mm/s".
 std::string spelled_out(std::string_view unit) {
@@ -62,11 +134,8 @@ struct UnitText {
 };
 
 std::optional<UnitText> unit_behind(std::string_view name, std::string_view base) {
-  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  if (name.size() < base.size() ||
-      !std::equal(base.begin(), base.end(), name.begin(), [&](char b, char a) { return same(a, b); })) {
-    return std::nullopt;
-  }
+  const auto same = [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); };
+  if (name.size() < base.size() || !std::equal(base.begin(), base.end(), name.begin(), same)) return std::nullopt;
   const std::string_view rest = trim(name.substr(base.size()));
   if (rest.empty()) return UnitText{};
   if (rest.size() > 2 && ((rest.front() == '[' && rest.back() == ']') || (rest.front() == '(' && rest.back() == ')'))) {
@@ -76,128 +145,66 @@ std::optional<UnitText> unit_behind(std::string_view name, std::string_view base
   return std::nullopt;
 }
 
-/// Nothing where the name is none of ours. Error: unknown_unit, in brackets only ("speed_old" is some other column).
+/// Nothing where the name is unknown. Error: unknown_unit, in brackets only ("speed_old" is some other column).
 Result<std::optional<ManifestColumn>> recognise(const std::string& name, std::size_t index, const std::string& place) {
-  for (const KnownColumn& known : kKnownColumns) {
-    const auto unit_text = unit_behind(name, known.base);
-    if (!unit_text) continue;
-    ManifestColumn column{known.field, index, printable(name), std::nullopt};
-    if (unit_text->unit.empty()) return std::optional(column);
-    if (!known.dimension) continue;
-    const Result<UnitScale> unit = parse_unit(unit_text->unit, *known.dimension);
-    if (unit) {
-      column.scale = unit.value().scale;
-      return std::optional(column);
-    }
-    if (unit_text->in_brackets) {
-      return Error{"unknown_unit",
-                   fmt::format("{}: column '{}': {}", place, column.name, printable(unit.error().message))};
-    }
+  for (const ManifestField& field : kFields) {
+    const auto text = unit_behind(name, field.base);
+    if (!text) continue;
+    if (text->unit.empty()) return std::optional(ManifestColumn{&field, index, printable(name), std::nullopt});
+    if (!field.dimension) continue;
+    const Result<UnitScale> unit = parse_unit(text->unit, *field.dimension);
+    if (unit) return std::optional(ManifestColumn{&field, index, printable(name), unit.value().scale});
+    if (!text->in_brackets) continue;
+    return Error{"unknown_unit",
+                 fmt::format("{}: column '{}': {}", place, printable(name), printable(unit.error().message))};
   }
   return std::optional<ManifestColumn>();
 }
 
-std::optional<Error> check_needed(const ManifestColumns& columns, const std::string& place) {
-  for (const ManifestField needed : {ManifestField::Id, ManifestField::File, ManifestField::Speed}) {
-    const bool found = std::any_of(columns.read.begin(), columns.read.end(),
-                                   [needed](const ManifestColumn& column) { return column.field == needed; });
-    if (found) continue;
-    const std::string ignored =
-        columns.ignored.empty() ? "" : fmt::format(", not understood: {}", fmt::join(columns.ignored, ", "));
-    return Error{"missing_column", fmt::format("{}: there is no column '{}'{}; expected a line of names such as "
-                                               "id,file,speed_m_per_s",
-                                               place, known_column(needed).full_name, ignored)};
-  }
-  return std::nullopt;
-}
-
-struct CellError {
-  std::string code;
-  std::string expected;
-};
-
-Error cell_error(const ManifestColumn& column, const std::string& cell, const CellError& error) {
-  return {error.code,
-          fmt::format("column '{}': bad value '{}', expected {}", column.name, printable(cell), error.expected)};
+const ManifestColumn* find_read(const ManifestColumns& columns, const ManifestField* field) {
+  const auto found = std::find_if(columns.read.begin(), columns.read.end(),
+                                  [field](const ManifestColumn& column) { return column.field == field; });
+  return found == columns.read.end() ? nullptr : &*found;
 }
 
 /// In SI: plain where the name has a unit, else a number that may bring its own.
-Result<double> number_of(const ManifestColumn& column, const std::string& cell, const std::string& text,
+Result<double> number_in(const std::string& text, const ManifestColumn& column, const std::string& cell,
                          bool decimal_comma) {
-  const KnownColumn& known = known_column(column.field);
   if (!column.scale) {
-    Result<double> value = parse_quantity(text, *known.dimension);
+    Result<double> value = parse_quantity(text, *column.field->dimension);
     if (value) return value;
-    return Error{value.error().code, fmt::format("column '{}': {}", column.name, printable(value.error().message))};
+    return Error{value.error().code, printable(value.error().message)};
   }
   const Cell number = read_cell(text, decimal_comma && text.find(',') != std::string::npos);
   if (number.kind == CellKind::Number && number.tag.empty()) return number.value * *column.scale;
-  return cell_error(column, cell, {"bad_number", "a plain number, in the unit that the column's name gives"});
+  return refusal("bad_number", cell, "a plain number, in the unit that the column's name gives");
 }
 
-Result<ManifestEntry> with_number(ManifestEntry entry, const ManifestColumn& column, const std::string& cell,
-                                  bool decimal_comma) {
-  const Result<double> number = number_of(column, cell, cell, decimal_comma);
+std::optional<Error> set_number(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell,
+                                bool decimal_comma) {
+  const Result<double> number = number_in(cell, column, cell, decimal_comma);
   if (!number) return number.error();
-  const double value = number.value();
-  const Range range = known_column(column.field).range;
-  if (range == Range::AboveZero && !(value > 0.0))
-    return cell_error(column, cell, {"out_of_range", "a number above zero"});
-  if (range == Range::NotNegative && value < 0.0) return cell_error(column, cell, {"out_of_range", "zero or more"});
-  Conditions& conditions = entry.conditions;
-  if (column.field == ManifestField::Speed) conditions.speed_m_per_s = value;
-  if (column.field == ManifestField::SpeedStandardError) conditions.speed_standard_error_m_per_s = value;
-  if (column.field == ManifestField::NormalForce) conditions.normal_force_N = value;
-  if (column.field == ManifestField::ZeroForce) conditions.zero_force_N = value;
-  if (column.field == ManifestField::MeasuredSpacing) conditions.measured_spacing_m = value;
-  if (column.field == ManifestField::SampleRate) entry.options.sample_rate_Hz = value;
-  return entry;
+  const Bound bound = column.field->bound;
+  if (bound == Bound::AboveZero && !(number.value() > 0.0)) {
+    return refusal("out_of_range", cell, "a number above zero");
+  }
+  if (bound == Bound::NotNegative && number.value() < 0.0) return refusal("out_of_range", cell, "zero or more");
+  column.field->set_number(entry, number.value());
+  return std::nullopt;
 }
 
-Result<TimeWindow> window_of(const ManifestColumn& column, const std::string& cell, bool decimal_comma) {
-  const CellError wrong{"bad_window", "T0:T1 with T0 < T1, on the recording's own clock"};
+std::optional<Error> set_window(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell,
+                                bool decimal_comma) {
+  const Error wrong = refusal("bad_window", cell, "T0:T1 with T0 < T1, on the recording's own clock");
   const std::size_t colon = cell.find(':');
-  if (colon == std::string::npos) return cell_error(column, cell, wrong);
-  const Result<double> begin_s = number_of(column, cell, cell.substr(0, colon), decimal_comma);
+  if (colon == std::string::npos) return wrong;
+  const Result<double> begin_s = number_in(cell.substr(0, colon), column, cell, decimal_comma);
   if (!begin_s) return begin_s.error();
-  const Result<double> end_s = number_of(column, cell, cell.substr(colon + 1), decimal_comma);
+  const Result<double> end_s = number_in(cell.substr(colon + 1), column, cell, decimal_comma);
   if (!end_s) return end_s.error();
-  if (!(begin_s.value() < end_s.value())) return cell_error(column, cell, wrong);
-  return TimeWindow{begin_s.value(), end_s.value()};
-}
-
-Result<std::string> id_of(const ManifestColumn& column, const std::string& cell) {
-  const bool has_slash = cell.find_first_of("/\\") != std::string::npos;
-  const bool has_control =
-      std::any_of(cell.begin(), cell.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
-  if (!has_slash && !has_control && !cell.starts_with("group:")) return to_utf8(cell);
-  return cell_error(column, cell,
-                    {"bad_id", "a name without slash or control character that does not begin with 'group:'"});
-}
-
-Result<ForceView> force_view_of(const ManifestColumn& column, const std::string& cell) {
-  if (cell == "spring") return ForceView::Spring;
-  if (cell == "transmitted") return ForceView::Transmitted;
-  if (cell == "contact") return ForceView::Contact;
-  return cell_error(column, cell, {"unknown_force_view", "spring, transmitted or contact"});
-}
-
-std::optional<Error> check_unit(const ManifestColumn& column, const std::string& cell) {
-  const bool is_time = column.field == ManifestField::TimeUnit;
-  if (!is_time && parse_unit(cell, Dimension::Dimensionless)) return std::nullopt;
-  const Result<UnitScale> unit = parse_unit(cell, is_time ? Dimension::Time : Dimension::Force);
-  if (unit) return std::nullopt;
-  return Error{"unknown_unit", fmt::format("column '{}': {}", column.name, printable(unit.error().message))};
-}
-
-Result<ManifestEntry> with_plain_text(ManifestEntry entry, ManifestField field, const std::string& text) {
-  if (field == ManifestField::File) entry.file = text;
-  if (field == ManifestField::Group) entry.group = to_utf8(text);
-  if (field == ManifestField::TimeColumn) entry.options.time_column = text;
-  if (field == ManifestField::ForceColumn) entry.options.force_column = text;
-  if (field == ManifestField::TimeUnit) entry.options.time_unit = text;
-  if (field == ManifestField::ForceUnit) entry.options.force_unit = text;
-  return entry;
+  if (!(begin_s.value() < end_s.value())) return wrong;
+  entry.options.window = TimeWindow{begin_s.value(), end_s.value()};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -212,42 +219,44 @@ Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& na
       columns.ignored.push_back(printable(names[i]));
       continue;
     }
-    for (const ManifestColumn& other : columns.read) {
-      if (other.field != column.value()->field) continue;
+    if (const ManifestColumn* const other = find_read(columns, column.value()->field)) {
       return Error{"duplicate_column", fmt::format("{}: the columns '{}' and '{}' say the same, expected one of them",
-                                                   place, other.name, column.value()->name)};
+                                                   place, other->name, column.value()->name)};
     }
     columns.read.push_back(*column.value());
   }
-  if (const auto error = check_needed(columns, place)) return *error;
+  for (const ManifestField& field : kFields) {
+    if (!field.is_needed || find_read(columns, &field) != nullptr) continue;
+    const std::string ignored =
+        columns.ignored.empty() ? "" : fmt::format(", not understood: {}", fmt::join(columns.ignored, ", "));
+    return Error{"missing_column", fmt::format("{}: there is no column '{}'{}; expected a line of names such as "
+                                               "id,file,speed_m_per_s",
+                                               place, field.full_name(), ignored)};
+  }
   return columns;
 }
 
 Result<ManifestEntry> with_cell(ManifestEntry entry, const ManifestColumn& column, const std::string& cell,
                                 bool decimal_comma) {
-  if (column.field == ManifestField::Id) {
-    auto id = id_of(column, cell);
-    if (!id) return id.error();
-    entry.id = std::move(id).value();
-    return entry;
+  const ManifestField& field = *column.field;
+  if (cell.empty() && !field.is_needed) return entry;
+  const auto error = cell.empty()       ? Error{"missing_value", "the field is empty, expected a value"}
+                     : field.set_text   ? field.set_text(entry, cell)
+                     : field.set_number ? set_number(entry, column, cell, decimal_comma)
+                                        : set_window(entry, column, cell, decimal_comma);
+  if (error) return Error{error->code, fmt::format("column '{}': {}", column.name, error->message)};
+  return entry;
+}
+
+std::string with_columns_for_options(std::string text) {
+  for (const ManifestField& field : kFields) {
+    if (field.option.empty()) continue;
+    const std::string words = "the manifest's " + field.full_name();
+    for (std::size_t at = 0; (at = text.find(field.option, at)) != std::string::npos; at += words.size()) {
+      text.replace(at, field.option.size(), words);
+    }
   }
-  if (column.field == ManifestField::ForceView) {
-    const auto view = force_view_of(column, cell);
-    if (!view) return view.error();
-    entry.conditions.force_view = view.value();
-    return entry;
-  }
-  if (column.field == ManifestField::Window) {
-    const auto window = window_of(column, cell, decimal_comma);
-    if (!window) return window.error();
-    entry.options.window = window.value();
-    return entry;
-  }
-  if (known_column(column.field).dimension) return with_number(std::move(entry), column, cell, decimal_comma);
-  if (column.field == ManifestField::TimeUnit || column.field == ManifestField::ForceUnit) {
-    if (const auto error = check_unit(column, cell)) return *error;
-  }
-  return with_plain_text(std::move(entry), column.field, cell);
+  return text;
 }
 
 }  // namespace slipfit::reading

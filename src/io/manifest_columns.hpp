@@ -6,33 +6,16 @@
 #include <vector>
 
 #include "slipfit/core/result.hpp"
-#include "slipfit/core/units.hpp"
-#include "slipfit/io/manifest.hpp"
+#include "slipfit/io/manifest_entry.hpp"
 
 namespace slipfit::reading {
 
-/// What a column of a manifest says about its recording.
-enum class ManifestField {
-  Id,
-  File,
-  Speed,
-  SpeedStandardError,
-  NormalForce,
-  ZeroForce,
-  ForceView,
-  Group,
-  TimeColumn,
-  ForceColumn,
-  TimeUnit,
-  ForceUnit,
-  SampleRate,
-  Window,
-  MeasuredSpacing
-};
+/// What a manifest can say about a recording: a row of the table in manifest_columns.cpp.
+struct ManifestField;
 
 /// A column that is read: where it stands, what it is called, and what turns its numbers into SI.
 struct ManifestColumn {
-  ManifestField field = ManifestField::Id;
+  const ManifestField* field = nullptr;
   std::size_t index = 0;
   std::string name;             ///< as in the file
   std::optional<double> scale;  ///< empty: no unit in the name, then a number is in SI or brings its unit
@@ -48,9 +31,12 @@ struct ManifestColumns {
 /// unknown_unit.
 Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& names, const std::string& place);
 
-/// The entry with what a cell says about it; the cell is not empty. Errors: bad_id, bad_number, out_of_range,
-/// bad_window, unknown_unit, unknown_force_view.
+/// The entry with what a cell says about it. Errors: missing_value, bad_id, bad_number, out_of_range, bad_window,
+/// unknown_unit, unknown_force_view; the message begins with the column.
 Result<ManifestEntry> with_cell(ManifestEntry entry, const ManifestColumn& column, const std::string& cell,
                                 bool decimal_comma);
+
+/// The text with the manifest's columns in place of the options of the command line that say the same.
+std::string with_columns_for_options(std::string text);
 
 }  // namespace slipfit::reading

@@ -2,49 +2,33 @@
 
 #include <fmt/format.h>
 
-namespace slipfit::reading {
-namespace {
+#include <boost/locale/utf.hpp>
+#include <iterator>
 
-/// Bytes of the UTF-8 character at the start, 0 where there is none. (Overlong forms are not told apart: this is for
-/// display.)
-std::size_t utf8_length(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text[0]);
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xC2 ? 0
-                             : lead < 0xE0 ? 2
-                             : lead < 0xF0 ? 3
-                             : lead < 0xF5 ? 4
-                                           : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
+namespace slipfit::reading {
+
+using Utf8Traits = boost::locale::utf::utf_traits<char>;
+
+Utf8 check_utf8(std::string_view text) {
+  const char* p = text.data();
+  const char* const end = p + text.size();
+  while (p != end) {
+    const auto code_point = Utf8Traits::decode(p, end);
+    if (code_point == boost::locale::utf::incomplete) return Utf8::Cut;
+    if (code_point == boost::locale::utf::illegal) return Utf8::Invalid;
   }
-  return length;
+  return Utf8::Valid;
 }
 
-}  // namespace
-
-bool is_utf8(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    if (length == 0) return false;
-    text.remove_prefix(length);
-  }
-  return true;
+void append_utf8(std::string& text, unsigned code_point) {
+  const bool is_valid = boost::locale::utf::is_valid_codepoint(code_point);
+  Utf8Traits::encode(is_valid ? code_point : '?', std::back_inserter(text));
 }
 
 std::string to_utf8(std::string_view text) {
-  if (is_utf8(text)) return std::string(text);
+  if (check_utf8(text) == Utf8::Valid) return std::string(text);
   std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
-      result += c;
-    } else {
-      result += static_cast<char>(0xC0 | (byte >> 6));
-      result += static_cast<char>(0x80 | (byte & 0x3F));
-    }
-  }
+  for (const char c : text) append_utf8(result, static_cast<unsigned char>(c));
   return result;
 }
 
@@ -67,6 +51,15 @@ std::string printable(std::string_view text) {
 
 std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+Error duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line) {
+  return {"duplicate_id", fmt::format("{}:{}: column 'id': '{}' stands in line {} too, expected another id", file,
+                                      entry.line, entry.id, first_line)};
+}
+
+Error empty_manifest(const std::string& file) {
+  return {"empty_manifest", file + ": holds no recordings; expected a line for each"};
 }
 
 }  // namespace slipfit::reading

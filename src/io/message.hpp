@@ -1,11 +1,20 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
+#include "slipfit/core/result.hpp"
+#include "slipfit/io/manifest_entry.hpp"
+
 namespace slipfit::reading {
 
-bool is_utf8(std::string_view text);
+/// Cut: the last character is not complete.
+enum class Utf8 { Valid, Cut, Invalid };
+Utf8 check_utf8(std::string_view text);
+
+/// Appends a code point in UTF-8; a half of a surrogate pair as '?'.
+void append_utf8(std::string& text, unsigned code_point);
 
 /// UTF-8 as it is; anything else is taken for Latin-1 and converted.
 std::string to_utf8(std::string_view text);
@@ -15,5 +24,9 @@ std::string printable(std::string_view text);
 
 /// "1 row", "12 rows".
 std::string counted(std::size_t count, std::string_view noun);
+
+/// Errors about a manifest; `file` is its name as messages show it.
+Error duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line);
+Error empty_manifest(const std::string& file);
 
 }  // namespace slipfit::reading

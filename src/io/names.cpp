@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <span>
 #include <vector>
 
 #include "core/unit_text.hpp"
+#include "core/word_list.hpp"
 #include "io/cells.hpp"
 #include "io/message.hpp"
 #include "io/vocabulary.hpp"
@@ -22,7 +22,7 @@ bool is_unit_in_brackets(std::string_view text) {
 /// Words that name a column as often as a unit: behind a blank or an underscore they are no unit ("Force_Min").
 bool may_be_a_word(std::string_view unit) {
   const bool is_letter = unit.size() == 1 && unit != "s" && unit != "N" && unit != "g" && unit != "m" && unit != "h";
-  return is_letter || std::find(kWordsNotUnits.begin(), kWordsNotUnits.end(), unit) != kWordsNotUnits.end();
+  return is_letter || is_in(kWordsNotUnits, unit);
 }
 
 struct NameAndUnit {
@@ -82,9 +82,8 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-bool has(const std::vector<std::string>& words, std::span<const std::string_view> list) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); });
+bool has(const std::vector<std::string>& words, std::string_view list) {
+  return std::any_of(words.begin(), words.end(), [list](const std::string& word) { return is_in(list, word); });
 }
 
 struct RoleAndRank {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "io/short_decimal.hpp"
 
@@ -16,25 +17,11 @@ constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// A cell, and its number where it is nothing but one.
-struct NumberCell {
-  std::string_view text;
-  double value = kNoValue;
-};
-
-/// The cells of one line that matter; without text where the line ends before them.
-struct Wanted {
-  NumberCell time;
-  NumberCell force;
-  NumberCell displacement;
-};
-
+/// The numbers of a line; NaN where there is none.
 struct Reading {
-  double time = 0.0;
-  double force = 0.0;
-  double displacement = kNoValue;  ///< NaN: none
-
-  [[nodiscard]] bool is_complete() const { return std::isfinite(time) && std::isfinite(force); }
+  double time = kNoValue;
+  double force = kNoValue;
+  double displacement = kNoValue;
 };
 
 class RowReader {
@@ -42,25 +29,30 @@ class RowReader {
   explicit RowReader(const RowPlan& plan)
       : plan_(plan),
         dialect_(plan.layout.dialect),
-        time_column_(plan.choice.time ? plan.choice.time->column : kNoColumn),
+        time_column_(column_of(plan.choice.time)),
         force_column_(plan.choice.force.column),
-        displacement_column_(plan.choice.displacement ? plan.choice.displacement->column : kNoColumn),
+        displacement_column_(column_of(plan.choice.displacement)),
         last_column_(std::max(
             {plan.choice.time ? time_column_ : 0, force_column_, plan.choice.displacement ? displacement_column_ : 0})),
-        may_be_plain_(plan.choice.time && !plan.choice.displacement && dialect_.delimiter != ' '),
         time_scale_(plan.choice.time ? plan.choice.time->scale : 1.0),
-        force_scale_(plan.choice.force.scale) {
+        force_scale_(plan.choice.force.scale),
+        displacement_scale_(plan.choice.displacement ? plan.choice.displacement->scale : 1.0) {
     rows_.time_s.reserve(plan.expected_rows);
     rows_.force.reserve(plan.expected_rows);
   }
 
   void add(const char* line, unsigned number) {
-    if (may_be_plain_) {
-      const Reading plain = read_plain(line);
-      if (plain.is_complete() && plain.time > latest_s_ && !plan_.window) return append(plain);
-      if (plain.is_complete()) return keep(plain, number);
+    Reading reading = read_plain(line);
+    if (!is_complete(reading)) {
+      split(line, dialect_.delimiter, cells_);
+      reading.time = number_at(time_column_);
+      reading.force = number_at(force_column_);
+      if (!is_complete(reading) && !is_row()) return count_text_line(line, number);
     }
-    add_carefully(line, number);
+    reading.time = has_clock() ? reading.time * time_scale_ : static_cast<double>(counted_++) / *plan_.sample_rate_Hz;
+    reading.force *= force_scale_;
+    reading.displacement *= displacement_scale_;
+    keep(reading, number);
   }
 
   Rows finish() {
@@ -69,24 +61,16 @@ class RowReader {
   }
 
  private:
+  static std::size_t column_of(const std::optional<Channel>& channel) { return channel ? channel->column : kNoColumn; }
   [[nodiscard]] bool has_clock() const { return time_column_ != kNoColumn; }
+  [[nodiscard]] bool is_complete(const Reading& reading) const {
+    return (std::isfinite(reading.time) || !has_clock()) && std::isfinite(reading.force);
+  }
   [[nodiscard]] Reading read_plain(const char* cell) const;
-  void add_carefully(const char* line, unsigned number);
-  [[nodiscard]] Wanted locate(const char* line) const;
-  [[nodiscard]] NumberCell read_cell_at(const char* cell) const;
-  [[nodiscard]] double number_in(std::string_view text, std::size_t column) const;
-  [[nodiscard]] Reading read_carefully(const Wanted& wanted) const;
-  [[nodiscard]] bool is_row(std::string_view line, const Wanted& wanted) const;
+  [[nodiscard]] double number_at(std::size_t column) const;
+  [[nodiscard]] bool is_row() const;
   void count_text_line(std::string_view line, unsigned number);
   void keep(const Reading& reading, unsigned number);
-  void append(const Reading& reading) {
-    ++rows_.in_window;
-    latest_s_ = reading.time;
-    rows_.time_s.push_back(reading.time);
-    rows_.force.push_back(reading.force);
-  }
-
-  double next_count_s() { return static_cast<double>(counted_++) / *plan_.sample_rate_Hz; }
 
   const RowPlan& plan_;
   Dialect dialect_;
@@ -94,27 +78,37 @@ class RowReader {
   std::size_t force_column_;
   std::size_t displacement_column_;
   std::size_t last_column_;
-  bool may_be_plain_;
   double time_scale_;
   double force_scale_;
+  double displacement_scale_;
   double latest_s_ = -std::numeric_limits<double>::infinity();
   double low_s_ = std::numeric_limits<double>::infinity();
   double high_s_ = -std::numeric_limits<double>::infinity();
   std::size_t counted_ = 0;
+  std::vector<std::string_view> cells_;  ///< of a line that is not plain
   Rows rows_;
 };
 
-/// Nearly all lines of a recording: time and force are plain numbers. NaN where anything is not.
+/// Nearly all lines of a recording: what is wanted are plain numbers. NaN where a cell holds anything else. Reads a
+/// number and finds the end of its cell in one go.
 Reading RowReader::read_plain(const char* cell) const {
   const char point = dialect_.decimal_comma ? ',' : '.';
-  Reading reading{kNoValue, kNoValue};
+  Reading reading;
   for (std::size_t column = 0;; ++column) {
-    if (column == time_column_ || column == force_column_) {
+    if (dialect_.delimiter == ' ') {
+      while (*cell == ' ' || *cell == '\t') ++cell;
+    }
+    double* const wanted = column == time_column_           ? &reading.time
+                           : column == force_column_        ? &reading.force
+                           : column == displacement_column_ ? &reading.displacement
+                                                            : nullptr;
+    const char* const begin = cell;
+    if (wanted != nullptr) {
       const ShortDecimal number = read_short_decimal(cell, nullptr, point);
-      if (!number.is_number || (*number.end != dialect_.delimiter && *number.end != '\0')) return reading;
-      if (column == time_column_) reading.time = number.value * time_scale_;
-      if (column == force_column_) reading.force = number.value * force_scale_;
-      cell = number.end;
+      const bool is_whole = number.is_number && (*number.end == dialect_.delimiter || *number.end == '\0');
+      cell = is_whole ? number.end : end_of_cell(cell, nullptr, dialect_.delimiter);
+      *wanted = is_whole ? number.value
+                         : plain_number({begin, static_cast<std::size_t>(cell - begin)}, dialect_.decimal_comma);
     } else {
       cell = end_of_cell(cell, nullptr, dialect_.delimiter);
     }
@@ -122,72 +116,22 @@ Reading RowReader::read_plain(const char* cell) const {
   }
 }
 
-void RowReader::add_carefully(const char* line, unsigned number) {
-  const Wanted wanted = locate(line);
-  Reading reading{has_clock() ? wanted.time.value : 0.0, wanted.force.value};
-  if (!reading.is_complete()) reading = read_carefully(wanted);
-  if (!reading.is_complete() && !is_row(line, wanted)) {
-    count_text_line(line, number);
-    return;
-  }
-  const double time_s = has_clock() ? reading.time * time_scale_ : next_count_s();
-  const double displacement =
-      plan_.choice.displacement ? wanted.displacement.value * plan_.choice.displacement->scale : kNoValue;
-  keep({time_s, reading.force * force_scale_, displacement}, number);
-}
-
-/// Reading the number and finding the end of its cell in one go, where the number is a plain one.
-NumberCell RowReader::read_cell_at(const char* cell) const {
-  const ShortDecimal quick = read_short_decimal(cell, nullptr, dialect_.decimal_comma ? ',' : '.');
-  if (quick.is_number && (*quick.end == dialect_.delimiter || *quick.end == '\0')) {
-    return {{cell, static_cast<std::size_t>(quick.end - cell)}, quick.value};
-  }
-  const std::string_view text(cell, static_cast<std::size_t>(end_of_cell(cell, nullptr, dialect_.delimiter) - cell));
-  return {text, plain_number(text, dialect_.decimal_comma)};
-}
-
-Wanted RowReader::locate(const char* line) const {
-  Wanted wanted;
-  const char* cell = line;
-  for (std::size_t column = 0;; ++column) {
-    if (dialect_.delimiter == ' ') {
-      while (*cell == ' ' || *cell == '\t') ++cell;
-      if (*cell == '\0') return wanted;
-    }
-    NumberCell* const slot = column == time_column_           ? &wanted.time
-                             : column == force_column_        ? &wanted.force
-                             : column == displacement_column_ ? &wanted.displacement
-                                                              : nullptr;
-    if (slot != nullptr) *slot = read_cell_at(cell);
-    const char* const end =
-        slot != nullptr ? slot->text.data() + slot->text.size() : end_of_cell(cell, nullptr, dialect_.delimiter);
-    if (column == last_column_ || *end == '\0') return wanted;
-    cell = end + 1;
-  }
-}
-
 /// NaN where the cell holds no number, or one with another tag than this column's ("3 cells ready" among "1.79 N1").
-double RowReader::number_in(std::string_view text, std::size_t column) const {
+double RowReader::number_at(std::size_t column) const {
+  if (column >= cells_.size()) return kNoValue;
   const Column& described = plan_.layout.columns[column];
-  const Cell cell = read_cell(text, dialect_.decimal_comma);
+  const Cell cell = read_cell(cells_[column], dialect_.decimal_comma);
   const bool is_number = cell.kind == CellKind::Number && (cell.tag.empty() || cell.tag == described.tag);
   const bool is_clock = cell.kind == CellKind::Clock && described.clocks > described.numbers;
   return is_number || is_clock ? cell.value : kNoValue;
 }
 
-Reading RowReader::read_carefully(const Wanted& wanted) const {
-  return {has_clock() ? number_in(wanted.time.text, time_column_) : 0.0, number_in(wanted.force.text, force_column_)};
-}
-
 /// An incomplete line is a row when something in it is a number or says that a reading is missing.
-bool RowReader::is_row(std::string_view line, const Wanted& wanted) const {
-  const auto says_missing = [&](std::string_view text) {
-    return read_cell(text, dialect_.decimal_comma).kind == CellKind::Missing;
-  };
-  if (says_missing(wanted.force.text) || (has_clock() && says_missing(wanted.time.text))) return true;
-  const auto cells = split(line, dialect_.delimiter);
-  for (std::size_t c = 0; c < std::min(cells.size(), plan_.layout.columns.size()); ++c) {
-    if (std::isfinite(number_in(cells[c], c))) return true;
+bool RowReader::is_row() const {
+  for (std::size_t c = 0; c < std::min(cells_.size(), plan_.layout.columns.size()); ++c) {
+    const bool is_wanted = c == force_column_ || c == time_column_;
+    if (is_wanted && read_cell(cells_[c], dialect_.decimal_comma).kind == CellKind::Missing) return true;
+    if (std::isfinite(number_at(c))) return true;
   }
   return false;
 }
@@ -205,7 +149,7 @@ void RowReader::keep(const Reading& reading, unsigned number) {
     high_s_ = std::max(high_s_, reading.time);
     if (reading.time < plan_.window->begin_s || reading.time > plan_.window->end_s) return;
   }
-  if (!reading.is_complete()) {
+  if (!std::isfinite(reading.time) || !std::isfinite(reading.force)) {
     ++rows_.without_number;
     return;
   }
@@ -215,7 +159,10 @@ void RowReader::keep(const Reading& reading, unsigned number) {
     return;
   }
   if (reading.time == latest_s_) ++rows_.repeating;
-  append(reading);
+  ++rows_.in_window;
+  latest_s_ = reading.time;
+  rows_.time_s.push_back(reading.time);
+  rows_.force.push_back(reading.force);
   if (std::isfinite(reading.displacement)) rows_.displacement.add({reading.time, reading.displacement});
 }
 

@@ -22,8 +22,7 @@ inline constexpr std::array kPowersOfTen = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e
 
 /// Reads a plain decimal of at most 15 digits ("-0.0123", no exponent); `end` may be null where a NUL ends the text.
 /// Correctly rounded: the digits as a whole number and the power of ten are both exact doubles, so that the one
-/// division rounds once (Clinger 1990). It takes half the time of std::from_chars, which was 40 % of the time of a
-/// recording.
+/// division rounds once (Clinger 1990). It takes half the time of std::from_chars.
 inline ShortDecimal read_short_decimal(const char* p, const char* end, char point) {
   const bool is_negative = p != end && *p == '-';
   if (is_negative) ++p;

@@ -8,7 +8,7 @@ namespace slipfit::reading {
 /// zero is none: it spends as much time near zero as anywhere.
 bool is_reciprocating(std::span<const double> force);
 
-/// Pulled the other way round: at least 90 % of the samples are negative.
+/// The force is measured with the other sign: at least 90 % of the samples are negative.
 bool is_negative_throughout(std::span<const double> force);
 
 }  // namespace slipfit::reading

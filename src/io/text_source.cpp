@@ -1,6 +1,7 @@
 #include "io/text_source.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -14,28 +15,6 @@ constexpr std::size_t kProbe = std::size_t{64} * 1024;
 constexpr std::size_t kPiece = std::size_t{256} * 1024;
 constexpr char kNotText = '\x1A';  // stands for NUL: no number holds it, so the cell is counted as one without a number
 
-struct NulCounts {
-  std::size_t even = 0;
-  std::size_t odd = 0;
-};
-
-NulCounts count_nul(std::string_view bytes) {
-  NulCounts counts;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    if (bytes[i] == '\0') ++(i % 2 == 0 ? counts.even : counts.odd);
-  }
-  return counts;
-}
-
-/// Whether the bytes are UTF-8, the last character perhaps cut.
-bool begins_as_utf8(std::string_view bytes) {
-  constexpr std::size_t kLongest = 3;  // part of a character
-  for (std::size_t cut = 0; cut <= std::min(kLongest, bytes.size()); ++cut) {
-    if (is_utf8(bytes.substr(0, bytes.size() - cut))) return true;
-  }
-  return false;
-}
-
 /// NUL, or more than a tenth of control characters, or, where it is no UTF-8 in any script, more than a third of bytes
 /// beyond ASCII.
 bool looks_binary(std::string_view bytes) {
@@ -47,25 +26,11 @@ bool looks_binary(std::string_view bytes) {
     if (byte < 0x20 && std::strchr("\t\n\v\f\r\x1A", c) == nullptr) ++control;
     if (byte >= 0x80) ++high;
   }
-  return control * 10 > bytes.size() || (high * 3 > bytes.size() && !begins_as_utf8(bytes));
-}
-
-void append_utf8(std::string& text, unsigned unit) {
-  if (unit >= 0xD800 && unit < 0xE000) unit = '?';  // half of a character that no header needs
-  if (unit < 0x80) {
-    text += static_cast<char>(unit);
-  } else if (unit < 0x800) {
-    text += static_cast<char>(0xC0 | (unit >> 6));
-    text += static_cast<char>(0x80 | (unit & 0x3F));
-  } else {
-    text += static_cast<char>(0xE0 | (unit >> 12));
-    text += static_cast<char>(0x80 | ((unit >> 6) & 0x3F));
-    text += static_cast<char>(0x80 | (unit & 0x3F));
-  }
+  return control * 10 > bytes.size() || (high * 3 > bytes.size() && check_utf8(bytes) == Utf8::Invalid);
 }
 
 /// Lone CR becomes LF; the CRs before a CRLF (files that went through two conversions) become blanks.
-void mend_line_ends(char* begin, char* end, char next) {
+void unify_line_ends(char* begin, char* end, char next) {
   for (char* p = begin; (p = static_cast<char*>(std::memchr(p, '\r', static_cast<std::size_t>(end - p)))) != nullptr;) {
     char* run_end = p;
     while (run_end != end && *run_end == '\r') ++run_end;
@@ -114,7 +79,8 @@ Result<std::unique_ptr<TextSource>> TextSource::open(const std::filesystem::path
 /// By the byte order mark, which is dropped, or by a NUL beside every ASCII character.
 void TextSource::detect_encoding() {
   const std::string_view start(raw_);
-  const NulCounts nul = count_nul(start);
+  std::array<std::size_t, 2> nul{};  // at even and at odd places
+  for (std::size_t i = 0; i < start.size(); ++i) nul.at(i % 2) += start[i] == '\0' ? 1U : 0U;
   if (start.starts_with("\xFF\xFE")) {
     encoding_ = Encoding::Utf16LittleEndian;
     raw_used_ = 2;
@@ -123,9 +89,9 @@ void TextSource::detect_encoding() {
     raw_used_ = 2;
   } else if (start.starts_with("\xEF\xBB\xBF")) {
     raw_used_ = 3;
-  } else if (nul.even == 0 && nul.odd * 10 > start.size() * 4) {
+  } else if (nul[0] == 0 && nul[1] * 10 > start.size() * 4) {
     encoding_ = Encoding::Utf16LittleEndian;
-  } else if (nul.odd == 0 && nul.even * 10 > start.size() * 4) {
+  } else if (nul[1] == 0 && nul[0] * 10 > start.size() * 4) {
     encoding_ = Encoding::Utf16BigEndian;
   }
 }
@@ -169,7 +135,7 @@ std::size_t TextSource::fill(char* buffer, std::size_t size) {
   char next = '\0';
   if (count == size && buffer[count - 1] == '\r' && decode(&next, 1) == 1) pending_.insert(0, 1, next);
   if (std::memchr(buffer, '\0', count) != nullptr) std::replace(buffer, buffer + count, '\0', kNotText);
-  mend_line_ends(buffer, buffer + count, next);
+  unify_line_ends(buffer, buffer + count, next);
   if (count > 0) last_ = buffer[count - 1];
   if (count < size) {
     ended_ = true;

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "batch/summary.hpp"
-#include "io/csv_fields.hpp"
+#include "batch/tables.hpp"
+#include "io/cells.hpp"
 #include "manifests.hpp"
 
 using test::BatchScene;

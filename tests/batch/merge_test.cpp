@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "batch/shards.hpp"
+#include "batch/work_list.hpp"
 #include "manifests.hpp"
 #include "refusal.hpp"
 

@@ -1,28 +1,15 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"
-#include "slipfit/io/recording_reader.hpp"
+#include "slipfit/io/manifest_entry.hpp"
 
 namespace slipfit {
-
-/// One row of a manifest: a recording, and all that is needed to read it.
-struct ManifestEntry {
-  std::string id;  ///< not empty, no slash, no control character, not of the form "group:..."
-  std::filesystem::path file;
-  std::string group;  ///< empty: of no group
-  Conditions conditions;
-  ReadOptions options;
-  std::size_t row = 0;   ///< 1, 2, ... over the recordings
-  std::size_t line = 0;  ///< in the manifest, for messages
-};
 
 /// Reads a manifest row by row, in memory that does not depend on its length. docs/formats.md lists the columns:
 /// `id`, `file` and `speed_m_per_s` must be there; a unit may stand in the name (`speed [mm/s]`, `speed_mm_per_s`).

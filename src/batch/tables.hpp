@@ -3,8 +3,12 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "report/batch_html.hpp"
 #include "slipfit/core/result.hpp"
+
+// The rows of summary.csv and failures.csv, each a line without its end.
 
 namespace slipfit::batch {
 
@@ -16,12 +20,10 @@ struct SummaryKey {
   std::string file;
 };
 
-/// The line of names, without its end.
+/// The line of names.
 std::string summary_names();
-
 /// From a document of `slipfit fit --json`; what it does not know is empty. Error: not_readable.
 Result<std::string> summary_of_result(const SummaryKey& key, const std::string& document);
-
 /// Of a recording that failed.
 std::string summary_of_failure(const SummaryKey& key, const std::string& code);
 
@@ -32,5 +34,10 @@ struct SummaryPlace {
   bool has_failed = false;
 };
 std::optional<SummaryPlace> place_of(const std::string& summary_line);
+
+/// The line of names.
+std::string failure_names();
+std::string failure_line(const std::string& id, const Error& failure);
+BatchPageFailure failure_from(const std::string& failure_line);
 
 }  // namespace slipfit::batch

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfit/core/result.hpp"
+#include "slipfit/fit/fit.hpp"
+#include "slipfit/io/manifest_entry.hpp"
+
+namespace slipfit {
+
+/// The part of a manifest that one machine takes: `index` of `count`, from 1. Parts are balanced by file size.
+struct Shard {
+  std::size_t index = 1;
+  std::size_t count = 1;
+};
+
+/// A page of the batch, and in the folder `recordings` beside it one of each recording and group (docs/report.md). A
+/// shard writes the latter alone: shards may share the folder.
+struct BatchReport {
+  std::filesystem::path file;  ///< its folder is made where it is missing
+  std::string command_line;    ///< shown on the pages: how to repeat them
+};
+
+/// What a batch keeps of a recording or a group.
+struct BatchFit {
+  std::string document;   ///< schema slipfit.fit/1, on one line
+  std::string page;       ///< HTML; empty: none
+  std::string sparkline;  ///< the trace as a small SVG path; empty: none
+};
+
+/// Fits the recordings of a group together; the document's id is `id`. Called in child processes.
+using GroupFit = std::function<Result<BatchFit>(const std::string& id, const std::vector<ManifestEntry>& members)>;
+
+/// The joint fit (slipfit/sweep.hpp) as `slipfit fit --joint --json` writes it, with its page where there is a report.
+GroupFit group_fit(const FitOptions& options, const std::optional<BatchReport>& report);
+
+struct BatchOptions {
+  std::filesystem::path manifest;
+  std::filesystem::path folder;  ///< of the results; made where it is missing
+  FitOptions fit;
+  std::size_t jobs = 1;      ///< recordings at a time, >= 1
+  double timeout_s = 600.0;  ///< of a recording; a group has that of its recordings together
+  bool resume = false;       ///< continue with what the folder holds
+  Shard shard;
+  GroupFit fit_group;  ///< empty: groups are not fitted
+  std::optional<BatchReport> report;
+};
+
+struct BatchProgress {
+  std::size_t total = 0;   ///< recordings and groups of this shard
+  std::size_t before = 0;  ///< done by the run that is resumed
+  std::size_t fitted = 0;  ///< by this run
+  std::size_t failed = 0;  ///< by this run
+  double seconds = 0.0;    ///< since this run began
+};
+
+/// How a batch reports to its caller; each may be empty. All are called from the thread that called run_batch.
+struct BatchHooks {
+  /// Asked ten times a second; fits that run have a second to end.
+  std::function<bool()> should_stop;
+  std::function<void(const BatchProgress&)> show_progress;
+  std::function<void(const std::string&)> tell;
+};
+
+enum class BatchEnd { Finished, Stopped };
+
+struct BatchOutcome {
+  BatchEnd end = BatchEnd::Finished;
+  BatchProgress progress;
+};
+
+}  // namespace slipfit

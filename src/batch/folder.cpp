@@ -1,0 +1,142 @@
+#include "batch/folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "slipfit/report/text.hpp"
+
+namespace slipfit::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The lock file begins with these words, so that nobody else's file of the name is taken for a lock.
+constexpr std::string_view kMark = "slipfit batch, ";
+
+std::string text_of(int descriptor) {
+  std::array<char, 256> text{};
+  const ssize_t count = ::pread(descriptor, text.data(), text.size(), 0);
+  return {text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, count))};
+}
+
+/// A full disk may refuse the name: the lock holds without it.
+void write_owner(int descriptor) {
+  std::array<char, 128> host{};
+  (void)::gethostname(host.data(), host.size() - 1);
+  const std::string owner = fmt::format("{}process {} on {}", kMark, ::getpid(), host.data());
+  [[maybe_unused]] const bool is_named =
+      ::ftruncate(descriptor, 0) == 0 && ::pwrite(descriptor, owner.data(), owner.size(), 0) > 0;
+}
+
+/// A lock of the process, not of the descriptor: children do not share it, and only who may write the file can hold it.
+struct flock whole_file() {
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  return lock;
+}
+
+Error in_use(const fs::path& file, int descriptor) {
+  struct flock lock = whole_file();
+  const bool knows_process = ::fcntl(descriptor, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+  struct stat status {};
+  (void)::fstat(descriptor, &status);
+  return file_error(
+      "folder_in_use", file,
+      fmt::format("in use by process {} ('{}', file of user {}); wait for it, or choose another folder; if that "
+                  "process is no slipfit, remove the file",
+                  knows_process ? std::to_string(lock.l_pid) : "?", one_line(text_of(descriptor)), status.st_uid));
+}
+
+Error not_opened(const fs::path& file, int reason) {
+  struct stat status {};
+  if (reason != EACCES || ::lstat(file.c_str(), &status) != 0) return cannot_write(file, reason);
+  return file_error("folder_in_use", file,
+                    fmt::format("user {} began a batch in this folder, and the file may not be opened; if that batch "
+                                "has ended, remove the file",
+                                status.st_uid));
+}
+
+/// The process that held the lock before may have removed the file that has just been locked.
+bool is_still(const fs::path& file, int descriptor) {
+  struct stat ours {};
+  struct stat there {};
+  return ::fstat(descriptor, &ours) == 0 && ::lstat(file.c_str(), &there) == 0 && ours.st_ino == there.st_ino &&
+         ours.st_dev == there.st_dev;
+}
+
+}  // namespace
+
+Result<FolderLock> FolderLock::take(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directory(folder, error);
+  if (error) {
+    return file_error("cannot_write", folder,
+                      fmt::format("the folder cannot be written ({}); choose another one with --out", error.message()));
+  }
+  const fs::path file = folder / kLock;
+  for (;;) {
+    FileHandle handle(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
+    if (!handle) return not_opened(file, errno);
+    struct flock lock = whole_file();
+    if (::fcntl(handle.get(), F_SETLK, &lock) != 0) {
+      return errno == EACCES || errno == EAGAIN ? in_use(file, handle.get()) : cannot_write(file, errno);
+    }
+    if (!is_still(file, handle.get())) continue;
+    const std::string before = text_of(handle.get());
+    if (!before.empty() && !before.starts_with(kMark)) {
+      return file_error("folder_of_another_batch", file, "was not written by slipfit batch; choose another folder");
+    }
+    write_owner(handle.get());
+    return FolderLock(file, std::move(handle));
+  }
+}
+
+FolderLock::~FolderLock() {
+  if (handle_) (void)::unlink(file_.c_str());
+}
+
+Result<std::optional<RunRecord>> check_folder(const fs::path& folder) {
+  std::error_code ignored;
+  for (const std::string_view name : kFolderFiles) {
+    if (!fs::is_symlink(folder / name, ignored)) continue;
+    return file_error("cannot_write", folder / name,
+                      "is a symbolic link, which is not followed; remove it, or choose another folder");
+  }
+  auto record = read_record(folder);
+  if (!record) return record;
+  for (const std::string_view name : kFolderFiles) {
+    if (record.value() || !fs::exists(folder / name, ignored)) continue;
+    return file_error("folder_of_another_batch", folder,
+                      fmt::format("holds '{}' without the run.json of its batch; choose another folder", name));
+  }
+  remove_leftovers(folder, [](std::string_view name) {
+    return std::find(kFolderFiles.begin(), kFolderFiles.end(), name) != kFolderFiles.end();
+  });
+  return record;
+}
+
+bool has_results(const fs::path& folder) {
+  std::ifstream stream(folder / kResults, std::ios::binary);
+  std::string line;
+  return std::getline(stream, line) && !stream.eof();
+}
+
+std::optional<Error> check_same_batch(const fs::path& folder, const std::optional<RunRecord>& before,
+                                      const RunRecord& now) {
+  const auto differs = before && has_results(folder) ? difference(*before, now) : std::nullopt;
+  if (!differs) return std::nullopt;
+  return file_error("folder_of_another_batch", folder,
+                    fmt::format("holds results of another batch: {}; put that back and use --resume, or choose another "
+                                "folder with --out",
+                                *differs));
+}
+
+}  // namespace slipfit::batch

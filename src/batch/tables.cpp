@@ -1,0 +1,175 @@
+#include "batch/tables.hpp"
+
+#include <array>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "io/cells.hpp"
+#include "slipfit/fit/parameter.hpp"
+#include "slipfit/report/text.hpp"
+
+namespace slipfit::batch {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A column of summary.csv and where the document holds its value.
+struct SummaryColumn {
+  std::string name;
+  Json::json_pointer place;
+};
+
+constexpr std::array kSummaryParameters{
+    ParameterId::Stiffness,
+    ParameterId::FrictionDifference,
+    ParameterId::StaticFriction,
+    ParameterId::KineticFriction,
+    ParameterId::NaturalFrequency,
+    ParameterId::Mass,
+    ParameterId::DampingRatio,
+    ParameterId::DampingCoefficient,
+    ParameterId::FrictionCoefficientDifference,
+    ParameterId::StaticFrictionCoefficient,
+    ParameterId::KineticFrictionCoefficient,
+    ParameterId::FrictionSlope,
+    ParameterId::Alpha,
+    ParameterId::F0,
+    ParameterId::F1,
+    ParameterId::Mu0,
+    ParameterId::Mu1,
+};
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) {
+    if (&cell != &cells.front()) line += ',';
+    const bool is_plain = cell.find_first_of(",;\"\n\r\t#") == std::string::npos &&
+                          (cell.empty() || (cell.front() != ' ' && cell.back() != ' '));
+    if (!is_plain) line += '"';
+    for (const char c : cell) line += c == '"' ? std::string("\"\"") : std::string(1, c);
+    if (!is_plain) line += '"';
+  }
+  return line;
+}
+
+/// Text from outside as a cell: what a spreadsheet would run as a formula (= + - @ in front) gets a ' in front.
+std::string text_cell(const std::string& text) {
+  const bool is_formula = !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
+  return is_formula ? "'" + text : text;
+}
+
+/// "_N_s_per_m" of "N s/m": how keys end.
+std::string suffix_of(std::string_view unit) {
+  std::string suffix = unit.empty() ? "" : "_";
+  for (const char c : unit) suffix += c == '/' ? std::string("_per_") : std::string(1, c == ' ' ? '_' : c);
+  return suffix;
+}
+
+/// Value and bounds of an estimate: the bound stands before the unit in the name.
+void add_estimate(std::vector<SummaryColumn>& columns, const std::string& place, const std::string& name,
+                  const std::string& suffix) {
+  columns.push_back({name + suffix, Json::json_pointer(place + "/value")});
+  columns.push_back({name + "_low" + suffix, Json::json_pointer(place + "/ci95/0")});
+  columns.push_back({name + "_high" + suffix, Json::json_pointer(place + "/ci95/1")});
+}
+
+std::vector<SummaryColumn> make_columns() {
+  using Place = Json::json_pointer;
+  std::vector<SummaryColumn> columns{{"speed_m_per_s", Place("/recording/speed_m_per_s")},
+                                     {"cycles", Place("/cycles/count")},
+                                     {"frequency_Hz", Place("/frequency/value_Hz")},
+                                     {"frequency_low_Hz", Place("/frequency/ci95_Hz/0")},
+                                     {"frequency_high_Hz", Place("/frequency/ci95_Hz/1")}};
+  add_estimate(columns, "/derived/pattern_spacing_m", "pattern_spacing", "_m");
+  add_estimate(columns, "/derived/periodic_displacement_m", "periodic_displacement", "_m");
+  add_estimate(columns, "/derived/critical_speed_m_per_s", "critical_speed", "_m_per_s");
+  columns.push_back({"regime", Place("/derived/regime")});
+  columns.push_back({"measured_spacing_En", Place("/derived/measured_spacing_En/value")});
+  columns.push_back({"tier", Place("/model/tier")});
+  columns.push_back({"residual_rms_N", Place("/model/residual/rms_N")});
+  for (const ParameterId id : kSummaryParameters) {
+    const std::string key(info(id).key);
+    const std::string suffix = suffix_of(info(id).unit);
+    const std::string name = key.substr(0, key.size() - suffix.size());
+    add_estimate(columns, "/parameters/" + key, name, suffix);
+    columns.push_back({name + "_status", Place("/parameters/" + key + "/status")});
+  }
+  return columns;
+}
+
+/// Between those of the manifest with the status, and warnings and error.
+const std::vector<SummaryColumn>& document_columns() {
+  static const std::vector<SummaryColumn> columns = make_columns();
+  return columns;
+}
+
+/// A number keeps the digits of the document.
+std::string cell_at(const Json& document, const Json::json_pointer& place) {
+  if (!document.contains(place)) return {};
+  const Json& value = document.at(place);
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_null() || value.is_structured() ? std::string() : value.dump();
+}
+
+std::string warning_codes(const Json& document) {
+  std::string codes;
+  for (const Json& warning : document.value("warnings", Json::array())) {
+    codes += (codes.empty() ? "" : " ") + cell_at(warning, Json::json_pointer("/code"));
+  }
+  return codes;
+}
+
+std::vector<std::string> key_cells(const SummaryKey& key, const std::string& status) {
+  return {std::to_string(key.row), text_cell(key.id), text_cell(key.group), text_cell(key.file), status};
+}
+
+}  // namespace
+
+std::string summary_names() {
+  std::vector<std::string> names{"row", "id", "group", "file", "status"};
+  for (const SummaryColumn& column : document_columns()) names.push_back(column.name);
+  names.insert(names.end(), {"warnings", "error"});
+  return csv_line(names);
+}
+
+Result<std::string> summary_of_result(const SummaryKey& key, const std::string& document) {
+  const Json json = Json::parse(document, nullptr, false);
+  if (!json.is_object()) return Error{"not_readable", "results.jsonl: the line of '" + key.id + "' is no document"};
+  std::vector<std::string> cells = key_cells(key, cell_at(json, Json::json_pointer("/status")));
+  for (const SummaryColumn& column : document_columns()) cells.push_back(cell_at(json, column.place));
+  cells.insert(cells.end(), {warning_codes(json), ""});
+  return csv_line(cells);
+}
+
+std::string summary_of_failure(const SummaryKey& key, const std::string& code) {
+  std::vector<std::string> cells = key_cells(key, "failed");
+  cells.resize(cells.size() + document_columns().size() + 1);
+  cells.push_back(code);
+  return csv_line(cells);
+}
+
+std::optional<SummaryPlace> place_of(const std::string& summary_line) {
+  const auto cells = reading::csv_fields(summary_line, ',');
+  if (!cells || cells->size() < 5) return std::nullopt;
+  SummaryPlace place{0, cells->at(1).starts_with("group:"), cells->at(4) == "failed"};
+  const std::string& row = cells->front();
+  if (std::from_chars(row.data(), row.data() + row.size(), place.row).ec != std::errc()) return std::nullopt;
+  return place;
+}
+
+std::string failure_names() {
+  return csv_line({"id", "code", "message"});
+}
+
+std::string failure_line(const std::string& id, const Error& failure) {
+  return csv_line({text_cell(id), failure.code, text_cell(one_line(failure.message))});
+}
+
+BatchPageFailure failure_from(const std::string& failure_line) {
+  auto cells = reading::csv_fields(failure_line, ',').value_or(std::vector<std::string>());
+  cells.resize(3);
+  return {cells[0], cells[1], cells[2]};
+}
+
+}  // namespace slipfit::batch
