@@ -153,7 +153,9 @@ void run(const PredictArguments& arguments, const CLI::App& command) {
   const std::vector<double> speeds_m_per_s =
       speeds_from(required(arguments.speeds, "--speeds", "A:B:N or a list, for example --speeds 1mm/s:1m/s:50"));
   check_places(arguments);
-  const Basis basis = basis_from(arguments, command);
+  Basis basis = basis_from(arguments, command);
+  basis.source.speed_unit =
+      slipfit::unit_in(split(*arguments.speeds, arguments.speeds->find(':') != std::string::npos ? ':' : ',').front());
   const slipfit::Prediction prediction = slipfit::predict_at(basis.model, speeds_m_per_s);
   const std::string document =
       arguments.json ? slipfit::to_json(prediction, basis.source) + "\n" : slipfit::to_text(prediction, basis.source);

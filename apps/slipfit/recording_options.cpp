@@ -52,6 +52,7 @@ slipfit::Conditions conditions_from(const RecordingArguments& arguments) {
   }
   slipfit::Conditions conditions;
   conditions.speed_m_per_s = driving_speed(*arguments.speed, arguments.radius);
+  conditions.speed_unit = slipfit::unit_in(*arguments.speed);
   if (arguments.radius) (void)positive_quantity("--radius", *arguments.radius, Dimension::Length);
   if (arguments.speed_uncertainty) {
     conditions.speed_standard_error_m_per_s =

@@ -81,12 +81,13 @@ Result<std::optional<ManifestColumn>> recognise(const std::string& name, std::si
   for (const KnownColumn& known : kKnownColumns) {
     const auto unit_text = unit_behind(name, known.base);
     if (!unit_text) continue;
-    ManifestColumn column{known.field, index, printable(name), std::nullopt};
+    ManifestColumn column{known.field, index, printable(name), std::nullopt, {}};
     if (unit_text->unit.empty()) return std::optional(column);
     if (!known.dimension) continue;
     const Result<UnitScale> unit = parse_unit(unit_text->unit, *known.dimension);
     if (unit) {
       column.scale = unit.value().scale;
+      if (*column.scale != 1.0) column.unit = printable(unit_text->unit);
       return std::optional(column);
     }
     if (unit_text->in_brackets) {
@@ -145,7 +146,10 @@ Result<ManifestEntry> with_number(ManifestEntry entry, const ManifestColumn& col
     return cell_error(column, cell, {"out_of_range", "a number above zero"});
   if (range == Range::NotNegative && value < 0.0) return cell_error(column, cell, {"out_of_range", "zero or more"});
   Conditions& conditions = entry.conditions;
-  if (column.field == ManifestField::Speed) conditions.speed_m_per_s = value;
+  if (column.field == ManifestField::Speed) {
+    conditions.speed_m_per_s = value;
+    conditions.speed_unit = column.scale ? column.unit : std::string(unit_in(cell));
+  }
   if (column.field == ManifestField::SpeedStandardError) conditions.speed_standard_error_m_per_s = value;
   if (column.field == ManifestField::NormalForce) conditions.normal_force_N = value;
   if (column.field == ManifestField::ZeroForce) conditions.zero_force_N = value;

@@ -33,6 +33,7 @@ struct Conditions {
       sensor_resonance_Hz;                   ///< > 0, of the load cell as it is mounted: a frequency near it is doubted
   std::optional<double> mass_kg;             ///< > 0, of the moving body: held against k / w_n^2, never forced
   std::optional<double> measured_spacing_m;  ///< > 0, of the worn surface: a prediction is held against it
+  std::string speed_unit = {};               ///< that the speed was given in ("mm/min"): reports show it; empty: m/s
 };
 
 /// Where the numbers came from and what the reader had to assume, count or leave out.
