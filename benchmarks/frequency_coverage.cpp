@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/fitted_frequency.hpp"
 #include "fit/inference/intervals.hpp"
-#include "fitted_frequency.hpp"
 #include "scenes.hpp"
 #include "slipfit/pipeline.hpp"
 

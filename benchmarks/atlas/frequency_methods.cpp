@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "measured.hpp"
+#include "analysis/quoted_frequency.hpp"
 #include "signal/transform.hpp"
 #include "slipfit/pipeline.hpp"
 

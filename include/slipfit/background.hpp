@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "slipfit/pipeline.hpp"
+#include "slipfit/analysis.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
 

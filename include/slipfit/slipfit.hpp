@@ -2,6 +2,7 @@
 
 // The whole library: read recordings, analyse or fit them, predict, report the result; simulate; batches.
 
+#include "slipfit/analysis.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/batch/batch.hpp"
 #include "slipfit/core/digest.hpp"

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "slipfit/analysis.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/fit/sweep.hpp"
 #include "slipfit/io/manifest.hpp"
-#include "slipfit/pipeline.hpp"
 
 namespace slipfit {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "recording_checks.hpp"
+#include "analysis/short_tests.hpp"
 #include "scene.hpp"
 
 using namespace slipfit;

@@ -2,9 +2,9 @@
 
 #include <string>
 
+#include "slipfit/analysis.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/model/simulation.hpp"
-#include "slipfit/pipeline.hpp"
 
 namespace slipfit {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "slipfit/analysis.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/core/recording.hpp"
-#include "slipfit/pipeline.hpp"
 
 namespace slipfit {
 

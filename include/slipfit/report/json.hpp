@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "slipfit/analysis.hpp"
 #include "slipfit/core/recording.hpp"
-#include "slipfit/pipeline.hpp"
 
 namespace slipfit {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "slipfit/analysis.hpp"
 #include "slipfit/core/recording.hpp"
-#include "slipfit/pipeline.hpp"
 
 namespace slipfit {
 

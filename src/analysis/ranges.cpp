@@ -1,4 +1,4 @@
-#include "ranges.hpp"
+#include "analysis/ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +47,15 @@ bool all_finite(const Correlation& correlation) {
     }
   }
   return true;
+}
+
+SweepPoint in_range(SweepPoint point) {
+  point.rms = within(point.rms, kNotNegative);
+  point.kinetic_friction_N = within(std::move(point.kinetic_friction_N), kAnyNumber);
+  point.mean_steady_force_N = within(std::move(point.mean_steady_force_N), kAnyNumber);
+  point.spacing_m = within(std::move(point.spacing_m), kNotNegative);
+  point.spacing_left_out_m = within(std::move(point.spacing_left_out_m), kNotNegative);
+  return point;
 }
 
 SpectralFrequency in_range(SpectralFrequency spectral) {
@@ -114,13 +123,11 @@ Derived in_range(Derived derived) {
   return derived;
 }
 
-SweepPoint in_range(SweepPoint point) {
-  point.rms = within(point.rms, kNotNegative);
-  point.kinetic_friction_N = within(std::move(point.kinetic_friction_N), kAnyNumber);
-  point.mean_steady_force_N = within(std::move(point.mean_steady_force_N), kAnyNumber);
-  point.spacing_m = within(std::move(point.spacing_m), kNotNegative);
-  point.spacing_left_out_m = within(std::move(point.spacing_left_out_m), kNotNegative);
-  return point;
+std::optional<SweepFit> in_range(std::optional<SweepFit> sweep) {
+  if (!sweep) return sweep;
+  sweep->fit = in_range(std::move(sweep->fit), {});
+  for (SweepPoint& point : sweep->points) point = in_range(std::move(point));
+  return sweep;
 }
 
 }  // namespace slipfit

@@ -1,4 +1,4 @@
-#include "recording_checks.hpp"
+#include "analysis/short_tests.hpp"
 
 #include <fmt/format.h>
 
@@ -11,15 +11,10 @@
 #include <string_view>
 #include <utility>
 
+#include "core/thresholds.hpp"
+
 namespace slipfit {
 namespace {
-
-constexpr double kChance = 1e-3;
-constexpr std::size_t kFewestPairs = 8;
-/// Onset forces that spread by less than this many errors of one of them tell of the noise, not of the cycles.
-constexpr double kStandsOut = 3.0;
-/// A sensor shows a frequency of 0.3 of its resonance 1 / (1 - 0.09), 10 %, too large.
-constexpr double kNearResonance = 0.3;
 
 /// A cycle and the one before it, both fitted.
 struct Pair {
@@ -85,7 +80,8 @@ double chance_of(double r, double freedom) {
 }
 
 std::string seen(double p) {
-  return fmt::format("{} at the {:g} % level (p {:.2g})", p < kChance ? "proven" : "not proven", 100.0 * kChance, p);
+  return fmt::format("{} at the {:g} % level (p {:.2g})", p < thresholds::kProven ? "proven" : "not proven",
+                     100.0 * thresholds::kProven, p);
 }
 
 ShortTest test_drift(const std::vector<Pair>& pairs, double duration_s) {
@@ -163,7 +159,7 @@ ShortTest test_resonance(const FitResult& fit, double resonance_Hz) {
           *omega->standard_error / *omega->value * ratio,
           {},
           fmt::format("the natural frequency of the slips is {:.2g} of the load cell's resonance: {}", ratio,
-                      ratio < kNearResonance
+                      ratio < thresholds::kNearResonance
                           ? fmt::format("it shows them {:.1g} % too large", 100.0 * (1.0 / (1.0 - ratio * ratio) - 1.0))
                           : "k, w_n and zeta may be those of the load cell")};
 }
@@ -185,9 +181,9 @@ std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysi
   const FitResult& fit = *analysis.fit;
   const Conditions& conditions = recording.conditions();
   const std::vector<Pair> pairs = pairs_of(fit.cycles);
-  const bool scatters = fit.evidence.onset_force_spread > kStandsOut * fit.evidence.onset_force_error;
-  if (pairs.size() >= kFewestPairs) tests.push_back(test_drift(pairs, recording.duration_s()));
-  if (pairs.size() >= kFewestPairs && scatters) {
+  const bool scatters = fit.evidence.onset_force_spread > thresholds::kStandsOut * fit.evidence.onset_force_error;
+  if (pairs.size() >= thresholds::kFewestPairs) tests.push_back(test_drift(pairs, recording.duration_s()));
+  if (pairs.size() >= thresholds::kFewestPairs && scatters) {
     tests.push_back(test_return_map(pairs));
     tests.push_back(test_ageing(pairs, conditions.quantity == ForceQuantity::Force_N ? "N" : ""));
   }
@@ -200,8 +196,8 @@ std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysi
 Warnings warn_of(const std::vector<ShortTest>& tests) {
   Warnings warnings;
   for (const ShortTest& test : tests) {
-    const bool by_chance = !test.p_value || *test.p_value > kChance;
-    if (test.name == "sensor_resonance" && test.value && *test.value > kNearResonance) {
+    const bool by_chance = !test.p_value || *test.p_value > thresholds::kProven;
+    if (test.name == "sensor_resonance" && test.value && *test.value > thresholds::kNearResonance) {
       warnings.push_back({"near_sensor_resonance", test.finding});
     }
     if (by_chance) continue;

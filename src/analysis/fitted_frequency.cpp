@@ -1,4 +1,4 @@
-#include "fitted_frequency.hpp"
+#include "analysis/fitted_frequency.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,26 +1,17 @@
-#include "slip_counts.hpp"
+#include "analysis/slip_intervals.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "core/thresholds.hpp"
 #include "fit/inference/student.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
 namespace {
-
-constexpr double kGapSteps = 3.5;
-/// Intervals whose median deviation is below this share of the median are regular: few far ones among them are broken.
-constexpr double kRegularRest = 0.03;
-constexpr double kFar = 0.12;        // of the median, at least
-constexpr double kFewBroken = 0.15;  // of all intervals
-constexpr std::size_t kFewestForChange = 10;
-constexpr double kBeyondScatter = 6.0;  // standard errors; the best of many splits reaches 3 to 4 by chance
-constexpr double kNotable = 0.2;        // relative change
 
 /// Standard error over mean of the mean of a stationary series (Bartlett's weights; never below what independent values
 /// would have by half, which few values cannot show).
@@ -84,24 +75,15 @@ Split best_split(const std::vector<double>& values) {
 }
 
 bool is_change(const Split& split) {
-  return split.apart > kBeyondScatter && std::abs(split.after / split.before - 1.0) > kNotable;
+  return split.apart > thresholds::kBeyondScatter &&
+         std::abs(split.after / split.before - 1.0) > thresholds::kNotableChange;
 }
 
 }  // namespace
 
-MeanAndSpread describe(const std::vector<double>& values) {
-  MeanAndSpread result;
-  result.count = static_cast<double>(values.size());
-  if (values.empty()) return result;
-  result.mean = std::accumulate(values.begin(), values.end(), 0.0) / result.count;
-  for (const double value : values) result.sd += (value - result.mean) * (value - result.mean);
-  result.sd = values.size() > 1 ? std::sqrt(result.sd / (result.count - 1.0)) : 0.0;
-  return result;
-}
-
 Intervals intervals_of(const Recording& recording, const Segmentation& segmentation) {
   const auto time_s = recording.time_s();
-  const double gap_s = kGapSteps * recording.sample_interval_s();
+  const double gap_s = thresholds::kGapSteps * recording.sample_interval_s();
   const bool may_have_gaps = !recording.clock_is_even();
   Intervals intervals;
   for (std::size_t i = 2; i < segmentation.slips.size(); ++i) {
@@ -117,10 +99,10 @@ Intervals intervals_of(const Recording& recording, const Segmentation& segmentat
   std::vector<double> deviations;
   for (const double interval_s : intervals.seconds) deviations.push_back(std::abs(interval_s - usual));
   const double deviation = signal::median(deviations);
-  if (intervals.seconds.size() < 8 || deviation > kRegularRest * usual) return intervals;
-  const double far = std::max(kFar * usual, 8.0 * deviation);
+  if (intervals.seconds.size() < 8 || deviation > thresholds::kRegularRest * usual) return intervals;
+  const double far = std::max(thresholds::kFarInterval * usual, 8.0 * deviation);
   const auto broken = std::count_if(deviations.begin(), deviations.end(), [&](double d) { return d > far; });
-  if (static_cast<double>(broken) > kFewBroken * static_cast<double>(deviations.size())) return intervals;
+  if (static_cast<double>(broken) > thresholds::kFewBroken * static_cast<double>(deviations.size())) return intervals;
   intervals.broken = static_cast<std::size_t>(broken);
   std::erase_if(intervals.seconds, [&](double interval_s) { return std::abs(interval_s - usual) > far; });
   return intervals;
@@ -145,7 +127,7 @@ Warnings warn_of_changes(const Recording& recording, const Segmentation& segment
                                     "still, or samples are missing while the clock ran on; they do not count",
                                     intervals.broken)});
   }
-  if (slips.size() < kFewestForChange + 2) return warnings;
+  if (slips.size() < thresholds::kFewestForChange + 2) return warnings;
   std::vector<double> seconds, drops;
   for (std::size_t i = 2; i < slips.size(); ++i) {
     seconds.push_back(slips[i].middle_s - slips[i - 1].middle_s);

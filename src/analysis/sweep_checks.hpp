@@ -4,8 +4,8 @@
 
 namespace slipfit {
 
-/// What a recording is used for in a joint fit.
-SweepRole role_of(const Recording& recording, Verdict verdict);
+/// What a recording is used for in a joint fit. Slips that no model comes close to are none of a joint fit's either.
+SweepRole role_of(const Recording& recording, const Analysis& analysis);
 
 /// "4 with stick-slip cycles, 1 sliding steadily, 1 left out".
 std::string describe_roles(const std::vector<SweepRole>& roles);

@@ -4,21 +4,13 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/statistics.hpp"
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"
 #include "slipfit/signal/cycles.hpp"
 
 namespace slipfit {
-
-/// Mean and standard deviation of some values.
-struct MeanAndSpread {
-  double mean = 0.0;
-  double sd = 0.0;
-  double count = 0.0;
-};
-
-MeanAndSpread describe(const std::vector<double>& values);
 
 /// From slip to slip: without the first slip, without intervals that hold a gap of the clock, and without the few that
 /// fall far outside of a regular rest (`broken`: the stage stood still, or samples are missing while the clock ran on).

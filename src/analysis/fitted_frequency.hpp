@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "slipfit/pipeline.hpp"
+#include "slipfit/analysis.hpp"
 
 namespace slipfit {
 

@@ -1,4 +1,4 @@
-#include "sweep_checks.hpp"
+#include "analysis/sweep_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -6,13 +6,10 @@
 #include <cmath>
 #include <optional>
 
+#include "core/thresholds.hpp"
+
 namespace slipfit {
 namespace {
-
-/// Speeds closer than this say nothing about how the frequency follows.
-constexpr double kLeastSpeedRatio = 1.3;
-/// A fall of fewer samples is as long as the clock makes it.
-constexpr double kSamplesOfFall = 4.0;
 
 struct Point {
   double log_speed = 0.0;
@@ -33,19 +30,25 @@ std::optional<Point> point_of(const Recording& recording, const Analysis& analys
   point.log_frequency = std::log(*frequency.value);
   point.log_frequency_se = *frequency.standard_error / *frequency.value;
   point.stick_share = analysis.cycles.sticking_degree.value_or(0.0);
-  if (*analysis.cycles.slip_time_s > kSamplesOfFall * recording.sample_interval_s()) {
+  if (*analysis.cycles.slip_time_s > thresholds::kSamplesOfFall * recording.sample_interval_s()) {
     point.log_fall = std::log(*analysis.cycles.slip_time_s);
   }
   return point;
 }
 
+/// The fit tells at least one parameter.
+bool has_values(const Analysis& analysis) {
+  return analysis.fit && std::any_of(analysis.fit->parameters.begin(), analysis.fit->parameters.end(),
+                                     [](const Parameter& parameter) { return parameter.estimate.value.has_value(); });
+}
+
 }  // namespace
 
-SweepRole role_of(const Recording& recording, Verdict verdict) {
+SweepRole role_of(const Recording& recording, const Analysis& analysis) {
   // At the contact the sensor sees F_k(v) itself in a slip, and jumps: no force to fit together with the others.
   if (recording.conditions().force_view == ForceView::Contact) return SweepRole::LeftOut;
-  if (verdict == Verdict::StickSlip) return SweepRole::Cycles;
-  return verdict == Verdict::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
+  if (analysis.verdict == Verdict::StickSlip) return has_values(analysis) ? SweepRole::Cycles : SweepRole::LeftOut;
+  return analysis.verdict == Verdict::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
 }
 
 std::string describe_roles(const std::vector<SweepRole>& roles) {
@@ -63,7 +66,7 @@ Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, cons
   const auto by_speed = [](const Point& a, const Point& b) { return a.log_speed < b.log_speed; };
   const auto [slow, fast] = std::minmax_element(points.begin(), points.end(), by_speed);
   const double span = fast->log_speed - slow->log_speed;
-  if (span < std::log(kLeastSpeedRatio)) return {};
+  if (span < std::log(thresholds::kLeastSpeedRatio)) return {};
   const double power = (fast->log_frequency - slow->log_frequency) / span;
   const double power_se = std::hypot(fast->log_frequency_se, slow->log_frequency_se) / span;
   // The stick time goes as 1 / V, the slip time hardly changes: f goes as V to the power of the sticking degree.

@@ -1,4 +1,4 @@
-#include "measured.hpp"
+#include "analysis/quoted_frequency.hpp"
 
 #include <fmt/format.h>
 
@@ -10,24 +10,14 @@
 #include <span>
 #include <utility>
 
+#include "analysis/fitted_frequency.hpp"
+#include "analysis/slip_intervals.hpp"
+#include "analysis/slip_shape.hpp"
+#include "core/thresholds.hpp"
 #include "fit/inference/student.hpp"
-#include "fitted_frequency.hpp"
-#include "recording_checks.hpp"
-#include "slip_counts.hpp"
-#include "verdict.hpp"
 
 namespace slipfit {
 namespace {
-
-/// Above this scatter of the intervals the harmonic fit is no better than the count (docs/accuracy.md).
-constexpr double kRegular = 0.01;
-/// Above this scatter the count is quoted even beside a fit.
-constexpr double kCounted = 0.15;
-/// Scatter of the cycles sets spectrum and count less far apart than this; another repetition (hum, noise) farther.
-constexpr double kContradiction = 0.3;
-
-/// Cycles shorter than this many lags of the sensor: 8 of them pass before a ramp is fitted, and the slip takes some.
-constexpr double kForgotten = 14.0;
 
 /// Of the two frequencies; empty where one of them is.
 std::optional<double> relative_difference(const SpectralFrequency& spectral, const Estimate& counted) {
@@ -40,11 +30,10 @@ std::optional<double> relative_difference(const SpectralFrequency& spectral, con
 /// its error. Where the two contradict each other the fit is believed: it knows a slip from other repetitions.
 bool is_sharper(const SpectralFrequency& spectral, const Estimate& fitted) {
   if (!spectral.value_Hz || !spectral.regular_standard_error_Hz) return false;
-  constexpr double kFarApart = 4.0;  // standard errors
   const double difference_Hz = std::abs(*spectral.value_Hz - *fitted.value);
-  constexpr double kAlike = 0.05;  // an interval that scatter has made wide holds lines that are not the slips'
+  // Alike: an interval that scatter has made wide holds lines that are not the slips'.
   return *spectral.regular_standard_error_Hz < *fitted.standard_error &&
-         difference_Hz < std::min(kFarApart * *fitted.standard_error, kAlike * *fitted.value);
+         difference_Hz < std::min(thresholds::kFarApart * *fitted.standard_error, thresholds::kAlike * *fitted.value);
 }
 
 /// Peak to peak of the sine at this frequency.
@@ -64,7 +53,7 @@ bool is_of_slips(double line_Hz, const Estimate& slips) {
   if (!slips.value) return false;
   const double order = std::max(1.0, std::round(line_Hz / *slips.value));
   const double scatter = 3.0 * slips.standard_error.value_or(0.0) / *slips.value;
-  return std::abs(line_Hz / (order * *slips.value) - 1.0) < std::max(0.05, scatter);
+  return std::abs(line_Hz / (order * *slips.value) - 1.0) < std::max(thresholds::kAlike, scatter);
 }
 
 /// What repeats beside the slips.
@@ -104,8 +93,7 @@ bool hum_makes_falls(const Signals& signals) {
 
 /// Noise is so large that slips are missed.
 bool noise_hides_slips(const Signals& signals) {
-  constexpr double kHiding = 6.0;  // drop over noise of a sample; simulated slips are missed below 3
-  return median_drop(signals.segmentation) < kHiding * signals.quality.noise_rms;
+  return median_drop(signals.segmentation) < thresholds::kHiding * signals.quality.noise_rms;
 }
 
 /// With an interval that holds what the spectrum shows.
@@ -132,13 +120,13 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, Ver
   const Intervals intervals = intervals_of(recording, signals.segmentation);
   const MeanAndSpread interval = describe(intervals.seconds);
   const std::optional<double> difference = relative_difference(spectral, counted);
-  const bool agree = difference && *difference < 0.05;
-  const bool regular = intervals.broken == 0 && interval.count >= 2.0 && interval.sd < kRegular * interval.mean;
+  const bool agree = difference && *difference < thresholds::kAlike;
+  const bool regular =
+      intervals.broken == 0 && interval.count >= 2.0 && interval.sd < thresholds::kRegular * interval.mean;
   // A repetition near the count may be that of the slips, with some hidden or made by hum. One far from it is another
   // thing: pick-up, ringing.
-  constexpr double kNear = 2.0;  // spectrum over count, less one
-  const bool near = difference && *difference < kNear;
-  const bool far = !difference || *difference > kContradiction;
+  const bool near = difference && *difference < thresholds::kAnotherThing;
+  const bool far = !difference || *difference > thresholds::kContradiction;
   const bool contradict =
       far && (noise_hides_slips(signals) || (near && may_be_hum(signals)) || (!difference && hum_makes_falls(signals)));
   const bool hidden = verdict == Verdict::OscillatorySlip && !agree;  // the count may be of noise or of hum
@@ -158,8 +146,8 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, Ver
 
 }  // namespace
 
-FrequencyReport report_frequency(const Recording& recording, const Signals& signals, Verdict verdict,
-                                 const FitResult* fit) {
+FrequencyReport quote_frequency(const Recording& recording, const Signals& signals, Verdict verdict,
+                                const FitResult* fit) {
   const bool slides = verdict == Verdict::StickSlip || verdict == Verdict::OscillatorySlip;
   FrequencyReport report;
   report.method = "none";
@@ -169,7 +157,7 @@ FrequencyReport report_frequency(const Recording& recording, const Signals& sign
     const Intervals intervals = intervals_of(recording, signals.segmentation);
     // Slips that scatter are counted: what the fit's cycles cause is another mean than that of those that came.
     const MeanAndSpread interval = describe(intervals.seconds);
-    const bool scatters = interval.count > 7.0 && interval.sd > kCounted * interval.mean;
+    const bool scatters = interval.count > 7.0 && interval.sd > thresholds::kCounted * interval.mean;
     const bool usable = fit != nullptr && verdict == Verdict::StickSlip && intervals.broken == 0 && !scatters;
     const std::optional<FrequencyReport> fitted = usable ? of_fit(recording, signals, *fit) : std::nullopt;
     report = fitted ? *fitted : of_trace(recording, signals, verdict);
@@ -178,107 +166,6 @@ FrequencyReport report_frequency(const Recording& recording, const Signals& sign
   report.counted = count_frequency(recording, signals.segmentation);
   report.lines = lines_beside(recording, signals.spectral, report.quoted);
   return report;
-}
-
-CycleStatistics summarise_cycles(const Recording& recording, const Segmentation& segmentation, const FitResult* fit) {
-  CycleStatistics result;
-  result.count = segmentation.slips.size();
-  result.minor = segmentation.minor;
-  if (segmentation.slips.empty()) return result;
-  std::vector<double> peaks;
-  std::vector<double> troughs;
-  std::vector<double> drops;
-  const std::size_t first = segmentation.slips.size() > 3 ? 1 : 0;  // the first slip starts from rest
-  for (std::size_t i = first; i < segmentation.slips.size(); ++i) {
-    peaks.push_back(segmentation.slips[i].peak_force);
-    troughs.push_back(segmentation.slips[i].trough_force);
-    drops.push_back(segmentation.slips[i].drop());
-  }
-  const MeanAndSpread peak = describe(peaks);
-  const MeanAndSpread drop = describe(drops);
-  result.peak_force = peak.mean;
-  result.trough_force = describe(troughs).mean;
-  result.force_drop = drop.mean;
-  if (peak.count > 1.0) {
-    result.peak_force_sd = peak.sd;
-    result.force_drop_sd = drop.sd;
-  }
-  const MeanAndSpread interval = describe(intervals_of(recording, segmentation).seconds);
-  if (interval.count >= 1.0) result.period_s = interval.mean;
-  if (interval.count >= 2.0) {
-    result.period_sd_s = interval.sd;
-    result.period_cv = interval.sd / interval.mean;
-    result.drop_cv = drop.sd / drop.mean;
-  }
-  if (fit == nullptr) return result;
-  std::vector<double> slips;
-  for (const Cycle& cycle : fit->cycles) {
-    if (cycle.used) slips.push_back(*cycle.end_s - *cycle.onset_s);
-  }
-  result.used = slips.size();
-  if (fit->tier == Tier::Sawtooth || !result.period_s) return result;
-  result.slip_time_s = describe(slips).mean;
-  result.stick_time_s = std::max(0.0, *result.period_s - *result.slip_time_s);
-  result.sticking_degree = *result.stick_time_s / *result.period_s;
-  return result;
-}
-
-void add_measured_spacing(const Recording& recording, const FrequencyReport& frequency, const CycleStatistics& cycles,
-                          Derived& derived) {
-  if (!frequency.quoted.value) {
-    derived.pattern_spacing_m.note = derived.impulse_rate_per_m.note = "no frequency, no spacing";
-    return;
-  }
-  const double speed = recording.conditions().speed_m_per_s;
-  const double spacing = speed / *frequency.quoted.value;
-  derived.pattern_spacing_m = {spacing, std::nullopt, std::nullopt, "V / f at the measured speed"};
-  derived.impulse_rate_per_m = {1.0 / spacing, std::nullopt, std::nullopt, {}};
-  if (cycles.period_sd_s) derived.pattern_spacing_sd_m = speed * *cycles.period_sd_s;
-  if (!frequency.quoted.standard_error) return;
-  const double of_frequency = *frequency.quoted.standard_error / *frequency.quoted.value;
-  const double of_speed = recording.conditions().speed_standard_error_m_per_s.value_or(0.0) / speed;
-  const double relative = std::hypot(of_frequency, of_speed);
-  const double freedom = std::max(1.0, static_cast<double>(cycles.count) - 3.0);
-  derived.pattern_spacing_m = fit::symmetric(spacing, spacing * relative, freedom);
-  derived.pattern_spacing_m.note = "V / f at the measured speed";
-  derived.impulse_rate_per_m = fit::symmetric(1.0 / spacing, relative / spacing, freedom);
-}
-
-Warnings collect_warnings(const Recording& recording, const Analysis& analysis) {
-  Warnings warnings = recording.provenance().warnings;
-  const auto warn = [&](const char* code, std::string message) { warnings.push_back({code, std::move(message)}); };
-  const Quality& quality = analysis.quality;
-  if (quality.gaps > 0) {
-    warn("gaps", fmt::format("{} gap(s) in the clock, the longest {:.3g} s", quality.gaps, quality.longest_gap_s));
-  }
-  if (quality.clock_jitter > 0.05) {
-    warn("uneven_clock", fmt::format("the time step varies by {:.0f} %", 100.0 * quality.clock_jitter));
-  }
-  if (quality.clipped_samples > 0) {
-    warn("clipped", fmt::format("{} samples at a level where the sensor saturates: left out", quality.clipped_samples));
-  }
-  if (quality.impulses > 0) {
-    warn("impulses", fmt::format("{} isolated impulses: left out", quality.impulses));
-  }
-  if (quality.quantisation_step) {
-    const bool newtons = recording.conditions().quantity == ForceQuantity::Force_N;
-    warn("quantised", fmt::format("forces are multiples of {:.3g}{}", *quality.quantisation_step, newtons ? " N" : ""));
-  }
-  for (const SuspiciousLine& line : analysis.frequency.lines) {
-    warn("suspicious_line", fmt::format("line at {:.4g} Hz: {}", line.frequency_Hz, line.reason));
-  }
-  const auto& bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz;
-  if (bandwidth_Hz && analysis.cycles.period_s) {
-    const double lags = *analysis.cycles.period_s * 2.0 * std::numbers::pi * *bandwidth_Hz;
-    if (lags < kForgotten) {
-      warn("sensor_too_slow", fmt::format("a cycle lasts {:.2g} times the sensor's lag: one slip is hardly forgotten "
-                                          "when the next begins, and little of the ramps is left to fit",
-                                          lags));
-    }
-  }
-  for (Warning& warning : warn_of(analysis.tests)) warnings.push_back(std::move(warning));
-  if (analysis.fit) warnings.insert(warnings.end(), analysis.fit->warnings.begin(), analysis.fit->warnings.end());
-  return warnings;
 }
 
 }  // namespace slipfit

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "slipfit/pipeline.hpp"
+#include "slipfit/analysis.hpp"
 
 namespace slipfit {
 

@@ -1,7 +1,9 @@
 #pragma once
 
-#include "slipfit/pipeline.hpp"
-#include "slipfit/sweep.hpp"
+#include <optional>
+
+#include "slipfit/analysis.hpp"
+#include "slipfit/fit/sweep.hpp"
 
 namespace slipfit {
 
@@ -11,6 +13,6 @@ FitResult in_range(FitResult fit, const Conditions& conditions);
 FrequencyReport in_range(FrequencyReport frequency);
 CycleStatistics in_range(CycleStatistics cycles);
 Derived in_range(Derived derived);
-SweepPoint in_range(SweepPoint point);
+std::optional<SweepFit> in_range(std::optional<SweepFit> sweep);
 
 }  // namespace slipfit

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfit/core/estimate.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/fit.hpp"
+#include "slipfit/predict/derived.hpp"
+#include "slipfit/signal/quality.hpp"
+#include "slipfit/signal/spectrum.hpp"
+
+namespace slipfit {
+
+/// What kind of sliding the recording shows.
+enum class Verdict { StickSlip, SteadySliding, OscillatorySlip, Undetermined };
+
+/// Spectral and counted frequency beside each other, and the one to quote.
+struct FrequencyReport {
+  Estimate quoted;     ///< Hz; empty where neither method finds one
+  std::string method;  ///< "fitted_cycles", "harmonic_least_squares", "slip_counting" or "none"
+  SpectralFrequency spectral;
+  Estimate counted;                   ///< Hz, from the mean interval between slips
+  std::vector<SuspiciousLine> lines;  ///< repetitions that are not the slips: never quoted
+};
+
+/// Statistics over the cycles of one recording; forces in the unit of the force column.
+struct CycleStatistics {
+  std::size_t count = 0;  ///< slips whose drop is at least a quarter of the median drop
+  std::size_t minor = 0;  ///< smaller slips
+  std::size_t used = 0;   ///< cycles in the fit (0 without one)
+  std::optional<double> period_s, period_sd_s, slip_time_s, stick_time_s, sticking_degree;
+  std::optional<double> peak_force, peak_force_sd, trough_force, force_drop, force_drop_sd;
+  std::optional<double> drop_cv, period_cv;  ///< standard deviation over mean
+};
+
+/// A one-line test of what the fit takes for granted. `name`: period_drift (value: relative change over the recording),
+/// return_map (correlation), ageing (force for each factor e of time in stick), stated_mass (k / w_n^2 over it),
+/// sensor_resonance (w_n over it).
+struct ShortTest {
+  std::string name;
+  std::optional<double> value, standard_error;
+  std::optional<double> p_value;  ///< that chance alone shows as much
+  std::string finding;            ///< one sentence
+};
+
+/// Wall-clock seconds of the stages.
+struct Timing {
+  double read_s = 0.0;  ///< filled by the caller that reads the file
+  double frequency_s = 0.0;
+  double fit_s = 0.0;
+  double total_s = 0.0;  ///< filled by the caller: from opening the file to the result
+};
+
+/// Seconds on the recording's own clock.
+struct TimeSpan {
+  double begin_s = 0.0;
+  double end_s = 0.0;
+};
+
+/// Everything that is known about one recording.
+struct Analysis {
+  Quality quality;   ///< of the whole recording
+  TimeSpan sliding;  ///< the stretch that everything else is of: without run-up, stop, release and pauses
+  Verdict verdict = Verdict::Undetermined;
+  std::string verdict_reason;  ///< one plain sentence
+  Warnings warnings;           ///< of the reader, the analysis and the fit
+  FrequencyReport frequency;
+  CycleStatistics cycles;
+  std::vector<Cycle> cycle_table;
+  std::optional<FitResult> fit;  ///< empty: not asked for, or no cycles to fit
+  Derived derived;
+  std::vector<ShortTest> tests;  ///< only where the verdict is stick-slip with a fit
+  Timing timing;
+};
+
+}  // namespace slipfit

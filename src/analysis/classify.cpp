@@ -1,0 +1,192 @@
+#include "analysis/classify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "analysis/slip_shape.hpp"
+#include "core/thresholds.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit {
+namespace {
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+bool no_repetition(const SpectralFrequency& spectral) {
+  return !spectral.value_Hz;
+}
+
+/// The second half of the recording moves little compared with the first swings: the motion died out.
+bool ends_flat(const Recording& recording, const Segmentation& segmentation) {
+  const double last_s = segmentation.slips.empty() ? recording.time_s().front() : segmentation.slips.back().middle_s;
+  return last_s - recording.time_s().front() < thresholds::kSpanShare * recording.duration_s();
+}
+
+/// All falls lie close together near the end, and the force does not rise again: the release and its ring-down.
+bool is_release(const Recording& recording, const Segmentation& segmentation) {
+  const DetectedSlip& last = segmentation.slips.back();
+  const auto after = recording.force().subspan(last.trough);
+  if (*std::max_element(after.begin(), after.end()) > last.trough_force + 0.5 * last.drop()) return false;
+  const double first_s = segmentation.slips.front().middle_s - recording.time_s().front();
+  const double last_s = segmentation.slips.back().middle_s - recording.time_s().front();
+  return first_s > thresholds::kSpanShare * recording.duration_s() && last_s - first_s < 0.3 * recording.duration_s();
+}
+
+std::optional<Classification> by_counts(const Recording& recording, const Segmentation& segmentation,
+                                        const SpectralFrequency& spectral) {
+  const std::size_t count = segmentation.slips.size();
+  if (count == 0) return Classification{Verdict::SteadySliding, "the force has no falls beyond its noise"};
+  if (is_faint(segmentation) && no_repetition(spectral)) {
+    return Classification{Verdict::SteadySliding, "the force moves no more than its noise, without repetition"};
+  }
+  if (!slips_are_sudden(segmentation) && is_release(recording, segmentation)) {
+    return Classification{Verdict::SteadySliding, "no falls but those of the release at the end"};
+  }
+  if (count < 4 && ends_flat(recording, segmentation)) {
+    return Classification{Verdict::SteadySliding, fmt::format("{} fall(s) at the start, then no more", count)};
+  }
+  if (count < thresholds::kFewestSlips) {
+    return Classification{Verdict::Undetermined,
+                          fmt::format("only {} slip(s): at least 3 are needed; record longer", count)};
+  }
+  const double cycle_samples = (segmentation.slips.back().middle_s - segmentation.slips.front().middle_s) /
+                               static_cast<double>(count - 1) / recording.sample_interval_s();
+  if (cycle_samples < thresholds::kFewestCycleSamples) {
+    return Classification{
+        Verdict::Undetermined,
+        fmt::format("{:.1f} samples a cycle are too few to see slips; sample at least {:.0f} times faster",
+                    cycle_samples, std::ceil(20.0 / cycle_samples))};
+  }
+  return std::nullopt;
+}
+
+/// The spectrum shows the rhythm of the falls, whatever they scatter by.
+bool spectrum_agrees(const Segmentation& segmentation, const SpectralFrequency& spectral) {
+  if (!spectral.value_Hz || segmentation.slips.size() < thresholds::kFewestSudden) return false;
+  // The median: falls that were missed do not count.
+  return std::abs(*spectral.value_Hz * signal::median(slip_intervals_s(segmentation)) - 1.0) < thresholds::kSameRhythm;
+}
+
+std::optional<Classification> as_ripple(const Recording& recording, const Segmentation& segmentation) {
+  const double share = median_drop(segmentation) / std::abs(mean_of(recording.force()));
+  if (share > thresholds::kRipple || slips_are_sudden(segmentation)) return std::nullopt;
+  return Classification{
+      Verdict::SteadySliding,
+      fmt::format("swings of {:.1f} % of the force, no sudden falls: pick-up or ripple on steady sliding",
+                  100.0 * share)};
+}
+
+/// What the trace shows by itself where no slip of the model is close to it.
+Classification without_model(const Recording& recording, const Segmentation& segmentation,
+                             const SpectralFrequency& spectral) {
+  const double ratio = rise_over_fall(segmentation);
+  if (slips_are_sudden(segmentation)) {
+    return {Verdict::StickSlip,
+            fmt::format("{} sudden falls after rises that take {:.1f} times as long; no slip of the model is close to "
+                        "them, so that its parameters stay unknown",
+                        segmentation.slips.size(), ratio)};
+  }
+  if (auto ripple = as_ripple(recording, segmentation)) return *ripple;
+  if (spectrum_agrees(segmentation, spectral)) {
+    return {Verdict::OscillatorySlip,
+            fmt::format("swings without straight sticks: the force rises in {:.1f} times the time that it falls in",
+                        ratio)};
+  }
+  if (!keeps_rhythm(segmentation)) {
+    return {Verdict::SteadySliding,
+            "the force wanders: its falls are no more sudden than its rises and keep no rhythm"};
+  }
+  return {Verdict::Undetermined,
+          fmt::format("the swings are no stick-slip cycles: the force rises in {:.1f} times the time that it falls in",
+                      ratio)};
+}
+
+/// Swings without sticks that can be told; empty where slips come to rest.
+std::optional<Classification> as_round_swings(const Recording& recording, const Segmentation& segmentation,
+                                              const Evidence& e) {
+  const bool sine_like = is_sine_like(segmentation);
+  if (e.restick_share < thresholds::kSineRestickShare) {
+    if (auto ripple = as_ripple(recording, segmentation)) return ripple;
+  }
+  if (!sine_like && rise_over_fall(segmentation) < thresholds::kSquare) {
+    return Classification{Verdict::Undetermined, "the force rises as suddenly as it falls: no sticks"};
+  }
+  if ((sine_like || e.restick_share < thresholds::kRestickShare) && is_faint(segmentation)) {
+    return Classification{Verdict::Undetermined,
+                          "the swings are not much larger than the noise: no sticks can be told from it"};
+  }
+  if (sine_like && (e.restick_share < thresholds::kSineRestickShare || e.relative_residual > thresholds::kSineFit)) {
+    return Classification{Verdict::OscillatorySlip,
+                          "nearly sinusoidal: no straight sticks can be told from an oscillation"};
+  }
+  if (e.restick_share < thresholds::kRestickShare) {
+    return Classification{Verdict::OscillatorySlip,
+                          fmt::format("{:.0f} % of the slips do not come to rest: oscillation without straight sticks",
+                                      100.0 * (1.0 - e.restick_share))};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Classification classify(const Recording& recording, const Estimates& estimates) {
+  const Segmentation& segmentation = estimates.signals.segmentation;
+  const SpectralFrequency& spectral = estimates.signals.spectral;
+  if (auto early = by_counts(recording, segmentation, spectral)) return *early;
+  if (!estimates.fit) return without_model(recording, segmentation, spectral);
+  const Evidence& e = estimates.fit->evidence;
+  std::size_t used = 0;
+  for (const Cycle& cycle : estimates.fit->cycles) used += cycle.used ? 1 : 0;
+  const bool sudden = slips_are_sudden(segmentation);
+  if (used < 5 && !sudden && (e.onset_force_spread > 0.2 || e.relative_residual > 0.04)) {
+    return {Verdict::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
+  }
+  // Hum as large as the drop is what the detector sees, and the fit that follows it finds wrong slips good.
+  if (is_sine_like(segmentation) && e.hum_share > thresholds::kMuchHum) {
+    return {Verdict::Undetermined, "the swings are as round as the mains hum in them: it hides what else there is"};
+  }
+  const bool close = e.relative_residual < thresholds::kCloseFit && e.onset_force_spread < thresholds::kWideSpread;
+  const bool loose = e.relative_residual < thresholds::kLooseFit && e.onset_force_spread < thresholds::kModestSpread;
+  const bool died =
+      !sudden && keeps_rhythm(segmentation) && (e.decay > thresholds::kDecay || e.span_share < thresholds::kSpanShare);
+  if (died && (close || loose || e.restick_share < thresholds::kRestickShare)) {
+    return {Verdict::OscillatorySlip, "the swings die out: a ring-down to steady sliding"};
+  }
+  const bool rests = e.restick_share >= thresholds::kRestickShare;
+  if ((!close && !loose) || (sudden && !rests)) return without_model(recording, segmentation, spectral);
+  if (is_sine_like(segmentation) && std::abs(mains_share(segmentation) - 1.0) < thresholds::kMainsRhythm) {
+    return {Verdict::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
+  }
+  if (auto round = as_round_swings(recording, segmentation, e)) return *round;
+  if (!close && !sudden) return without_model(recording, segmentation, spectral);
+  return {Verdict::StickSlip,
+          fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
+                      100.0 * e.relative_residual),
+          true};
+}
+
+Classification classify_by_shape(const Recording& recording, const Signals& signals) {
+  const Segmentation& segmentation = signals.segmentation;
+  const SpectralFrequency& spectral = signals.spectral;
+  if (auto early = by_counts(recording, segmentation, spectral)) return *early;
+  if (slips_are_sudden(segmentation)) {
+    return {Verdict::StickSlip, "the force falls much faster than it rises (no model fitted)"};
+  }
+  if (is_faint(segmentation)) {
+    return {Verdict::Undetermined, "the falls are not much larger than the noise: only a fit can tell"};
+  }
+  if (!is_sine_like(segmentation) && rise_over_fall(segmentation) > thresholds::kSquare) {
+    return {Verdict::StickSlip, "the force falls much faster than it rises (no model fitted)"};
+  }
+  return {Verdict::Undetermined, "the force falls about as slowly as it rises: only a fit can tell"};
+}
+
+}  // namespace slipfit

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "analysis/estimate.hpp"
+#include "slipfit/analysis.hpp"
+
+namespace slipfit {
+
+struct Classification {
+  Verdict verdict = Verdict::Undetermined;
+  std::string reason;
+  bool model_fits = false;  ///< the fitted cycles are the model's: its parameters mean something
+};
+
+/// From slips, spectrum and fitted cycles. No fit: too few cycles could be fitted.
+Classification classify(const Recording& recording, const Estimates& estimates);
+
+/// A guess from the detected slips alone, where no fit was asked for.
+Classification classify_by_shape(const Recording& recording, const Signals& signals);
+
+}  // namespace slipfit

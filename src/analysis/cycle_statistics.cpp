@@ -1,0 +1,85 @@
+#include "analysis/cycle_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "analysis/slip_intervals.hpp"
+#include "fit/inference/student.hpp"
+
+namespace slipfit {
+
+namespace {
+
+/// How long the fitted cycles slip and stick.
+CycleStatistics with_stick_times(CycleStatistics result, const FitResult& fit) {
+  std::vector<double> slips;
+  for (const Cycle& cycle : fit.cycles) {
+    if (cycle.used) slips.push_back(*cycle.end_s - *cycle.onset_s);
+  }
+  result.used = slips.size();
+  if (fit.tier == Tier::Sawtooth || !result.period_s) return result;
+  result.slip_time_s = describe(slips).mean;
+  result.stick_time_s = std::max(0.0, *result.period_s - *result.slip_time_s);
+  result.sticking_degree = *result.stick_time_s / *result.period_s;
+  return result;
+}
+
+}  // namespace
+
+CycleStatistics summarise_cycles(const Recording& recording, const Segmentation& segmentation, const FitResult* fit) {
+  CycleStatistics result;
+  result.count = segmentation.slips.size();
+  result.minor = segmentation.minor;
+  if (segmentation.slips.empty()) return result;
+  std::vector<double> peaks;
+  std::vector<double> troughs;
+  std::vector<double> drops;
+  const std::size_t first = segmentation.slips.size() > 3 ? 1 : 0;  // the first slip starts from rest
+  for (std::size_t i = first; i < segmentation.slips.size(); ++i) {
+    peaks.push_back(segmentation.slips[i].peak_force);
+    troughs.push_back(segmentation.slips[i].trough_force);
+    drops.push_back(segmentation.slips[i].drop());
+  }
+  const MeanAndSpread peak = describe(peaks);
+  const MeanAndSpread drop = describe(drops);
+  result.peak_force = peak.mean;
+  result.trough_force = describe(troughs).mean;
+  result.force_drop = drop.mean;
+  if (peak.count > 1.0) {
+    result.peak_force_sd = peak.sd;
+    result.force_drop_sd = drop.sd;
+  }
+  const MeanAndSpread interval = describe(intervals_of(recording, segmentation).seconds);
+  if (interval.count >= 1.0) result.period_s = interval.mean;
+  if (interval.count >= 2.0) {
+    result.period_sd_s = interval.sd;
+    result.period_cv = interval.sd / interval.mean;
+    result.drop_cv = drop.sd / drop.mean;
+  }
+  return fit != nullptr ? with_stick_times(result, *fit) : result;
+}
+
+Derived with_measured_spacing(Derived derived, const Recording& recording, const FrequencyReport& frequency,
+                              const CycleStatistics& cycles) {
+  if (!frequency.quoted.value) {
+    derived.pattern_spacing_m.note = derived.impulse_rate_per_m.note = "no frequency, no spacing";
+    return derived;
+  }
+  const double speed = recording.conditions().speed_m_per_s;
+  const double spacing = speed / *frequency.quoted.value;
+  derived.pattern_spacing_m = {spacing, std::nullopt, std::nullopt, "V / f at the measured speed"};
+  derived.impulse_rate_per_m = {1.0 / spacing, std::nullopt, std::nullopt, {}};
+  if (cycles.period_sd_s) derived.pattern_spacing_sd_m = speed * *cycles.period_sd_s;
+  if (!frequency.quoted.standard_error) return derived;
+  const double of_frequency = *frequency.quoted.standard_error / *frequency.quoted.value;
+  const double of_speed = recording.conditions().speed_standard_error_m_per_s.value_or(0.0) / speed;
+  const double relative = std::hypot(of_frequency, of_speed);
+  const double freedom = std::max(1.0, static_cast<double>(cycles.count) - 3.0);
+  derived.pattern_spacing_m = fit::symmetric(spacing, spacing * relative, freedom);
+  derived.pattern_spacing_m.note = "V / f at the measured speed";
+  derived.impulse_rate_per_m = fit::symmetric(1.0 / spacing, relative / spacing, freedom);
+  return derived;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,174 @@
+#pragma once
+
+#include <cstddef>
+
+/// Every number that decides a kind of motion, a status, a tier, a warning or which frequency is quoted. Each comment
+/// says what is compared, and in brackets unit and origin: derived (from the model), convention, or calibrated (on
+/// what). scripts/thresholds.py makes docs/thresholds.md from this file.
+namespace slipfit::thresholds {
+
+// ## Kind of motion
+
+/// Largest residual over onset force of a close fit. [1; calibrated: below 0.03 for simulated, 0.04 to 0.10 for
+/// measured stick-slip, above 0.15 for noise, hum and random walks (docs/accuracy.md)]
+inline constexpr double kCloseFit = 0.1;
+
+/// Largest residual over onset force of a loose fit. [1; calibrated: as kCloseFit]
+inline constexpr double kLooseFit = 0.2;
+
+/// Largest spread of the onset force over its mean where the fit is close. [1; calibrated: as kCloseFit]
+inline constexpr double kWideSpread = 0.7;
+
+/// Largest spread of the onset force over its mean where the fit is loose. [1; calibrated: as kCloseFit]
+inline constexpr double kModestSpread = 0.5;
+
+/// Smallest share of slips that come to rest in stick-slip. [1; convention]
+inline constexpr double kRestickShare = 0.8;
+
+/// Time of a fall from 80 % to 20 % over the period, above which a trace is as round as a sine. [1; derived: 0.205 for
+/// a sine, 0.3 for an even triangle, less for slips]
+inline constexpr double kSineFall = 0.17;
+
+/// Smallest share of slips that come to rest where falls are as slow as a sine's. [1; calibrated: simulated cycles just
+/// above the limit of stick-slip all rest]
+inline constexpr double kSineRestickShare = 0.95;
+
+/// Largest residual over onset force where falls are as slow as a sine's. [1; calibrated: below 0.02 for simulated
+/// cycles just above the limit of stick-slip]
+inline constexpr double kSineFit = 0.05;
+
+/// Onset force of the first half of the cycles over that of the second, above which swings die out. [1; convention]
+inline constexpr double kDecay = 1.7;
+
+/// Share of the recording that cycles have to cover: swings that end earlier died out. [1; convention]
+inline constexpr double kSpanShare = 0.5;
+
+/// Mains hum over onset force, below which it cannot pass for slips. [1; convention]
+inline constexpr double kMuchHum = 0.1;
+
+/// Relative distance of the cycles' rhythm from the mains', below which round swings may be its hum. [1; derived: the
+/// mains keeps its frequency to 0.1 %, intervals of few samples are less exact]
+inline constexpr double kMainsRhythm = 5e-3;
+
+/// Drop over noise, below which turning points may be noise alone. [1; calibrated: white and
+/// correlated noise of tests/failures]
+inline constexpr double kNoiseDrop = 14.0;
+
+/// Time of a rise over that of a fall, above which falls are sudden. [1; derived: 1 for waves and noise, at least 2.3
+/// for straight sticks where falls are quicker than kSineFall]
+inline constexpr double kSudden = 3.0;
+
+/// Smallest share of falls with half of kSudden. [1; convention]
+inline constexpr double kSuddenShare = 0.9;
+
+/// Fewest falls that are called sudden. [count; convention]
+inline constexpr std::size_t kFewestSudden = 5;
+
+/// Time of a rise over that of a fall, below which a trace rises as suddenly as it falls. [1; derived: 1 for square
+/// waves]
+inline constexpr double kSquare = 1.3;
+
+/// Scatter over mean of the intervals of what repeats. [1; convention: 1 for random times, 0.5 for noise]
+inline constexpr double kRhythm = 0.25;
+
+/// Swing over mean force, below which round swings are pick-up or ripple of the drive. [1; convention]
+inline constexpr double kRipple = 0.1;
+
+/// Relative distance of spectrum and count that show the same rhythm. [1; convention]
+inline constexpr double kSameRhythm = 0.1;
+
+/// Fewest slips that make a kind of motion. [count; convention]
+inline constexpr std::size_t kFewestSlips = 3;
+
+/// Fewest samples of a cycle that shows slips. [count; derived: rise and fall take two each]
+inline constexpr double kFewestCycleSamples = 4.0;
+
+// ## Quoted frequency
+
+/// Scatter over mean of the intervals, above which harmonic least squares is no better than the count. [1; calibrated:
+/// docs/accuracy.md]
+inline constexpr double kRegular = 0.01;
+
+/// Scatter over mean of the intervals, above which slips are counted even beside a fit. [1; convention]
+inline constexpr double kCounted = 0.15;
+
+/// Relative distance of spectrum and count, beyond which they contradict each other. [1; calibrated: scatter of the
+/// cycles sets them less far apart]
+inline constexpr double kContradiction = 0.3;
+
+/// Drop over noise of a sample, below which noise hides slips. [1; calibrated: simulated slips are missed below 3]
+inline constexpr double kHiding = 6.0;
+
+/// Relative standard error of a count that guides the search of the spectrum. [1; convention]
+inline constexpr double kSureCount = 0.01;
+
+/// Standard errors between the spectrum's frequency and the fit's, above which the fit is believed. [1; convention]
+inline constexpr double kFarApart = 4.0;
+
+/// Relative distance of frequencies that are the same. [1; convention]
+inline constexpr double kAlike = 0.05;
+
+/// Spectrum over count less one, above which the repetition is another thing than the slips (pick-up, ringing).
+/// [1; convention]
+inline constexpr double kAnotherThing = 2.0;
+
+// ## Slips and what changes on the way
+
+/// Step of the clock over its median, above which it is a gap. [1; convention]
+inline constexpr double kGapSteps = 3.5;
+
+/// Median deviation over median of intervals that are regular. [1; convention]
+inline constexpr double kRegularRest = 0.03;
+
+/// Distance from the median of a broken interval among regular ones, over the median. [1; convention]
+inline constexpr double kFarInterval = 0.12;
+
+/// Largest share of intervals that are called broken. [1; convention]
+inline constexpr double kFewBroken = 0.15;
+
+/// Fewest intervals in which a change is looked for. [count; convention]
+inline constexpr std::size_t kFewestForChange = 10;
+
+/// Standard errors between two parts of a recording that differ. [1; derived: the best of many splits reaches 3 to 4 by
+/// chance]
+inline constexpr double kBeyondScatter = 6.0;
+
+/// Smallest relative change that is told. [1; convention]
+inline constexpr double kNotableChange = 0.2;
+
+// ## Fit beneath the mains
+
+/// Misfit beneath the mains over that of the trace as it is, below which it is kept. [1; calibrated: lines in the level
+/// take up some noise by themselves]
+inline constexpr double kClearlyBetter = 0.95;
+
+// ## Warnings
+
+/// Time constants of the sensor in a cycle, below which it is too slow. [1; derived: 8 pass before a ramp is fitted,
+/// and the slip takes some]
+inline constexpr double kForgottenLags = 14.0;
+
+/// Relative spread of the time step, above which the clock is uneven. [1; convention]
+inline constexpr double kUnevenClock = 0.05;
+
+/// Chance of a short test, below which it is proven. [1; convention]
+inline constexpr double kProven = 1e-3;
+
+/// Fewest pairs of cycles of a short test. [count; convention]
+inline constexpr std::size_t kFewestPairs = 8;
+
+/// Spread of the onset forces over the error of one, below which they tell of the noise, not of the cycles.
+/// [1; convention]
+inline constexpr double kStandsOut = 3.0;
+
+/// Frequency of the slips over the sensor's resonance, from which on they are shown too large. [1; derived: by
+/// 1 / (1 - 0.09), 10 %, there]
+inline constexpr double kNearResonance = 0.3;
+
+/// Speeds closer than this ratio say nothing about how the frequency follows. [1; convention]
+inline constexpr double kLeastSpeedRatio = 1.3;
+
+/// Samples of a fall, below which it is as long as the clock makes it. [count; convention]
+inline constexpr double kSamplesOfFall = 4.0;
+
+}  // namespace slipfit::thresholds
