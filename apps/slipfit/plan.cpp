@@ -55,7 +55,8 @@ void run(const PlanArguments& arguments) {
   const FitDocument document = read_fit_document(arguments.file);
   const auto plan = slipfit::plan_next(basis_from(arguments.file, document), target);
   if (!plan) throw Failure(ExitCode::WrongUsage, fmt::format("{}: {}", arguments.file, plan.error().message));
-  const slipfit::PredictionSource source{arguments.file, document.conditional_on};
+  const slipfit::PredictionSource source{arguments.file, document.conditional_on,
+                                         arguments.speed ? std::string(slipfit::unit_in(*arguments.speed)) : ""};
   write_results(arguments.document, outputs, [&](const std::string&) {
     return arguments.document.json ? slipfit::to_json(plan.value(), source) + "\n"
                                    : slipfit::to_text(plan.value(), source);

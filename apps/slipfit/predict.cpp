@@ -143,7 +143,9 @@ void run(const PredictArguments& arguments, const CLI::App& command) {
       speeds_from(required(arguments.speeds, "--speeds", "A:B:N or a list, for example --speeds 1mm/s:1m/s:50"));
   const std::vector<OutputFile> outputs = outputs_of({{"--out", arguments.document.out}, {"--csv", arguments.csv}});
   check_places(arguments, outputs);
-  const Basis basis = basis_from(arguments, command);
+  Basis basis = basis_from(arguments, command);
+  basis.source.speed_unit =
+      slipfit::unit_in(split(*arguments.speeds, arguments.speeds->find(':') != std::string::npos ? ':' : ',').front());
   const slipfit::Prediction prediction = slipfit::predict_at(basis.model, speeds_m_per_s);
   write_results(arguments.document, outputs, [&](const std::string& option) {
     if (option == "--csv") return slipfit::prediction_to_csv(prediction);

@@ -93,6 +93,7 @@ slipfit::Conditions conditions_from(const RecordingArguments& arguments) {
   const std::string& speed = required(arguments.speed, "--speed", "the driving speed, for example --speed 10mm/s");
   slipfit::Conditions conditions = arguments.conditions;
   conditions.speed_m_per_s = driving_speed(speed, arguments.radius);
+  conditions.speed_unit = slipfit::unit_in(speed);
   if (arguments.radius) (void)positive_quantity("--radius", *arguments.radius, Dimension::Length);
   if (arguments.speed_uncertainty) {
     conditions.speed_standard_error_m_per_s =

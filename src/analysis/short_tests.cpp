@@ -80,7 +80,8 @@ double chance_of(double r, double freedom) {
 }
 
 std::string seen(double p) {
-  return p < thresholds::kProven ? "beyond chance" : "no more than chance";
+  return fmt::format("{} at the {:g} % level (p {:.2g})", p < thresholds::kProven ? "proven" : "not proven",
+                     100.0 * thresholds::kProven, p);
 }
 
 ShortTest test_drift(const std::vector<Pair>& pairs, double duration_s) {
@@ -94,7 +95,7 @@ ShortTest test_drift(const std::vector<Pair>& pairs, double duration_s) {
   const double change = slope * duration_s / mean_s;
   const double p = chance_of(r, count - 2.0);
   return {"period_drift", change, std::abs(change) * std::sqrt((1.0 / (r * r) - 1.0) / (count - 2.0)), p,
-          fmt::format("the period changes by {:+.2g} % from begin to end, {} (p {:.2g})", 100.0 * change, seen(p), p)};
+          fmt::format("the period changes by {:+.2g} % from begin to end: {}", 100.0 * change, seen(p))};
 }
 
 ShortTest test_return_map(const std::vector<Pair>& pairs) {
@@ -104,9 +105,9 @@ ShortTest test_return_map(const std::vector<Pair>& pairs) {
   const double r = product(force, before) / std::sqrt(product(force, force) * product(before, before));
   const double freedom = static_cast<double>(pairs.size()) - 3.0;
   const double p = chance_of(r, freedom);
-  return {"return_map", r, std::sqrt((1.0 - r * r) / freedom), p,
-          fmt::format("a slip's static friction correlates by {:+.2f} with that of the slip before, {} (p {:.2g})", r,
-                      seen(p), p)};
+  return {
+      "return_map", r, std::sqrt((1.0 - r * r) / freedom), p,
+      fmt::format("the static friction of a slip correlates by {:+.2f} with that of the slip before: {}", r, seen(p))};
 }
 
 /// F_s = a + b ln(time in stick). A large F_s makes its own stick long, so that the plain slope means nothing; the slip
@@ -124,9 +125,9 @@ ShortTest test_ageing(const std::vector<Pair>& pairs, const std::string& unit) {
   const double r = product(force, before) / std::sqrt(product(force, force) * product(before, before));
   const double p = chance_of(r, freedom);
   return {"ageing", slope, se, p,
-          fmt::format("static friction changes by {:+.2g} ± {:.1g} {} with each factor e of time in stick, {} (p "
-                      "{:.2g}; the same evidence as the return map)",
-                      slope, se, unit, seen(p), p)};
+          fmt::format("static friction changes by {:+.2g} ± {:.1g} {} where the stick lasts 2.72 times as long: {}; it "
+                      "rests on the same correlation as the test before",
+                      slope, se, unit, seen(p))};
 }
 
 /// Empty where it is not known with an interval.
@@ -138,15 +139,15 @@ std::optional<Estimate> known_estimate(Estimate estimate) {
 ShortTest test_mass(const FitResult& fit, double stated_kg) {
   const std::optional<Estimate> mass = known_estimate(fit.estimate_of(ParameterId::Mass));
   if (!mass || !(*mass->standard_error > 0.0)) {
-    return {"stated_mass", {}, {}, {}, "k / w_n^2 is not known: the stated mass cannot be held against it"};
+    return {"stated_mass", {}, {}, {}, "k / w_n^2 is not known: the stated mass cannot be compared with it"};
   }
   const double ratio = *mass->value / stated_kg;
   const double relative_se = *mass->standard_error / *mass->value;
   const boost::math::normal_distribution<double> normal;
   const double p = 2.0 * boost::math::cdf(boost::math::complement(normal, std::abs(std::log(ratio)) / relative_se));
   return {"stated_mass", ratio, ratio * relative_se, p,
-          fmt::format("k / w_n^2 is {:.3g} ± {:.1g} times the stated mass, {} (p {:.2g})", ratio, ratio * relative_se,
-                      seen(p), p)};
+          fmt::format("k / w_n^2 is {:.3g} ± {:.1g} times the stated mass, a difference {}", ratio, ratio * relative_se,
+                      seen(p))};
 }
 
 ShortTest test_resonance(const FitResult& fit, double resonance_Hz) {
@@ -157,17 +158,17 @@ ShortTest test_resonance(const FitResult& fit, double resonance_Hz) {
           ratio,
           *omega->standard_error / *omega->value * ratio,
           {},
-          fmt::format("the slips move at {:.2g} of the load cell's resonance, which shows them {}", ratio,
+          fmt::format("the natural frequency of the slips is {:.2g} of the load cell's resonance: {}", ratio,
                       ratio < thresholds::kNearResonance
-                          ? fmt::format("{:.1g} % too large", 100.0 * (1.0 / (1.0 - ratio * ratio) - 1.0))
-                          : "in its own rhythm: k, w_n and zeta may be the load cell's")};
+                          ? fmt::format("it shows them {:.1g} % too large", 100.0 * (1.0 / (1.0 - ratio * ratio) - 1.0))
+                          : "k, w_n and zeta may be those of the load cell")};
 }
 
 /// Cycles alike to the last digit leave a test nothing to divide by: it is then not known.
 ShortTest finite(ShortTest test) {
   for (const auto& number : {test.value, test.standard_error, test.p_value}) {
     if (!number || std::isfinite(*number)) continue;
-    return {test.name, {}, {}, {}, "the cycles are too much alike for the test " + test.name};
+    return {test.name, {}, {}, {}, "the cycles differ too little for the test " + test.name};
   }
   return test;
 }
@@ -204,8 +205,9 @@ Warnings warn_of(const std::vector<ShortTest>& tests) {
     if (test.name == "return_map") warnings.push_back({"cycles_remember", test.finding});
     if (test.name == "stated_mass") {
       warnings.push_back({"mass_differs", test.finding +
-                                              ": springs and parts that move along, a contact that yields, or "
-                                              "slips that are not the model's; nothing is forced"});
+                                              "; springs or parts may move with the body, the contact may be "
+                                              "compliant, or the slips differ from the model; the fit does not use "
+                                              "the stated mass"});
     }
   }
   return warnings;

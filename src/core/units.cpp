@@ -101,6 +101,14 @@ Result<UnitScale> parse_unit(std::string_view unit, Dimension dimension) {
                                      name.examples})};
 }
 
+std::string_view unit_in(std::string_view text) {
+  text = trim(text);
+  if (text.size() > 1 && text[0] == '+') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() ? trim(text.substr(static_cast<std::size_t>(end - text.data()))) : std::string_view();
+}
+
 Result<double> parse_quantity(std::string_view text, Dimension dimension) {
   std::string_view rest = trim(text);
   const Error bad_number{"bad_number",

@@ -17,6 +17,13 @@
 namespace slipfit {
 namespace {
 
+/// Where in the slip the model misses most, as readers of a warning see it.
+std::string words_of_phase(double phase) {
+  if (phase < 0.0) return fmt::format("{:.0f} % of the slip time before its onset", -100.0 * phase);
+  if (phase > 1.0) return fmt::format("{:.0f} % of the slip time after its end", 100.0 * (phase - 1.0));
+  return fmt::format("after {:.0f} % of the slip time", 100.0 * phase);
+}
+
 using fit::BlockFit;
 using fit::CycleState;
 using fit::DampedFit;
@@ -147,14 +154,16 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   if (const auto& misfit = chosen.misfit) {
     result.warnings.push_back(
         {"model_misfit",
-         fmt::format("slips are not shaped like the model's: {:+.1f} % of the onset force at {:.0f} % of the slip, "
-                     "in every cycle; intervals are wider by what leaving out parts of the slip changes",
-                     100.0 * misfit->size, 100.0 * misfit->phase)});
+         fmt::format("the slips differ from the fitted curve in the same way in every cycle, by {:+.1f} % of the onset "
+                     "force {}: all parameters are approximate, and their intervals are widened by what changes when "
+                     "parts of the slip are left out",
+                     100.0 * misfit->size, words_of_phase(misfit->phase))});
   }
   const std::vector<double>& hum_Hz = chosen.blocks.level().lines_Hz;
   if (!hum_Hz.empty()) {
-    result.warnings.push_back({"hum_fitted", fmt::format("hum of the mains at {:.4g} Hz is fitted beside the cycles",
-                                                         fmt::join(hum_Hz, ", "))});
+    result.warnings.push_back(
+        {"hum_fitted",
+         fmt::format("hum of the mains at {:.4g} Hz is fitted together with the cycles", fmt::join(hum_Hz, ", "))});
   }
   if (options.curve) result.curve = curve_of(recording, chosen.blocks);
   return result;

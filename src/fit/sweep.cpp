@@ -51,8 +51,9 @@ LawChoice choose_by_chance(const fit::SweepFits& fits, double speeds) {
   if (speeds < kLeastSpeedRatio) {
     return {false, fmt::format("the speeds span a factor of {:.2g} only: one speed cannot tell alpha", speeds)};
   }
-  const std::string chance = fmt::format("chance of such a gain under Coulomb friction: {:.2g}", fits.p_value);
-  if (!fits.depends_on_speed) return {false, "Coulomb friction explains the sweep; " + chance};
+  const std::string chance = "probability of so large an improvement under Coulomb friction: " +
+                             (fits.p_value > 0.0 ? fmt::format("{:.2g}", fits.p_value) : "below 1e-300");
+  if (!fits.depends_on_speed) return {false, "Coulomb friction explains the recordings; " + chance};
   return {true, chance};
 }
 
@@ -60,9 +61,10 @@ LawChoice choose_by_chance(const fit::SweepFits& fits, double speeds) {
 /// one recording to the other.
 LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
   return {velocity_error < coulomb_error,
-          fmt::format("residuals are well above the noise; spacing predicted without each recording is off by {:.2g} % "
-                      "with F_k(v), by {:.2g} % under Coulomb friction",
-                      100.0 * std::expm1(velocity_error), 100.0 * std::expm1(coulomb_error))};
+          fmt::format(
+              "residuals are well above the noise; the spacing predicted for a recording left out is wrong by {:.2g} % "
+              "with F_k(v), by {:.2g} % under Coulomb friction",
+              100.0 * std::expm1(velocity_error), 100.0 * std::expm1(coulomb_error))};
 }
 
 /// Speed-dependent friction has two parameters more, its mean slope and its rate.
@@ -175,7 +177,7 @@ class Assembler {
     free.a = outcome_.values(fit::kDamping);
     Estimate zeta = intervals_.interval_of(free);
     if (zeta.ci95->high <= 0.0 && !outcome_.solution.held[fit::kDamping]) {
-      return unknown("the best value is negative: the slips are not shaped like a damped oscillation");
+      return unknown("the best value is negative: the slips do not follow a damped oscillation");
     }
     zeta.value = std::max(0.0, *zeta.value);
     zeta.ci95->low = std::max(0.0, zeta.ci95->low);

@@ -150,10 +150,14 @@ Result<std::optional<ManifestColumn>> recognise(const std::string& name, std::si
   for (const ManifestField& field : kFields) {
     const auto text = unit_behind(name, field.base);
     if (!text) continue;
-    if (text->unit.empty()) return std::optional(ManifestColumn{&field, index, printable(name), std::nullopt});
+    if (text->unit.empty()) return std::optional(ManifestColumn{&field, index, printable(name), std::nullopt, {}});
     if (!field.dimension) continue;
     const Result<UnitScale> unit = parse_unit(text->unit, *field.dimension);
-    if (unit) return std::optional(ManifestColumn{&field, index, printable(name), unit.value().scale});
+    if (unit) {
+      const bool is_si = unit.value().scale == 1.0;
+      return std::optional(ManifestColumn{&field, index, printable(name), unit.value().scale,
+                                          is_si ? std::string() : printable(text->unit)});
+    }
     if (!text->in_brackets) continue;
     return Error{"unknown_unit",
                  fmt::format("{}: column '{}': {}", place, printable(name), printable(unit.error().message))};
@@ -190,6 +194,7 @@ std::optional<Error> set_number(ManifestEntry& entry, const ManifestColumn& colu
   }
   if (bound == Bound::NotNegative && number.value() < 0.0) return refusal("out_of_range", cell, "zero or more");
   column.field->set_number(entry, number.value());
+  if (column.field->base == "speed") entry.conditions.speed_unit = column.scale ? column.unit : unit_in(cell);
   return std::nullopt;
 }
 

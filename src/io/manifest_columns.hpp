@@ -19,6 +19,7 @@ struct ManifestColumn {
   std::size_t index = 0;
   std::string name;             ///< as in the file
   std::optional<double> scale;  ///< empty: no unit in the name, then a number is in SI or brings its unit
+  std::string unit;             ///< in the name, other than SI
 };
 
 struct ManifestColumns {

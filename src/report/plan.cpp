@@ -55,19 +55,22 @@ std::string percent(double part, double whole) {
   return whole == 0.0 ? fmt::format("{:.2g}", part) : fmt::format("{:.2g} %", 100.0 * part / std::abs(whole));
 }
 
-std::string options_text(const Plan& plan) {
+std::string options_text(const Plan& plan, const PredictionSource& source) {
   if (plan.options.empty()) return "\nNo speed around those measured gives enough cycles in the same time.\n";
   Table table({Align::Right, Align::Right, Align::Right, Align::Right, Align::Right, Align::Right});
   table.add({"speed", "sample rate", "duration", "cycles", "samples a slip", "standard error then"});
   for (const PlanOption& option : plan.options) {
-    table.add({quantity_text(option.recording.speed_m_per_s, "m/s"),
-               quantity_text(option.recording.sample_rate_Hz, "Hz"), quantity_text(option.recording.duration_s, "s"),
-               fmt::format("{:.0f}", option.cycles), fmt::format("{:.1f}", option.samples_per_slip),
-               percent(option.standard_error, plan.value)});
+    table.add(
+        {quantity_text(option.recording.speed_m_per_s, speed_unit(source.speed_unit, option.recording.speed_m_per_s)),
+         quantity_text(option.recording.sample_rate_Hz, "Hz"), quantity_text(option.recording.duration_s, "s"),
+         fmt::format("{:.0f}", option.cycles), fmt::format("{:.1f}", option.samples_per_slip),
+         percent(option.standard_error, plan.value)});
   }
   std::string text = "\nOne recording more, as long as those before (best first)\n" + table.text();
-  if (!plan.halving_s) return text + "  no duration of the best one within reason halves the standard error\n";
-  return text + fmt::format("  {} of the best one halve the standard error\n", quantity_text(*plan.halving_s, "s"));
+  if (!plan.halving_s)
+    return text + "  no reasonable duration at the first of these speeds halves the standard error\n";
+  return text + fmt::format("  {} at the first of these speeds halve the standard error\n",
+                            quantity_text(*plan.halving_s, "s"));
 }
 
 std::string limits_text(const Plan& plan) {
@@ -118,11 +121,13 @@ std::string to_json(const Plan& plan, const PredictionSource& source) {
 
 std::string to_text(const Plan& plan, const PredictionSource& source) {
   std::string text = fmt::format("To narrow {}", plan.target.name);
-  if (plan.target.speed_m_per_s) text += " at " + quantity_text(*plan.target.speed_m_per_s, "m/s");
+  if (plan.target.speed_m_per_s)
+    text +=
+        " at " + quantity_text(*plan.target.speed_m_per_s, speed_unit(source.speed_unit, plan.target.speed_m_per_s));
   text += fmt::format(", known to {} (standard error) from {}\n", percent(plan.standard_error, plan.value),
                       one_line(source.name));
-  for (const std::string& condition : source.conditional_on) text += "  holds if: " + one_line(condition) + "\n";
-  return text + options_text(plan) + limits_text(plan);
+  for (const std::string& condition : source.conditional_on) text += "  assumed: " + one_line(condition) + "\n";
+  return text + options_text(plan, source) + limits_text(plan);
 }
 
 }  // namespace slipfit

@@ -15,27 +15,26 @@ namespace slipfit {
 namespace {
 
 /// "49.3 ms [47.1, 51.7]", in a unit that suits the number.
-std::string cell(const Estimate& estimate, const std::string& SI_unit) {
+template <class Unit>
+std::string cell(const Estimate& estimate, const Unit& unit) {
   if (!estimate.value || !std::isfinite(*estimate.value)) return "-";
-  if (!estimate.ci95) return quantity_text(estimate.value, SI_unit);
-  const EstimateRow row = estimate_row(estimate, SI_unit);
+  const EstimateRow row = estimate_row(estimate, unit);
   const std::string number_and_unit = row.unit.empty() ? row.value : row.value + " " + row.unit;
   return row.interval == "-" ? number_and_unit : number_and_unit + " " + row.interval;
 }
 
 std::string regime_words(const PredictedMotion& row, const std::string& mark) {
-  std::string words = row.regime == "stick_slip_bistable" ? "stick-slip, bistable" : row.regime;
-  std::replace(words.begin(), words.end(), '_', '-');
-  return one_line(words) + mark;
+  return (row.regime == "stick_slip_bistable" ? "stick-slip, bistable" : plain_words(row.regime)) + mark;
 }
 
-std::string critical_text(const Prediction& prediction) {
+std::string critical_text(const Prediction& prediction, const std::string& given_unit) {
   const Estimate& speed = prediction.critical_speed_m_per_s;
   std::string text = "  critical speed: ";
   if (!speed.value || !speed.note.empty()) {
     return text + (speed.note.empty() ? "not known" : one_line(speed.note)) + "\n";
   }
-  return text + fmt::format("{}, lambda there {}\n", cell(speed, "m/s"), cell(prediction.lambda_critical, ""));
+  return text + fmt::format("{}, lambda at it {}\n", cell(speed, speed_unit(given_unit, speed.value)),
+                            cell(prediction.lambda_critical, ""));
 }
 
 /// Each note of the rows once; the rows that it is about bear its mark.
@@ -68,14 +67,15 @@ std::string to_text(const Prediction& prediction, const PredictionSource& source
   Footnotes notes;
   bool has_bands = false;
   for (const PredictedMotion& row : prediction.rows) {
-    table.add({quantity_text(row.speed_m_per_s, "m/s"), cell(row.period_s, "s"), cell(row.frequency_Hz, "Hz"),
-               cell(row.periodic_displacement_m, "m"), cell(row.sticking_degree, ""),
-               regime_words(row, notes.mark(row.note))});
+    table.add({quantity_text(row.speed_m_per_s, speed_unit(source.speed_unit, row.speed_m_per_s)),
+               cell(row.period_s, "s"), cell(row.frequency_Hz, "Hz"), cell(row.periodic_displacement_m, "m"),
+               cell(row.sticking_degree, ""), regime_words(row, notes.mark(row.note))});
     has_bands = has_bands || row.lambda.ci95.has_value();
   }
   return fmt::format("Predicted from {}{}\n", one_line(source.name),
                      has_bands ? ", [95 % interval of the mean cycle]" : "") +
-         critical_text(prediction) + conditions_text(source.conditional_on) + "\n" + table.text() + notes.text();
+         critical_text(prediction, source.speed_unit) + conditions_text(source.conditional_on) + "\n" + table.text() +
+         notes.text();
 }
 
 }  // namespace slipfit

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "slipfit/core/units.hpp"
+
 namespace slipfit {
 namespace {
 
@@ -90,6 +92,13 @@ DisplayUnit display_unit(const std::string& SI_unit, std::optional<double> typic
   if (magnitude * base_per_SI >= 1e-3) return {1e3 * base_per_SI, "m" + base};
   if (magnitude * base_per_SI >= 1e-6) return {1e6 * base_per_SI, "µ" + base};
   return {1e9 * base_per_SI, "n" + base};
+}
+
+DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m_per_s) {
+  if (!given.empty()) {
+    if (const auto unit = parse_unit(given, Dimension::Speed)) return {1.0 / unit.value().scale, given};
+  }
+  return display_unit("m/s", typical_m_per_s);
 }
 
 Estimate scaled(const Estimate& estimate, double factor) {

@@ -28,7 +28,7 @@ std::string plain_verdict(Verdict verdict) {
 
 std::string assumed_text(const std::vector<std::string>& assumed) {
   if (assumed.empty()) return {};
-  std::string text = "\nAssumed\n";
+  std::string text = "\nAssumed while reading\n";
   for (const std::string& sentence : assumed) text += fmt::format("  - {}\n", one_line(sentence));
   return text;
 }
@@ -81,22 +81,40 @@ EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit) {
   std::optional<double> typical = estimate.value;
   if (!typical && estimate.ci95) typical = estimate.ci95->high;
   if (typical && estimate.standard_error) typical = std::max(std::abs(*typical), *estimate.standard_error);
-  const DisplayUnit unit = display_unit(SI_unit, typical);
+  return estimate_row(estimate, display_unit(SI_unit, typical));
+}
+
+EstimateRow estimate_row(const Estimate& estimate, const DisplayUnit& unit) {
   const RoundedEstimate text = rounded(scaled(estimate, unit.per_SI));
   return {text.value, text.interval, unit.unit};
 }
 
 std::string quantity_text(std::optional<double> value, const std::string& SI_unit) {
-  if (!value) return "-";
-  const DisplayUnit unit = display_unit(SI_unit, value);
-  const std::string text = rounded(*value * unit.per_SI, std::nullopt);
+  return value ? quantity_text(*value, display_unit(SI_unit, value)) : "-";
+}
+
+std::string quantity_text(double value, const DisplayUnit& unit) {
+  const std::string text = rounded(value * unit.per_SI, std::nullopt);
   return unit.unit.empty() || text == "-" ? text : text + " " + unit.unit;
 }
 
 std::string stated_text(double value, const std::string& SI_unit) {
-  if (!std::isfinite(value)) return "-";
-  const DisplayUnit unit = display_unit(SI_unit, value);
-  return fmt::format("{:.6g} {}", value * unit.per_SI, unit.unit);
+  return stated_text(value, display_unit(SI_unit, value));
+}
+
+std::string stated_text(double value, const DisplayUnit& unit) {
+  return std::isfinite(value) ? fmt::format("{:.6g} {}", value * unit.per_SI, unit.unit) : "-";
+}
+
+std::string speed_text(const Conditions& conditions) {
+  return stated_text(conditions.speed_m_per_s, speed_unit(conditions.speed_unit, conditions.speed_m_per_s));
+}
+
+std::string plain_words(std::string_view name) {
+  if (name == "stick_slip") return "stick-slip";
+  std::string words = one_line(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
 }
 
 std::string to_text(const Recording& recording, const Analysis& analysis) {
@@ -106,7 +124,7 @@ std::string to_text(const Recording& recording, const Analysis& analysis) {
   text += cycles_text(analysis.cycles, recording.conditions().quantity);
   text += spacing_text(recording, analysis.derived);
   const bool moves_like_model = analysis.verdict == Verdict::StickSlip || analysis.verdict == Verdict::OscillatorySlip;
-  if (moves_like_model) text += predicted_text(analysis.derived);
+  if (moves_like_model) text += predicted_text(recording, analysis.derived);
   text += tests_text(analysis.tests);
   text += recording_text(recording, analysis);
   text += warnings_text(analysis.warnings);

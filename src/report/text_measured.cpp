@@ -12,11 +12,11 @@ namespace slipfit {
 namespace {
 
 std::string spectral_text(const SpectralFrequency& spectral) {
-  if (!spectral.value_Hz) return "no line stands out";
+  if (!spectral.value_Hz) return "no repetition stands out of the spectrum";
   const std::string frequency = with_error(Estimate{spectral.value_Hz, spectral.standard_error_Hz, {}, {}});
   const std::size_t lines = spectral.harmonics_Hz.size();
   return fmt::format("{} Hz, {} {}, false-alarm probability {:.1g}", frequency, lines,
-                     lines == 1 ? "line" : "lines in step", spectral.false_alarm_probability);
+                     lines == 1 ? "harmonic" : "harmonics", spectral.false_alarm_probability);
 }
 
 std::string lines_text(const std::vector<SuspiciousLine>& lines) {
@@ -37,10 +37,11 @@ std::string with_spread(std::optional<double> value, std::optional<double> sprea
                      rounded(shown_spread, shown_spread), blank_unit);
 }
 
-/// What is not known is a row only where the note says why.
-void add_estimate(Table& table, const std::string& words, const Estimate& estimate, const std::string& SI_unit) {
+/// What is not known is a row only where the note says why. `unit`: of SI, or one to show.
+template <class Unit>
+void add_estimate(Table& table, const std::string& words, const Estimate& estimate, const Unit& unit) {
   if (!estimate.value && !estimate.ci95 && estimate.note.empty()) return;
-  const EstimateRow row = estimate_row(estimate, SI_unit);
+  const EstimateRow row = estimate_row(estimate, unit);
   table.add({words, row.value, row.unit, row.interval == "-" ? "" : row.interval, one_line(estimate.note)});
 }
 
@@ -60,10 +61,11 @@ std::string frequency_text(const FrequencyReport& frequency) {
   table.add({"by counting slips", frequency.counted.value ? with_error(frequency.counted) + " Hz" : "too few slips"});
   if (frequency.quoted.value) {
     const std::string interval = rounded(frequency.quoted).interval;
-    table.add({"quoted", with_error(frequency.quoted) + " Hz" + (interval == "-" ? "" : ", 95 % interval " + interval) +
-                             fmt::format(" ({})", one_line(frequency.method))});
+    table.add({"result", with_error(frequency.quoted) + " Hz" + (interval == "-" ? "" : ", 95 % interval " + interval) +
+                             fmt::format(" (method: {})", plain_words(frequency.method))});
   } else {
-    table.add({"quoted", "none"});
+    const std::string& note = frequency.quoted.note;
+    table.add({"result", "none" + (note.empty() ? note : ": " + one_line(note))});
   }
   return "\nFrequency\n" + table.text() + lines_text(frequency.lines);
 }
@@ -71,8 +73,8 @@ std::string frequency_text(const FrequencyReport& frequency) {
 std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity) {
   const std::string unit = force_unit(quantity);
   Table table({Align::Left, Align::Left});
-  table.add(
-      {"slips", fmt::format("{} counted, {} minor, {} used in the fit", cycles.count, cycles.minor, cycles.used)});
+  table.add({"slips", fmt::format("{} counted, {} minor{}, {} used in the fit", cycles.count, cycles.minor,
+                                  cycles.minor > 0 ? " (drop below a quarter of the median)" : "", cycles.used)});
   if (cycles.period_s) table.add({"period", with_spread(cycles.period_s, cycles.period_sd_s, "s")});
   if (cycles.slip_time_s) table.add({"slip time", quantity_text(cycles.slip_time_s, "s")});
   if (cycles.stick_time_s) table.add({"stick time", quantity_text(cycles.stick_time_s, "s")});
@@ -84,8 +86,7 @@ std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity) {
 }
 
 std::string spacing_text(const Recording& recording, const Derived& derived) {
-  const std::string title =
-      fmt::format("\nSpacing, measured (V/f) at {}\n", stated_text(recording.conditions().speed_m_per_s, "m/s"));
+  const std::string title = fmt::format("\nSpacing, measured (V/f) at {}\n", speed_text(recording.conditions()));
   if (!derived.pattern_spacing_m.value) {
     const std::string& note = derived.pattern_spacing_m.note;
     return title + fmt::format("  none{}\n", note.empty() ? note : ": " + one_line(note));
@@ -97,7 +98,7 @@ std::string spacing_text(const Recording& recording, const Derived& derived) {
   return title + table.text();
 }
 
-std::string predicted_text(const Derived& derived) {
+std::string predicted_text(const Recording& recording, const Derived& derived) {
   const std::string title = "\nPredicted by the model at this speed\n";
   if (!derived.lambda.value && !derived.lambda.note.empty())
     return title + "  nothing: " + one_line(derived.lambda.note) + "\n";
@@ -105,7 +106,8 @@ std::string predicted_text(const Derived& derived) {
   add_estimate(table, "periodic displacement", derived.periodic_displacement_m, "m");
   add_estimate(table, "lambda", derived.lambda, "");
   add_estimate(table, "lambda at the stick-slip limit", derived.lambda_critical, "");
-  add_estimate(table, "critical speed", derived.critical_speed_m_per_s, "m/s");
+  const Estimate& critical = derived.critical_speed_m_per_s;
+  add_estimate(table, "critical speed", critical, speed_unit(recording.conditions().speed_unit, critical.value));
   add_estimate(table, "F_s / F_k (gamma)", derived.gamma, "");
   add_estimate(table, "micro-vibration spacing (estimate)", derived.micro_vibration_spacing_m, "m");
   if (table.empty() && !derived.regime) return {};
@@ -134,7 +136,7 @@ std::string recording_text(const Recording& recording, const Analysis& analysis)
   const TimeSpan& sliding = analysis.sliding;
   if (sliding.end_s - sliding.begin_s < recording.duration_s()) {
     text += fmt::format(
-        "\n  sliding from {:.6g} to {:.6g} s: all that follows is of this stretch (--window T0:T1 chooses another)",
+        "\n  sliding from {:.6g} to {:.6g} s: all numbers are of this stretch (--window T0:T1 chooses another)",
         sliding.begin_s, sliding.end_s);
   }
   return text + "\n";

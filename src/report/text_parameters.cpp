@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <initializer_list>
 #include <string_view>
 
 #include "report/names.hpp"
@@ -24,35 +25,74 @@ std::string notes_text(const std::vector<Parameter>& parameters) {
     for (auto other = first; other != parameters.end(); ++other) {
       if (has_note(*other)) names += (names.empty() ? "" : ", ") + one_line(info(other->id).words);
     }
-    text += fmt::format("    {}: {}\n", names, one_line(note));
+    const bool is_of_all = std::all_of(parameters.begin(), parameters.end(), has_note);
+    text += fmt::format("    {}: {}\n", is_of_all ? "all of them" : names, one_line(note));
+  }
+  return text;
+}
+
+/// Each status that occurs, but for `identified`, once.
+std::string statuses_text(const std::vector<Parameter>& parameters) {
+  std::string text;
+  for (const auto status : {ParameterStatus::Weak, ParameterStatus::Bounded, ParameterStatus::Unidentified,
+                            ParameterStatus::Conditional, ParameterStatus::Fixed}) {
+    const bool occurs = std::any_of(parameters.begin(), parameters.end(),
+                                    [status](const Parameter& parameter) { return parameter.status == status; });
+    if (occurs) text += fmt::format("  {}: {}\n", name_of(status), words_for_status(status));
   }
   return text;
 }
 
 std::string residual_text(const FitResult& fit, ForceQuantity quantity) {
-  std::string text = fmt::format("  fit: {} model, residual {} rms", name_of(fit.tier),
+  std::string text = fmt::format("  model: {}, residual {} rms", name_of(fit.tier),
                                  quantity_text(fit.residual.rms, force_unit(quantity)));
-  if (fit.residual.reduced_chi2) text += fmt::format(", reduced chi2 {:.3g}", *fit.residual.reduced_chi2);
-  if (fit.residual.whiteness_p) text += fmt::format(", whiteness p {:.2g}", *fit.residual.whiteness_p);
+  if (const auto chi2 = fit.residual.reduced_chi2) {
+    text += fmt::format(", {:.2g} times the noise (reduced chi2 {:.3g}; 1 where only noise is left)", std::sqrt(*chi2),
+                        *chi2);
+  }
+  if (const auto p = fit.residual.whiteness_p) {
+    constexpr double kLevel = 1e-3;
+    text += fmt::format("\n  residuals: {} (whiteness p {}, level {:g})",
+                        *p < kLevel ? "not like noise, neighbours are correlated: the model leaves a pattern"
+                                    : "like noise, no correlation of neighbours is proven",
+                        *p > 0.0 ? fmt::format("{:.2g}", *p) : "below 1e-300", kLevel);
+  }
   return text + "\n";
 }
 
 std::string candidates_text(const FitResult& fit, ForceQuantity quantity) {
-  std::string text;
+  Table table({Align::Left, Align::Left, Align::Left, Align::Left, Align::Left});
   for (const Candidate& candidate : fit.candidates) {
-    text += fmt::format("    {} {}", candidate.chosen ? "taken:" : "left: ", name_of(candidate.tier));
-    if (candidate.rms) text += fmt::format(", {} rms", quantity_text(candidate.rms, force_unit(quantity)));
-    if (!candidate.reason.empty()) text += fmt::format(" ({})", one_line(candidate.reason));
-    text += "\n";
+    table.add({"", std::string(name_of(candidate.tier)), candidate.chosen ? "chosen" : "not chosen",
+               candidate.rms ? quantity_text(candidate.rms, force_unit(quantity)) + " rms" : "",
+               one_line(candidate.reason)});
   }
-  return text;
+  return table.text();
 }
 
 }  // namespace
 
+std::string_view words_for_status(ParameterStatus status) {
+  switch (status) {
+    case ParameterStatus::Identified:
+      return "the data determine it";
+    case ParameterStatus::Weak:
+      return "an estimate, not to be relied on alone";
+    case ParameterStatus::Bounded:
+      return "only its interval is known";
+    case ParameterStatus::Unidentified:
+      return "the data cannot tell it";
+    case ParameterStatus::Conditional:
+      return "well known if what the note says holds, which a recording cannot show";
+    case ParameterStatus::Fixed:
+      return "held at the value that was given";
+  }
+  return {};
+}
+
 std::string conditions_text(const std::vector<std::string>& conditional_on) {
   if (conditional_on.empty()) return {};
-  std::string text = "  holds if: ";
+  std::string text = "  assumed: ";
   for (std::size_t i = 0; i < conditional_on.size(); ++i) {
     text += (i == 0 ? "" : "; ") + one_line(conditional_on[i]);
   }
@@ -67,8 +107,7 @@ std::vector<ShownParameter> shown_parameters(const FitResult& fit) {
     const bool has_value =
         parameter.status != ParameterStatus::Bounded && parameter.status != ParameterStatus::Unidentified;
     if (!has_value) row.value = "-";
-    shown.push_back(
-        {one_line(name.words), row, std::string(name_of(parameter.status)), one_line(parameter.estimate.note)});
+    shown.push_back({one_line(name.words), row, parameter.status, one_line(parameter.estimate.note)});
   }
   return shown;
 }
@@ -78,10 +117,11 @@ std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const 
   table.add({"", "value", "unit", "95 % interval", "status"});
   for (const ShownParameter& parameter : shown_parameters(fit)) {
     const EstimateRow& numbers = parameter.numbers;
-    table.add({parameter.words, numbers.value, numbers.unit, numbers.interval, parameter.status});
+    table.add({parameter.words, numbers.value, numbers.unit, numbers.interval, std::string(name_of(parameter.status))});
   }
   return fmt::format("\nParameters{}\n", caution) + table.text() + notes_text(fit.parameters) +
-         residual_text(fit, quantity) + candidates_text(fit, quantity) + conditions_text(fit.conditional_on);
+         statuses_text(fit.parameters) + residual_text(fit, quantity) + candidates_text(fit, quantity) +
+         conditions_text(fit.conditional_on);
 }
 
 std::string parameters_text(const Recording& recording, const Analysis& analysis) {

@@ -10,9 +10,10 @@
 namespace slipfit {
 namespace {
 
-std::string estimate_cell(const Estimate& estimate, const std::string& SI_unit) {
+template <class Unit>
+std::string estimate_cell(const Estimate& estimate, const Unit& unit) {
   if (!estimate.value) return "-";
-  const EstimateRow row = estimate_row(estimate, SI_unit);
+  const EstimateRow row = estimate_row(estimate, unit);
   return fmt::format("{} {} {}", row.value, row.unit, row.interval);
 }
 
@@ -28,8 +29,8 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const SweepPoint* point = sweep.joint ? &sweep.joint->points[i] : nullptr;
     const Estimate& measured = sweep.recordings[i].derived.pattern_spacing_m;
-    table.add({one_line(entries[i].id), stated_text(entries[i].recording.conditions().speed_m_per_s, "m/s"),
-               fmt::format("{}{}", name_of(sweep.recordings[i].verdict),
+    table.add({one_line(entries[i].id), speed_text(entries[i].recording.conditions()),
+               fmt::format("{}{}", plain_words(name_of(sweep.recordings[i].verdict)),
                            sweep.roles[i] == SweepRole::LeftOut ? " (left out)" : ""),
                point != nullptr ? estimate_cell(point->kinetic_friction_N, "N") : "-", estimate_cell(measured, "m"),
                point != nullptr ? estimate_cell(point->spacing_left_out_m, "m") : "-",
@@ -38,12 +39,14 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
   return "\nRecordings\n" + table.text();
 }
 
-std::string limit_text(const Derived& derived) {
+std::string limit_text(std::span<const SweepEntry> entries, const Derived& derived) {
   const Estimate& speed = derived.critical_speed_m_per_s;
   std::string text = "\nEnd of stick-slip by the fitted model\n  critical speed  ";
   if (!speed.value || !speed.note.empty()) return text + one_line(speed.note) + "\n";
   return text +
-         fmt::format("{}, lambda there {}\n", estimate_cell(speed, "m/s"), estimate_cell(derived.lambda_critical, ""));
+         fmt::format("{}, lambda at it {}\n",
+                     estimate_cell(speed, speed_unit(entries.front().recording.conditions().speed_unit, speed.value)),
+                     estimate_cell(derived.lambda_critical, ""));
 }
 
 }  // namespace
@@ -54,7 +57,7 @@ std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sw
     text = fmt::format("{}: {} recordings, no joint fit: {}\n", one_line(name), entries.size(), sweep.joint_reason);
   if (sweep.joint) text += parameters_text(sweep.joint->fit, ForceQuantity::Force_N, "");
   text += recordings_text(entries, sweep);
-  if (sweep.joint) text += limit_text(sweep.derived);
+  if (sweep.joint) text += limit_text(entries, sweep.derived);
   return text + warnings_text(sweep.warnings);
 }
 

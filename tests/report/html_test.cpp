@@ -75,7 +75,7 @@ TEST_CASE("the page says the verdict in a sentence and each parameter's status i
   CHECK_THAT(page, Contains("<h1>Stick-slip at 5.432\u00a0±\u00a00.012\u00a0Hz: a pattern of 1.8409"));
   const std::string table = section(page, "parameters");
   CHECK_THAT(table, Contains("1002.3") && Contains("[999.9, 1004.8]"));
-  CHECK_THAT(table, Contains("only its interval is known") && Contains("the recording cannot tell") &&
+  CHECK_THAT(table, Contains("only its interval is known") && Contains("the data cannot tell it") &&
                         Contains("held at the value that was given") &&
                         Contains("needs <code class=\"option\">--zero</code>"));
   CHECK_THAT(section(page, "repeat"),

@@ -41,6 +41,23 @@ TEST_CASE("a bounded parameter shows its interval, an unidentified one nothing, 
   CHECK_THAT(text, Contains("the slip is not resolved") && Contains("needs --zero"));
 }
 
+TEST_CASE("each status but identified is explained once") {
+  const std::string text = to_text(test::small_recording(), test::full_analysis());
+  CHECK_THAT(text, Contains("  weak: an estimate, not to be relied on alone\n") &&
+                       Contains("  bounded: only its interval is known\n") &&
+                       !Contains("identified: the data determine"));
+}
+
+TEST_CASE("residuals that are no noise are called so, and a probability of 0 is a bound") {
+  auto analysis = test::full_analysis();
+  analysis.fit->residual = {0.02, 156.0, 0.0};
+  const std::string text = to_text(test::small_recording(), analysis);
+  CHECK_THAT(text, Contains("12 times the noise (reduced chi2 156; 1 where only noise is left)"));
+  CHECK_THAT(
+      text,
+      Contains("not like noise, neighbours are correlated: the model leaves a pattern (whiteness p below 1e-300"));
+}
+
 TEST_CASE("both frequencies are told") {
   const std::string text = to_text(test::small_recording(), test::full_analysis());
   CHECK_THAT(line_with(text, "by FFT"), Contains("5.430 ± 0.020 Hz"));

@@ -34,6 +34,7 @@ struct Conditions {
   std::optional<double> drive_period_s;      ///< > 0, of what may set the rhythm: a motor's step, an excitation
   std::optional<double> mass_kg;             ///< > 0, of the moving body: held against k / w_n^2, never forced
   std::optional<double> measured_spacing_m;  ///< > 0, of the worn surface: a prediction is held against it
+  std::string speed_unit = {};               ///< that the speed was given in ("mm/min"): reports show it; empty: m/s
 };
 
 /// Where the numbers came from and what the reader had to assume, count or leave out.

@@ -27,6 +27,9 @@ struct UnitScale {
 /// Error `unknown_unit` where the text is no unit or has another dimension.
 Result<UnitScale> parse_unit(std::string_view unit, Dimension dimension);
 
+/// The unit of a number with a unit, as it was written: "mm/min" of "600 mm/min"; empty where there is none.
+std::string_view unit_in(std::string_view text);
+
 /// A number alone (already SI) or a number with a unit: "0.01", "10mm/s", "600 mm/min", "41 gf".
 /// Errors `bad_number`, `unknown_unit`. Only finite numbers are accepted.
 Result<double> parse_quantity(std::string_view text, Dimension dimension);

@@ -18,7 +18,7 @@ using Id = ParameterId;
 constexpr std::size_t kFewCycles = 5;          // below it a scatter says little: nothing is called identified
 constexpr double kSamplesForIdentified = 3.0;  // in a slip
 const char* const kZeroUnknown =
-    "takes the sensor's zero as right, and is off by what that is off; state it with --zero";
+    "known if the sensor reads 0 without force, which a recording cannot show: state the reading with --zero";
 
 class Reporter {
  public:
@@ -90,7 +90,7 @@ class Reporter {
     const Id id = in_unit(Id::FrictionDifference, Id::FrictionCoefficientDifference);
     if (f_.difference_bounds) {
       const Interval& bounds = *f_.difference_bounds;
-      std::string note = "between half of the drop and the drop";
+      std::string note = "lies between half of the force drop and the whole";
       for (const std::string& why : {f_.slip_unresolved, f_.damping.note}) {
         if (!why.empty() && note.find(why) == std::string::npos) note += "; " + why;
       }
@@ -165,9 +165,9 @@ class Reporter {
     if (!few_cycles().empty()) return few_cycles();
     const double se = *f_.damping.standard_error;
     const double times = std::pow(4.0 * se / *f_.damping.value, 2);
-    const std::string known = fmt::format("known to {:.2g}", se);
-    return times < 100.0 ? fmt::format("{}: {:.2g} times the cycles, or less noise, would tell it", known, times)
-                         : known + ", from 0 it cannot be told";
+    const std::string known = fmt::format("its standard error is {:.2g}", se);
+    return times < 100.0 ? fmt::format("{}: it takes {:.2g} times the cycles, or less noise", known, times)
+                         : known + ": it cannot be distinguished from 0";
   }
 
   void report_law() {

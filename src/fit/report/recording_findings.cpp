@@ -37,15 +37,17 @@ StiffnessFindings stiffness_of(const Recording& recording, const BlockFit& block
   const std::optional<RampBend> bend = ramp_bend(blocks);
   if (bend && std::abs(bend->log_ratio) > kBendSigmas * bend->standard_error) {
     result.variance += std::pow(0.5 * bend->log_ratio, 2);
-    result.note = fmt::format("ramps begin {:.1f} % {} than they end: the interval allows for it",
-                              100.0 * std::abs(bend->log_ratio), bend->log_ratio > 0.0 ? "steeper" : "flatter");
-    result.warnings.push_back({"model_misfit", "the sticks are not straight: " + result.note});
+    result.note = fmt::format(
+        "the force in stick rises {:.1f} % {} steeply at first than at last: the interval of k allows for it",
+        100.0 * std::abs(bend->log_ratio), bend->log_ratio > 0.0 ? "more" : "less");
+    result.warnings.push_back({"model_misfit", result.note});
   }
   const double drift = std::abs(level_trend(blocks) / (stiffness * conditions.speed_m_per_s));
   if (drift > std::hypot(log_k_error, std::sqrt(result.variance))) {
     result.variance += drift * drift;
     result.note =
-        fmt::format("the level rises or falls all along: k is off by {:.1f} % if the sensor drifts", 100.0 * drift);
+        fmt::format("the mean force rises or falls throughout: k is wrong by {:.1f} % if that is drift of the sensor",
+                    100.0 * drift);
     if (drift > kDriftMatters) result.doubt = result.note;
   }
   // The data give k V.
@@ -111,8 +113,7 @@ Interval bounds_by_drop(const SawtoothFit& sawtooth, double cycles) {
 void state_doubts(const TierFits& fits, const Resolution& resolution, Findings& findings) {
   // A sensor that lags, or creep, moves w_n more than leaving out parts of the slip shows.
   if (fits.damped.refused_damping || fits.damped.misfit) {
-    findings.slip_doubt =
-        "the slip is not shaped like a damped oscillation: what w_n means is in doubt beyond the interval";
+    findings.slip_doubt = "the slip does not follow a damped oscillation: w_n may be wrong by more than its interval";
   }
   if (!resolution.slip_resolved) findings.slip_unresolved = resolution.reason;
   if (!resolution.damping_resolved) {

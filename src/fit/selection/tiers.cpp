@@ -25,8 +25,15 @@ double rms_of(const DampedFit& fit) {
 }
 
 std::string against(const Candidate& candidate, const Candidate& other) {
-  return fmt::format("AICc {:+.1f} against {}", *candidate.aicc - *other.aicc,
-                     other.tier == Tier::Sawtooth ? "sawtooth" : "undamped");
+  const double gain = *other.aicc - *candidate.aicc;
+  return fmt::format("AICc {:.1f} {} than that of the {} model: {}, which takes {:g} lower", std::abs(gain),
+                     gain < 0.0 ? "higher" : "lower", other.tier == Tier::Sawtooth ? "sawtooth" : "undamped",
+                     gain > kPrice ? "the added parameter is justified" : "the added parameter is not justified",
+                     kPrice);
+}
+
+std::string requested(const std::string& reason) {
+  return "requested by --tier" + (reason.empty() ? "" : "; the data alone: " + reason);
 }
 
 double median_slip_s(const BlockFit& blocks) {
@@ -103,7 +110,7 @@ Resolution resolution_of(const Recording& recording, const TierFits& fits) {
   result.slip_resolved = true;
   if (!held && fits.damped.refused_damping) {
     result.reason =
-        fmt::format("the slip is not shaped like a damped oscillation (its best damping ratio, {:.2f}, is below 0)",
+        fmt::format("the slip does not follow a damped oscillation: the best damping ratio is negative, {:.2f}",
                     *fits.damped.refused_damping);
   } else if (!held && !(damping_error < 0.1)) {
     result.reason = fmt::format("the standard error of the damping ratio is {:.2g}; {}", damping_error,
@@ -134,7 +141,7 @@ std::vector<Candidate> choose_tier(const TierFits& fits, const Resolution& resol
   Tier chosen = Tier::Sawtooth;
   if (!resolution.slip_resolved) {
     sawtooth.reason = "the slip is not resolved: " + resolution.reason;
-    undamped.reason = damped.reason = "its slip cannot be told from a jump here";
+    undamped.reason = damped.reason = "its slip cannot be distinguished from a jump here";
   } else {
     const bool undamped_pays = undamped.aicc && *undamped.aicc + kPrice < *sawtooth.aicc;
     const bool damped_pays = resolution.damping_resolved && damped.aicc &&
@@ -144,14 +151,14 @@ std::vector<Candidate> choose_tier(const TierFits& fits, const Resolution& resol
     if (undamped.aicc) undamped.reason = against(undamped, sawtooth);
     if (damped.aicc) damped.reason = against(damped, undamped.aicc ? undamped : sawtooth);
     if (!resolution.damping_resolved) damped.reason = resolution.reason;
-    sawtooth.reason =
-        chosen == Tier::Sawtooth ? "no richer tier pays for its parameters" : "a richer tier pays for its parameters";
+    sawtooth.reason = chosen == Tier::Sawtooth ? "no model with more parameters is justified"
+                                               : "a model with more parameters is justified";
   }
   if (forced) chosen = *forced;
   std::vector<Candidate> candidates{sawtooth, undamped, damped};
   for (Candidate& candidate : candidates) {
     candidate.chosen = candidate.tier == chosen;
-    if (candidate.chosen && forced) candidate.reason = "asked for; by itself: " + candidate.reason;
+    if (candidate.chosen && forced) candidate.reason = requested(candidate.reason);
   }
   return candidates;
 }

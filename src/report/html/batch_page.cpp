@@ -12,6 +12,7 @@
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
+#include "report/text_sections.hpp"
 
 namespace slipfit {
 namespace html {
@@ -47,7 +48,7 @@ std::string summary_of(const BatchPage& page, const StatusCounts& counts) {
   const char* separator = ": ";
   for (const auto& [status, count] : counts) {
     if (count == 0) continue;
-    sentence += fmt::format("{}{} {}", separator, count, status_words(status));
+    sentence += fmt::format("{}{} {}", separator, count, plain_words(status));
     separator = ", ";
   }
   if (groups > 0) sentence += "; " + counted(groups, "group");
@@ -144,7 +145,7 @@ std::string table_of(const std::vector<BatchPageRow>& rows) {
 std::string options_of(const StatusCounts& counts) {
   std::string options;
   for (const auto& [status, count] : counts) {
-    options += fmt::format("<option value=\"{}\">{} ({})</option>", text(status), text(status_words(status)), count);
+    options += fmt::format("<option value=\"{}\">{} ({})</option>", text(status), text(plain_words(status)), count);
   }
   return options;
 }

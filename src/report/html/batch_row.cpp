@@ -119,7 +119,7 @@ std::string batch_row(const BatchPageRow& row) {
   const std::string speed = row.speed_m_per_s ? fmt::format("{}", *row.speed_m_per_s) : std::string();
   std::string cells = fmt::format(
       R"(<td class="name">{}</td><td>{}</td><td class="shows">{}</td><td class="number" data-value="{}">{}</td>)", name,
-      spark(row.sparkline), text(status_words(row.status)), speed,
+      spark(row.sparkline), text(plain_words(row.status)), speed,
       row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
   for (const Column& column : kRowColumns) cells += quantity_cell(row.*column.quantity, column.per_SI);
   std::string codes;

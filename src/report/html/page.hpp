@@ -24,8 +24,6 @@ std::string script_element(std::string_view script);
 
 /// <td> with a quantity rounded by its uncertainty, its interval, and the value to sort by.
 std::string quantity_cell(const Estimate& SI, double per_SI);
-/// A status of the document in words: "stick-slip", "steady sliding".
-std::string status_words(std::string_view status);
 /// A sentence with a capital at its beginning.
 std::string capitalised(std::string sentence);
 /// "command" with what was typed, for <dl>; empty where nothing was.

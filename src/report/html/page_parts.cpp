@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -14,17 +15,9 @@
 namespace slipfit::html {
 namespace {
 
-/// What a status means to who has not read the documentation.
-std::string words_for_status(const std::string& status) {
-  if (status == "identified") return "the data fix it";
-  if (status == "weak") return "an estimate, not to rely on alone";
-  if (status == "bounded") return "only its interval is known";
-  if (status == "unidentified") return "the recording cannot tell";
-  return "held at the value that was given";
-}
-
-std::string key_number(const std::string& name, const Estimate& estimate, const std::string& SI_unit) {
-  const EstimateRow row = estimate_row(estimate, SI_unit);
+template <class Unit>
+std::string key_number(const std::string& name, const Estimate& estimate, const Unit& unit) {
+  const EstimateRow row = estimate_row(estimate, unit);
   const std::string shown = row.value == "-" ? "not known" : row.value + (row.unit.empty() ? "" : " " + row.unit);
   const std::string interval = row.interval == "-" ? "" : "<small>" + text(row.interval) + "</small>";
   return fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", text(name), text(shown), interval);
@@ -49,7 +42,7 @@ std::string candidates_table(const FitResult& fit, ForceQuantity quantity) {
   std::string rows;
   for (const Candidate& candidate : fit.candidates) {
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
-                        text(name_of(candidate.tier)), candidate.chosen ? "taken" : "left",
+                        text(name_of(candidate.tier)), candidate.chosen ? "chosen" : "not chosen",
                         text(quantity_text(candidate.rms, force_unit(quantity))), formula_text(candidate.reason));
   }
   return "<h3>Models that were tried</h3>\n<div class=\"wide\"><table><thead><tr><th scope=\"col\">model</th><th "
@@ -91,13 +84,6 @@ std::string quantity_cell(const Estimate& SI, double per_SI) {
   return fmt::format(R"(<td class="number" data-value="{}">{}{}</td>)", value, text(shown.value), interval);
 }
 
-std::string status_words(std::string_view status) {
-  if (status == "stick_slip") return "stick-slip";
-  std::string words(status);
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
 std::string capitalised(std::string sentence) {
   if (!sentence.empty())
     sentence.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence.front())));
@@ -112,7 +98,7 @@ std::string verdict_sentence(const Source& source) {
   const Analysis& analysis = source.analysis;
   const Estimate& frequency = analysis.frequency.quoted;
   const std::string rate = frequency.value ? unbroken(with_error(frequency) + " Hz") : std::string();
-  const std::string speed = unbroken(stated_text(source.recording.conditions().speed_m_per_s, "m/s"));
+  const std::string speed = unbroken(speed_text(source.recording.conditions()));
   switch (analysis.verdict) {
     case Verdict::StickSlip: {
       if (rate.empty()) return text("Stick-slip, but no frequency can be told.");
@@ -137,10 +123,12 @@ std::string key_numbers(const Source& source) {
   if (analysis.verdict == Verdict::SteadySliding) return {};
   std::string numbers = key_number("frequency", analysis.frequency.quoted, "Hz") +
                         key_number("pattern spacing V/f", analysis.derived.pattern_spacing_m, "m");
+  const Estimate& critical = analysis.derived.critical_speed_m_per_s;
   if (analysis.fit) {
-    numbers += key_number("stiffness", shown_estimate(*analysis.fit, ParameterId::Stiffness), "N/m") +
-               key_number("damping ratio", shown_estimate(*analysis.fit, ParameterId::DampingRatio), "") +
-               key_number("critical speed", analysis.derived.critical_speed_m_per_s, "m/s");
+    numbers +=
+        key_number("stiffness", shown_estimate(*analysis.fit, ParameterId::Stiffness), "N/m") +
+        key_number("damping ratio", shown_estimate(*analysis.fit, ParameterId::DampingRatio), "") +
+        key_number("critical speed", critical, speed_unit(source.recording.conditions().speed_unit, critical.value));
   }
   return "<dl class=\"keys\">\n" + numbers + "</dl>\n<p class=\"guide\">In brackets: 95 % intervals.</p>\n";
 }
@@ -159,13 +147,14 @@ std::string warnings_part(const Warnings& warnings) {
 std::string parameter_table(const FitResult& fit) {
   std::string rows;
   for (const ShownParameter& parameter : shown_parameters(fit)) {
+    const std::string_view status = name_of(parameter.status);
     const std::string note =
         parameter.note.empty() ? "" : "<span class=\"note\">" + formula_text(parameter.note) + "</span>";
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"unit\">{}</td><td class=\"interval\">{}"
         "</td><td><span class=\"status {}\">{}</span>: {}{}</td></tr>\n",
         formula_text(parameter.words), text(parameter.numbers.value), text(parameter.numbers.unit),
-        text(parameter.numbers.interval), parameter.status, parameter.status, words_for_status(parameter.status), note);
+        text(parameter.numbers.interval), status, status, words_for_status(parameter.status), note);
   }
   return "<div class=\"wide\"><table class=\"parameters\"><thead><tr><th scope=\"col\">parameter</th><th scope=\"col\" "
          "class=\"number\">value</th><th scope=\"col\">unit</th><th scope=\"col\">95 % interval</th><th "
@@ -186,7 +175,7 @@ std::string parameters_part(const Source& source) {
   const FitResult& fit = *analysis.fit;
   part += parameter_table(fit);
   if (!fit.conditional_on.empty())
-    part += "<p class=\"guide\">The numbers hold if:</p>\n" + list(each(fit.conditional_on, formula_text));
+    part += "<p class=\"guide\">Assumed in the fit:</p>\n" + list(each(fit.conditional_on, formula_text));
   return part + candidates_table(fit, source.recording.conditions().quantity) + "</section>\n";
 }
 
@@ -207,7 +196,9 @@ std::string quality_part(const Source& source) {
   if (source.analysis.fit && shows_cycles(source.analysis)) {
     const Residual& residual = source.analysis.fit->residual;
     facts += fact("residual of the fit, rms", quantity_text(residual.rms, unit));
-    if (residual.reduced_chi2) facts += fact("residual over noise, squared", quantity_text(residual.reduced_chi2, ""));
+    if (residual.reduced_chi2)
+      facts +=
+          fact("residual over noise (1: only noise is left)", fmt::format("{:.2g}", std::sqrt(*residual.reduced_chi2)));
   }
   const std::vector<std::string> defects = defects_of(recording, quality);
   return "<section id=\"quality\">\n<h2>Data quality</h2>\n<dl class=\"facts\">\n" + facts + "</dl>\n" +
@@ -224,9 +215,11 @@ std::string repeat_part(const Source& source, const ReportOrigin& origin) {
                       "<dt>digest of its bytes</dt><dd><code>" +
                       (provenance.input_digest ? provenance.input_digest->text() : "none") + "</code></dd>\n";
   facts += command_fact(origin.command_line);
-  facts += fact("driving speed", stated_text(conditions.speed_m_per_s, "m/s"));
+  facts += fact("driving speed", speed_text(conditions));
   if (conditions.speed_standard_error_m_per_s) {
-    facts += fact("its standard error", stated_text(*conditions.speed_standard_error_m_per_s, "m/s"));
+    facts += fact("its standard error",
+                  stated_text(*conditions.speed_standard_error_m_per_s,
+                              speed_unit(conditions.speed_unit, conditions.speed_standard_error_m_per_s)));
   }
   facts += fact("normal force",
                 conditions.normal_force_N ? stated_text(*conditions.normal_force_N, "N") : std::string("not given"));

@@ -71,8 +71,8 @@ void add_measured(Panel& panel, const Quantity& quantity, double speed) {
 Panel panel_of(const Source& source, const Quantity& quantity) {
   const Prediction& prediction = *source.background.prediction;
   const double speed_m_per_s = source.recording.conditions().speed_m_per_s;
-  const DisplayUnit speed_unit = display_unit("m/s", speed_m_per_s);
-  const Curves curves = curves_of(prediction, quantity, speed_unit.per_SI);
+  const DisplayUnit unit = speed_unit(source.recording.conditions().speed_unit, speed_m_per_s);
+  const Curves curves = curves_of(prediction, quantity, unit.per_SI);
   Span heights;
   for (const auto* points : {&curves.values, &curves.low, &curves.high}) {
     for (const Point& point : *points) heights.add(point.y);
@@ -81,15 +81,15 @@ Panel panel_of(const Source& source, const Quantity& quantity) {
   Panel panel;
   panel.height_px = 230.0;
   panel.legend_at = chart::LegendAt::Above;
-  panel.x = {label_with_unit("driving speed", speed_unit.unit), curves.values.front().x, curves.values.back().x,
+  panel.x = {label_with_unit("driving speed", unit.unit), curves.values.front().x, curves.values.back().x,
              chart::Scale::Logarithmic};
   panel.y = heights.logarithmic_axis(quantity.label);
   std::vector<Point> outline = curves.low;
   outline.insert(outline.end(), curves.high.rbegin(), curves.high.rend());
   if (!outline.empty()) panel.areas.push_back({"95 % of the mean", Colour::Blue, chart::Fill::Plain, outline});
   panel.lines.push_back({"predicted", Colour::Blue, Stroke::Solid, curves.values});
-  add_critical_speed(panel, prediction.critical_speed_m_per_s, speed_unit.per_SI);
-  add_measured(panel, quantity, speed_unit.per_SI * speed_m_per_s);
+  add_critical_speed(panel, prediction.critical_speed_m_per_s, unit.per_SI);
+  add_measured(panel, quantity, unit.per_SI * speed_m_per_s);
   return panel;
 }
 
@@ -118,7 +118,7 @@ Exhibit speed_exhibit(const Source& source) {
   exhibit.chart =
       chart::Chart{"Spacing and frequency over speed", {}, {panel_of(source, spacing), panel_of(source, frequency)}};
   const Estimate& critical = prediction.critical_speed_m_per_s;
-  const DisplayUnit unit = display_unit("m/s", critical.value);
+  const DisplayUnit unit = speed_unit(source.recording.conditions().speed_unit, critical.value);
   exhibit.label =
       fmt::format("predicted pattern spacing and stick-slip frequency over driving speed; critical speed {}",
                   critical.value ? fmt::format("{} {}", rounded(scaled(critical, unit.per_SI)).value, unit.unit)

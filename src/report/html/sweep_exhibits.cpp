@@ -157,10 +157,14 @@ DisplayUnit speed_unit_of(const SweepSource& source) {
   double fastest = 0.0;
   for (const SweepEntry& entry : source.entries)
     fastest = std::max(fastest, entry.recording.conditions().speed_m_per_s);
-  return display_unit("m/s", fastest);
+  return speed_unit(given_speed_unit(source), fastest);
 }
 
 }  // namespace
+
+const std::string& given_speed_unit(const SweepSource& source) {
+  return source.entries.front().recording.conditions().speed_unit;
+}
 
 Exhibit sweep_spacing_exhibit(const SweepSource& source) {
   Exhibit exhibit{"sweep-spacing", "Pattern spacing over speed", {}, {}, {}, {}};
@@ -234,8 +238,8 @@ Exhibit sweep_traces_exhibit(const SweepSource& source) {
     panel.legend_at = chart::LegendAt::Above;
     panel.x = {"time [s]", recording.time_s().front(), recording.time_s().back(), chart::Scale::Linear};
     panel.y = heights.linear_axis(label_with_unit("force", unit.unit));
-    panel.lines.push_back({fmt::format("{}, {}", entry.id, stated_text(recording.conditions().speed_m_per_s, "m/s")),
-                           Colour::Grey, Stroke::Solid, std::move(points), 1.0});
+    panel.lines.push_back({fmt::format("{}, {}", entry.id, speed_text(recording.conditions())), Colour::Grey,
+                           Stroke::Solid, std::move(points), 1.0});
     chart.panels.push_back(std::move(panel));
   }
   exhibit.label = fmt::format("force over time of {} recordings", source.entries.size());

@@ -16,6 +16,9 @@ struct SweepSource {
   const std::optional<Prediction>& prediction;
 };
 
+/// The unit in which the manifest gives the speeds; empty: SI.
+const std::string& given_speed_unit(const SweepSource& source);
+
 Exhibit sweep_spacing_exhibit(const SweepSource& source);
 Exhibit sweep_friction_exhibit(const SweepSource& source);
 Exhibit sweep_traces_exhibit(const SweepSource& source);

@@ -20,7 +20,7 @@ std::string verdict_of(const SweepSource& source) {
   if (!source.sweep.joint) return fmt::format("{} recordings, no joint fit.", source.entries.size());
   const Estimate& critical = source.sweep.derived.critical_speed_m_per_s;
   // The interval and not the standard error: it may be lopsided, and few recordings make it wide.
-  const EstimateRow speed = estimate_row(critical, "m/s");
+  const EstimateRow speed = estimate_row(critical, speed_unit(given_speed_unit(source), critical.value));
   const std::string end = critical.value
                               ? fmt::format(": stick-slip ends at {} {} {}", speed.value, speed.unit, speed.interval)
                               : std::string(": where stick-slip ends is not known");
@@ -55,7 +55,7 @@ SweepUnits units_of(const SweepSource& source) {
     widest_m = std::max({widest_m, conditions.measured_spacing_m.value_or(0.0),
                          source.sweep.recordings[i].derived.pattern_spacing_m.value.value_or(0.0)});
   }
-  return {display_unit("m/s", fastest_m_per_s), display_unit("m", widest_m)};
+  return {speed_unit(given_speed_unit(source), fastest_m_per_s), display_unit("m", widest_m)};
 }
 
 /// Of the pattern on the worn surface, where the manifest gives it for any of them.
@@ -76,7 +76,7 @@ std::string recording_row(const SweepSource& source, std::size_t i, const SweepU
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td class=\"number\">{:.4g}</td><td>{}{}</td>{}{}{}<td "
       "class=\"number\">{}</td></tr>\n",
-      text(source.entries[i].id), speed, status_words(name_of(analysis.verdict)), is_left_out ? ", left out" : "",
+      text(source.entries[i].id), speed, plain_words(name_of(analysis.verdict)), is_left_out ? ", left out" : "",
       has_surface_spacing(source) ? quantity_cell(on_surface, units.spacing.per_SI) : "",
       quantity_cell(measured, units.spacing.per_SI), quantity_cell(predicted, units.spacing.per_SI),
       text(off_by(predicted, measured)));

@@ -1,0 +1,82 @@
+// What people read: each message says what was seen and what it means, in words that need no documentation.
+
+#include <catch2/catch.hpp>
+
+#include "run_program.hpp"
+
+using Catch::Contains;
+
+namespace {
+
+const std::string kDemo = std::string(SLIPFIT_TESTDATA_DIR) + "/demo.csv";
+
+std::string fit_text(const std::vector<std::string>& options) {
+  std::vector<std::string> arguments{"fit", kDemo};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const auto run = test::slipfit(arguments);
+  REQUIRE(run.exit_code == 0);
+  return run.out;
+}
+
+}  // namespace
+
+TEST_CASE("a test that finds nothing says at which level nothing is proven") {
+  const std::string text = fit_text({"--speed", "10mm/s"});
+  CHECK_THAT(text, Contains("from begin to end: not proven at the 0.1 % level (p ") && !Contains("chance"));
+}
+
+TEST_CASE("AICc is told with the model it is compared to, the sign in words and what it takes") {
+  const std::string text = fit_text({"--speed", "10mm/s"});
+  CHECK_THAT(text,
+             Contains("lower than that of the undamped model: the added parameter is justified, which takes 10 lower"));
+  CHECK_THAT(text, Contains("a model with more parameters is justified") && !Contains("pays"));
+  CHECK_THAT(fit_text({"--speed", "10mm/s", "--tier", "undamped"}), Contains("requested by --tier\n"));
+  CHECK_THAT(fit_text({"--speed", "10mm/s", "--tier", "sawtooth"}),
+             Contains("requested by --tier; the data alone: a model with more parameters is justified"));
+}
+
+TEST_CASE("the residual is told as a multiple of the noise, and whether it looks like noise") {
+  const std::string text = fit_text({"--speed", "10mm/s"});
+  CHECK_THAT(text, Contains("0.99 times the noise (reduced chi2 0.981; 1 where only noise is left)"));
+  CHECK_THAT(text,
+             Contains("residuals: like noise, no correlation of neighbours is proven (whiteness p 0.15, level 0.001)"));
+}
+
+TEST_CASE("forces without a stated zero are conditional, with the condition and the remedy, in text and page") {
+  const test::TemporaryFolder folder;
+  const std::string text = fit_text({"--speed", "10mm/s", "--report", folder.path("r.html")});
+  const std::string condition = "known if the sensor reads 0 without force, which a recording cannot show";
+  CHECK_THAT(text, Contains("static friction F_s, kinetic friction F_k: " + condition) && Contains("--zero"));
+  CHECK_THAT(text, Contains("conditional: well known if what the note says holds"));
+  const std::string page = test::content_of(folder.path("r.html"));
+  CHECK_THAT(page,
+             Contains("<span class=\"status conditional\">conditional</span>: well known if what the note says holds"));
+  CHECK_THAT(page, !Contains("held at the value"));
+  CHECK_THAT(fit_text({"--speed", "10mm/s", "--zero", "0"}), !Contains("conditional"));
+}
+
+TEST_CASE("speeds come back in the unit that they were given in, in text and page") {
+  const test::TemporaryFolder folder;
+  const std::string text =
+      fit_text({"--speed", "600 mm/min", "--report", folder.path("r.html"), "--plots", folder.path("p")});
+  CHECK_THAT(text, Contains("measured (V/f) at 600 mm/min") && Contains("mm/min  [") && !Contains("mm/s"));
+  CHECK_THAT(test::content_of(folder.path("r.html")),
+             Contains("600\u00a0mm/min") && Contains("driving speed [mm/min]"));
+  CHECK_THAT(test::content_of(folder.path("p/speed.svg")), Contains("driving speed [mm/min]"));
+  CHECK_THAT(fit_text({"--speed", "10000um/s"}), Contains("at 10000 um/s"));
+  CHECK_THAT(fit_text({"--speed", "0.01"}), Contains("at 10 mm/s"));
+  CHECK_THAT(fit_text({"--speed", "8rpm", "--radius", "12mm"}), Contains("at 10.0531 mm/s"));
+}
+
+TEST_CASE("a prediction, a plan and a sweep show speeds in the unit that they were given in") {
+  const test::TemporaryFolder folder;
+  fit_text({"--speed", "10mm/s", "--json", "--out", folder.path("fit.json")});
+  const auto predicted = test::slipfit({"predict", folder.path("fit.json"), "--speeds", "300mm/min,600mm/min"});
+  CHECK_THAT(predicted.out, Contains("300.0 mm/min") && Contains("critical speed: 12") && !Contains("mm/s"));
+  const auto plan =
+      test::slipfit({"plan", folder.path("fit.json"), "--for", "periodic_displacement_m", "--at", "600mm/min"});
+  CHECK_THAT(plan.out, Contains("at 600.0 mm/min") && !Contains("mm/s"));
+  const std::string row = "," + kDemo + ",600\n";
+  const std::string manifest = folder.file("runs.csv", "id,file,speed [mm/min]\na" + row + "b" + row);
+  CHECK_THAT(test::slipfit({"fit", "--joint", manifest}).out, Contains("600 mm/min") && !Contains("mm/s"));
+}
