@@ -5,7 +5,7 @@
 
 #include "slipfit/core/recording.hpp"
 #include "slipfit/core/units.hpp"
-#include "slipfit/io/recording_reader.hpp"
+#include "slipfit/io/read_options.hpp"
 
 // Text of the command line into SI numbers. Each throws Failure(WrongUsage) that names the option, the text and the
 // remedy.

@@ -115,7 +115,7 @@ Result<std::size_t> choose_force(const Request& request, std::optional<std::size
   const auto& [layout, options, file] = request;
   if (options.force_column) return find_column(layout, *options.force_column, "--force-column", file);
   auto candidates = force_candidates(layout, time);
-  const auto varies = [&](std::size_t c) { return layout.columns[c].varies; };
+  const auto varies = [&](std::size_t c) { return request.layout.columns[c].varies; };
   if (std::count_if(candidates.begin(), candidates.end(), varies) == 1) {
     candidates = {*std::find_if(candidates.begin(), candidates.end(), varies)};
   }

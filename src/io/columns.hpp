@@ -8,7 +8,7 @@
 #include "io/layout.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"
-#include "slipfit/io/recording_reader.hpp"
+#include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {
 
