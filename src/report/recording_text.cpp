@@ -1,14 +1,84 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "report/format.hpp"
 #include "report/names.hpp"
-#include "report/rounding.hpp"
 #include "report/table.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
+namespace {
+
+std::string plain_verdict(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::StickSlip:
+      return "stick-slip";
+    case Verdict::SteadySliding:
+      return "steady sliding, no stick-slip";
+    case Verdict::OscillatorySlip:
+      return "oscillatory slip (the body hardly sticks)";
+    case Verdict::Undetermined:
+      return "cannot tell whether this is stick-slip";
+  }
+  return "cannot tell whether this is stick-slip";
+}
+
+std::string assumed_text(const std::vector<std::string>& assumed) {
+  if (assumed.empty()) return {};
+  std::string text = "\nAssumed while reading\n";
+  for (const std::string& sentence : assumed) text += fmt::format("  - {}\n", one_line(sentence));
+  return text;
+}
+
+std::string tests_text(const std::vector<ShortTest>& tests) {
+  if (tests.empty()) return {};
+  std::string text = "\nTests\n";
+  for (const ShortTest& test : tests) text += fmt::format("  - {}\n", one_line(test.finding));
+  return text;
+}
+
+std::string judgement_text(const Recording& recording, const Analysis& analysis) {
+  const std::string& file = recording.provenance().file;
+  std::string text =
+      fmt::format("{}: {}", file.empty() ? "recording" : one_line(file), plain_verdict(analysis.verdict));
+  if (analysis.frequency.quoted.value) {
+    text += fmt::format(", {} Hz", with_error(analysis.frequency.quoted));
+    if (analysis.cycles.count > 0) text += fmt::format(", {} slips", analysis.cycles.count);
+  }
+  text += "\n";
+  if (!analysis.verdict_reason.empty()) text += fmt::format("  {}\n", one_line(analysis.verdict_reason));
+  return text;
+}
+
+}  // namespace
+
+std::string warnings_text(const Warnings& warnings) {
+  if (warnings.empty()) return {};
+  std::string text = "\nWarnings\n";
+  for (const Warning& warning : warnings) {
+    text += fmt::format("  ! {} [{}]\n", one_line(warning.message), one_line(warning.code));
+  }
+  return text;
+}
+
+std::string to_text(const Recording& recording, const Analysis& analysis) {
+  std::string text = judgement_text(recording, analysis);
+  text += parameters_text(recording, analysis);
+  text += frequency_text(analysis.frequency);
+  text += cycles_text(analysis.cycles, recording.conditions().quantity);
+  text += spacing_text(recording, analysis.derived);
+  const bool moves_like_model = analysis.verdict == Verdict::StickSlip || analysis.verdict == Verdict::OscillatorySlip;
+  if (moves_like_model) text += predicted_text(recording, analysis.derived);
+  text += tests_text(analysis.tests);
+  text += recording_text(recording, analysis);
+  text += warnings_text(analysis.warnings);
+  text += assumed_text(recording.provenance().assumed);
+  return text;
+}
+
 namespace {
 
 std::string spectral_text(const SpectralFrequency& spectral) {

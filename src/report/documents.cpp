@@ -1,23 +1,61 @@
+#include <filesystem>
 #include <string>
 
 #include "report/json_sections.hpp"
 #include "report/names.hpp"
+#include "slipfit/report/json.hpp"
 #include "slipfit/report/sweep.hpp"
 
 namespace slipfit {
 namespace {
 
-/// One recording of the sweep: what it shows on its own, and what the joint fit says of it.
-Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole role, const SweepPoint* point) {
-  const ForceQuantity quantity = entry.recording.conditions().quantity;
-  Json json{{"id", entry.id}};
-  json["recording"] = recording_json(entry.recording, analysis);
+Json timing_json(const Timing& timing) {
+  return Json{{"read_s", number(timing.read_s)},
+              {"frequency_s", number(timing.frequency_s)},
+              {"fit_s", number(timing.fit_s)},
+              {"total_s", number(timing.total_s)}};
+}
+
+/// What one recording shows, alone or in a sweep.
+void add_analysis(Json& json, const Recording& recording, const Analysis& analysis, std::optional<SweepRole> role) {
+  json["recording"] = recording_json(recording, analysis);
   json["status"] = name_of(analysis.verdict);
   json["status_reason"] = analysis.verdict_reason;
-  json["role"] = name_of(role);
+  if (role) json["role"] = name_of(*role);
   json["warnings"] = warnings_json(analysis.warnings);
   json["frequency"] = frequency_json(analysis.frequency);
-  json["cycles"] = cycles_json(analysis.cycles, quantity);
+  json["cycles"] = cycles_json(analysis.cycles, recording.conditions().quantity);
+}
+
+void add_fit(Json& json, const FitResult& fit, ForceQuantity quantity) {
+  json["model"] = model_json(fit, quantity);
+  json["parameters"] = parameters_json(fit);
+  json["correlation"] = correlation_json(fit);
+}
+
+std::string id_of(const Recording& recording, const JsonOptions& options) {
+  if (!options.id.empty()) return options.id;
+  return std::filesystem::path(recording.provenance().file).stem().string();
+}
+
+}  // namespace
+
+std::string to_json(const Recording& recording, const Analysis& analysis, const JsonOptions& options) {
+  Json json{{"schema", "slipfit.fit/1"}, {"version", SLIPFIT_VERSION}, {"id", id_of(recording, options)}};
+  add_analysis(json, recording, analysis, {});
+  if (analysis.fit) add_fit(json, *analysis.fit, recording.conditions().quantity);
+  json["derived"] = derived_json(analysis.derived);
+  json["tests"] = tests_json(analysis.tests);
+  if (options.timing) json["timing"] = timing_json(analysis.timing);
+  return text_of(json, options.layout);
+}
+
+namespace {
+
+/// One recording of the sweep: what it shows on its own, and what the joint fit says of it.
+Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole role, const SweepPoint* point) {
+  Json json{{"id", entry.id}};
+  add_analysis(json, entry.recording, analysis, role);
   json["derived"] = derived_json(analysis.derived);
   if (point != nullptr) {
     json["joint"] = {{"cycles_used", point->cycles_used},
@@ -44,14 +82,12 @@ std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   json["status_reason"] = sweep.joint_reason;
   json["warnings"] = warnings_json(sweep.warnings);
   if (sweep.joint) {
-    json["model"] = model_json(sweep.joint->fit, ForceQuantity::Force_N);
+    add_fit(json, sweep.joint->fit, ForceQuantity::Force_N);
     json["model"]["level_shared"] = sweep.joint->level_shared;
     json["model"]["static_friction_shared"] = sweep.joint->difference_shared;
     if (const auto& model = sweep.joint->fit.estimate; model && model->ageing) {
       json["model"]["ageing_reference_s"] = number(model->ageing->reference_stick_s);
     }
-    json["parameters"] = parameters_json(sweep.joint->fit);
-    json["correlation"] = correlation_json(sweep.joint->fit);
   }
   json["derived"] = derived_json(sweep.derived);
   return text_of(json, options.layout);
