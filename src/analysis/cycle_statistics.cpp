@@ -2,15 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "analysis/slip_intervals.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/student.hpp"
+#include "signal/robust.hpp"
 
 namespace slipfit {
 
 namespace {
+
+/// From the rises between slips, 20 % to 80 % of each: median slope over the speed, and what it scatters by.
+Estimate stick_stiffness(const Segmentation& segmentation, double speed_m_per_s) {
+  std::vector<double> slopes;
+  for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
+    const DetectedSlip& before = segmentation.slips[i - 1];
+    const double rise = segmentation.slips[i].peak_force - before.trough_force;
+    if (before.rise_s > 0.0) slopes.push_back(0.6 * rise / before.rise_s / speed_m_per_s);
+  }
+  if (slopes.size() < thresholds::kFewestSlips) return {{}, {}, {}, "too few sticks"};
+  const double middle = signal::median(slopes);
+  std::vector<double> off;
+  for (const double slope : slopes) off.push_back(std::abs(slope - middle));
+  constexpr double kMedianToSe = 1.4826 * 1.2533;  // median deviation to sd; error of a median over that of a mean
+  const auto count = static_cast<double>(slopes.size());
+  return fit::symmetric(middle, kMedianToSe * signal::median(std::move(off)) / std::sqrt(count), count - 1.0);
+}
 
 /// How long the fitted cycles slip and stick.
 CycleStatistics with_stick_times(CycleStatistics result, const FitResult& fit) {
@@ -68,6 +87,7 @@ CycleStatistics summarise_cycles(const Recording& recording, const Segmentation&
     result.peak_force_sd = peak.sd;
     result.force_drop_sd = drop.sd;
   }
+  result.stick_stiffness = stick_stiffness(segmentation, recording.conditions().speed_m_per_s);
   const MeanAndSpread interval = describe(intervals_of(recording, segmentation).seconds);
   if (interval.count >= 1.0) result.period_s = interval.mean;
   if (interval.count >= 2.0) {

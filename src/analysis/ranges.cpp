@@ -106,6 +106,7 @@ CycleStatistics in_range(CycleStatistics cycles) {
        {&cycles.peak_force_sd, &cycles.force_drop, &cycles.force_drop_sd, &cycles.drop_cv, &cycles.period_cv}) {
     *spread = within(*spread, kNotNegative);
   }
+  cycles.stick_stiffness = within(std::move(cycles.stick_stiffness), kNotNegative);
   return cycles;
 }
 

@@ -6,14 +6,10 @@
 #include <iterator>
 #include <vector>
 
-#include "report/csv_cell.hpp"
+#include "report/format.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
-
-std::string cell(std::optional<double> value) {
-  return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
-}
 
 namespace {
 

@@ -1,79 +1,50 @@
 #include "report/names.hpp"
 
+#include <initializer_list>
+
 namespace slipfit {
+namespace {
+
+using Names = std::initializer_list<std::string_view>;
+
+/// The name at the place of the enumerator.
+template <class Choice>
+std::string_view name_in(Names names, Choice choice) {
+  const auto index = static_cast<std::size_t>(choice);
+  return index < names.size() ? names.begin()[index] : "unknown";
+}
+
+}  // namespace
 
 std::string_view name_of(Tier tier) {
-  switch (tier) {
-    case Tier::Sawtooth:
-      return "sawtooth";
-    case Tier::Undamped:
-      return "undamped";
-    case Tier::Damped:
-      return "damped";
-    case Tier::Velocity:
-      return "velocity";
-  }
-  return "unknown";
+  return name_in({"sawtooth", "undamped", "damped", "velocity"}, tier);
 }
 
 std::string_view name_of(ForceView view) {
-  switch (view) {
-    case ForceView::Spring:
-      return "spring";
-    case ForceView::Transmitted:
-      return "transmitted";
-    case ForceView::Contact:
-      return "contact";
-  }
-  return "unknown";
+  return name_in({"spring", "transmitted", "contact"}, view);
 }
 
 std::string_view name_of(ForceQuantity quantity) {
-  return quantity == ForceQuantity::Force_N ? "force" : "friction_coefficient";
+  return name_in({"force", "friction_coefficient"}, quantity);
 }
 
 std::string_view name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::StickSlip:
-      return "stick_slip";
-    case Verdict::SteadySliding:
-      return "steady_sliding";
-    case Verdict::OscillatorySlip:
-      return "oscillatory_slip";
-    case Verdict::Undetermined:
-      return "undetermined";
-  }
-  return "undetermined";
+  return name_in({"stick_slip", "steady_sliding", "oscillatory_slip", "undetermined"}, verdict);
 }
 
 std::string_view name_of(ParameterStatus status) {
-  switch (status) {
-    case ParameterStatus::Identified:
-      return "identified";
-    case ParameterStatus::Weak:
-      return "weak";
-    case ParameterStatus::Bounded:
-      return "bounded";
-    case ParameterStatus::Unidentified:
-      return "unidentified";
-    case ParameterStatus::Conditional:
-      return "conditional";
-    case ParameterStatus::Fixed:
-      return "fixed";
-  }
-  return "unidentified";
+  return name_in({"identified", "weak", "bounded", "unidentified", "fixed", "conditional"}, status);
+}
+
+std::string_view words_for_status(ParameterStatus status) {
+  return name_in({"the data determine it", "an estimate, not to be relied on alone", "only its interval is known",
+                  "the data cannot tell it", "held at the value that was given",
+                  "well known if what the note says holds, which a recording cannot show"},
+                 status);
 }
 
 std::string_view name_of(SweepRole role) {
-  switch (role) {
-    case SweepRole::Cycles:
-      return "cycles";
-    case SweepRole::Steady:
-      return "steady";
-    case SweepRole::LeftOut:
-      return "left_out";
-  }
-  return "left_out";
+  return name_in({"cycles", "steady", "left_out"}, role);
 }
 
 std::string_view name_of(Regularity regularity) {

@@ -16,4 +16,7 @@ std::string_view name_of(ParameterStatus status);
 std::string_view name_of(SweepRole role);
 std::string_view name_of(Regularity regularity);
 
+/// What a status means to who has not read the documentation.
+std::string_view words_for_status(ParameterStatus status);
+
 }  // namespace slipfit

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -13,40 +14,21 @@
 namespace slipfit {
 namespace {
 
-std::string_view name_of(Limit limit) {
-  switch (limit) {
-    case Limit::Noise:
-      return "noise";
-    case Limit::Scatter:
-      return "scatter";
-    case Limit::Sampling:
-      return "sampling";
-    case Limit::Cycles:
-      return "cycles";
-    case Limit::Misfit:
-      return "misfit";
-    case Limit::Held:
-      return "held";
-  }
-  return "cycles";
-}
+/// In the order of Limit.
+struct LimitWords {
+  std::string_view name;
+  std::string_view words;
+};
+constexpr std::array<LimitWords, 6> kLimits{
+    {{"noise", "noise of the samples: more cycles, or a quieter sensor"},
+     {"scatter", "scatter of the static friction: more cycles"},
+     {"sampling", "too few samples in a slip: a faster clock"},
+     {"cycles", "noise and scatter alike: more cycles"},
+     {"misfit", "more than noise and scatter: cycles or recordings disagree with the model"},
+     {"held", "held by --fix"}}};
 
-std::string_view words_of(Limit limit) {
-  switch (limit) {
-    case Limit::Noise:
-      return "noise of the samples: more cycles, or a quieter sensor";
-    case Limit::Scatter:
-      return "scatter of the static friction: more cycles";
-    case Limit::Sampling:
-      return "too few samples in a slip: a faster clock";
-    case Limit::Cycles:
-      return "noise and scatter alike: more cycles";
-    case Limit::Misfit:
-      return "more than noise and scatter: cycles or recordings disagree with the model";
-    case Limit::Held:
-      return "held by --fix";
-  }
-  return {};
+const LimitWords& words_of(Limit limit) {
+  return kLimits.at(static_cast<std::size_t>(limit));
 }
 
 std::string percent(double part, double whole) {
@@ -77,7 +59,7 @@ std::string limits_text(const Plan& plan) {
   Table table({Align::Left, Align::Right, Align::Left});
   table.add({"parameter", "standard error", "limited by"});
   for (const ParameterLimit& limit : plan.limits) {
-    table.add({limit.name, percent(limit.standard_error, limit.value), std::string(words_of(limit.limit))});
+    table.add({limit.name, percent(limit.standard_error, limit.value), std::string(words_of(limit.limit).words)});
   }
   return "\nWhat limits each parameter\n" + table.text();
 }
@@ -100,7 +82,7 @@ std::string to_json(const Plan& plan, const PredictionSource& source) {
                       {"value", number(limit.value)},
                       {"se", number(limit.standard_error)},
                       {"explained_se", number(limit.explained_error)},
-                      {"limited_by", name_of(limit.limit)}});
+                      {"limited_by", words_of(limit.limit).name}});
   }
   Json options = Json::array();
   for (const PlanOption& option : plan.options) options.push_back(option_json(option));

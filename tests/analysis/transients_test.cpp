@@ -76,6 +76,7 @@ TEST_CASE("loading ramp, breakaway and ring-down are measured outside the slidin
   const Run run;
   const Analysis analysis = analyze(run_with_release(run));
   REQUIRE(analysis.verdict == Verdict::StickSlip);
+  CHECK(*analysis.cycles.stick_stiffness.value == Approx(run.stiffness_N_per_m).epsilon(0.01));
   const Transients& found = analysis.transients;
   REQUIRE(found.loading_stiffness_N_per_m.value);
   CHECK(*found.loading_stiffness_N_per_m.value == Approx(run.stiffness_N_per_m).epsilon(0.02));

@@ -1,4 +1,4 @@
-#include "report/rounding.hpp"
+#include "report/format.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "examples.hpp"
-#include "report/html/sweep_exhibits.hpp"
+#include "report/html/sweep_figures.hpp"
 #include "slipfit/report/sweep_html.hpp"
 
 using Catch::Contains;
@@ -54,8 +54,8 @@ struct Sweep {
         .value();
   }
 
-  [[nodiscard]] html::Exhibit spacing_exhibit() const {
-    return html::sweep_spacing_exhibit({entries, analysis, prediction});
+  [[nodiscard]] html::Figure spacing_figure() const {
+    return html::sweep_spacing_figure({entries, analysis, prediction});
   }
   [[nodiscard]] std::string page() const { return to_html(entries, analysis, prediction, {"dry", {}}); }
 };
@@ -65,9 +65,9 @@ struct Sweep {
 TEST_CASE("the chart of spacing over speed shows where stick-slip ends, with its interval") {
   Sweep sweep;
   sweep.prediction->critical_speed_m_per_s = known(0.3, 0.2, 0.5);
-  const html::Exhibit exhibit = sweep.spacing_exhibit();
-  REQUIRE(exhibit.chart);
-  const chart::Panel& panel = exhibit.chart->panels.at(0);
+  const html::Figure figure = sweep.spacing_figure();
+  REQUIRE(figure.chart);
+  const chart::Panel& panel = figure.chart->panels.at(0);
   CHECK(panel.x.label == "driving speed [mm/s]");
   const chart::Line& end = panel.lines.back();
   CHECK(end.name == "stick-slip ends, 95 %");
@@ -85,8 +85,8 @@ TEST_CASE("the chart of spacing over speed shows where stick-slip ends, with its
 TEST_CASE("the band of the critical speed ends with the axis, and there is none where the speed is beyond it") {
   Sweep sweep;
   sweep.prediction->critical_speed_m_per_s = known(0.3, 0.001, 50.0);
-  const html::Exhibit exhibit = sweep.spacing_exhibit();
-  const chart::Panel& panel = exhibit.chart->panels.at(0);
+  const html::Figure figure = sweep.spacing_figure();
+  const chart::Panel& panel = figure.chart->panels.at(0);
   CHECK(panel.areas.back().outline[0].x == panel.x.low);
   CHECK(panel.areas.back().outline[2].x == panel.x.high);
   sweep.prediction->critical_speed_m_per_s = known(30.0, 20.0, 50.0);
@@ -112,7 +112,7 @@ TEST_CASE("the page of a sweep without a joint fit says why, and shows each reco
                  Contains("<th scope=\"row\">fast</th><td class=\"number\">100</td><td>stick-slip, left out</td>") &&
                  Contains("1.8409<small>"));
   CHECK_THAT(page, Contains("<td class=\"number\" data-value=\"\">-</td><td class=\"number\">-</td></tr>"));
-  CHECK_FALSE(sweep.spacing_exhibit().chart);
+  CHECK_FALSE(sweep.spacing_figure().chart);
   CHECK_THAT(page, Contains("force over time of 2 recordings"));
 }
 

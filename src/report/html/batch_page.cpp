@@ -80,10 +80,7 @@ std::optional<chart::Panel> histogram(std::vector<double> values, std::string la
   for (std::size_t i = 0; i < bins; ++i) {
     const double left = first * std::exp(step * static_cast<double>(i));
     const double right = left * std::exp(step);
-    panel.areas.push_back({"",
-                           chart::Colour::Blue,
-                           chart::Fill::Plain,
-                           {{left, 0.0}, {left, counts[i]}, {right, counts[i]}, {right, 0.0}}});
+    panel.areas.push_back(rectangle("", chart::Colour::Blue, {left, 0.0}, {right, counts[i]}));
   }
   return panel;
 }
@@ -108,9 +105,10 @@ std::string distributions(const std::vector<BatchPageRow>& rows) {
   add("stiffnesses", "stiffness [N/m]", values(&BatchPageRow::stiffness_N_per_m, 1.0));
   add("damping-ratios", "damping ratio [-]", values(&BatchPageRow::damping_ratio, 1.0));
   if (figures.empty()) return {};
-  return "<section>\n<h2>Distributions</h2>\n<p class=\"guide\">How many recordings show which value; only those in "
-         "which it is known.</p>\n<div class=\"charts\">\n" +
-         figures + "</div>\n</section>\n";
+  return section("", "Distributions",
+                 "<p class=\"guide\">How many recordings show which value; only those in which it is known.</p>\n"
+                 "<div class=\"charts\">\n" +
+                     figures + "</div>\n");
 }
 
 /// Of a table that holds the first rows alone.
@@ -126,10 +124,9 @@ std::string failures_part(const std::vector<BatchPageFailure>& failures) {
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td><code>{}</code></td></tr>\n", text(failure.id),
                         text(failure.message), text(failure.code));
   }
-  return "<section class=\"flows\">\n<h2>Failures</h2>\n<div class=\"wide\"><table id=\"failures\"><thead><tr><th "
-         "scope=\"col\">recording</th><th scope=\"col\">what is wrong</th><th "
-         "scope=\"col\">code</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n" + left_out_part(failures.size(), "failures.csv") + "</section>\n";
+  return section(" class=\"flows\"", "Failures",
+                 table(" id=\"failures\"", {"recording", "what is wrong", "code"}, rows) +
+                     left_out_part(failures.size(), "failures.csv"));
 }
 
 std::string table_of(const std::vector<BatchPageRow>& rows) {

@@ -7,11 +7,11 @@
 #include <cctype>
 #include <cmath>
 
+#include "report/format.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
 #include "report/json_values.hpp"
-#include "report/rounding.hpp"
 #include "report/text_sections.hpp"
 
 namespace slipfit {

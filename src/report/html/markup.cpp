@@ -78,6 +78,25 @@ std::string filled(std::string_view page, const std::vector<std::pair<std::strin
   }
 }
 
+std::string section(std::string_view attributes, std::string_view title, std::string_view content) {
+  return fmt::format("<section{}>\n<h2>{}</h2>\n{}</section>\n", attributes, title, content);
+}
+
+std::string table(std::string_view attributes, const std::vector<std::string>& headings, std::string_view rows) {
+  std::string cells;
+  for (const std::string& heading : headings) {
+    const bool is_number = heading.starts_with('#');
+    cells += fmt::format("<th scope=\"col\"{}>{}</th>", is_number ? " class=\"number\"" : "",
+                         formula_text(std::string_view(heading).substr(is_number ? 1 : 0)));
+  }
+  return fmt::format("<div class=\"wide\"><table{}><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
+                     attributes, cells, rows);
+}
+
+std::string fact_list(std::string_view facts) {
+  return fmt::format("<dl class=\"facts\">\n{}</dl>\n", facts);
+}
+
 std::string fact(std::string_view term, std::string_view content) {
   return fmt::format("<dt>{}</dt><dd>{}</dd>\n", text(term), text(content));
 }

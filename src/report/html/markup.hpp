@@ -21,6 +21,16 @@ std::string filled(std::string_view page, const std::vector<std::pair<std::strin
 /// JSON for an element <script>: < > & and the line separators U+2028 and U+2029 as \u escapes.
 std::string script_json(std::string_view json);
 
+/// <section> with a heading of level 2; `attributes`: ` id="quality"`, content and title are HTML.
+std::string section(std::string_view attributes, std::string_view title, std::string_view content);
+
+/// A table in a box that scrolls where it is too wide. `headings`: of the columns, as text; one that begins with '#'
+/// stands over numbers. Rows are HTML.
+std::string table(std::string_view attributes, const std::vector<std::string>& headings, std::string_view rows);
+
+/// <dl> of facts.
+std::string fact_list(std::string_view facts);
+
 /// <dt>term</dt><dd>text</dd>
 std::string fact(std::string_view term, std::string_view content);
 

@@ -17,30 +17,29 @@ namespace html {
 namespace {
 
 /// The chart, and the interactive trace that the script shows in its place where it can.
-std::string trace_part(const Exhibit& exhibit, const Source& source) {
+std::string trace_part(const Figure& figure, const Source& source) {
   return filled(assets::trace_part(),
-                {{"title", text(exhibit.title)},
-                 {"guide", formula_text(exhibit.guide)},
-                 {"label", text(exhibit.label)},
+                {{"title", text(figure.title)},
+                 {"guide", formula_text(figure.guide)},
+                 {"label", text(figure.label)},
                  {"slips_key", shows_cycles(source.analysis) ? "<span class=\"key slips\"></span>slips" : ""},
                  {"fit_key", has_fitted_curve(source.analysis) ? "<span class=\"key fit\"></span>fit" : ""},
-                 {"chart", to_page_svg(*exhibit.chart, {exhibit.id, exhibit.label})}});
+                 {"chart", to_page_svg(*figure.chart, {figure.id, figure.label})}});
 }
 
 /// Charts in their order; what the recording does not allow stands behind them, in a few lines.
-std::string exhibits_part(const Source& source) {
+std::string figures_part(const Source& source) {
   std::string parts;
   std::string absent;
-  for (const Exhibit& exhibit : exhibits_of(source)) {
-    if (!exhibit.chart) {
-      absent += "<dt>" + text(exhibit.title) + "</dt><dd>" + formula_text(exhibit.absent) + "</dd>\n";
+  for (const Figure& figure : figures_of(source)) {
+    if (!figure.chart) {
+      absent += "<dt>" + text(figure.title) + "</dt><dd>" + formula_text(figure.absent) + "</dd>\n";
       continue;
     }
-    parts += exhibit.id == "trace" ? trace_part(exhibit, source) : exhibit_part(exhibit);
+    parts += figure.id == "trace" ? trace_part(figure, source) : figure_part(figure);
   }
   if (absent.empty()) return parts;
-  return parts + "<section id=\"absent\">\n<h2>What this recording cannot show</h2>\n<dl class=\"facts\">\n" + absent +
-         "</dl>\n</section>\n";
+  return parts + section(" id=\"absent\"", "What this recording cannot show", fact_list(absent));
 }
 
 std::string numbers_part(const Source& source) {
@@ -51,10 +50,9 @@ std::string numbers_part(const Source& source) {
     lines += text(std::string_view(numbers).substr(0, end)) + "\n";
     numbers.erase(0, end + 1);
   }
-  return "<section class=\"flows\" id=\"numbers\">\n<h2>All numbers</h2>\n<details><summary>The text report, as "
-         "printed by the "
-         "command line</summary>\n<pre>" +
-         lines + "</pre></details>\n</section>\n";
+  return section(" class=\"flows\" id=\"numbers\"", "All numbers",
+                 "<details><summary>The text report, as printed by the command line</summary>\n<pre>" + lines +
+                     "</pre></details>\n");
 }
 
 }  // namespace
@@ -75,12 +73,12 @@ std::string script_element(std::string_view script) {
   return "<script>" + std::string(script) + "</script>\n";
 }
 
-std::string exhibit_part(const Exhibit& exhibit) {
-  std::string part = fmt::format("<section id=\"{}-section\">\n<h2>{}</h2>\n", exhibit.id, text(exhibit.title));
-  if (!exhibit.chart)
-    return part + fmt::format("<p class=\"absent\">{}</p>\n</section>\n", formula_text(exhibit.absent));
-  return part + fmt::format("<p class=\"guide\">{}</p>\n<figure>{}</figure>\n</section>\n", formula_text(exhibit.guide),
-                            to_page_svg(*exhibit.chart, {exhibit.id, exhibit.label}));
+std::string figure_part(const Figure& figure) {
+  const std::string content =
+      figure.chart ? fmt::format("<p class=\"guide\">{}</p>\n<figure>{}</figure>\n", formula_text(figure.guide),
+                                 to_page_svg(*figure.chart, {figure.id, figure.label}))
+                   : fmt::format("<p class=\"absent\">{}</p>\n", formula_text(figure.absent));
+  return section(fmt::format(" id=\"{}-section\"", figure.id), text(figure.title), content);
 }
 
 }  // namespace html
@@ -99,7 +97,7 @@ std::string to_html(const Recording& recording, const Analysis& analysis, const 
   page.headline = html::verdict_sentence(source);
   page.summary = "<p class=\"reason\">" + html::capitalised(html::formula_text(analysis.verdict_reason)) + "</p>\n" +
                  html::key_numbers(source) + html::warnings_part(analysis.warnings);
-  page.main = html::parameters_part(source) + html::exhibits_part(source) + html::quality_part(source) +
+  page.main = html::parameters_part(source) + html::figures_part(source) + html::quality_part(source) +
               html::numbers_part(source) + html::repeat_part(source, origin);
   if (has_interactive_trace()) {
     page.library_style = assets::dygraphs_style();
@@ -113,8 +111,8 @@ std::string to_html(const Recording& recording, const Analysis& analysis, const 
 std::vector<PictureFile> report_pictures(const Recording& recording, const Analysis& analysis,
                                          const Background& background) {
   std::vector<PictureFile> files;
-  for (const html::Exhibit& exhibit : html::exhibits_of(html::source_of(recording, analysis, background))) {
-    if (exhibit.chart) files.push_back({exhibit.id + ".svg", to_svg(*exhibit.chart)});
+  for (const html::Figure& figure : html::figures_of(html::source_of(recording, analysis, background))) {
+    if (figure.chart) files.push_back({figure.id + ".svg", to_svg(*figure.chart)});
   }
   return files;
 }

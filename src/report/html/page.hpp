@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "report/html/exhibit.hpp"
+#include "report/html/figure.hpp"
 #include "slipfit/report/html.hpp"
 
 namespace slipfit::html {
@@ -39,6 +39,6 @@ std::string parameter_table(const FitResult& fit);
 std::string quality_part(const Source& source);
 std::string repeat_part(const Source& source, const ReportOrigin& origin);
 /// <section> with the chart, or with the reason why there is none.
-std::string exhibit_part(const Exhibit& exhibit);
+std::string figure_part(const Figure& figure);
 
 }  // namespace slipfit::html

@@ -45,10 +45,7 @@ std::string candidates_table(const FitResult& fit, ForceQuantity quantity) {
                         text(name_of(candidate.tier)), candidate.chosen ? "chosen" : "not chosen",
                         text(quantity_text(candidate.rms, force_unit(quantity))), formula_text(candidate.reason));
   }
-  return "<h3>Models that were tried</h3>\n<div class=\"wide\"><table><thead><tr><th scope=\"col\">model</th><th "
-         "scope=\"col\"></th><th scope=\"col\" class=\"number\">residual, rms</th><th scope=\"col\">why</th></tr>"
-         "</thead><tbody>\n" +
-         rows + "</tbody></table></div>\n";
+  return "<h3>Models that were tried</h3>\n" + table("", {"model", "", "#residual, rms", "why"}, rows);
 }
 
 /// A quantity that a line does not end in.
@@ -156,27 +153,27 @@ std::string parameter_table(const FitResult& fit) {
         formula_text(parameter.words), text(parameter.numbers.value), text(parameter.numbers.unit),
         text(parameter.numbers.interval), status, status, words_for_status(parameter.status), note);
   }
-  return "<div class=\"wide\"><table class=\"parameters\"><thead><tr><th scope=\"col\">parameter</th><th scope=\"col\" "
-         "class=\"number\">value</th><th scope=\"col\">unit</th><th scope=\"col\">95 % interval</th><th "
-         "scope=\"col\">what the data say</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n";
+  return table(" class=\"parameters\"", {"parameter", "#value", "unit", "95 % interval", "what the data say"}, rows);
 }
 
 std::string parameters_part(const Source& source) {
   const Analysis& analysis = source.analysis;
-  std::string part = "<section id=\"parameters\">\n<h2>Parameters of the model</h2>\n";
+  const auto part = [](const std::string& content) {
+    return section(" id=\"parameters\"", "Parameters of the model", content);
+  };
   if (!analysis.fit || analysis.verdict == Verdict::SteadySliding) {
     const char* why = analysis.verdict == Verdict::SteadySliding
                           ? "None: the model describes stick-slip, and this recording shows none."
                           : "None: the model was not fitted, or there are too few cycles to fit.";
-    return part + fmt::format("<p class=\"absent\">{}</p>\n</section>\n", why);
+    return part(fmt::format("<p class=\"absent\">{}</p>\n", why));
   }
-  if (analysis.verdict == Verdict::Undetermined) part += "<p>Not to rely on: this may be no stick-slip.</p>\n";
   const FitResult& fit = *analysis.fit;
-  part += parameter_table(fit);
+  const bool is_doubtful = analysis.verdict == Verdict::Undetermined;
+  std::string content =
+      (is_doubtful ? "<p>Not to rely on: this may be no stick-slip.</p>\n" : "") + parameter_table(fit);
   if (!fit.conditional_on.empty())
-    part += "<p class=\"guide\">Assumed in the fit:</p>\n" + list(each(fit.conditional_on, formula_text));
-  return part + candidates_table(fit, source.recording.conditions().quantity) + "</section>\n";
+    content += "<p class=\"guide\">Assumed in the fit:</p>\n" + list(each(fit.conditional_on, formula_text));
+  return part(content + candidates_table(fit, source.recording.conditions().quantity));
 }
 
 std::string quality_part(const Source& source) {
@@ -201,10 +198,9 @@ std::string quality_part(const Source& source) {
           fact("residual over noise (1: only noise is left)", fmt::format("{:.2g}", std::sqrt(*residual.reduced_chi2)));
   }
   const std::vector<std::string> defects = defects_of(recording, quality);
-  return "<section id=\"quality\">\n<h2>Data quality</h2>\n<dl class=\"facts\">\n" + facts + "</dl>\n" +
-         (defects.empty() ? "<p>No gaps, no clipping, no impulses, no rows left out.</p>\n"
-                          : list(each(defects, text))) +
-         "</section>\n";
+  return section(" id=\"quality\"", "Data quality",
+                 fact_list(facts) + (defects.empty() ? "<p>No gaps, no clipping, no impulses, no rows left out.</p>\n"
+                                                     : list(each(defects, text))));
 }
 
 std::string repeat_part(const Source& source, const ReportOrigin& origin) {
@@ -227,8 +223,8 @@ std::string repeat_part(const Source& source, const ReportOrigin& origin) {
   facts += fact("sensor's zero",
                 conditions.zero_force_N ? stated_text(*conditions.zero_force_N, "N") : std::string("not given"));
   const std::string assumed = list(each(provenance.assumed, text));
-  return "<section id=\"repeat\">\n<h2>To repeat this</h2>\n<dl class=\"facts\">\n" + facts + "</dl>\n" +
-         (assumed.empty() ? "" : "<p>Assumed while reading:</p>\n" + assumed) + "</section>\n";
+  return section(" id=\"repeat\"", "To repeat this",
+                 fact_list(facts) + (assumed.empty() ? "" : "<p>Assumed while reading:</p>\n" + assumed));
 }
 
 }  // namespace slipfit::html

@@ -40,6 +40,10 @@ std::string quantity_of(const Estimate& estimate, const std::string& SI_unit) {
   return unit.unit.empty() || text == "-" ? text : text + kNoBreak + unit.unit;
 }
 
+chart::Area rectangle(std::string name, chart::Colour colour, chart::Point low, chart::Point high) {
+  return {std::move(name), colour, chart::Fill::Plain, {low, {low.x, high.y}, high, {high.x, low.y}}};
+}
+
 void Span::add(double value) {
   if (!std::isfinite(value)) return;
   const bool is_first = empty();

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chart/chart.hpp"
-#include "report/rounding.hpp"
+#include "report/format.hpp"
 #include "slipfit/core/recording.hpp"
 
 namespace slipfit::html {
@@ -20,6 +20,9 @@ std::string label_with_unit(const std::string& name, const std::string& unit);
 
 /// "407.1 ± 2.2 µm", "-" where it is not known.
 std::string quantity_of(const Estimate& estimate, const std::string& SI_unit);
+
+/// A plain rectangle between two corners.
+chart::Area rectangle(std::string name, chart::Colour colour, chart::Point low, chart::Point high);
 
 /// Lowest and highest number seen so far.
 class Span {

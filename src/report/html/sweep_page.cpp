@@ -7,7 +7,7 @@
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
-#include "report/html/sweep_exhibits.hpp"
+#include "report/html/sweep_figures.hpp"
 #include "report/names.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/sweep_html.hpp"
@@ -30,9 +30,9 @@ std::string verdict_of(const SweepSource& source) {
 }
 
 std::string parameters_of(const SweepAnalysis& sweep) {
-  std::string part = "<section id=\"parameters\">\n<h2>Parameters of all recordings</h2>\n";
-  if (!sweep.joint) return part + "<p class=\"absent\">" + formula_text(sweep.joint_reason) + "</p>\n</section>\n";
-  return part + parameter_table(sweep.joint->fit) + "</section>\n";
+  return section(" id=\"parameters\"", "Parameters of all recordings",
+                 sweep.joint ? parameter_table(sweep.joint->fit)
+                             : "<p class=\"absent\">" + formula_text(sweep.joint_reason) + "</p>\n");
 }
 
 std::string off_by(const Estimate& predicted, const Estimate& measured) {
@@ -84,19 +84,14 @@ std::string recording_row(const SweepSource& source, std::size_t i, const SweepU
 
 std::string recordings_of(const SweepSource& source) {
   const SweepUnits units = units_of(source);
-  std::vector<std::string> columns{label_with_unit("speed", units.speed.unit), "shows"};
-  if (has_surface_spacing(source)) columns.push_back(label_with_unit("spacing on the surface", units.spacing.unit));
-  columns.insert(columns.end(), {label_with_unit("spacing measured, V/f", units.spacing.unit),
-                                 label_with_unit("predicted without it", units.spacing.unit), "off by"});
-  std::string headings;
-  for (const std::string& words : columns) {
-    headings += fmt::format(R"(<th scope="col" class="{}">{}</th>)", words == "shows" ? "" : "number", text(words));
-  }
+  std::vector<std::string> columns{"recording", label_with_unit("#speed", units.speed.unit), "shows"};
+  if (has_surface_spacing(source)) columns.push_back(label_with_unit("#spacing on the surface", units.spacing.unit));
+  columns.insert(columns.end(), {label_with_unit("#spacing measured, V/f", units.spacing.unit),
+                                 label_with_unit("#predicted without it", units.spacing.unit), "#off by"});
   std::string rows;
   for (std::size_t i = 0; i < source.entries.size(); ++i) rows += recording_row(source, i, units);
-  return "<section class=\"flows\">\n<h2>Each recording, predicted without it</h2>\n<div class=\"wide\"><table "
-         "class=\"plain-table\"><thead><tr><th scope=\"col\">recording</th>" +
-         headings + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n</section>\n";
+  return section(" class=\"flows\"", "Each recording, predicted without it",
+                 table(" class=\"plain-table\"", columns, rows));
 }
 
 std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
@@ -106,8 +101,7 @@ std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
     facts += fmt::format("<dt>{}</dt><dd>{}<br><code>{}</code></dd>\n", text(source.entries[i].id),
                          text(provenance.file), provenance.input_digest ? provenance.input_digest->text() : "");
   }
-  return "<section id=\"repeat\" class=\"flows\">\n<h2>To repeat this</h2>\n<dl class=\"facts\">\n" + facts +
-         "</dl>\n</section>\n";
+  return section(" id=\"repeat\" class=\"flows\"", "To repeat this", fact_list(facts));
 }
 
 }  // namespace
@@ -122,9 +116,9 @@ std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   page.headline = html::verdict_of(source);
   page.summary =
       "<p class=\"reason\">" + html::formula_text(sweep.joint_reason) + "</p>\n" + html::warnings_part(sweep.warnings);
-  page.main = html::parameters_of(sweep) + html::exhibit_part(html::sweep_spacing_exhibit(source)) +
-              html::exhibit_part(html::sweep_friction_exhibit(source)) + html::recordings_of(source) +
-              html::exhibit_part(html::sweep_traces_exhibit(source)) + html::repeat_of(source, origin);
+  page.main = html::parameters_of(sweep) + html::figure_part(html::sweep_spacing_figure(source)) +
+              html::figure_part(html::sweep_friction_figure(source)) + html::recordings_of(source) +
+              html::figure_part(html::sweep_traces_figure(source)) + html::repeat_of(source, origin);
   return html::page_from(page);
 }
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "report/html/exhibit.hpp"
+#include "report/html/figure.hpp"
 
 namespace slipfit::html {
 

@@ -1,4 +1,4 @@
-#include "report/html/sweep_exhibits.hpp"
+#include "report/html/sweep_figures.hpp"
 
 #include <fmt/format.h>
 
@@ -87,7 +87,7 @@ class SpeedPanel {
     const std::string full = label_with_unit(label, unit_.unit);
     if (scale == chart::Scale::Logarithmic) {
       panel.y = heights_.logarithmic_axis(full);
-      mark(panel, critical_speed);
+      mark_critical_speed(panel, critical_speed);
       return panel;
     }
     Span heights = heights_;
@@ -98,19 +98,16 @@ class SpeedPanel {
   }
 
  private:
-  void mark(Panel& panel, const Estimate& critical_speed) const {
-    const double at = speed_unit_.per_SI * critical_speed.value.value_or(0.0);
-    if (!(panel.x.low < at && at < panel.x.high)) return;
-    if (critical_speed.ci95) {
-      const double low = std::max(panel.x.low, speed_unit_.per_SI * critical_speed.ci95->low);
-      const double high = std::min(panel.x.high, speed_unit_.per_SI * critical_speed.ci95->high);
-      panel.areas.push_back({"",
-                             Colour::Orange,
-                             chart::Fill::Plain,
-                             {{low, panel.y.low}, {low, panel.y.high}, {high, panel.y.high}, {high, panel.y.low}}});
+  void mark_critical_speed(Panel& panel, const Estimate& critical) const {
+    const auto at = [&](double SI) { return std::clamp(speed_unit_.per_SI * SI, panel.x.low, panel.x.high); };
+    const double x = at(critical.value.value_or(0.0));
+    if (!(panel.x.low < x && x < panel.x.high)) return;
+    if (const auto& ci95 = critical.ci95) {
+      panel.areas.push_back(
+          rectangle("", Colour::Orange, {at(ci95->low), panel.y.low}, {at(ci95->high), panel.y.high}));
     }
     panel.lines.push_back(
-        {"stick-slip ends, 95 %", Colour::Orange, Stroke::Dashed, {{at, panel.y.low}, {at, panel.y.high}}});
+        {"stick-slip ends, 95 %", Colour::Orange, Stroke::Dashed, {{x, panel.y.low}, {x, panel.y.high}}});
   }
   double at(double speed_m_per_s) {
     speeds_.add(speed_unit_.per_SI * speed_m_per_s);
@@ -133,19 +130,37 @@ class SpeedPanel {
   Span heights_;
 };
 
-/// What the joint fit says over speed: between the recordings where there is a prediction.
-Series fitted_spacing(const SweepSource& source) {
-  if (!source.prediction) {
-    const std::vector<SweepPoint>& points = source.sweep.joint->points;
-    return series_of(source, [&points](std::size_t i) { return points[i].spacing_m; });
-  }
+/// What a model predicts over speed; speeds without the quantity are left out.
+Series predicted_series(const Prediction& prediction, Estimate PredictedMotion::*quantity) {
   Series series;
-  for (const PredictedMotion& row : source.prediction->rows) {
-    if (!row.periodic_displacement_m.value) continue;
+  for (const PredictedMotion& row : prediction.rows) {
+    if (!(row.*quantity).value) continue;
     series.speeds_m_per_s.push_back(row.speed_m_per_s);
-    series.estimates.push_back(row.periodic_displacement_m);
+    series.estimates.push_back(row.*quantity);
   }
   return series;
+}
+
+/// One recording: what its fit predicts at other speeds, and the measurement.
+Panel panel_over_speed(const Source& source, const std::string& name, const DisplayUnit& unit,
+                       Estimate PredictedMotion::*quantity, const Estimate& measured) {
+  const Conditions& conditions = source.recording.conditions();
+  const Prediction& prediction = *source.background.prediction;
+  SpeedPanel panel(speed_unit(conditions.speed_unit, conditions.speed_m_per_s), unit);
+  panel.add_curve("predicted", Colour::Blue, predicted_series(prediction, quantity));
+  if (measured.value) {
+    panel.add_markers("measured, 95 %", Colour::Black, Shape::Dot, {{conditions.speed_m_per_s}, {measured}});
+  }
+  Panel finished = panel.finished(name, chart::Scale::Logarithmic, prediction.critical_speed_m_per_s);
+  finished.height_px = 230.0;
+  return finished;
+}
+
+/// What the joint fit says over speed: between the recordings where there is a prediction.
+Series fitted_spacing(const SweepSource& source) {
+  if (source.prediction) return predicted_series(*source.prediction, &PredictedMotion::periodic_displacement_m);
+  const std::vector<SweepPoint>& points = source.sweep.joint->points;
+  return series_of(source, [&points](std::size_t i) { return points[i].spacing_m; });
 }
 
 Estimate critical_speed_of(const SweepSource& source) {
@@ -162,20 +177,54 @@ DisplayUnit speed_unit_of(const SweepSource& source) {
 
 }  // namespace
 
+Figure speed_figure(const Source& source) {
+  Figure figure{"speed", "Spacing and frequency at other speeds"};
+  figure.guide =
+      "What the fitted model says where nothing was measured, as long as friction does not change with speed. The "
+      "point is the measurement; at its own speed the curve must pass through it and proves little. Where the band "
+      "ends before the curve, the recording cannot tell whether there still is stick-slip.";
+  const Analysis& analysis = source.analysis;
+  if (!source.background.prediction) {
+    const std::string& why = analysis.derived.lambda.note;
+    figure.absent = "No prediction for other speeds" + (why.empty() ? std::string() : ": " + why) + ".";
+    return figure;
+  }
+  const Prediction& prediction = *source.background.prediction;
+  const DisplayUnit length =
+      display_unit("m", analysis.derived.pattern_spacing_m.value ? analysis.derived.pattern_spacing_m.value
+                                                                 : analysis.derived.periodic_displacement_m.value);
+  figure.chart = chart::Chart{
+      "Spacing and frequency over speed",
+      {},
+      {panel_over_speed(source, "pattern spacing", length, &PredictedMotion::periodic_displacement_m,
+                        analysis.derived.pattern_spacing_m),
+       panel_over_speed(source, "frequency", {1.0, "Hz"}, &PredictedMotion::frequency_Hz, analysis.frequency.quoted)}};
+  const Estimate& critical = prediction.critical_speed_m_per_s;
+  const DisplayUnit unit = speed_unit(source.recording.conditions().speed_unit, critical.value);
+  figure.label =
+      fmt::format("predicted pattern spacing and stick-slip frequency over driving speed; critical speed {}",
+                  critical.value ? fmt::format("{} {}", rounded(scaled(critical, unit.per_SI)).value, unit.unit)
+                                 : std::string("not known"));
+  if (!critical.value && !critical.note.empty()) {
+    figure.guide += " The critical speed is not known: " + critical.note + ".";
+  }
+  return figure;
+}
+
 const std::string& given_speed_unit(const SweepSource& source) {
   return source.entries.front().recording.conditions().speed_unit;
 }
 
-Exhibit sweep_spacing_exhibit(const SweepSource& source) {
-  Exhibit exhibit{"sweep-spacing", "Pattern spacing over speed", {}, {}, {}, {}};
-  exhibit.guide =
+Figure sweep_spacing_figure(const SweepSource& source) {
+  Figure figure{"sweep-spacing", "Pattern spacing over speed"};
+  figure.guide =
       "Dots: measured, V/f. Rings: what a fit to all other recordings predicts for this one, with its 95 % interval; "
       "this is the test of the model, because the recording had no say in it. Line: the fit to all, with its 95 % "
       "band; where the band ends before "
       "the line, the recordings cannot tell whether there still is stick-slip.";
   if (!source.sweep.joint) {
-    exhibit.absent = "There is no joint fit: " + source.sweep.joint_reason + ".";
-    return exhibit;
+    figure.absent = "There is no joint fit: " + source.sweep.joint_reason + ".";
+    return figure;
   }
   const std::vector<SweepPoint>& points = source.sweep.joint->points;
   const Series measured =
@@ -183,46 +232,45 @@ Exhibit sweep_spacing_exhibit(const SweepSource& source) {
   const Series left_out = series_of(source, [&points](std::size_t i) { return points[i].spacing_left_out_m; });
   const Series fitted = fitted_spacing(source);
   if (measured.estimates.empty() && fitted.estimates.empty()) {
-    exhibit.absent = "No recording of the sweep shows a pattern.";
-    return exhibit;
+    figure.absent = "No recording of the sweep shows a pattern.";
+    return figure;
   }
   const Series& typical = measured.estimates.empty() ? fitted : measured;
   SpeedPanel panel(speed_unit_of(source), display_unit("m", typical.estimates.front().value));
   panel.add_curve("joint fit", Colour::Blue, fitted);
   panel.add_markers("measured (V/f)", Colour::Black, Shape::Dot, measured);
   panel.add_markers("predicted without it", Colour::Vermillion, Shape::Ring, left_out);
-  exhibit.chart = chart::Chart{"Pattern spacing over speed",
-                               {},
-                               {panel.finished("spacing", chart::Scale::Logarithmic, critical_speed_of(source))}};
-  exhibit.label = fmt::format("pattern spacing over driving speed: {} measured, {} predicted by fits without them",
-                              measured.estimates.size(), left_out.estimates.size());
-  return exhibit;
+  figure.chart = chart::Chart{"Pattern spacing over speed",
+                              {},
+                              {panel.finished("spacing", chart::Scale::Logarithmic, critical_speed_of(source))}};
+  figure.label = fmt::format("pattern spacing over driving speed: {} measured, {} predicted by fits without them",
+                             measured.estimates.size(), left_out.estimates.size());
+  return figure;
 }
 
-Exhibit sweep_friction_exhibit(const SweepSource& source) {
-  Exhibit exhibit{"sweep-friction", "Friction over speed", {}, {}, {}, {}};
-  exhibit.guide =
+Figure sweep_friction_figure(const SweepSource& source) {
+  Figure figure{
+      "sweep-friction", "Friction over speed",
       "Kinetic friction by the fitted friction law at the speeds of the sweep, with its 95 % band (alpha's uncertainty "
-      "is in it). Dots: the mean force of recordings that slide steadily.";
+      "is in it). Dots: the mean force of recordings that slide steadily."};
   const std::vector<SweepPoint> points = source.sweep.joint ? source.sweep.joint->points : std::vector<SweepPoint>{};
   const Series law =
       points.empty() ? Series{} : series_of(source, [&points](std::size_t i) { return points[i].kinetic_friction_N; });
   if (law.estimates.empty()) {
-    exhibit.absent = "Kinetic friction over speed is not known.";
-    return exhibit;
+    figure.absent = "Kinetic friction over speed is not known.";
+    return figure;
   }
   SpeedPanel panel(speed_unit_of(source), display_unit("N", law.estimates.front().value));
   panel.add_curve("kinetic friction by the fit", Colour::Blue, law);
   panel.add_markers("steady sliding, mean force", Colour::Black, Shape::Dot,
                     series_of(source, [&points](std::size_t i) { return points[i].mean_steady_force_N; }));
-  exhibit.chart = chart::Chart{"Friction over speed", {}, {panel.finished("friction force", chart::Scale::Linear)}};
-  exhibit.label = fmt::format("kinetic friction over driving speed at {} speeds", law.estimates.size());
-  return exhibit;
+  figure.chart = chart::Chart{"Friction over speed", {}, {panel.finished("friction force", chart::Scale::Linear)}};
+  figure.label = fmt::format("kinetic friction over driving speed at {} speeds", law.estimates.size());
+  return figure;
 }
 
-Exhibit sweep_traces_exhibit(const SweepSource& source) {
-  Exhibit exhibit{"sweep-traces", "The recordings", {}, {}, {}, {}};
-  exhibit.guide = "Each recording over its own time, with its own scale.";
+Figure sweep_traces_figure(const SweepSource& source) {
+  Figure figure{"sweep-traces", "The recordings", "Each recording over its own time, with its own scale."};
   chart::Chart chart{"Recordings of the sweep", {}, {}};
   for (const SweepEntry& entry : source.entries) {
     const Recording& recording = entry.recording;
@@ -242,9 +290,9 @@ Exhibit sweep_traces_exhibit(const SweepSource& source) {
                            Stroke::Solid, std::move(points), 1.0});
     chart.panels.push_back(std::move(panel));
   }
-  exhibit.label = fmt::format("force over time of {} recordings", source.entries.size());
-  exhibit.chart = std::move(chart);
-  return exhibit;
+  figure.label = fmt::format("force over time of {} recordings", source.entries.size());
+  figure.chart = std::move(chart);
+  return figure;
 }
 
 }  // namespace slipfit::html

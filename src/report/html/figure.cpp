@@ -1,4 +1,4 @@
-#include "report/html/exhibit.hpp"
+#include "report/html/figure.hpp"
 
 #include <limits>
 
@@ -30,9 +30,9 @@ bool has_fitted_curve(const Analysis& analysis) {
   return shows_cycles(analysis) && analysis.fit && !analysis.fit->curve.empty();
 }
 
-std::vector<Exhibit> exhibits_of(const Source& source) {
-  return {trace_exhibit(source), spectrum_exhibit(source), cycles_exhibit(source), pairs_exhibit(source),
-          map_exhibit(source),   speed_exhibit(source),    pattern_exhibit(source)};
+std::vector<Figure> figures_of(const Source& source) {
+  return {trace_figure(source), spectrum_figure(source), cycles_figure(source), pairs_figure(source),
+          map_figure(source),   speed_figure(source),    pattern_figure(source)};
 }
 
 }  // namespace slipfit::html

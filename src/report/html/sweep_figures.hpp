@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "report/html/exhibit.hpp"
+#include "report/html/figure.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
 
@@ -19,8 +19,8 @@ struct SweepSource {
 /// The unit in which the manifest gives the speeds; empty: SI.
 const std::string& given_speed_unit(const SweepSource& source);
 
-Exhibit sweep_spacing_exhibit(const SweepSource& source);
-Exhibit sweep_friction_exhibit(const SweepSource& source);
-Exhibit sweep_traces_exhibit(const SweepSource& source);
+Figure sweep_spacing_figure(const SweepSource& source);
+Figure sweep_friction_figure(const SweepSource& source);
+Figure sweep_traces_figure(const SweepSource& source);
 
 }  // namespace slipfit::html

@@ -1,8 +1,7 @@
-#include "slipfit/figures/figures.hpp"
-
 #include <iterator>
 
 #include "figures/parts.hpp"
+#include "slipfit/figures/figures.hpp"
 
 namespace slipfit {
 

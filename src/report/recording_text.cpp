@@ -1,14 +1,85 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "report/format.hpp"
 #include "report/names.hpp"
-#include "report/rounding.hpp"
 #include "report/table.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
+namespace {
+
+std::string plain_verdict(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::StickSlip:
+      return "stick-slip";
+    case Verdict::SteadySliding:
+      return "steady sliding, no stick-slip";
+    case Verdict::OscillatorySlip:
+      return "oscillatory slip (the body hardly sticks)";
+    case Verdict::Undetermined:
+      return "cannot tell whether this is stick-slip";
+  }
+  return "cannot tell whether this is stick-slip";
+}
+
+std::string assumed_text(const std::vector<std::string>& assumed) {
+  if (assumed.empty()) return {};
+  std::string text = "\nAssumed while reading\n";
+  for (const std::string& sentence : assumed) text += fmt::format("  - {}\n", one_line(sentence));
+  return text;
+}
+
+std::string tests_text(const std::vector<ShortTest>& tests) {
+  if (tests.empty()) return {};
+  std::string text = "\nTests\n";
+  for (const ShortTest& test : tests) text += fmt::format("  - {}\n", one_line(test.finding));
+  return text;
+}
+
+std::string judgement_text(const Recording& recording, const Analysis& analysis) {
+  const std::string& file = recording.provenance().file;
+  std::string text =
+      fmt::format("{}: {}", file.empty() ? "recording" : one_line(file), plain_verdict(analysis.verdict));
+  if (analysis.frequency.quoted.value) {
+    text += fmt::format(", {} Hz", with_error(analysis.frequency.quoted));
+    if (analysis.cycles.count > 0) text += fmt::format(", {} slips", analysis.cycles.count);
+  }
+  text += "\n";
+  if (!analysis.verdict_reason.empty()) text += fmt::format("  {}\n", one_line(analysis.verdict_reason));
+  return text;
+}
+
+}  // namespace
+
+std::string warnings_text(const Warnings& warnings) {
+  if (warnings.empty()) return {};
+  std::string text = "\nWarnings\n";
+  for (const Warning& warning : warnings) {
+    text += fmt::format("  ! {} [{}]\n", one_line(warning.message), one_line(warning.code));
+  }
+  return text;
+}
+
+std::string to_text(const Recording& recording, const Analysis& analysis) {
+  std::string text = judgement_text(recording, analysis);
+  text += parameters_text(recording, analysis);
+  text += frequency_text(analysis.frequency);
+  text += cycles_text(analysis.cycles, recording.conditions().quantity);
+  text += transients_text(analysis.transients, recording.conditions().quantity);
+  text += spacing_text(recording, analysis.derived);
+  const bool moves_like_model = analysis.verdict == Verdict::StickSlip || analysis.verdict == Verdict::OscillatorySlip;
+  if (moves_like_model) text += predicted_text(recording, analysis.derived);
+  text += tests_text(analysis.tests);
+  text += recording_text(recording, analysis);
+  text += warnings_text(analysis.warnings);
+  text += assumed_text(recording.provenance().assumed);
+  return text;
+}
+
 namespace {
 
 std::string spectral_text(const SpectralFrequency& spectral) {
@@ -76,13 +147,31 @@ std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity) {
   table.add({"slips", fmt::format("{} counted, {} minor{}, {} used in the fit", cycles.count, cycles.minor,
                                   cycles.minor > 0 ? " (drop below a quarter of the median)" : "", cycles.used)});
   if (cycles.period_s) table.add({"period", with_spread(cycles.period_s, cycles.period_sd_s, "s")});
+  if (cycles.regularity) table.add({"rhythm", std::string(name_of(*cycles.regularity))});
   if (cycles.slip_time_s) table.add({"slip time", quantity_text(cycles.slip_time_s, "s")});
   if (cycles.stick_time_s) table.add({"stick time", quantity_text(cycles.stick_time_s, "s")});
   if (cycles.sticking_degree) table.add({"sticking degree", quantity_text(cycles.sticking_degree, "")});
   if (cycles.peak_force) table.add({"peak force", with_spread(cycles.peak_force, cycles.peak_force_sd, unit)});
   if (cycles.trough_force) table.add({"trough force", quantity_text(cycles.trough_force, unit)});
   if (cycles.force_drop) table.add({"force drop", with_spread(cycles.force_drop, cycles.force_drop_sd, unit)});
+  if (cycles.stick_stiffness.value && quantity == ForceQuantity::Force_N) {
+    table.add({"slope of the sticks / V", with_error(cycles.stick_stiffness) + " N/m"});
+  }
   return "\nCycles\n" + table.text();
+}
+
+std::string transients_text(const Transients& transients, ForceQuantity quantity) {
+  Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
+  const auto add = [&](const char* words, const Estimate& estimate, const std::string& unit) {
+    if (estimate.value) add_estimate(table, words, estimate, unit);
+  };
+  if (quantity == ForceQuantity::Force_N) {
+    add("slope of the loading ramp / V", transients.loading_stiffness_N_per_m, "N/m");
+  }
+  add("first peak (breakaway)", transients.breakaway_force, force_unit(quantity));
+  add("ring-down, frequency", transients.ring_down_frequency_Hz, "Hz");
+  add("ring-down, damping ratio", transients.ring_down_damping_ratio, "");
+  return table.empty() ? std::string() : "\nBefore and after the sliding\n" + table.text();
 }
 
 std::string spacing_text(const Recording& recording, const Derived& derived) {

@@ -1,4 +1,4 @@
-#include "report/rounding.hpp"
+#include "report/format.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "slipfit/core/units.hpp"
+#include "slipfit/report/text.hpp"
 
 namespace slipfit {
 namespace {
@@ -107,6 +108,63 @@ Estimate scaled(const Estimate& estimate, double factor) {
   if (result.standard_error) *result.standard_error *= factor;
   if (result.ci95) result.ci95 = Interval{result.ci95->low * factor, result.ci95->high * factor};
   return result;
+}
+
+std::string one_line(std::string_view text) {
+  std::string line(text);
+  for (char& c : line) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20U || byte == 0x7FU) c = '?';
+  }
+  return line;
+}
+
+std::string force_unit(ForceQuantity quantity) {
+  return quantity == ForceQuantity::Force_N ? "N" : "";
+}
+
+EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit) {
+  std::optional<double> typical = estimate.value;
+  if (!typical && estimate.ci95) typical = estimate.ci95->high;
+  if (typical && estimate.standard_error) typical = std::max(std::abs(*typical), *estimate.standard_error);
+  return estimate_row(estimate, display_unit(SI_unit, typical));
+}
+
+EstimateRow estimate_row(const Estimate& estimate, const DisplayUnit& unit) {
+  const RoundedEstimate text = rounded(scaled(estimate, unit.per_SI));
+  return {text.value, text.interval, unit.unit};
+}
+
+std::string quantity_text(std::optional<double> value, const std::string& SI_unit) {
+  return value ? quantity_text(*value, display_unit(SI_unit, value)) : "-";
+}
+
+std::string quantity_text(double value, const DisplayUnit& unit) {
+  const std::string text = rounded(value * unit.per_SI, std::nullopt);
+  return unit.unit.empty() || text == "-" ? text : text + " " + unit.unit;
+}
+
+std::string stated_text(double value, const std::string& SI_unit) {
+  return stated_text(value, display_unit(SI_unit, value));
+}
+
+std::string stated_text(double value, const DisplayUnit& unit) {
+  return std::isfinite(value) ? fmt::format("{:.6g} {}", value * unit.per_SI, unit.unit) : "-";
+}
+
+std::string speed_text(const Conditions& conditions) {
+  return stated_text(conditions.speed_m_per_s, speed_unit(conditions.speed_unit, conditions.speed_m_per_s));
+}
+
+std::string plain_words(std::string_view name) {
+  if (name == "stick_slip") return "stick-slip";
+  std::string words = one_line(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string cell(std::optional<double> value) {
+  return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
 }
 
 }  // namespace slipfit

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "report/html/exhibit.hpp"
+#include "report/html/figure.hpp"
 #include "report/html/scaling.hpp"
 
 namespace slipfit::html {
@@ -104,21 +104,21 @@ Panel panel_of(const Source& source, const Stack& stack, Window window) {
 
 }  // namespace
 
-Exhibit cycles_exhibit(const Source& source) {
-  Exhibit exhibit{"cycles", "Cycles laid over each other", {}, {}, {}, {}};
-  exhibit.guide =
+Figure cycles_figure(const Source& source) {
+  Figure figure{"cycles", "Cycles laid over each other"};
+  figure.guide =
       "Every cycle moved so that its slip begins at time zero and its kinetic friction lies at zero force. A tight "
       "bundle means cycles alike; the spread at the top is the scatter of static friction. Above: whole cycles; below: "
       "the slip close up, where natural frequency and damping show.";
   if (!shows_cycles(source.analysis)) {
-    exhibit.absent = "Steady sliding has no cycles.";
-    return exhibit;
+    figure.absent = "Steady sliding has no cycles.";
+    return figure;
   }
   const Stack stack = stack_of(source.analysis);
   const CycleStatistics& cycles = source.analysis.cycles;
   if (stack.anchors.empty() || !cycles.period_s) {
-    exhibit.absent = "There are too few slips to lay cycles over each other.";
-    return exhibit;
+    figure.absent = "There are too few slips to lay cycles over each other.";
+    return figure;
   }
   chart::Chart chart{"Cycles laid over each other", {}, {}};
   chart.panels.push_back(panel_of(source, stack, {kBefore * *cycles.period_s, kAfter * *cycles.period_s}));
@@ -127,10 +127,10 @@ Exhibit cycles_exhibit(const Source& source) {
   if (is_resolved && kSlipAfter * slip_s < kAfter * *cycles.period_s) {
     chart.panels.push_back(panel_of(source, stack, {kSlipBefore * slip_s, kSlipAfter * slip_s}));
   }
-  exhibit.chart = std::move(chart);
-  exhibit.label = fmt::format("{} of {} cycles laid over each other, with the fit of a typical one",
-                              stack.anchors.size(), cycles.count);
-  return exhibit;
+  figure.chart = std::move(chart);
+  figure.label = fmt::format("{} of {} cycles laid over each other, with the fit of a typical one",
+                             stack.anchors.size(), cycles.count);
+  return figure;
 }
 
 }  // namespace slipfit::html

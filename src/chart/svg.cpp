@@ -1,5 +1,3 @@
-#include "chart/chart.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "chart/chart.hpp"
 #include "chart/drawing.hpp"
 #include "chart/legend.hpp"
 #include "chart/ticks.hpp"

@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "slipfit/core/estimate.hpp"
+#include "slipfit/core/recording.hpp"
 
 namespace slipfit {
 
@@ -35,5 +37,34 @@ DisplayUnit display_unit(const std::string& SI_unit, std::optional<double> typic
 DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m_per_s);
 
 Estimate scaled(const Estimate& estimate, double factor);
+
+/// "key   value ± error unit   [low, high]" for a table of estimates; SI_unit gets a prefix where that reads better.
+struct EstimateRow {
+  std::string value;
+  std::string interval;
+  std::string unit;
+};
+EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit);
+EstimateRow estimate_row(const Estimate& estimate, const DisplayUnit& unit);
+
+/// "1.234 mm": a number without an error.
+std::string quantity_text(std::optional<double> value, const std::string& SI_unit);
+std::string quantity_text(double value, const DisplayUnit& unit);
+
+/// "10 mm/s": a number that somebody stated, with the digits that it needs.
+std::string stated_text(double value, const std::string& SI_unit);
+std::string stated_text(double value, const DisplayUnit& unit);
+
+/// The driving speed, in the unit that it was given in.
+std::string speed_text(const Conditions& conditions);
+
+/// A status, role or regime of the document in words: "stick-slip", "steady sliding".
+std::string plain_words(std::string_view name);
+
+/// The unit of the force column: N, or 1 (empty text) for a friction coefficient.
+std::string force_unit(ForceQuantity quantity);
+
+/// For CSV: the shortest text that reads back as the same double; empty where there is no number.
+std::string cell(std::optional<double> value);
 
 }  // namespace slipfit

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "report/html/exhibit.hpp"
+#include "report/html/figure.hpp"
 #include "report/html/scaling.hpp"
 #include "report/text_sections.hpp"
 
@@ -72,12 +72,8 @@ SampleRange middle_cycles(const Source& source) {
 void mark_sliding(Panel& panel, const Source& source) {
   const TimeSpan& sliding = source.analysis.sliding;
   if (!(sliding.end_s - sliding.begin_s < source.recording.duration_s()) || !(sliding.end_s > sliding.begin_s)) return;
-  const auto corner = [](double x, double y) { return chart::Point{x, y}; };
-  panel.areas.push_back({"sliding",
-                         Colour::Grey,
-                         chart::Fill::Plain,
-                         {corner(sliding.begin_s, panel.y.low), corner(sliding.end_s, panel.y.low),
-                          corner(sliding.end_s, panel.y.high), corner(sliding.begin_s, panel.y.high)}});
+  panel.areas.push_back(
+      rectangle("sliding", Colour::Grey, {sliding.begin_s, panel.y.low}, {sliding.end_s, panel.y.high}));
 }
 
 /// Where slips begin and end by the fit, else the turning points.
@@ -117,18 +113,18 @@ Panel residual_panel(const Piece& piece, const std::string& unit) {
 
 }  // namespace
 
-Exhibit trace_exhibit(const Source& source) {
+Figure trace_figure(const Source& source) {
   const Recording& recording = source.recording;
   const std::string unit = source.force_unit.unit;
   const std::string label = label_with_unit(force_name_of(recording), unit);
   const bool has_fit = has_fitted_curve(source.analysis);
 
-  Exhibit exhibit{"trace", has_fit ? "The recording and the fit" : "The recording", {}, {}, {}, {}};
-  exhibit.guide = !has_fit ? "Measured force; no fit is drawn on it."
-                           : "Measured force, the fitted force on it, and what the fit leaves over (residual: measured "
-                             "less fitted). A good "
-                             "residual is noise without a shape; a pattern that repeats in every slip is something "
-                             "that the model lacks.";
+  Figure figure{"trace", has_fit ? "The recording and the fit" : "The recording"};
+  figure.guide = !has_fit ? "Measured force; no fit is drawn on it."
+                          : "Measured force, the fitted force on it, and what the fit leaves over (residual: measured "
+                            "less fitted). A good "
+                            "residual is noise without a shape; a pattern that repeats in every slip is something "
+                            "that the model lacks.";
   chart::Chart chart{"Recording and fit", {}, {}};
   chart.panels.push_back(force_panel(cut(source, {0, recording.size()}), label, 1.0));
   mark_sliding(chart.panels.back(), source);
@@ -141,13 +137,13 @@ Exhibit trace_exhibit(const Source& source) {
   for (chart::Panel& panel : chart.panels) {
     if (!has_fit && panel.lines.size() > 1) panel.lines.pop_back();
   }
-  exhibit.label =
+  figure.label =
       fmt::format("{} over {}, {}{}", force_name_of(recording), quantity_text(recording.duration_s(), "s"),
                   shows_cycles(source.analysis) ? fmt::format("{} slips marked", source.analysis.cycles.count)
                                                 : std::string("steady sliding"),
                   has_fit ? ", with the fitted force and the residual" : ", without a fit");
-  exhibit.chart = std::move(chart);
-  return exhibit;
+  figure.chart = std::move(chart);
+  return figure;
 }
 
 }  // namespace slipfit::html

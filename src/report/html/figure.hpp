@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "chart/chart.hpp"
-#include "report/rounding.hpp"
+#include "report/format.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/pipeline.hpp"
@@ -29,24 +29,24 @@ bool shows_cycles(const Analysis& analysis);
 bool has_fitted_curve(const Analysis& analysis);
 
 /// One chart with its words, or the reason why there is none.
-struct Exhibit {
-  std::string id;     ///< letters and '-': on the page, and the file's name
-  std::string title;  ///< a few words
-  std::string guide;  ///< how to read it, plain text
-  std::string label;  ///< what there is to see, in words, for who cannot see it
-  std::optional<chart::Chart> chart;
-  std::string absent;  ///< a sentence, where there is no chart
+struct Figure {
+  std::string id;          ///< letters and '-': on the page, and the file's name
+  std::string title;       ///< a few words
+  std::string guide = {};  ///< how to read it, plain text
+  std::string label = {};  ///< what there is to see, in words, for who cannot see it
+  std::optional<chart::Chart> chart = {};
+  std::string absent = {};  ///< a sentence, where there is no chart
 };
 
-Exhibit trace_exhibit(const Source& source);
-Exhibit spectrum_exhibit(const Source& source);
-Exhibit cycles_exhibit(const Source& source);
-Exhibit pairs_exhibit(const Source& source);
-Exhibit map_exhibit(const Source& source);
-Exhibit speed_exhibit(const Source& source);
-Exhibit pattern_exhibit(const Source& source);
+Figure trace_figure(const Source& source);
+Figure spectrum_figure(const Source& source);
+Figure cycles_figure(const Source& source);
+Figure pairs_figure(const Source& source);
+Figure map_figure(const Source& source);
+Figure speed_figure(const Source& source);
+Figure pattern_figure(const Source& source);
 
 /// All of them, in the order of the page.
-std::vector<Exhibit> exhibits_of(const Source& source);
+std::vector<Figure> figures_of(const Source& source);
 
 }  // namespace slipfit::html

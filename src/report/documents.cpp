@@ -1,0 +1,97 @@
+#include <filesystem>
+#include <string>
+
+#include "report/json_sections.hpp"
+#include "report/names.hpp"
+#include "slipfit/report/json.hpp"
+#include "slipfit/report/sweep.hpp"
+
+namespace slipfit {
+namespace {
+
+Json timing_json(const Timing& timing) {
+  return Json{{"read_s", number(timing.read_s)},
+              {"frequency_s", number(timing.frequency_s)},
+              {"fit_s", number(timing.fit_s)},
+              {"total_s", number(timing.total_s)}};
+}
+
+/// What one recording shows, alone or in a sweep.
+void add_analysis(Json& json, const Recording& recording, const Analysis& analysis, std::optional<SweepRole> role) {
+  json["recording"] = recording_json(recording, analysis);
+  json["status"] = name_of(analysis.verdict);
+  json["status_reason"] = analysis.verdict_reason;
+  if (role) json["role"] = name_of(*role);
+  json["warnings"] = warnings_json(analysis.warnings);
+  json["frequency"] = frequency_json(analysis.frequency);
+  json["cycles"] = cycles_json(analysis.cycles, recording.conditions().quantity);
+}
+
+void add_fit(Json& json, const FitResult& fit, ForceQuantity quantity) {
+  json["model"] = model_json(fit, quantity);
+  json["parameters"] = parameters_json(fit);
+  json["correlation"] = correlation_json(fit);
+}
+
+std::string id_of(const Recording& recording, const JsonOptions& options) {
+  if (!options.id.empty()) return options.id;
+  return std::filesystem::path(recording.provenance().file).stem().string();
+}
+
+}  // namespace
+
+std::string to_json(const Recording& recording, const Analysis& analysis, const JsonOptions& options) {
+  Json json{{"schema", "slipfit.fit/1"}, {"version", SLIPFIT_VERSION}, {"id", id_of(recording, options)}};
+  add_analysis(json, recording, analysis, {});
+  if (analysis.fit) add_fit(json, *analysis.fit, recording.conditions().quantity);
+  json["derived"] = derived_json(analysis.derived);
+  json["transients"] = transients_json(analysis.transients, recording.conditions().quantity);
+  json["tests"] = tests_json(analysis.tests);
+  if (options.timing) json["timing"] = timing_json(analysis.timing);
+  return text_of(json, options.layout);
+}
+
+namespace {
+
+/// One recording of the sweep: what it shows on its own, and what the joint fit says of it.
+Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole role, const SweepPoint* point) {
+  Json json{{"id", entry.id}};
+  add_analysis(json, entry.recording, analysis, role);
+  json["derived"] = derived_json(analysis.derived);
+  if (point != nullptr) {
+    json["joint"] = {{"cycles_used", point->cycles_used},
+                     {"rms_N", number(point->rms)},
+                     {"kinetic_friction_N", estimate(point->kinetic_friction_N)},
+                     {"mean_steady_force_N", estimate(point->mean_steady_force_N)},
+                     {"spacing_m", estimate(point->spacing_m)},
+                     {"spacing_left_out_m", estimate(point->spacing_left_out_m)}};
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const JsonOptions& options) {
+  Json json{{"schema", "slipfit.fit/1"}, {"version", SLIPFIT_VERSION}, {"id", options.id}};
+  Json members = Json::array();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    members.push_back(
+        member_json(entries[i], sweep.recordings[i], sweep.roles[i], sweep.joint ? &sweep.joint->points[i] : nullptr));
+  }
+  json["recordings"] = std::move(members);
+  json["status"] = name_of(sweep.joint ? Verdict::StickSlip : Verdict::Undetermined);
+  json["status_reason"] = sweep.joint_reason;
+  json["warnings"] = warnings_json(sweep.warnings);
+  if (sweep.joint) {
+    add_fit(json, sweep.joint->fit, ForceQuantity::Force_N);
+    json["model"]["level_shared"] = sweep.joint->level_shared;
+    json["model"]["static_friction_shared"] = sweep.joint->difference_shared;
+    if (const auto& model = sweep.joint->fit.estimate; model && model->ageing) {
+      json["model"]["ageing_reference_s"] = number(model->ageing->reference_stick_s);
+    }
+  }
+  json["derived"] = derived_json(sweep.derived);
+  return text_of(json, options.layout);
+}
+
+}  // namespace slipfit

@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "report/html/figure.hpp"
+#include "report/html/scaling.hpp"
+
+namespace slipfit::html {
+namespace {
+
+using chart::Colour, chart::Panel, chart::Point, chart::Stroke;
+
+constexpr double kLowestZeta = 1e-3;
+constexpr double kHighestZeta = 3.0;
+
+/// The recording on the map; intervals as far as they are known.
+struct Spot {
+  Estimate lambda;
+  Estimate zeta;
+};
+
+Spot spot_of(const Analysis& analysis) {
+  Spot spot{analysis.derived.lambda, {}};
+  if (!analysis.fit) return spot;
+  const Parameter* const zeta = analysis.fit->find(ParameterId::DampingRatio);
+  if (zeta != nullptr && zeta->status != ParameterStatus::Bounded) spot.zeta = zeta->estimate;
+  return spot;
+}
+
+chart::Panel regions(const std::vector<LimitPoint>& limit, double left, double right) {
+  chart::Panel panel;
+  panel.height_px = 340.0;
+  panel.legend_at = chart::LegendAt::Above;
+  panel.x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", left, right, chart::Scale::Logarithmic};
+  panel.y = {"damping ratio ζ  [-]", kLowestZeta, kHighestZeta, chart::Scale::Logarithmic};
+  chart::Line exact{"exact limit of stick-slip", Colour::Black, Stroke::Solid, {}};
+  for (const LimitPoint& point : limit) exact.points.push_back({point.lambda, point.damping_ratio});
+  std::vector<Point> stick_slip = exact.points;
+  stick_slip.push_back({right, 1.0});
+  stick_slip.push_back({right, kLowestZeta});
+  panel.areas = {
+      {"", Colour::SkyBlue, chart::Fill::Plain, stick_slip},
+      {"", Colour::Grey, chart::Fill::Plain, {{left, 1.0}, {left, kHighestZeta}, {right, kHighestZeta}, {right, 1.0}}}};
+  panel.lines.push_back(exact);
+  panel.notes = {{{left * std::pow(right / left, 0.8), 0.004}, "stick-slip", Colour::Black, 0.0, -1.0},
+                 {{left * std::pow(right / left, 0.12), 0.3}, "no stick-slip", Colour::Black, 0.0, -1.0},
+                 {{left * std::pow(right / left, 0.5), 1.6}, "overdamped, ζ ≥ 1", Colour::Black, 0.0, -1.0}};
+  return panel;
+}
+
+/// Bars that reach over the 95 % intervals.
+void add_spot(chart::Panel& panel, const Spot& spot) {
+  const double lambda = *spot.lambda.value;
+  const double zeta = std::max(*spot.zeta.value, kLowestZeta);
+  panel.markers.push_back({"this recording", Colour::Vermillion, chart::Shape::Dot, {{lambda, zeta}}});
+  const auto bar = [&panel](Point from, Point to) {
+    const char* name = panel.lines.size() == 1 ? "95 % intervals" : "";
+    panel.lines.push_back({name, Colour::Vermillion, Stroke::Solid, {from, to}, 2.4});
+  };
+  if (spot.lambda.ci95) bar({spot.lambda.ci95->low, zeta}, {spot.lambda.ci95->high, zeta});
+  if (spot.zeta.ci95) {
+    bar({lambda, std::max(spot.zeta.ci95->low, kLowestZeta)}, {lambda, std::max(spot.zeta.ci95->high, kLowestZeta)});
+  }
+}
+
+}  // namespace
+
+Figure map_figure(const Source& source) {
+  Figure figure{"map", "Where this recording lies"};
+  figure.guide =
+      "Right of the line a body that starts from rest keeps sticking and slipping, left of it the motion dies out. "
+      "Raising the speed moves the point to the left (lambda falls as 1/V). The bars are the 95 % intervals; a damping "
+      "ratio below 0.001 is drawn at the lower edge.";
+  const Spot spot = spot_of(source.analysis);
+  if (!spot.lambda.value || !spot.zeta.value || !(*spot.lambda.value > 0.0)) {
+    const std::string& why = spot.lambda.value ? spot.zeta.note : spot.lambda.note;
+    figure.absent = "The place on the map is not known" + (why.empty() ? std::string() : ": " + why) + ".";
+    return figure;
+  }
+  const double lambda = *spot.lambda.value;
+  chart::Panel panel = regions(source.background.limit, std::min(0.01, 0.3 * lambda), std::max(100.0, 3.0 * lambda));
+  add_spot(panel, spot);
+  figure.chart = chart::Chart{"Map of regimes", {}, {panel}};
+  figure.label = fmt::format(
+      "map of damping ratio against lambda with the limit of stick-slip; this recording lies at "
+      "lambda {}, damping ratio {}",
+      rounded(spot.lambda).value, rounded(spot.zeta).value);
+  return figure;
+}
+
+namespace {
+
+constexpr std::size_t kMostRidges = 14;
+constexpr int kShades = 5;              // steps from the flank to the crest
+constexpr double kCrest = 0.85;         // where the crest lies between two slips: ridges lean against the sliding
+constexpr std::size_t kMostFine = 200;  // finer ones would be a grey area
+
+/// Distances between neighbouring ridges: the spacing, scattered as the recording's own intervals between slips do.
+std::vector<double> ridge_distances_m(const Analysis& analysis, double spacing_m) {
+  std::vector<double> intervals;
+  const std::vector<Cycle>& cycles = analysis.cycle_table;
+  for (std::size_t i = 1; i < cycles.size(); ++i) {
+    intervals.push_back(cycles[i].onset_s.value_or(cycles[i].peak_s) -
+                        cycles[i - 1].onset_s.value_or(cycles[i - 1].peak_s));
+  }
+  const std::size_t count = std::min(kMostRidges, intervals.size());
+  const std::size_t first = (intervals.size() - count) / 2;
+  std::vector<double> distances(intervals.begin() + static_cast<std::ptrdiff_t>(first),
+                                intervals.begin() + static_cast<std::ptrdiff_t>(first + count));
+  if (distances.empty()) return distances;
+  const double mean = std::accumulate(intervals.begin(), intervals.end(), 0.0) / static_cast<double>(intervals.size());
+  for (double& distance : distances) distance *= spacing_m / mean;
+  return distances;
+}
+
+/// One ridge seen from above: darker towards its crest.
+void add_ridge(Panel& panel, double begin, double end) {
+  const double crest = begin + kCrest * (end - begin);
+  for (int shade = 1; shade <= kShades; ++shade) {
+    const double part = static_cast<double>(shade) / (kShades + 1);
+    panel.areas.push_back(
+        rectangle("", Colour::Black, {begin + part * (crest - begin), 0.0}, {end - part * (end - crest), 1.0}));
+  }
+}
+
+Panel strip(const std::string& name, const std::string& unit, double length) {
+  Panel panel;
+  panel.height_px = 70.0;
+  panel.x = {label_with_unit(name, unit), 0.0, length, chart::Scale::Linear};
+  panel.y = {"", 0.0, 1.0, chart::Scale::Linear};
+  return panel;
+}
+
+Panel fine_strip(double spacing, double length, const std::string& unit) {
+  Panel panel = strip("path, fine pattern (an estimate)", unit, length);
+  panel.height_px = 40.0;
+  for (double at = 0.0; at < length; at += spacing) {
+    panel.areas.push_back(rectangle("", Colour::Black, {at + 0.5 * spacing, 0.0}, {at + spacing, 1.0}));
+  }
+  return panel;
+}
+
+}  // namespace
+
+Figure pattern_figure(const Source& source) {
+  Figure figure{"pattern", "The abrasion pattern as it would look"};
+  const Derived& derived = source.analysis.derived;
+  const bool is_predicted = derived.periodic_displacement_m.value.has_value();
+  const Estimate& spacing = is_predicted ? derived.periodic_displacement_m : derived.pattern_spacing_m;
+  const bool has_ridges = source.analysis.verdict == Verdict::StickSlip && spacing.value;
+  const std::vector<double> distances_m =
+      has_ridges ? ridge_distances_m(source.analysis, *spacing.value) : std::vector<double>{};
+  if (distances_m.empty()) {
+    figure.absent = "Without stick-slip there is no pattern to draw.";
+    return figure;
+  }
+  const double length_m = std::accumulate(distances_m.begin(), distances_m.end(), 0.0);
+  const DisplayUnit unit = display_unit("m", 0.2 * length_m);
+  const double per_SI = unit.per_SI;
+  Panel coarse = strip("path, coarse pattern (stick-slip)", unit.unit, per_SI * length_m);
+  double at = 0.0;
+  for (const double distance_m : distances_m) {
+    add_ridge(coarse, at, at + per_SI * distance_m);
+    at += per_SI * distance_m;
+  }
+  figure.chart = chart::Chart{"Abrasion pattern, to scale", {}, {coarse}};
+  const std::string source_words = is_predicted ? "predicted by the fitted model" : "measured (V/f)";
+  figure.guide = fmt::format(
+      "The surface from above, one ridge a slip, along the path to scale: mean spacing {}, {}, with the scatter of "
+      "this "
+      "recording's slips. The height of the ridges and their shape are not predicted; they are drawn alike.",
+      quantity_of(spacing, "m"), source_words);
+  const Estimate& fine = derived.micro_vibration_spacing_m;
+  if (fine.value && *fine.value > 0.0 && length_m / *fine.value < static_cast<double>(kMostFine)) {
+    figure.chart->panels.push_back(fine_strip(per_SI * *fine.value, per_SI * length_m, unit.unit));
+    figure.guide += fmt::format(
+        " The fine pattern below, spacing {}, is an estimate from the free oscillation: the model has no "
+        "micro-vibration inside a slip.",
+        quantity_of(fine, "m"));
+  }
+  figure.label = fmt::format("abrasion pattern from above, {} ridges, mean spacing {}", distances_m.size(),
+                             quantity_of(spacing, "m"));
+  return figure;
+}
+
+}  // namespace slipfit::html

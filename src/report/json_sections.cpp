@@ -1,0 +1,252 @@
+#include "report/json_sections.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "report/names.hpp"
+
+namespace slipfit {
+namespace {
+
+Json quality_json(const Recording& recording, const Quality& quality) {
+  const Provenance& provenance = recording.provenance();
+  Json json = Json::object();
+  ForceKeys forces(json, recording.conditions().quantity);
+  forces.put("noise_rms", quality.noise_rms);
+  forces.put("quantisation_step", quality.quantisation_step);
+  forces.put("clip_high", quality.clip_high);
+  forces.put("clip_low", quality.clip_low);
+  json["clipped_samples"] = quality.clipped_samples;
+  json["impulses"] = quality.impulses;
+  json["gaps"] = quality.gaps;
+  json["longest_gap_s"] = number(quality.longest_gap_s);
+  json["clock_jitter"] = number(quality.clock_jitter);
+  json["rows_without_number"] = provenance.rows_without_number;
+  json["rows_backward_in_time"] = provenance.rows_backward_in_time;
+  json["rows_repeating_time"] = provenance.rows_repeating_time;
+  forces.finish();
+  return json;
+}
+
+}  // namespace
+
+Json recording_json(const Recording& recording, const Analysis& analysis) {
+  const Conditions& conditions = recording.conditions();
+  const Provenance& provenance = recording.provenance();
+  return Json{{"file", provenance.file},
+              {"input_digest", provenance.input_digest ? Json(provenance.input_digest->text()) : Json()},
+              {"input_bytes", provenance.input_bytes ? Json(*provenance.input_bytes) : Json()},
+              {"samples", recording.size()},
+              {"sample_rate_Hz", number(1.0 / recording.sample_interval_s())},
+              {"duration_s", number(recording.duration_s())},
+              {"speed_m_per_s", number(conditions.speed_m_per_s)},
+              {"speed_se_m_per_s", number(conditions.speed_standard_error_m_per_s)},
+              {"normal_force_N", number(conditions.normal_force_N)},
+              {"force_view", name_of(conditions.force_view)},
+              {"force_quantity", name_of(conditions.quantity)},
+              {"zero_force_N", number(conditions.zero_force_N)},
+              {"mass_kg", number(conditions.mass_kg)},
+              {"sensor_bandwidth_Hz", number(conditions.sensor_bandwidth_Hz)},
+              {"drive_period_s", number(conditions.drive_period_s)},
+              {"sensor_resonance_Hz", number(conditions.sensor_resonance_Hz)},
+              {"assumed", provenance.assumed},
+              {"sliding_s", {number(analysis.sliding.begin_s), number(analysis.sliding.end_s)}},
+              {"quality", quality_json(recording, analysis.quality)}};
+}
+
+Json warnings_json(const Warnings& warnings) {
+  Json json = Json::array();
+  for (const Warning& warning : warnings) json.push_back({{"code", warning.code}, {"message", warning.message}});
+  return json;
+}
+
+Json frequency_json(const FrequencyReport& frequency) {
+  Json harmonics = Json::array();
+  for (const double harmonic_Hz : frequency.spectral.harmonics_Hz) harmonics.push_back(number(harmonic_Hz));
+  Json lines = Json::array();
+  for (const SuspiciousLine& line : frequency.spectral.suspicious_lines) {
+    lines.push_back({{"frequency_Hz", number(line.frequency_Hz)}, {"reason", line.reason}});
+  }
+  Json beside = Json::array();
+  for (const SuspiciousLine& line : frequency.lines) {
+    beside.push_back(
+        {{"frequency_Hz", number(line.frequency_Hz)}, {"swing", number(line.swing)}, {"reason", line.reason}});
+  }
+  Json json{
+      {"value_Hz", number(frequency.quoted.value)},
+      {"se_Hz", number(frequency.quoted.standard_error)},
+      {"ci95_Hz", interval(frequency.quoted.ci95)},
+      {"method", frequency.method.empty() ? "none" : frequency.method},
+      {"false_alarm_probability", number(frequency.spectral.false_alarm_probability)},
+      {"harmonics", std::move(harmonics)},
+      {"suspicious_lines", std::move(lines)},
+      {"lines", std::move(beside)},
+      {"spectral",
+       {{"value_Hz", number(frequency.spectral.value_Hz)}, {"se_Hz", number(frequency.spectral.standard_error_Hz)}}},
+      {"counted",
+       {{"value_Hz", number(frequency.counted.value)},
+        {"se_Hz", number(frequency.counted.standard_error)},
+        {"ci95_Hz", interval(frequency.counted.ci95)}}}};
+  if (!frequency.quoted.note.empty()) json["note"] = frequency.quoted.note;
+  return json;
+}
+
+namespace {
+
+}  // namespace
+
+Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity) {
+  Json json{{"count", cycles.count},
+            {"minor", cycles.minor},
+            {"used", cycles.used},
+            {"period_s", number(cycles.period_s)},
+            {"period_sd_s", number(cycles.period_sd_s)},
+            {"slip_time_s", number(cycles.slip_time_s)},
+            {"stick_time_s", number(cycles.stick_time_s)},
+            {"sticking_degree", number(cycles.sticking_degree)},
+            {"drop_cv", number(cycles.drop_cv)},
+            {"period_cv", number(cycles.period_cv)},
+            {"regularity", cycles.regularity ? Json(name_of(*cycles.regularity)) : Json()},
+            {"stick_stiffness_N_per_m", quantity == ForceQuantity::Force_N ? estimate(cycles.stick_stiffness) : Json()}};
+  ForceKeys forces(json, quantity);
+  forces.put("peak_force", cycles.peak_force);
+  forces.put("peak_force_sd", cycles.peak_force_sd);
+  forces.put("trough_force", cycles.trough_force);
+  forces.put("force_drop", cycles.force_drop);
+  forces.put("force_drop_sd", cycles.force_drop_sd);
+  forces.finish();
+  return json;
+}
+
+namespace {
+
+Json candidate_json(const Candidate& candidate, ForceQuantity quantity) {
+  Json json{{"tier", name_of(candidate.tier)}, {"parameters", candidate.parameters}};
+  ForceKeys forces(json, quantity);
+  forces.put("rms", candidate.rms);
+  json["aicc"] = number(candidate.aicc);
+  json["chosen"] = candidate.chosen;
+  json["reason"] = candidate.reason;
+  forces.finish();
+  return json;
+}
+
+/// Its place in ModelEstimate::covariance.
+std::size_t place_of(const std::string& name) {
+  const auto* const found = std::find_if(kModelParameters.begin(), kModelParameters.end(),
+                                         [&name](ParameterId id) { return info(id).key == name; });
+  return static_cast<std::size_t>(found - kModelParameters.begin());
+}
+
+/// What the covariance belongs to, in the order of Correlation::names. A value that the data hardly tell alone, and
+/// whose parameter is therefore null, still stands here: together with the others it predicts.
+Json working_values_json(const Correlation& correlation, const ModelEstimate& estimate) {
+  const SpeedDependence law = estimate.speed_dependence.value_or(SpeedDependence{});
+  const std::array<double, kModelValues> values{estimate.stiffness_N_per_m,
+                                                estimate.natural_frequency_rad_per_s,
+                                                estimate.damping_ratio,
+                                                estimate.friction_difference_N,
+                                                law.slope_N_s_per_m,
+                                                law.alpha_s_per_m,
+                                                estimate.ageing.value_or(Ageing{}).rate_N};
+  Json json = Json::array();
+  for (const std::string& name : correlation.names) json.push_back(number(values[place_of(name)]));
+  return json;
+}
+
+/// With the matrix this is the whole covariance. Where zeta lies at 0 the se of the parameters is wider.
+Json scaled_errors_json(const Correlation& correlation, const ModelEstimate& estimate) {
+  Json errors = Json::array();
+  for (const std::string& name : correlation.names) {
+    const std::size_t i = place_of(name);
+    errors.push_back(number(std::sqrt(std::max(0.0, estimate.covariance[i][i]))));
+  }
+  return errors;
+}
+
+}  // namespace
+
+Json model_json(const FitResult& fit, ForceQuantity quantity) {
+  Json candidates = Json::array();
+  for (const Candidate& candidate : fit.candidates) candidates.push_back(candidate_json(candidate, quantity));
+  Json residual = Json::object();
+  ForceKeys forces(residual, quantity);
+  forces.put("rms", fit.residual.rms);
+  residual["reduced_chi2"] = number(fit.residual.reduced_chi2);
+  residual["whiteness_p"] = number(fit.residual.whiteness_p);
+  forces.finish();
+  return Json{{"tier", name_of(fit.tier)},
+              {"conditional_on", fit.conditional_on},
+              {"candidates", std::move(candidates)},
+              {"residual", std::move(residual)},
+              {"degrees_of_freedom", fit.estimate ? number(fit.estimate->degrees_of_freedom) : Json(nullptr)}};
+}
+
+Json parameters_json(const FitResult& fit) {
+  Json json = Json::object();
+  for (const Parameter& parameter : fit.parameters) {
+    json[std::string(parameter.name())] = {{"value", number(parameter.estimate.value)},
+                                           {"se", number(parameter.estimate.standard_error)},
+                                           {"ci95", interval(parameter.estimate.ci95)},
+                                           {"status", name_of(parameter.status)},
+                                           {"note", parameter.estimate.note}};
+  }
+  return json;
+}
+
+Json correlation_json(const FitResult& fit) {
+  if (!fit.correlation) return nullptr;
+  Json matrix = Json::array();
+  for (const std::vector<double>& row : fit.correlation->matrix) {
+    Json cells = Json::array();
+    for (const double cell : row) cells.push_back(number(cell));
+    matrix.push_back(std::move(cells));
+  }
+  Json json{{"names", fit.correlation->names}, {"matrix", std::move(matrix)}};
+  if (fit.estimate) {
+    json["values"] = working_values_json(*fit.correlation, *fit.estimate);
+    json["scaled_se"] = scaled_errors_json(*fit.correlation, *fit.estimate);
+  }
+  return json;
+}
+
+Json tests_json(const std::vector<ShortTest>& tests) {
+  Json json = Json::array();
+  for (const ShortTest& test : tests) {
+    json.push_back({{"name", test.name},
+                    {"value", number(test.value)},
+                    {"se", number(test.standard_error)},
+                    {"p_value", number(test.p_value)},
+                    {"finding", test.finding}});
+  }
+  return json;
+}
+
+Json derived_json(const Derived& derived) {
+  Json json{{"lambda", estimate(derived.lambda)},
+            {"gamma", estimate(derived.gamma)},
+            {"lambda_critical", estimate(derived.lambda_critical)},
+            {"critical_speed_m_per_s", estimate(derived.critical_speed_m_per_s)},
+            {"regime", derived.regime ? Json(*derived.regime) : Json(nullptr)},
+            {"bistable", derived.bistable ? Json(*derived.bistable) : Json(nullptr)},
+            {"periodic_displacement_m", estimate(derived.periodic_displacement_m)},
+            {"pattern_spacing_m", estimate(derived.pattern_spacing_m)},
+            {"pattern_spacing_sd_m", estimate(Estimate{derived.pattern_spacing_sd_m, {}, {}, {}})},
+            {"micro_vibration_spacing_m", estimate(derived.micro_vibration_spacing_m)},
+            {"impulse_rate_per_m", estimate(derived.impulse_rate_per_m)}};
+  if (derived.measured_spacing_En) json["measured_spacing_En"] = estimate(*derived.measured_spacing_En);
+  return json;
+}
+
+Json transients_json(const Transients& transients, ForceQuantity quantity) {
+  const bool newtons = quantity == ForceQuantity::Force_N;
+  Json json{{"loading_stiffness_N_per_m", newtons ? estimate(transients.loading_stiffness_N_per_m) : Json()},
+            {"breakaway_force_N", newtons ? estimate(transients.breakaway_force) : Json()},
+            {"ringdown_frequency_Hz", estimate(transients.ring_down_frequency_Hz)},
+            {"ringdown_damping_ratio", estimate(transients.ring_down_damping_ratio)}};
+  if (!newtons) json["breakaway_coefficient"] = estimate(transients.breakaway_force);
+  return json;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,166 @@
+#include "slipfit/report/prediction.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "report/format.hpp"
+#include "report/json_values.hpp"
+#include "report/table.hpp"
+#include "report/text_sections.hpp"
+#include "slipfit/report/text.hpp"
+
+namespace slipfit {
+namespace {
+
+/// A quantity of a predicted motion: its key is name + unit_suffix ("period" + "_s"); docs/formats.md lists them.
+struct PredictedQuantity {
+  std::string_view name;
+  std::string_view unit_suffix;
+  Estimate PredictedMotion::*estimate;
+};
+
+constexpr std::array<PredictedQuantity, 10> kPredictedQuantities{{
+    {"lambda", "", &PredictedMotion::lambda},
+    {"period", "_s", &PredictedMotion::period_s},
+    {"frequency", "_Hz", &PredictedMotion::frequency_Hz},
+    {"slip_time", "_s", &PredictedMotion::slip_time_s},
+    {"stick_time", "_s", &PredictedMotion::stick_time_s},
+    {"sticking_degree", "", &PredictedMotion::sticking_degree},
+    {"periodic_displacement", "_m", &PredictedMotion::periodic_displacement_m},
+    {"micro_vibration_spacing", "_m", &PredictedMotion::micro_vibration_spacing_m},
+    {"force_peak", "_N", &PredictedMotion::force_peak_N},
+    {"force_trough", "_N", &PredictedMotion::force_trough_N},
+}};
+
+Json quantity_json(const Estimate& quantity) {
+  Json json{{"value", number(quantity.value)}, {"ci95", interval(quantity.ci95)}};
+  if (!quantity.note.empty()) json["note"] = quantity.note;
+  return json;
+}
+
+Json row_json(const PredictedMotion& row) {
+  Json json{{"speed_m_per_s", number(row.speed_m_per_s)}, {"regime", row.regime}, {"bistable", row.bistable}};
+  for (const PredictedQuantity& quantity : kPredictedQuantities) {
+    json[std::string(quantity.name) + std::string(quantity.unit_suffix)] = quantity_json(row.*quantity.estimate);
+  }
+  if (!row.note.empty()) json["note"] = row.note;
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const Prediction& prediction, const PredictionSource& source) {
+  Json rows = Json::array();
+  for (const PredictedMotion& row : prediction.rows) rows.push_back(row_json(row));
+  const Json json{{"schema", "slipfit.predict/1"},
+                  {"version", SLIPFIT_VERSION},
+                  {"source", source.name},
+                  {"conditional_on", source.conditional_on},
+                  {"critical_speed_m_per_s", quantity_json(prediction.critical_speed_m_per_s)},
+                  {"lambda_critical", quantity_json(prediction.lambda_critical)},
+                  {"rows", std::move(rows)}};
+  return text_of(json);
+}
+
+namespace {
+
+std::string header() {
+  std::string text = "speed_m_per_s,regime,bistable";
+  for (const PredictedQuantity& quantity : kPredictedQuantities) {
+    text += fmt::format(",{0}{1},{0}_low{1},{0}_high{1}", quantity.name, quantity.unit_suffix);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string prediction_to_csv(const Prediction& prediction) {
+  std::string csv = header();
+  for (const PredictedMotion& row : prediction.rows) {
+    fmt::format_to(std::back_inserter(csv), "{},{},{}", cell(row.speed_m_per_s), row.regime, row.bistable ? 1 : 0);
+    for (const PredictedQuantity& quantity : kPredictedQuantities) {
+      const Estimate& estimate = row.*quantity.estimate;
+      const auto low = estimate.ci95 ? std::optional(estimate.ci95->low) : std::nullopt;
+      const auto high = estimate.ci95 ? std::optional(estimate.ci95->high) : std::nullopt;
+      fmt::format_to(std::back_inserter(csv), ",{},{},{}", cell(estimate.value), cell(low), cell(high));
+    }
+    csv += "\n";
+  }
+  return csv;
+}
+
+namespace {
+
+/// "49.3 ms [47.1, 51.7]", in a unit that suits the number.
+template <class Unit>
+std::string shown(const Estimate& estimate, const Unit& unit) {
+  if (!estimate.value || !std::isfinite(*estimate.value)) return "-";
+  const EstimateRow row = estimate_row(estimate, unit);
+  const std::string number_and_unit = row.unit.empty() ? row.value : row.value + " " + row.unit;
+  return row.interval == "-" ? number_and_unit : number_and_unit + " " + row.interval;
+}
+
+std::string regime_words(const PredictedMotion& row, const std::string& mark) {
+  return (row.regime == "stick_slip_bistable" ? "stick-slip, bistable" : plain_words(row.regime)) + mark;
+}
+
+std::string critical_text(const Prediction& prediction, const std::string& given_unit) {
+  const Estimate& speed = prediction.critical_speed_m_per_s;
+  std::string text = "  critical speed: ";
+  if (!speed.value || !speed.note.empty()) {
+    return text + (speed.note.empty() ? "not known" : one_line(speed.note)) + "\n";
+  }
+  return text + fmt::format("{}, lambda at it {}\n", shown(speed, speed_unit(given_unit, speed.value)),
+                            shown(prediction.lambda_critical, ""));
+}
+
+/// Each note of the rows once; the rows that it is about bear its mark.
+class Footnotes {
+ public:
+  std::string mark(const std::string& note) {
+    if (note.empty()) return {};
+    const auto known = std::find(notes_.begin(), notes_.end(), note);
+    const auto index = static_cast<std::size_t>(known - notes_.begin());
+    if (known == notes_.end()) notes_.push_back(note);
+    return " " + std::string(index + 1, '*');
+  }
+  [[nodiscard]] std::string text() const {
+    std::string text;
+    for (std::size_t i = 0; i < notes_.size(); ++i) {
+      text += fmt::format("  {} {}\n", std::string(i + 1, '*'), one_line(notes_[i]));
+    }
+    return text;
+  }
+
+ private:
+  std::vector<std::string> notes_;
+};
+
+}  // namespace
+
+std::string to_text(const Prediction& prediction, const PredictionSource& source) {
+  Table table({Align::Right, Align::Left, Align::Left, Align::Left, Align::Left, Align::Left});
+  table.add({"speed", "period", "frequency", "spacing V T", "sticking degree", "regime"});
+  Footnotes notes;
+  bool has_bands = false;
+  for (const PredictedMotion& row : prediction.rows) {
+    table.add({quantity_text(row.speed_m_per_s, speed_unit(source.speed_unit, row.speed_m_per_s)),
+               shown(row.period_s, "s"), shown(row.frequency_Hz, "Hz"), shown(row.periodic_displacement_m, "m"),
+               shown(row.sticking_degree, ""), regime_words(row, notes.mark(row.note))});
+    has_bands = has_bands || row.lambda.ci95.has_value();
+  }
+  return fmt::format("Predicted from {}{}\n", one_line(source.name),
+                     has_bands ? ", [95 % interval of the mean cycle]" : "") +
+         critical_text(prediction, source.speed_unit) + conditions_text(source.conditional_on) + "\n" + table.text() +
+         notes.text();
+}
+
+}  // namespace slipfit
