@@ -92,23 +92,22 @@ Json frequency_json(const FrequencyReport& frequency) {
   return json;
 }
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity) {
-  Json json{{"count", cycles.count},
-            {"minor", cycles.minor},
-            {"used", cycles.used},
-            {"period_s", number(cycles.period_s)},
-            {"period_sd_s", number(cycles.period_sd_s)},
-            {"slip_time_s", number(cycles.slip_time_s)},
-            {"stick_time_s", number(cycles.stick_time_s)},
-            {"sticking_degree", number(cycles.sticking_degree)},
-            {"drop_cv", number(cycles.drop_cv)},
-            {"period_cv", number(cycles.period_cv)},
-            {"regularity", cycles.regularity ? Json(name_of(*cycles.regularity)) : Json()},
-            {"stick_stiffness_N_per_m", quantity == ForceQuantity::Force_N ? estimate(cycles.stick_stiffness) : Json()}};
+  Json json{
+      {"count", cycles.count},
+      {"minor", cycles.minor},
+      {"used", cycles.used},
+      {"period_s", number(cycles.period_s)},
+      {"period_sd_s", number(cycles.period_sd_s)},
+      {"slip_time_s", number(cycles.slip_time_s)},
+      {"stick_time_s", number(cycles.stick_time_s)},
+      {"sticking_degree", number(cycles.sticking_degree)},
+      {"drop_cv", number(cycles.drop_cv)},
+      {"period_cv", number(cycles.period_cv)},
+      {"regularity", cycles.regularity ? Json(name_of(*cycles.regularity)) : Json()},
+      {"stick_stiffness_N_per_m", quantity == ForceQuantity::Force_N ? estimate(cycles.stick_stiffness) : Json()}};
   ForceKeys forces(json, quantity);
   forces.put("peak_force", cycles.peak_force);
   forces.put("peak_force_sd", cycles.peak_force_sd);
