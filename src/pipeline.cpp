@@ -129,7 +129,8 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
     sweep.recordings.push_back(std::move(member.analysis));
   }
   sweep.joint = in_range(fit_sweep(recordings, options));
-  sweep.derived = in_range(derive_from_sweep(sweep.joint ? sweep.joint->fit : FitResult{}));
+  sweep.derived = in_range(
+      derive_from_sweep(sweep.joint ? sweep.joint->fit : FitResult{}, observed_end(entries, sweep.recordings)));
   sweep.joint_reason = describe_roles(sweep.roles);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
   if (sweep.joint) {

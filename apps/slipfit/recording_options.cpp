@@ -46,6 +46,12 @@ void add_instrument_options(CLI::App& command, slipfit::Conditions& conditions) 
                   "Moving mass: 0.0307 (kg), '30.7 g'; held against k / w_n^2");
   add_read_option(command, "--sensor-bandwidth", conditions.sensor_bandwidth_Hz, above_zero(Dimension::Frequency),
                   "Bandwidth (-3 dB) of the sensor, first order: 500 (Hz), 2kHz; the fit lets its model lag by it");
+  add_read_option(
+      command, "--sensor-average,--averaging", conditions.sensor_average_s,
+      [](const std::string&, const std::string& text) {
+        return quantity_not_negative("--sensor-average", text, Dimension::Time);
+      },
+      "Time over which each sample is averaged: 0.002 (s), 2ms, 0 for an instant; the fit averages its model over it");
   add_read_option(command, "--sensor-resonance", conditions.sensor_resonance_Hz, above_zero(Dimension::Frequency),
                   "Natural frequency of the load cell: 800 (Hz), 2kHz");
   add_read_option(command, "--drive-period", conditions.drive_period_s, above_zero(Dimension::Time),

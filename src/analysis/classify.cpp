@@ -111,7 +111,7 @@ Classification without_model(const Recording& recording, const Segmentation& seg
 
 /// Swings without sticks that can be told; empty where slips come to rest.
 std::optional<Classification> as_round_swings(const Recording& recording, const Segmentation& segmentation,
-                                              const Evidence& e) {
+                                              const FitDiagnostics& e) {
   const bool sine_like = is_sine_like(segmentation);
   if (e.restick_share < thresholds::kSineRestickShare) {
     if (auto ripple = as_ripple(recording, segmentation)) return ripple;
@@ -142,7 +142,7 @@ Classification classify(const Recording& recording, const Estimates& estimates) 
   const SpectralFrequency& spectral = estimates.signals.spectral;
   if (auto early = by_counts(recording, segmentation, spectral)) return *early;
   if (!estimates.fit) return without_model(recording, segmentation, spectral);
-  const Evidence& e = estimates.fit->evidence;
+  const FitDiagnostics& e = estimates.fit->diagnostics;
   std::size_t used = 0;
   for (const Cycle& cycle : estimates.fit->cycles) used += cycle.used ? 1 : 0;
   const bool sudden = slips_are_sudden(segmentation);

@@ -41,10 +41,9 @@ double misfit_of(const std::optional<FitResult>& fit) {
   if (!fit) return std::numeric_limits<double>::infinity();
   const std::vector<Cycle>& cycles = fit->cycles;
   const auto used = std::count_if(cycles.begin(), cycles.end(), [](const Cycle& cycle) { return cycle.used; });
-  const auto offered =
-      std::count_if(cycles.begin(), cycles.end(), [](const Cycle& cycle) { return !cycle.left_aside; });
+  const auto offered = std::count_if(cycles.begin(), cycles.end(), [](const Cycle& cycle) { return cycle.selected; });
   if (2 * used < offered) return std::numeric_limits<double>::infinity();
-  return fit->evidence.relative_residual + 0.3 * fit->evidence.onset_force_spread;
+  return fit->diagnostics.relative_residual + 0.3 * fit->diagnostics.onset_force_spread;
 }
 
 /// Lines of the mains in the level take up some noise by themselves: a fit beneath them has to be clearly better.

@@ -25,7 +25,7 @@ std::vector<Onset> onsets_of(const FitResult& fit) {
   double rows = 1.0;
   bool aside = false;
   for (const Cycle& cycle : fit.cycles) {
-    aside = aside || cycle.left_aside;
+    aside = aside || !cycle.selected;
     if (cycle.used && !onsets.empty()) steps_s.push_back((*cycle.onset_s - onsets.back().time_s) / rows);
     if (cycle.used) onsets.push_back({0.0, *cycle.onset_s, aside ? std::optional(rows) : std::nullopt});
     if (cycle.used) aside = false;
@@ -74,9 +74,9 @@ Line line_through(const std::vector<Onset>& onsets) {
 /// Whether onset forces differ no more than their errors, and neighbouring periods are correlated as those of even
 /// onsets, each timed with an error of its own, are
 /// (-1/2, with a standard error of 0.7 / sqrt(count)); where the static friction scatters they come near +1/2.
-bool is_regular(const Evidence& evidence, const std::vector<Onset>& onsets, double period_s) {
+bool is_regular(const FitDiagnostics& diagnostics, const std::vector<Onset>& onsets, double period_s) {
   constexpr double kOrdinarySpread = 2.0;  // over its expectation: beyond chance from 10 cycles on
-  if (evidence.onset_force_spread > kOrdinarySpread * evidence.onset_force_error) return false;
+  if (diagnostics.onset_force_spread > kOrdinarySpread * diagnostics.onset_force_error) return false;
   double product = 0.0, square = 0.0, previous = 0.0, count = 0.0;
   for (std::size_t i = 1; i < onsets.size(); ++i) {
     const double steps = onsets[i].index - onsets[i - 1].index;
@@ -94,7 +94,7 @@ bool is_regular(const Evidence& evidence, const std::vector<Onset>& onsets, doub
 double recovery_error(const FitResult& fit) {
   double count = 0.0, mean = 0.0, square = 0.0, aside = 0.0;
   for (const Cycle& cycle : fit.cycles) {
-    if (cycle.left_aside) aside += 1.0;
+    if (!cycle.selected) aside += 1.0;
     if (!cycle.used) continue;
     count += 1.0;
     const double step = *cycle.recovery_s - mean;
@@ -120,11 +120,11 @@ std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& 
   // The first and the last slip are timed to a step of the clock, evenly distributed.
   const double mean_s = (onsets.back().time_s - onsets.front().time_s) / onsets.back().index;
   const double timing = recording.sample_interval_s() / mean_s / std::sqrt(6.0) / count;
-  if (!is_regular(fit.evidence, onsets, line.period_s)) {
+  if (!is_regular(fit.diagnostics, onsets, line.period_s)) {
     return with_relative_error(1.0 / mean_s, std::hypot(recovery_error(fit), timing), count - 1.0);
   }
   // Between two samples of a hardly sampled slip the errors of regular cycles are no chance: they repeat.
-  if (fit.evidence.samples_per_slip < kSampled) return std::nullopt;
+  if (fit.diagnostics.samples_per_slip < kSampled) return std::nullopt;
   // Jumps of a sensor at the contact are timed to a step, and the error of regular ones may repeat.
   const double step = recording.conditions().force_view == ForceView::Contact ? 0.5 * timing : 0.0;
   return with_relative_error(1.0 / line.period_s, std::hypot(line.standard_error_s / line.period_s, step), count - 2.0);

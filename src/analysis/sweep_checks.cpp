@@ -57,6 +57,22 @@ std::string describe_roles(const std::vector<SweepRole>& roles) {
                      count(SweepRole::Steady), count(SweepRole::LeftOut));
 }
 
+ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses) {
+  ObservedEnd end;
+  const auto speed = [&](std::size_t i) { return entries[i].recording.conditions().speed_m_per_s; };
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (analyses[i].verdict != Verdict::StickSlip) continue;
+    end.sticks_m_per_s = std::max(speed(i), end.sticks_m_per_s.value_or(0.0));
+  }
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Verdict verdict = analyses[i].verdict;
+    const bool slides = verdict == Verdict::SteadySliding || verdict == Verdict::OscillatorySlip;
+    if (!slides || !(speed(i) > end.sticks_m_per_s.value_or(0.0))) continue;
+    end.slides_m_per_s = std::min(speed(i), end.slides_m_per_s.value_or(speed(i)));
+  }
+  return end;
+}
+
 Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -10,6 +10,9 @@ SweepRole role_of(const Recording& recording, const Analysis& analysis);
 /// "4 with stick-slip cycles, 1 sliding steadily, 1 left out".
 std::string describe_roles(const std::vector<SweepRole>& roles);
 
+/// Fastest run with stick-slip, slowest one beyond it that slides steadily or rings down.
+ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
+
 /// What only several speeds can tell: that the repetition is geometry or a control loop, not stick-slip.
 Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
 

@@ -10,6 +10,7 @@
 #include "analysis/slip_shape.hpp"
 #include "analysis/statistics.hpp"
 #include "core/thresholds.hpp"
+#include "core/unknown.hpp"
 #include "fit/inference/student.hpp"
 #include "signal/smoothing.hpp"
 #include "signal/turning_points.hpp"
@@ -121,10 +122,6 @@ std::optional<RingDown> ring_down_of(const Detected& detected, Verdict verdict, 
   const double fall = std::max(slides ? median_drop(slips) : 0.3 * ramp->rise, thresholds::kNoiseDrop * noise);
   const std::size_t end = detected.sample_of(detected.recording().size() - 1);
   return find_ring_down(recording, slides ? end : ramp->peak, noise, fall);
-}
-
-Estimate unknown(const char* why) {
-  return {{}, {}, {}, why};
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ constexpr std::array kSummaryParameters{
     ParameterId::F1,
     ParameterId::Mu0,
     ParameterId::Mu1,
+    ParameterId::SensorAverage,
 };
 
 std::string csv_line(const std::vector<std::string>& cells) {

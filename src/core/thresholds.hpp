@@ -186,7 +186,7 @@ inline constexpr double kClippedRuns = 0.7;
 inline constexpr double kSignificant = 0.01;
 
 /// Fewest cycles of a repetition in the spectrum. [count; derived: fewer cannot be told from wander]
-inline constexpr double kFewestCycles = 2.5;
+inline constexpr double kFewestPeriods = 2.5;
 
 // ## Slips and what changes on the way
 

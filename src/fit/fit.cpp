@@ -18,10 +18,10 @@ namespace slipfit {
 namespace {
 
 /// Where in the slip the model misses most, as readers of a warning see it.
-std::string words_of_phase(double phase) {
-  if (phase < 0.0) return fmt::format("{:.0f} % of the slip time before its onset", -100.0 * phase);
-  if (phase > 1.0) return fmt::format("{:.0f} % of the slip time after its end", 100.0 * (phase - 1.0));
-  return fmt::format("after {:.0f} % of the slip time", 100.0 * phase);
+std::string words_of_position(double position) {
+  if (position < 0.0) return fmt::format("{:.0f} % of the slip time before its onset", -100.0 * position);
+  if (position > 1.0) return fmt::format("{:.0f} % of the slip time after its end", 100.0 * (position - 1.0));
+  return fmt::format("after {:.0f} % of the slip time", 100.0 * position);
 }
 
 using fit::BlockFit;
@@ -34,7 +34,7 @@ HeldParameters held_parameters(const FitOptions& options) {
   return held;
 }
 
-Evidence weigh(const Recording& recording, const DampedFit& damped, const fit::Resolution& resolution) {
+FitDiagnostics diagnostics_of(const Recording& recording, const DampedFit& damped, const fit::Resolution& resolution) {
   const BlockFit& blocks = damped.blocks;
   std::vector<double> onset_forces;
   double restick = 0.0;
@@ -47,46 +47,46 @@ Evidence weigh(const Recording& recording, const DampedFit& damped, const fit::R
     restick += (state.motion.slip.resticks ? 1.0 : 0.0) / count;
   }
   const auto half = static_cast<std::ptrdiff_t>(onset_forces.size() / 2);
-  Evidence evidence;
-  evidence.relative_residual = damped.uncertainty.noise / std::abs(mean);
-  evidence.onset_force_spread = damped.uncertainty.onset_force_sd * blocks.scales().force / std::abs(mean);
-  evidence.onset_force_error = damped.uncertainty.onset_force_error * blocks.scales().force / std::abs(mean);
-  evidence.restick_share = restick;
-  evidence.decay = signal::median({onset_forces.begin(), onset_forces.begin() + half}) /
-                   signal::median({onset_forces.begin() + half, onset_forces.end()});
-  evidence.span_share = (blocks.scales().time_end_s - blocks.scales().time_begin_s) / recording.duration_s();
-  evidence.samples_per_slip = resolution.samples_per_slip;
-  evidence.hum_share = hum_amplitude(blocks) / std::abs(mean);
-  return evidence;
+  FitDiagnostics diagnostics;
+  diagnostics.relative_residual = damped.uncertainty.noise / std::abs(mean);
+  diagnostics.onset_force_spread = damped.uncertainty.onset_force_sd * blocks.scales().force / std::abs(mean);
+  diagnostics.onset_force_error = damped.uncertainty.onset_force_error * blocks.scales().force / std::abs(mean);
+  diagnostics.restick_share = restick;
+  diagnostics.decay = signal::median({onset_forces.begin(), onset_forces.begin() + half}) /
+                      signal::median({onset_forces.begin() + half, onset_forces.end()});
+  diagnostics.span_share = (blocks.scales().time_end_s - blocks.scales().time_begin_s) / recording.duration_s();
+  diagnostics.samples_per_slip = resolution.samples_per_slip;
+  diagnostics.hum_share = hum_amplitude(blocks) / std::abs(mean);
+  return diagnostics;
 }
 
 /// Of more cycles than a fit needs.
-void tell_left_aside(FitResult& result) {
+void tell_selection(FitResult& result) {
   const std::size_t slips = result.cycles.size();
-  std::size_t offered = 0;
+  std::size_t selected = 0;
   for (std::size_t slip = 0; slip < slips; ++slip) {
-    result.cycles[slip].left_aside = !fit::is_offered(slip, slips);
-    if (!result.cycles[slip].left_aside) ++offered;
+    result.cycles[slip].selected = fit::is_selected(slip, slips);
+    if (result.cycles[slip].selected) ++selected;
   }
-  if (offered == slips) return;
+  if (selected == slips) return;
   result.warnings.push_back({"part_of_cycles_fitted",
                              fmt::format("{} of {} cycles, in runs from the first to the last, are enough for the fit; "
                                          "fit parts of the recording with --window to use all",
-                                         offered, slips)});
+                                         selected, slips)});
 }
 
 /// The table of all detected cycles, with what the fit says of those that it uses.
 void tabulate(const Recording& recording, const Segmentation& segmentation, const BlockFit& blocks, FitResult& result) {
   result.cycles = fit::detected_cycles(recording, segmentation);
-  tell_left_aside(result);
+  tell_selection(result);
   for (std::size_t c = 0; c < blocks.size(); ++c) {
     const CycleState state = blocks.state(c);
-    const double* own = blocks.parameters.cycles[c].data();
+    const double* local = blocks.parameters.cycles[c].data();
     Cycle& row = result.cycles[blocks.data(c).slip];
     row.used = true;
     row.onset_s = state.onset_s;
     row.end_s = state.onset_s + state.slip_s();
-    row.level_force = blocks.model(c).level_at(state.onset_s, blocks.level_data(), own);
+    row.level_force = blocks.model(c).level_at(state.onset_s, blocks.level_data(), local);
     row.onset_force = *row.level_force + state.onset_force;
     row.recovery_s = (state.z0() - state.motion.after.intercept) / state.omega_rad_per_s;
     row.residual_rms = blocks.scales().noise *
@@ -100,11 +100,11 @@ std::vector<CurvePoint> curve_of(const Recording& recording, const BlockFit& blo
   std::vector<CurvePoint> curve;
   for (std::size_t c = 0; c < blocks.size(); ++c) {
     const CycleState state = blocks.state(c);
-    const double* own = blocks.parameters.cycles[c].data();
+    const double* local = blocks.parameters.cycles[c].data();
     auto i = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), blocks.data(c).window_begin_s) -
                                       time_s.begin());
     for (; i < time_s.size() && time_s[i] < blocks.data(c).window_end_s; ++i) {
-      curve.push_back({i, blocks.model(c).level_at(time_s[i], blocks.level_data(), own) +
+      curve.push_back({i, blocks.model(c).level_at(time_s[i], blocks.level_data(), local) +
                               blocks.model(c).hum_at(time_s[i], blocks.level_data()) + state.force_at(time_s[i])});
     }
   }
@@ -145,11 +145,10 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   }
   const DampedFit* undamped_fit = fits.without_damping();
   const DampedFit& chosen = result.tier == Tier::Undamped && undamped_fit != nullptr ? *undamped_fit : fits.damped;
-  result.evidence = weigh(recording, fits.damped, resolution);
-  result.conditional_on.emplace_back(
-      "Coulomb friction (one speed cannot tell zeta and F_s - F_k from friction that depends on speed)");
-  fit::report_parameters(fit::findings_of(recording, fits, resolution), result);
+  result.diagnostics = diagnostics_of(recording, fits.damped, resolution);
+  result.conditional_on = fit::conditions_of(recording);
   result.residual = residual_of(chosen, quality);
+  fit::report_parameters(fit::findings_of(recording, fits, resolution, result.residual), result);
   tabulate(recording, segmentation, chosen.blocks, result);
   if (const auto& misfit = chosen.misfit) {
     result.warnings.push_back(
@@ -157,7 +156,7 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
          fmt::format("the slips differ from the fitted curve in the same way in every cycle, by {:+.1f} % of the onset "
                      "force {}: all parameters are approximate, and their intervals are widened by what changes when "
                      "parts of the slip are left out",
-                     100.0 * misfit->size, words_of_phase(misfit->phase))});
+                     100.0 * misfit->size, words_of_position(misfit->position))});
   }
   const std::vector<double>& hum_Hz = chosen.blocks.level().lines_Hz;
   if (!hum_Hz.empty()) {

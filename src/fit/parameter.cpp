@@ -35,7 +35,9 @@ constexpr std::array kTable{
     ParameterInfo{Id::F0, "f0_N", "friction at high speed f0", "N", kAnyNumber, 0.25},
     ParameterInfo{Id::F1, "f1_N", "velocity-dependent friction f1", "N", kAnyNumber, 0.25},
     ParameterInfo{Id::Mu0, "mu0", "friction coefficient mu0", "", kAnyNumber, 0.25},
-    ParameterInfo{Id::Mu1, "mu1", "friction coefficient mu1", "", kAnyNumber, 0.25}};
+    ParameterInfo{Id::Mu1, "mu1", "friction coefficient mu1", "", kAnyNumber, 0.25},
+    ParameterInfo{Id::SensorAverage, "sensor_average_s", "time over which samples are averaged", "s", kNotNegative,
+                  0.25}};
 
 }  // namespace
 

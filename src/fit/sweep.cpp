@@ -6,6 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
+#include "core/unknown.hpp"
 #include "fit/inference/intervals.hpp"
 #include "fit/inference/sliding_model.hpp"
 #include "fit/inference/sweep_outcome.hpp"
@@ -21,13 +24,8 @@ using fit::SweepData;
 using fit::SweepOutcome;
 using fit::SweepSolution;
 
-/// Below it a sweep is one speed: damping and friction that depends on speed cannot be told apart.
-constexpr double kLeastSpeedRatio = 1.3;
-/// Reduced chi2 of a model that leaves something unexplained (the noise is that of each recording's own fit).
-constexpr double kMisfitChi2 = 1.5;
-
 bool is_misfit(const SweepSolution& solution) {
-  return solution.chi2 > kMisfitChi2 * solution.degrees_of_freedom;
+  return solution.chi2 > thresholds::kSweepMisfit * solution.degrees_of_freedom;
 }
 
 /// Which friction law, and the sentence that says why.
@@ -48,7 +46,7 @@ double speed_ratio(std::span<const SweepRecording> recordings) {
 }
 
 LawChoice choose_by_chance(const fit::SweepFits& fits, double speeds) {
-  if (speeds < kLeastSpeedRatio) {
+  if (speeds < thresholds::kLeastSpeedRatio) {
     return {false, fmt::format("the speeds span a factor of {:.2g} only: one speed cannot tell alpha", speeds)};
   }
   const std::string chance = "probability of so large an improvement under Coulomb friction: " +
@@ -100,8 +98,11 @@ double residual_rms(const SweepSolution& solution) {
   return std::sqrt(square / static_cast<double>(solution.cycles()));
 }
 
-Estimate unknown(const std::string& why) {
-  return {std::nullopt, std::nullopt, std::nullopt, why};
+/// Its spread, w_n longer to that side.
+fit::Spread spread_of(const SweepOutcome& outcome, double averaging) {
+  fit::Spread spread = outcome.spread;
+  spread.one_sided(fit::kLogFrequency) = averaging;
+  return spread;
 }
 
 /// Empty, with a reason, where there is none or where it is known to worse than a factor.
@@ -109,7 +110,7 @@ Estimate spacing_of(const std::optional<fit::Jet>& spacing, const fit::Intervals
                     const std::string& why_none) {
   if (!spacing) return unknown(why_none);
   if (!(intervals.quantile(*spacing) * intervals.standard_error(*spacing) <
-        std::log(fit::kWidestFactor) * spacing->a)) {
+        std::log(thresholds::kWidestFactor) * spacing->a)) {
     return unknown("the interval reaches beyond a factor of 2 either way");
   }
   return intervals.interval_of_one_sign(*spacing);
@@ -123,7 +124,8 @@ class Assembler {
         outcome_(outcome),
         values_(fit::with_damping_cut(outcome.values, outcome.spread.covariance)),
         model_(values_, data.units),
-        intervals_(outcome.spread) {}
+        averaging_(fit::effect_of_averaging(recordings, outcome, data)),
+        intervals_(spread_of(outcome, averaging_)) {}
 
   [[nodiscard]] SweepFit assemble(const LawChoice& choice) const {
     SweepFit sweep;
@@ -132,6 +134,11 @@ class Assembler {
     sweep.difference_shared = solution.sweep.sharing.difference;
     sweep.fit.tier = choice.velocity ? Tier::Velocity : Tier::Damped;
     sweep.fit.conditional_on.emplace_back(choice.velocity ? "F_k(v) = f0 + f1 exp(alpha v)" : "Coulomb friction");
+    if (std::any_of(recordings_.begin(), recordings_.end(), [](const SweepRecording& sweep_recording) {
+          return !sweep_recording.recording.conditions().speed_standard_error_m_per_s;
+        })) {
+      sweep.fit.conditional_on.emplace_back(fit::kStatedSpeed);
+    }
     sweep.fit.residual.rms = residual_rms(solution);
     if (std::any_of(data_.loads.begin(), data_.loads.end(), [](double load) { return load != 1.0; })) {
       sweep.fit.conditional_on.push_back(fmt::format("normal force {:g} N", *reference_normal_force_N()));
@@ -158,9 +165,16 @@ class Assembler {
     findings.cycles = solution.cycles();
     findings.samples_per_slip = samples_per_slip(recordings_, data_);
     findings.sample_interval_s = recordings_[data_.fitted.front()].recording.sample_interval_s();
+    if (fit::residual_over_noise(recordings_, data_, solution) > thresholds::kLargeChi2) {
+      findings.slip_doubt = "residuals are larger than the noise of the recordings: the slips are not the model's";
+    }
     if (is_misfit(solution)) {
       findings.slip_doubt = findings.stiffness_doubt =
           "residuals are well above the noise: the interval cannot hold what the model lacks";
+    }
+    if (!findings.damping.value) findings.frequency_unknown = findings.damping.note;
+    if (averaging_ > thresholds::kAverageShare) {
+      findings.frequency_doubt = fit::averaging_doubt(averaging_);
     }
     // Only recordings with one level and one static friction tell damping from friction that depends on the speed.
     if (!solution.sweep.sharing.level || !solution.sweep.sharing.difference) {
@@ -240,6 +254,7 @@ class Assembler {
   const SweepOutcome& outcome_;
   fit::Coordinates values_;
   fit::SlidingModel model_;
+  double averaging_;
   fit::Intervals intervals_;
 };
 

@@ -117,6 +117,7 @@ constexpr std::array kFields = std::to_array<ManifestField>({
      [](ManifestEntry& entry, double number) { entry.options.sample_rate_Hz = number; }, nullptr, "--sample-rate"},
     {.base = "window", .suffix = "_s", .dimension = Dimension::Time, .option = "--window"},
     {"drive_period", "_s", Dimension::Time, Bound::AboveZero, set_condition<&Conditions::drive_period_s>},
+    {"sensor_average", "_s", Dimension::Time, Bound::NotNegative, set_condition<&Conditions::sensor_average_s>},
     {"measured_spacing", "_m", Dimension::Length, Bound::AboveZero, set_condition<&Conditions::measured_spacing_m>},
 });
 

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "slipfit/model/velocity.hpp"
-
 namespace slipfit::model {
 
 /// g(v) = F_k(v) - F_k(0+) and its derivatives with respect to the speed and to the law's two parameters.

@@ -7,7 +7,7 @@
 #include "model/parameter_error.hpp"
 #include "model/velocity_law.hpp"
 #include "slipfit/model/motion.hpp"
-#include "slipfit/model/velocity.hpp"
+#include "slipfit/model/velocity_friction.hpp"
 
 namespace slipfit::model {
 

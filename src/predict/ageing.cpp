@@ -4,7 +4,10 @@
 #include <numbers>
 #include <utility>
 
+#include "core/fit_thresholds.hpp"
 #include "model/ageing.hpp"
+#include "predict/coulomb.hpp"
+#include "predict/velocity.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -18,6 +21,10 @@ ModelEstimate held_at(const ModelEstimate& model, double difference_N) {
   held.ageing.reset();
   held.friction_difference_N = difference_N;
   return held;
+}
+
+MotionJets held_motion_at(const ModelEstimate& held, double speed_m_per_s) {
+  return held.speed_dependence ? velocity_motion_at(held, speed_m_per_s) : coulomb_motion_at(held, speed_m_per_s);
 }
 
 /// Derivative with respect to F_s - F_k(0+), taken out of a jet of `held_at`.
@@ -35,7 +42,7 @@ Jet aged_jet(const ModelEstimate& model, double difference_N, Jet stick_s) {
 
 /// How much the static friction after a stick exceeds the one that made it so long, at F_s - F_k(0+) held.
 Jet excess_N(const ModelEstimate& model, double difference_N, double speed_m_per_s) {
-  Jet stick_s = motion_at(held_at(model, difference_N), speed_m_per_s).cycle->stick_s;
+  Jet stick_s = held_motion_at(held_at(model, difference_N), speed_m_per_s).cycle->stick_s;
   take_derivative_by_difference(stick_s, difference_N);
   const ModelJets p = jets_of(model);
   return p.difference_N + p.ageing_N * log(stick_s / model.ageing->reference_stick_s) - difference_N;
@@ -46,7 +53,7 @@ Jet excess_N(const ModelEstimate& model, double difference_N, double speed_m_per
 std::optional<double> aged_difference_N(const ModelEstimate& model, double speed_m_per_s) {
   const model::AgeingLaw law{model.friction_difference_N, model.ageing->rate_N, model.ageing->reference_stick_s};
   return model::aged_difference_N(law, [&](double difference_N) -> std::optional<model::StickTime> {
-    const MotionJets motion = motion_at(held_at(model, difference_N), speed_m_per_s);
+    const MotionJets motion = held_motion_at(held_at(model, difference_N), speed_m_per_s);
     if (!motion.cycle) return std::nullopt;
     Jet stick_s = motion.cycle->stick_s;
     const double by_difference = take_derivative_by_difference(stick_s, difference_N);
@@ -58,7 +65,7 @@ MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s) {
   const std::optional<double> difference_N = aged_difference_N(model, speed_m_per_s);
   if (!difference_N) {
     // Each slip is smaller than the one before, until nothing sticks: as for F_s = F_k.
-    MotionJets motion = motion_at(held_at(model, 0.0), speed_m_per_s);
+    MotionJets motion = held_motion_at(held_at(model, 0.0), speed_m_per_s);
     motion.cycle.reset();
     motion.restick_margin.reset();
     if (motion.regime == Regime::StickSlip || motion.regime == Regime::StickSlipBistable) {
@@ -66,7 +73,7 @@ MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s) {
     }
     return motion;
   }
-  MotionJets motion = motion_at(held_at(model, *difference_N), speed_m_per_s);
+  MotionJets motion = held_motion_at(held_at(model, *difference_N), speed_m_per_s);
   const Jet aged_N = aged_jet(model, *difference_N, motion.cycle->stick_s);
   CycleJets& cycle = *motion.cycle;
   for (Jet* const y : {&cycle.slip_s, &cycle.stick_s, &cycle.period_s, &cycle.periodic_displacement_m,
@@ -84,7 +91,6 @@ CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagatio
   constexpr double kFastest = 300.0;
   constexpr double kSharp = 1e-9;
   // The speed goes as exp(-(F_s - F_k) / rate): its logarithm is nearly linear in the parameters.
-  constexpr double kWidest = 2.0 * std::numbers::ln2;
   const ModelJets p = jets_of(model);
   const double unit = (p.omega_rad_per_s * p.difference_N / p.stiffness_N_per_m).a;
   double sticks = kSlowest * unit;
@@ -103,7 +109,7 @@ CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagatio
   const double by_speed = (excess_N(model, difference_N, sticks * (1.0 - kStep)).a - excess.a) / (-kStep * sticks);
   Jet speed(sticks);
   speed.v = -excess.v / by_speed;
-  if (propagation.quantile() * propagation.standard_error(speed) > kWidest * sticks) {
+  if (propagation.quantile() * propagation.standard_error(speed) > thresholds::kWidestAgeing * sticks) {
     return both("ageing and damping are not known well enough to tell where stick-slip ends");
   }
   const Jet lambda = p.omega_rad_per_s * difference_N / (p.stiffness_N_per_m * speed);

@@ -1,16 +1,12 @@
 #include "predict/delta.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/inference/student.hpp"
-#include "model/slip.hpp"
-#include "predict/ageing.hpp"
-#include "predict/velocity.hpp"
-#include "slipfit/model/sensitivity.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -19,30 +15,6 @@ namespace {
 Jet positive_parameter(double value, int i) {
   Jet jet(value);
   jet.v[i] = value;
-  return jet;
-}
-
-struct Body {
-  Slider slider;
-  Friction friction;
-};
-
-/// With F_k = 0: only the difference matters here.
-Body body_of(const ModelEstimate& model) {
-  auto slider = Slider::create(model.stiffness_N_per_m, model.natural_frequency_rad_per_s, model.damping_ratio);
-  auto friction = Friction::create(model.friction_difference_N, 0.0);
-  assert(slider && friction);
-  return {std::move(slider).value(), std::move(friction).value()};
-}
-
-/// From derivatives with respect to the parameters to those with respect to their logarithms. At F_k = 0 the static
-/// friction is the difference.
-Jet jet_of(const Sensitive& quantity, const ModelEstimate& model) {
-  Jet jet(quantity.value);
-  jet.v[0] = quantity.gradient[kStiffness] * model.stiffness_N_per_m;
-  jet.v[1] = quantity.gradient[kNaturalFrequency] * model.natural_frequency_rad_per_s;
-  jet.v[2] = quantity.gradient[kDampingRatio];
-  jet.v[3] = quantity.gradient[kStaticFriction] * model.friction_difference_N;
   return jet;
 }
 
@@ -79,55 +51,7 @@ Estimate Propagation::positive(const Jet& y) const {
 }
 
 bool Propagation::law_is_open_at(double speed_m_per_s) const {
-  constexpr double kStraight = 0.7;
-  return quantile_ * standard_error(jets_of(model_).alpha_s_per_m) * speed_m_per_s > kStraight;
-}
-
-Estimate unknown(std::string reason) {
-  return {std::nullopt, std::nullopt, std::nullopt, std::move(reason)};
-}
-
-CriticalPoint critical_point(const ModelEstimate& model, const Propagation& propagation) {
-  if (model.ageing) return ageing_critical_point(model, propagation);
-  if (model.speed_dependence) return velocity_critical_point(model, propagation);
-  if (!model.damping_identified) {
-    const Estimate reason = unknown("the damping ratio cannot be told from 0");
-    return {reason, reason};
-  }
-  if (!(model.damping_ratio > 0.0)) {
-    return {{0.0, std::nullopt, std::nullopt, {}}, unknown("without damping there is stick-slip at every speed")};
-  }
-  if (model.damping_ratio >= 1.0) {
-    const std::string reason = "no stick-slip at any speed: the damping ratio is not below 1";
-    return {unknown(reason), {0.0, std::nullopt, std::nullopt, reason}};
-  }
-  const ModelJets p = jets_of(model);
-  const double solution = critical_lambda(model.damping_ratio);
-  // One Newton step in dual numbers: derivatives of the root by the implicit function theorem.
-  const ceres::Jet<double, 1> at(solution, 0);
-  const double slope = model::restick_margin(at, ceres::Jet<double, 1>(model.damping_ratio)).v[0];
-  const Jet critical = Jet(solution) - model::restick_margin(Jet(solution), p.damping_ratio) / slope;
-  // V_c = w_n (F_s - F_k) / (k lambda_c). docs/model.md (6)
-  return {propagation.positive(critical),
-          propagation.positive(p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * critical))};
-}
-
-MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s) {
-  if (model.ageing) return ageing_motion_at(model, speed_m_per_s);
-  if (model.speed_dependence) return velocity_motion_at(model, speed_m_per_s);
-  const auto [slider, friction] = body_of(model);
-  const ModelJets p = jets_of(model);
-  MotionJets motion;
-  motion.regime = damped_motion(slider, friction, speed_m_per_s).regime;
-  motion.total_damping_ratio = p.damping_ratio;
-  const Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed_m_per_s);
-  if (model.damping_ratio < 1.0) motion.restick_margin = model::restick_margin(lambda, p.damping_ratio);
-  if (const std::optional<CycleSensitivity> cycle = damped_sensitivity(slider, friction, speed_m_per_s)) {
-    motion.cycle = CycleJets{jet_of(cycle->slip_s, model),       jet_of(cycle->stick_s, model),
-                             jet_of(cycle->period_s, model),     jet_of(cycle->periodic_displacement_m, model),
-                             jet_of(cycle->force_peak_N, model), jet_of(cycle->force_trough_N, model)};
-  }
-  return motion;
+  return quantile_ * standard_error(jets_of(model_).alpha_s_per_m) * speed_m_per_s > thresholds::kStraightLaw;
 }
 
 Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s) {

@@ -7,8 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "core/unknown.hpp"
 #include "slipfit/core/estimate.hpp"
-#include "slipfit/fit/fit.hpp"
+#include "slipfit/fit/result.hpp"
 #include "slipfit/model/motion.hpp"
 
 namespace slipfit::predict {
@@ -42,14 +43,11 @@ class Propagation {
   double quantile_ = 0.0;
 };
 
-Estimate unknown(std::string reason);
-
 /// Where stick-slip from rest ends. Unknown where zeta cannot be told from 0; at zeta = 0 it has no end, from zeta = 1
 /// on there is none.
 struct CriticalPoint {
   Estimate lambda, speed_m_per_s;
 };
-CriticalPoint critical_point(const ModelEstimate& model, const Propagation& propagation);
 
 /// One stick-slip cycle; forces of the spring above F_k.
 struct CycleJets {
@@ -64,10 +62,6 @@ struct MotionJets {
   std::optional<Jet> restick_margin;     ///< > 0 where the slip sticks again, nearly linear around 0; empty: not known
   Jet total_damping_ratio;  ///< of small oscillations around steady sliding, which is unstable where it is < 0
 };
-/// By the Coulomb tier, or the velocity tier where `model` has a `speed_dependence`; where static friction ages, with
-/// that of the limit cycle. speed > 0.
-MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s);
-
 /// Spacing of the free oscillation inside a slip, an estimate only: V 2 pi / w. docs/model.md section 8
 Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s);
 

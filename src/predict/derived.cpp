@@ -1,15 +1,16 @@
 #include "slipfit/predict/derived.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "predict/delta.hpp"
+#include "predict/motion.hpp"
 
 namespace slipfit {
 namespace {
-
-using predict::unknown;
 
 /// gamma = F_s / F_k, [Paper] eq. (5): needs the sensor's zero.
 Estimate force_ratio(const FitResult& fit, const Conditions& conditions) {
@@ -55,6 +56,25 @@ ModelEstimate at_the_measured_speed(ModelEstimate model, double relative_speed_s
   return model;
 }
 
+/// Where the fit does not tell the end of stick-slip, or puts it below a speed at which a run sticks: what the runs
+/// show.
+Estimate critical_speed(const Estimate& by_fit, const ObservedEnd& observed) {
+  const bool contradicted =
+      by_fit.value && by_fit.ci95 && observed.sticks_m_per_s && by_fit.ci95->high < *observed.sticks_m_per_s;
+  if ((by_fit.value && !contradicted) || !observed.sticks_m_per_s) return by_fit;
+  const std::string fit = contradicted ? "the fit puts it below a speed at which a run sticks" : by_fit.note;
+  const double sticks = *observed.sticks_m_per_s;
+  if (!observed.slides_m_per_s) {
+    return unknown(
+        fmt::format("above {:.4g} m/s, the fastest run, which sticks; the fit does not tell more: {}", sticks, fit));
+  }
+  const double slides = *observed.slides_m_per_s;
+  return {std::sqrt(sticks * slides), std::nullopt, Interval{sticks, slides},
+          fmt::format("by the runs: the fastest that sticks and the slowest that does not; the fit does not tell more: "
+                      "{}",
+                      fit)};
+}
+
 }  // namespace
 
 Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
@@ -96,8 +116,9 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   return derived;
 }
 
-Derived derive_from_sweep(const FitResult& fit) {
+Derived derive_from_sweep(const FitResult& fit, const ObservedEnd& observed) {
   Derived derived;
+  derived.observed_end = observed;
   const Estimate one_speed = unknown("belongs to one speed: see the recordings, or slipfit predict");
   for (Estimate* const quantity :
        {&derived.lambda, &derived.gamma, &derived.periodic_displacement_m, &derived.pattern_spacing_m,
@@ -105,13 +126,13 @@ Derived derive_from_sweep(const FitResult& fit) {
     *quantity = one_speed;
   }
   if (!fit.estimate) {
-    derived.lambda_critical = derived.critical_speed_m_per_s =
-        unknown("needs k, w_n, zeta and F_s - F_k, which these recordings do not give");
+    derived.lambda_critical = unknown("needs k, w_n, zeta and F_s - F_k, which these recordings do not give");
+    derived.critical_speed_m_per_s = critical_speed(derived.lambda_critical, observed);
     return derived;
   }
   predict::CriticalPoint critical = predict::critical_point(*fit.estimate, predict::Propagation(*fit.estimate));
   derived.lambda_critical = std::move(critical.lambda);
-  derived.critical_speed_m_per_s = std::move(critical.speed_m_per_s);
+  derived.critical_speed_m_per_s = critical_speed(critical.speed_m_per_s, observed);
   return derived;
 }
 

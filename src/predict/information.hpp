@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <optional>
 
-#include "slipfit/fit/fit.hpp"
-#include "slipfit/predict/plan.hpp"
+#include "slipfit/fit/result.hpp"
+#include "slipfit/predict/recording_plan.hpp"
 
 namespace slipfit::predict {
 

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/fit_thresholds.hpp"
 #include "predict/delta.hpp"
 #include "predict/information.hpp"
+#include "predict/motion.hpp"
 
 namespace slipfit {
 namespace {
@@ -81,9 +83,9 @@ class Planner {
     if (!(result.standard_error > 0.0)) return result;
     const double expected = error_by(parameter.value, measured_);
     result.explained_error = expected;
-    constexpr double kUnexplained = 2.0;
-    result.limit =
-        result.standard_error > kUnexplained * expected ? Limit::Misfit : most_helpful(parameter.value, expected);
+    result.limit = result.standard_error > thresholds::kUnexplainedError * expected
+                       ? Limit::Misfit
+                       : most_helpful(parameter.value, expected);
     return result;
   }
 

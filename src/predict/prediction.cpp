@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "predict/delta.hpp"
+#include "predict/motion.hpp"
 #include "slipfit/core/range.hpp"
 
 namespace slipfit {
@@ -71,7 +72,7 @@ class Predictor {
   /// F_k plus a force of the cycle. How the two go together is not known: the sum of the standard errors is the most
   /// that the standard error of the sum can be.
   [[nodiscard]] Estimate force(const Jet& above_kinetic_N) const {
-    if (!model_.kinetic_friction_N || !model_.kinetic_friction_N->value) return predict::unknown("F_k is not known");
+    if (!model_.kinetic_friction_N || !model_.kinetic_friction_N->value) return unknown("F_k is not known");
     const double value = *model_.kinetic_friction_N->value + above_kinetic_N.a;
     const std::optional<double> kinetic_se = model_.kinetic_friction_N->standard_error;
     if (!model_.has_covariance || !kinetic_se) return {value, std::nullopt, std::nullopt, {}};

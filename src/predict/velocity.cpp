@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "core/fit_thresholds.hpp"
 #include "model/velocity_track.hpp"
 
 namespace slipfit::predict {
@@ -109,8 +110,6 @@ struct Bracket {
 constexpr double kSlowest = 1e-3;
 constexpr double kFastest = 300.0;
 constexpr double kSearchStep = 1.1;
-/// Wider than a factor of 2 either way a critical speed is no answer, and linear propagation no basis for one.
-constexpr double kWidest = std::numbers::ln2;
 
 Bracket refined(const ModelJets& p, Bracket bracket) {
   constexpr double kSharp = 1e-13;
@@ -160,7 +159,7 @@ CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagat
   const double by_speed = (-first.d_z0 * (slip.z0.a + 2.0 * slip.zeta.a) + first.d_rate * slip.rate.a) / critical;
   Jet speed_jet(critical);
   speed_jet.v = -slip.jet(first).v / by_speed;
-  if (propagation.quantile() * propagation.standard_error(speed_jet) > kWidest * critical ||
+  if (propagation.quantile() * propagation.standard_error(speed_jet) > thresholds::kWidestEnd * critical ||
       propagation.law_is_open_at(critical)) {
     return both(unknown("damping and friction law are not known well enough to tell where stick-slip ends"));
   }

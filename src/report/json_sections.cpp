@@ -49,6 +49,7 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
               {"mass_kg", number(conditions.mass_kg)},
               {"sensor_bandwidth_Hz", number(conditions.sensor_bandwidth_Hz)},
               {"drive_period_s", number(conditions.drive_period_s)},
+              {"sensor_average_s", number(conditions.sensor_average_s)},
               {"sensor_resonance_Hz", number(conditions.sensor_resonance_Hz)},
               {"assumed", provenance.assumed},
               {"sliding_s", {number(analysis.sliding.begin_s), number(analysis.sliding.end_s)}},
@@ -234,6 +235,10 @@ Json derived_json(const Derived& derived) {
             {"pattern_spacing_sd_m", estimate(Estimate{derived.pattern_spacing_sd_m, {}, {}, {}})},
             {"micro_vibration_spacing_m", estimate(derived.micro_vibration_spacing_m)},
             {"impulse_rate_per_m", estimate(derived.impulse_rate_per_m)}};
+  if (derived.observed_end) {
+    json["observed_end_m_per_s"] = {number(derived.observed_end->sticks_m_per_s),
+                                    number(derived.observed_end->slides_m_per_s)};
+  }
   if (derived.measured_spacing_En) json["measured_spacing_En"] = estimate(*derived.measured_spacing_En);
   return json;
 }

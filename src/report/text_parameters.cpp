@@ -150,12 +150,11 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
 
 std::string limit_text(std::span<const SweepEntry> entries, const Derived& derived) {
   const Estimate& speed = derived.critical_speed_m_per_s;
-  std::string text = "\nEnd of stick-slip by the fitted model\n  critical speed  ";
-  if (!speed.value || !speed.note.empty()) return text + one_line(speed.note) + "\n";
-  return text +
-         fmt::format("{}, lambda at it {}\n",
-                     estimate_cell(speed, speed_unit(entries.front().recording.conditions().speed_unit, speed.value)),
-                     estimate_cell(derived.lambda_critical, ""));
+  std::string text = "\nEnd of stick-slip\n  critical speed  ";
+  if (!speed.value) return text + one_line(speed.note) + "\n";
+  text += estimate_cell(speed, speed_unit(entries.front().recording.conditions().speed_unit, speed.value));
+  if (!speed.note.empty()) return text + "\n  " + one_line(speed.note) + "\n";
+  return text + fmt::format(", lambda at it {}\n", estimate_cell(derived.lambda_critical, ""));
 }
 
 }  // namespace
@@ -166,7 +165,7 @@ std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sw
     text = fmt::format("{}: {} recordings, no joint fit: {}\n", one_line(name), entries.size(), sweep.joint_reason);
   if (sweep.joint) text += parameters_text(sweep.joint->fit, ForceQuantity::Force_N, "");
   text += recordings_text(entries, sweep);
-  if (sweep.joint) text += limit_text(entries, sweep.derived);
+  if (sweep.joint || sweep.derived.observed_end) text += limit_text(entries, sweep.derived);
   return text + warnings_text(sweep.warnings);
 }
 

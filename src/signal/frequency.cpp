@@ -67,7 +67,7 @@ Bands prepare(const Recording& recording, const Spectrum& spectrum, const std::v
 /// All combs worth a look between two frequencies.
 std::vector<Comb> search(const Bands& bands, CombRange range) {
   const double bin = bands.whole.resolution_Hz();
-  const CombRange few{std::max(range.low_Hz, thresholds::kFewestCycles * bin),
+  const CombRange few{std::max(range.low_Hz, thresholds::kFewestPeriods * bin),
                       std::min({range.high_Hz, kFewCycles * bin, 0.8 * bands.fine.highest_Hz()})};
   const CombRange many{std::max(range.low_Hz, kManyCycles * bin),
                        std::min(range.high_Hz, 0.8 * bands.whole.highest_Hz())};

@@ -56,7 +56,7 @@ CycleValues values_in(const CycleModel& model, bool has_difference, const double
   values.constant = x;
   x += model.has_constant() ? 1 : 0;
   values.drift = x;
-  values.own = x + model.drift_parameters();
+  values.local = x + model.drift_parameters();
   return values;
 }
 
@@ -123,8 +123,10 @@ const LevelModel kPerCycle{true, 0, {}};
 TEST_CASE("residual derivatives of Coulomb friction agree with central differences in every view and level model") {
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
   const double sensor_lag_s = GENERATE(0.0, 0.02);
+  const double sensor_average_s = GENERATE(0.0, 0.015);
   for (const LevelModel& level : {kPolynomial, kPerCycle}) {
     Scales scales = example_scales(view, sensor_lag_s);
+    scales.sensor_average_s = sensor_average_s;
     // h^2 times third derivatives (up to 1e4 here) and round-off / h; a sample that an event crosses within h keeps its
     // first derivative, its second one jumps: h times that jump.
     check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);
@@ -153,8 +155,8 @@ TEST_CASE("friction that depends on the speed with slope 0 gives the residuals o
   const CycleSet set({example_cycle()}, {0.05}, kPolynomial, coulomb);
   const std::vector<double> globals{std::log(60.0), std::log(9.0), 0.1, 0.0, -1.0};
   const std::vector<double> rest{0.9, 0.1, 0.05, -0.02};
-  const std::vector<double> own{0.1, 0.8};
-  const CycleValues values{globals.data(), &rest[0], &rest[1], &rest[2], own.data()};
+  const std::vector<double> local{0.1, 0.8};
+  const CycleValues values{globals.data(), &rest[0], &rest[1], &rest[2], local.data()};
   const auto residuals_of = [&](const Scales& scales) {
     const CycleModel model(set, 0, scales);
     Eigen::VectorXd residuals(static_cast<Eigen::Index>(model.residuals()));

@@ -33,13 +33,13 @@ void check_truth(const Analysis& analysis, const std::string& name, double truth
 
 TEST_CASE("up to 2048 cycles are all offered to the fit, of more 64 runs over the whole recording") {
   for (const std::size_t slips : {3UL, 2048UL}) {
-    for (std::size_t slip = 0; slip < slips; ++slip) REQUIRE(fit::is_offered(slip, slips));
+    for (std::size_t slip = 0; slip < slips; ++slip) REQUIRE(fit::is_selected(slip, slips));
   }
   for (const std::size_t slips : {2049UL, 2500UL, 100003UL}) {
     std::size_t offered = 0, longest_aside = 0, aside = 0;
     for (std::size_t slip = 0; slip < slips; ++slip) {
-      if (fit::is_offered(slip, slips)) ++offered;
-      aside = fit::is_offered(slip, slips) ? 0 : aside + 1;
+      if (fit::is_selected(slip, slips)) ++offered;
+      aside = fit::is_selected(slip, slips) ? 0 : aside + 1;
       longest_aside = std::max(longest_aside, aside);
     }
     INFO(slips);

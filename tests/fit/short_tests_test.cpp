@@ -24,7 +24,7 @@ Analysis cycles_of(const Contact& contact, std::uint64_t seed) {
   Analysis analysis;
   analysis.verdict = Verdict::StickSlip;
   analysis.fit.emplace();
-  analysis.fit->evidence.onset_force_spread = kScatter_N;
+  analysis.fit->diagnostics.onset_force_spread = kScatter_N;
   double time_s = 0.0;
   double before_N = 1.0;
   for (int i = 0; i < contact.cycles; ++i) {

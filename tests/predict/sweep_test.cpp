@@ -132,3 +132,31 @@ TEST_CASE("a sweep under Coulomb friction is predicted by Coulomb friction") {
   const Estimate spacing = predict_at(model, speeds).rows[0].periodic_displacement_m;
   CHECK(std::abs(*spacing.value - test::spacing_m(truth, 0.1)) < 4.0 * *spacing.standard_error);
 }
+
+TEST_CASE("where a sweep's fit does not tell the end of stick-slip, its runs do") {
+  const FitResult no_fit;
+  const Derived between = derive_from_sweep(no_fit, {0.004, 0.007});
+  CHECK(between.critical_speed_m_per_s.ci95->low == 0.004);
+  CHECK(between.critical_speed_m_per_s.ci95->high == 0.007);
+  CHECK_THAT(between.critical_speed_m_per_s.note, Catch::Contains("by the runs"));
+  CHECK(*between.observed_end->sticks_m_per_s == 0.004);
+  const Derived above = derive_from_sweep(no_fit, {0.004, {}});
+  CHECK_FALSE(above.critical_speed_m_per_s.value);
+  CHECK_THAT(above.critical_speed_m_per_s.note, Catch::Contains("above 0.004 m/s"));
+  const Derived none = derive_from_sweep(no_fit, {});
+  CHECK_FALSE(none.critical_speed_m_per_s.value);
+  CHECK_FALSE(none.critical_speed_m_per_s.note.empty());
+}
+
+TEST_CASE("a fit that ends stick-slip below a run that sticks is not believed") {
+  test::SpeedSweep truth;
+  truth.f0_N = 4.0;
+  truth.f1_N = 0.0;
+  const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.02, 0.04}, 21), {});
+  REQUIRE(sweep.joint);
+  const Estimate by_fit = derive_from_sweep(sweep.joint->fit, {0.04, {}}).critical_speed_m_per_s;
+  REQUIRE(by_fit.value);
+  const double faster = 10.0 * by_fit.ci95->high;
+  CHECK_FALSE(derive_from_sweep(sweep.joint->fit, {faster, {}}).critical_speed_m_per_s.value);
+  CHECK(derive_from_sweep(sweep.joint->fit, {faster, 2.0 * faster}).critical_speed_m_per_s.ci95->low == faster);
+}

@@ -29,6 +29,9 @@ struct Conditions {
   std::optional<double> zero_force_N;  ///< sensor reading at no force, already subtracted; absolute forces need it
   /// > 0, of a first-order sensor, -3 dB: the fit of one recording lets its model lag by it. Joint fits do not.
   std::optional<double> sensor_bandwidth_Hz;
+  /// >= 0, each sample is the mean force over this time (0: an instant). Empty: not stated, taken for anything up to
+  /// one step of the clock.
+  std::optional<double> sensor_average_s;
   std::optional<double>
       sensor_resonance_Hz;                   ///< > 0, of the load cell as it is mounted: a frequency near it is doubted
   std::optional<double> drive_period_s;      ///< > 0, of what may set the rhythm: a motor's step, an excitation

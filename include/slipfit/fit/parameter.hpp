@@ -30,7 +30,8 @@ enum class ParameterId : std::size_t {
   F0,
   F1,
   Mu0,
-  Mu1
+  Mu1,
+  SensorAverage
 };
 
 struct ParameterInfo {

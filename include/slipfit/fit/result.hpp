@@ -28,7 +28,7 @@ struct Cycle {
   std::optional<double> level_force;  ///< kinetic level F_k of this cycle
   std::optional<double> residual_rms;
   std::optional<double> recovery_s;  ///< slip and the stick that makes good its drop: the period that it causes
-  bool left_aside = false;           ///< one of more than a fit needs: not offered to it
+  bool selected = true;              ///< for the fit; false: one of more than it needs
 };
 
 /// A tier that was tried, and why it was taken or left.
@@ -58,8 +58,8 @@ struct CurvePoint {
   double force = 0.0;
 };
 
-/// How well the cycles look like stick-slip cycles of the model: evidence for the verdict.
-struct Evidence {
+/// How well the cycles look like stick-slip cycles of the model; the kind of motion rests on it.
+struct FitDiagnostics {
   double relative_residual = 0.0;   ///< residual rms over the mean onset force above F_k
   double onset_force_spread = 0.0;  ///< standard deviation over mean of the onset force above F_k
   double onset_force_error = 0.0;   ///< white-noise error of one cycle's onset force, over the mean
@@ -101,7 +101,7 @@ struct ModelEstimate {
 
 struct FitResult {
   Tier tier = Tier::Sawtooth;
-  Evidence evidence;
+  FitDiagnostics diagnostics;
   std::optional<ModelEstimate> estimate;    ///< empty where the slip is not resolved or forces have no newtons
   std::vector<std::string> conditional_on;  ///< what the numbers assume ("Coulomb friction", ...)
   std::vector<Candidate> candidates;

@@ -5,27 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "slipfit/core/recording.hpp"
-#include "slipfit/fit/fit.hpp"
-#include "slipfit/signal/cycles.hpp"
-#include "slipfit/signal/quality.hpp"
+#include "slipfit/core/estimate.hpp"
+#include "slipfit/fit/options.hpp"
+#include "slipfit/fit/result.hpp"
+#include "slipfit/fit/sweep_recording.hpp"
 
 namespace slipfit {
-
-/// What a recording of a sweep is used for.
-enum class SweepRole {
-  Cycles,  ///< stick-slip: its cycles are fitted
-  Steady,  ///< steady sliding: its mean force is F_k(V)
-  LeftOut
-};
-
-/// One recording of a sweep (a speed, perhaps a load). The references must outlive the fit.
-struct SweepRecording {
-  const Recording& recording;
-  const Quality& quality;
-  const Segmentation& segmentation;
-  SweepRole role = SweepRole::Cycles;
-};
 
 /// What the fit of a sweep says of one of its recordings; forces as the sensor reads them.
 struct SweepPoint {

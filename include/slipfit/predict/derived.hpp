@@ -9,6 +9,12 @@
 
 namespace slipfit {
 
+/// What the runs of a sweep show of where stick-slip ends.
+struct ObservedEnd {
+  std::optional<double> sticks_m_per_s;  ///< fastest run with stick-slip
+  std::optional<double> slides_m_per_s;  ///< slowest run without it that is faster than all with it
+};
+
 /// Quantities that follow from the fit or from V and f (docs/model.md says how).
 struct Derived {
   Estimate lambda, gamma, lambda_critical, critical_speed_m_per_s;
@@ -20,6 +26,7 @@ struct Derived {
   std::optional<double> pattern_spacing_sd_m;  ///< spread over cycles
   Estimate micro_vibration_spacing_m;          ///< estimate only, see docs/model.md section 8
   Estimate impulse_rate_per_m;                 ///< 1 / spacing
+  std::optional<ObservedEnd> observed_end;     ///< of a sweep
   std::optional<Estimate>
       measured_spacing_En;  ///< where `Conditions` has a measured spacing: (predicted - measured) / U
 };
@@ -28,7 +35,8 @@ struct Derived {
 /// empty.
 Derived derive_from_model(const FitResult& fit, const Conditions& conditions);
 
-/// What a joint fit says beyond any one speed: where stick-slip ends. All else belongs to one speed and is left empty.
-Derived derive_from_sweep(const FitResult& fit);
+/// What a sweep says beyond any one speed: where stick-slip ends, by its fit or, where that does not tell it or what
+/// the runs show speaks against it, by the runs. All else belongs to one speed and is left empty.
+Derived derive_from_sweep(const FitResult& fit, const ObservedEnd& observed);
 
 }  // namespace slipfit

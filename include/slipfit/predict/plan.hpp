@@ -5,16 +5,10 @@
 #include <vector>
 
 #include "slipfit/core/result.hpp"
-#include "slipfit/fit/fit.hpp"
+#include "slipfit/fit/result.hpp"
+#include "slipfit/predict/recording_plan.hpp"
 
 namespace slipfit {
-
-/// How a recording was made, or would be.
-struct RecordingPlan {
-  double speed_m_per_s = 0.0;
-  double sample_rate_Hz = 0.0;
-  double duration_s = 0.0;
-};
 
 /// Whether recordings have one force level, F_k(0+) in the sensor's zero: then it tells F_k(V) too.
 enum class LevelSharing { Shared, Separate };

@@ -21,25 +21,25 @@ double samples_per_slip(const ContactCycles& found, const ContactMoments& moment
   return moments.mean(3) / found.step_s;
 }
 
-Evidence evidence_of(const Recording& recording, const ContactCycles& found, const ContactMoments& moments,
-                     double jump) {
+FitDiagnostics diagnostics_of(const Recording& recording, const ContactCycles& found, const ContactMoments& moments,
+                              double jump) {
   std::vector<double> jumps;
   for (const ContactCycle& cycle : found.cycles) jumps.push_back(cycle.onset_jump);
   const auto count = static_cast<double>(jumps.size());
   const auto half = static_cast<std::ptrdiff_t>(jumps.size() / 2);
-  Evidence evidence;
-  evidence.samples_per_slip = samples_per_slip(found, moments);
-  evidence.relative_residual = found.noise / jump;
-  evidence.onset_force_spread = moments.jump_sd / jump;
-  evidence.onset_force_error = std::hypot(found.slope * found.step_s / std::sqrt(12.0),
-                                          found.noise / std::sqrt(std::max(1.0, evidence.samples_per_slip))) /
-                               jump;
-  evidence.restick_share = count / (count + static_cast<double>(found.without_edges));
-  evidence.decay =
+  FitDiagnostics diagnostics;
+  diagnostics.samples_per_slip = samples_per_slip(found, moments);
+  diagnostics.relative_residual = found.noise / jump;
+  diagnostics.onset_force_spread = moments.jump_sd / jump;
+  diagnostics.onset_force_error = std::hypot(found.slope * found.step_s / std::sqrt(12.0),
+                                             found.noise / std::sqrt(std::max(1.0, diagnostics.samples_per_slip))) /
+                                  jump;
+  diagnostics.restick_share = count / (count + static_cast<double>(found.without_edges));
+  diagnostics.decay =
       signal::median({jumps.begin(), jumps.begin() + half}) / signal::median({jumps.begin() + half, jumps.end()});
-  evidence.span_share =
+  diagnostics.span_share =
       (found.cycles.back().end_s - found.cycles.front().onset_s) * (count + 1.0) / count / recording.duration_s();
-  return evidence;
+  return diagnostics;
 }
 
 void tabulate(const ContactCycles& found, std::vector<Cycle>& cycles) {
@@ -138,10 +138,9 @@ std::optional<FitResult> fit_contact(const Recording& recording, const Segmentat
   result.tier = Tier::Damped;
   result.candidates = {{Tier::Damped, 3, found->noise, std::nullopt, true,
                         "a sensor at the contact: slope of the ramps, both jumps and the slip time give all of it"}};
-  result.conditional_on.emplace_back(
-      "Coulomb friction (one speed cannot tell zeta and F_s - F_k from friction that depends on speed)");
+  result.conditional_on = conditions_of(recording);
   result.cycles = detected_cycles(recording, segmentation);
-  result.evidence = evidence_of(recording, *found, moments, std::exp(solution->value(3)));
+  result.diagnostics = diagnostics_of(recording, *found, moments, std::exp(solution->value(3)));
   result.residual.rms = found->noise;
   tabulate(*found, result.cycles);
   report_parameters(findings_of(recording, *found, moments, *solution), result);

@@ -2,7 +2,10 @@
 
 #include <optional>
 
-#include "slipfit/fit/fit.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/options.hpp"
+#include "slipfit/fit/result.hpp"
+#include "slipfit/signal/cycles.hpp"
 
 namespace slipfit::fit {
 

@@ -6,12 +6,13 @@
 #include <complex>
 #include <numbers>
 
+#include "core/thresholds.hpp"
+
 namespace slipfit::fit {
 namespace {
 
 constexpr std::size_t kBinsPerRamp = 4;  // lets a bent ramp or a drift show; a straight one loses nothing
 constexpr std::size_t kMinRampSamples = 2;
-constexpr double kGapSteps = 3.5;
 constexpr double kForgottenLags = 8.0;  // e^-8: what a lagging sensor still shows of the slip before
 
 class Cutter {
@@ -32,7 +33,7 @@ class Cutter {
   [[nodiscard]] std::vector<CycleData> cut() const {
     std::vector<CycleData> cycles;
     for (std::size_t i = 1; i < slips_.size(); ++i) {
-      if (!is_offered(i, slips_.size())) continue;
+      if (!is_selected(i, slips_.size())) continue;
       CycleData cycle = cut_one(i);
       const DetectedSlip& slip = slips_[i];
       const bool has_ramps = index_at(cycle.window_begin_s) + kMinRampSamples <= slip.peak &&
@@ -77,14 +78,14 @@ class Cutter {
 
   [[nodiscard]] bool has_gap(const std::vector<std::size_t>& samples) const {
     for (std::size_t i = 1; i < samples.size(); ++i) {
-      if (time_s_[samples[i]] - time_s_[samples[i] - 1] > kGapSteps * step_s_) return true;
+      if (time_s_[samples[i]] - time_s_[samples[i] - 1] > thresholds::kGapSteps * step_s_) return true;
     }
     return samples.empty();
   }
 
   [[nodiscard]] bool gap_between(std::size_t first_slip, std::size_t second_slip) const {
     for (std::size_t i = slips_[first_slip].trough + 1; i <= slips_[second_slip].peak; ++i) {
-      if (time_s_[i] - time_s_[i - 1] > kGapSteps * step_s_) return true;
+      if (time_s_[i] - time_s_[i - 1] > thresholds::kGapSteps * step_s_) return true;
     }
     return false;
   }
@@ -191,7 +192,7 @@ class Cutter {
 
 }  // namespace
 
-bool is_offered(std::size_t slip, std::size_t slips) {
+bool is_selected(std::size_t slip, std::size_t slips) {
   constexpr std::size_t kRun = 32;  // neighbours, whose joined ramps halve the error of k
   constexpr std::size_t kRuns = 64;
   const std::size_t runs = (slips + kRun - 1) / kRun;

@@ -31,8 +31,9 @@ struct Scales {
   double time_begin_s = 0.0;  ///< of the cycles in the fit: the drift polynomial lives on [begin, end]
   double time_end_s = 1.0;
   ForceView view = ForceView::Spring;  ///< spring or transmitted: what the samples show of a slip
-  double sensor_lag_s = 0.0;   ///< T of a first-order sensor, 1 / (2 pi bandwidth); 0: it shows the force as it is
-  double half_period_s = 1.0;  ///< from the largest to the smallest force of a slip, pi / (w_n b)
+  double sensor_lag_s = 0.0;      ///< T of a first-order sensor, 1 / (2 pi bandwidth); 0: it shows the force as it is
+  double sensor_average_s = 0.0;  ///< each sample is the mean over this time around its time stamp
+  double half_period_s = 1.0;     ///< from the largest to the smallest force of a slip, pi / (w_n b)
   FrictionLaw law = FrictionLaw::Coulomb;
   std::optional<Population> population{};  ///< of a sweep
 
@@ -81,12 +82,12 @@ struct CycleData {
   [[nodiscard]] std::size_t residuals() const { return time_s.size() + 2 * (bins_before.size() + bins_after.size()); }
 };
 
-/// Whether this slip of so many is offered to the fit: of more than 2048, 64 runs of neighbours from the first to the
+/// Whether this slip of so many is selected for the fit: of more than 2048, 64 runs of neighbours from the first to the
 /// last. Shared parameters are then known to a part in ten thousand and what limits them is not the noise; the time of
 /// a fit grows no more.
-bool is_offered(std::size_t slip, std::size_t slips);
+bool is_selected(std::size_t slip, std::size_t slips);
 
-/// Cuts the recording into cycles, those that are offered to the fit. `excluded` (in ascending order) leaves out
+/// Cuts the recording into cycles, those that are selected for the fit. `excluded` (in ascending order) leaves out
 /// impulses, clipped samples and outliers. The first slip starts from rest and is left out; so is a slip with a gap
 /// in it or without ramp samples. Samples within `half_width_s` of a slip's middle are kept one by one, the rest goes
 /// into bins.

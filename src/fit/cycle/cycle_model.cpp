@@ -83,21 +83,23 @@ CycleModel::CycleModel(const CycleSet& set, std::size_t cycle, const Scales& sca
       reference_s_(set.reference_s[cycle]),
       even_step_s_(set.even_step_s[cycle]) {}
 
-CycleFrame CycleModel::frame(const double* globals, const double* own) const {
+CycleFrame CycleModel::frame(const double* globals, const double* local) const {
   CycleFrame frame;
   frame.stiffness_N_per_m = std::exp(globals[kLogStiffness]);
   frame.omega_rad_per_s = std::exp(globals[kLogFrequency]);
   frame.zeta = globals[kDamping];
   frame.force_scale = frame.stiffness_N_per_m * scales_.speed_m_per_s / frame.omega_rad_per_s;
-  frame.onset_s = reference_s_ + scales_.half_period_s * own[0];
-  frame.onset_force = scales_.force * own[1];
+  frame.onset_s = reference_s_ + scales_.half_period_s * local[0];
+  frame.onset_force = scales_.force * local[1];
   return frame;
 }
 
-std::optional<CycleState> CycleModel::state(const double* globals, const double* own) const {
-  const CycleFrame f = frame(globals, own);
+std::optional<CycleState> CycleModel::state(const double* globals, const double* local) const {
+  const CycleFrame f = frame(globals, local);
   if (!(f.z0() + 2.0 * f.zeta > 0.0) || !(std::abs(f.zeta) < 1.0) || !std::isfinite(f.z0())) return std::nullopt;
-  return CycleState{f, {f.z0(), f.zeta, f.omega_rad_per_s * scales_.sensor_lag_s, scales_.view}};
+  const double w = f.omega_rad_per_s;
+  const bool transmitted = scales_.view == ForceView::Transmitted;
+  return CycleState{f, {f.z0(), f.zeta, {w * scales_.sensor_lag_s, w * scales_.sensor_average_s, transmitted}}};
 }
 
 /// Writes residual rows one after the other, and their derivatives column after column.
@@ -125,7 +127,7 @@ class CycleModel::Rows {
     for (std::size_t i = 0; i < drifts_; ++i) level += values_.drift[i] * drift[i];
     level *= scales_.force;
     if (level_per_cycle_) {
-      level += constant_share * (scales_.level + scales_.force * values_.own[2]);
+      level += constant_share * (scales_.level + scales_.force * values_.local[2]);
     } else {
       level += constant_share * (scales_.level_zero() + scales_.level_unit() * *values_.constant);
     }
@@ -162,7 +164,7 @@ class CycleModel::Rows {
   void tie_level(std::size_t globals) {
     const double weight = 1.0 / scales_.population->level_sd;
     const double unit = scales_.population->force;
-    begin_row(weight * (unit * *values_.constant - scales_.level - scales_.force * values_.own[2]));
+    begin_row(weight * (unit * *values_.constant - scales_.level - scales_.force * values_.local[2]));
     if (jacobian_ == nullptr) return;
     for (std::size_t i = 0; i < globals; ++i) add(0.0);
     add(0.0);
@@ -238,11 +240,11 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, Rows& rows) const
 bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* jacobian) const {
   Rows rows(*this, values, residuals, jacobian);
   if (scales_.law == FrictionLaw::Coulomb) {
-    const std::optional<CycleState> coulomb = state(values.globals, values.own);
+    const std::optional<CycleState> coulomb = state(values.globals, values.local);
     if (coulomb) fill(coulomb->motion, *coulomb, rows);
     return coulomb.has_value();
   }
-  const CycleFrame f = frame(values.globals, values.own);
+  const CycleFrame f = frame(values.globals, values.local);
   const auto motion = SpeedDependentCycle::solve(f.z0(), values.globals, scales_);
   if (motion) fill(*motion, f, rows);
   return motion.has_value();

@@ -41,7 +41,7 @@ struct CycleSet {
 
 /// A cycle's own numbers, scaled: onset time (from its reference, in half periods), force at onset above the level and,
 /// where the level is per cycle, the level. The last is 0 and unused otherwise.
-using Own = std::array<double, 3>;
+using Local = std::array<double, 3>;
 
 /// Where a cycle's residuals find their parameters.
 struct CycleValues {
@@ -51,7 +51,7 @@ struct CycleValues {
   /// follows this one.
   const double* constant = nullptr;
   const double* drift = nullptr;  ///< the level's other columns
-  const double* own = nullptr;
+  const double* local = nullptr;
 };
 
 /// What the physical numbers are for one cycle, whatever the friction law.
@@ -85,12 +85,12 @@ class CycleModel {
   CycleModel(const CycleSet& set, std::size_t cycle, const Scales& scales);
 
   [[nodiscard]] std::size_t residuals() const { return data_->residuals() + ties(); }
-  [[nodiscard]] std::size_t own_parameters() const { return level_->per_cycle ? 3 : 2; }
+  [[nodiscard]] std::size_t local_parameters() const { return level_->per_cycle ? 3 : 2; }
   [[nodiscard]] bool has_constant() const { return level_->terms > 0 || scales_.population.has_value(); }
   [[nodiscard]] std::size_t drift_parameters() const { return level_->columns() - (level_->terms > 0 ? 1 : 0); }
   [[nodiscard]] std::size_t globals() const { return globals_of(scales_.law); }
   /// Columns of the Jacobian: globals, difference, constant, drift, own; those that there are.
-  [[nodiscard]] std::size_t columns() const { return common_parameters() + own_parameters(); }
+  [[nodiscard]] std::size_t columns() const { return common_parameters() + local_parameters(); }
   [[nodiscard]] std::size_t common_parameters() const {
     return globals() + (scales_.population ? 1 : 0) + (has_constant() ? 1 : 0) + drift_parameters();
   }
@@ -100,11 +100,11 @@ class CycleModel {
   /// has no solution.
   bool evaluate(const CycleValues& values, double* residuals, double* jacobian) const;
 
-  [[nodiscard]] CycleFrame frame(const double* globals, const double* own) const;
+  [[nodiscard]] CycleFrame frame(const double* globals, const double* local) const;
   /// Empty where the slip has no solution.
-  [[nodiscard]] std::optional<CycleState> state(const double* globals, const double* own) const;
+  [[nodiscard]] std::optional<CycleState> state(const double* globals, const double* local) const;
   /// Without hum. `level`: constant, where there is one, and drift.
-  [[nodiscard]] double level_at(double time_s, const double* level, const double* own) const;
+  [[nodiscard]] double level_at(double time_s, const double* level, const double* local) const;
   [[nodiscard]] double hum_at(double time_s, const double* level) const;
 
  private:
@@ -124,8 +124,8 @@ class CycleModel {
 
 // Inline: asked for every sample of the recording.
 
-inline double CycleModel::level_at(double time_s, const double* level, const double* own) const {
-  if (level_->per_cycle) return scales_.level + scales_.force * own[2];
+inline double CycleModel::level_at(double time_s, const double* level, const double* local) const {
+  if (level_->per_cycle) return scales_.level + scales_.force * local[2];
   const double constant = scales_.level_zero() + scales_.level_unit() * level[0];
   if (level_->terms == 1) return constant;
   const double x = 2.0 * (time_s - scales_.time_begin_s) / (scales_.time_end_s - scales_.time_begin_s) - 1.0;

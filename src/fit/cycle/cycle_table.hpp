@@ -2,7 +2,9 @@
 
 #include <vector>
 
-#include "slipfit/fit/fit.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/result.hpp"
+#include "slipfit/signal/cycles.hpp"
 
 namespace slipfit::fit {
 

@@ -49,6 +49,7 @@ Scales scales_of(const Recording& recording, const Quality& quality, const Segme
   if (const auto bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz) {
     scales.sensor_lag_s = 1.0 / (2.0 * std::numbers::pi * *bandwidth_Hz);
   }
+  scales.sensor_average_s = recording.conditions().sensor_average_s.value_or(0.0);
   scales.half_period_s = std::max(half_period_of(segmentation), 1e-3 * recording.sample_interval_s());
   std::vector<double> drops;
   std::vector<double> middles;

@@ -4,6 +4,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/inference/sliding_model.hpp"
 
 namespace slipfit::fit {
@@ -13,9 +14,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr Index kLeastRecordings = 4;
-/// Below it speeds hardly move the logarithm of the stick time.
-constexpr double kLeastSpeedRatio = 2.0;
-constexpr double kChance = 0.01;
 
 VectorXd log_speeds(const SweepSolution& solution) {
   VectorXd logs(static_cast<Index>(solution.recordings.size()));
@@ -76,7 +74,7 @@ StaticFriction static_friction_of(const SweepSolution& solution) {
   const VectorXd differences = differences_of(solution);
   VectorXd speeds = log_speeds(solution);
   if (solution.sweep.sharing.difference || differences.size() < kLeastRecordings ||
-      !(speeds.maxCoeff() - speeds.minCoeff() > std::log(kLeastSpeedRatio))) {
+      !(speeds.maxCoeff() - speeds.minCoeff() > std::log(thresholds::kAgeingSpeedRatio))) {
     return StaticFriction::Constant;
   }
   speeds.array() -= speeds.mean();
@@ -85,7 +83,7 @@ StaticFriction static_friction_of(const SweepSolution& solution) {
   const double freedom = static_cast<double>(differences.size()) - 2.0;
   const double error = std::sqrt(residuals.squaredNorm() / freedom / speeds.squaredNorm());
   const boost::math::students_t_distribution<double> by_chance(freedom);
-  const bool falls = slope < -boost::math::quantile(by_chance, 1.0 - kChance) * error;
+  const bool falls = slope < -boost::math::quantile(by_chance, 1.0 - thresholds::kAgeingChance) * error;
   return falls ? StaticFriction::Ages : StaticFriction::Constant;
 }
 

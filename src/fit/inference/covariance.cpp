@@ -48,7 +48,7 @@ Linearised linearise(const BlockFit& fit, std::size_t cycle) {
   MatrixXd jacobian(rows, static_cast<Index>(model.columns()));
   model.evaluate(fit.values(cycle), result.residuals.data(), jacobian.data());
   result.common = jacobian.leftCols(static_cast<Index>(model.common_parameters()));
-  result.own = jacobian.rightCols(static_cast<Index>(model.own_parameters()));
+  result.local = jacobian.rightCols(static_cast<Index>(model.local_parameters()));
   return result;
 }
 
@@ -58,10 +58,10 @@ Normal normal_of(Linearised lines, std::vector<Index> columns) {
   Normal normal;
   normal.columns = std::move(columns);
   normal.common = lines.common.transpose() * lines.common;
-  normal.cross = lines.common.transpose() * lines.own;
-  normal.own = lines.own.transpose() * lines.own;
+  normal.cross = lines.common.transpose() * lines.local;
+  normal.local = lines.local.transpose() * lines.local;
   normal.score = lines.common.transpose() * lines.residuals;
-  normal.own_score = lines.own.transpose() * lines.residuals;
+  normal.local_score = lines.local.transpose() * lines.residuals;
   normal.residuals = std::move(lines.residuals);
   return normal;
 }
@@ -93,7 +93,7 @@ class SparseNormal {
  public:
   SparseNormal(const Problem& problem, const std::vector<Normal>& normals, const Held& held)
       : held_(held), common_(MatrixXd::Zero(CommonColumns(problem).size(), CommonColumns(problem).size())) {
-    for (const Normal& normal : normals) first_common_ += normal.own.rows();
+    for (const Normal& normal : normals) first_common_ += normal.local.rows();
     for (const Normal& normal : normals) add_cycle(normal);
     hold_rows(common_, held);
     for (Index i = 0; i < common_.rows(); ++i) {
@@ -110,11 +110,11 @@ class SparseNormal {
     for (std::size_t i = 0; i < ramp.d_globals.size(); ++i) {
       if (!held_[i]) row.emplace_back(first_common_ + static_cast<Index>(i), ramp.d_globals[i]);
     }
-    const auto own = static_cast<Index>(fit.model(0).own_parameters());
-    const Index first_own = own * static_cast<Index>(first);
+    const auto local = static_cast<Index>(fit.model(0).local_parameters());
+    const Index first_local = local * static_cast<Index>(first);
     for (Index i = 0; i < 2; ++i) {
-      row.emplace_back(first_own + i, ramp.d_first[static_cast<std::size_t>(i)]);
-      row.emplace_back(first_own + own + i, ramp.d_second[static_cast<std::size_t>(i)]);
+      row.emplace_back(first_local + i, ramp.d_first[static_cast<std::size_t>(i)]);
+      row.emplace_back(first_local + local + i, ramp.d_second[static_cast<std::size_t>(i)]);
     }
     for (const auto& [i, left] : row) {
       for (const auto& [j, right] : row) add(i, j, left * right);
@@ -126,9 +126,9 @@ class SparseNormal {
     Eigen::SparseMatrix<double> hessian(size, size);
     hessian.setFromTriplets(entries_.begin(), entries_.end());
     MatrixXd columns = MatrixXd::Zero(size, kCoordinates);
-    const Index own = selection.own.rows();
-    for (Index row = 0; own > 0 && row < first_common_; row += own)
-      columns.middleRows(row, own) = selection.own / cycles;
+    const Index local = selection.local.rows();
+    for (Index row = 0; local > 0 && row < first_common_; row += local)
+      columns.middleRows(row, local) = selection.local / cycles;
     columns.bottomRows(common_.rows()) = selection.common;
     for (std::size_t i = 0; i < held_.size(); ++i) {
       if (held_[i]) columns.row(first_common_ + static_cast<Index>(i)).setZero();
@@ -142,16 +142,16 @@ class SparseNormal {
  private:
   void add_cycle(const Normal& n) {
     add_scattered(n.common, n.columns, common_);
-    for (Index i = 0; i < n.own.rows(); ++i) {
-      for (Index j = 0; j < n.own.cols(); ++j) add(next_own_ + i, next_own_ + j, n.own(i, j));
+    for (Index i = 0; i < n.local.rows(); ++i) {
+      for (Index j = 0; j < n.local.cols(); ++j) add(next_local_ + i, next_local_ + j, n.local(i, j));
       for (Index j = 0; j < n.common.rows(); ++j) {
         const Index column = n.columns[static_cast<std::size_t>(j)];
         if (column < kGlobals && held_[static_cast<std::size_t>(column)]) continue;
-        add(next_own_ + i, first_common_ + column, n.cross(j, i));
-        add(first_common_ + column, next_own_ + i, n.cross(j, i));
+        add(next_local_ + i, first_common_ + column, n.cross(j, i));
+        add(first_common_ + column, next_local_ + i, n.cross(j, i));
       }
     }
-    next_own_ += n.own.rows();
+    next_local_ += n.local.rows();
   }
 
   void add(Index row, Index column, double value) { entries_.emplace_back(row, column, value); }
@@ -159,7 +159,7 @@ class SparseNormal {
   Held held_;
   MatrixXd common_;
   Index first_common_ = 0;
-  Index next_own_ = 0;
+  Index next_local_ = 0;
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
@@ -213,30 +213,30 @@ CoordinateMatrix jackknife_covariance(const Problem& problem, const std::vector<
   const Held held = held_in(problem, all_held);
   const Index common = CommonColumns(problem).size();
   const std::size_t units = normals.size();
-  const Index own = selection.own.rows();
+  const Index local = selection.local.rows();
   MatrixXd total = MatrixXd::Zero(common, common);
-  MatrixXd sum_response = MatrixXd::Zero(own, common);  // of d own / d common, where a coordinate hangs on own
-  VectorXd sum_own = VectorXd::Zero(own);
+  MatrixXd sum_response = MatrixXd::Zero(local, common);  // of d own / d common, where a coordinate hangs on own
+  VectorXd sum_local = VectorXd::Zero(local);
   std::vector<MatrixXd> reduced(units);
   std::vector<VectorXd> score(units);
   std::vector<MatrixXd> response(units);
-  std::vector<VectorXd> owns(units, VectorXd::Zero(own));
+  std::vector<VectorXd> locals(units, VectorXd::Zero(local));
   for (std::size_t i = 0; i < units; ++i) {
     const Normal& n = normals[i];
-    MatrixXd local = MatrixXd::Zero(n.own.rows(), n.common.rows());
-    if (n.own.rows() > 0) local = -n.own.ldlt().solve(n.cross.transpose());
-    reduced[i] = n.common + n.cross * local;
+    MatrixXd follow = MatrixXd::Zero(n.local.rows(), n.common.rows());
+    if (n.local.rows() > 0) follow = -n.local.ldlt().solve(n.cross.transpose());
+    reduced[i] = n.common + n.cross * follow;
     add_scattered(reduced[i], n.columns, total);
-    const VectorXd local_score = n.score + local.transpose() * n.own_score;
+    const VectorXd eliminated_score = n.score + follow.transpose() * n.local_score;
     score[i] = VectorXd::Zero(common);
-    response[i] = MatrixXd::Zero(own, common);
+    response[i] = MatrixXd::Zero(local, common);
     for (std::size_t c = 0; c < n.columns.size(); ++c) {
-      score[i](n.columns[c]) += local_score(static_cast<Index>(c));
-      if (own > 0) response[i].col(n.columns[c]) += local.col(static_cast<Index>(c));
+      score[i](n.columns[c]) += eliminated_score(static_cast<Index>(c));
+      if (local > 0) response[i].col(n.columns[c]) += follow.col(static_cast<Index>(c));
     }
-    if (own == 0) continue;
-    owns[i] = Eigen::Map<const VectorXd>(problem.recordings.front().parameters.cycles[i].data(), own);
-    sum_own += owns[i];
+    if (local == 0) continue;
+    locals[i] = Eigen::Map<const VectorXd>(problem.recordings.front().parameters.cycles[i].data(), local);
+    sum_local += locals[i];
     sum_response += response[i];
   }
   const double others = static_cast<double>(units) - 1.0;
@@ -250,9 +250,9 @@ CoordinateMatrix jackknife_covariance(const Problem& problem, const std::vector<
     }
     const VectorXd step = remaining.ldlt().solve(score[i]);  // dropping r_i'r_i changes the gradient by -score_i
     VectorXd coordinates = selection.common.transpose() * step;
-    if (own > 0) {
-      const VectorXd mean_own = (sum_own - owns[i] + (sum_response - response[i]) * step) / others;
-      coordinates += selection.own.transpose() * mean_own;
+    if (local > 0) {
+      const VectorXd mean_local = (sum_local - locals[i] + (sum_response - response[i]) * step) / others;
+      coordinates += selection.local.transpose() * mean_local;
     }
     replicates.row(static_cast<Index>(i)) = coordinates.transpose();
   }

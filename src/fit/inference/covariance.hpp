@@ -32,7 +32,7 @@ class CommonColumns {
 struct Linearised {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd common;
-  Eigen::MatrixXd own;
+  Eigen::MatrixXd local;
 };
 
 /// One cycle's (or steady recording's, without own parameters) part of the normal equations.
@@ -40,16 +40,16 @@ struct Normal {
   std::vector<Eigen::Index> columns;  ///< of `common` among the problem's
   Eigen::MatrixXd common;             ///< common x common
   Eigen::MatrixXd cross;              ///< common x own
-  Eigen::MatrixXd own;                ///< own x own
+  Eigen::MatrixXd local;              ///< own x own
   Eigen::VectorXd score;              ///< J' r for common
-  Eigen::VectorXd own_score;
+  Eigen::VectorXd local_score;
   Eigen::VectorXd residuals;
 };
 
 /// How the coordinates hang on the common parameters and on the mean over the cycles of their own ones.
 struct Selection {
   Eigen::MatrixXd common;  ///< common x coordinates
-  Eigen::MatrixXd own;     ///< own x coordinates; empty where no coordinate hangs on them
+  Eigen::MatrixXd local;   ///< own x coordinates; empty where no coordinate hangs on them
 };
 
 Linearised linearise(const BlockFit& fit, std::size_t cycle);

@@ -28,6 +28,13 @@ double Intervals::degrees_of_freedom(const Jet& y) const {
 }
 
 Intervals::Reach Intervals::reach_of(const Jet& y, const std::function<double(const Coordinates&)>& change) const {
+  const double off = change(spread_.one_sided);
+  const Reach reach = reach_of_spread(y, change);
+  return {reach.down + std::max(0.0, -off), reach.up + std::max(0.0, off)};
+}
+
+Intervals::Reach Intervals::reach_of_spread(const Jet& y,
+                                            const std::function<double(const Coordinates&)>& change) const {
   const double quantile = this->quantile(y);
   if (!spread_.profile) return {quantile * standard_error(y), quantile * standard_error(y)};
   const Profile& profile = *spread_.profile;

@@ -37,10 +37,14 @@ struct Spread {
   CoordinateMatrix scatter = CoordinateMatrix::Zero();
   double scatter_degrees_of_freedom = 1.0;
   std::optional<Profile> profile;
+  /// What the coordinates are off by at most, in full or in part, for a reason that no refit shows: it lengthens one
+  /// side of an interval.
+  Coordinates one_sided = Coordinates::Zero();
 };
 
 /// The 95 % interval of any function of the coordinates, the one place where intervals are made: Student's t with the
-/// degrees of freedom of fit and scatter (Satterthwaite), along a profile where there is one. Where it is not
+/// degrees of freedom of fit and scatter (Satterthwaite), along a profile where there is one, one side longer by
+/// Spread::one_sided. Where it is not
 /// symmetric, the standard error is that of the longer side.
 class Intervals {
  public:
@@ -70,6 +74,8 @@ class Intervals {
   };
   [[nodiscard]] Reach reach_of(const Jet& y, const std::function<double(const Coordinates&)>& change) const;
   [[nodiscard]] Reach reach_of(const Jet& y) const;
+  /// Without Spread::one_sided.
+  [[nodiscard]] Reach reach_of_spread(const Jet& y, const std::function<double(const Coordinates&)>& change) const;
   [[nodiscard]] Estimate estimate(const Jet& y, const Reach& reach) const;
 
   Spread spread_;

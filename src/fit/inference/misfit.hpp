@@ -9,20 +9,20 @@
 namespace slipfit::fit {
 
 /// Stretches of equal length from shortly before a slip to shortly after it.
-inline constexpr int kPhases = 8;
+inline constexpr int kSegments = 8;
 
 /// Where residuals are the same in every cycle, and how large.
-struct PhaseMisfit {
-  double phase = 0.0;  ///< middle of the worst stretch: 0 at the onset, 1 at the end of slip
-  double size = 0.0;   ///< mean residual there over the mean onset force, signed
+struct SegmentMisfit {
+  double position = 0.0;  ///< middle of the worst stretch: 0 at the onset, 1 at the end of slip
+  double size = 0.0;      ///< mean residual there over the mean onset force, signed
 };
 
 /// Stretch of a sample; empty outside all.
-std::optional<std::size_t> phase_of(const CycleState& state, double time_s);
+std::optional<std::size_t> segment_of(const CycleState& state, double time_s);
 
-/// Residuals stacked over the phase of the slip. Empty where no stretch has a mean that is beyond chance (4.5 standard
-/// errors over the cycles) and matters (1 % of the onset force, `tolerated` on top); below 5 cycles.
-std::optional<PhaseMisfit> find_misfit(const BlockFit& fit, double tolerated);
+/// Residuals stacked over the segments of the slip. Empty where no stretch has a mean that is beyond chance (4.5
+/// standard errors over the cycles) and matters (1 % of the onset force, `tolerated` on top); below 5 cycles.
+std::optional<SegmentMisfit> find_misfit(const BlockFit& fit, double tolerated);
 
 /// Adds the jackknife over the stretches: what the estimates owe to one part of the slip alone. Each row of `moves`:
 /// what a refit without one stretch moves the coordinates by.

@@ -5,15 +5,13 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/inference/intervals.hpp"
 #include "fit/problem/solve.hpp"
 
 namespace slipfit::fit {
 namespace {
 
-constexpr double kWide = 0.02;
-constexpr double kPinned = 0.004;
-constexpr double kFewSamples = 4.0;
 constexpr double kMostDamping = 0.85;
 /// The minimum may not be the only one where a slip has few samples: the scan finds others.
 constexpr std::array kScan{0.03, 0.08, 0.15, 0.25, 0.4, 0.6, kMostDamping};
@@ -103,7 +101,8 @@ bool needs_profile(const DampedFit& fit, double samples_per_slip) {
   const Uncertainty& uncertainty = fit.uncertainty;
   if (fit.held[kDamping] || uncertainty.from_cycles || uncertainty.from_refits) return false;
   const double se = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
-  return se > kWide || (samples_per_slip < kFewSamples && se > kPinned);
+  return se > thresholds::kWideDamping ||
+         (samples_per_slip < thresholds::kFewSlipSamples && se > thresholds::kPinnedDamping);
 }
 
 std::optional<DampingProfile> profile_damping(const DampedFit& fit, const BlockFit& centre) {

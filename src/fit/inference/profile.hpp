@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "fit/selection/damped_fit.hpp"
+#include "fit/selection/solution.hpp"
 #include "slipfit/core/estimate.hpp"
 
 namespace slipfit::fit {

@@ -8,14 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/intervals.hpp"
 
 namespace slipfit::fit {
 namespace {
 
-/// Standard error over value of alpha from which on its profile is worth the refits.
-constexpr double kKnownWell = 0.15;
 /// alpha v_c; friction that falls by more than exp(-10) over a slip, or grows by more than exp(2), is another law.
 constexpr std::array kRates{-10.0, -7.0, -5.0, -3.5, -2.5, -1.8, -1.3, -0.9, -0.6, -0.3, 0.01, 0.3, 0.6, 1.0, 1.5, 2.0};
 
@@ -96,7 +95,7 @@ AlongRate profile_rate(const SweepSolution& solution, StaticFriction kind, const
   if (!(variance > 0.0)) return result;
   const double quantile = t_quantile(spread.degrees_of_freedom);
   Sides sides;
-  if (!solution.held[kFrictionRate] && std::sqrt(variance) >= kKnownWell * std::abs(best(kFrictionRate))) {
+  if (!solution.held[kFrictionRate] && std::sqrt(variance) >= thresholds::kKnownRate * std::abs(best(kFrictionRate))) {
     sides = {points_on(solution, kind, best, quantile, -1.0), points_on(solution, kind, best, quantile, 1.0)};
     avoid_negative_damping(result.best, sides);
   }

@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/inference/ageing_line.hpp"
 #include "fit/inference/rate_profile.hpp"
 #include "fit/inference/sliding_model.hpp"
 
 namespace slipfit::fit {
 namespace {
-
-/// A recording left out moves a parameter by chance by this many standard errors of the shift in fewer than one sweep
-/// of 300 (5 recordings, 7 parameters).
-constexpr double kShiftSigmas = 4.5;
 
 std::vector<std::optional<LeftOut>> leave_out_each(const SweepData& data, const SweepSolution& solution,
                                                    StaticFriction kind) {
@@ -53,7 +50,7 @@ bool recordings_disagree(const SweepOutcome& outcome) {
       const double least = 0.05 * covariance(i, i);  // rounding and iteration: the difference may come out as nothing
       const double variance = std::max(one->spread.covariance(i, i) - covariance(i, i), least);
       const double shift = one->values(i) - outcome.values(i);
-      if (variance > 0.0 && shift * shift > kShiftSigmas * kShiftSigmas * variance) return true;
+      if (variance > 0.0 && shift * shift > thresholds::kShiftSigmas * thresholds::kShiftSigmas * variance) return true;
     }
   }
   return false;
@@ -83,7 +80,7 @@ double left_out_error(const SweepOutcome& outcome) {
   for (std::size_t recording = 0; recording < solution.recordings.size(); ++recording) {
     const BlockFit& blocks = solution.recordings[recording];
     const double speed = blocks.scales().speed_m_per_s;
-    double error = std::log(kWidestFactor);
+    double error = std::log(thresholds::kWidestFactor);
     if (const auto& one = outcome.left_out[recording]) {
       const SlidingModel model(with_damping_cut(one->values, one->spread.covariance), solution.sweep.units);
       const auto spacing = model.spacing(speed, solution.population(recording).load);
@@ -92,6 +89,29 @@ double left_out_error(const SweepOutcome& outcome) {
     square += error * error;
   }
   return std::sqrt(square / static_cast<double>(solution.recordings.size()));
+}
+
+double residual_over_noise(std::span<const SweepRecording> recordings, const SweepData& data,
+                           const SweepSolution& solution) {
+  double sum = 0.0;
+  for (const std::size_t i : data.fitted) {
+    const double noise = recordings[i].quality.noise_rms;
+    if (noise > 0.0) sum += std::pow(data.single[i]->uncertainty.noise / noise, 2);
+  }
+  return sum / static_cast<double>(data.fitted.size()) * solution.chi2 / solution.degrees_of_freedom;
+}
+
+double effect_of_averaging(std::span<const SweepRecording> recordings, const SweepOutcome& outcome,
+                           const SweepData& data) {
+  constexpr double kByVariance = 0.62;  // d ln w_n / d (w_n sigma)^2 of damped slips, sigma^2 that of the average
+  const double omega = std::exp(outcome.values(kLogFrequency));
+  double sum = 0.0;
+  for (const std::size_t i : data.fitted) {
+    const Recording& recording = recordings[i].recording;
+    if (recording.conditions().sensor_average_s) continue;
+    sum += kByVariance * std::pow(omega * recording.sample_interval_s(), 2) / 12.0;
+  }
+  return sum / static_cast<double>(data.fitted.size());
 }
 
 }  // namespace slipfit::fit

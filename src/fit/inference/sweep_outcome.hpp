@@ -1,14 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "fit/inference/sweep_coordinates.hpp"
 
 namespace slipfit::fit {
-
-/// A first-order band wider than this says nothing.
-inline constexpr double kWidestFactor = 2.0;
 
 /// A fit without one recording.
 struct LeftOut {
@@ -31,5 +29,14 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution);
 
 /// Root mean square of ln (spacing predicted without a recording / its own); no prediction counts as a factor of 2.
 double left_out_error(const SweepOutcome& outcome);
+
+/// Residual variance over that of the noise measured on the traces: the noise of the sweep is that of each recording's
+/// own fit, which may leave something out by itself.
+double residual_over_noise(std::span<const SweepRecording> recordings, const SweepData& data,
+                           const SweepSolution& solution);
+
+/// By how much averaging of the samples over a step of the clock, where none is stated, would make w_n too small.
+double effect_of_averaging(std::span<const SweepRecording> recordings, const SweepOutcome& outcome,
+                           const SweepData& data);
 
 }  // namespace slipfit::fit

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/inference/covariance.hpp"
 
 namespace slipfit::fit {
@@ -43,19 +44,40 @@ void count_residuals(const BlockFit& fit, const std::vector<Normal>& normals, Un
   }
 }
 
+/// Noise in slips and sticks differs: white-noise formulas do not hold. Compares the variances of samples around the
+/// slips and inside the stick bins; both carry the same noise in the model.
+bool noise_differs(const BlockFit& fit, const std::vector<Normal>& normals) {
+  double slip = 0.0, slip_freedom = 0.0, stick = 0.0, stick_freedom = 0.0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const auto samples = static_cast<Index>(fit.data(i).time_s.size());
+    slip += normals[i].residuals.head(samples).squaredNorm();
+    slip_freedom += static_cast<double>(samples - normals[i].local.rows());
+    for (const auto* bins : {&fit.data(i).bins_before, &fit.data(i).bins_after}) {
+      for (const StickBin& bin : *bins) {
+        stick += bin.scatter / (fit.scales().noise * fit.scales().noise);
+        stick_freedom += std::max(0.0, bin.count - 2.0);
+      }
+    }
+  }
+  if (!(slip_freedom > 0.0) || !(stick_freedom > 0.0) || !(stick > 0.0)) return false;
+  const double ratio = std::log(slip / slip_freedom * stick_freedom / stick);
+  return std::abs(ratio) >
+         std::max(thresholds::kUnequalNoise, 4.0 * std::sqrt(2.0 / slip_freedom + 2.0 / stick_freedom));
+}
+
 /// Root mean square over the cycles of the error that noise of variance 1 gives to an onset force.
 double error_of_onset_force(const std::vector<Normal>& normals) {
   double square = 0.0;
-  for (const Normal& n : normals) square += n.own.inverse()(1, 1) / static_cast<double>(normals.size());
+  for (const Normal& n : normals) square += n.local.inverse()(1, 1) / static_cast<double>(normals.size());
   return std::sqrt(std::max(0.0, square));
 }
 
 double spread_of_onset_force(const BlockFit& fit) {
   double sum = 0.0;
   double square = 0.0;
-  for (const Own& own : fit.parameters.cycles) sum += own[1];
+  for (const Local& local : fit.parameters.cycles) sum += local[1];
   const double mean = sum / static_cast<double>(fit.size());
-  for (const Own& own : fit.parameters.cycles) square += (own[1] - mean) * (own[1] - mean);
+  for (const Local& local : fit.parameters.cycles) square += (local[1] - mean) * (local[1] - mean);
   return std::sqrt(square / std::max(1.0, static_cast<double>(fit.size()) - 1.0));
 }
 
@@ -68,7 +90,7 @@ double force_scale(const BlockFit& fit) {
 /// Of all cycles.
 double parameters_of(const BlockFit& fit) {
   const CycleModel& any = fit.model(0);
-  return static_cast<double>(any.common_parameters() + any.own_parameters() * fit.size());
+  return static_cast<double>(any.common_parameters() + any.local_parameters() * fit.size());
 }
 
 }  // namespace
@@ -108,17 +130,17 @@ Coordinates coordinates_of(const BlockFit& fit) {
 /// F_s - F_k = A + c V: the spring force at onset is F_s - c V, and c V = 2 zeta k V / w_n. docs/model.md section 4
 Selection select(const BlockFit& fit) {
   const CommonColumns columns(Problem{{&fit, 1}});
-  const auto own = static_cast<Index>(fit.model(0).own_parameters());
-  Selection selection{MatrixXd::Zero(columns.size(), kCoordinates), MatrixXd::Zero(own, kCoordinates)};
+  const auto local = static_cast<Index>(fit.model(0).local_parameters());
+  Selection selection{MatrixXd::Zero(columns.size(), kCoordinates), MatrixXd::Zero(local, kCoordinates)};
   for (Index i = 0; i < static_cast<Index>(fit.model(0).globals()); ++i) selection.common(i, i) = 1.0;
   const double drag_unit = 2.0 * force_scale(fit) / fit.scales().force;
   const double drag = drag_unit * fit.parameters.globals[kDamping];
   selection.common(kLogStiffness, kDifference) = drag;
   selection.common(kLogFrequency, kDifference) = -drag;
   selection.common(kDamping, kDifference) = drag_unit;
-  selection.own(1, kDifference) = 1.0;
+  selection.local(1, kDifference) = 1.0;
   if (fit.level().per_cycle) {
-    selection.own(2, kLevel) = 1.0;
+    selection.local(2, kLevel) = 1.0;
     return selection;
   }
   const Scales& scales = fit.scales();
@@ -154,8 +176,9 @@ Uncertainty estimate_uncertainty(const BlockFit& fit, const SolveOptions& solved
 
   // White intervals hold where neighbouring residuals are uncorrelated; the bound is four times the error of a
   // correlation, and 0.08 where that is smaller (below it the intervals are short by less than 8 %).
-  const double white_bound = std::max(0.08, 4.0 / std::sqrt(std::max(1.0, result.lag1_pairs)));
-  result.from_cycles = std::abs(result.lag1_correlation) > white_bound && !solved.continuous;
+  const double white_bound = std::max(thresholds::kWhiteCorrelation, 4.0 / std::sqrt(std::max(1.0, result.lag1_pairs)));
+  const bool white = std::abs(result.lag1_correlation) <= white_bound && !noise_differs(fit, normals);
+  result.from_cycles = !white && !solved.continuous;
   const Selection selection = select(fit);
   if (result.from_cycles) {
     result.covariance = jackknife_covariance(problem, normals, selection, solved.held);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fit/cycle/cycle_data.hpp"
-#include "fit/observation/sensor_lag.hpp"
+#include "fit/observation/sensor.hpp"
 #include "model/phasor.hpp"
 #include "model/slip.hpp"
 
@@ -16,17 +16,18 @@ class CoulombCycle {
   using Point = model::WavePoint;
 
   /// `z0`: spring force above F_k at the onset. Needs z0 + 2 zeta > 0 and |zeta| < 1.
-  CoulombCycle(double z0, double zeta, double lag_tau, ForceView view)
-      : slip(model::solve_slip(z0, zeta)), after(model::stick_after(slip)), lag_tau_(lag_tau), view_(view) {}
+  CoulombCycle(double z0, double zeta, const Sensor& sensor)
+      : slip(model::solve_slip(z0, zeta)), after(model::stick_after(slip)), sensor_(sensor) {}
 
   model::Slip slip;
   model::StickLine after;
 
   /// Force above the level in units of k V / w_n, at any tau = w_n (t - onset).
   [[nodiscard]] Point at(double tau) const {
-    if (lag_tau_ > 0.0) return SensorLag{lag_tau_, transmitted()}.wave_at(slip, tau);
-    if (tau <= 0.0) return before_slip(tau);
-    if (tau > slip.tau_end) return after_slip(tau);
+    const double reach = 0.5 * sensor_.average_tau;
+    if (tau <= -reach) return before_slip(tau);
+    if (tau > slip.tau_end + reach && sensor_.lag_tau == 0.0) return after_slip(tau);
+    if (sensor_.smooths()) return sensor_.wave_at(slip, tau);
     const double decay = std::exp(-slip.zeta * tau);
     return in_slip(tau, decay * std::cos(slip.b * tau), decay * std::sin(slip.b * tau));
   }
@@ -46,7 +47,7 @@ class CoulombCycle {
    public:
     Samples(const CoulombCycle& cycle, double step_tau)
         : cycle_(cycle),
-          turns_evenly_(step_tau > 0.0 && cycle.lag_tau_ == 0.0),
+          turns_evenly_(step_tau > 0.0 && !cycle.sensor_.smooths()),
           phasor_(cycle.slip.zeta, cycle.slip.b, step_tau) {}
 
     Point at(double tau) {
@@ -64,27 +65,24 @@ class CoulombCycle {
   };
 
  private:
-  [[nodiscard]] bool transmitted() const { return view_ == ForceView::Transmitted; }
-
   /// From exp(-zeta tau) cos b tau and exp(-zeta tau) sin b tau.
   [[nodiscard]] Point in_slip(double tau, double c, double bs) const {
     const double s = bs / slip.b;
-    return transmitted() ? model::transmitted_wave(slip, tau, c, s) : model::slip_wave(slip, tau, c, s);
+    return sensor_.transmitted ? model::transmitted_wave(slip, tau, c, s) : model::slip_wave(slip, tau, c, s);
   }
 
   /// A straight ramp lags by T, and so by kV T.
   [[nodiscard]] Point as_shown(Point stick) const {
-    if (transmitted()) {
+    if (sensor_.transmitted) {
       stick.z += 2.0 * slip.zeta;
       stick.d_zeta += 2.0;
     }
-    stick.z -= lag_tau_;
-    stick.d_log_omega -= lag_tau_;
+    stick.z -= sensor_.lag_tau;
+    stick.d_log_omega -= sensor_.lag_tau;
     return stick;
   }
 
-  double lag_tau_;
-  ForceView view_;
+  Sensor sensor_;
 };
 
 }  // namespace slipfit::fit

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/cycle/cycle_model.hpp"
 
 namespace slipfit::fit {
@@ -31,7 +32,6 @@ Eigen::MatrixXd legendre_basis(const std::vector<double>& time_s, std::size_t te
 }  // namespace
 
 std::size_t choose_level_terms(const std::vector<double>& time_s, const std::vector<double>& level) {
-  constexpr double kHandicap = 10.0;  // in BIC: "very strong" evidence, so that scatter alone is not called drift
   const auto count = static_cast<Eigen::Index>(time_s.size());
   const double span_s = time_s.back() - time_s.front();
   if (count < 6 || !(span_s > 0.0)) return 1;
@@ -45,7 +45,8 @@ std::size_t choose_level_terms(const std::vector<double>& time_s, const std::vec
     if (static_cast<Eigen::Index>(3 * terms) > count) break;
     const double rest = std::max(sum_of_squares_about(basis, values, static_cast<Eigen::Index>(terms)), 1e-30 * total);
     const double score = static_cast<double>(count) * std::log(rest) +
-                         (static_cast<double>(terms) - 1.0) * std::log(static_cast<double>(count)) + kHandicap;
+                         (static_cast<double>(terms) - 1.0) * std::log(static_cast<double>(count)) +
+                         thresholds::kDriftHandicap;
     if (score >= best) continue;
     best = score;
     best_terms = terms;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/fit_thresholds.hpp"
 #include "signal/mains.hpp"
 #include "signal/transform.hpp"
 
@@ -137,14 +138,13 @@ std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, st
   if (lines.empty()) return frequencies_Hz;
   // The level beside a line, by which the spectrum judges, is too low where the cycles have taken up the noise around
   // their harmonics: would noise alone do it?
-  constexpr double kSure = 20.0;
   const Prominence prominence(values);
   for (const signal::MainsLine& line : lines) {
     const double f_Hz = line.frequency_Hz;
     const auto is_near = [&](double f) { return std::abs(f - f_Hz) < 2.0 * resolution_Hz; };
     if (std::any_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near)) continue;
-    if (prominence.of(power_in_spectrum(power, bin_Hz, values.size(), f_Hz)) > 2.0 * kSure ||
-        prominence.of(power_of(fit_term(values, step_s, f_Hz))) > kSure) {
+    if (prominence.of(power_in_spectrum(power, bin_Hz, values.size(), f_Hz)) > 2.0 * thresholds::kSureHum ||
+        prominence.of(power_of(fit_term(values, step_s, f_Hz))) > thresholds::kSureHum) {
       frequencies_Hz.push_back(f_Hz);
     }
   }

@@ -10,7 +10,7 @@ BlockFit::BlockFit(std::shared_ptr<const CycleSet> set, const Scales& scales) : 
   for (std::size_t i = 0; i < set_->cycles.size(); ++i) models_.emplace_back(*set_, i, scales_);
   if (models_.empty()) return;
   parameters.level.assign((models_[0].has_constant() ? 1 : 0) + models_[0].drift_parameters(), 0.0);
-  parameters.cycles.assign(models_.size(), Own{});
+  parameters.cycles.assign(models_.size(), Local{});
 }
 
 BlockFit::BlockFit(std::vector<CycleData> cycles, std::vector<double> reference_s, const Scales& scales,
@@ -24,7 +24,7 @@ CycleValues BlockFit::values(std::size_t cycle) const {
   values.difference = &parameters.difference;
   values.constant = parameters.level.data();
   values.drift = parameters.level.data() + (models_[cycle].has_constant() ? 1 : 0);
-  values.own = parameters.cycles[cycle].data();
+  values.local = parameters.cycles[cycle].data();
   return values;
 }
 

@@ -16,7 +16,7 @@ struct Parameters {
   Globals globals{};
   double difference = 0.0;    ///< F_s - F_k(0+) / Population::force, in a sweep
   std::vector<double> level;  ///< constant, where there is one, and drift; scaled by Scales::level_unit and force
-  std::vector<Own> cycles;
+  std::vector<Local> cycles;
 };
 
 /// A recording in a fit: cycles as blocks beside the globals, a bundle adjustment. The current solution of it.

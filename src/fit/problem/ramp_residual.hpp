@@ -15,8 +15,8 @@ struct RampResidual {
   std::array<double, 2> d_first{};
   std::array<double, 2> d_second{};
 };
-RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const double* globals, const double* own_first,
-                           const double* own_second);
+RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const double* globals, const double* local_first,
+                           const double* local_second);
 
 /// In units of the noise: small enough to hold the ramp together (a ramp's mean is known to noise / sqrt(samples)),
 /// large enough to keep the normal equations well conditioned.

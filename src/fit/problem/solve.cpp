@@ -27,7 +27,7 @@ class CycleCost : public ceres::CostFunction {
         reduced_(model.columns() + 1, model.columns() + 1) {
     set_num_residuals(static_cast<int>(model.columns() + 1));
     for (const std::size_t size : {model.globals(), std::size_t{has_difference_}, std::size_t{model.has_constant()},
-                                   model.drift_parameters(), model.own_parameters()}) {
+                                   model.drift_parameters(), model.local_parameters()}) {
       if (size > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(size));
     }
   }
@@ -39,7 +39,7 @@ class CycleCost : public ceres::CostFunction {
     values.difference = next_if(has_difference_);
     values.constant = next_if(model_.has_constant());
     values.drift = next_if(model_.drift_parameters() > 0);
-    values.own = next_if(true);
+    values.local = next_if(true);
     if (!model_.evaluate(values, residuals_.data(), jacobians != nullptr ? jacobian_.data() : nullptr)) return false;
     if (jacobians == nullptr) {
       std::fill_n(residuals, num_residuals(), 0.0);
@@ -136,8 +136,8 @@ class Bundle {
     for (const BlockFit& recording : recordings_) {
       owns_.insert(owns_.end(), recording.parameters.cycles.begin(), recording.parameters.cycles.end());
     }
-    double* own = owns_.empty() ? nullptr : owns_.front().data();
-    for (BlockFit& recording : recordings_) own = add(recording, own);
+    double* local = owns_.empty() ? nullptr : owns_.front().data();
+    for (BlockFit& recording : recordings_) local = add(recording, local);
     for (const SteadyRun& run : sweep_.steady) {
       if (!sweep_.sharing.level) break;
       ceres_.AddResidualBlock(new SteadyCost(run, sweep_.units, globals_of(scales().law)), nullptr, globals_.data(),
@@ -157,7 +157,7 @@ class Bundle {
       parameters.globals = globals_;
       if (sweep_.sharing.level && !parameters.level.empty()) parameters.level[0] = shared.level[0];
       if (sweep_.sharing.difference) parameters.difference = shared.difference;
-      for (Own& own : parameters.cycles) own = owns_[next++];
+      for (Local& local : parameters.cycles) local = owns_[next++];
     }
     return summary.IsSolutionUsable() ? 2.0 * summary.final_cost : std::numeric_limits<double>::infinity();
   }
@@ -173,7 +173,7 @@ class Bundle {
   [[nodiscard]] const Scales& scales() const { return recordings_.front().scales(); }
 
   /// Returns where the cycles of the next recording stand.
-  double* add(BlockFit& recording, double* own) {
+  double* add(BlockFit& recording, double* local) {
     Parameters& parameters = recording.parameters;
     const CycleModel& any = recording.model(0);
     std::vector<double*> blocks{globals_.data()};
@@ -185,23 +185,24 @@ class Bundle {
       add_block(sweep_.sharing.difference ? &first().difference : &parameters.difference);
     if (any.has_constant()) add_block(sweep_.sharing.level ? first().level.data() : parameters.level.data());
     if (any.drift_parameters() > 0) add_block(parameters.level.data() + (any.has_constant() ? 1 : 0));
-    for (std::size_t i = 0; i < recording.size(); ++i, own += std::tuple_size_v<Own>) {
+    for (std::size_t i = 0; i < recording.size(); ++i, local += std::tuple_size_v<Local>) {
       const CycleModel& model = recording.model(i);
-      blocks.push_back(own);
+      blocks.push_back(local);
       auto* loss = options_.robust ? new ceres::HuberLoss(huber_bound(model.residuals())) : nullptr;
       ceres_.AddResidualBlock(new CycleCost(model), loss, blocks);
       blocks.pop_back();
-      ordering_->AddElementToGroup(own, 0);
+      ordering_->AddElementToGroup(local, 0);
       residuals_ += model.residuals();
     }
-    if (options_.continuous) join_ramps(recording, own - recording.size() * std::tuple_size_v<Own>);
-    return own;
+    if (options_.continuous) join_ramps(recording, local - recording.size() * std::tuple_size_v<Local>);
+    return local;
   }
 
-  void join_ramps(const BlockFit& recording, double* own) {
-    for (std::size_t i = 0; i + 1 < recording.size(); ++i, own += std::tuple_size_v<Own>) {
+  void join_ramps(const BlockFit& recording, double* local) {
+    for (std::size_t i = 0; i + 1 < recording.size(); ++i, local += std::tuple_size_v<Local>) {
       if (!recording.data(i).continuous_with_next) continue;
-      ceres_.AddResidualBlock(new RampCost(recording, i), nullptr, globals_.data(), own, own + std::tuple_size_v<Own>);
+      ceres_.AddResidualBlock(new RampCost(recording, i), nullptr, globals_.data(), local,
+                              local + std::tuple_size_v<Local>);
     }
   }
 
@@ -241,7 +242,7 @@ class Bundle {
   const SweepTerms& sweep_;
   const SolveOptions& options_;
   Globals globals_;
-  std::vector<Own> owns_;
+  std::vector<Local> owns_;
   ceres::Problem ceres_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
   int group_ = 1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/selection/damped_fit.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -11,7 +12,7 @@ namespace {
 double spread_of_levels(const DampedFit& fit) {
   const double mean = (level_of(fit) - fit.blocks.scales().level) / fit.blocks.scales().force;
   double square = 0.0;
-  for (const Own& own : fit.blocks.parameters.cycles) square += (own[2] - mean) * (own[2] - mean);
+  for (const Local& local : fit.blocks.parameters.cycles) square += (local[2] - mean) * (local[2] - mean);
   return fit.blocks.scales().force * std::sqrt(square / std::max(1.0, static_cast<double>(fit.blocks.size()) - 1.0));
 }
 
@@ -46,7 +47,7 @@ SteadyRun steady_run(const Recording& recording, double load) {
 
 double mean_onset_force(const DampedFit& fit) {
   double sum = 0.0;
-  for (const Own& own : fit.blocks.parameters.cycles) sum += own[1];
+  for (const Local& local : fit.blocks.parameters.cycles) sum += local[1];
   return fit.blocks.scales().force * sum / static_cast<double>(fit.blocks.size());
 }
 
@@ -54,7 +55,7 @@ double level_of(const DampedFit& fit) {
   const BlockFit& blocks = fit.blocks;
   if (!blocks.level().per_cycle) return blocks.scales().level + blocks.scales().force * blocks.parameters.level[0];
   double sum = 0.0;
-  for (const Own& own : blocks.parameters.cycles) sum += own[2];
+  for (const Local& local : blocks.parameters.cycles) sum += local[2];
   return blocks.scales().level + blocks.scales().force * sum / static_cast<double>(blocks.size());
 }
 

@@ -5,8 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "fit/selection/damped_fit.hpp"
-#include "slipfit/fit/sweep.hpp"
+#include "fit/problem/steady_run.hpp"
+#include "fit/selection/solution.hpp"
+#include "slipfit/fit/options.hpp"
+#include "slipfit/fit/sweep_recording.hpp"
 
 namespace slipfit::fit {
 

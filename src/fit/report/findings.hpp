@@ -2,11 +2,23 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fit/inference/sliding_model.hpp"
+#include "slipfit/core/recording.hpp"
 #include "slipfit/fit/result.hpp"
 
 namespace slipfit::fit {
+
+/// Of a speed without a standard error: what hangs on it.
+inline constexpr const char* kStatedSpeed =
+    "the stated driving speed (k, m and c are in inverse proportion to it; --speed-uncertainty widens their intervals)";
+
+/// Why w_n is not identified where averaging over a step of the clock would change it by so much of itself.
+std::string averaging_doubt(double change);
+
+/// What the numbers of one recording take for granted.
+std::vector<std::string> conditions_of(const Recording& recording);
 
 /// What is known of friction that depends on the speed; of a sweep only.
 struct LawFindings {
@@ -34,6 +46,10 @@ struct Findings {
   /// Why k is not identified, whatever its interval; empty: no reason.
   std::string stiffness_doubt{};
   std::string stiffness_note{};
+  /// Why w_n, and m with it, is not identified, whatever its interval; empty: no reason.
+  std::string frequency_doubt{};
+  std::string frequency_unknown{};  ///< why there is no natural frequency to read from the slips; empty: there is
+  std::optional<double> sensor_average_s{};     ///< stated, in the model
   std::string damping_doubt{};                  ///< why zeta is not identified
   std::string slip_unresolved{};                ///< why w_n and F_s - F_k cannot be read from the slip; empty: they can
   std::optional<Interval> difference_bounds{};  ///< all that is known of F_s - F_k

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/report/findings.hpp"
 #include "fit/selection/tiers.hpp"
 
@@ -15,10 +16,10 @@ namespace {
 
 using Id = ParameterId;
 
-constexpr std::size_t kFewCycles = 5;          // below it a scatter says little: nothing is called identified
-constexpr double kSamplesForIdentified = 3.0;  // in a slip
 const char* const kZeroUnknown =
     "known if the sensor reads 0 without force, which a recording cannot show: state the reading with --zero";
+const char* const kOneSpeed =
+    "known if friction does not depend on the sliding speed, which one driving speed cannot show";
 
 class Reporter {
  public:
@@ -30,6 +31,7 @@ class Reporter {
     report_friction();
     report_dynamics();
     if (f_.law) report_law();
+    if (f_.sensor_average_s) add_held(Id::SensorAverage, *f_.sensor_average_s);
     report_model();
     result_.warnings.insert(result_.warnings.end(), f_.warnings.begin(), f_.warnings.end());
     std::sort(result_.parameters.begin(), result_.parameters.end(),
@@ -44,7 +46,8 @@ class Reporter {
 
   /// `doubt`: empty where nothing but its size speaks against the estimate.
   [[nodiscard]] ParameterStatus graded(Id id, const Estimate& estimate, const std::string& doubt) const {
-    const bool good = doubt.empty() && f_.cycles >= kFewCycles && relative_error(estimate) < info(id).identified_below;
+    const bool good =
+        doubt.empty() && f_.cycles >= thresholds::kFewestCycles && relative_error(estimate) < info(id).identified_below;
     return good ? ParameterStatus::Identified : ParameterStatus::Weak;
   }
 
@@ -63,13 +66,13 @@ class Reporter {
   [[nodiscard]] Id in_unit(Id force, Id coefficient) const { return f_.in_newtons ? force : coefficient; }
 
   [[nodiscard]] std::string few_cycles() const {
-    return f_.cycles < kFewCycles ? fmt::format("only {} cycles", f_.cycles) : std::string();
+    return f_.cycles < thresholds::kFewestCycles ? fmt::format("only {} cycles", f_.cycles) : std::string();
   }
 
   /// Why nothing that is read from the slip is identified.
   [[nodiscard]] std::string slip_doubt() const {
     if (!f_.slip_doubt.empty()) return f_.slip_doubt;
-    if (f_.samples_per_slip > kSamplesForIdentified) return {};
+    if (f_.samples_per_slip > thresholds::kSlipSamples) return {};
     return too_few_samples(f_.samples_per_slip, f_.sample_interval_s);
   }
   [[nodiscard]] std::string slip_note() const { return slip_doubt().empty() ? few_cycles() : slip_doubt(); }
@@ -99,9 +102,10 @@ class Reporter {
     }
     const Estimate difference = f_.intervals.interval_of_one_sign(model_.difference);
     const bool ages = f_.law && f_.law->ages;
-    std::string note = slip_note();
+    const ParameterStatus of_difference = at_one_speed(graded(id, difference, slip_doubt()));
+    std::string note = of_difference == ParameterStatus::Conditional ? kOneSpeed : slip_note();
     if (ages) note += fmt::format("{}at a stick time of {:.3g} s", note.empty() ? "" : "; ", f_.units.stick_s);
-    add(id, difference, graded(id, difference, slip_doubt()), note);
+    add(id, difference, of_difference, note);
     report_absolute(in_unit(Id::StaticFriction, Id::StaticFrictionCoefficient), model_.level + model_.difference);
     report_absolute(in_unit(Id::KineticFriction, Id::KineticFrictionCoefficient), model_.level);
     if (!ages) return;
@@ -112,25 +116,45 @@ class Reporter {
   /// A force level hangs on the sensor's zero.
   void report_absolute(Id id, const Jet& y) {
     const Estimate estimate = f_.intervals.interval_of(y);
-    const ParameterStatus status = graded(id, estimate, slip_doubt());
-    if (f_.zero_known) return add(id, estimate, status, slip_note());
+    ParameterStatus status = graded(id, estimate, slip_doubt());
+    if (f_.zero_known) {
+      // The peaks show F_s whatever the law.
+      if (id == Id::KineticFriction || id == Id::KineticFrictionCoefficient) status = at_one_speed(status);
+      return add(id, estimate, status, status == ParameterStatus::Conditional ? kOneSpeed : slip_note());
+    }
     add(id, estimate, status == ParameterStatus::Identified ? ParameterStatus::Conditional : status, kZeroUnknown);
   }
 
   void report_dynamics() {
-    if (!f_.slip_unresolved.empty()) {
-      add_unknown(Id::NaturalFrequency, f_.slip_unresolved);
-      add_unknown(Id::DampingRatio, f_.slip_unresolved);
-      return;
+    if (f_.slip_unresolved.empty()) {
+      report_frequency();
+      return report_damping();
+    }
+    add_unknown(Id::NaturalFrequency, f_.slip_unresolved);
+    add_unknown(Id::DampingRatio, f_.slip_unresolved);
+  }
+
+  void report_frequency() {
+    if (!f_.frequency_unknown.empty() && !f_.held[kLogFrequency]) {
+      add_unknown(Id::NaturalFrequency, f_.frequency_unknown);
+      return f_.in_newtons ? add_unknown(Id::Mass, f_.frequency_unknown) : void();
     }
     if (f_.held[kLogFrequency]) {
       add_held(Id::NaturalFrequency, model_.omega.a);
     } else {
       const Estimate omega = f_.intervals.interval_of_one_sign(model_.omega);
-      add(Id::NaturalFrequency, omega, graded(Id::NaturalFrequency, omega, slip_doubt()), slip_note());
+      const std::string doubt = frequency_doubt();
+      add(Id::NaturalFrequency, omega, graded(Id::NaturalFrequency, omega, doubt),
+          doubt.empty() ? few_cycles() : doubt);
     }
     if (f_.in_newtons) report_mass();
-    report_damping();
+  }
+
+  [[nodiscard]] std::string frequency_doubt() const { return slip_doubt().empty() ? f_.frequency_doubt : slip_doubt(); }
+
+  /// From one speed F_s - F_k and zeta cannot be told from friction that depends on the speed.
+  [[nodiscard]] ParameterStatus at_one_speed(ParameterStatus status) const {
+    return status == ParameterStatus::Identified && !f_.law ? ParameterStatus::Conditional : status;
   }
 
   /// m = k / w_n^2
@@ -138,7 +162,7 @@ class Reporter {
     const Jet m = model_.stiffness / (model_.omega * model_.omega);
     if (f_.held[kLogStiffness] && f_.held[kLogFrequency]) return add_held(Id::Mass, m.a);
     const Estimate mass = f_.intervals.interval_of_one_sign(m);
-    const std::string doubt = slip_doubt().empty() ? f_.stiffness_doubt : slip_doubt();
+    const std::string doubt = frequency_doubt().empty() ? f_.stiffness_doubt : frequency_doubt();
     add(Id::Mass, mass, graded(Id::Mass, mass, doubt), "effective: k / w_n^2");
   }
 
@@ -146,9 +170,12 @@ class Reporter {
     if (f_.held[kDamping]) return add_held(Id::DampingRatio, model_.zeta.a);
     if (!f_.damping_known()) return add_unknown(Id::DampingRatio, f_.damping.note);
     const std::string doubt = slip_doubt().empty() ? f_.damping_doubt : slip_doubt();
-    const ParameterStatus status = graded(Id::DampingRatio, f_.damping, doubt);
-    const bool sharp = status == ParameterStatus::Identified;
-    add(Id::DampingRatio, f_.damping, status, sharp ? "" : doubt.empty() ? weak_damping() : doubt);
+    const ParameterStatus status = at_one_speed(graded(Id::DampingRatio, f_.damping, doubt));
+    const bool weak = status == ParameterStatus::Weak;
+    add(Id::DampingRatio, f_.damping, status,
+        weak                                     ? (doubt.empty() ? weak_damping() : doubt)
+        : status == ParameterStatus::Conditional ? kOneSpeed
+                                                 : "");
     if (!f_.in_newtons) return;
     // c = 2 zeta k / w_n, [Paper] eq. (6); zeta is never negative, and nor is c.
     const Jet unit = 2.0 * model_.stiffness / model_.omega;
@@ -157,15 +184,14 @@ class Reporter {
     Estimate c = f_.intervals.interval_of(zeta * unit);
     c.value = std::max(0.0, *c.value);
     c.ci95 = Interval{f_.damping.ci95->low * unit.a, std::max(f_.damping.ci95->high * unit.a, c.ci95->high)};
-    add(Id::DampingCoefficient, c, status);
+    add(Id::DampingCoefficient, c, status, status == ParameterStatus::Conditional ? kOneSpeed : "");
   }
 
   /// Errors fall with the root of the cycles; identified from a quarter on.
   [[nodiscard]] std::string weak_damping() const {
     if (!few_cycles().empty()) return few_cycles();
-    const double se = *f_.damping.standard_error;
-    const double times = std::pow(4.0 * se / *f_.damping.value, 2);
-    const std::string known = fmt::format("its standard error is {:.2g}", se);
+    const double times = std::pow(4.0 * *f_.damping.standard_error / *f_.damping.value, 2);
+    const std::string known = fmt::format("its standard error is {:.2g}", *f_.damping.standard_error);
     return times < 100.0 ? fmt::format("{}: it takes {:.2g} times the cycles, or less noise", known, times)
                          : known + ": it cannot be distinguished from 0";
   }
@@ -177,7 +203,7 @@ class Reporter {
     const Estimate alpha = f_.intervals.interval_of_one_sign(model_.alpha);
     // Nearer to 0 than 3 standard errors: those that come out so large by chance would be reported, the others not.
     const double relative = relative_error(f_.intervals.interval_of(model_.alpha));
-    if (!(relative < 1.0 / 3.0)) {
+    if (!(relative < thresholds::kTellingError)) {
       return withhold_law(
           fmt::format("only the product f1 alpha can be told: {:.3g} N s/m, 95 % interval {:.3g} to {:.3g}",
                       *slope.value, slope.ci95->low, slope.ci95->high));
@@ -201,12 +227,9 @@ class Reporter {
     add(Id::F0, f0, of_level, zero);
     add(Id::F1, f1, status, note);
     if (!f_.law->reference_normal_force_N) return;
-    const double load = *f_.law->reference_normal_force_N;
-    const auto over_load = [load](const Estimate& force) {
-      return Estimate{*force.value / load,
-                      *force.standard_error / load,
-                      Interval{force.ci95->low / load, force.ci95->high / load},
-                      {}};
+    const auto over_load = [load = *f_.law->reference_normal_force_N](const Estimate& force) {
+      const Interval ci95{force.ci95->low / load, force.ci95->high / load};
+      return Estimate{*force.value / load, *force.standard_error / load, ci95, {}};
     };
     add(Id::Mu0, over_load(f0), of_level, zero);
     add(Id::Mu1, over_load(f1), status, note);
@@ -246,7 +269,9 @@ class Reporter {
       correlation.names.emplace_back(info(kModelParameters[i]).key);
       correlation.matrix.emplace_back();
       for (const std::size_t j : used) {
-        const double covariance = f_.intervals.covariance(all[i], all[j]);
+        // Anything up to one_sided is as likely: a third of its square.
+        const Coordinates& off = f_.intervals.spread().one_sided;
+        const double covariance = f_.intervals.covariance(all[i], all[j]) + all[i].v.dot(off) * all[j].v.dot(off) / 3.0;
         const double scale = f_.intervals.standard_error(all[i]) * f_.intervals.standard_error(all[j]);
         estimate.covariance[i][j] = covariance;
         correlation.matrix.back().push_back(i == j ? 1.0 : scale > 0.0 ? covariance / scale : 0.0);

@@ -6,15 +6,14 @@
 #include <cmath>
 #include <utility>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/profile.hpp"
+#include "fit/inference/smoothing.hpp"
 #include "fit/selection/ramps.hpp"
 
 namespace slipfit::fit {
 namespace {
-
-constexpr double kBendSigmas = 3.0;
-constexpr double kDriftMatters = 0.02;
 
 /// Where the free zeta lies below 0, the fit with zeta = 0 is the best one.
 bool is_at_bound(const TierFits& fits) {
@@ -28,14 +27,15 @@ struct StiffnessFindings {
   Warnings warnings;
 };
 
-StiffnessFindings stiffness_of(const Recording& recording, const BlockFit& blocks, double log_k_error) {
+StiffnessFindings stiffness_of(const Recording& recording, const BlockFit& blocks, const Spread& spread) {
   StiffnessFindings result;
+  const double log_k_error = std::sqrt(spread.covariance(kLogStiffness, kLogStiffness));
   const Conditions& conditions = recording.conditions();
   const double stiffness = std::exp(blocks.parameters.globals[kLogStiffness]);
   // Ramps that bend (creep before a slip, a tightening line) have no one slope: k depends on the stretch that is used,
   // by half of what the halves of the ramps differ.
   const std::optional<RampBend> bend = ramp_bend(blocks);
-  if (bend && std::abs(bend->log_ratio) > kBendSigmas * bend->standard_error) {
+  if (bend && std::abs(bend->log_ratio) > thresholds::kBendSigmas * bend->standard_error) {
     result.variance += std::pow(0.5 * bend->log_ratio, 2);
     result.note = fmt::format(
         "the force in stick rises {:.1f} % {} steeply at first than at last: the interval of k allows for it",
@@ -48,7 +48,7 @@ StiffnessFindings stiffness_of(const Recording& recording, const BlockFit& block
     result.note =
         fmt::format("the mean force rises or falls throughout: k is wrong by {:.1f} % if that is drift of the sensor",
                     100.0 * drift);
-    if (drift > kDriftMatters) result.doubt = result.note;
+    if (drift > thresholds::kDriftShare) result.doubt = result.note;
   }
   // The data give k V.
   result.variance += std::pow(conditions.speed_standard_error_m_per_s.value_or(0.0) / conditions.speed_m_per_s, 2);
@@ -65,6 +65,45 @@ Spread spread_of(const DampedFit& fit) {
   spread.scatter(kDifference, kDifference) = fit.uncertainty.onset_force_sd * fit.uncertainty.onset_force_sd / cycles;
   spread.scatter_degrees_of_freedom = cycles - 1.0;
   return spread;
+}
+
+/// What averaging that nobody stated may have done.
+struct AveragingFindings {
+  Coordinates one_sided = Coordinates::Zero();
+  std::string doubt;        ///< of all that is read from the slip
+  std::string small_doubt;  ///< of w_n and m only
+  Warnings warnings;
+};
+
+/// Where averaging is not stated it is taken for anything up to one step of the clock, or for what the slips show.
+AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit, const BlockFit& blocks) {
+  AveragingFindings result;
+  if (recording.conditions().sensor_average_s) return result;
+  Held held = fit.held;
+  if (fit.refused_damping) held[kDamping] = true;
+  const double step_s = recording.sample_interval_s();
+  const std::optional<Smoothing> seen = estimate_smoothing(blocks, held, step_s);
+  if (!seen) return result;
+  const double of_a_step = step_s * step_s / 12.0;
+  // Rounding to steps of the converter repeats its errors in every cycle: the scatter over them does not show it.
+  const bool repeats = fit.uncertainty.from_refits && !fit.misfit;
+  const bool rounded = !repeats && seen->variance_s2 - thresholds::kRoundedSigmas * seen->standard_error_s2 > of_a_step;
+  // The move per variance is that of little averaging: a quarter more of what is seen allows for the bend.
+  const double variance = rounded ? 1.25 * seen->variance_s2 + 2.0 * seen->standard_error_s2 : of_a_step;
+  result.one_sided = variance * seen->move_per_s2;
+  const double change = std::abs(result.one_sided(kLogFrequency));
+  if (rounded) {
+    const double average_s = std::sqrt(12.0 * seen->variance_s2);
+    result.doubt =
+        fmt::format("onset and end of the slips are rounded as averaging over {:.2g} ms would", 1e3 * average_s);
+    result.warnings.push_back(
+        {"samples_averaged", result.doubt +
+                                 " (or friction that changes in the slip): intervals allow for it; state it with "
+                                 "--sensor-average where it is known"});
+  } else if (change > thresholds::kAverageShare) {
+    result.small_doubt = averaging_doubt(change);
+  }
+  return result;
 }
 
 /// zeta with its interval, and how the other coordinates follow it where the sum of squares is no parabola.
@@ -102,6 +141,12 @@ DampingFindings damping_of(const TierFits& fits, const Resolution& resolution, c
   return result;
 }
 
+/// An interval of zeta (0: held) with the side longer to which it may be off.
+Interval lengthened(const Interval& interval, double off) {
+  if (interval.low == interval.high) return interval;
+  return {std::max(0.0, interval.low + std::min(0.0, off)), interval.high + std::max(0.0, off)};
+}
+
 /// Unresolved slip: F_s - F_k lies between half of the drop (zeta = 0) and the drop (zeta -> 1), lambda >> 1. At zeta =
 /// 0 the drop also has the part that the drive makes up during the slip; 0.485 leaves room for it.
 Interval bounds_by_drop(const SawtoothFit& sawtooth, double cycles) {
@@ -110,10 +155,26 @@ Interval bounds_by_drop(const SawtoothFit& sawtooth, double cycles) {
 }
 
 /// Why what is read from the slip cannot be told, or not surely.
-void state_doubts(const TierFits& fits, const Resolution& resolution, Findings& findings) {
-  // A sensor that lags, or creep, moves w_n more than leaving out parts of the slip shows.
-  if (fits.damped.refused_damping || fits.damped.misfit) {
+void state_doubts(const TierFits& fits, const Resolution& resolution, const Residual& residual, Findings& findings) {
+  const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
+  if (large) {
+    findings.warnings.push_back(
+        {"model_misfit", fmt::format("residuals are {:.2g} times the noise: the model leaves something out of these "
+                                     "slips, and what is read from their shape is not sure",
+                                     std::sqrt(*residual.reduced_chi2))});
+  }
+  if (const std::optional<double>& zeta = fits.damped.refused_damping) {
+    findings.frequency_unknown = fmt::format(
+        "the slip does not follow a damped oscillation (the best damping ratio is negative, {:.2f}): friction, creep "
+        "or "
+        "the sensor may set its time instead of the mass",
+        *zeta);
+    findings.slip_doubt = findings.frequency_unknown;
+  } else if (fits.damped.misfit) {
+    // A sensor that lags, or creep, moves w_n more than leaving out parts of the slip shows.
     findings.slip_doubt = "the slip does not follow a damped oscillation: w_n may be wrong by more than its interval";
+  } else if (large && residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance) {
+    findings.slip_doubt = "residuals are larger than the noise and not random: the interval may be too short";
   }
   if (!resolution.slip_resolved) findings.slip_unresolved = resolution.reason;
   if (!resolution.damping_resolved) {
@@ -121,7 +182,7 @@ void state_doubts(const TierFits& fits, const Resolution& resolution, Findings& 
   }
   // A standard error of a third says less than the bound by the drop.
   const Estimate difference = findings.intervals.interval_of(SlidingModel(findings.values, findings.units).difference);
-  const bool tells = *difference.standard_error < *difference.value / 3.0;
+  const bool tells = *difference.standard_error < thresholds::kTellingError * *difference.value;
   if (!resolution.slip_resolved || !resolution.damping_resolved || !tells) {
     findings.difference_bounds = bounds_by_drop(fits.sawtooth, static_cast<double>(findings.cycles));
   }
@@ -129,17 +190,32 @@ void state_doubts(const TierFits& fits, const Resolution& resolution, Findings& 
 
 }  // namespace
 
-Findings findings_of(const Recording& recording, const TierFits& fits, const Resolution& resolution) {
+std::string averaging_doubt(double change) {
+  return fmt::format(
+      "averaging over one step of the clock, of which nothing is stated, would change w_n by {:.1f} %; state it with "
+      "--sensor-average (0: an instant), or sample faster",
+      100.0 * change);
+}
+
+std::vector<std::string> conditions_of(const Recording& recording) {
+  std::vector<std::string> conditions{
+      "Coulomb friction (one speed cannot tell zeta and F_s - F_k from friction that depends on speed)"};
+  if (!recording.conditions().speed_standard_error_m_per_s) conditions.emplace_back(kStatedSpeed);
+  return conditions;
+}
+
+Findings findings_of(const Recording& recording, const TierFits& fits, const Resolution& resolution,
+                     const Residual& residual) {
   const BlockFit& blocks = is_at_bound(fits) ? fits.undamped->blocks : fits.damped.blocks;
   Spread spread = spread_of(fits.damped);
+  AveragingFindings averaging = averaging_of(recording, fits.damped, blocks);
+  spread.one_sided = averaging.one_sided;
   DampingFindings damping = damping_of(fits, resolution, blocks);
+  damping.estimate.ci95 = lengthened(*damping.estimate.ci95, spread.one_sided(kDamping));
   spread.profile = std::move(damping.profile);
   Held held = fits.damped.held;
   held[kDamping] = fits.damping_held();
-  StiffnessFindings stiffness;
-  if (!held[kLogStiffness]) {
-    stiffness = stiffness_of(recording, blocks, std::sqrt(spread.covariance(kLogStiffness, kLogStiffness)));
-  }
+  StiffnessFindings stiffness = held[kLogStiffness] ? StiffnessFindings{} : stiffness_of(recording, blocks, spread);
   spread.covariance(kLogStiffness, kLogStiffness) += stiffness.variance;
   if (spread.profile) spread.profile->held(kLogStiffness, kLogStiffness) += stiffness.variance;
 
@@ -158,7 +234,14 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   findings.stiffness_doubt = std::move(stiffness.doubt);
   findings.stiffness_note = std::move(stiffness.note);
   findings.warnings = std::move(stiffness.warnings);
-  state_doubts(fits, resolution, findings);
+  findings.sensor_average_s = recording.conditions().sensor_average_s;
+  findings.frequency_doubt = std::move(averaging.small_doubt);
+  // Bent sticks begin and end in other slips than the model's.
+  findings.slip_doubt = !averaging.doubt.empty()    ? averaging.doubt
+                        : findings.warnings.empty() ? ""
+                                                    : findings.stiffness_note;
+  findings.warnings.insert(findings.warnings.end(), averaging.warnings.begin(), averaging.warnings.end());
+  state_doubts(fits, resolution, residual, findings);
   return findings;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/cycle/clock_weights.hpp"
 #include "fit/cycle/start.hpp"
 #include "fit/level/level_order.hpp"
@@ -19,24 +20,11 @@
 namespace slipfit::fit {
 namespace {
 
-constexpr std::size_t kMinCycles = 3;
 /// Enough cycles to find the shared parameters' neighbourhood; the full fit starts from there.
 constexpr std::size_t kProbeCycles = 12;
-/// Above it the level model is in doubt: noise alone gives 1 +- sqrt(2 / samples), and the noise measured from
-/// differences is good to a few percent.
-constexpr double kSuspectChi2 = 1.2;
-/// F ratio of one level a cycle against the polynomial; far beyond chance for the 12 and more cycles it is used with.
-constexpr double kWanderingRatio = 3.0;
 
-/// Wandering that shows in the middles of well sampled slips: this much of the drop and of the noise is left
-/// unexplained.
-constexpr double kWanderingShare = 0.03;
-constexpr double kWanderingNoises = 10.0;
-constexpr double kWellSampled = 10.0;  // samples in a half period: peaks are met to (pi / 20)^2 / 2 = 1 %
-constexpr double kUnevenClock = 0.02;  // relative spread of the steps
 constexpr int kQuickIterations = 8;
 constexpr int kCleanPasses = 4;
-constexpr double kMuchHum = 0.5;  // of the residual variance: less does not blur outliers and frequency
 constexpr int kProbeIterations = 12;
 constexpr int kMaxIterations = 60;
 constexpr double kRough = 0.1;  // SolveOptions::tolerance
@@ -56,7 +44,7 @@ class Fitter {
     start_stiffness_ = held_values_.stiffness_N_per_m.value_or(stiffness_of(recording_, segmentation_));
     if (!(start_stiffness_ > 0.0)) return std::nullopt;
     cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), excluded_);
-    if (cycles_.size() < kMinCycles) return std::nullopt;
+    if (cycles_.size() < thresholds::kFewestFitted) return std::nullopt;
     scales_.time_begin_s = cycles_.front().window_begin_s;
     scales_.time_end_s = cycles_.back().window_end_s;
     if (!segmentation_.mains_Hz.empty()) {
@@ -73,7 +61,7 @@ class Fitter {
         fit_from(std::move(cycles_), start->level(), start->parameters.globals, kMaxIterations, kRough);
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
-    if (quality_.clock_jitter > kUnevenClock) fit = with_clock_weights(std::move(*fit));
+    if (quality_.clock_jitter > thresholds::kWeighedClock) fit = with_clock_weights(std::move(*fit));
     refuse_negative_damping(*fit, kFinal);
     return finish(std::move(*fit));
   }
@@ -85,7 +73,7 @@ class Fitter {
     const double u = start_stiffness_ * scales_.speed_m_per_s * scales_.half_period_s / std::numbers::pi;
     constexpr double kForgotten = 8.0;  // e^-8: what the sensor still shows of the slip in the straight ramp
     return scales_.half_period_s * (1.0 - std::atan2(scales_.force, u) / std::numbers::pi + 0.3) +
-           kForgotten * scales_.sensor_lag_s;
+           kForgotten * scales_.sensor_lag_s + 0.5 * scales_.sensor_average_s;
   }
 
   /// The level model to begin with: the polynomial that the middles pay for, or at once one level a cycle.
@@ -100,9 +88,9 @@ class Fitter {
     const std::vector<double> times_s = middles_s(cycles_);
     const std::size_t terms = choose_level_terms(times_s, middles);
     const double left = unexplained_level(times_s, middles, drops, terms);
-    const bool well_sampled = scales_.half_period_s > kWellSampled * recording_.sample_interval_s();
-    const bool wanders = well_sampled && left > kWanderingShare * 2.0 * scales_.force &&
-                         left > kWanderingNoises * scales_.noise && cycles_.size() >= kProbeCycles;
+    const bool well_sampled = scales_.half_period_s > thresholds::kWellSampled * recording_.sample_interval_s();
+    const bool wanders = well_sampled && left > thresholds::kWanderingShare * 2.0 * scales_.force &&
+                         left > thresholds::kWanderingNoises * scales_.noise && cycles_.size() >= kProbeCycles;
     return {wanders, wanders ? 0 : terms, segmentation_.mains_Hz};
   }
 
@@ -120,7 +108,7 @@ class Fitter {
     start_ = fit->parameters.globals;
     // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
     if (!std::isfinite(solve(*fit, {held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
-    if (!level.per_cycle && probe.size() > level.terms && reduced_chi2(*fit) > kSuspectChi2) {
+    if (!level.per_cycle && probe.size() > level.terms && reduced_chi2(*fit) > thresholds::kSuspectChi2) {
       std::optional<BlockFit> wandering =
           fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.globals, kProbeIterations, kRough);
       if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
@@ -134,7 +122,7 @@ class Fitter {
     const Uncertainty poor = estimate_uncertainty(polynomial, {held_, false});
     const auto extra = static_cast<double>(wandering.size() - polynomial.level().terms);
     const double noise2 = rich.noise * rich.noise / (scales_.noise * scales_.noise);
-    return (poor.chi2 - rich.chi2) / extra > kWanderingRatio * noise2;
+    return (poor.chi2 - rich.chi2) / extra > thresholds::kWanderingRatio * noise2;
   }
 
   /// Short runs with zeta held, from several damping ratios (and frequencies, where the fall is hardly sampled).
@@ -143,7 +131,9 @@ class Fitter {
     BlockFit fit(cycles, middles_s(cycles), scales_, level);
     std::vector<double> stretches{1.0};
     if (scales_.half_period_s < 6.0 * recording_.sample_interval_s()) stretches = {1.0, 1.6, 1.0 / 0.6};
-    if (scales_.sensor_lag_s > 0.05 * scales_.half_period_s) stretches = {1.0, 1.4, 2.0};  // it draws the fall out
+    // Lag and averaging draw the fall out.
+    const double smoothed_s = std::max(scales_.sensor_lag_s, 0.3 * scales_.sensor_average_s);
+    if (smoothed_s > 0.05 * scales_.half_period_s) stretches = {1.0, 1.4, 2.0};
     std::vector<double> dampings{0.05, 0.01, 0.15};
     if (level.per_cycle) dampings = {0.05};  // a level a cycle takes up what a wrong zeta does to the troughs
     if (held_values_.damping_ratio) dampings = {*held_values_.damping_ratio};
@@ -161,7 +151,7 @@ class Fitter {
         if (cost >= best_cost) continue;
         best_cost = cost;
         best = fit.parameters;
-        if (reduced_chi2(fit) < kSuspectChi2) return fit;  // nothing left to find
+        if (reduced_chi2(fit) < thresholds::kSuspectChi2) return fit;  // nothing left to find
       }
     }
     if (!std::isfinite(best_cost)) return std::nullopt;
@@ -182,10 +172,10 @@ class Fitter {
   /// model's: zeta is held at 0 from here on, and called unidentified.
   void refuse_negative_damping(BlockFit& fit, double tolerance) {
     const double zeta = fit.parameters.globals[2];
-    if (held_[kDamping] || !(zeta < 0.0) || reduced_chi2(fit) < kSuspectChi2) return;
+    if (held_[kDamping] || !(zeta < 0.0) || reduced_chi2(fit) < thresholds::kSuspectChi2) return;
     const Uncertainty uncertainty = estimate_uncertainty(fit, {held_, false});
     const double se = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
-    if (!(zeta + 2.5 * se < 0.0)) return;
+    if (!(zeta + thresholds::kNegativeSigmas * se < 0.0)) return;
     refused_damping_ = zeta;
     held_[kDamping] = true;
     // From the features again: the runaway zeta has dragged the other parameters along.
@@ -196,7 +186,7 @@ class Fitter {
   /// Residuals of half the friction drop: no stick-slip, whatever more cycles would say.
   [[nodiscard]] bool is_hopeless(const BlockFit& fit) const {
     double mean = 0.0;
-    for (const Own& own : fit.parameters.cycles) mean += own[1] / static_cast<double>(fit.size());
+    for (const Local& local : fit.parameters.cycles) mean += local[1] / static_cast<double>(fit.size());
     return !(std::sqrt(reduced_chi2(fit)) * scales_.noise < 0.5 * std::abs(mean) * scales_.force);
   }
 
@@ -218,7 +208,7 @@ class Fitter {
       if (!next) return std::nullopt;
       fit = std::move(*next);
       const double hum_power = 0.5 * std::pow(hum_amplitude(fit), 2);
-      if (hum_power < kMuchHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
+      if (hum_power < thresholds::kBlurringHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
     }
     return fit;
   }
@@ -254,7 +244,7 @@ class Fitter {
         kept.back().continuous_with_next = false;
       }
     }
-    if (kept.size() < kMinCycles) return std::nullopt;
+    if (kept.size() < thresholds::kFewestFitted) return std::nullopt;
     level.lines_Hz = lines_Hz;
     std::vector<double> middles = middles_s(kept);
     BlockFit refit(std::move(kept), std::move(middles), scales_, level);
@@ -291,7 +281,7 @@ class Fitter {
 
 std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& quality,
                                     const Segmentation& segmentation, const HeldParameters& held) {
-  if (segmentation.slips.size() < kMinCycles) return std::nullopt;
+  if (segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
   return Fitter(recording, quality, segmentation, held).fit();
 }
 

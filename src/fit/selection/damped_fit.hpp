@@ -1,28 +1,14 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
-#include "fit/inference/misfit.hpp"
-#include "fit/inference/uncertainty.hpp"
-#include "fit/problem/block_fit.hpp"
+#include "fit/selection/solution.hpp"
+#include "slipfit/core/recording.hpp"
 #include "slipfit/fit/parameter.hpp"
 #include "slipfit/signal/cycles.hpp"
 #include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
-
-/// The block fit of a recording and what it was reached with.
-struct DampedFit {
-  BlockFit blocks;
-  bool continuous = false;  ///< ramps shared by neighbouring cycles: the data agree with it
-  Held held;
-  /// Free damping ratio where it came out clearly negative: the slip is not shaped like the model's, zeta is held at 0.
-  std::optional<double> refused_damping;
-  std::vector<std::size_t> excluded;  ///< samples in ascending order: impulses, clipped, outliers
-  Uncertainty uncertainty;
-  std::optional<PhaseMisfit> misfit;  ///< slips are not shaped like the model's; the covariances allow for it
-};
 
 /// The per-cycle block fit with all that makes it stand real recordings: several starts in zeta, a level that may
 /// drift or wander, outliers left out, ramps joined where the data allow it. Empty: fewer than 3 cycles to fit, or no

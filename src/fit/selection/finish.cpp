@@ -6,9 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/inference/misfit.hpp"
-#include "fit/inference/phase_moves.hpp"
 #include "fit/inference/rounding.hpp"
+#include "fit/inference/segment_influence.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/outliers.hpp"
 
@@ -43,7 +44,7 @@ class Finisher {
       result.uncertainty = with_rounding(result.uncertainty, moves);
     }
     if ((result.misfit = find_misfit(result.blocks, 0.5 * quality_.quantisation_step.value_or(0.0)))) {
-      result.uncertainty = with_misfit(result.uncertainty, moves_by_phase(result.blocks, result.held));
+      result.uncertainty = with_misfit(result.uncertainty, influence_of_segments(result.blocks, result.held));
     }
     return result;
   }
@@ -118,7 +119,7 @@ class Finisher {
         result.blocks.parameters = before;
         return;
       }
-      if (ratio <= 0.0 || boost::math::cdf(boost::math::complement(chance, ratio)) > 1e-3) {
+      if (ratio <= 0.0 || boost::math::cdf(boost::math::complement(chance, ratio)) > thresholds::kShareChance) {
         result.continuous = true;
         result.uncertainty = joined;
         return;

@@ -2,7 +2,10 @@
 
 #include <optional>
 
-#include "fit/selection/damped_fit.hpp"
+#include "fit/selection/solution.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
 

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fit_thresholds.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
 namespace {
-
-constexpr double kOutlierSigmas = 4.5;      // one false alarm in 150 000 normal samples
-constexpr double kUnexplainedRatio = 25.0;  // 5 standard deviations on average over a whole cycle
 
 /// Median size of the residuals in one phase, of every stride-th where they are many.
 double median_size(const Residuals& residuals, Phase phase) {
@@ -39,15 +37,15 @@ Residuals residuals_of(const Recording& recording, const BlockFit& fit, const st
   for (std::size_t c = 0; c < fit.size(); ++c) {
     const CycleModel& model = fit.model(c);
     const CycleState state = fit.state(c);
-    const double* own = fit.parameters.cycles[c].data();
+    const double* local = fit.parameters.cycles[c].data();
     const auto fill = [&](std::size_t begin, std::size_t end, Phase phase, const auto& force_at) {
       for (std::size_t i = begin; i < end; ++i) residuals.value[i] = force[i] - force_at(time_s[i]);
       std::fill_n(residuals.phase.begin() + static_cast<std::ptrdiff_t>(begin), end - begin, phase);
     };
-    const auto shown = [&](double t_s) { return model.level_at(t_s, level, own) + state.force_at(t_s); };
+    const auto shown = [&](double t_s) { return model.level_at(t_s, level, local) + state.force_at(t_s); };
     const auto stick = [&, rate = state.force_scale * state.omega_rad_per_s](double above) {
       return [&, rate, above](double t_s) {
-        return model.level_at(t_s, level, own) + above + rate * (t_s - state.onset_s);
+        return model.level_at(t_s, level, local) + above + rate * (t_s - state.onset_s);
       };
     };
     const std::size_t begin = index_at(fit.data(c).window_begin_s);
@@ -73,11 +71,11 @@ Residuals residuals_of(const Recording& recording, const BlockFit& fit, const st
 std::vector<std::size_t> find_outliers(const Residuals& residuals, double noise) {
   std::vector<std::size_t> outliers;
   for (std::size_t i = 0; i < residuals.value.size(); ++i) {
-    if (std::abs(residuals.value[i]) > kOutlierSigmas * noise) outliers.push_back(i);
+    if (std::abs(residuals.value[i]) > thresholds::kOutlierSigmas * noise) outliers.push_back(i);
   }
   if (outliers.empty()) return outliers;
   const auto bound_in = [&](Phase phase) {
-    return kOutlierSigmas * std::max(1.4826 * median_size(residuals, phase), noise);
+    return thresholds::kOutlierSigmas * std::max(1.4826 * median_size(residuals, phase), noise);
   };
   const double stick_bound = bound_in(Phase::Stick);
   const double slip_bound = bound_in(Phase::Slip);
@@ -92,7 +90,7 @@ std::vector<std::size_t> unexplained_slips(const BlockFit& fit) {
   for (std::size_t i = 0; i < fit.size(); ++i) {
     mean_squares.push_back(fit.cycle_sum_of_squares(i) / static_cast<double>(fit.data(i).residuals()));
   }
-  const double bound = kUnexplainedRatio * std::max(1.0, signal::median(mean_squares));
+  const double bound = thresholds::kUnexplainedRatio * std::max(1.0, signal::median(mean_squares));
   std::vector<std::size_t> bad;
   for (std::size_t i = 0; i < fit.size(); ++i) {
     if (!(mean_squares[i] <= bound)) bad.push_back(fit.data(i).slip);

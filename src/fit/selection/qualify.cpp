@@ -22,7 +22,7 @@ FitResult without_parameters(FitResult fit) {
 }
 
 FitResult qualified_by_mains(FitResult fit, double frequency_Hz, double duration_s) {
-  const bool hum_found = fit.evidence.hum_share > 0.0;
+  const bool hum_found = fit.diagnostics.hum_share > 0.0;
   const std::optional<double> mains_Hz = signal::mains_in_step(frequency_Hz, hum_found ? 2 : 1, duration_s);
   if (!mains_Hz) return fit;
   const std::string reason = fmt::format("in step with {:.0f} Hz mains: hum hides in the cycles", *mains_Hz);

@@ -36,8 +36,8 @@ StickBin merge(const std::vector<StickBin>& bins) {
 /// A drift that itself bends would make a ramp steeper than the one before it.
 double level_slope(const BlockFit& fit, std::size_t cycle, double time_s) {
   const double step_s = fit.scales().half_period_s;
-  const double* own = fit.parameters.cycles[cycle].data();
-  const auto level = [&](double t_s) { return fit.model(cycle).level_at(t_s, fit.level_data(), own); };
+  const double* local = fit.parameters.cycles[cycle].data();
+  const auto level = [&](double t_s) { return fit.model(cycle).level_at(t_s, fit.level_data(), local); };
   return (level(time_s + step_s) - level(time_s - step_s)) / (2.0 * step_s);
 }
 

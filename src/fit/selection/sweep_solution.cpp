@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/problem/block_fit.hpp"
 #include "fit/problem/solve.hpp"
@@ -18,10 +19,6 @@ constexpr double kSweepRough = 0.1;
 constexpr double kSweepFinal = 1e-4;
 constexpr int kSweepQuickIterations = 10;
 constexpr int kSweepMaxIterations = 50;
-/// What the recordings share is believed unless chance would hardly give such a disagreement.
-constexpr double kShareChance = 1e-3;
-/// Dependence on the speed is believed beyond this chance.
-constexpr double kLawChance = 0.01;
 
 /// The recordings `used` of the sweep, as their own fits left them.
 SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, const std::vector<std::size_t>& used) {
@@ -51,7 +48,7 @@ double residual_freedom(const SweepSolution& solution) {
   for (const BlockFit& recording : solution.recordings) {
     for (std::size_t c = 0; c < recording.size(); ++c) {
       freedom += static_cast<double>(recording.model(c).residuals()) -
-                 static_cast<double>(recording.model(c).own_parameters());
+                 static_cast<double>(recording.model(c).local_parameters());
     }
   }
   return std::max(1.0, freedom);
@@ -81,7 +78,7 @@ class SweepFitter {
     SweepFits fits{std::move(velocity), std::move(coulomb)};
     const double extra = 2.0;  // slope and rate
     fits.p_value = fits.coulomb ? chance(fits.coulomb->chi2 - fits.velocity.chi2, extra, fits.velocity) : 0.0;
-    fits.depends_on_speed = fits.p_value < kLawChance;
+    fits.depends_on_speed = fits.p_value < thresholds::kLawChance;
     return fits;
   }
 
@@ -149,7 +146,7 @@ class SweepFitter {
       const double steady = sharing.level ? static_cast<double>(data_.steady.size()) : 0.0;
       const double shared_kinds = (sharing.level ? 1.0 : 0.0) + (sharing.difference ? 1.0 : 0.0);
       const double constraints = static_cast<double>(runs - 1) * shared_kinds + steady;
-      if (chance(shared->chi2 - free.chi2, constraints, free) > kShareChance) return std::move(*shared);
+      if (chance(shared->chi2 - free.chi2, constraints, free) > thresholds::kShareChance) return std::move(*shared);
     }
     return free;
   }

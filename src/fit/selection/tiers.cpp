@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fit_thresholds.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
 namespace {
-
-/// A tier must be better by this much in AICc to displace a poorer one: 10 is "essentially no support" for the poorer
-/// (Burnham and Anderson 2002), so that a richer model is never bought for noise.
-constexpr double kPrice = 10.0;
 
 /// Every tier has the same onset and force for each cycle: only the shared parameters tell them apart.
 double aicc(double rms, double effective, double parameters) {
@@ -26,10 +23,11 @@ double rms_of(const DampedFit& fit) {
 
 std::string against(const Candidate& candidate, const Candidate& other) {
   const double gain = *other.aicc - *candidate.aicc;
-  return fmt::format("AICc {:.1f} {} than that of the {} model: {}, which takes {:g} lower", std::abs(gain),
-                     gain < 0.0 ? "higher" : "lower", other.tier == Tier::Sawtooth ? "sawtooth" : "undamped",
-                     gain > kPrice ? "the added parameter is justified" : "the added parameter is not justified",
-                     kPrice);
+  return fmt::format(
+      "AICc {:.1f} {} than that of the {} model: {}, which takes {:g} lower", std::abs(gain),
+      gain < 0.0 ? "higher" : "lower", other.tier == Tier::Sawtooth ? "sawtooth" : "undamped",
+      gain > thresholds::kTierPrice ? "the added parameter is justified" : "the added parameter is not justified",
+      thresholds::kTierPrice);
 }
 
 std::string requested(const std::string& reason) {
@@ -65,11 +63,11 @@ SawtoothFit fit_sawtooth(const DampedFit& damped) {
     const double jump = state.force_scale * (state.z0() - state.motion.after.intercept);
     drops.push_back(jump);
     const double middle_s = blocks.reference_s(i);
-    const double* own = blocks.parameters.cycles[i].data();
+    const double* local = blocks.parameters.cycles[i].data();
     for (std::size_t j = 0; j < data.time_s.size(); ++j) {
       const double line = data.time_s[j] < middle_s ? state.z0() : state.motion.after.intercept;
       const double z = line + state.tau_at(data.time_s[j] - blocks.scales().sensor_lag_s);
-      const double level = blocks.model(i).level_at(data.time_s[j], blocks.level_data(), own);
+      const double level = blocks.model(i).level_at(data.time_s[j], blocks.level_data(), local);
       const double residual = data.force[j] - level - state.force_scale * z;
       sum += residual * residual;
       samples += 1.0;
@@ -101,9 +99,8 @@ Resolution resolution_of(const Recording& recording, const TierFits& fits) {
   result.samples_per_slip = median_slip_s(blocks) / recording.sample_interval_s();
   const double damping_error = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
   const bool held = fits.damping_held();
-  // Fewer than 1.5 samples in a slip leave w_n and zeta without a single minimum, unless scattering cycles pin zeta.
-  const bool scatter_tells = !fits.damped.refused_damping && damping_error < 0.01;
-  if (result.samples_per_slip < 1.5 && !held && !scatter_tells) {
+  const bool scatter_tells = !fits.damped.refused_damping && damping_error < thresholds::kPinningDamping;
+  if (result.samples_per_slip < thresholds::kResolvedSamples && !held && !scatter_tells) {
     result.reason = too_few_samples(result.samples_per_slip, recording.sample_interval_s());
     return result;
   }
@@ -112,7 +109,7 @@ Resolution resolution_of(const Recording& recording, const TierFits& fits) {
     result.reason =
         fmt::format("the slip does not follow a damped oscillation: the best damping ratio is negative, {:.2f}",
                     *fits.damped.refused_damping);
-  } else if (!held && !(damping_error < 0.1)) {
+  } else if (!held && !(damping_error < thresholds::kTellingDamping)) {
     result.reason = fmt::format("the standard error of the damping ratio is {:.2g}; {}", damping_error,
                                 result.samples_per_slip < 6.0
                                     ? too_few_samples(result.samples_per_slip, recording.sample_interval_s())
@@ -143,10 +140,10 @@ std::vector<Candidate> choose_tier(const TierFits& fits, const Resolution& resol
     sawtooth.reason = "the slip is not resolved: " + resolution.reason;
     undamped.reason = damped.reason = "its slip cannot be distinguished from a jump here";
   } else {
-    const bool undamped_pays = undamped.aicc && *undamped.aicc + kPrice < *sawtooth.aicc;
+    const bool undamped_pays = undamped.aicc && *undamped.aicc + thresholds::kTierPrice < *sawtooth.aicc;
     const bool damped_pays = resolution.damping_resolved && damped.aicc &&
-                             *damped.aicc + kPrice < undamped.aicc.value_or(INFINITY) &&
-                             *damped.aicc + kPrice < *sawtooth.aicc;
+                             *damped.aicc + thresholds::kTierPrice < undamped.aicc.value_or(INFINITY) &&
+                             *damped.aicc + thresholds::kTierPrice < *sawtooth.aicc;
     chosen = damped_pays ? Tier::Damped : undamped_pays ? Tier::Undamped : Tier::Sawtooth;
     if (undamped.aicc) undamped.reason = against(undamped, sawtooth);
     if (damped.aicc) damped.reason = against(damped, undamped.aicc ? undamped : sawtooth);

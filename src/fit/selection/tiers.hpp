@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "fit/selection/damped_fit.hpp"
-#include "slipfit/fit/fit.hpp"
+#include "fit/selection/solution.hpp"
+#include "slipfit/fit/result.hpp"
 
 namespace slipfit::fit {
 

@@ -1,4 +1,4 @@
-#include "fit/observation/sensor_lag.hpp"
+#include "fit/observation/sensor.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "model/reference_table.hpp"
 #include "scene.hpp"
 
 using namespace slipfit;
@@ -36,6 +37,27 @@ Recording through_sensor(Scene s, double lag_s) {
     if (i % static_cast<std::size_t>(kOversampling) != 0) continue;
     seen_s.push_back(time_s[i]);
     seen.push_back(shown + noise(random));
+  }
+  return Recording::create(std::move(seen_s), std::move(seen), fine.conditions()).value();
+}
+
+/// The scene as a logger shows it that averages over so many samples: simulated 40 times finer.
+Recording averaged(Scene s, double samples) {
+  const double noise_N = s.noise * (s.static_N - s.kinetic_N);
+  s.noise = 0.0;
+  s.samples_per_slip *= kOversampling;
+  const Recording fine = record(s);
+  const auto force = fine.force();
+  const auto reach = static_cast<std::size_t>(0.5 * samples * kOversampling);
+  std::mt19937_64 random(s.seed);
+  std::normal_distribution<double> noise(0.0, noise_N);
+  std::vector<double> sum{0.0};
+  for (const double f : force) sum.push_back(sum.back() + f);
+  std::vector<double> seen_s;
+  std::vector<double> seen;
+  for (std::size_t i = reach; i + reach + 1 < sum.size(); i += static_cast<std::size_t>(kOversampling)) {
+    seen_s.push_back(fine.time_s()[i]);
+    seen.push_back((sum[i + reach + 1] - sum[i - reach]) / static_cast<double>(2 * reach + 1) + noise(random));
   }
   return Recording::create(std::move(seen_s), std::move(seen), fine.conditions()).value();
 }
@@ -96,10 +118,58 @@ TEST_CASE("a sensor that has not forgotten one slip when the next begins is warn
 
 TEST_CASE("a sensor much faster than the slip shows the slip itself") {
   const model::Slip slip = model::solve_slip(8.0, 0.06);
-  const fit::SensorLag fast{1e-5, false};
+  const fit::Sensor fast{1e-5};
   for (const double tau : {-0.5, 0.3, 1.0, 2.0, slip.tau_end - 0.01}) {
     const double exact = tau < 0.0 ? slip.z0 + tau : model::slip_wave(slip, tau).z;
     const double slope = tau < 0.0 ? 1.0 : model::slip_wave(slip, tau).d_tau;
     CHECK(fast.wave_at(slip, tau).z == Approx(exact - 1e-5 * slope).epsilon(1e-8));  // lags by T, to first order
+  }
+}
+
+TEST_CASE("a moving average of the limit cycle is that of numerical integration") {
+  for (const auto& row : test::reference_rows("sensor_average.csv")) {
+    const double lambda = row.at("lambda");
+    const double zeta = row.at("zeta");
+    const double tau = row.at("tau");
+    // The table is of the periodic motion: only windows that reach into no other slip compare.
+    if (tau + 0.5 * row.at("window") > row.at("t_slip") + row.at("t_stick")) continue;
+    if (tau - 0.5 * row.at("window") < -row.at("t_stick")) continue;
+    const model::Slip slip = model::solve_slip(lambda - 2.0 * zeta, zeta);
+    CAPTURE(lambda, zeta, row.at("window"), tau);
+    // Differences of integrals of size lambda^2 over the window keep 1e-16 of them.
+    const fit::Sensor logger{0.0, row.at("window")};
+    CHECK(logger.wave_at(slip, tau).z == Approx(row.at("average")).margin(1e-9 * (1.0 + lambda)));
+  }
+}
+
+TEST_CASE("a stated averaging gives the parameters back; unstated it is seen, and nothing of the slip is sure") {
+  Scene s;
+  s.noise = 0.01;
+  s.jitter = 0.03;
+  constexpr double kSamples = 8.0;  // of 30 in a slip: w_n is 4 % too small without it
+  const Recording shown = averaged(s, kSamples);
+  SECTION("stated") {
+    Conditions conditions = shown.conditions();
+    conditions.sensor_average_s = kSamples * shown.sample_interval_s();
+    const Recording stated = Recording::create({shown.time_s().begin(), shown.time_s().end()},
+                                               {shown.force().begin(), shown.force().end()}, conditions)
+                                 .value();
+    const Analysis analysis = analyze_and_fit(stated, {});
+    check(analysis, "stiffness_N_per_m", s.stiffness);
+    check(analysis, "natural_frequency_rad_per_s", s.omega);
+    check(analysis, "damping_ratio", s.zeta);
+    check(analysis, "friction_difference_N", s.static_N - s.kinetic_N);
+    CHECK(parameter(analysis, "natural_frequency_rad_per_s").status == ParameterStatus::Identified);
+    CHECK(parameter(analysis, "sensor_average_s").status == ParameterStatus::Fixed);
+    CHECK_FALSE(has_warning(analysis, "samples_averaged"));
+  }
+  SECTION("unstated") {
+    const Analysis analysis = analyze_and_fit(shown, {});
+    CHECK(has_warning(analysis, "samples_averaged"));
+    const Parameter& omega = parameter(analysis, "natural_frequency_rad_per_s");
+    CHECK(omega.status == ParameterStatus::Weak);
+    CHECK(omega.estimate.ci95->low < s.omega);
+    CHECK(omega.estimate.ci95->high > s.omega);
+    CHECK(parameter(analysis, "mass_kg").status == ParameterStatus::Weak);
   }
 }

@@ -1,6 +1,6 @@
 // One Gauss-Newton step without a stretch of the slips against the refit that it stands for.
 
-#include "fit/inference/phase_moves.hpp"
+#include "fit/inference/segment_influence.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -39,7 +39,7 @@ fit::BlockFit without(const fit::BlockFit& fit, std::size_t phase) {
     fit::CycleData cycle = fit.data(i);
     if (cycle.weight.empty()) cycle.weight.assign(cycle.time_s.size(), 1.0);
     for (std::size_t j = 0; j < cycle.time_s.size(); ++j) {
-      if (fit::phase_of(fit.state(i), cycle.time_s[j]) == phase) cycle.weight[j] = 0.0;
+      if (fit::segment_of(fit.state(i), cycle.time_s[j]) == phase) cycle.weight[j] = 0.0;
     }
     cycles.push_back(std::move(cycle));
     references_s.push_back(fit.reference_s(i));
@@ -57,11 +57,11 @@ TEST_CASE("one step without a stretch of the slips moves the quantities nearly a
   const auto damped = fit::fit_damped(recording, quality, find_slips(recording, quality), {});
   REQUIRE(damped);
   REQUIRE(damped->misfit);
-  const fit::Moves moves = fit::moves_by_phase(damped->blocks, damped->held);
-  REQUIRE(moves.rows() == fit::kPhases);
+  const fit::Moves moves = fit::influence_of_segments(damped->blocks, damped->held);
+  REQUIRE(moves.rows() == fit::kSegments);
   const fit::Coordinates before = fit::coordinates_of(damped->blocks);
-  Eigen::MatrixXd refitted(fit::kPhases, before.size());
-  for (int phase = 0; phase < fit::kPhases; ++phase) {
+  Eigen::MatrixXd refitted(fit::kSegments, before.size());
+  for (int phase = 0; phase < fit::kSegments; ++phase) {
     fit::BlockFit refit = without(damped->blocks, static_cast<std::size_t>(phase));
     REQUIRE(std::isfinite(fit::solve(refit, {damped->held, false, true})));
     refitted.row(phase) = (fit::coordinates_of(refit) - before).transpose();

@@ -10,6 +10,6 @@ namespace slipfit::fit {
 /// which the shared parameters can still be told. One Gauss-Newton step from the solution in place of a refit: within a
 /// tenth of it, where the result is a spread that widens intervals. Joined ramps are let go, which makes the moves
 /// larger if anything.
-Moves moves_by_phase(const BlockFit& fit, const Held& held);
+Moves influence_of_segments(const BlockFit& fit, const Held& held);
 
 }  // namespace slipfit::fit

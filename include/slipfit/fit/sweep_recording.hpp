@@ -1,0 +1,24 @@
+#pragma once
+
+#include "slipfit/core/recording.hpp"
+#include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
+
+namespace slipfit {
+
+/// What a recording of a sweep is used for.
+enum class SweepRole {
+  Cycles,  ///< stick-slip: its cycles are fitted
+  Steady,  ///< steady sliding: its mean force is F_k(V)
+  LeftOut
+};
+
+/// One recording of a sweep (a speed, perhaps a load). The references must outlive the fit.
+struct SweepRecording {
+  const Recording& recording;
+  const Quality& quality;
+  const Segmentation& segmentation;
+  SweepRole role = SweepRole::Cycles;
+};
+
+}  // namespace slipfit

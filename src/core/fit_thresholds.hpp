@@ -1,0 +1,175 @@
+#pragma once
+
+#include <cstddef>
+
+/// As thresholds.hpp: what decides in the fit and in what follows from it.
+namespace slipfit::thresholds {
+
+// ## Which cycles and samples are fitted
+
+/// Fewest cycles of a fit. [count; derived: scatter over cycles needs two degrees of freedom]
+inline constexpr std::size_t kFewestFitted = 3;
+
+/// Standard deviations of a sample from the fit, beyond which it is an outlier. [1; derived: one false alarm in 150 000
+/// normal samples]
+inline constexpr double kOutlierSigmas = 4.5;
+
+/// Mean square residual of a cycle over the median of all, above which the fit leaves it out. [1; derived: 5 standard
+/// deviations on average over a whole cycle]
+inline constexpr double kUnexplainedRatio = 25.0;
+
+/// Relative spread of the time step, above which samples on steep parts weigh less. [1; convention]
+inline constexpr double kWeighedClock = 0.02;
+
+// ## Level and mains in the fit
+
+/// Reduced chi2 above which the level model is in doubt. [1; derived: noise alone gives 1 +- sqrt(2 / samples), and the
+/// noise measured from differences is good to a few percent]
+inline constexpr double kSuspectChi2 = 1.2;
+
+/// F ratio of one level a cycle against the polynomial, above which the level wanders. [1; derived: far beyond chance
+/// for 12 and more cycles]
+inline constexpr double kWanderingRatio = 3.0;
+
+/// What the polynomial leaves of the slips' middles over the drop, above which the level wanders. [1; convention]
+inline constexpr double kWanderingShare = 0.03;
+
+/// The same over the noise. [1; convention]
+inline constexpr double kWanderingNoises = 10.0;
+
+/// Samples in half a period of slips whose middles show the level. [count; derived: peaks are met to (pi / 20)^2 / 2 =
+/// 1 %]
+inline constexpr double kWellSampled = 10.0;
+
+/// What one more term of the level polynomial has to gain beyond BIC. [1; convention: "very strong" evidence, so that
+/// scatter alone is not called drift]
+inline constexpr double kDriftHandicap = 10.0;
+
+/// Power of a mains line in the residuals over its surroundings, above which it is fitted. [1; derived: 2e-9 by chance
+/// in white noise]
+inline constexpr double kSureHum = 20.0;
+
+/// Power of fitted hum over that of the residuals, above which outliers are looked for again. [1; convention]
+inline constexpr double kBlurringHum = 0.5;
+
+// ## Tier
+
+/// AICc by which a richer tier has to be better. [1; convention: 10 is "essentially no support" for the poorer one,
+/// Burnham and Anderson 2002]
+inline constexpr double kTierPrice = 10.0;
+
+/// Samples of a slip, below which w_n and zeta have no single minimum. [count; calibrated: simulated slips of few
+/// samples]
+inline constexpr double kResolvedSamples = 1.5;
+
+/// Standard error of zeta, below which scattering cycles tell it even then. [1; calibrated: as kResolvedSamples]
+inline constexpr double kPinningDamping = 0.01;
+
+/// Standard error of zeta, from which on it is not told. [1; convention: zeta of a slip that shows itself is below 0.5]
+inline constexpr double kTellingDamping = 0.1;
+
+/// Standard errors of the best zeta below 0, beyond which a slip is no damped oscillation. [1; derived: 0.6 % by chance
+/// at zeta = 0]
+inline constexpr double kNegativeSigmas = 2.5;
+
+// ## Intervals
+
+/// Correlation of neighbouring residuals, above which intervals come from the scatter over the cycles. [1; derived:
+/// below it white-noise intervals are short by less than 8 %]
+inline constexpr double kWhiteCorrelation = 0.08;
+
+/// Logarithm of the ratio of the residual variances in slips and sticks, above which they do. [1; derived: below it
+/// white-noise intervals are short by less than an eighth]
+inline constexpr double kUnequalNoise = 0.25;
+
+/// Standard error of zeta, above which its interval comes from a profile. [1; calibrated: docs/accuracy.md]
+inline constexpr double kWideDamping = 0.02;
+
+/// Samples of a slip, up to which it does. [count; calibrated: docs/accuracy.md]
+inline constexpr double kFewSlipSamples = 4.0;
+
+/// Standard error of zeta, below which the scatter of the cycles pins it even then. [1; calibrated: docs/accuracy.md]
+inline constexpr double kPinnedDamping = 0.004;
+
+/// Relative standard error of alpha, from which on its interval comes from a profile. [1; calibrated: sweep_coverage]
+inline constexpr double kKnownRate = 0.15;
+
+/// Standard errors over the cycles of the mean residual in a part of the slip, beyond which the slip is not shaped like
+/// the model's. [1; derived: 5e-5 by chance in eight parts]
+inline constexpr double kMisfitSigmas = 4.5;
+
+/// The same residual over the onset force, above which it matters. [1; convention]
+inline constexpr double kMisfitShare = 0.01;
+
+/// Standard errors between the slopes of early and late sticks, beyond which sticks bend. [1; derived: 0.3 % by chance]
+inline constexpr double kBendSigmas = 3.0;
+
+/// Factor either way, beyond which the band of a predicted spacing says nothing. [1; convention]
+inline constexpr double kWidestFactor = 2.0;
+
+// ## Status of a parameter
+
+/// Fewest cycles of an identified parameter. [count; derived: below it a scatter is known to a factor of two only]
+inline constexpr std::size_t kFewestCycles = 5;
+
+/// Fewest samples of a slip whose shape identifies a parameter. [count; calibrated: tests/failures]
+inline constexpr double kSlipSamples = 3.0;
+
+/// Relative standard error, above which a bound says more than an interval, and 0 is not excluded. [1; derived: 3
+/// standard errors]
+inline constexpr double kTellingError = 1.0 / 3.0;
+
+/// Standard errors of the rounding of the slips, beyond which samples were averaged. [1; derived: 0.6 % by chance]
+inline constexpr double kRoundedSigmas = 2.5;
+
+/// Relative effect on w_n of averaging over a step of the clock, above which w_n and m are not identified. [1;
+/// convention]
+inline constexpr double kAverageShare = 0.01;
+
+/// Relative effect on k of a level that rises all along, above which k is not identified. [1; convention]
+inline constexpr double kDriftShare = 0.02;
+
+/// Reduced chi2 above which residuals are warned of. [1; calibrated: at most 1.21 for 480 recordings inside the model]
+inline constexpr double kLargeChi2 = 2.0;
+
+/// Chance of white residuals, below which large ones leave nothing of the slip identified. [1; convention]
+inline constexpr double kColouredChance = 1e-3;
+
+// ## Sweeps
+
+/// Chance below which recordings do not share a level or static friction, or cycles a ramp. [1; convention]
+inline constexpr double kShareChance = 1e-3;
+
+/// Chance below which friction depends on the speed. [1; convention]
+inline constexpr double kLawChance = 0.01;
+
+/// Reduced chi2 of a sweep, above which its model leaves something out. [1; convention: the noise is that of each
+/// recording's own fit]
+inline constexpr double kSweepMisfit = 1.5;
+
+/// Standard errors that leaving out a recording may change, beyond which the recordings disagree. [1; derived: 7e-6 by
+/// chance for each]
+inline constexpr double kShiftSigmas = 4.5;
+
+/// Least ratio of speeds that shows ageing. [1; convention]
+inline constexpr double kAgeingSpeedRatio = 2.0;
+
+/// Chance below which static friction ages. [1; convention]
+inline constexpr double kAgeingChance = 0.01;
+
+// ## Predictions
+
+/// Reach of alpha V, above which linear propagation does not hold. [1; calibrated: up to it bands hold 93 % or more of
+/// the motions that the covariance allows, at 1.6 88 %, at 2.4 84 % (tests/predict)]
+inline constexpr double kStraightLaw = 0.7;
+
+/// Reach of ln V of the end of stick-slip, above which it is not told. [1; convention: a factor of two either way]
+inline constexpr double kWidestEnd = 0.6931471805599453;
+
+/// The same where static friction ages. [1; convention: a factor of four, V goes as an exponential there]
+inline constexpr double kWidestAgeing = 2.0 * kWidestEnd;
+
+/// Standard error over what noise and scatter explain, above which misfit limits a parameter. [1; convention]
+inline constexpr double kUnexplainedError = 2.0;
+
+}  // namespace slipfit::thresholds

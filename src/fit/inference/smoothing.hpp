@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "fit/coordinates.hpp"
+#include "fit/problem/block_fit.hpp"
+
+namespace slipfit::fit {
+
+/// What averaging or filtering of the samples that the model does not know of does to a fit. To second order all that
+/// counts is the variance sigma^2 of the filter's impulse response: W^2 / 12 of a moving average over W.
+struct Smoothing {
+  double variance_s2 = 0.0;  ///< sigma^2 that the rounding of onset and end of the slips shows; may be negative
+  double standard_error_s2 = 0.0;
+  Coordinates move_per_s2 = Coordinates::Zero();  ///< from the fit's coordinates to those with it in the model
+};
+
+/// sigma^2 as one parameter more at the solution of the fit: one Gauss-Newton step, errors from the scatter over the
+/// cycles. Ramps count as not joined. Empty where the data cannot tell it.
+std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& held, double sample_interval_s);
+
+}  // namespace slipfit::fit

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "fit/inference/misfit.hpp"
+#include "fit/inference/uncertainty.hpp"
+#include "fit/problem/block_fit.hpp"
+
+namespace slipfit::fit {
+
+/// The block fit of a recording and what it was reached with.
+struct DampedFit {
+  BlockFit blocks;
+  bool continuous = false;  ///< ramps shared by neighbouring cycles: the data agree with it
+  Held held;
+  /// Free damping ratio where it came out clearly negative: the slip is not shaped like the model's, zeta is held at 0.
+  std::optional<double> refused_damping;
+  std::vector<std::size_t> excluded;  ///< samples in ascending order: impulses, clipped, outliers
+  Uncertainty uncertainty;
+  std::optional<SegmentMisfit> misfit;  ///< slips are not shaped like the model's; the covariances allow for it
+};
+
+}  // namespace slipfit::fit
