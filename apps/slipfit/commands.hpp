@@ -4,8 +4,7 @@
 #include <string>
 
 // Each adds one command to the program; the command runs when the arguments name it, and throws Failure where it
-// cannot.
-// `command_line`: as typed, for who wants to repeat it.
+// cannot. `command_line`: as typed, shown in reports.
 void add_analyze_command(CLI::App& program, const std::string& command_line);
 void add_batch_command(CLI::App& program);
 void add_fit_command(CLI::App& program, const std::string& command_line);

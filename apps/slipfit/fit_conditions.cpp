@@ -16,7 +16,7 @@ std::optional<double> median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Without a scatter of its own a recording says nothing about it.
+/// A recording whose scatter is not known adds nothing.
 void add_scatter(const JsonNode& cycles, std::vector<double>& scatter) {
   if (const std::optional<double> sd = cycles.member("force_drop_sd_N").number()) scatter.push_back(*sd);
 }

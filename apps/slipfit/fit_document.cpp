@@ -29,7 +29,7 @@ constexpr std::array<Needed, 4> kNeeded{{
     {"friction_difference_N", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
 }};
 
-/// The table's keys are literals.
+/// Ends with NUL, because the keys of the table are literals.
 const char* key_of(slipfit::ParameterId id) {
   return slipfit::info(id).key.data();
 }
@@ -38,7 +38,7 @@ bool is_known(const std::string& status) {
   return status == "identified" || status == "weak" || status == "fixed" || status == "conditional";
 }
 
-/// What the fit left open, with its own words why.
+/// Refuses a document in which a needed parameter is not known, with the note of the fit.
 void check_known(const std::string& file, const JsonNode& parameters) {
   std::string open;
   std::string note;
@@ -75,7 +75,7 @@ std::optional<double> checked_error(const JsonNode& node) {
   return error;
 }
 
-/// zeta held by the user, or told from 0.
+/// Whether zeta is held by the user, or its interval lies above 0.
 bool damping_identified(const JsonNode& damping) {
   if (damping.member("status").text() == "fixed") return true;
   const JsonNode bounds = damping.member("ci95");

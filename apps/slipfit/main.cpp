@@ -89,7 +89,7 @@ void open_standard_streams() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  (void)std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk, not a death
+  (void)std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk
   open_standard_streams();
   try {
     return run(argc, argv);

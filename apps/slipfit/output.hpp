@@ -31,7 +31,7 @@ std::vector<OutputFile> outputs_of(std::initializer_list<std::pair<const char*, 
 /// folder.
 void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input);
 
-/// Made where it is missing, but not what it stands in: a slip of the pen makes no tree. Throws Failure(WrongUsage).
+/// Made where it is missing, but not its parent folders: a mistyped path creates nothing. Throws Failure(WrongUsage).
 void make_folder(const OutputFile& folder);
 
 /// Through a temporary file beside it and a rename: readers see the old content or the new, never a part.

@@ -23,7 +23,7 @@ using slipfit::Dimension;
 
 namespace {
 
-constexpr std::size_t kMostSpeeds = 100'000;  // about 100 MB of JSON: more is a slip of the pen
+constexpr std::size_t kMostSpeeds = 100'000;  // about 100 MB of JSON: more is taken for a typing error
 
 struct PredictArguments {
   std::optional<std::string> file;

@@ -17,7 +17,7 @@ using slipfit::Dimension;
 
 namespace {
 
-constexpr double kMostSamples = 2e8;  // about 10 GB of text: more is a slip of the pen, not a recording
+constexpr double kMostSamples = 2e8;  // about 10 GB of text: more is taken for a typing error
 
 struct SimulateArguments {
   ModelArguments model;

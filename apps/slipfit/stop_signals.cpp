@@ -12,12 +12,12 @@ volatile std::sig_atomic_t received_signal = 0;
 
 constexpr unsigned kLongest_s = 2;
 
-extern "C" void remember(int signal) {
+extern "C" void keep_signal(int signal) {
   received_signal = signal;
   ::alarm(kLongest_s);
 }
 
-/// Something blocks: a pipe, a disk. What is on the disk is enough to go on with.
+/// A pipe or a disk blocks. The files are complete enough for --resume.
 extern "C" void end_now(int /*signal*/) {
   constexpr std::string_view kMessage = "slipfit: stopped; --resume goes on\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kMessage.data(), kMessage.size());
@@ -29,7 +29,7 @@ extern "C" void end_now(int /*signal*/) {
 StopSignals::StopSignals() {
   received_signal = 0;
   struct sigaction action {};
-  action.sa_handler = remember;
+  action.sa_handler = keep_signal;
   action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM}) {
@@ -45,7 +45,7 @@ StopSignals::~StopSignals() {
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction now {};
     ::sigaction(signal, nullptr, &now);
-    if (now.sa_handler == remember) (void)std::signal(signal, SIG_DFL);
+    if (now.sa_handler == keep_signal) (void)std::signal(signal, SIG_DFL);
   }
 }
 

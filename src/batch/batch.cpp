@@ -20,9 +20,9 @@ namespace {
 
 using namespace batch;
 
-/// Finds what the folder holds already, and writes run.json. Whatever moment a kill comes: the folder is ours by its
-/// run.json before any other file is in it, and lines that were found are in the journal before run.json says that they
-/// are not all.
+/// Finds what the folder holds already, and writes run.json. The order is safe against a kill at any moment: run.json
+/// is there before any other file, and lines that were found are in the journal before run.json says that the batch is
+/// not finished.
 Result<FoundResults> prepare_folder(const BatchOptions& options, const BatchHooks& hooks, const WorkList& list,
                                     const RunRecord& now) {
   const auto before = check_folder(options.folder);

@@ -31,7 +31,7 @@ std::string done_line(std::size_t slot, const Digest& digest) {
 
 struct JournalEntry {
   unsigned char tries = 0;
-  std::string done;  ///< the line that says so
+  std::string done;  ///< the last "done" line
 };
 
 /// Of each slot. Torn lines are ignored.

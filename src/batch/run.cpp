@@ -94,8 +94,8 @@ BatchProgress Run::progress() const {
   return progress;
 }
 
-/// Waits until the pool takes the item, which may be until others are done. What took its process with it in a run
-/// before waits until nothing else runs.
+/// Waits until the pool takes the item, which may be until others are done. An item whose process died in a run before
+/// waits until nothing else runs.
 std::optional<Error> Run::offer(WorkItem item) {
   while (!stopped_ && !pool_.wants_more()) {
     if (auto error = wait_and_watch()) return error;

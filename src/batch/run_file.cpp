@@ -112,7 +112,7 @@ Result<std::optional<RunRecord>> read_record(const std::filesystem::path& folder
       return std::optional(record);
     }
   } catch (const Json::exception&) {
-    // A key is missing or of another kind: the file is not from here.
+    // A key is missing or of another kind: no batch wrote the file.
   }
   return file_error("folder_of_another_batch", file, "was not written by slipfit batch; choose another folder");
 }

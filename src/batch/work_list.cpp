@@ -36,7 +36,7 @@ std::optional<Error> check_not_written(const std::filesystem::path& input, const
   return std::nullopt;
 }
 
-/// Six looks at the disk for each row would be too many: a recording is suspected by its name.
+/// Comparing every recording with every written file would be six system calls a row: the name decides which ones are.
 bool has_written_name(const ManifestEntry& entry) {
   const std::string name = entry.file.filename().string();
   return name == kLock || std::find(kFolderFiles.begin(), kFolderFiles.end(), name) != kFolderFiles.end();

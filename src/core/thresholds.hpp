@@ -112,6 +112,82 @@ inline constexpr double kAlike = 0.05;
 /// [1; convention]
 inline constexpr double kAnotherThing = 2.0;
 
+// ## Slips in the trace
+
+/// Rise between two falls over the smaller of them, below which they may be a slip in two steps. [1; convention]
+inline constexpr double kPauseRise = 0.5;
+
+/// Time of that rise over the time of both falls, below which they are one slip. [1; convention]
+inline constexpr double kPauseTime = 0.75;
+
+/// Rate of a rise over that of the fall before it, above which it belongs to ringing. [1; calibrated: measured slips
+/// with ringing and benchmarks/independent, seeds 1 to 6]
+inline constexpr double kRingingRise = 0.4;
+
+/// Rate of the rises that are left over that of those that ring, below which something rings. [1; calibrated: as
+/// kRingingRise]
+inline constexpr double kRingApart = 0.15;
+
+/// Rate of a rise over that of its fall, above which the fall is a wave's. [1; calibrated: as kRingingRise]
+inline constexpr double kWaveRise = 0.65;
+
+/// Median rate of the rises over that of the falls, above which there may be waves alone. [1; calibrated: as
+/// kRingingRise]
+inline constexpr double kSuddenRate = 0.3;
+
+/// Time before a single fall over its own, below which it is none. [1; convention]
+inline constexpr double kLeastAlone = 2.5;
+
+/// Drop of a counted slip over the median drop, at least. [1; convention: docs/formats.md]
+inline constexpr double kCountedDrop = 0.25;
+
+/// Hysteresis of turning points over the noise. [1; derived: noise makes no turning point of 8 standard deviations]
+inline constexpr double kNoiseTurn = 8.0;
+
+/// Fewest slips that follow each other in a stretch that slides. [count; convention]
+inline constexpr std::size_t kFewestInStretch = 4;
+
+/// Interval over the long ones (90 % are shorter), and over the time of loading, beyond which a pause lies between two
+/// slips. [1; convention]
+inline constexpr double kPatience = 2.5;
+
+/// Step of the peaks over a large drop (90 % are smaller), beyond which the level is another. [1; convention]
+inline constexpr double kOtherLevel = 1.5;
+
+// ## Quality and spectrum
+
+/// Deviation of an isolated sample from both neighbours over the noise, above which it is an impulse. [1; derived:
+/// white noise of a million samples stays below 5, measured noise has tails]
+inline constexpr double kImpulse = 8.0;
+
+/// Largest share of the samples that are called impulses: more is a signal with few samples a cycle. [1; convention]
+inline constexpr double kImpulseShare = 0.08;
+
+/// Step of rounded values over the noise, below which rounding does not matter. [1; derived: it adds 0.4 % to the
+/// variance]
+inline constexpr double kCoarseStep = 0.3;
+
+/// Largest share of values that differ in a recording of rounded values. [1; convention]
+inline constexpr double kDistinctShare = 0.05;
+
+/// Largest distance of a rounded value from its lattice over the step. [1; derived: what a file's decimals may move it]
+inline constexpr double kOffLattice = 0.1;
+
+/// Fewest samples at a level where the sensor saturates. [count; convention]
+inline constexpr std::size_t kFewestClipped = 8;
+
+/// Samples at such a level over those at the next value. [1; convention]
+inline constexpr double kClippedPile = 6.0;
+
+/// Share of clipped samples that have a clipped neighbour. [1; convention]
+inline constexpr double kClippedRuns = 0.7;
+
+/// Probability that noise shows such a comb somewhere, below which a repetition is found. [1; convention]
+inline constexpr double kSignificant = 0.01;
+
+/// Fewest cycles of a repetition in the spectrum. [count; derived: fewer cannot be told from wander]
+inline constexpr double kFewestCycles = 2.5;
+
 // ## Slips and what changes on the way
 
 /// Scatter over mean of the intervals of slips that keep a rhythm. [1; convention]

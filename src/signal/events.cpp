@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/thresholds.hpp"
 #include "signal/robust.hpp"
 #include "signal/smoothing.hpp"
 
@@ -29,19 +30,16 @@ double rate(const std::vector<double>& values, std::size_t from, std::size_t to)
 
 /// A slip in two steps: what rises between is small and short.
 bool is_pause(const std::vector<double>& values, const Fall& first, const Fall& second) {
-  constexpr double kSmall = 0.5;
-  constexpr double kShort = 0.75;
   const double rise = values[second.peak] - values[first.trough];
   const auto rise_time = static_cast<double>(second.peak - first.trough);
   const auto fall_time = static_cast<double>(first.trough - first.peak + second.trough - second.peak);
-  return rise < kSmall * std::min(drop_of(first, values), drop_of(second, values)) && rise_time < kShort * fall_time;
+  return rise < thresholds::kPauseRise * std::min(drop_of(first, values), drop_of(second, values)) &&
+         rise_time < thresholds::kPauseTime * fall_time;
 }
 
 /// Falls whose rise between is nearly as quick as they are belong together: the body or the load cell rings. Where the
 /// rises that are left are no slower than those, nothing rings: it is a wave. Then the falls as they were.
 std::vector<Fall> joined(const std::vector<Fall>& falls, const std::vector<double>& values) {
-  constexpr double kAsQuick = 0.4;
-  constexpr double kSlower = 0.15;
   constexpr std::size_t kFewest = 3;
   std::vector<Fall> result;
   std::vector<double> sticks, rings;
@@ -51,8 +49,8 @@ std::vector<Fall> joined(const std::vector<Fall>& falls, const std::vector<doubl
     const Fall& fall = falls[i];
     const double own = rate(values, fall.peak, fall.trough);
     const double rise = result.empty() ? 0.0 : rate(values, low, fall.peak);
-    const bool rings_on =
-        rise > kAsQuick * std::max(own, before) || (!result.empty() && is_pause(values, falls[i - 1], fall));
+    const bool rings_on = rise > thresholds::kRingingRise * std::max(own, before) ||
+                          (!result.empty() && is_pause(values, falls[i - 1], fall));
     before = own;
     low = fall.trough;
     if (!result.empty()) (rings_on ? rings : sticks).push_back(rise);
@@ -62,7 +60,7 @@ std::vector<Fall> joined(const std::vector<Fall>& falls, const std::vector<doubl
       result.back().trough = fall.trough;
     }
   }
-  const bool told_apart = median(std::move(sticks)) < kSlower * median(std::move(rings));
+  const bool told_apart = median(std::move(sticks)) < thresholds::kRingApart * median(std::move(rings));
   return told_apart && result.size() >= kFewest ? result : falls;
 }
 
@@ -111,18 +109,16 @@ class Falls {
 /// Falls on either side of which the force rises as quickly are a wave's, where most are sudden; small ones already
 /// where it does on one side.
 void leave_waves(std::vector<Fall>& falls, const std::vector<double>& values) {
-  constexpr double kAsQuick = 0.65;
-  constexpr double kSudden = 0.3;  // rate of a rise over that of a fall
   std::vector<double> rises, own_rates;
   for (std::size_t i = 1; i < falls.size(); ++i) {
     rises.push_back(rate(values, falls[i - 1].trough, falls[i].peak));
     own_rates.push_back(rate(values, falls[i].peak, falls[i].trough));
   }
-  if (median(std::move(rises)) > kSudden * median(std::move(own_rates))) return;
+  if (median(std::move(rises)) > thresholds::kSuddenRate * median(std::move(own_rates))) return;
   std::vector<Fall> sudden;
   const double small = 0.5 * median(drops_of(falls, values));
   for (std::size_t i = 0; i < falls.size(); ++i) {
-    const double own = kAsQuick * rate(values, falls[i].peak, falls[i].trough);
+    const double own = thresholds::kWaveRise * rate(values, falls[i].peak, falls[i].trough);
     const bool before = i > 0 && rate(values, falls[i - 1].trough, falls[i].peak) > own;
     const bool after = i + 1 < falls.size() && rate(values, falls[i].trough, falls[i + 1].peak) > own;
     const bool is_wave = drop_of(falls[i], values) < small ? before || after : before && after;
@@ -136,7 +132,7 @@ Look look_beyond(const Falls& falls, double hysteresis, double least, const std:
   Look look;
   look.hysteresis = std::max({least, hysteresis});
   look.falls = falls.beyond(look.hysteresis);
-  const double quarter = 0.25 * median(drops_of(look.falls, values));
+  const double quarter = thresholds::kCountedDrop * median(drops_of(look.falls, values));
   std::erase_if(look.falls, [&](const Fall& fall) { return drop_of(fall, values) < quarter; });
   leave_waves(look.falls, values);
   look.drop = median(drops_of(look.falls, values));
@@ -150,11 +146,10 @@ constexpr double kMostAsymmetry =
 
 /// A single fall has no rise to the next one: it counts where the force took its time to get there.
 double score_of(const Look& look, double noise) {
-  constexpr double kLeastAlone = 2.5;
   if (look.falls.empty()) return 0.0;
   const Fall& first = look.falls.front();
   const auto length = static_cast<double>(first.trough - first.peak);
-  if (look.falls.size() == 1 && static_cast<double>(first.peak) < kLeastAlone * length) return 0.0;
+  if (look.falls.size() == 1 && static_cast<double>(first.peak) < thresholds::kLeastAlone * length) return 0.0;
   constexpr double kClear = 40.0;  // beyond, a larger fall is no better seen
   const double stands_out = 1.0 / (1.0 / kClear + noise / look.drop);
   const double asymmetry = look.falls.size() == 1 ? 1.0 : std::min(look.asymmetry, kMostAsymmetry);
@@ -176,7 +171,7 @@ Scale look_at_scale(Smoothed trace, double noise) {
   const double range = values.empty() ? 0.0 : *high - *low;
   if (!(range > 0.0)) return scale;
   // Noise makes no turning point of 8 standard deviations; rounding errors are no motion.
-  scale.floor = std::max(8.0 * noise, 1e-9 * range);
+  scale.floor = std::max(thresholds::kNoiseTurn * noise, 1e-9 * range);
   Falls falls(values, scale.floor);
   const Falls all = falls;
   constexpr double kRatio = 1.5;

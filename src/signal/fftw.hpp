@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <utility>
 
 namespace slipfit::signal {
@@ -16,18 +17,19 @@ class ComplexTransform {
  public:
   using Complex = std::complex<double>;
   struct Release {
-    void operator()(Complex* memory) const { fftw_free(memory); }
+    void operator()(Complex* memory) const { ::operator delete(memory, kAlignment); }
   };
   using Buffer = std::unique_ptr<Complex[], Release>;
 
-  /// Not set to zero. Aligned as FFTW wants it.
+  /// Not set to zero. Aligned as FFTW wants it. (fftw_malloc ends the program where there is no memory; this throws.)
   static Buffer allocate(std::size_t length) {
-    return Buffer(static_cast<Complex*>(fftw_malloc(sizeof(Complex) * length)));
+    return Buffer(static_cast<Complex*>(::operator new(sizeof(Complex) * length, kAlignment)));
   }
 
   explicit ComplexTransform(std::size_t length) : length_(length) {
     const Buffer in = allocate(length);
     const Buffer out = is_in_place() ? Buffer() : allocate(length);
+    (void)allocate(length / 2 + kPlanned);  // freed at once: the planner, which ends the program too, finds that much
     const std::lock_guard lock(planner());
     plan_ = fftw_plan_dft_1d(static_cast<int>(length), raw(in), raw(out ? out : in), FFTW_FORWARD, FFTW_ESTIMATE);
   }
@@ -53,6 +55,8 @@ class ComplexTransform {
   /// long.
   [[nodiscard]] bool is_in_place() const { return length_ > kLargeLength; }
 
+  static constexpr std::align_val_t kAlignment{64};
+  static constexpr std::size_t kPlanned = std::size_t{1} << 14U;
   static constexpr std::size_t kLargeLength = std::size_t{1} << 20U;
 
   static std::mutex& planner() {

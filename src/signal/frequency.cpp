@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/thresholds.hpp"
 #include "signal/comb.hpp"
 #include "signal/harmonic_fit.hpp"
 #include "signal/mains.hpp"
@@ -22,10 +23,8 @@ using signal::CombGrid;
 using signal::CombRange;
 using signal::MainsLine;
 
-constexpr double kSignificant = 0.01;
-constexpr double kFewestCycles = 2.5;  // fewer cannot be told from wander
-constexpr double kFewCycles = 24.0;    // up to here on the finely padded spectrum of the thinned trace
-constexpr double kManyCycles = 16.0;   // from here on the spectrum as it is
+constexpr double kFewCycles = 24.0;   // up to here on the finely padded spectrum of the thinned trace
+constexpr double kManyCycles = 16.0;  // from here on the spectrum as it is
 constexpr std::size_t kThinnedSamples = 2048;
 constexpr std::size_t kPadding = 8;
 
@@ -68,7 +67,7 @@ Bands prepare(const Recording& recording, const Spectrum& spectrum, const std::v
 /// All combs worth a look between two frequencies.
 std::vector<Comb> search(const Bands& bands, CombRange range) {
   const double bin = bands.whole.resolution_Hz();
-  const CombRange few{std::max(range.low_Hz, kFewestCycles * bin),
+  const CombRange few{std::max(range.low_Hz, thresholds::kFewestCycles * bin),
                       std::min({range.high_Hz, kFewCycles * bin, 0.8 * bands.fine.highest_Hz()})};
   const CombRange many{std::max(range.low_Hz, kManyCycles * bin),
                        std::min(range.high_Hz, 0.8 * bands.whole.highest_Hz())};
@@ -98,8 +97,8 @@ bool is_visible(const Comb& comb, const Spectrum& spectrum) {
 Comb choose(const std::vector<Comb>& combs) {
   Comb best;
   for (const Comb& comb : combs) {
-    const bool significant = comb.false_alarm_probability <= kSignificant;
-    const bool best_significant = best.false_alarm_probability <= kSignificant;
+    const bool significant = comb.false_alarm_probability <= thresholds::kSignificant;
+    const bool best_significant = best.false_alarm_probability <= thresholds::kSignificant;
     const bool better = significant ? !best_significant || comb.score > best.score
                                     : !best_significant && comb.false_alarm_probability < best.false_alarm_probability;
     if (better) best = comb;
@@ -111,7 +110,7 @@ Comb best_visible(const Bands& bands, CombRange range) {
   std::vector<Comb> combs = search(bands, range);
   for (;;) {
     const Comb best = choose(combs);
-    if (best.false_alarm_probability > kSignificant || is_visible(best, bands.flat)) return best;
+    if (best.false_alarm_probability > thresholds::kSignificant || is_visible(best, bands.flat)) return best;
     std::erase_if(combs, [&](const Comb& comb) { return comb.frequency_Hz == best.frequency_Hz; });
   }
 }
@@ -287,11 +286,11 @@ SpectralFrequency find_frequency(const Recording& recording, const Spectrum& spe
   const Bands bands = prepare(recording, spectrum, held, signal::without_hinted(mains, hint_Hz));
   Comb comb;
   if (hint_Hz) comb = best_visible(bands, {0.7 * *hint_Hz, 1.4 * *hint_Hz});
-  if (comb.false_alarm_probability > kSignificant) {
+  if (comb.false_alarm_probability > thresholds::kSignificant) {
     comb = best_visible(bands, {0.0, bands.whole.highest_Hz()});
   }
   found.false_alarm_probability = comb.false_alarm_probability;
-  if (comb.false_alarm_probability <= kSignificant) measure(recording, bands, comb, found);
+  if (comb.false_alarm_probability <= thresholds::kSignificant) measure(recording, bands, comb, found);
   found.suspicious_lines = suspicious(spectrum, mains, found, resolution_Hz, 1.0 / step_s);
   return found;
 }

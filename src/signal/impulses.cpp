@@ -4,13 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/thresholds.hpp"
+
 namespace slipfit::signal {
 namespace {
-
-// Gaussian noise of a million samples stays below 5 sigma; measured noise has tails.
-constexpr double kNoiseFactor = 8.0;
-// More than this share is a signal with few samples a cycle, not impulses.
-constexpr double kLargestShare = 0.08;
 
 /// Three samples beside the suspected one.
 struct Side {
@@ -32,7 +29,7 @@ bool stands_out(std::span<const double> force, std::size_t i, std::size_t width,
   const Side right = side_of(after[0], after[1], after[2]);
   const double level = 0.5 * (left.median + right.median);
   const double allowed =
-      kNoiseFactor * noise_rms + std::abs(left.median - right.median) + 1.5 * std::min(left.range, right.range);
+      thresholds::kImpulse * noise_rms + std::abs(left.median - right.median) + 1.5 * std::min(left.range, right.range);
   const double first = force[i] - level;
   const double last = force[i + width - 1] - level;
   return std::min(std::abs(first), std::abs(last)) > allowed && (first > 0.0) == (last > 0.0);
@@ -43,7 +40,7 @@ bool stands_out(std::span<const double> force, std::size_t i, std::size_t width,
 std::vector<bool> find_impulses(std::span<const double> force, double noise_rms) {
   std::vector<std::size_t> found;
   for (std::size_t i = 3; i + 4 < force.size(); ++i) {
-    if (std::abs(force[i] - force[i - 1]) <= 0.5 * kNoiseFactor * noise_rms) continue;  // nothing begins here
+    if (std::abs(force[i] - force[i - 1]) <= 0.5 * thresholds::kImpulse * noise_rms) continue;  // nothing begins here
     std::size_t width = 0;
     if (stands_out(force, i, 1, noise_rms)) {
       width = 1;
@@ -54,7 +51,8 @@ std::vector<bool> find_impulses(std::span<const double> force, double noise_rms)
     if (width > 0) i += width - 1;
   }
   std::vector<bool> mask;
-  if (found.empty() || static_cast<double>(found.size()) > kLargestShare * static_cast<double>(force.size()))
+  if (found.empty() ||
+      static_cast<double>(found.size()) > thresholds::kImpulseShare * static_cast<double>(force.size()))
     return mask;
   mask.resize(force.size(), false);
   for (const std::size_t i : found) mask[i] = true;

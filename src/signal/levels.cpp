@@ -4,17 +4,13 @@
 #include <cmath>
 #include <vector>
 
+#include "core/thresholds.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::signal {
 namespace {
 
 constexpr std::size_t kSorted = 10000;  // values looked at for the step; all are checked against it
-constexpr double kLargestDistinctShare = 0.05;
-constexpr double kOffLattice = 0.1;  // of a step: what a file's decimals may move a value
-constexpr std::size_t kFewestClipped = 8;
-constexpr double kPile = 6.0;    // over the count of the next value
-constexpr double kInRuns = 0.7;  // share of the clipped samples that have a clipped neighbour
 
 std::vector<double> some_distinct(std::span<const double> values) {
   const std::size_t stride = 1 + (values.size() - 1) / kSorted;
@@ -52,18 +48,18 @@ bool fills_lattice(std::span<const double> values, double origin, double lowest,
   for (const double value : values) {
     const double place = (value - origin) * per_step;
     const double nearest = nearest_whole(place);
-    if (std::abs(place - nearest) > kOffLattice) return false;
+    if (std::abs(place - nearest) > thresholds::kOffLattice) return false;
     taken[static_cast<std::size_t>(std::clamp(nearest - first, 0.0, places))] = 1;
   }
   const auto distinct = static_cast<double>(std::count(taken.begin(), taken.end(), 1));
-  return distinct >= 2.0 && distinct < kLargestDistinctShare * static_cast<double>(values.size());
+  return distinct >= 2.0 && distinct < thresholds::kDistinctShare * static_cast<double>(values.size());
 }
 
 /// The samples at one end of the range (`sign` +1: the highest values), if they pile up there.
 std::size_t piled_up(std::span<const double> values, double sign, double end) {
   const auto at_end = static_cast<std::size_t>(std::count(values.begin(), values.end(), end));
   // Half of all samples at one level is a force at rest, not a sensor at its end.
-  if (at_end < kFewestClipped || 2 * at_end >= values.size()) return 0;
+  if (at_end < thresholds::kFewestClipped || 2 * at_end >= values.size()) return 0;
   double next = -sign * HUGE_VAL;
   std::size_t in_runs = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -75,8 +71,8 @@ std::size_t piled_up(std::span<const double> values, double sign, double end) {
     }
   }
   const auto at_next = std::count(values.begin(), values.end(), next);
-  const bool piled = static_cast<double>(at_end) > kPile * static_cast<double>(at_next) &&
-                     static_cast<double>(in_runs) > kInRuns * static_cast<double>(at_end);
+  const bool piled = static_cast<double>(at_end) > thresholds::kClippedPile * static_cast<double>(at_next) &&
+                     static_cast<double>(in_runs) > thresholds::kClippedRuns * static_cast<double>(at_end);
   return piled ? at_end : 0;
 }
 

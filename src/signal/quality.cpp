@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/thresholds.hpp"
 #include "signal/impulses.hpp"
 #include "signal/levels.hpp"
 #include "signal/robust.hpp"
@@ -14,8 +15,6 @@ namespace slipfit {
 namespace {
 
 constexpr double kToSigma = 1.4826;  // median of |x| to standard deviation, normal distribution
-constexpr double kGapSteps = 3.5;
-constexpr double kCoarse = 0.3;  // a step below this share of the noise does not matter
 
 /// Noise from differences of one order, their coefficients and the root of the sum of their squares given.
 template <std::size_t N>
@@ -61,7 +60,7 @@ void assess_clock(const Recording& recording, Quality& quality) {
     const bool is_sampled = i == sampled;
     if (is_sampled) sampled += stride;
     const double step = time[i] - time[i - 1];
-    if (step > kGapSteps * usual) {
+    if (step > thresholds::kGapSteps * usual) {
       ++quality.gaps;
       quality.longest_gap_s = std::max(quality.longest_gap_s, step);
     } else if (is_sampled) {
@@ -79,7 +78,7 @@ Quality assess_quality(const Recording& recording) {
   const std::optional<double> step = signal::lattice_step(force);
   quality.noise_rms = noise_of(force);
   if (quality.noise_rms <= 0.0) quality.noise_rms = noise_of_held(force);
-  if (step && *step > kCoarse * quality.noise_rms) {
+  if (step && *step > thresholds::kCoarseStep * quality.noise_rms) {
     quality.quantisation_step = step;
     quality.noise_rms = std::max(quality.noise_rms, *step / std::sqrt(12.0));  // rounding alone makes that much
   }

@@ -5,12 +5,11 @@
 #include <span>
 #include <utility>
 
+#include "core/thresholds.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::signal {
 namespace {
-
-constexpr std::size_t kFewest = 4;
 
 double share_of(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -52,8 +51,8 @@ class Train {
   /// Whether fall i belongs to the same sliding as the one before: no pause between them, no other level.
   [[nodiscard]] bool follows(std::size_t i) const {
     const double loading = (peak(i) - trough(i - 1)) / usual_.rise_rate;
-    const double patience = std::max(2.5 * usual_.long_interval, 2.5 * loading);
-    return interval(i) < patience && std::abs(peak(i) - peak(i - 1)) < 1.5 * usual_.large_drop;
+    const double patience = thresholds::kPatience * std::max(usual_.long_interval, loading);
+    return interval(i) < patience && std::abs(peak(i) - peak(i - 1)) < thresholds::kOtherLevel * usual_.large_drop;
   }
 
  private:
@@ -128,11 +127,11 @@ std::size_t end_of(const std::vector<double>& force, const std::vector<Fall>& fa
 
 Stretch sliding_stretch(const std::vector<double>& force, const std::vector<Fall>& falls) {
   const Stretch whole{0, force.size()};
-  if (falls.size() < kFewest) return whole;
+  if (falls.size() < thresholds::kFewestInStretch) return whole;
   const Train train(force, falls);
   if (!(train.usual().rise_rate > 0.0)) return whole;
   Run run = longest_run(train, falls.size());
-  if (run.count() < kFewest) return whole;
+  if (run.count() < thresholds::kFewestInStretch) return whole;
   Band band = band_of(train, run);
   Stretch stretch;
   // The last fall is the release where the force does not stay among the others' troughs.

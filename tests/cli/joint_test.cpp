@@ -82,6 +82,7 @@ TEST_CASE("fit --joint refuses what it cannot do, in one line") {
   check_refused({"fit", "--joint", example.manifest, "--group", "nobody"}, "nobody");
   check_refused({"fit", "--joint", example.manifest, "--only", "slow,nobody"}, "nobody");
   check_refused({"fit", "--joint", example.manifest, "--speed", "1"}, "--speed does not go with --joint");
+  check_refused({"fit", "--joint", example.manifest, "--drive-period", "1"}, "--drive-period does not go with --joint");
   check_refused({"fit", "--joint", example.manifest, "--tier", "sawtooth"}, "no tier of a joint fit");
   check_refused({"fit", run, "--speed", "20mm/s", "--group", "pad"}, "--group");
   check_refused({"fit", "--joint", example.manifest, "--group", "contact"}, "spring");
