@@ -110,7 +110,7 @@ inline constexpr double kWidestFactor = 2.0;
 // ## Status of a parameter
 
 /// Fewest cycles of an identified parameter. [count; derived: below it a scatter is known to a factor of two only]
-inline constexpr std::size_t kFewestCycles = 5;
+inline constexpr std::size_t kIdentifyingCycles = 5;
 
 /// Fewest samples of a slip whose shape identifies a parameter. [count; calibrated: tests/failures]
 inline constexpr double kSlipSamples = 3.0;

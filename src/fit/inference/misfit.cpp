@@ -66,7 +66,7 @@ std::optional<SegmentMisfit> find_misfit(const BlockFit& fit, double tolerated) 
   std::optional<SegmentMisfit> worst;
   for (std::size_t p = 0; p < kSegments; ++p) {
     const Stack& stack = stacks[p];
-    if (stack.count < thresholds::kFewestCycles) continue;
+    if (stack.count < thresholds::kIdentifyingCycles) continue;
     const double size = std::abs(stack.mean);
     if (size < thresholds::kMisfitSigmas * stack.standard_error() ||
         size < thresholds::kMisfitShare * std::abs(onset_force) + tolerated)
