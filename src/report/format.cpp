@@ -49,6 +49,14 @@ std::optional<double> uncertainty_of(const Estimate& estimate) {
   return (estimate.ci95->high - estimate.ci95->low) / (2.0 * 1.96);
 }
 
+/// The unit that suits the estimate, or the end of its interval.
+DisplayUnit unit_for(const Estimate& estimate, const std::string& SI_unit) {
+  std::optional<double> typical = estimate.value;
+  if (!typical && estimate.ci95) typical = estimate.ci95->high;
+  if (typical && estimate.standard_error) typical = std::max(std::abs(*typical), *estimate.standard_error);
+  return display_unit(SI_unit, typical);
+}
+
 }  // namespace
 
 std::string rounded(double value, std::optional<double> uncertainty) {
@@ -60,17 +68,6 @@ std::string rounded(double value, std::optional<double> uncertainty) {
   const int leading = drowned ? last_digit : exponent;
   if (leading >= kSmallestFixedExponent && leading <= kLargestFixedExponent) return fixed_text(value, last_digit);
   return fmt::format("{:.{}e}", value, std::max(0, exponent - last_digit));
-}
-
-RoundedEstimate rounded(const Estimate& estimate) {
-  const std::optional<double> uncertainty = uncertainty_of(estimate);
-  RoundedEstimate text{"-", "-"};
-  if (estimate.value) text.value = rounded(*estimate.value, uncertainty);
-  if (estimate.ci95 && std::isfinite(estimate.ci95->low) && std::isfinite(estimate.ci95->high)) {
-    text.interval =
-        fmt::format("[{}, {}]", rounded(estimate.ci95->low, uncertainty), rounded(estimate.ci95->high, uncertainty));
-  }
-  return text;
 }
 
 std::string with_error(const Estimate& estimate) {
@@ -124,15 +121,29 @@ std::string force_unit(ForceQuantity quantity) {
 }
 
 EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit) {
-  std::optional<double> typical = estimate.value;
-  if (!typical && estimate.ci95) typical = estimate.ci95->high;
-  if (typical && estimate.standard_error) typical = std::max(std::abs(*typical), *estimate.standard_error);
-  return estimate_row(estimate, display_unit(SI_unit, typical));
+  return estimate_row(estimate, unit_for(estimate, SI_unit));
 }
 
-EstimateRow estimate_row(const Estimate& estimate, const DisplayUnit& unit) {
-  const RoundedEstimate text = rounded(scaled(estimate, unit.per_SI));
-  return {text.value, text.interval, unit.unit};
+std::string estimate_text(const Estimate& estimate, const DisplayUnit& unit) {
+  if (!estimate.value || !std::isfinite(*estimate.value)) return "-";
+  const EstimateRow row = estimate_row(estimate, unit);
+  return row.value + (row.unit.empty() ? "" : " " + row.unit) + (row.interval == "-" ? "" : " " + row.interval);
+}
+
+std::string estimate_text(const Estimate& estimate, const std::string& SI_unit) {
+  return estimate_text(estimate, unit_for(estimate, SI_unit));
+}
+
+EstimateRow estimate_row(const Estimate& SI, const DisplayUnit& unit) {
+  const Estimate estimate = scaled(SI, unit.per_SI);
+  const std::optional<double> uncertainty = uncertainty_of(estimate);
+  EstimateRow row{"-", "-", unit.unit};
+  if (estimate.value) row.value = rounded(*estimate.value, uncertainty);
+  if (estimate.ci95 && std::isfinite(estimate.ci95->low) && std::isfinite(estimate.ci95->high)) {
+    row.interval =
+        fmt::format("[{}, {}]", rounded(estimate.ci95->low, uncertainty), rounded(estimate.ci95->high, uncertainty));
+  }
+  return row;
 }
 
 std::string quantity_text(std::optional<double> value, const std::string& SI_unit) {

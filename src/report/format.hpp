@@ -9,17 +9,9 @@
 
 namespace slipfit {
 
-/// An estimate as people write it: rounded to two significant digits of its standard error, the interval alike.
-struct RoundedEstimate {
-  std::string value;     ///< "-" where it is not known
-  std::string interval;  ///< "[low, high]", or "-"
-};
-
 /// The number with as many decimals as two significant digits of `uncertainty` need; without an uncertainty four
 /// significant digits. "-" for what is not finite. Scientific below 1e-4 and from 1e7 on.
 std::string rounded(double value, std::optional<double> uncertainty);
-
-RoundedEstimate rounded(const Estimate& estimate);
 
 /// "2.345 ± 0.012", the standard error with two digits; the value alone where there is no standard error.
 std::string with_error(const Estimate& estimate);
@@ -38,14 +30,19 @@ DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m
 
 Estimate scaled(const Estimate& estimate, double factor);
 
-/// "key   value ± error unit   [low, high]" for a table of estimates; SI_unit gets a prefix where that reads better.
+/// An estimate as people write it: rounded to two significant digits of its standard error, the interval alike.
 struct EstimateRow {
-  std::string value;
-  std::string interval;
+  std::string value;     ///< "-" where it is not known
+  std::string interval;  ///< "[low, high]", or "-"
   std::string unit;
 };
-EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit);
 EstimateRow estimate_row(const Estimate& estimate, const DisplayUnit& unit);
+/// In the unit that suits it.
+EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit);
+
+/// "49.3 ms [47.1, 51.7]"; "-" where it is not known.
+std::string estimate_text(const Estimate& estimate, const DisplayUnit& unit);
+std::string estimate_text(const Estimate& estimate, const std::string& SI_unit);
 
 /// "1.234 mm": a number without an error.
 std::string quantity_text(std::optional<double> value, const std::string& SI_unit);

@@ -57,32 +57,29 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
 }
 
 Json warnings_json(const Warnings& warnings) {
-  Json json = Json::array();
-  for (const Warning& warning : warnings) json.push_back({{"code", warning.code}, {"message", warning.message}});
-  return json;
+  return array_of(warnings, [](const Warning& warning) {
+    return Json{{"code", warning.code}, {"message", warning.message}};
+  });
 }
 
 Json frequency_json(const FrequencyReport& frequency) {
-  Json harmonics = Json::array();
-  for (const double harmonic_Hz : frequency.spectral.harmonics_Hz) harmonics.push_back(number(harmonic_Hz));
-  Json lines = Json::array();
-  for (const SuspiciousLine& line : frequency.spectral.suspicious_lines) {
-    lines.push_back({{"frequency_Hz", number(line.frequency_Hz)}, {"reason", line.reason}});
-  }
-  Json beside = Json::array();
-  for (const SuspiciousLine& line : frequency.lines) {
-    beside.push_back(
-        {{"frequency_Hz", number(line.frequency_Hz)}, {"swing", number(line.swing)}, {"reason", line.reason}});
-  }
   Json json{
       {"value_Hz", number(frequency.quoted.value)},
       {"se_Hz", number(frequency.quoted.standard_error)},
       {"ci95_Hz", interval(frequency.quoted.ci95)},
       {"method", frequency.method.empty() ? "none" : frequency.method},
       {"false_alarm_probability", number(frequency.spectral.false_alarm_probability)},
-      {"harmonics", std::move(harmonics)},
-      {"suspicious_lines", std::move(lines)},
-      {"lines", std::move(beside)},
+      {"harmonics", array_of(frequency.spectral.harmonics_Hz, number)},
+      {"suspicious_lines", array_of(frequency.spectral.suspicious_lines,
+                                    [](const SuspiciousLine& line) {
+                                      return Json{{"frequency_Hz", number(line.frequency_Hz)}, {"reason", line.reason}};
+                                    })},
+      {"lines", array_of(frequency.lines,
+                         [](const SuspiciousLine& line) {
+                           return Json{{"frequency_Hz", number(line.frequency_Hz)},
+                                       {"swing", number(line.swing)},
+                                       {"reason", line.reason}};
+                         })},
       {"spectral",
        {{"value_Hz", number(frequency.spectral.value_Hz)}, {"se_Hz", number(frequency.spectral.standard_error_Hz)}}},
       {"counted",
@@ -150,37 +147,32 @@ Json working_values_json(const Correlation& correlation, const ModelEstimate& es
                                                 law.slope_N_s_per_m,
                                                 law.alpha_s_per_m,
                                                 estimate.ageing.value_or(Ageing{}).rate_N};
-  Json json = Json::array();
-  for (const std::string& name : correlation.names) json.push_back(number(values[place_of(name)]));
-  return json;
+  return array_of(correlation.names, [&values](const std::string& name) { return number(values[place_of(name)]); });
 }
 
 /// With the matrix this is the whole covariance. Where zeta lies at 0 the se of the parameters is wider.
 Json scaled_errors_json(const Correlation& correlation, const ModelEstimate& estimate) {
-  Json errors = Json::array();
-  for (const std::string& name : correlation.names) {
+  return array_of(correlation.names, [&estimate](const std::string& name) {
     const std::size_t i = place_of(name);
-    errors.push_back(number(std::sqrt(std::max(0.0, estimate.covariance[i][i]))));
-  }
-  return errors;
+    return number(std::sqrt(std::max(0.0, estimate.covariance[i][i])));
+  });
 }
 
 }  // namespace
 
 Json model_json(const FitResult& fit, ForceQuantity quantity) {
-  Json candidates = Json::array();
-  for (const Candidate& candidate : fit.candidates) candidates.push_back(candidate_json(candidate, quantity));
   Json residual = Json::object();
   ForceKeys forces(residual, quantity);
   forces.put("rms", fit.residual.rms);
   residual["reduced_chi2"] = number(fit.residual.reduced_chi2);
   residual["whiteness_p"] = number(fit.residual.whiteness_p);
   forces.finish();
-  return Json{{"tier", name_of(fit.tier)},
-              {"conditional_on", fit.conditional_on},
-              {"candidates", std::move(candidates)},
-              {"residual", std::move(residual)},
-              {"degrees_of_freedom", fit.estimate ? number(fit.estimate->degrees_of_freedom) : Json(nullptr)}};
+  return Json{
+      {"tier", name_of(fit.tier)},
+      {"conditional_on", fit.conditional_on},
+      {"candidates", array_of(fit.candidates, [quantity](const Candidate& c) { return candidate_json(c, quantity); })},
+      {"residual", std::move(residual)},
+      {"degrees_of_freedom", fit.estimate ? number(fit.estimate->degrees_of_freedom) : Json(nullptr)}};
 }
 
 Json parameters_json(const FitResult& fit) {
@@ -197,13 +189,8 @@ Json parameters_json(const FitResult& fit) {
 
 Json correlation_json(const FitResult& fit) {
   if (!fit.correlation) return nullptr;
-  Json matrix = Json::array();
-  for (const std::vector<double>& row : fit.correlation->matrix) {
-    Json cells = Json::array();
-    for (const double cell : row) cells.push_back(number(cell));
-    matrix.push_back(std::move(cells));
-  }
-  Json json{{"names", fit.correlation->names}, {"matrix", std::move(matrix)}};
+  Json json{{"names", fit.correlation->names},
+            {"matrix", array_of(fit.correlation->matrix, [](const auto& row) { return array_of(row, number); })}};
   if (fit.estimate) {
     json["values"] = working_values_json(*fit.correlation, *fit.estimate);
     json["scaled_se"] = scaled_errors_json(*fit.correlation, *fit.estimate);
@@ -212,15 +199,13 @@ Json correlation_json(const FitResult& fit) {
 }
 
 Json tests_json(const std::vector<ShortTest>& tests) {
-  Json json = Json::array();
-  for (const ShortTest& test : tests) {
-    json.push_back({{"name", test.name},
-                    {"value", number(test.value)},
-                    {"se", number(test.standard_error)},
-                    {"p_value", number(test.p_value)},
-                    {"finding", test.finding}});
-  }
-  return json;
+  return array_of(tests, [](const ShortTest& test) {
+    return Json{{"name", test.name},
+                {"value", number(test.value)},
+                {"se", number(test.standard_error)},
+                {"p_value", number(test.p_value)},
+                {"finding", test.finding}};
+  });
 }
 
 Json derived_json(const Derived& derived) {

@@ -21,6 +21,14 @@ Json interval(const std::optional<Interval>& bounds);
 /// { value, se, ci95 }, and a note where there is one.
 Json estimate(const Estimate& quantity);
 
+/// [to_json(item), ...]
+template <class Items, class ToJson>
+Json array_of(const Items& items, ToJson to_json) {
+  Json array = Json::array();
+  for (const auto& item : items) array.push_back(to_json(item));
+  return array;
+}
+
 /// Valid UTF-8, whatever the strings from outside hold.
 std::string text_of(const Json& json, JsonLayout layout = JsonLayout::Indented);
 

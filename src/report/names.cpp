@@ -48,15 +48,7 @@ std::string_view name_of(SweepRole role) {
 }
 
 std::string_view name_of(Regularity regularity) {
-  switch (regularity) {
-    case Regularity::Regular:
-      return "regular";
-    case Regularity::Irregular:
-      return "irregular";
-    case Regularity::Clocked:
-      return "clocked";
-  }
-  return "";
+  return name_in({"regular", "irregular", "clocked"}, regularity);
 }
 
 }  // namespace slipfit

@@ -73,19 +73,17 @@ Json option_json(const PlanOption& option) {
           {"se", number(option.standard_error)}};
 }
 
+Json limit_json(const ParameterLimit& limit) {
+  return {{"name", limit.name},
+          {"value", number(limit.value)},
+          {"se", number(limit.standard_error)},
+          {"explained_se", number(limit.explained_error)},
+          {"limited_by", words_of(limit.limit).name}};
+}
+
 }  // namespace
 
 std::string to_json(const Plan& plan, const PredictionSource& source) {
-  Json limits = Json::array();
-  for (const ParameterLimit& limit : plan.limits) {
-    limits.push_back({{"name", limit.name},
-                      {"value", number(limit.value)},
-                      {"se", number(limit.standard_error)},
-                      {"explained_se", number(limit.explained_error)},
-                      {"limited_by", words_of(limit.limit).name}});
-  }
-  Json options = Json::array();
-  for (const PlanOption& option : plan.options) options.push_back(option_json(option));
   const Json json{{"schema", "slipfit.plan/1"},
                   {"version", SLIPFIT_VERSION},
                   {"source", source.name},
@@ -95,9 +93,9 @@ std::string to_json(const Plan& plan, const PredictionSource& source) {
                     {"speed_m_per_s", number(plan.target.speed_m_per_s)},
                     {"value", number(plan.value)},
                     {"se", number(plan.standard_error)}}},
-                  {"options", std::move(options)},
+                  {"options", array_of(plan.options, option_json)},
                   {"halving_s", number(plan.halving_s)},
-                  {"limits", std::move(limits)}};
+                  {"limits", array_of(plan.limits, limit_json)}};
   return text_of(json);
 }
 

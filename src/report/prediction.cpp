@@ -58,15 +58,13 @@ Json row_json(const PredictedMotion& row) {
 }  // namespace
 
 std::string to_json(const Prediction& prediction, const PredictionSource& source) {
-  Json rows = Json::array();
-  for (const PredictedMotion& row : prediction.rows) rows.push_back(row_json(row));
   const Json json{{"schema", "slipfit.predict/1"},
                   {"version", SLIPFIT_VERSION},
                   {"source", source.name},
                   {"conditional_on", source.conditional_on},
                   {"critical_speed_m_per_s", quantity_json(prediction.critical_speed_m_per_s)},
                   {"lambda_critical", quantity_json(prediction.lambda_critical)},
-                  {"rows", std::move(rows)}};
+                  {"rows", array_of(prediction.rows, row_json)}};
   return text_of(json);
 }
 
@@ -99,27 +97,8 @@ std::string prediction_to_csv(const Prediction& prediction) {
 
 namespace {
 
-/// "49.3 ms [47.1, 51.7]", in a unit that suits the number.
-template <class Unit>
-std::string shown(const Estimate& estimate, const Unit& unit) {
-  if (!estimate.value || !std::isfinite(*estimate.value)) return "-";
-  const EstimateRow row = estimate_row(estimate, unit);
-  const std::string number_and_unit = row.unit.empty() ? row.value : row.value + " " + row.unit;
-  return row.interval == "-" ? number_and_unit : number_and_unit + " " + row.interval;
-}
-
 std::string regime_words(const PredictedMotion& row, const std::string& mark) {
   return (row.regime == "stick_slip_bistable" ? "stick-slip, bistable" : plain_words(row.regime)) + mark;
-}
-
-std::string critical_text(const Prediction& prediction, const std::string& given_unit) {
-  const Estimate& speed = prediction.critical_speed_m_per_s;
-  std::string text = "  critical speed: ";
-  if (!speed.value || !speed.note.empty()) {
-    return text + (speed.note.empty() ? "not known" : one_line(speed.note)) + "\n";
-  }
-  return text + fmt::format("{}, lambda at it {}\n", shown(speed, speed_unit(given_unit, speed.value)),
-                            shown(prediction.lambda_critical, ""));
 }
 
 /// Each note of the rows once; the rows that it is about bear its mark.
@@ -153,14 +132,15 @@ std::string to_text(const Prediction& prediction, const PredictionSource& source
   bool has_bands = false;
   for (const PredictedMotion& row : prediction.rows) {
     table.add({quantity_text(row.speed_m_per_s, speed_unit(source.speed_unit, row.speed_m_per_s)),
-               shown(row.period_s, "s"), shown(row.frequency_Hz, "Hz"), shown(row.periodic_displacement_m, "m"),
-               shown(row.sticking_degree, ""), regime_words(row, notes.mark(row.note))});
+               estimate_text(row.period_s, "s"), estimate_text(row.frequency_Hz, "Hz"),
+               estimate_text(row.periodic_displacement_m, "m"), estimate_text(row.sticking_degree, ""),
+               regime_words(row, notes.mark(row.note))});
     has_bands = has_bands || row.lambda.ci95.has_value();
   }
   return fmt::format("Predicted from {}{}\n", one_line(source.name),
                      has_bands ? ", [95 % interval of the mean cycle]" : "") +
-         critical_text(prediction, source.speed_unit) + conditions_text(source.conditional_on) + "\n" + table.text() +
-         notes.text();
+         critical_speed_text(prediction.critical_speed_m_per_s, prediction.lambda_critical, source.speed_unit) +
+         conditions_text(source.conditional_on) + "\n" + table.text() + notes.text();
 }
 
 }  // namespace slipfit

@@ -131,7 +131,7 @@ std::string frequency_text(const FrequencyReport& frequency) {
   table.add({"by FFT", spectral_text(frequency.spectral)});
   table.add({"by counting slips", frequency.counted.value ? with_error(frequency.counted) + " Hz" : "too few slips"});
   if (frequency.quoted.value) {
-    const std::string interval = rounded(frequency.quoted).interval;
+    const std::string interval = estimate_row(frequency.quoted, "Hz").interval;
     table.add({"result", with_error(frequency.quoted) + " Hz" + (interval == "-" ? "" : ", 95 % interval " + interval) +
                              fmt::format(" (method: {})", plain_words(frequency.method))});
   } else {
@@ -203,25 +203,32 @@ std::string predicted_text(const Recording& recording, const Derived& derived) {
   return title + table.text() + (derived.regime ? regime_text(derived) : std::string());
 }
 
+std::vector<std::string> defects_of(const Recording& recording, const Quality& quality) {
+  const Provenance& provenance = recording.provenance();
+  std::vector<std::string> found;
+  const auto add = [&found](std::size_t count, const char* what) {
+    if (count > 0) found.push_back(fmt::format("{} {}", count, what));
+  };
+  add(quality.clipped_samples, "samples at the end of the sensor's range");
+  add(quality.impulses, "isolated impulses, left out");
+  add(quality.gaps, "gaps");
+  if (quality.gaps > 0) found.back() += ", the longest " + quantity_text(quality.longest_gap_s, "s");
+  add(provenance.rows_without_number, "rows without a number, left out");
+  add(provenance.rows_backward_in_time, "rows backward in time, left out");
+  add(provenance.rows_repeating_time, "repeated time stamps, kept");
+  return found;
+}
+
 std::string recording_text(const Recording& recording, const Analysis& analysis) {
   const Quality& quality = analysis.quality;
   const Conditions& conditions = recording.conditions();
-  const Provenance& provenance = recording.provenance();
   std::string text = "\nRecording\n";
   text += fmt::format("  {} samples at {} over {}, sensor sees the {} force", recording.size(),
                       stated_text(1.0 / recording.sample_interval_s(), "Hz"),
                       quantity_text(recording.duration_s(), "s"), name_of(conditions.force_view));
   if (conditions.normal_force_N) text += ", normal force " + stated_text(*conditions.normal_force_N, "N");
   text += fmt::format("\n  noise {} rms", quantity_text(quality.noise_rms, force_unit(conditions.quantity)));
-  const auto count = [&text](std::size_t number_of, const char* what) {
-    if (number_of > 0) text += fmt::format(", {} {}", number_of, what);
-  };
-  count(quality.clipped_samples, "clipped samples");
-  count(quality.impulses, "impulses");
-  count(quality.gaps, "gaps");
-  count(provenance.rows_without_number, "rows without a number");
-  count(provenance.rows_backward_in_time, "rows backward in time");
-  count(provenance.rows_repeating_time, "repeated time stamps");
+  for (const std::string& defect : defects_of(recording, quality)) text += ", " + defect;
   const TimeSpan& sliding = analysis.sliding;
   if (sliding.end_s - sliding.begin_s < recording.duration_s()) {
     text += fmt::format(

@@ -73,6 +73,20 @@ std::string candidates_text(const FitResult& fit, ForceQuantity quantity) {
 
 }  // namespace
 
+std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit) {
+  std::string text = "  critical speed: ";
+  const std::string& note = speed_m_per_s.note;
+  if (!speed_m_per_s.value) return text + (note.empty() ? "not known" : one_line(note)) + "\n";
+  text += estimate_text(speed_m_per_s, speed_unit(given_unit, speed_m_per_s.value));
+  if (!note.empty()) return text + "\n  " + one_line(note) + "\n";
+  return text + fmt::format(", lambda at it {}\n", estimate_text(lambda, display_unit("", {})));
+}
+
+std::string off_by(const Estimate& predicted, const Estimate& measured) {
+  if (!predicted.value || !measured.value) return "-";
+  return fmt::format("{:+.1f} %", 100.0 * (*predicted.value / *measured.value - 1.0));
+}
+
 std::string conditions_text(const std::vector<std::string>& conditional_on) {
   if (conditional_on.empty()) return {};
   std::string text = "  assumed: ";
@@ -119,18 +133,6 @@ std::string parameters_text(const Recording& recording, const Analysis& analysis
 
 namespace {
 
-template <class Unit>
-std::string estimate_cell(const Estimate& estimate, const Unit& unit) {
-  if (!estimate.value) return "-";
-  const EstimateRow row = estimate_row(estimate, unit);
-  return fmt::format("{} {} {}", row.value, row.unit, row.interval);
-}
-
-std::string off_by(const Estimate& predicted, const Estimate& measured) {
-  if (!predicted.value || !measured.value) return "";
-  return fmt::format("{:+.1f} %", 100.0 * (*predicted.value / *measured.value - 1.0));
-}
-
 std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep) {
   Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left, Align::Left, Align::Right});
   table.add(
@@ -141,20 +143,11 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
     table.add({one_line(entries[i].id), speed_text(entries[i].recording.conditions()),
                fmt::format("{}{}", plain_words(name_of(sweep.recordings[i].verdict)),
                            sweep.roles[i] == SweepRole::LeftOut ? " (left out)" : ""),
-               point != nullptr ? estimate_cell(point->kinetic_friction_N, "N") : "-", estimate_cell(measured, "m"),
-               point != nullptr ? estimate_cell(point->spacing_left_out_m, "m") : "-",
-               point != nullptr ? off_by(point->spacing_left_out_m, measured) : ""});
+               point != nullptr ? estimate_text(point->kinetic_friction_N, "N") : "-", estimate_text(measured, "m"),
+               point != nullptr ? estimate_text(point->spacing_left_out_m, "m") : "-",
+               point != nullptr ? off_by(point->spacing_left_out_m, measured) : "-"});
   }
   return "\nRecordings\n" + table.text();
-}
-
-std::string limit_text(std::span<const SweepEntry> entries, const Derived& derived) {
-  const Estimate& speed = derived.critical_speed_m_per_s;
-  std::string text = "\nEnd of stick-slip\n  critical speed  ";
-  if (!speed.value) return text + one_line(speed.note) + "\n";
-  text += estimate_cell(speed, speed_unit(entries.front().recording.conditions().speed_unit, speed.value));
-  if (!speed.note.empty()) return text + "\n  " + one_line(speed.note) + "\n";
-  return text + fmt::format(", lambda at it {}\n", estimate_cell(derived.lambda_critical, ""));
 }
 
 }  // namespace
@@ -165,7 +158,11 @@ std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sw
     text = fmt::format("{}: {} recordings, no joint fit: {}\n", one_line(name), entries.size(), sweep.joint_reason);
   if (sweep.joint) text += parameters_text(sweep.joint->fit, ForceQuantity::Force_N, "");
   text += recordings_text(entries, sweep);
-  if (sweep.joint || sweep.derived.observed_end) text += limit_text(entries, sweep.derived);
+  if (sweep.joint || sweep.derived.observed_end) {
+    text += "\nEnd of stick-slip\n" + critical_speed_text(sweep.derived.critical_speed_m_per_s,
+                                                          sweep.derived.lambda_critical,
+                                                          entries.front().recording.conditions().speed_unit);
+  }
   return text + warnings_text(sweep.warnings);
 }
 

@@ -15,6 +15,12 @@ std::string parameters_text(const Recording& recording, const Analysis& analysis
 std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const std::string& caution);
 /// "assumed: Coulomb friction; ..."
 std::string conditions_text(const std::vector<std::string>& conditional_on);
+/// "  critical speed: 20 mm/s [19, 21], lambda at it 0.69 [0.67, 0.71]", or why it is not known.
+std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit);
+/// "-1.0 %"; "-" where one is not known.
+std::string off_by(const Estimate& predicted, const Estimate& measured);
+/// What is wrong with the samples: "4 gaps, the longest 120 ms", ...
+std::vector<std::string> defects_of(const Recording& recording, const Quality& quality);
 std::string warnings_text(const Warnings& warnings);
 std::string frequency_text(const FrequencyReport& frequency);
 std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity);

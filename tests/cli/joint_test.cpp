@@ -18,7 +18,7 @@ TEST_CASE("a joint fit of a Coulomb sweep says so: text, document, prediction") 
   CHECK(text.exit_code == 0);
   for (const char* const part :
        {"pad: 3 recordings fitted together", "tangential stiffness k", "identified", "slow", "fast",
-        "predicted without it", "Coulomb friction explains the recordings", "critical speed  4"}) {
+        "predicted without it", "Coulomb friction explains the recordings", "critical speed: 4"}) {
     CHECK_THAT(text.out, Catch::Contains(part));
   }
   const json document = example.fit({"--group", "pad"});

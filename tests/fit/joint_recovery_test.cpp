@@ -142,7 +142,8 @@ TEST_CASE("joint: Coulomb friction needs no alpha") {
   REQUIRE(sweep.joint);
   CHECK(sweep.joint->fit.tier == Tier::Damped);
   CHECK(parameter(sweep, "alpha_s_per_m").status == ParameterStatus::Unidentified);
-  CHECK_THAT(parameter(sweep, "alpha_s_per_m").estimate.note, Catch::Contains("Coulomb friction explains the sweep"));
+  CHECK_THAT(parameter(sweep, "alpha_s_per_m").estimate.note,
+             Catch::Contains("Coulomb friction explains the recordings"));
   check_recovery(sweep, scene);
 }
 
@@ -186,7 +187,7 @@ TEST_CASE("joint: where recordings do not quite share k, F_k(v) stays because it
   REQUIRE(sweep.joint);
   CHECK(*sweep.joint->fit.residual.reduced_chi2 > 1.5);
   CHECK(sweep.joint->fit.tier == Tier::Velocity);
-  CHECK_THAT(sweep.joint->fit.candidates.front().reason, Catch::Contains("spacing predicted without each recording"));
+  CHECK_THAT(sweep.joint->fit.candidates.front().reason, Catch::Contains("spacing predicted for a recording left out"));
   check_recovery(sweep, scene);
   const Estimate& slope = parameter(sweep, "friction_slope_N_s_per_m").estimate;
   const double truth = scene.f1_N * scene.alpha_s_per_m;
@@ -211,7 +212,7 @@ TEST_CASE("joint: where recordings do not quite share w_n, F_k(v) gains and yet 
   check_recovery(sweep, scene);
   const Parameter& alpha = parameter(sweep, "alpha_s_per_m");
   CHECK(alpha.status == ParameterStatus::Unidentified);
-  CHECK_THAT(alpha.estimate.note, Catch::Contains("spacing predicted without each recording"));
+  CHECK_THAT(alpha.estimate.note, Catch::Contains("spacing predicted for a recording left out"));
   for (const Parameter& p : sweep.joint->fit.parameters) CHECK(p.status != ParameterStatus::Identified);
 }
 

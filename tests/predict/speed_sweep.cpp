@@ -169,6 +169,7 @@ SweepEntry record(const SpeedSweep& model, double speed_m_per_s, std::uint64_t s
   for (std::size_t i = 0; i < time.size(); ++i) time[i] = static_cast<double>(i) * dt_s;
   Conditions conditions;
   conditions.speed_m_per_s = speed_m_per_s;
+  conditions.sensor_average_s = 0.0;  // samples are of an instant
   return {std::to_string(speed_m_per_s), Recording::create(std::move(time), std::move(force), conditions).value()};
 }
 

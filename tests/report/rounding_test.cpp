@@ -34,22 +34,22 @@ TEST_CASE("very large and very small numbers are scientific") {
 TEST_CASE("what is not finite is not written as a number") {
   CHECK(rounded(std::numeric_limits<double>::quiet_NaN(), 1.0) == "-");
   CHECK(slipfit::with_error({}) == "-");
-  CHECK(rounded(slipfit::Estimate{}).value == "-");
-  CHECK(rounded(slipfit::Estimate{}).interval == "-");
+  CHECK(estimate_row(slipfit::Estimate{}, "").value == "-");
+  CHECK(estimate_row(slipfit::Estimate{}, "").interval == "-");
   const double infinity = std::numeric_limits<double>::infinity();
-  CHECK(rounded(slipfit::Estimate{1.0, 0.1, slipfit::Interval{0.0, infinity}, ""}).interval == "-");
+  CHECK(estimate_row(slipfit::Estimate{1.0, 0.1, slipfit::Interval{0.0, infinity}, ""}, "").interval == "-");
 }
 
 TEST_CASE("the interval is rounded like the value") {
   const slipfit::Estimate estimate{5.43210, 0.0123, slipfit::Interval{5.40801, 5.45623}, ""};
-  CHECK(rounded(estimate).value == "5.432");
-  CHECK(rounded(estimate).interval == "[5.408, 5.456]");
+  CHECK(estimate_row(estimate, "").value == "5.432");
+  CHECK(estimate_row(estimate, "").interval == "[5.408, 5.456]");
   CHECK(slipfit::with_error(estimate) == "5.432 ± 0.012");
 }
 
 TEST_CASE("a bounded value is rounded by the width of its interval") {
   const slipfit::Estimate estimate{1.5, std::nullopt, slipfit::Interval{1.0123, 2.0123}, ""};
-  CHECK(rounded(estimate).interval == "[1.01, 2.01]");
+  CHECK(estimate_row(estimate, "").interval == "[1.01, 2.01]");
 }
 
 TEST_CASE("prefixes bring a number to between 1 and 1000") {

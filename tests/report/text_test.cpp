@@ -132,3 +132,12 @@ TEST_CASE("a trace is written with every bit and a comment of one line") {
   CHECK(trace_to_csv(trace, "made\nhere") ==
         "# made?here\ntime_s,force_N\n0,0.3333333333333333\n0.30000000000000004,-2\n");
 }
+
+TEST_CASE("run-up and ring-down are told where they are known") {
+  auto analysis = test::full_analysis();
+  CHECK_THAT(to_text(test::small_recording(), analysis), !Contains("Before and after the sliding"));
+  analysis.transients.breakaway_force = {5.25, 0.05, slipfit::Interval{5.15, 5.35}, ""};
+  const std::string text = to_text(test::small_recording(), analysis);
+  CHECK_THAT(text, Contains("Before and after the sliding") && !Contains("ring-down, frequency"));
+  CHECK_THAT(line_with(text, "first peak (breakaway)"), Contains("5.250") && Contains("[5.150, 5.350]"));
+}

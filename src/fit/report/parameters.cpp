@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
+#include "fit/report/correlation.hpp"
 #include "fit/report/findings.hpp"
 #include "fit/selection/tiers.hpp"
 
@@ -264,25 +265,21 @@ class Reporter {
       estimate.ageing = Ageing{model_.ageing.a, f_.units.stick_s};
       used.push_back(6);
     }
-    Correlation correlation;
     for (const std::size_t i : used) {
-      correlation.names.emplace_back(info(kModelParameters[i]).key);
-      correlation.matrix.emplace_back();
-      for (const std::size_t j : used) {
-        // Anything up to one_sided is as likely: a third of its square.
-        const Coordinates& off = f_.intervals.spread().one_sided;
-        const double covariance = f_.intervals.covariance(all[i], all[j]) + all[i].v.dot(off) * all[j].v.dot(off) / 3.0;
-        const double scale = f_.intervals.standard_error(all[i]) * f_.intervals.standard_error(all[j]);
-        estimate.covariance[i][j] = covariance;
-        correlation.matrix.back().push_back(i == j ? 1.0 : scale > 0.0 ? covariance / scale : 0.0);
-      }
+      for (const std::size_t j : used) estimate.covariance[i][j] = model_covariance(all[i], all[j]);
     }
+    result_.correlation = correlation_of(estimate, used);
     const Spread& spread = f_.intervals.spread();
     estimate.degrees_of_freedom =
         std::min(f_.intervals.degrees_of_freedom(model_.difference), spread.degrees_of_freedom);
     estimate.damping_identified = f_.held[kDamping] || f_.damping.ci95->low > 0.0;
-    result_.correlation = std::move(correlation);
     result_.estimate = estimate;
+  }
+
+  /// Anything up to Spread::one_sided is as likely: a third of its square.
+  [[nodiscard]] double model_covariance(const Jet& a, const Jet& b) const {
+    const Coordinates& off = f_.intervals.spread().one_sided;
+    return f_.intervals.covariance(a, b) + a.v.dot(off) * b.v.dot(off) / 3.0;
   }
 
   const Findings& f_;

@@ -86,7 +86,7 @@ Figure map_figure(const Source& source) {
   figure.label = fmt::format(
       "map of damping ratio against lambda with the limit of stick-slip; this recording lies at "
       "lambda {}, damping ratio {}",
-      rounded(spot.lambda).value, rounded(spot.zeta).value);
+      estimate_row(spot.lambda, "").value, estimate_row(spot.zeta, "").value);
   return figure;
 }
 

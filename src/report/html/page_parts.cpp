@@ -55,27 +55,10 @@ std::string unbroken(const std::string& quantity) {
   return result;
 }
 
-void add_count(std::vector<std::string>& found, std::size_t count, const char* what) {
-  if (count > 0) found.push_back(fmt::format("{} {}", count, what));
-}
-
-std::vector<std::string> defects_of(const Recording& recording, const Quality& quality) {
-  const Provenance& provenance = recording.provenance();
-  std::vector<std::string> found;
-  add_count(found, quality.clipped_samples, "samples at the end of the sensor's range");
-  add_count(found, quality.impulses, "isolated impulses, left out");
-  add_count(found, quality.gaps, "gaps");
-  if (quality.gaps > 0) found.back() += ", the longest " + quantity_text(quality.longest_gap_s, "s");
-  add_count(found, provenance.rows_without_number, "rows without a number, left out");
-  add_count(found, provenance.rows_backward_in_time, "rows backward in time, left out");
-  add_count(found, provenance.rows_repeating_time, "repeated time stamps, kept");
-  return found;
-}
-
 }  // namespace
 
 std::string quantity_cell(const Estimate& SI, double per_SI) {
-  const RoundedEstimate shown = rounded(scaled(SI, per_SI));
+  const EstimateRow shown = estimate_row(SI, {per_SI, ""});
   const std::string interval = shown.interval == "-" ? "" : "<small>" + text(shown.interval) + "</small>";
   const std::string value = SI.value ? fmt::format("{}", *SI.value) : std::string();
   return fmt::format(R"(<td class="number" data-value="{}">{}{}</td>)", value, text(shown.value), interval);

@@ -203,8 +203,7 @@ Figure speed_figure(const Source& source) {
   const DisplayUnit unit = speed_unit(source.recording.conditions().speed_unit, critical.value);
   figure.label =
       fmt::format("predicted pattern spacing and stick-slip frequency over driving speed; critical speed {}",
-                  critical.value ? fmt::format("{} {}", rounded(scaled(critical, unit.per_SI)).value, unit.unit)
-                                 : std::string("not known"));
+                  critical.value ? estimate_row(critical, unit).value + " " + unit.unit : std::string("not known"));
   if (!critical.value && !critical.note.empty()) {
     figure.guide += " The critical speed is not known: " + critical.note + ".";
   }

@@ -20,10 +20,10 @@ std::string verdict_of(const SweepSource& source) {
   if (!source.sweep.joint) return fmt::format("{} recordings, no joint fit.", source.entries.size());
   const Estimate& critical = source.sweep.derived.critical_speed_m_per_s;
   // The interval and not the standard error: it may be lopsided, and few recordings make it wide.
-  const EstimateRow speed = estimate_row(critical, speed_unit(given_speed_unit(source), critical.value));
-  const std::string end = critical.value
-                              ? fmt::format(": stick-slip ends at {} {} {}", speed.value, speed.unit, speed.interval)
-                              : std::string(": where stick-slip ends is not known");
+  const std::string end =
+      critical.value
+          ? ": stick-slip ends at " + estimate_text(critical, speed_unit(given_speed_unit(source), critical.value))
+          : std::string(": where stick-slip ends is not known");
   const auto left_out = std::count(source.sweep.roles.begin(), source.sweep.roles.end(), SweepRole::LeftOut);
   const auto fitted = static_cast<std::ptrdiff_t>(source.entries.size()) - left_out;
   return text(fmt::format("{} recordings, {} fitted together{}.", source.entries.size(), fitted, end));
@@ -33,11 +33,6 @@ std::string parameters_of(const SweepAnalysis& sweep) {
   return section(" id=\"parameters\"", "Parameters of all recordings",
                  sweep.joint ? parameter_table(sweep.joint->fit)
                              : "<p class=\"absent\">" + formula_text(sweep.joint_reason) + "</p>\n");
-}
-
-std::string off_by(const Estimate& predicted, const Estimate& measured) {
-  if (!predicted.value || !measured.value) return "-";
-  return fmt::format("{:+.1f} %", 100.0 * (*predicted.value / *measured.value - 1.0));
 }
 
 /// One unit a column: rows compare by eye.
