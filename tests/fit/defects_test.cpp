@@ -115,12 +115,11 @@ TEST_CASE("slips that are not shaped like the model's: warned of, w_n weak or wi
   };
   const Analysis analysis = analyze_and_fit(damaged(3, slow_start), {});
   REQUIRE(analysis.fit);
-  const auto misfit = std::find_if(analysis.warnings.begin(), analysis.warnings.end(),
-                                   [](const Warning& w) { return w.code == "model_misfit"; });
-  REQUIRE(misfit != analysis.warnings.end());
-  CHECK_THAT(misfit->message,
-             Catch::Contains("the slips differ from the fitted curve in the same way in every cycle") &&
-                 Catch::Contains("of the slip time") && Catch::Contains("parameters are approximate"));
+  std::string misfits;
+  for (const Warning& warning : analysis.warnings) misfits += warning.code == "model_misfit" ? warning.message : "";
+  CHECK_THAT(misfits, Catch::Contains("times the noise") &&
+                          Catch::Contains("the slips differ from the fitted curve in the same way in every cycle") &&
+                          Catch::Contains("of the slip time") && Catch::Contains("parameters are approximate"));
   for (const Parameter& p : analysis.fit->parameters) {
     if (p.name() != "natural_frequency_rad_per_s" || !p.estimate.ci95) continue;
     const bool holds = p.estimate.ci95->low <= kOmega && kOmega <= p.estimate.ci95->high;
