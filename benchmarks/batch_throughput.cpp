@@ -14,7 +14,10 @@
 #include <string>
 
 #include "slipfit/batch/batch.hpp"
+#include "slipfit/io/manifest.hpp"
+#include "slipfit/io/recording_reader.hpp"
 #include "slipfit/model/simulation.hpp"
+#include "slipfit/pipeline.hpp"
 #include "slipfit/report/csv.hpp"
 #include "slipfit/report/json.hpp"
 

@@ -65,7 +65,7 @@ Analysis conclude(const Detected& detected, Estimates estimates, Classification 
   analysis.sliding = {recording.time_s().front(), recording.time_s().back()};
   analysis.quality = detected.whole_quality;
   analysis.frequency =
-      in_range(quote_frequency(recording, estimates.signals, motion.verdict, motion.model_fits ? fit : nullptr));
+      in_range(quote_frequency(recording, estimates.signals, motion, motion.model_fits ? fit : nullptr));
   analysis.cycles = in_range(summarise_cycles(recording, slips, fit));
   if (analysis.cycles.period_cv) {
     analysis.cycles.regularity = regularity_of(analysis.cycles, analysis.frequency.quoted, recording.conditions());

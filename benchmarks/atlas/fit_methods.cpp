@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipfit/pipeline.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace atlas {

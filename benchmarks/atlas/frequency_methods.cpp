@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "analysis/quoted_frequency.hpp"
+#include "analysis/slip_intervals.hpp"
 #include "signal/transform.hpp"
 #include "slipfit/pipeline.hpp"
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "slipfit/pipeline.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace sweep_coverage {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/harmonic_null.hpp"
 #include "analysis/slip_shape.hpp"
 #include "core/thresholds.hpp"
 #include "signal/robust.hpp"
@@ -135,6 +136,20 @@ std::optional<Classification> as_round_swings(const Recording& recording, const 
   return std::nullopt;
 }
 
+/// Three sines follow the swings as well as sticks and slips do: no sticks have to be there.
+std::optional<Classification> as_wave(const Recording& recording, const Segmentation& segmentation,
+                                      const FitResult& fit) {
+  if (slips_are_sudden(segmentation)) return std::nullopt;
+  const std::optional<double> harmonic_rms = harmonic_residual_rms(recording, segmentation);
+  if (!harmonic_rms || *harmonic_rms > thresholds::kHarmonicTies * fit.residual.rms) return std::nullopt;
+  if (*harmonic_rms < thresholds::kHarmonicWins * fit.residual.rms) {
+    return Classification{Verdict::OscillatorySlip,
+                          "three sines follow the swings better than sticks and slips do: an oscillation"};
+  }
+  return Classification{Verdict::Undetermined,
+                        "three sines follow the swings as well as sticks and slips do: it may be an oscillation"};
+}
+
 }  // namespace
 
 Classification classify(const Recording& recording, const Estimates& estimates) {
@@ -158,7 +173,7 @@ Classification classify(const Recording& recording, const Estimates& estimates) 
   const bool died =
       !sudden && keeps_rhythm(segmentation) && (e.decay > thresholds::kDecay || e.span_share < thresholds::kSpanShare);
   if (died && (close || loose || e.restick_share < thresholds::kRestickShare)) {
-    return {Verdict::OscillatorySlip, "the swings die out: a ring-down to steady sliding"};
+    return {Verdict::OscillatorySlip, "the swings die out: a ring-down to steady sliding", true};
   }
   const bool rests = e.restick_share >= thresholds::kRestickShare;
   if ((!close && !loose) || (sudden && !rests)) return without_model(recording, segmentation, spectral);
@@ -166,11 +181,12 @@ Classification classify(const Recording& recording, const Estimates& estimates) 
     return {Verdict::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
   }
   if (auto round = as_round_swings(recording, segmentation, e)) return *round;
+  if (auto wave = as_wave(recording, segmentation, *estimates.fit)) return *wave;
   if (!close && !sudden) return without_model(recording, segmentation, spectral);
   return {Verdict::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
                       100.0 * e.relative_residual),
-          true};
+          false, true};
 }
 
 Classification classify_by_shape(const Recording& recording, const Signals& signals) {

@@ -112,7 +112,7 @@ Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
 }
 
 /// Slips or swings without a fit: the spectrum where they are regular and it shows their frequency, else the count.
-FrequencyReport of_trace(const Recording& recording, const Signals& signals, Verdict verdict) {
+FrequencyReport of_trace(const Recording& recording, const Signals& signals, const Classification& motion) {
   const SpectralFrequency& spectral = signals.spectral;
   FrequencyReport report;
   report.method = "none";
@@ -129,8 +129,10 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, Ver
   const bool far = !difference || *difference > thresholds::kContradiction;
   const bool contradict =
       far && (noise_hides_slips(signals) || (near && may_be_hum(signals)) || (!difference && hum_makes_falls(signals)));
-  const bool hidden = verdict == Verdict::OscillatorySlip && !agree;  // the count may be of noise or of hum
-  if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || hidden)) {
+  const bool hidden = motion.verdict == Verdict::OscillatorySlip && !agree;  // the count may be of noise or of hum
+  if (motion.dies_out && !agree) {
+    report.quoted.note = "the swings die out, and spectrum and count do not agree on them";
+  } else if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || hidden)) {
     report.method = "harmonic_least_squares";
     report.quoted =
         fit::symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
@@ -146,8 +148,9 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, Ver
 
 }  // namespace
 
-FrequencyReport quote_frequency(const Recording& recording, const Signals& signals, Verdict verdict,
+FrequencyReport quote_frequency(const Recording& recording, const Signals& signals, const Classification& motion,
                                 const FitResult* fit) {
+  const Verdict verdict = motion.verdict;
   const bool slides = verdict == Verdict::StickSlip || verdict == Verdict::OscillatorySlip;
   FrequencyReport report;
   report.method = "none";
@@ -160,7 +163,7 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
     const bool scatters = interval.count > 7.0 && interval.sd > thresholds::kCounted * interval.mean;
     const bool usable = fit != nullptr && verdict == Verdict::StickSlip && intervals.broken == 0 && !scatters;
     const std::optional<FrequencyReport> fitted = usable ? of_fit(recording, signals, *fit) : std::nullopt;
-    report = fitted ? *fitted : of_trace(recording, signals, verdict);
+    report = fitted ? *fitted : of_trace(recording, signals, motion);
   }
   report.spectral = signals.spectral;
   report.counted = count_frequency(recording, signals.segmentation);

@@ -37,6 +37,14 @@ inline constexpr double kSineRestickShare = 0.95;
 /// cycles just above the limit of stick-slip]
 inline constexpr double kSineFit = 0.05;
 
+/// Residual of three harmonics over that of the fit, below which cycles are waves and no stick-slip. [1; convention:
+/// the null model, which has no sticks, is clearly the better one]
+inline constexpr double kHarmonicWins = 0.8;
+
+/// The same ratio up to which neither can be told from the other. [1; calibrated: synthetic cycles just above the limit
+/// of stick-slip stay above, noisy sines below]
+inline constexpr double kHarmonicTies = 1.03;
+
 /// Onset force of the first half of the cycles over that of the second, above which swings die out. [1; convention]
 inline constexpr double kDecay = 1.7;
 
@@ -250,7 +258,7 @@ inline constexpr std::size_t kFewestSwings = 4;
 inline constexpr double kSwingOverNoise = 8.0;
 
 /// Natural frequency of the slips over that of the rig's free ring-down, below which slips are not inertial.
-/// [1; convention: contact stiffness and moved mass differ by less than a factor of four between the two]
+/// [1; convention: stiffness and mass differ by less than a factor of four between the two]
 inline constexpr double kInertialSlip = 0.5;
 
 // ## Fit beneath the mains

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "core/thresholds.hpp"
 #include "signal/mains.hpp"
@@ -38,21 +40,19 @@ FitResult qualified_by_mains(FitResult fit, double frequency_Hz, double duration
   return fit;
 }
 
-FitResult qualified_by_ring_down(FitResult fit, double ring_down_frequency_Hz, double force_drop) {
-  const Estimate natural = fit.natural_frequency();
-  if (!natural.value) return fit;
-  const double slip_Hz = *natural.value / (2.0 * std::numbers::pi);
-  if (slip_Hz > thresholds::kInertialSlip * ring_down_frequency_Hz) return fit;
-  const std::string reason = fmt::format("slips as slow as {:.3g} Hz are not inertial: the rig rings at {:.3g} Hz",
-                                         slip_Hz, ring_down_frequency_Hz);
-  fit.warnings.push_back({"slips_not_inertial", reason + "; natural frequency, mass and damping stay unknown"});
+namespace {
+
+bool hangs_on_inertia(ParameterId id) {
+  return id == ParameterId::NaturalFrequency || id == ParameterId::Mass || id == ParameterId::DampingRatio ||
+         id == ParameterId::DampingCoefficient;
+}
+
+/// Nothing that rests on the inertia of the slips.
+FitResult without_inertia(FitResult fit, const std::string& reason, double force_drop) {
   const Interval bounds{0.5 * force_drop, force_drop};
   for (Parameter& parameter : fit.parameters) {
-    const bool hangs_on_inertia = parameter.id == ParameterId::NaturalFrequency || parameter.id == ParameterId::Mass ||
-                                  parameter.id == ParameterId::DampingRatio ||
-                                  parameter.id == ParameterId::DampingCoefficient;
     if (parameter.status == ParameterStatus::Fixed) continue;
-    if (hangs_on_inertia) {
+    if (hangs_on_inertia(parameter.id)) {
       parameter.status = ParameterStatus::Unidentified;
       parameter.estimate = {std::nullopt, std::nullopt, std::nullopt, reason};
     } else if (parameter.id == ParameterId::FrictionDifference) {
@@ -64,6 +64,37 @@ FitResult qualified_by_ring_down(FitResult fit, double ring_down_frequency_Hz, d
   fit.correlation.reset();
   fit.estimate.reset();
   return fit;
+}
+
+FitResult with_doubtful_inertia(FitResult fit, const std::string& reason) {
+  for (Parameter& parameter : fit.parameters) {
+    if (!hangs_on_inertia(parameter.id)) continue;
+    if (parameter.status == ParameterStatus::Unidentified || parameter.status == ParameterStatus::Fixed) continue;
+    parameter.status = ParameterStatus::Weak;
+    parameter.estimate.note = reason;
+  }
+  return fit;
+}
+
+}  // namespace
+
+FitResult qualified_by_ring_down(FitResult fit, double ring_down_frequency_Hz, double force_drop) {
+  const Estimate natural = fit.natural_frequency();
+  if (!natural.value) return fit;
+  const double slip_Hz = *natural.value / (2.0 * std::numbers::pi);
+  if (slip_Hz > thresholds::kInertialSlip * ring_down_frequency_Hz) return fit;
+  const bool misfits = std::any_of(fit.warnings.begin(), fit.warnings.end(),
+                                   [](const Warning& warning) { return warning.code == "model_misfit"; });
+  const std::string slower =
+      fmt::format("the slips move at {:.3g} Hz, the rig rings down at {:.3g} Hz", slip_Hz, ring_down_frequency_Hz);
+  if (misfits) {
+    const std::string reason = slower + ": slips that do not follow the model and are so slow are not inertial";
+    fit.warnings.push_back({"slips_not_inertial", reason});
+    return without_inertia(std::move(fit), reason, force_drop);
+  }
+  const std::string reason = slower + ": known only if what rings is not the body that slips";
+  fit.warnings.push_back({"slips_not_inertial", reason});
+  return with_doubtful_inertia(std::move(fit), reason);
 }
 
 }  // namespace slipfit::fit

@@ -12,9 +12,10 @@ FitResult without_parameters(FitResult fit);
 /// for granted, with a warning. The third harmonic does no harm (docs/accuracy.md).
 FitResult qualified_by_mains(FitResult fit, double frequency_Hz, double duration_s);
 
-/// Slips far slower than the rig's own free ring-down are not inertial: the fit's natural frequency is that of
-/// something else (friction that weakens slowly, a viscous film), and so are mass and damping. F_s - F_k lies between
-/// half of the drop (no damping) and all of it. `force_drop`: unit of the force column.
+/// Slips far slower than the rig's own free ring-down may not be inertial: friction that weakens slowly or a viscous
+/// film sets their time, unless what rings is lighter than the body that slips. Natural frequency, mass and damping are
+/// weak; where the slips do not follow the model either (warning model_misfit) they are unknown, and F_s - F_k lies
+/// between half of the drop (no damping) and all of it. `force_drop`: unit of the force column.
 FitResult qualified_by_ring_down(FitResult fit, double ring_down_frequency_Hz, double force_drop);
 
 }  // namespace slipfit::fit
