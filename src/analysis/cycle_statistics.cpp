@@ -25,6 +25,7 @@ Estimate stick_stiffness(const Segmentation& segmentation, double speed_m_per_s)
   if (slopes.size() < thresholds::kFewestSlips) return {{}, {}, {}, "too few sticks"};
   const double middle = signal::median(slopes);
   std::vector<double> off;
+  off.reserve(slopes.size());
   for (const double slope : slopes) off.push_back(std::abs(slope - middle));
   constexpr double kMedianToSe = 1.4826 * 1.2533;  // median deviation to sd; error of a median over that of a mean
   const auto count = static_cast<double>(slopes.size());

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kCycles = 5;  // in a window
 constexpr std::size_t kMostWindows = 40;
-constexpr int kHarmonics = 3;
+constexpr Eigen::Index kHarmonics = 3;
 constexpr Eigen::Index kTerms = 2 + 2 * kHarmonics;
 
 struct Sum {
@@ -31,9 +31,10 @@ Sum residual_of(const Recording& recording, std::size_t begin, std::size_t end, 
     force(i) = recording.force()[sample];
     terms(i, 0) = 1.0;
     terms(i, 1) = cycles;
-    for (int h = 1; h <= kHarmonics; ++h) {
-      terms(i, 2 * h) = std::cos(2.0 * std::numbers::pi * h * cycles);
-      terms(i, 2 * h + 1) = std::sin(2.0 * std::numbers::pi * h * cycles);
+    for (Eigen::Index h = 1; h <= kHarmonics; ++h) {
+      const double phase = 2.0 * std::numbers::pi * static_cast<double>(h) * cycles;
+      terms(i, 2 * h) = std::cos(phase);
+      terms(i, 2 * h + 1) = std::sin(phase);
     }
   }
   const Eigen::VectorXd best = (terms.transpose() * terms).ldlt().solve(terms.transpose() * force);

@@ -113,7 +113,7 @@ template <class Unit>
 void add_estimate(Table& table, const std::string& words, const Estimate& estimate, const Unit& unit) {
   if (!estimate.value && !estimate.ci95 && estimate.note.empty()) return;
   const EstimateRow row = estimate_row(estimate, unit);
-  table.add({words, row.value, row.unit, row.interval == "-" ? "" : row.interval, one_line(estimate.note)});
+  table.add({words, row.value, row.unit, row.interval == "-" ? std::string() : row.interval, one_line(estimate.note)});
 }
 
 std::string regime_text(const Derived& derived) {

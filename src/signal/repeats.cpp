@@ -13,7 +13,7 @@ namespace {
 bool often_repeats(std::span<const double> force) {
   std::size_t equal = 0;
   for (std::size_t i = 1; i < force.size(); ++i) equal += force[i] == force[i - 1] ? 1U : 0U;
-  const double runs = static_cast<double>(force.size() - equal);
+  const auto runs = static_cast<double>(force.size() - equal);
   return static_cast<double>(force.size()) > thresholds::kShortestRepeat * runs;
 }
 

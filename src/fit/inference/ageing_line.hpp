@@ -2,9 +2,12 @@
 
 #include <Eigen/Dense>
 
-#include "fit/inference/sweep_coordinates.hpp"
+#include "fit/selection/sweep_solution.hpp"
 
 namespace slipfit::fit {
+
+/// Of a sweep: static friction is constant, or ages as its recordings say.
+enum class StaticFriction { Constant, Ages };
 
 /// F_s - F_k(0+) / Units::force of each recording.
 Eigen::VectorXd differences_of(const SweepSolution& solution);

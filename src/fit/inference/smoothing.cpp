@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "fit/inference/covariance.hpp"
@@ -34,7 +35,9 @@ struct Part {
 /// Residuals with a wider moving average than the model's.
 VectorXd averaged_residuals(const BlockFit& wider, std::size_t cycle) {
   VectorXd residuals(static_cast<Index>(wider.model(cycle).residuals()));
-  if (!wider.model(cycle).evaluate(wider.values(cycle), residuals.data(), nullptr)) residuals.setConstant(NAN);
+  if (!wider.model(cycle).evaluate(wider.values(cycle), residuals.data(), nullptr)) {
+    residuals.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
   return residuals;
 }
 

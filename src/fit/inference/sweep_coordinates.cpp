@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "fit/inference/ageing_line.hpp"
 #include "fit/inference/covariance.hpp"
 
 namespace slipfit::fit {

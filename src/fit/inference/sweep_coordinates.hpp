@@ -1,12 +1,10 @@
 #pragma once
 
+#include "fit/inference/ageing_line.hpp"
 #include "fit/inference/intervals.hpp"
 #include "fit/selection/sweep_solution.hpp"
 
 namespace slipfit::fit {
-
-/// Of a sweep: static friction is constant, or ages as its recordings say.
-enum class StaticFriction { Constant, Ages };
 
 /// The coordinates of a sweep at its solution: levels and differences of their own are means over the recordings, or a
 /// line through them where static friction ages.

@@ -2,6 +2,8 @@
 
 #include <ceres/jet.h>
 
+#include <utility>
+
 namespace slipfit::fit {
 namespace {
 
@@ -19,7 +21,8 @@ struct Cycle {
   Jet end_tau{};
   model::SlipPoint<Jet> end{};
 
-  Cycle(const model::Slip& of_slip, const Jet& of_z0, const Jet& of_zeta) : slip(of_slip), z0(of_z0), zeta(of_zeta) {
+  Cycle(const model::Slip& of_slip, Jet of_z0, Jet of_zeta)
+      : slip(of_slip), z0(std::move(of_z0)), zeta(std::move(of_zeta)) {
     end_tau = model::slip_end(slip, z0, zeta);
     end = model::slip_point(z0, zeta, end_tau);
   }
