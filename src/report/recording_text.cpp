@@ -112,7 +112,7 @@ std::string with_spread(std::optional<double> value, std::optional<double> sprea
 template <class Unit>
 void add_estimate(Table& table, const std::string& words, const Estimate& estimate, const Unit& unit) {
   if (!estimate.value && !estimate.ci95 && estimate.note.empty()) return;
-  const EstimateRow row = estimate_row(estimate, unit);
+  const EstimateRow row = estimate_row(estimate, unit);  // NOLINT(*-array-to-pointer-decay): a unit in quotes
   table.add({words, row.value, row.unit, row.interval == "-" ? std::string() : row.interval, one_line(estimate.note)});
 }
 
