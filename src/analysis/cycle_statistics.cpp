@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "analysis/slip_intervals.hpp"
+#include "analysis/statistics.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/student.hpp"
 #include "signal/robust.hpp"
@@ -14,13 +16,17 @@ namespace slipfit {
 
 namespace {
 
-/// From the rises between slips, 20 % to 80 % of each: median slope over the speed, and what it scatters by.
-Estimate stick_stiffness(const Segmentation& segmentation, double speed_m_per_s) {
+/// From the middle three fifths of the time between slips: median slope over the speed, and what it scatters by.
+Estimate stick_stiffness(const Recording& recording, const Segmentation& segmentation) {
+  constexpr std::size_t kFewestSamples = 5;
+  const double speed_m_per_s = recording.conditions().speed_m_per_s;
   std::vector<double> slopes;
   for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
-    const DetectedSlip& before = segmentation.slips[i - 1];
-    const double rise = segmentation.slips[i].peak_force - before.trough_force;
-    if (before.rise_s > 0.0) slopes.push_back(0.6 * rise / before.rise_s / speed_m_per_s);
+    const std::size_t begin = segmentation.slips[i - 1].trough;
+    const std::size_t fifth = (segmentation.slips[i].peak - begin) / 5;
+    if (3 * fifth < kFewestSamples) continue;
+    const auto of = [&](std::span<const double> values) { return values.subspan(begin + fifth, 3 * fifth); };
+    slopes.push_back(slope_of(of(recording.time_s()), of(recording.force())).value / speed_m_per_s);
   }
   if (slopes.size() < thresholds::kFewestSlips) return {{}, {}, {}, "too few sticks"};
   const double middle = signal::median(slopes);
@@ -88,7 +94,7 @@ CycleStatistics summarise_cycles(const Recording& recording, const Segmentation&
     result.peak_force_sd = peak.sd;
     result.force_drop_sd = drop.sd;
   }
-  result.stick_stiffness = stick_stiffness(segmentation, recording.conditions().speed_m_per_s);
+  result.stick_stiffness = stick_stiffness(recording, segmentation);
   const MeanAndSpread interval = describe(intervals_of(recording, segmentation).seconds);
   if (interval.count >= 1.0) result.period_s = interval.mean;
   if (interval.count >= 2.0) {
