@@ -143,18 +143,25 @@ std::optional<Classification> as_round_swings(const Recording& recording, const 
   return std::nullopt;
 }
 
+/// How much better sticks and slips follow the samples than three sines do: the difference of twice the logarithm of the
+/// likelihood, each at its best noise, of the cycles that the fit could use.
+std::optional<double> evidence_of_sticks(const Recording& recording, const Signals& signals, const FitResult& fit,
+                                         std::size_t used) {
+  const double counted_Hz = 1.0 / signal::median(slip_intervals_s(signals.segmentation));
+  const std::optional<double> harmonic_rms =
+      harmonic_residual_rms(recording, signals.spectral.value_Hz.value_or(counted_Hz));
+  if (!harmonic_rms || !(fit.residual.rms > 0.0)) return std::nullopt;
+  const double share = static_cast<double>(used) / static_cast<double>(fit.cycles.size());
+  return 2.0 * share * static_cast<double>(recording.size()) * std::log(*harmonic_rms / fit.residual.rms);
+}
+
 /// Three sines follow the swings as well as sticks and slips do: no sticks have to be there.
-std::optional<Classification> as_wave(const Recording& recording, const Segmentation& segmentation,
-                                      const FitResult& fit) {
-  if (slips_are_sudden(segmentation)) return std::nullopt;
-  const std::optional<double> harmonic_rms = harmonic_residual_rms(recording, segmentation);
-  if (!harmonic_rms || *harmonic_rms > thresholds::kHarmonicTies * fit.residual.rms) return std::nullopt;
-  if (*harmonic_rms < thresholds::kHarmonicWins * fit.residual.rms) {
-    return Classification{Verdict::OscillatorySlip,
-                          "three sines follow the swings better than sticks and slips do: an oscillation"};
+Classification as_wave(double evidence) {
+  if (evidence < -thresholds::kEvidence) {
+    return {Verdict::OscillatorySlip, "three sines follow the swings better than sticks and slips do: an oscillation"};
   }
-  return Classification{Verdict::Undetermined,
-                        "three sines follow the swings as well as sticks and slips do: it may be an oscillation"};
+  return {Verdict::Undetermined,
+          "three sines follow the swings as well as sticks and slips do: it may be an oscillation"};
 }
 
 Classification motion_of(const Recording& recording, const Estimates& estimates) {
@@ -186,12 +193,14 @@ Classification motion_of(const Recording& recording, const Estimates& estimates)
     return {Verdict::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
   }
   if (auto round = as_round_swings(recording, segmentation, e)) return *round;
-  if (auto wave = as_wave(recording, segmentation, *estimates.fit)) return *wave;
+  const std::optional<double> evidence =
+      sudden ? std::nullopt : evidence_of_sticks(recording, estimates.signals, *estimates.fit, used);
+  if (evidence && *evidence < thresholds::kEvidence) return as_wave(*evidence);
   if (!close && !sudden) return without_model(recording, segmentation, spectral);
   return {Verdict::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
                       100.0 * e.relative_residual),
-          false, true};
+          false, true, evidence && *evidence < thresholds::kPlainEvidence};
 }
 
 }  // namespace

@@ -37,13 +37,13 @@ inline constexpr double kSineRestickShare = 0.95;
 /// cycles just above the limit of stick-slip]
 inline constexpr double kSineFit = 0.05;
 
-/// Residual of three harmonics over that of the fit, below which cycles are waves and no stick-slip. [1; convention:
-/// the null model, which has no sticks, is clearly the better one]
-inline constexpr double kHarmonicWins = 0.8;
+/// Twice the logarithm of the likelihood of sticks and slips over that of three harmonics, the null model without sticks,
+/// below which the two cannot be told apart. [1; convention: odds of ten to one]
+inline constexpr double kEvidence = 4.6;
 
-/// The same ratio up to which neither can be told from the other. [1; calibrated: synthetic cycles just above the limit
-/// of stick-slip stay above, noisy sines below]
-inline constexpr double kHarmonicTies = 1.03;
+/// The same below which the parameters that hang on this difference are no more than weak. [1; calibrated: sines with
+/// noise stay below, of cycles just above the limit of stick-slip three in four lie above]
+inline constexpr double kPlainEvidence = 60.0;
 
 /// Scatter of the periods, over the period, below which what repeats keeps time like a clock. [1; convention: pick-up and
 /// drives scatter by less, friction by more]
@@ -169,6 +169,9 @@ inline constexpr double kOtherLevel = 1.5;
 /// Step from rest to sliding over how much the force moves while the body slides, above which a run without slips is cut
 /// out. [1; convention]
 inline constexpr double kPlateauStep = 3.0;
+
+/// Force at rest over that of sliding, above which the lower of two levels is sliding as well. [1; convention]
+inline constexpr double kRestLevel = 0.3;
 
 /// Fewest two-hundredths of a trace that make a plateau. [1; convention]
 inline constexpr std::size_t kFewestPlateauBlocks = 20;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <span>
 #include <utility>
 
@@ -206,13 +205,12 @@ Split split_of(std::vector<double> levels) {
   return best;
 }
 
-/// Blocks [begin, end) of the longest run above (or, where sliding pulls the other way, below) the middle of the split.
-Stretch longest_beyond(const std::vector<double>& levels, Split split) {
+/// Blocks [begin, end) of the longest run above the middle of the split.
+Stretch longest_above(const std::vector<double>& levels, Split split) {
   const double middle = 0.5 * (split.low + split.high);
-  const bool is_upper = std::abs(split.high) >= std::abs(split.low);
   Stretch best, run;
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    if ((levels[i] > middle) != is_upper) {
+    if (levels[i] <= middle) {
       run = {i + 1, i + 1};
       continue;
     }
@@ -229,7 +227,8 @@ Stretch plateau(std::span<const double> force) {
   const Blocks blocks = blocks_of(force);
   if (blocks.level.size() < thresholds::kFewestPlateauBlocks) return whole;
   const Split split = split_of(blocks.level);
-  Stretch run = longest_beyond(blocks.level, split);
+  if (std::abs(split.low) > thresholds::kRestLevel * split.high) return whole;
+  Stretch run = longest_above(blocks.level, split);
   // What the level does in the middle of the run is how it moves while the body slides.
   const std::size_t edge = (run.end - run.begin) / 4;
   const auto [low, high] = std::minmax_element(blocks.level.begin() + static_cast<std::ptrdiff_t>(run.begin + edge),

@@ -19,8 +19,8 @@ struct Stretch {
 /// trace where fewer than 4 falls follow each other, and where less than a usual stick of ordinary force would be cut.
 Stretch sliding_stretch(const std::vector<double>& force, const std::vector<Fall>& falls);
 
-/// The longest stretch at the level of sliding, where the force has two levels far apart compared with how it moves at
-/// the upper one: a run without slips between rest, loading and release. The whole trace where it has not.
+/// The longest stretch at the level of sliding, where the force has two levels, one near zero, far apart compared with
+/// how it moves at the upper one: a run without slips between rest, loading and release. The whole trace where it has not.
 Stretch plateau(std::span<const double> force);
 
 }  // namespace slipfit::signal
