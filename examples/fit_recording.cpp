@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   }
   const slipfit::Analysis analysis = slipfit::analyze_and_fit(recording.value(), {});
   if (!analysis.fit) {
-    std::printf("no fit: %s\n", analysis.verdict_reason.c_str());
+    std::printf("no fit: %s\n", analysis.motion_reason.c_str());
     return 0;
   }
   const slipfit::Estimate stiffness = analysis.fit->stiffness();

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   if (frequency.value) {
     std::printf("%.2f Hz from %zu slips\n", *frequency.value, analysis.cycles.count);
   } else {
-    std::printf("no frequency: %s\n", analysis.verdict_reason.c_str());
+    std::printf("no frequency: %s\n", analysis.motion_reason.c_str());
   }
   return 0;
 }

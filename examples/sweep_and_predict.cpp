@@ -37,11 +37,11 @@ int main() {
     entries.push_back(std::move(*entry));
   }
   const slipfit::SweepAnalysis sweep = slipfit::analyze_sweep(entries, {});
-  if (!sweep.joint || !sweep.joint->fit.estimate) {
-    std::printf("no joint fit: %s\n", sweep.joint_reason.c_str());
+  if (!sweep.fit || !sweep.fit->result.estimate) {
+    std::printf("no joint fit: %s\n", sweep.fit_reason.c_str());
     return 1;
   }
-  const slipfit::FitResult& fit = sweep.joint->fit;
+  const slipfit::FitResult& fit = sweep.fit->result;
   std::printf("stiffness %.0f N/m, natural frequency %.1f rad/s, damping ratio %.3f\n", *fit.stiffness().value,
               *fit.natural_frequency().value, *fit.damping_ratio().value);
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """compare_builds.py REFERENCE OTHER MANIFEST...: the recordings and groups of manifests through two builds of slipfit.
 
-REFERENCE and OTHER are the programs; each manifest goes through `batch --joint-groups` of both. Prints every verdict,
+REFERENCE and OTHER are the programs; each manifest goes through `batch --joint-groups` of both. Prints every kind of motion,
 status and refusal that differs, the parameters that differ by more than 5 % of a standard error, and a summary; exit 1
 where anything differs."""
 

@@ -26,17 +26,17 @@ namespace slipfit {
 namespace {
 
 /// The fit as far as its numbers can be believed: no parameters where the motion is not the model's, no natural
-/// frequency where the slips are not inertial, nothing identified where the cycles are nearly waves or keep in step with
-/// the mains.
-std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classification& motion, const Analysis& analysis,
-                                 double duration_s) {
+/// frequency where the slips are not inertial, nothing identified where the cycles are nearly waves or keep in step
+/// with the mains.
+std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classification& classification,
+                                 const Analysis& analysis, double duration_s) {
   if (!fit) return fit;
-  if (!motion.model_fits) return fit::without_parameters(*std::move(fit));
+  if (!classification.model_fits) return fit::without_parameters(*std::move(fit));
   const std::optional<double>& ring_Hz = analysis.transients.ring_down_frequency_Hz.value;
   const std::optional<double>& slips_Hz = analysis.frequency.quoted.value;
   const std::optional<double>& drop = analysis.cycles.force_drop;
   if (ring_Hz && drop) fit = fit::qualified_by_ring_down(*std::move(fit), *ring_Hz, *drop);
-  if (motion.nearly_wave) fit = fit::qualified_by_waves(*std::move(fit));
+  if (classification.nearly_wave) fit = fit::qualified_by_waves(*std::move(fit));
   if (slips_Hz) fit = fit::qualified_by_mains(*std::move(fit), *slips_Hz, duration_s);
   return fit;
 }
@@ -59,24 +59,24 @@ std::optional<FitResult> told_of_whole(std::optional<FitResult> fit, const Detec
 }
 
 /// Everything that follows from slips, spectrum and fit of the stretch that slides.
-Analysis conclude(const Detected& detected, Estimates estimates, Classification motion) {
+Analysis conclude(const Detected& detected, Estimates estimates, Classification classification) {
   const Recording& recording = detected.recording();
   const Segmentation& slips = estimates.signals.segmentation;
   const FitResult* const fit = estimates.fit ? &*estimates.fit : nullptr;
   Analysis analysis;
   analysis.sliding = {recording.time_s().front(), recording.time_s().back()};
   analysis.quality = detected.whole_quality;
-  analysis.frequency =
-      in_range(quote_frequency(recording, estimates.signals, motion, motion.model_fits ? fit : nullptr));
+  analysis.frequency = in_range(
+      quote_frequency(recording, estimates.signals, classification, classification.model_fits ? fit : nullptr));
   analysis.cycles = in_range(summarise_cycles(recording, slips, fit));
   if (analysis.cycles.period_cv) {
     analysis.cycles.regularity = regularity_of(analysis.cycles, analysis.frequency.quoted, recording.conditions());
   }
   analysis.cycle_table = fit != nullptr ? fit->cycles : fit::detected_cycles(recording, slips);
-  analysis.transients = in_range(find_transients(detected, motion.verdict));
-  analysis.fit = qualify(std::move(estimates.fit), motion, analysis, recording.duration_s());
-  analysis.verdict = motion.verdict;
-  analysis.verdict_reason = std::move(motion.reason);
+  analysis.transients = in_range(find_transients(detected, classification.motion));
+  analysis.fit = qualify(std::move(estimates.fit), classification, analysis, recording.duration_s());
+  analysis.motion = classification.motion;
+  analysis.motion_reason = std::move(classification.reason);
   analysis.derived = derive(recording, analysis);
   analysis.tests = run_short_tests(recording, analysis);
   analysis.warnings = collect_warnings(detected, slips, analysis);
@@ -96,8 +96,8 @@ struct Member {
 Member analyze_member(const Recording& recording) {
   Member member{detect(recording), {}, {}};
   member.estimates = estimate(member.detected, {});
-  const Classification motion = classify(member.detected.recording(), member.estimates);
-  member.analysis = conclude(member.detected, member.estimates, motion);
+  const Classification classification = classify(member.detected.recording(), member.estimates);
+  member.analysis = conclude(member.detected, member.estimates, classification);
   return member;
 }
 
@@ -106,15 +106,15 @@ Member analyze_member(const Recording& recording) {
 Analysis analyze(const Recording& recording) {
   const Detected detected = detect(recording);
   Estimates estimates = estimate_frequency(detected);
-  Classification motion = classify_by_shape(detected.recording(), estimates.signals);
-  return conclude(detected, std::move(estimates), std::move(motion));
+  Classification classification = classify_by_shape(detected.recording(), estimates.signals);
+  return conclude(detected, std::move(estimates), std::move(classification));
 }
 
 Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) {
   const Detected detected = detect(recording);
   Estimates estimates = estimate(detected, options);
-  Classification motion = classify(detected.recording(), estimates);
-  return conclude(detected, std::move(estimates), std::move(motion));
+  Classification classification = classify(detected.recording(), estimates);
+  return conclude(detected, std::move(estimates), std::move(classification));
 }
 
 SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options) {
@@ -130,13 +130,13 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
     recordings.push_back({used, signals.quality, signals.segmentation, sweep.roles.back()});
     sweep.recordings.push_back(std::move(member.analysis));
   }
-  sweep.joint = in_range(fit_sweep(recordings, options));
-  sweep.derived = in_range(
-      derive_from_sweep(sweep.joint ? sweep.joint->fit : FitResult{}, observed_end(entries, sweep.recordings)));
-  sweep.joint_reason = describe_roles(sweep.roles);
+  sweep.fit = in_range(fit_sweep(recordings, options));
+  sweep.derived =
+      in_range(derive_from_sweep(sweep.fit ? sweep.fit->result : FitResult{}, observed_end(entries, sweep.recordings)));
+  sweep.fit_reason = describe_roles(sweep.roles);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
-  if (sweep.joint) {
-    const Warnings& of_fit = sweep.joint->fit.warnings;
+  if (sweep.fit) {
+    const Warnings& of_fit = sweep.fit->result.warnings;
     sweep.warnings.insert(sweep.warnings.end(), of_fit.begin(), of_fit.end());
   }
   return sweep;

@@ -5,7 +5,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "fit_options.hpp"
-#include "joint_run.hpp"
+#include "sweep_run.hpp"
 
 namespace {
 
@@ -13,13 +13,13 @@ struct FitArguments {
   AnalysisArguments analysis;
   std::string tier = "auto";
   std::vector<std::string> fixed;
-  std::optional<std::string> joint;
+  std::optional<std::string> sweep;
   std::optional<std::string> group;
   std::vector<std::string> only;
 };
 
-/// The manifest says how the recordings of a joint fit were made: only what is not about a recording goes with it.
-JointArguments joint_arguments(const FitArguments& arguments, const CLI::App& command) {
+/// The manifest says how the recordings of a fit of a sweep were made: only what is not about a recording goes with it.
+SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& command) {
   static const std::set<std::string> kAllowed{"--joint", "--group", "--only",   "--tier", "--fix",
                                               "--json",  "--out",   "--report", "--quiet"};
   for (const CLI::Option* const option : command.get_options()) {
@@ -27,7 +27,7 @@ JointArguments joint_arguments(const FitArguments& arguments, const CLI::App& co
     throw Failure(ExitCode::WrongUsage,
                   option->get_name() + " does not go with --joint: the manifest says how each recording was made");
   }
-  return {*arguments.joint,
+  return {*arguments.sweep,
           arguments.group,
           arguments.only,
           arguments.analysis.document,
@@ -49,13 +49,13 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
   command->add_option("--fix", arguments->fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
       ->allow_extra_args(false);
   command->add_option("--curve", arguments->analysis.curve, "Write time, force, fitted force and residual (CSV)");
-  command->add_option("--joint", arguments->joint, "Manifest (CSV): one set of parameters for its recordings");
+  command->add_option("--joint", arguments->sweep, "Manifest (CSV): one set of parameters for its recordings");
   command->add_option("--group", arguments->group, "With --joint: this group of the manifest");
   command->add_option("--only", arguments->only, "With --joint: these recordings (ID,ID,...)")->delimiter(',');
   command->callback([arguments, command] {
-    const FitKind kind = arguments->joint ? FitKind::Joint : FitKind::Single;
+    const FitKind kind = arguments->sweep ? FitKind::Sweep : FitKind::Single;
     slipfit::FitOptions options = fit_options_from(arguments->tier, arguments->fixed, kind);
-    if (arguments->joint) return run_joint(joint_arguments(*arguments, *command), options);
+    if (arguments->sweep) return run_sweep(sweep_arguments(*arguments, *command), options);
     if (arguments->group || !arguments->only.empty()) {
       throw Failure(ExitCode::WrongUsage, "--group and --only choose recordings of a manifest: give it with --joint");
     }

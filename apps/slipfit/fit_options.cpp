@@ -21,7 +21,7 @@ std::string known_names() {
 std::optional<slipfit::Tier> tier_from(const std::string& text, FitKind kind) {
   if (text == "auto") return std::nullopt;
   if (text == "damped") return slipfit::Tier::Damped;
-  if (kind == FitKind::Joint) {
+  if (kind == FitKind::Sweep) {
     if (text == "velocity") return slipfit::Tier::Velocity;
     throw Failure(ExitCode::WrongUsage,
                   fmt::format("--tier: '{}' is no tier of a joint fit, expected auto, damped or velocity", text));

@@ -52,12 +52,12 @@ std::vector<slipfit::SweepEntry> make_sweep(Factors factors, std::uint64_t seed)
   return entries;
 }
 
-TimedFit run_joint(const Factors& factors, std::uint64_t seed) {
+TimedFit run_sweep(const Factors& factors, std::uint64_t seed) {
   const std::vector<slipfit::SweepEntry> entries = make_sweep(factors, seed);
   const double start_s = cpu_now_s();
   const slipfit::SweepAnalysis sweep = slipfit::analyze_sweep(entries, {});
   const double time_s = cpu_now_s() - start_s;
-  return {sweep.joint ? read_parameters(sweep.joint->fit.parameters) : FitAnswer{}, time_s};
+  return {sweep.fit ? read_parameters(sweep.fit->result.parameters) : FitAnswer{}, time_s};
 }
 
 FitMethod on_one_recording(const Look& look, const std::function<FitAnswer(const Scene&, std::uint64_t)>& fit) {
@@ -112,7 +112,7 @@ std::vector<FitMethod> fit_methods() {
                            whole_trace(0.1)),
           on_one_recording({"cycles as blocks (slipfit fit)", Colour::Black, Shape::Dot, Stroke::Solid},
                            [](const Scene& scene, std::uint64_t) { return fit_blocks(scene); }),
-          {{"three speeds jointly (slipfit fit --joint)", Colour::Blue, Shape::Ring, Stroke::Solid}, run_joint}};
+          {{"three speeds jointly (slipfit fit --joint)", Colour::Blue, Shape::Ring, Stroke::Solid}, run_sweep}};
 }
 
 }  // namespace atlas

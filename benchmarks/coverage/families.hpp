@@ -32,7 +32,7 @@ struct Scene {
 
 const std::vector<std::string>& family_names();
 
-/// Whether the right verdict is "stick_slip"; for "ringdown" and "steady" it is anything else.
+/// Whether the right kind of motion is "stick_slip"; for "ringdown" and "steady" it is anything else.
 bool is_stick_slip(const std::string& family);
 
 /// Recording `index` of a family: every number of it follows from family, index and seed.

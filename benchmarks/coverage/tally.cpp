@@ -16,12 +16,12 @@ namespace {
 
 using slipfit::Analysis;
 using slipfit::Estimate;
+using slipfit::MotionClass;
 using slipfit::ParameterStatus;
-using slipfit::Verdict;
 
-const char* name_of(Verdict verdict) {
+const char* name_of(MotionClass motion) {
   constexpr std::array<const char*, 4> kNames{"stick_slip", "steady_sliding", "oscillatory_slip", "undetermined"};
-  return kNames.at(static_cast<std::size_t>(verdict));
+  return kNames.at(static_cast<std::size_t>(motion));
 }
 
 const char* name_of(ParameterStatus status) {
@@ -46,7 +46,7 @@ std::map<std::string, double> bounds_of(const Scene& scene) {
   const auto recording = slipfit::Recording::create({time_s.begin(), time_s.end()}, scene.nearly_noiseless_N,
                                                     scene.recording.conditions());
   const Analysis analysis = slipfit::analyze_and_fit(recording.value(), {});
-  if (analysis.verdict != Verdict::StickSlip) return bounds;
+  if (analysis.motion != MotionClass::StickSlip) return bounds;
   for (const slipfit::Parameter& parameter : analysis.fit->parameters) {
     if (!parameter.estimate.standard_error) continue;
     bounds[std::string(parameter.name())] =
@@ -95,15 +95,15 @@ struct Tally {
   }
 };
 
-std::string verdict_lines(const std::vector<Row>& rows) {
+std::string motion_lines(const std::vector<Row>& rows) {
   std::map<std::string, std::pair<double, double>> right;  // of all
   for (const Row& row : rows) {
     if (row.parameter != "spacing") continue;
     auto& [good, all] = right[row.family + (row.note.empty() ? "" : " " + row.note)];
     all += 1.0;
-    good += (row.verdict == "stick_slip") == is_stick_slip(row.family) ? 1.0 : 0.0;
+    good += (row.motion == "stick_slip") == is_stick_slip(row.family) ? 1.0 : 0.0;
   }
-  std::string text = "\nverdict right\n";
+  std::string text = "\nkind of motion right\n";
   for (const auto& [name, counts] : right) {
     text += fmt::format("{:20s} {:5.0f} of {:5.0f}\n", name, counts.first, counts.second);
   }
@@ -149,7 +149,7 @@ std::vector<Row> fit_scene(const Scene& scene) {
   empty.note = scene.note;
   empty.seed = scene.seed;
   empty.status = "unidentified";
-  empty.verdict = name_of(analysis.verdict);
+  empty.motion = name_of(analysis.motion);
   std::vector<Row> rows;
   for (const auto& [name, key, truth] : parameters) {
     Row row = empty;
@@ -169,20 +169,20 @@ std::vector<Row> fit_scene(const Scene& scene) {
   std::set<std::string> codes;
   for (const slipfit::Warning& warning : analysis.warnings) codes.insert(warning.code);
   spacing.warnings = fmt::format("{}", fmt::join(codes, " "));
-  if (analysis.verdict == Verdict::StickSlip) spacing.estimate = analysis.derived.pattern_spacing_m;
+  if (analysis.motion == MotionClass::StickSlip) spacing.estimate = analysis.derived.pattern_spacing_m;
   rows.push_back(spacing);
   return rows;
 }
 
 std::string to_csv(const std::vector<Row>& rows) {
   const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.9g}", *value) : ""; };
-  std::string text = "family,note,seed,parameter,truth,value,se,lo,hi,status,verdict,cramer_rao,warnings\n";
+  std::string text = "family,note,seed,parameter,truth,value,se,lo,hi,status,motion,cramer_rao,warnings\n";
   for (const Row& row : rows) {
     const Estimate& e = row.estimate;
     text += fmt::format(
         "{},{},{},{},{:.9g},{},{},{},{},{},{},{},{}\n", row.family, row.note, row.seed, row.parameter, row.truth,
         cell(e.value), cell(e.standard_error), e.ci95 ? fmt::format("{:.9g}", e.ci95->low) : "",
-        e.ci95 ? fmt::format("{:.9g}", e.ci95->high) : "", row.status, row.verdict, cell(row.bound), row.warnings);
+        e.ci95 ? fmt::format("{:.9g}", e.ci95->high) : "", row.status, row.motion, cell(row.bound), row.warnings);
   }
   return text;
 }
@@ -201,7 +201,7 @@ std::string summarise(const std::vector<Row>& rows) {
       "(p: binomial chance of so few inside, ! below 1 %; bias, z sd: of (value - truth) / se; wrong: confidently)\n";
   for (const auto& [key, tally] : kinds) text += tally.line(key.first, key.second);
   for (const auto& [name, tally] : pooled) text += tally.line("pooled", name);
-  return text + verdict_lines(rows) + warning_lines(rows);
+  return text + motion_lines(rows) + warning_lines(rows);
 }
 
 }  // namespace coverage

@@ -16,7 +16,7 @@ struct Row {
   double truth = 0.0;
   slipfit::Estimate estimate;
   std::string status;           ///< of the parameter; "measured" for the spacing
-  std::string verdict;          ///< of the recording
+  std::string motion;           ///< of the recording
   std::string warnings;         ///< codes of the recording's, with blanks between; only in the row of the spacing
   std::optional<double> bound;  ///< Cramer-Rao bound of the standard deviation
 

@@ -65,10 +65,10 @@ void add_predictions(const Sweep& sweep, const std::string& family, std::vector<
     recordings.push_back(
         {recording, qualities[i], slips[i], i < kFitted ? slipfit::SweepRole::Cycles : slipfit::SweepRole::LeftOut});
   }
-  const auto joint = slipfit::fit_sweep(recordings, {});
-  for (std::size_t i = kFitted; joint && i < speeds; ++i) {
+  const auto fit = slipfit::fit_sweep(recordings, {});
+  for (std::size_t i = kFitted; fit && i < speeds; ++i) {
     const auto truth = sweep.truth.spacing_m(sweep.entries[i].recording.conditions().speed_m_per_s);
-    const slipfit::Estimate& spacing = joint->points[i].spacing_m;
+    const slipfit::Estimate& spacing = fit->points[i].spacing_m;
     if (truth && spacing.value) rows.push_back({sweep.seed, family, "spacing_beyond_m", "predicted", *truth, spacing});
   }
 }
@@ -82,9 +82,9 @@ std::vector<Row> study(std::uint64_t seed) {
   const std::string family = sweep.truth.alpha_s_per_m < 0.0 ? "alpha<0" : "alpha>0";
   const slipfit::SweepAnalysis analysis = slipfit::analyze_sweep(sweep.entries, {});
   std::vector<Row> rows;
-  if (!analysis.joint) return rows;
+  if (!analysis.fit) return rows;
   const std::map<std::string, double> truths = truths_of(sweep.truth);
-  for (const slipfit::Parameter& parameter : analysis.joint->fit.parameters) {
+  for (const slipfit::Parameter& parameter : analysis.fit->result.parameters) {
     const auto truth = truths.find(std::string(parameter.name()));
     if (truth == truths.end() || !parameter.estimate.value) continue;
     rows.push_back(
@@ -92,7 +92,7 @@ std::vector<Row> study(std::uint64_t seed) {
   }
   for (std::size_t i = 0; i < sweep.entries.size(); ++i) {
     const auto truth = sweep.truth.spacing_m(sweep.entries[i].recording.conditions().speed_m_per_s);
-    const slipfit::Estimate& spacing = analysis.joint->points[i].spacing_left_out_m;
+    const slipfit::Estimate& spacing = analysis.fit->points[i].spacing_left_out_m;
     if (truth && spacing.value) rows.push_back({seed, family, "spacing_left_out_m", "predicted", *truth, spacing});
   }
   add_predictions(sweep, family, rows);
@@ -156,8 +156,8 @@ double seconds_of_one_fit(const Sweep& sweep) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Five recordings of 20 000 samples and 50 cycles: all that `fit --joint` does (each recording alone, the joint fit
-/// from several starts, the fits without each recording).
+/// Five recordings of 20 000 samples and 50 cycles: all that `fit --joint` does (each recording alone, the fit of the
+/// sweep from several starts, the fits without each recording).
 void time_fit() {
   constexpr std::size_t kRepeats = 5;
   const Sweep sweep = sweep_coverage::make_sweep(4, sweep_coverage::Size{50.0, 25.0, 20000});
@@ -178,8 +178,8 @@ void time_fit() {
   std::sort(whole_s.begin(), whole_s.end());
   fmt::print("samples");
   for (const auto& entry : sweep.entries) fmt::print(" {}", entry.recording.size());
-  fmt::print(": one by one {:.1f} ms, with the joint fit {:.1f} ms (median of {})\n", 1e3 * alone_s[kRepeats / 2],
-             1e3 * whole_s[kRepeats / 2], kRepeats);
+  fmt::print(": one by one {:.1f} ms, with the fit of the sweep {:.1f} ms (median of {})\n",
+             1e3 * alone_s[kRepeats / 2], 1e3 * whole_s[kRepeats / 2], kRepeats);
   std::vector<double> once_s;
   for (std::size_t i = 0; i < kRepeats; ++i) once_s.push_back(seconds_of_one_fit(sweep));
   std::sort(once_s.begin(), once_s.end());
@@ -194,7 +194,7 @@ int main(int argc, char** argv) {
   unsigned jobs = 2;
   std::string out;
   bool timing = false;
-  CLI::App program("Coverage of the intervals of joint fits over simulated speed sweeps");
+  CLI::App program("Coverage of the intervals of fits of sweeps over simulated speed sweeps");
   program.add_option("--count", count, "Sweeps")->capture_default_str();
   program.add_option("--seed", seed, "First seed")->capture_default_str();
   program.add_option("--jobs", jobs, "Threads")->capture_default_str();

@@ -15,7 +15,7 @@
 namespace slipfit {
 
 /// What kind of sliding the recording shows.
-enum class Verdict { StickSlip, SteadySliding, OscillatorySlip, Undetermined };
+enum class MotionClass { StickSlip, SteadySliding, OscillatorySlip, Undetermined };
 
 /// Spectral and counted frequency beside each other, and the one to quote.
 struct FrequencyReport {
@@ -77,16 +77,16 @@ struct Transients {
 struct Analysis {
   Quality quality;   ///< of the whole recording
   TimeSpan sliding;  ///< the stretch that everything else is of: without run-up, stop, release and pauses
-  Verdict verdict = Verdict::Undetermined;
-  std::string verdict_reason;  ///< one plain sentence
-  Warnings warnings;           ///< of the reader, the analysis and the fit
+  MotionClass motion = MotionClass::Undetermined;
+  std::string motion_reason;  ///< one plain sentence
+  Warnings warnings;          ///< of the reader, the analysis and the fit
   FrequencyReport frequency;
   CycleStatistics cycles;
   std::vector<Cycle> cycle_table;
   std::optional<FitResult> fit;  ///< empty: not asked for, or no cycles to fit
   Derived derived;
   Transients transients;
-  std::vector<ShortTest> tests;  ///< only where the verdict is stick-slip with a fit
+  std::vector<ShortTest> tests;  ///< only where the kind of motion is stick-slip with a fit
   Timing timing;
 };
 

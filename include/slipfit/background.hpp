@@ -27,8 +27,8 @@ struct Background {
 /// Beside the analysis, not in it: only reports need it (about a tenth of a fit's time).
 Background gather_background(const Recording& recording, const Analysis& analysis);
 
-/// What the joint fit predicts around the speeds of its recordings, ascending. Empty where it gives no model to predict
-/// from, or where the recordings have different normal forces.
+/// What the fit of the sweep predicts around the speeds of its recordings, ascending. Empty where it gives no model to
+/// predict from, or where the recordings have different normal forces.
 std::optional<Prediction> predict_around(std::span<const SweepEntry> entries, const SweepAnalysis& sweep);
 
 }  // namespace slipfit

@@ -6,7 +6,7 @@
 
 namespace slipfit {
 
-/// Frequency, cycles and verdict; no model fit.
+/// Frequency, cycles and kind of motion; no model fit.
 Analysis analyze(const Recording& recording);
 
 /// `analyze`, then the fit and what follows from it at the recording's own speed.

@@ -18,18 +18,18 @@ struct SweepEntry {
   Recording recording;
 };
 
-/// The recordings that a manifest names, in its order. A joint fit compares forces behind the spring. Errors: those of
-/// read_recording, not_a_force, view_not_spring.
+/// The recordings that a manifest names, in its order. A fit of a sweep compares forces behind the spring. Errors:
+/// those of read_recording, not_a_force, view_not_spring.
 Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manifest);
 
 /// Recordings of one sliding pair at several speeds (or loads), analysed one by one and then together.
 struct SweepAnalysis {
   std::vector<Analysis> recordings;  ///< in the order of the entries; `fit` is each recording's own
   std::vector<SweepRole> roles;      ///< what each was used for
-  std::optional<SweepFit> joint;     ///< empty: fewer than two recordings with stick-slip cycles
-  std::string joint_reason;          ///< what it is made of, or why there is none
+  std::optional<SweepFit> fit;       ///< empty: fewer than two recordings with stick-slip cycles
+  std::string fit_reason;            ///< what it is made of, or why there is none
   Derived derived;                   ///< critical speed; what belongs to one speed is empty
-  Warnings warnings;                 ///< of the sweep as a whole, the joint fit's included
+  Warnings warnings;                 ///< of the sweep as a whole, the fit of the sweep's included
 };
 
 /// Each recording on its own, then one set of parameters for all. Needs at least one entry.

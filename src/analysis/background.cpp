@@ -76,7 +76,7 @@ Background gather_background(const Recording& recording, const Analysis& analysi
 }
 
 std::optional<Prediction> predict_around(std::span<const SweepEntry> entries, const SweepAnalysis& sweep) {
-  if (!sweep.joint || !sweep.joint->fit.estimate) return std::nullopt;
+  if (!sweep.fit || !sweep.fit->result.estimate) return std::nullopt;
   double slowest = std::numeric_limits<double>::infinity();
   double fastest = 0.0;
   const auto load = entries.front().recording.conditions().normal_force_N;
@@ -91,7 +91,7 @@ std::optional<Prediction> predict_around(std::span<const SweepEntry> entries, co
   const double critical = sweep.derived.critical_speed_m_per_s.value.value_or(0.0);
   if (speeds.front() < critical && critical < speeds.back()) speeds.push_back(critical * (1.0 - 1e-9));
   std::sort(speeds.begin(), speeds.end());
-  return predict_at({*sweep.joint->fit.estimate, true, std::nullopt}, speeds);
+  return predict_at({*sweep.fit->result.estimate, true, std::nullopt}, speeds);
 }
 
 }  // namespace slipfit

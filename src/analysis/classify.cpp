@@ -51,25 +51,25 @@ bool is_release(const Recording& recording, const Segmentation& segmentation) {
 std::optional<Classification> by_counts(const Recording& recording, const Segmentation& segmentation,
                                         const SpectralFrequency& spectral) {
   const std::size_t count = segmentation.slips.size();
-  if (count == 0) return Classification{Verdict::SteadySliding, "the force has no falls beyond its noise"};
+  if (count == 0) return Classification{MotionClass::SteadySliding, "the force has no falls beyond its noise"};
   if (is_faint(segmentation) && no_repetition(spectral)) {
-    return Classification{Verdict::SteadySliding, "the force moves no more than its noise, without repetition"};
+    return Classification{MotionClass::SteadySliding, "the force moves no more than its noise, without repetition"};
   }
   if (!slips_are_sudden(segmentation) && is_release(recording, segmentation)) {
-    return Classification{Verdict::SteadySliding, "no falls but those of the release at the end"};
+    return Classification{MotionClass::SteadySliding, "no falls but those of the release at the end"};
   }
   if (count < 4 && ends_flat(recording, segmentation)) {
-    return Classification{Verdict::SteadySliding, fmt::format("{} fall(s) at the start, then no more", count)};
+    return Classification{MotionClass::SteadySliding, fmt::format("{} fall(s) at the start, then no more", count)};
   }
   if (count < thresholds::kFewestSlips) {
-    return Classification{Verdict::Undetermined,
+    return Classification{MotionClass::Undetermined,
                           fmt::format("only {} slip(s): at least 3 are needed; record longer", count)};
   }
   const double cycle_samples = (segmentation.slips.back().middle_s - segmentation.slips.front().middle_s) /
                                static_cast<double>(count - 1) / recording.sample_interval_s();
   if (cycle_samples < thresholds::kFewestCycleSamples) {
     return Classification{
-        Verdict::Undetermined,
+        MotionClass::Undetermined,
         fmt::format("{:.1f} samples a cycle are too few to see slips; sample at least {:.0f} times faster",
                     cycle_samples, std::ceil(20.0 / cycle_samples))};
   }
@@ -87,7 +87,7 @@ std::optional<Classification> as_ripple(const Recording& recording, const Segmen
   const double share = median_drop(segmentation) / std::abs(mean_of(recording.force()));
   if (share > thresholds::kRipple || slips_are_sudden(segmentation)) return std::nullopt;
   return Classification{
-      Verdict::SteadySliding,
+      MotionClass::SteadySliding,
       fmt::format("swings of {:.1f} % of the force, no sudden falls: pick-up or ripple on steady sliding",
                   100.0 * share)};
 }
@@ -97,22 +97,22 @@ Classification without_model(const Recording& recording, const Segmentation& seg
                              const SpectralFrequency& spectral) {
   const double ratio = rise_over_fall(segmentation);
   if (slips_are_sudden(segmentation)) {
-    return {Verdict::StickSlip,
+    return {MotionClass::StickSlip,
             fmt::format("{} sudden falls after rises that take {:.1f} times as long; no slip of the model is close to "
                         "them, so that its parameters stay unknown",
                         segmentation.slips.size(), ratio)};
   }
   if (auto ripple = as_ripple(recording, segmentation)) return *ripple;
   if (spectrum_agrees(segmentation, spectral)) {
-    return {Verdict::OscillatorySlip,
+    return {MotionClass::OscillatorySlip,
             fmt::format("swings without straight sticks: the force rises in {:.1f} times the time that it falls in",
                         ratio)};
   }
   if (!keeps_rhythm(segmentation)) {
-    return {Verdict::SteadySliding,
+    return {MotionClass::SteadySliding,
             "the force wanders: its falls are no more sudden than its rises and keep no rhythm"};
   }
-  return {Verdict::Undetermined,
+  return {MotionClass::Undetermined,
           fmt::format("the swings are no stick-slip cycles: the force rises in {:.1f} times the time that it falls in",
                       ratio)};
 }
@@ -125,26 +125,26 @@ std::optional<Classification> as_round_swings(const Recording& recording, const 
     if (auto ripple = as_ripple(recording, segmentation)) return ripple;
   }
   if (!sine_like && rise_over_fall(segmentation) < thresholds::kSquare) {
-    return Classification{Verdict::Undetermined, "the force rises as suddenly as it falls: no sticks"};
+    return Classification{MotionClass::Undetermined, "the force rises as suddenly as it falls: no sticks"};
   }
   if ((sine_like || e.restick_share < thresholds::kRestickShare) && is_faint(segmentation)) {
-    return Classification{Verdict::Undetermined,
+    return Classification{MotionClass::Undetermined,
                           "the swings are not much larger than the noise: no sticks can be told from it"};
   }
   if (sine_like && (e.restick_share < thresholds::kSineRestickShare || e.relative_residual > thresholds::kSineFit)) {
-    return Classification{Verdict::OscillatorySlip,
+    return Classification{MotionClass::OscillatorySlip,
                           "nearly sinusoidal: no straight sticks can be told from an oscillation"};
   }
   if (e.restick_share < thresholds::kRestickShare) {
-    return Classification{Verdict::OscillatorySlip,
+    return Classification{MotionClass::OscillatorySlip,
                           fmt::format("{:.0f} % of the slips do not come to rest: oscillation without straight sticks",
                                       100.0 * (1.0 - e.restick_share))};
   }
   return std::nullopt;
 }
 
-/// How much better sticks and slips follow the samples than three sines do: the difference of twice the logarithm of the
-/// likelihood, each at its best noise, of the cycles that the fit could use.
+/// How much better sticks and slips follow the samples than three sines do: the difference of twice the logarithm of
+/// the likelihood, each at its best noise, of the cycles that the fit could use.
 std::optional<double> evidence_of_sticks(const Recording& recording, const Signals& signals, const FitResult& fit,
                                          std::size_t used) {
   const double counted_Hz = 1.0 / signal::median(slip_intervals_s(signals.segmentation));
@@ -158,13 +158,14 @@ std::optional<double> evidence_of_sticks(const Recording& recording, const Signa
 /// Three sines follow the swings as well as sticks and slips do: no sticks have to be there.
 Classification as_wave(double evidence) {
   if (evidence < -thresholds::kEvidence) {
-    return {Verdict::OscillatorySlip, "three sines follow the swings better than sticks and slips do: an oscillation"};
+    return {MotionClass::OscillatorySlip,
+            "three sines follow the swings better than sticks and slips do: an oscillation"};
   }
-  return {Verdict::Undetermined,
+  return {MotionClass::Undetermined,
           "three sines follow the swings as well as sticks and slips do: it may be an oscillation"};
 }
 
-Classification motion_of(const Recording& recording, const Estimates& estimates) {
+Classification classify_by_fit(const Recording& recording, const Estimates& estimates) {
   const Segmentation& segmentation = estimates.signals.segmentation;
   const SpectralFrequency& spectral = estimates.signals.spectral;
   if (auto early = by_counts(recording, segmentation, spectral)) return *early;
@@ -174,30 +175,30 @@ Classification motion_of(const Recording& recording, const Estimates& estimates)
   for (const Cycle& cycle : estimates.fit->cycles) used += cycle.used ? 1 : 0;
   const bool sudden = slips_are_sudden(segmentation);
   if (used < 5 && !sudden && (e.onset_force_spread > 0.2 || e.relative_residual > 0.04)) {
-    return {Verdict::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
+    return {MotionClass::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
   }
   // Hum as large as the drop is what the detector sees, and the fit that follows it finds wrong slips good.
   if (is_sine_like(segmentation) && e.hum_share > thresholds::kMuchHum) {
-    return {Verdict::Undetermined, "the swings are as round as the mains hum in them: it hides what else there is"};
+    return {MotionClass::Undetermined, "the swings are as round as the mains hum in them: it hides what else there is"};
   }
   const bool close = e.relative_residual < thresholds::kCloseFit && e.onset_force_spread < thresholds::kWideSpread;
   const bool loose = e.relative_residual < thresholds::kLooseFit && e.onset_force_spread < thresholds::kModestSpread;
   const bool died =
       !sudden && keeps_rhythm(segmentation) && (e.decay > thresholds::kDecay || e.span_share < thresholds::kSpanShare);
   if (died && (close || loose || e.restick_share < thresholds::kRestickShare)) {
-    return {Verdict::OscillatorySlip, "the swings die out: a ring-down to steady sliding", true};
+    return {MotionClass::OscillatorySlip, "the swings die out: a ring-down to steady sliding", true};
   }
   const bool rests = e.restick_share >= thresholds::kRestickShare;
   if ((!close && !loose) || (sudden && !rests)) return without_model(recording, segmentation, spectral);
   if (is_sine_like(segmentation) && std::abs(mains_share(segmentation) - 1.0) < thresholds::kMainsRhythm) {
-    return {Verdict::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
+    return {MotionClass::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
   }
   if (auto round = as_round_swings(recording, segmentation, e)) return *round;
   const std::optional<double> evidence =
       sudden ? std::nullopt : evidence_of_sticks(recording, estimates.signals, *estimates.fit, used);
   if (evidence && *evidence < thresholds::kEvidence) return as_wave(*evidence);
   if (!close && !sudden) return without_model(recording, segmentation, spectral);
-  return {Verdict::StickSlip,
+  return {MotionClass::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
                       100.0 * e.relative_residual),
           false, true, evidence && *evidence < thresholds::kPlainEvidence};
@@ -206,13 +207,13 @@ Classification motion_of(const Recording& recording, const Estimates& estimates)
 }  // namespace
 
 Classification classify(const Recording& recording, const Estimates& estimates) {
-  Classification motion = motion_of(recording, estimates);
+  Classification classification = classify_by_fit(recording, estimates);
   const bool keeps_time = keeps_time_like_a_clock(recording, estimates.signals.spectral);
-  if (motion.verdict == Verdict::OscillatorySlip && !motion.dies_out && keeps_time) {
-    return {Verdict::Undetermined,
+  if (classification.motion == MotionClass::OscillatorySlip && !classification.dies_out && keeps_time) {
+    return {MotionClass::Undetermined,
             "swings without sticks that keep time like a clock: pick-up, ripple of the drive or an oscillation"};
   }
-  return motion;
+  return classification;
 }
 
 Classification classify_by_shape(const Recording& recording, const Signals& signals) {
@@ -220,15 +221,15 @@ Classification classify_by_shape(const Recording& recording, const Signals& sign
   const SpectralFrequency& spectral = signals.spectral;
   if (auto early = by_counts(recording, segmentation, spectral)) return *early;
   if (slips_are_sudden(segmentation)) {
-    return {Verdict::StickSlip, "the force falls much faster than it rises (no model fitted)"};
+    return {MotionClass::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   }
   if (is_faint(segmentation)) {
-    return {Verdict::Undetermined, "the falls are not much larger than the noise: only a fit can tell"};
+    return {MotionClass::Undetermined, "the falls are not much larger than the noise: only a fit can tell"};
   }
   if (!is_sine_like(segmentation) && rise_over_fall(segmentation) > thresholds::kSquare) {
-    return {Verdict::StickSlip, "the force falls much faster than it rises (no model fitted)"};
+    return {MotionClass::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   }
-  return {Verdict::Undetermined, "the force falls about as slowly as it rises: only a fit can tell"};
+  return {MotionClass::Undetermined, "the force falls about as slowly as it rises: only a fit can tell"};
 }
 
 }  // namespace slipfit

@@ -8,7 +8,7 @@
 namespace slipfit {
 
 struct Classification {
-  Verdict verdict = Verdict::Undetermined;
+  MotionClass motion = MotionClass::Undetermined;
   std::string reason;
   bool dies_out = false;    ///< an oscillation that shrinks to steady sliding
   bool model_fits = false;  ///< the fitted cycles are the model's: its parameters mean something

@@ -31,8 +31,8 @@ void take(Detected& detected, Part part, std::size_t begin) {
   detected.signals.segmentation = std::move(part.slips);
 }
 
-/// Takes the stretch that slides: that of the slips where they are sudden, else the plateau of a steady run. A ring-down
-/// is told by what comes after it, waves and noise by the whole.
+/// Takes the stretch that slides: that of the slips where they are sudden, else the plateau of a steady run. A
+/// ring-down is told by what comes after it, waves and noise by the whole.
 void narrow(Detected& detected) {
   const Recording& recording = detected.recording();
   const Segmentation& slips = detected.signals.segmentation;

@@ -20,8 +20,8 @@ struct Sum {
   double freedom = 0.0;
 };
 
-/// Samples [begin, end) with harmonics of about this period, which is a parameter as well: a step of it turns harmonic h
-/// in proportion to h and to the time.
+/// Samples [begin, end) with harmonics of about this period, which is a parameter as well: a step of it turns harmonic
+/// h in proportion to h and to the time.
 Sum residual_of(const Recording& recording, std::size_t begin, std::size_t end, double period_s) {
   constexpr int kSteps = 3;
   const auto count = static_cast<Eigen::Index>(end - begin);

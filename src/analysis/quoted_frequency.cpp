@@ -112,7 +112,7 @@ Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
 }
 
 /// Slips or swings without a fit: the spectrum where they are regular and it shows their frequency, else the count.
-FrequencyReport of_trace(const Recording& recording, const Signals& signals, const Classification& motion) {
+FrequencyReport of_trace(const Recording& recording, const Signals& signals, const Classification& classification) {
   const SpectralFrequency& spectral = signals.spectral;
   FrequencyReport report;
   report.method = "none";
@@ -129,8 +129,9 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
   const bool far = !difference || *difference > thresholds::kContradiction;
   const bool contradict =
       far && (noise_hides_slips(signals) || (near && may_be_hum(signals)) || (!difference && hum_makes_falls(signals)));
-  const bool hidden = motion.verdict == Verdict::OscillatorySlip && !agree;  // the count may be of noise or of hum
-  if (motion.dies_out && !agree) {
+  const bool hidden =
+      classification.motion == MotionClass::OscillatorySlip && !agree;  // the count may be of noise or of hum
+  if (classification.dies_out && !agree) {
     report.quoted.note = "the swings die out, and spectrum and count do not agree on them";
   } else if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || hidden)) {
     report.method = "harmonic_least_squares";
@@ -148,22 +149,22 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
 
 }  // namespace
 
-FrequencyReport quote_frequency(const Recording& recording, const Signals& signals, const Classification& motion,
-                                const FitResult* fit) {
-  const Verdict verdict = motion.verdict;
-  const bool slides = verdict == Verdict::StickSlip || verdict == Verdict::OscillatorySlip;
+FrequencyReport quote_frequency(const Recording& recording, const Signals& signals,
+                                const Classification& classification, const FitResult* fit) {
+  const MotionClass motion = classification.motion;
+  const bool slides = motion == MotionClass::StickSlip || motion == MotionClass::OscillatorySlip;
   FrequencyReport report;
   report.method = "none";
-  report.quoted.note = verdict == Verdict::SteadySliding ? "steady sliding has no slips"
-                                                         : "no slips can be told: nothing that repeats is quoted";
+  report.quoted.note = motion == MotionClass::SteadySliding ? "steady sliding has no slips"
+                                                            : "no slips can be told: nothing that repeats is quoted";
   if (slides) {
     const Intervals intervals = intervals_of(recording, signals.segmentation);
     // Slips that scatter are counted: what the fit's cycles cause is another mean than that of those that came.
     const MeanAndSpread interval = describe(intervals.seconds);
     const bool scatters = interval.count > 7.0 && interval.sd > thresholds::kCounted * interval.mean;
-    const bool usable = fit != nullptr && verdict == Verdict::StickSlip && intervals.broken == 0 && !scatters;
+    const bool usable = fit != nullptr && motion == MotionClass::StickSlip && intervals.broken == 0 && !scatters;
     const std::optional<FrequencyReport> fitted = usable ? of_fit(recording, signals, *fit) : std::nullopt;
-    report = fitted ? *fitted : of_trace(recording, signals, motion);
+    report = fitted ? *fitted : of_trace(recording, signals, classification);
   }
   report.spectral = signals.spectral;
   report.counted = count_frequency(recording, signals.segmentation);

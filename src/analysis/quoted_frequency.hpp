@@ -11,7 +11,7 @@ namespace slipfit {
 /// sharper; without such a fit the count, or harmonic least squares where they agree on regular slips. Steady sliding
 /// and what cannot be told quote none, nor does what dies out where spectrum and count differ. `fit`: empty unless its
 /// cycles are the model's.
-FrequencyReport quote_frequency(const Recording& recording, const Signals& signals, const Classification& motion,
-                                const FitResult* fit);
+FrequencyReport quote_frequency(const Recording& recording, const Signals& signals,
+                                const Classification& classification, const FitResult* fit);
 
 }  // namespace slipfit

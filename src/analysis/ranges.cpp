@@ -135,7 +135,7 @@ Transients in_range(Transients transients) {
 
 std::optional<SweepFit> in_range(std::optional<SweepFit> sweep) {
   if (!sweep) return sweep;
-  sweep->fit = in_range(std::move(sweep->fit), {});
+  sweep->result = in_range(std::move(sweep->result), {});
   for (SweepPoint& point : sweep->points) point = in_range(std::move(point));
   return sweep;
 }

@@ -177,7 +177,7 @@ ShortTest finite(ShortTest test) {
 
 std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysis& analysis) {
   std::vector<ShortTest> tests;
-  if (!analysis.fit || analysis.verdict != Verdict::StickSlip) return tests;
+  if (!analysis.fit || analysis.motion != MotionClass::StickSlip) return tests;
   const FitResult& fit = *analysis.fit;
   const Conditions& conditions = recording.conditions();
   const std::vector<Pair> pairs = pairs_of(fit.cycles);

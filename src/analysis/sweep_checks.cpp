@@ -47,8 +47,8 @@ bool has_values(const Analysis& analysis) {
 SweepRole role_of(const Recording& recording, const Analysis& analysis) {
   // At the contact the sensor sees F_k(v) itself in a slip, and jumps: no force to fit together with the others.
   if (recording.conditions().force_view == ForceView::Contact) return SweepRole::LeftOut;
-  if (analysis.verdict == Verdict::StickSlip) return has_values(analysis) ? SweepRole::Cycles : SweepRole::LeftOut;
-  return analysis.verdict == Verdict::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
+  if (analysis.motion == MotionClass::StickSlip) return has_values(analysis) ? SweepRole::Cycles : SweepRole::LeftOut;
+  return analysis.motion == MotionClass::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
 }
 
 std::string describe_roles(const std::vector<SweepRole>& roles) {
@@ -61,12 +61,12 @@ ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<
   ObservedEnd end;
   const auto speed = [&](std::size_t i) { return entries[i].recording.conditions().speed_m_per_s; };
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (analyses[i].verdict != Verdict::StickSlip) continue;
+    if (analyses[i].motion != MotionClass::StickSlip) continue;
     end.sticks_m_per_s = std::max(speed(i), end.sticks_m_per_s.value_or(0.0));
   }
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Verdict verdict = analyses[i].verdict;
-    const bool slides = verdict == Verdict::SteadySliding || verdict == Verdict::OscillatorySlip;
+    const MotionClass motion = analyses[i].motion;
+    const bool slides = motion == MotionClass::SteadySliding || motion == MotionClass::OscillatorySlip;
     if (!slides || !(speed(i) > end.sticks_m_per_s.value_or(0.0))) continue;
     end.slides_m_per_s = std::min(speed(i), end.slides_m_per_s.value_or(speed(i)));
   }

@@ -4,7 +4,8 @@
 
 namespace slipfit {
 
-/// What a recording is used for in a joint fit. Slips that no model comes close to are none of a joint fit's either.
+/// What a recording is used for in a fit of a sweep. Slips that no model comes close to are none of a fit of a sweep's
+/// either.
 SweepRole role_of(const Recording& recording, const Analysis& analysis);
 
 /// "4 with stick-slip cycles, 1 sliding steadily, 1 left out".

@@ -64,11 +64,11 @@ std::optional<RunUp> first_large_rise(const Trace& trace, double drop) {
 
 /// Of a recording that begins at rest: before the first slip; where it is no stick-slip the force stays up behind the
 /// first peak.
-std::optional<RunUp> run_up(const Detected& detected, const Trace& trace, Verdict verdict) {
+std::optional<RunUp> run_up(const Detected& detected, const Trace& trace, MotionClass motion) {
   const std::vector<DetectedSlip>& slips = detected.signals.segmentation.slips;
   const std::optional<RunUp> ramp = first_large_rise(trace, median_drop(detected.signals.segmentation));
   if (!ramp) return std::nullopt;
-  if (verdict == Verdict::StickSlip) {
+  if (motion == MotionClass::StickSlip) {
     const std::size_t first = detected.sample_of(slips.front().trough);
     return ramp->peak + trace.half < first ? ramp : std::nullopt;
   }
@@ -113,10 +113,10 @@ Estimate loading_stiffness(const Recording& recording, const Trace& trace, const
 }
 
 /// After the release where there is one, after the first peak of a motion that died out otherwise.
-std::optional<RingDown> ring_down_of(const Detected& detected, Verdict verdict, const std::optional<RunUp>& ramp) {
+std::optional<RingDown> ring_down_of(const Detected& detected, MotionClass motion, const std::optional<RunUp>& ramp) {
   const Recording& recording = *detected.whole;
   const Segmentation& slips = detected.signals.segmentation;
-  const bool slides = verdict == Verdict::StickSlip;
+  const bool slides = motion == MotionClass::StickSlip;
   if (!slides && !ramp) return std::nullopt;
   const double noise = detected.whole_quality.noise_rms;
   const double fall = std::max(slides ? median_drop(slips) : 0.3 * ramp->rise, thresholds::kNoiseDrop * noise);
@@ -126,9 +126,9 @@ std::optional<RingDown> ring_down_of(const Detected& detected, Verdict verdict, 
 
 }  // namespace
 
-Transients find_transients(const Detected& detected, Verdict verdict) {
+Transients find_transients(const Detected& detected, MotionClass motion) {
   const Trace trace = smoothed(detected);
-  const std::optional<RunUp> ramp = run_up(detected, trace, verdict);
+  const std::optional<RunUp> ramp = run_up(detected, trace, motion);
   constexpr double kManyFreedoms = 100.0;
   Transients transients;
   transients.loading_stiffness_N_per_m = transients.breakaway_force = unknown("the recording holds no loading ramp");
@@ -137,7 +137,7 @@ Transients find_transients(const Detected& detected, Verdict verdict) {
     transients.loading_stiffness_N_per_m = loading_stiffness(*detected.whole, trace, *ramp);
     transients.breakaway_force = fit::symmetric(peak_force(*detected.whole, trace, *ramp), trace.noise, kManyFreedoms);
   }
-  if (const auto ring = ring_down_of(detected, verdict, ramp)) {
+  if (const auto ring = ring_down_of(detected, motion, ramp)) {
     transients.ring_down_frequency_Hz = ring->frequency_Hz;
     transients.ring_down_damping_ratio = ring->damping_ratio;
   }

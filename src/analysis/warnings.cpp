@@ -79,7 +79,7 @@ Warnings collect_warnings(const Detected& detected, const Segmentation& slips, c
   append(warn_of_clock(recording.conditions(), analysis.cycles));
   append(warn_of(analysis.tests));
   if (analysis.fit) append(analysis.fit->warnings);
-  if (analysis.verdict == Verdict::StickSlip) append(warn_of_changes(recording, slips));
+  if (analysis.motion == MotionClass::StickSlip) append(warn_of_changes(recording, slips));
   return warnings;
 }
 

@@ -37,16 +37,16 @@ inline constexpr double kSineRestickShare = 0.95;
 /// cycles just above the limit of stick-slip]
 inline constexpr double kSineFit = 0.05;
 
-/// Twice the logarithm of the likelihood of sticks and slips over that of three harmonics, the null model without sticks,
-/// below which the two cannot be told apart. [1; convention: odds of ten to one]
+/// Twice the logarithm of the likelihood of sticks and slips over that of three harmonics, the null model without
+/// sticks, below which the two cannot be told apart. [1; convention: odds of ten to one]
 inline constexpr double kEvidence = 4.6;
 
 /// The same below which the parameters that hang on this difference are no more than weak. [1; calibrated: sines with
 /// noise stay below, of cycles just above the limit of stick-slip three in four lie above]
 inline constexpr double kPlainEvidence = 60.0;
 
-/// Scatter of the periods, over the period, below which what repeats keeps time like a clock. [1; convention: pick-up and
-/// drives scatter by less, friction by more]
+/// Scatter of the periods, over the period, below which what repeats keeps time like a clock. [1; convention: pick-up
+/// and drives scatter by less, friction by more]
 inline constexpr double kClockScatter = 0.01;
 
 /// Onset force of the first half of the cycles over that of the second, above which swings die out. [1; convention]
@@ -166,8 +166,8 @@ inline constexpr double kPatience = 2.5;
 /// Step of the peaks over a large drop (90 % are smaller), beyond which the level is another. [1; convention]
 inline constexpr double kOtherLevel = 1.5;
 
-/// Step from rest to sliding over how much the force moves while the body slides, above which a run without slips is cut
-/// out. [1; convention]
+/// Step from rest to sliding over how much the force moves while the body slides, above which a run without slips is
+/// cut out. [1; convention]
 inline constexpr double kPlateauStep = 3.0;
 
 /// Force at rest over that of sliding, above which the lower of two levels is sliding as well. [1; convention]

@@ -132,20 +132,20 @@ class Assembler {
     const SweepSolution& solution = outcome_.solution;
     sweep.level_shared = solution.sweep.sharing.level;
     sweep.difference_shared = solution.sweep.sharing.difference;
-    sweep.fit.tier = choice.velocity ? Tier::Velocity : Tier::Damped;
-    sweep.fit.conditional_on.emplace_back(choice.velocity ? "F_k(v) = f0 + f1 exp(alpha v)" : "Coulomb friction");
+    sweep.result.tier = choice.velocity ? Tier::Velocity : Tier::Damped;
+    sweep.result.conditional_on.emplace_back(choice.velocity ? "F_k(v) = f0 + f1 exp(alpha v)" : "Coulomb friction");
     if (std::any_of(recordings_.begin(), recordings_.end(), [](const SweepRecording& sweep_recording) {
           return !sweep_recording.recording.conditions().speed_standard_error_m_per_s;
         })) {
-      sweep.fit.conditional_on.emplace_back(fit::kStatedSpeed);
+      sweep.result.conditional_on.emplace_back(fit::kStatedSpeed);
     }
-    sweep.fit.residual.rms = residual_rms(solution);
+    sweep.result.residual.rms = residual_rms(solution);
     if (std::any_of(data_.loads.begin(), data_.loads.end(), [](double load) { return load != 1.0; })) {
-      sweep.fit.conditional_on.push_back(fmt::format("normal force {:g} N", *reference_normal_force_N()));
+      sweep.result.conditional_on.push_back(fmt::format("normal force {:g} N", *reference_normal_force_N()));
     }
-    sweep.fit.residual.reduced_chi2 = solution.chi2 / solution.degrees_of_freedom;
+    sweep.result.residual.reduced_chi2 = solution.chi2 / solution.degrees_of_freedom;
     add_warnings(sweep);
-    fit::report_parameters(findings(choice), sweep.fit);
+    fit::report_parameters(findings(choice), sweep.result);
     for (std::size_t i = 0; i < recordings_.size(); ++i) sweep.points.push_back(point_of(i));
     return sweep;
   }
@@ -200,24 +200,27 @@ class Assembler {
 
   void add_warnings(SweepFit& sweep) const {
     if (outcome_.disagree) {
-      sweep.fit.warnings.push_back(
+      sweep.result.warnings.push_back(
           {"recordings_disagree",
            "the recordings of the sweep do not agree on one set of parameters: intervals are widened to hold what "
            "leaving out each recording changes"});
     }
     if (outcome_.static_friction == StaticFriction::Ages) {
-      sweep.fit.warnings.push_back({"static_friction_ages",
-                                    "static friction is larger after longer sticks: predictions take it to grow with "
-                                    "the logarithm of the stick time (ageing_N)"});
+      sweep.result.warnings.push_back(
+          {"static_friction_ages",
+           "static friction is larger after longer sticks: predictions take it to grow with "
+           "the logarithm of the stick time (ageing_N)"});
     } else if (!sweep.difference_shared) {
-      sweep.fit.warnings.push_back({"static_friction_differs",
-                                    "static friction differs between the recordings (ageing, or another state of the "
-                                    "surface): F_s - F_k is their mean"});
+      sweep.result.warnings.push_back(
+          {"static_friction_differs",
+           "static friction differs between the recordings (ageing, or another state of the "
+           "surface): F_s - F_k is their mean"});
     }
     if (!sweep.level_shared) {
-      sweep.fit.warnings.push_back({"level_differs",
-                                    "the force level differs between the recordings by more than friction that depends "
-                                    "on the speed would make it: a sensor's zero, or another state of the surface"});
+      sweep.result.warnings.push_back(
+          {"level_differs",
+           "the force level differs between the recordings by more than friction that depends "
+           "on the speed would make it: a sensor's zero, or another state of the surface"});
     }
   }
 
@@ -277,7 +280,7 @@ std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, co
   }
   if (!outcome) outcome.emplace(fit::outcome_of(data, *fits->coulomb));
   SweepFit sweep = Assembler(recordings, data, *outcome).assemble(choice);
-  sweep.fit.candidates = candidates_of(*fits, choice);
+  sweep.result.candidates = candidates_of(*fits, choice);
   return sweep;
 }
 

@@ -19,8 +19,8 @@ Json timing_json(const Timing& timing) {
 /// What one recording shows, alone or in a sweep.
 void add_analysis(Json& json, const Recording& recording, const Analysis& analysis, std::optional<SweepRole> role) {
   json["recording"] = recording_json(recording, analysis);
-  json["status"] = name_of(analysis.verdict);
-  json["status_reason"] = analysis.verdict_reason;
+  json["status"] = name_of(analysis.motion);
+  json["status_reason"] = analysis.motion_reason;
   if (role) json["role"] = name_of(*role);
   json["warnings"] = warnings_json(analysis.warnings);
   json["frequency"] = frequency_json(analysis.frequency);
@@ -53,7 +53,7 @@ std::string to_json(const Recording& recording, const Analysis& analysis, const 
 
 namespace {
 
-/// One recording of the sweep: what it shows on its own, and what the joint fit says of it.
+/// One recording of the sweep: what it shows on its own, and what the fit of the sweep says of it.
 Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole role, const SweepPoint* point) {
   Json json{{"id", entry.id}};
   add_analysis(json, entry.recording, analysis, role);
@@ -76,17 +76,17 @@ std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   Json members = Json::array();
   for (std::size_t i = 0; i < entries.size(); ++i) {
     members.push_back(
-        member_json(entries[i], sweep.recordings[i], sweep.roles[i], sweep.joint ? &sweep.joint->points[i] : nullptr));
+        member_json(entries[i], sweep.recordings[i], sweep.roles[i], sweep.fit ? &sweep.fit->points[i] : nullptr));
   }
   json["recordings"] = std::move(members);
-  json["status"] = name_of(sweep.joint ? Verdict::StickSlip : Verdict::Undetermined);
-  json["status_reason"] = sweep.joint_reason;
+  json["status"] = name_of(sweep.fit ? MotionClass::StickSlip : MotionClass::Undetermined);
+  json["status_reason"] = sweep.fit_reason;
   json["warnings"] = warnings_json(sweep.warnings);
-  if (sweep.joint) {
-    add_fit(json, sweep.joint->fit, ForceQuantity::Force_N);
-    json["model"]["level_shared"] = sweep.joint->level_shared;
-    json["model"]["static_friction_shared"] = sweep.joint->difference_shared;
-    if (const auto& model = sweep.joint->fit.estimate; model && model->ageing) {
+  if (sweep.fit) {
+    add_fit(json, sweep.fit->result, ForceQuantity::Force_N);
+    json["model"]["level_shared"] = sweep.fit->level_shared;
+    json["model"]["static_friction_shared"] = sweep.fit->difference_shared;
+    if (const auto& model = sweep.fit->result.estimate; model && model->ageing) {
       json["model"]["ageing_reference_s"] = number(model->ageing->reference_stick_s);
     }
   }

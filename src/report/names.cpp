@@ -28,8 +28,8 @@ std::string_view name_of(ForceQuantity quantity) {
   return name_in({"force", "friction_coefficient"}, quantity);
 }
 
-std::string_view name_of(Verdict verdict) {
-  return name_in({"stick_slip", "steady_sliding", "oscillatory_slip", "undetermined"}, verdict);
+std::string_view name_of(MotionClass motion) {
+  return name_in({"stick_slip", "steady_sliding", "oscillatory_slip", "undetermined"}, motion);
 }
 
 std::string_view name_of(ParameterStatus status) {

@@ -12,15 +12,15 @@
 namespace slipfit {
 namespace {
 
-std::string plain_verdict(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::StickSlip:
+std::string plain_motion(MotionClass motion) {
+  switch (motion) {
+    case MotionClass::StickSlip:
       return "stick-slip";
-    case Verdict::SteadySliding:
+    case MotionClass::SteadySliding:
       return "steady sliding, no stick-slip";
-    case Verdict::OscillatorySlip:
+    case MotionClass::OscillatorySlip:
       return "oscillatory slip (the body hardly sticks)";
-    case Verdict::Undetermined:
+    case MotionClass::Undetermined:
       return "cannot tell whether this is stick-slip";
   }
   return "cannot tell whether this is stick-slip";
@@ -42,14 +42,13 @@ std::string tests_text(const std::vector<ShortTest>& tests) {
 
 std::string judgement_text(const Recording& recording, const Analysis& analysis) {
   const std::string& file = recording.provenance().file;
-  std::string text =
-      fmt::format("{}: {}", file.empty() ? "recording" : one_line(file), plain_verdict(analysis.verdict));
+  std::string text = fmt::format("{}: {}", file.empty() ? "recording" : one_line(file), plain_motion(analysis.motion));
   if (analysis.frequency.quoted.value) {
     text += fmt::format(", {} Hz", with_error(analysis.frequency.quoted));
     if (analysis.cycles.count > 0) text += fmt::format(", {} slips", analysis.cycles.count);
   }
   text += "\n";
-  if (!analysis.verdict_reason.empty()) text += fmt::format("  {}\n", one_line(analysis.verdict_reason));
+  if (!analysis.motion_reason.empty()) text += fmt::format("  {}\n", one_line(analysis.motion_reason));
   return text;
 }
 
@@ -71,7 +70,8 @@ std::string to_text(const Recording& recording, const Analysis& analysis) {
   text += cycles_text(analysis.cycles, recording.conditions().quantity);
   text += transients_text(analysis.transients, recording.conditions().quantity);
   text += spacing_text(recording, analysis.derived);
-  const bool moves_like_model = analysis.verdict == Verdict::StickSlip || analysis.verdict == Verdict::OscillatorySlip;
+  const bool moves_like_model =
+      analysis.motion == MotionClass::StickSlip || analysis.motion == MotionClass::OscillatorySlip;
   if (moves_like_model) text += predicted_text(recording, analysis.derived);
   text += tests_text(analysis.tests);
   text += recording_text(recording, analysis);

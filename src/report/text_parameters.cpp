@@ -123,10 +123,10 @@ std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const 
 
 std::string parameters_text(const Recording& recording, const Analysis& analysis) {
   if (!analysis.fit) return {};
-  if (analysis.verdict == Verdict::SteadySliding) {
+  if (analysis.motion == MotionClass::SteadySliding) {
     return "\nParameters\n  none: the model describes stick-slip, and this recording shows none\n";
   }
-  const bool is_doubtful = analysis.verdict == Verdict::Undetermined;
+  const bool is_doubtful = analysis.motion == MotionClass::Undetermined;
   return parameters_text(*analysis.fit, recording.conditions().quantity,
                          is_doubtful ? " (not to rely on: this may be no stick-slip)" : "");
 }
@@ -138,10 +138,10 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
   table.add(
       {"recording", "speed", "shows", "kinetic friction", "spacing measured (V/f)", "predicted without it", "off by"});
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const SweepPoint* point = sweep.joint ? &sweep.joint->points[i] : nullptr;
+    const SweepPoint* point = sweep.fit ? &sweep.fit->points[i] : nullptr;
     const Estimate& measured = sweep.recordings[i].derived.pattern_spacing_m;
     table.add({one_line(entries[i].id), speed_text(entries[i].recording.conditions()),
-               fmt::format("{}{}", plain_words(name_of(sweep.recordings[i].verdict)),
+               fmt::format("{}{}", plain_words(name_of(sweep.recordings[i].motion)),
                            sweep.roles[i] == SweepRole::LeftOut ? " (left out)" : ""),
                point != nullptr ? estimate_text(point->kinetic_friction_N, "N") : "-", estimate_text(measured, "m"),
                point != nullptr ? estimate_text(point->spacing_left_out_m, "m") : "-",
@@ -154,11 +154,11 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
 
 std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name) {
   std::string text = fmt::format("{}: {} recordings fitted together\n", one_line(name), entries.size());
-  if (!sweep.joint)
-    text = fmt::format("{}: {} recordings, no joint fit: {}\n", one_line(name), entries.size(), sweep.joint_reason);
-  if (sweep.joint) text += parameters_text(sweep.joint->fit, ForceQuantity::Force_N, "");
+  if (!sweep.fit)
+    text = fmt::format("{}: {} recordings, no joint fit: {}\n", one_line(name), entries.size(), sweep.fit_reason);
+  if (sweep.fit) text += parameters_text(sweep.fit->result, ForceQuantity::Force_N, "");
   text += recordings_text(entries, sweep);
-  if (sweep.joint || sweep.derived.observed_end) {
+  if (sweep.fit || sweep.derived.observed_end) {
     text += "\nEnd of stick-slip\n" + critical_speed_text(sweep.derived.critical_speed_m_per_s,
                                                           sweep.derived.lambda_critical,
                                                           entries.front().recording.conditions().speed_unit);

@@ -20,7 +20,8 @@ struct Stretch {
 Stretch sliding_stretch(const std::vector<double>& force, const std::vector<Fall>& falls);
 
 /// The longest stretch at the level of sliding, where the force has two levels, one near zero, far apart compared with
-/// how it moves at the upper one: a run without slips between rest, loading and release. The whole trace where it has not.
+/// how it moves at the upper one: a run without slips between rest, loading and release. The whole trace where it has
+/// not.
 Stretch plateau(std::span<const double> force);
 
 }  // namespace slipfit::signal

@@ -75,7 +75,7 @@ bool warns(const Analysis& analysis, const std::string& code) {
 TEST_CASE("loading ramp, breakaway and ring-down are measured outside the sliding", "[transients]") {
   const Run run;
   const Analysis analysis = analyze(run_with_release(run));
-  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  REQUIRE(analysis.motion == MotionClass::StickSlip);
   CHECK(*analysis.cycles.stick_stiffness.value == Approx(run.stiffness_N_per_m).epsilon(0.01));
   const Transients& found = analysis.transients;
   REQUIRE(found.loading_stiffness_N_per_m.value);
@@ -93,7 +93,7 @@ TEST_CASE("loading ramp, breakaway and ring-down are measured outside the slidin
 TEST_CASE("a recording that holds neither run-up nor release tells nothing of them", "[transients]") {
   const Recording whole = run_with_release({});
   const Analysis analysis = analyze(whole.part(6000, 22000));
-  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  REQUIRE(analysis.motion == MotionClass::StickSlip);
   CHECK_FALSE(analysis.transients.loading_stiffness_N_per_m.value);
   CHECK_FALSE(analysis.transients.ring_down_frequency_Hz.value);
   CHECK_FALSE(analysis.transients.loading_stiffness_N_per_m.note.empty());
@@ -119,7 +119,7 @@ TEST_CASE("slips far slower than the ring-down of the rig do not identify the na
   run.ring_Hz = 400.0;
   run.slip_s = 0.02;  // 25 Hz
   const Analysis analysis = analyze_and_fit(run_with_release(run), {});
-  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  REQUIRE(analysis.motion == MotionClass::StickSlip);
   REQUIRE(analysis.fit);
   CHECK(warns(analysis, "slips_not_inertial"));
   for (const ParameterId id : {ParameterId::NaturalFrequency, ParameterId::Mass}) {
@@ -173,8 +173,8 @@ TEST_CASE("a sum of sines with noise is no stick-slip", "[classify]") {
     Conditions conditions;
     conditions.speed_m_per_s = 0.001;
     const Analysis analysis = analyze_and_fit(Recording::create(time_s, force, conditions).value(), {});
-    INFO("second harmonic " << second << ": " << analysis.verdict_reason);
-    CHECK(analysis.verdict != Verdict::StickSlip);
+    INFO("second harmonic " << second << ": " << analysis.motion_reason);
+    CHECK(analysis.motion != MotionClass::StickSlip);
     if (!analysis.fit) continue;
     for (const Parameter& parameter : analysis.fit->parameters) CHECK(parameter.status != ParameterStatus::Identified);
   }

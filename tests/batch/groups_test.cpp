@@ -20,7 +20,7 @@ using test::lines_of;
 
 namespace {
 
-/// Stands in for a joint fit: a document that lists the members.
+/// Stands in for a fit of a sweep: a document that lists the members.
 Result<BatchFit> list_members(const std::string& id, const std::vector<ManifestEntry>& members) {
   nlohmann::ordered_json document{
       {"schema", "slipfit.fit/1"}, {"id", id}, {"status", "stick_slip"}, {"members", nlohmann::json::array()}};

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fit_example.hpp"
-#include "joint_example.hpp"
 #include "refusal.hpp"
+#include "sweep_example.hpp"
 
 using nlohmann::json;
 using test::check_refused;
@@ -50,7 +50,7 @@ TEST_CASE("plan starts from the worst known parameter and names what limits each
 }
 
 TEST_CASE("plan reads joint fits, and narrows a predicted spacing") {
-  const test::JointExample example;
+  const test::SweepExample example;
   static_cast<void>(example.fit({"--group", "pad"}));
   const json plan = planned({example.out, "--for", "periodic_displacement_m", "--at", "100mm/s"});
   CHECK(plan["target"]["name"] == "periodic_displacement_m");

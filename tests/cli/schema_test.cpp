@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "joint_example.hpp"
 #include "recordings.hpp"
 #include "run_program.hpp"
+#include "sweep_example.hpp"
 
 using test::slipfit;
 
@@ -70,12 +70,12 @@ TEST_CASE("every kind of document obeys docs/fit.schema.json, with no key that t
   add({"fit", steady});
   add({"fit", coefficient});
   add({"fit", coefficient, "--normal-force", "10"});
-  const test::JointExample joint;
+  const test::SweepExample sweep;
   for (const char* const tier : {"auto", "velocity"}) {
-    const std::string document = joint.fit({"--group", "pad", "--tier", tier}).dump();
+    const std::string document = sweep.fit({"--group", "pad", "--tier", tier}).dump();
     documents.push_back(folder.file(std::string(tier) + "-joint.json", document));
   }
-  documents.push_back(folder.file("no-joint.json", joint.fit({"--only", "slow"}).dump()));
+  documents.push_back(folder.file("no-joint.json", sweep.fit({"--only", "slow"}).dump()));
   const test::ProgramResult result = validate(documents);
   CAPTURE(result.out, result.err);
   if (result.exit_code == 77) WARN("skipped: python3-jsonschema is not installed");

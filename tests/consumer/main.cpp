@@ -19,5 +19,5 @@ int main() {
   const slipfit::Analysis analysis = slipfit::analyze_and_fit(recording.value(), {});
   std::fputs(slipfit::to_text(recording.value(), analysis).c_str(), stdout);
   const bool has_document = slipfit::to_json(recording.value(), analysis).front() == '{';
-  return has_document && analysis.verdict == slipfit::Verdict::StickSlip ? 0 : 1;
+  return has_document && analysis.motion == slipfit::MotionClass::StickSlip ? 0 : 1;
 }

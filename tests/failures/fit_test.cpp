@@ -19,7 +19,7 @@ void for_each_fit(const atlas::Factors& factors, const Check& check) {
     const slipfit::Analysis analysis = slipfit::analyze_and_fit(scene.recording, {});
     INFO("seed " << seed << " noise " << factors.noise << " hum " << factors.hum << " jitter " << factors.jitter
                  << " samples a slip " << factors.samples_per_slip << " cycles " << factors.cycles << ": "
-                 << analysis.verdict_reason);
+                 << analysis.motion_reason);
     check(analysis, scene);
   }
 }
@@ -106,7 +106,7 @@ TEST_CASE("hum in step with the cycles: nothing is identified (once k was a quar
           slipfit::Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value();
       const slipfit::Analysis analysis = slipfit::analyze_and_fit(recording, {});
       INFO(speed_m_per_s << " m/s, hum " << hum_N << " N, " << analysis.frequency.quoted.value.value_or(0.0) << " Hz");
-      if (analysis.verdict != slipfit::Verdict::StickSlip) continue;
+      if (analysis.motion != slipfit::MotionClass::StickSlip) continue;
       REQUIRE(analysis.fit);
       for (const slipfit::Parameter& parameter : analysis.fit->parameters) {
         CHECK(parameter.status != slipfit::ParameterStatus::Identified);

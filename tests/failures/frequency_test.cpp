@@ -18,7 +18,7 @@ void check_frequency(const atlas::Factors& factors) {
          {slipfit::analyze(scene.recording), slipfit::analyze_and_fit(scene.recording, {})}) {
       const slipfit::Estimate& quoted = analysis.frequency.quoted;
       INFO("quoted " << quoted.value.value_or(0.0) * scene.cycle.period_s << " of the truth, "
-                     << analysis.frequency.method << ", " << analysis.verdict_reason);
+                     << analysis.frequency.method << ", " << analysis.motion_reason);
       CHECK_FALSE(failures::frequency_is_wrong(analysis, scene));
       CHECK((quoted.value.has_value() || !quoted.note.empty()));
     }

@@ -48,7 +48,7 @@ int covered(const Damage& damage, const std::string& name, double truth) {
   int inside = 0;
   for (std::uint64_t seed = 1; seed <= kRecordings; ++seed) {
     const Analysis analysis = analyze_and_fit(damaged(seed, damage), {});
-    REQUIRE(analysis.verdict == Verdict::StickSlip);
+    REQUIRE(analysis.motion == MotionClass::StickSlip);
     for (const Parameter& p : analysis.fit->parameters) {
       if (p.name() != name) continue;
       REQUIRE(p.estimate.ci95);
@@ -96,7 +96,7 @@ TEST_CASE("hum is not taken for stick-slip, whatever it hides") {
       }
     };
     const Analysis analysis = analyze_and_fit(damaged(seed, hum), {});
-    if (analysis.verdict != Verdict::StickSlip) continue;
+    if (analysis.motion != MotionClass::StickSlip) continue;
     ++seen;
     for (const Parameter& p : analysis.fit->parameters) {
       if (p.name() != "stiffness_N_per_m" || !p.estimate.value) continue;

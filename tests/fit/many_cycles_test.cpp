@@ -52,7 +52,7 @@ TEST_CASE("up to 2048 cycles are all offered to the fit, of more 64 runs over th
 TEST_CASE("a part of many cycles gives the parameters, and the warning says so") {
   const Scene s = scene_of_many_cycles();
   const Analysis analysis = analyze_and_fit(record(s), {});
-  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  REQUIRE(analysis.motion == MotionClass::StickSlip);
   CHECK(has_warning(analysis, "part_of_cycles_fitted"));
   CHECK(!has_warning(analysis, "hum_fitted"));
   CHECK(analysis.cycles.used <= 2048);
@@ -75,7 +75,7 @@ TEST_CASE("hum beside a part of the cycles is one line, not one for each gap bet
   Scene s = scene_of_many_cycles();
   s.hum = 0.05;
   const Analysis analysis = analyze_and_fit(record(s), {});
-  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  REQUIRE(analysis.motion == MotionClass::StickSlip);
   const auto warning = std::find_if(analysis.warnings.begin(), analysis.warnings.end(),
                                     [](const Warning& w) { return w.code == "hum_fitted"; });
   REQUIRE(warning != analysis.warnings.end());

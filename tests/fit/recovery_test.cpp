@@ -20,8 +20,8 @@ double misses(const Analysis& analysis, const std::string& name, double truth) {
 
 void check_recovery(const Scene& s) {
   const Analysis analysis = analyze_and_fit(record(s), {});
-  INFO(analysis.verdict_reason);
-  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  INFO(analysis.motion_reason);
+  REQUIRE(analysis.motion == MotionClass::StickSlip);
   // 4 standard errors: 1 in 16 000 by chance for a calibrated normal error.
   CHECK(misses(analysis, "stiffness_N_per_m", s.stiffness) < 4.0);
   CHECK(misses(analysis, "natural_frequency_rad_per_s", s.omega) < 4.0);
@@ -127,7 +127,7 @@ TEST_CASE("95 % intervals hold the truth about 95 times in 100") {
     s.noise = uniform(0.003, 0.03);
     s.seed = seed;
     const Analysis analysis = analyze_and_fit(record(s), {});
-    REQUIRE(analysis.verdict == Verdict::StickSlip);
+    REQUIRE(analysis.motion == MotionClass::StickSlip);
     const std::pair<const char*, double> truths[] = {{"stiffness_N_per_m", s.stiffness},
                                                      {"natural_frequency_rad_per_s", s.omega},
                                                      {"friction_difference_N", s.static_N - s.kinetic_N},
@@ -152,7 +152,7 @@ TEST_CASE("what a slip of one sample cannot tell is bounded or unidentified") {
   s.noise = 0.01;
   const Analysis analysis = analyze_and_fit(record(s), {});
   REQUIRE(analysis.fit);
-  CHECK(analysis.verdict == Verdict::StickSlip);
+  CHECK(analysis.motion == MotionClass::StickSlip);
   CHECK(parameter(analysis, "damping_ratio").status == ParameterStatus::Unidentified);
   CHECK_FALSE(parameter(analysis, "damping_ratio").estimate.value);
   const Parameter& difference = parameter(analysis, "friction_difference_N");
@@ -179,7 +179,7 @@ TEST_CASE("below the stick-slip limit the motion rings down, and no parameter is
   conditions.speed_m_per_s = s.speed;
   const Analysis analysis =
       analyze_and_fit(Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value(), {});
-  CHECK(analysis.verdict != Verdict::StickSlip);
+  CHECK(analysis.motion != MotionClass::StickSlip);
   if (!analysis.fit) return;
   for (const Parameter& p : analysis.fit->parameters) CHECK(p.status == ParameterStatus::Unidentified);
 }

@@ -87,7 +87,7 @@ TEST_CASE("a slip seen through a slow sensor gives its parameters back") {
   INFO("w_n T = " << lag);
   s.conditions.sensor_bandwidth_Hz = 1.0 / (2.0 * std::numbers::pi * lag_s);
   const Analysis analysis = analyze_and_fit(through_sensor(s, lag_s), {});
-  REQUIRE(analysis.verdict == Verdict::StickSlip);
+  REQUIRE(analysis.motion == MotionClass::StickSlip);
   check(analysis, "stiffness_N_per_m", s.stiffness);
   check(analysis, "natural_frequency_rad_per_s", s.omega);
   check(analysis, "damping_ratio", s.zeta);
@@ -113,7 +113,7 @@ TEST_CASE("a sensor that has not forgotten one slip when the next begins is warn
   const Analysis analysis = analyze_and_fit(through_sensor(s, lag_s), {});
   CHECK(has_warning(analysis, "sensor_too_slow"));
   // Left over from the slip before, its tail would draw k off by 10 of its standard errors.
-  if (analysis.verdict == Verdict::StickSlip) check(analysis, "stiffness_N_per_m", s.stiffness);
+  if (analysis.motion == MotionClass::StickSlip) check(analysis, "stiffness_N_per_m", s.stiffness);
 }
 
 TEST_CASE("a sensor much faster than the slip shows the slip itself") {

@@ -22,7 +22,7 @@ Analysis cycles_of(const Contact& contact, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> scatter(0.0, kScatter_N);
   Analysis analysis;
-  analysis.verdict = Verdict::StickSlip;
+  analysis.motion = MotionClass::StickSlip;
   analysis.fit.emplace();
   analysis.fit->diagnostics.onset_force_spread = kScatter_N;
   double time_s = 0.0;

@@ -50,7 +50,7 @@ test::SpeedSweep ageing_slider() {
 const std::vector<double> kSpeeds{0.01, 0.02, 0.04, 0.08, 0.16};
 
 bool warns(const SweepAnalysis& sweep, const std::string& code) {
-  const Warnings& all = sweep.joint->fit.warnings;
+  const Warnings& all = sweep.fit->result.warnings;
   return std::any_of(all.begin(), all.end(), [&](const Warning& warning) { return warning.code == code; });
 }
 
@@ -137,14 +137,14 @@ TEST_CASE("ageing: a sweep tells it, and predicts the spacing between and beyond
   int all = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const SweepAnalysis sweep = analyze_sweep(test::record(truth, kSpeeds, 100 * seed), {});
-    REQUIRE(sweep.joint);
-    REQUIRE(sweep.joint->fit.estimate);
-    const ModelEstimate& estimate = *sweep.joint->fit.estimate;
+    REQUIRE(sweep.fit);
+    REQUIRE(sweep.fit->result.estimate);
+    const ModelEstimate& estimate = *sweep.fit->result.estimate;
     REQUIRE(estimate.ageing);
     CHECK(warns(sweep, "static_friction_ages"));
     CHECK(estimate.ageing->rate_N == Approx(truth.ageing_N).epsilon(0.1));
     for (std::size_t i = 0; i < kSpeeds.size(); ++i) {
-      const Estimate& spacing = sweep.joint->points[i].spacing_left_out_m;
+      const Estimate& spacing = sweep.fit->points[i].spacing_left_out_m;
       const double expected = test::spacing_m(truth, kSpeeds[i]);
       CAPTURE(seed, kSpeeds[i], expected);
       REQUIRE(spacing.value);
@@ -173,9 +173,9 @@ TEST_CASE("ageing: static friction that differs for another reason is not taken 
       entries.push_back(test::record(truth, kSpeeds[i], 1000 * seed + i));
     }
     const SweepAnalysis sweep = analyze_sweep(entries, {});
-    REQUIRE(sweep.joint);
-    CHECK_FALSE(sweep.joint->difference_shared);
-    taken += sweep.joint->fit.estimate && sweep.joint->fit.estimate->ageing ? 1 : 0;
+    REQUIRE(sweep.fit);
+    CHECK_FALSE(sweep.fit->difference_shared);
+    taken += sweep.fit->result.estimate && sweep.fit->result.estimate->ageing ? 1 : 0;
   }
   CHECK(taken <= 1);  // of 8 at 1 %
 }

@@ -14,16 +14,16 @@ using namespace slipfit;
 namespace {
 
 PlanBasis basis_of(const std::vector<SweepEntry>& entries, const SweepAnalysis& sweep) {
-  REQUIRE(sweep.joint);
-  REQUIRE(sweep.joint->fit.estimate);
+  REQUIRE(sweep.fit);
+  REQUIRE(sweep.fit->result.estimate);
   PlanBasis basis;
-  basis.estimate = *sweep.joint->fit.estimate;
-  basis.levels = sweep.joint->level_shared ? LevelSharing::Shared : LevelSharing::Separate;
+  basis.estimate = *sweep.fit->result.estimate;
+  basis.levels = sweep.fit->level_shared ? LevelSharing::Shared : LevelSharing::Separate;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Recording& recording = entries[i].recording;
     basis.recordings.push_back(
         {recording.conditions().speed_m_per_s, 1.0 / recording.sample_interval_s(), recording.duration_s()});
-    basis.noise_rms_N = *sweep.joint->points[i].rms;
+    basis.noise_rms_N = *sweep.fit->points[i].rms;
     basis.force_drop_sd_N = sweep.recordings[i].cycles.force_drop_sd;
   }
   return basis;
@@ -49,7 +49,7 @@ TEST_CASE("noise and scatter explain the standard errors of a fit of simulated r
     const std::vector<SweepEntry> entries = test::record({}, {0.01, 0.02, 0.04}, seed);
     const SweepAnalysis sweep = analyze_sweep(entries, {});
     // With one level and one static friction for all, as simulated; by chance a fit refuses that now and then.
-    if (!sweep.joint->level_shared || !sweep.joint->difference_shared || !sweep.joint->fit.warnings.empty()) continue;
+    if (!sweep.fit->level_shared || !sweep.fit->difference_shared || !sweep.fit->result.warnings.empty()) continue;
     ++compared;
     const Plan plan = plan_next(basis_of(entries, sweep), std::nullopt).value();
     for (const ParameterLimit& limit : plan.limits) {

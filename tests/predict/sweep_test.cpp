@@ -1,4 +1,4 @@
-// Joint fits of simulated sweeps: what they predict at speeds that were not measured.
+// Fits of sweeps of simulated sweeps: what they predict at speeds that were not measured.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -14,17 +14,17 @@ using namespace slipfit;
 namespace {
 
 const Parameter& parameter(const SweepAnalysis& sweep, const std::string& name) {
-  const auto& all = sweep.joint->fit.parameters;
+  const auto& all = sweep.fit->result.parameters;
   const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name() == name; });
   REQUIRE(found != all.end());
   return *found;
 }
 
 PredictionModel model_of(const SweepAnalysis& sweep) {
-  REQUIRE(sweep.joint);
-  REQUIRE(sweep.joint->fit.estimate);
+  REQUIRE(sweep.fit);
+  REQUIRE(sweep.fit->result.estimate);
   PredictionModel model;
-  model.estimate = *sweep.joint->fit.estimate;
+  model.estimate = *sweep.fit->result.estimate;
   model.has_covariance = true;
   return model;
 }
@@ -61,7 +61,7 @@ TEST_CASE("a sweep of three speeds predicts the spacing at twice and four times 
   CHECK(inside >= 25);  // of 30 at 95 %: fewer by chance once in 200, pairs of speeds going together
 }
 
-TEST_CASE("a joint fit carries slope and alpha, and where stick-slip ends") {
+TEST_CASE("a fit of a sweep carries slope and alpha, and where stick-slip ends") {
   const test::SpeedSweep truth;
   const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.03, 0.1, 0.2}, 7), {});
   const ModelEstimate& estimate = model_of(sweep).estimate;
@@ -69,7 +69,7 @@ TEST_CASE("a joint fit carries slope and alpha, and where stick-slip ends") {
   CHECK(holds(parameter(sweep, "friction_slope_N_s_per_m").estimate, truth.f1_N * truth.alpha_s_per_m));
   CHECK(estimate.covariance[4][4] > 0.0);
   CHECK(estimate.covariance[5][5] > 0.0);
-  const Correlation& correlation = *sweep.joint->fit.correlation;
+  const Correlation& correlation = *sweep.fit->result.correlation;
   CHECK(correlation.names.size() == 6);
   REQUIRE(sweep.derived.critical_speed_m_per_s.ci95);
   CHECK_FALSE(sweep.derived.lambda.value);
@@ -94,9 +94,9 @@ TEST_CASE("the spacing that the other recordings predict for one left out holds 
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const std::vector<SweepEntry> entries = test::record(truth, {0.01, 0.02, 0.04, 0.08, 0.16}, 1000 * seed);
     const SweepAnalysis sweep = analyze_sweep(entries, {});
-    REQUIRE(sweep.joint);
+    REQUIRE(sweep.fit);
     for (std::size_t i = 0; i < entries.size(); ++i) {
-      const Estimate& spacing = sweep.joint->points[i].spacing_left_out_m;
+      const Estimate& spacing = sweep.fit->points[i].spacing_left_out_m;
       const double expected = test::spacing_m(truth, entries[i].recording.conditions().speed_m_per_s);
       CAPTURE(seed, i, expected, *spacing.value);
       CHECK(std::abs(*spacing.value - expected) < 5.0 * *spacing.standard_error);
@@ -110,12 +110,12 @@ TEST_CASE("the spacing that the other recordings predict for one left out holds 
 
 TEST_CASE("recordings at one speed cannot tell alpha: it is refused, with the reason") {
   const SweepAnalysis sweep = analyze_sweep(test::record({}, {0.02, 0.02, 0.02}, 11), {});
-  REQUIRE(sweep.joint);
+  REQUIRE(sweep.fit);
   const Parameter& alpha = parameter(sweep, "alpha_s_per_m");
   CHECK(alpha.status == ParameterStatus::Unidentified);
   CHECK_FALSE(alpha.estimate.value);
   CHECK_THAT(alpha.estimate.note, Catch::Contains("one speed cannot tell alpha"));
-  CHECK_FALSE(sweep.joint->fit.estimate->speed_dependence);
+  CHECK_FALSE(sweep.fit->result.estimate->speed_dependence);
 }
 
 TEST_CASE("a sweep under Coulomb friction is predicted by Coulomb friction") {
@@ -123,8 +123,8 @@ TEST_CASE("a sweep under Coulomb friction is predicted by Coulomb friction") {
   truth.f0_N = 4.0;
   truth.f1_N = 0.0;
   const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.02, 0.04}, 21), {});
-  REQUIRE(sweep.joint);
-  CHECK(sweep.joint->fit.tier == Tier::Damped);
+  REQUIRE(sweep.fit);
+  CHECK(sweep.fit->result.tier == Tier::Damped);
   CHECK(parameter(sweep, "alpha_s_per_m").status == ParameterStatus::Unidentified);
   const PredictionModel model = model_of(sweep);
   CHECK_FALSE(model.estimate.speed_dependence);
@@ -153,10 +153,10 @@ TEST_CASE("a fit that ends stick-slip below a run that sticks is not believed") 
   truth.f0_N = 4.0;
   truth.f1_N = 0.0;
   const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.02, 0.04}, 21), {});
-  REQUIRE(sweep.joint);
-  const Estimate by_fit = derive_from_sweep(sweep.joint->fit, {0.04, {}}).critical_speed_m_per_s;
+  REQUIRE(sweep.fit);
+  const Estimate by_fit = derive_from_sweep(sweep.fit->result, {0.04, {}}).critical_speed_m_per_s;
   REQUIRE(by_fit.value);
   const double faster = 10.0 * by_fit.ci95->high;
-  CHECK_FALSE(derive_from_sweep(sweep.joint->fit, {faster, {}}).critical_speed_m_per_s.value);
-  CHECK(derive_from_sweep(sweep.joint->fit, {faster, 2.0 * faster}).critical_speed_m_per_s.ci95->low == faster);
+  CHECK_FALSE(derive_from_sweep(sweep.fit->result, {faster, {}}).critical_speed_m_per_s.value);
+  CHECK(derive_from_sweep(sweep.fit->result, {faster, 2.0 * faster}).critical_speed_m_per_s.ci95->low == faster);
 }

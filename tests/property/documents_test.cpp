@@ -287,7 +287,7 @@ TEST_CASE("documents of sweeps keep their promises, with members that show nothi
     }
     CAPTURE(scene.described);
     const SweepAnalysis sweep = analyze_sweep(entries, {});
-    CHECK(sweep.joint.has_value());
+    CHECK(sweep.fit.has_value());
     const std::string json = to_json(entries, sweep, {});
     schemas.add_fit(json);
     check_document(json);

@@ -25,7 +25,7 @@ slipfit::Analysis analyse(const Scene& scene);
 /// What a transformation of the recording multiplies each parameter by; those not named stay as they are.
 using Factors = std::map<std::string, double>;
 
-/// Same verdict, same tier, same statuses, and every value and bound as foretold to 1 % of a standard error.
+/// Same kind of motion, same tier, same statuses, and every value and bound as foretold to 1 % of a standard error.
 void check_same(const slipfit::Analysis& before, const slipfit::Analysis& after, const Factors& factors = {});
 
 /// The 95 % intervals of every identified parameter overlap.

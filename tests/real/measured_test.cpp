@@ -70,7 +70,7 @@ std::vector<std::map<std::string, std::string>> table(const std::filesystem::pat
 TEST_CASE("paper on paper, slow: stick-slip with the published stiffness") {
   const auto analysis = fit_file("real/colas/colas_k168_v42.csv", 42e-6);
   if (!analysis) return;
-  CHECK(analysis->verdict == Verdict::StickSlip);
+  CHECK(analysis->motion == MotionClass::StickSlip);
   REQUIRE(find(*analysis, "stiffness_N_per_m"));
   CHECK(*find(*analysis, "stiffness_N_per_m")->estimate.value == Approx(168.0).epsilon(0.12));
   REQUIRE(analysis->frequency.counted.value);
@@ -82,19 +82,19 @@ TEST_CASE("paper on paper, slow: stick-slip with the published stiffness") {
 TEST_CASE("paper on paper, fast and stiff: an oscillation of 35 Hz without straight sticks") {
   const auto analysis = fit_file("real/colas/colas_k1002_v4300.csv", 4300e-6);
   if (!analysis) return;
-  CHECK(analysis->verdict != Verdict::StickSlip);
+  CHECK(analysis->motion != MotionClass::StickSlip);
   REQUIRE(analysis->frequency.quoted.value);
   CHECK(*analysis->frequency.quoted.value == Approx(35.0).epsilon(0.04));
 }
 
 TEST_CASE("controls are not called stick-slip") {
   const auto continuous = fit_file("real/colas/colas_k2254_v42.csv", 42e-6);
-  if (continuous) CHECK(continuous->verdict != Verdict::StickSlip);
+  if (continuous) CHECK(continuous->motion != MotionClass::StickSlip);
   const auto rock = fit_file("real/giacomel/giacomel_velstep3_TR2_exp013_sepiolite.txt", 1e-6);
-  if (rock) CHECK(rock->verdict != Verdict::StickSlip);
+  if (rock) CHECK(rock->motion != MotionClass::StickSlip);
   for (const char* speed : {"1000", "1400", "1800"}) {
     const auto fast = fit_file("real/fdm/fdm_77g_" + std::string(speed) + "mm_min.csv", std::atof(speed) / 60000.0);
-    if (fast) CHECK(fast->verdict != Verdict::StickSlip);
+    if (fast) CHECK(fast->motion != MotionClass::StickSlip);
   }
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("simulated recordings of an independent generator: truth inside the in
     const auto analysis = fit_file("synthetic/" + row["file"], std::atof(row["speed_m_per_s"].c_str()));
     if (!analysis) return;
     INFO(id);
-    CHECK(analysis->verdict == Verdict::StickSlip);
+    CHECK(analysis->motion == MotionClass::StickSlip);
     auto& truth = truths[id];
     const auto number = [&](const char* name) { return std::atof(truth[name].c_str()); };
     const std::pair<const char*, double> values[] = {{"stiffness_N_per_m", number("k")},

@@ -61,8 +61,8 @@ slipfit::Analysis full_analysis() {
   slipfit::Analysis analysis;
   analysis.quality.noise_rms = 0.0125;
   analysis.quality.gaps = 1;
-  analysis.verdict = slipfit::Verdict::StickSlip;
-  analysis.verdict_reason = "Every slip sticks again.";
+  analysis.motion = slipfit::MotionClass::StickSlip;
+  analysis.motion_reason = "Every slip sticks again.";
   analysis.warnings = {
       {"rows_left_out", "two rows were left out"}, {"few_cycles", "only 4 cycles"}, {"mains_hum", "50 Hz hum"}};
   analysis.frequency.quoted = {5.4321, 0.0123, Interval{5.408, 5.4562}, ""};

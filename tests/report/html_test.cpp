@@ -69,7 +69,7 @@ nlohmann::json trace_data_in(const std::string& page) {
 
 }  // namespace
 
-TEST_CASE("the page says the verdict in a sentence and each parameter's status in words") {
+TEST_CASE("the page says the kind of motion in a sentence and each parameter's status in words") {
   const slipfit::Recording recording = test::small_recording();
   const std::string page = page_of(recording, test::full_analysis());
   CHECK_THAT(page, Contains("<h1>Stick-slip at 5.432\u00a0±\u00a00.012\u00a0Hz: a pattern of 1.8409"));
@@ -109,7 +109,7 @@ TEST_CASE("a template's values are not searched for names again") {
 TEST_CASE("steady sliding: words in place of cycles, parameters and pattern") {
   const slipfit::Recording recording = sawtooth();
   slipfit::Analysis analysis = fitted(recording);
-  analysis.verdict = slipfit::Verdict::SteadySliding;
+  analysis.motion = slipfit::MotionClass::SteadySliding;
   const std::string page = page_of(recording, analysis);
   CHECK_THAT(page, Contains("<h1>Steady sliding at 10\u00a0mm/s: no stick-slip, no pattern.</h1>"));
   const std::string absent = section(page, "absent");
@@ -125,7 +125,7 @@ TEST_CASE("what the fit does not know is said in words, with the reason") {
   const slipfit::Recording recording = sawtooth();
   slipfit::Analysis analysis = fitted(recording);
   REQUIRE(analysis.fit);
-  analysis.verdict = slipfit::Verdict::StickSlip;
+  analysis.motion = slipfit::MotionClass::StickSlip;
   analysis.fit->estimate.reset();
   analysis.fit->parameters = {{slipfit::ParameterId::DampingRatio,
                                {{}, {}, {}, "the slip is not resolved"},

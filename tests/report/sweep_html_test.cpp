@@ -24,7 +24,7 @@ struct Sweep {
   std::optional<Prediction> prediction;
 
   Sweep() {
-    analysis.joint.emplace();
+    analysis.fit.emplace();
     for (const double speed_m_per_s : {0.01, 0.1}) {
       entries.push_back({entries.empty() ? "slow" : "fast", recording(speed_m_per_s, std::nullopt)});
       analysis.recordings.push_back(test::full_analysis());
@@ -32,9 +32,9 @@ struct Sweep {
       SweepPoint point;
       point.spacing_m = known(0.0018, 0.0017, 0.0019);
       point.spacing_left_out_m = point.spacing_m;
-      analysis.joint->points.push_back(point);
+      analysis.fit->points.push_back(point);
     }
-    analysis.joint_reason = "2 with stick-slip cycles, 0 sliding steadily, 0 left out";
+    analysis.fit_reason = "2 with stick-slip cycles, 0 sliding steadily, 0 left out";
     prediction.emplace();
     for (const double speed_m_per_s : {0.01, 0.1, 1.0}) {
       PredictedMotion row;
@@ -97,8 +97,8 @@ TEST_CASE("the band of the critical speed ends with the axis, and there is none 
 
 TEST_CASE("the page of a sweep without a joint fit says why, and shows each recording as it is") {
   Sweep sweep;
-  sweep.analysis.joint.reset();
-  sweep.analysis.joint_reason = "1 with stick-slip cycles, 0 sliding steadily, 1 left out";
+  sweep.analysis.fit.reset();
+  sweep.analysis.fit_reason = "1 with stick-slip cycles, 0 sliding steadily, 1 left out";
   sweep.analysis.roles[1] = SweepRole::LeftOut;
   sweep.prediction.reset();
   const std::string page = sweep.page();

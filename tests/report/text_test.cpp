@@ -85,10 +85,10 @@ TEST_CASE("an analysis that knows nothing is reported without numbers") {
 
 TEST_CASE("where there is no stick-slip the model's numbers are not shown, where there may be none they are marked") {
   auto analysis = test::full_analysis();
-  analysis.verdict = slipfit::Verdict::SteadySliding;
+  analysis.motion = slipfit::MotionClass::SteadySliding;
   const std::string steady = to_text(test::small_recording(), analysis);
   CHECK_THAT(steady, Contains("steady sliding") && !Contains("tangential stiffness") && !Contains("Predicted"));
-  analysis.verdict = slipfit::Verdict::Undetermined;
+  analysis.motion = slipfit::MotionClass::Undetermined;
   const std::string doubtful = to_text(test::small_recording(), analysis);
   CHECK_THAT(doubtful, Contains("not to rely on") && Contains("tangential stiffness") && !Contains("Predicted"));
 }

@@ -36,7 +36,8 @@ struct BatchFit {
 /// Fits the recordings of a group together; the document's id is `id`. Called in child processes.
 using GroupFit = std::function<Result<BatchFit>(const std::string& id, const std::vector<ManifestEntry>& members)>;
 
-/// The joint fit (slipfit/sweep.hpp) as `slipfit fit --joint --json` writes it, with its page where there is a report.
+/// The fit of the sweep (slipfit/sweep.hpp) as `slipfit fit --joint --json` writes it, with its page where there is a
+/// report.
 GroupFit group_fit(const FitOptions& options, const std::optional<BatchReport>& report);
 
 struct BatchOptions {

@@ -27,7 +27,7 @@ struct Conditions {
   ForceView force_view = ForceView::Spring;
   ForceQuantity quantity = ForceQuantity::Force_N;
   std::optional<double> zero_force_N;  ///< sensor reading at no force, already subtracted; absolute forces need it
-  /// > 0, of a first-order sensor, -3 dB: the fit of one recording lets its model lag by it. Joint fits do not.
+  /// > 0, of a first-order sensor, -3 dB: the fit of one recording lets its model lag by it. Fits of sweeps do not.
   std::optional<double> sensor_bandwidth_Hz;
   /// >= 0, each sample is the mean force over this time (0: an instant). Empty: not stated, taken for anything up to
   /// one step of the clock.

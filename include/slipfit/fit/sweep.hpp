@@ -22,10 +22,10 @@ struct SweepPoint {
   Estimate spacing_left_out_m;   ///< the same from a fit without this recording: what proves the model
 };
 
-/// Parameters shared by a sweep. `fit` holds tier (Damped or Velocity), candidates, parameters and correlation; it has
-/// no cycles and no curve.
+/// Parameters shared by a sweep. `result` holds tier (Damped or Velocity), candidates, parameters and correlation; it
+/// has no cycles and no curve.
 struct SweepFit {
-  FitResult fit;
+  FitResult result;
   std::vector<SweepPoint> points;  ///< in the order of the recordings
   bool level_shared = false;       ///< one F_k(0+) for all recordings: the data agree with it
   bool difference_shared = false;  ///< one F_s for all speeds: the data agree with it

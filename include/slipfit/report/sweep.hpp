@@ -8,7 +8,7 @@
 
 namespace slipfit {
 
-/// The document of a joint fit: as that of one recording, with `recordings` in place of `recording`
+/// The document of a fit of a sweep: as that of one recording, with `recordings` in place of `recording`
 /// (docs/formats.md). `options.id` names the group.
 std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const JsonOptions& options);
 

@@ -10,7 +10,7 @@
 
 namespace slipfit {
 
-/// What a reader needs to repeat a joint fit.
+/// What a reader needs to repeat a fit of a sweep.
 struct SweepOrigin {
   std::string name;          ///< of the group or the manifest
   std::string command_line;  ///< as typed; empty: not by command line

@@ -8,7 +8,8 @@
 
 namespace slipfit {
 
-/// For people: verdict, parameters with intervals and status, spacing (measured, kept apart from predicted), warnings.
+/// For people: kind of motion, parameters with intervals and status, spacing (measured, kept apart from predicted),
+/// warnings.
 std::string to_text(const Recording& recording, const Analysis& analysis);
 
 /// The text with line breaks and other control characters as '?': a file's name cannot forge a second line of output.

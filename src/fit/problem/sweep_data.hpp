@@ -15,8 +15,8 @@ namespace slipfit::fit {
 /// A steady recording is cut into so many for the error of its mean force.
 inline constexpr std::size_t kSteadyStretches = 10;
 
-/// The recordings of a sweep, fitted one by one: data, levels and starts of the joint fit. Recordings whose cycles
-/// cannot be fitted are empty.
+/// The recordings of a sweep, fitted one by one: data, levels and starts of the fit of the sweep. Recordings whose
+/// cycles cannot be fitted are empty.
 struct SweepData {
   std::vector<std::optional<DampedFit>> single;  ///< in the order of the recordings
   std::vector<SteadyRun> steady;

@@ -23,7 +23,7 @@ Source source_of(const Recording& recording, const Analysis& analysis, const Bac
 }
 
 bool shows_cycles(const Analysis& analysis) {
-  return analysis.verdict != Verdict::SteadySliding;
+  return analysis.motion != MotionClass::SteadySliding;
 }
 
 bool has_fitted_curve(const Analysis& analysis) {

@@ -165,7 +165,7 @@ chart::Panel pairs_panel(const Source& source, const std::vector<Point>& pairs) 
 
 std::string reason_for_none(const Source& source, const std::vector<Point>& pairs) {
   const Estimate& reflection = source.background.reflection;
-  if (source.analysis.verdict != Verdict::StickSlip) return "Without stick-slip cycles there are no such pairs.";
+  if (source.analysis.motion != MotionClass::StickSlip) return "Without stick-slip cycles there are no such pairs.";
   if (source.recording.conditions().force_view == ForceView::Contact) {
     return "A sensor at the contact reads the friction force: its trough does not show how far the spring swings.";
   }

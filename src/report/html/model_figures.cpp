@@ -149,7 +149,7 @@ Figure pattern_figure(const Source& source) {
   const Derived& derived = source.analysis.derived;
   const bool is_predicted = derived.periodic_displacement_m.value.has_value();
   const Estimate& spacing = is_predicted ? derived.periodic_displacement_m : derived.pattern_spacing_m;
-  const bool has_ridges = source.analysis.verdict == Verdict::StickSlip && spacing.value;
+  const bool has_ridges = source.analysis.motion == MotionClass::StickSlip && spacing.value;
   const std::vector<double> distances_m =
       has_ridges ? ridge_distances_m(source.analysis, *spacing.value) : std::vector<double>{};
   if (distances_m.empty()) {

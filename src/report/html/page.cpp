@@ -94,8 +94,8 @@ std::string to_html(const Recording& recording, const Analysis& analysis, const 
   html::PageParts page;
   page.title = file.empty() ? "recording" : file;
   page.kind = "recording";
-  page.headline = html::verdict_sentence(source);
-  page.summary = "<p class=\"reason\">" + html::capitalised(html::formula_text(analysis.verdict_reason)) + "</p>\n" +
+  page.headline = html::motion_sentence(source);
+  page.summary = "<p class=\"reason\">" + html::capitalised(html::formula_text(analysis.motion_reason)) + "</p>\n" +
                  html::key_numbers(source) + html::warnings_part(analysis.warnings);
   page.main = html::parameters_part(source) + html::figures_part(source) + html::quality_part(source) +
               html::numbers_part(source) + html::repeat_part(source, origin);

@@ -30,7 +30,7 @@ std::string capitalised(std::string sentence);
 std::string command_fact(const std::string& command_line);
 
 // Parts of the page of one recording, as HTML.
-std::string verdict_sentence(const Source& source);
+std::string motion_sentence(const Source& source);
 std::string key_numbers(const Source& source);
 std::string warnings_part(const Warnings& warnings);
 std::string parameters_part(const Source& source);

@@ -74,13 +74,13 @@ std::string command_fact(const std::string& command_line) {
   return command_line.empty() ? "" : "<dt>command</dt><dd><code>" + text(command_line) + "</code></dd>\n";
 }
 
-std::string verdict_sentence(const Source& source) {
+std::string motion_sentence(const Source& source) {
   const Analysis& analysis = source.analysis;
   const Estimate& frequency = analysis.frequency.quoted;
   const std::string rate = frequency.value ? unbroken(with_error(frequency) + " Hz") : std::string();
   const std::string speed = unbroken(speed_text(source.recording.conditions()));
-  switch (analysis.verdict) {
-    case Verdict::StickSlip: {
+  switch (analysis.motion) {
+    case MotionClass::StickSlip: {
       if (rate.empty()) return text("Stick-slip, but no frequency can be told.");
       const Estimate& spacing = analysis.derived.pattern_spacing_m;
       const std::string pattern = spacing.value
@@ -88,11 +88,11 @@ std::string verdict_sentence(const Source& source) {
                                       : std::string(" at");
       return text(fmt::format("Stick-slip at {}:{} {}.", rate, pattern, speed));
     }
-    case Verdict::SteadySliding:
+    case MotionClass::SteadySliding:
       return text(fmt::format("Steady sliding at {}: no stick-slip, no pattern.", speed));
-    case Verdict::OscillatorySlip:
+    case MotionClass::OscillatorySlip:
       return text(fmt::format("Oscillatory slip{}: the body hardly sticks.", rate.empty() ? "" : " at " + rate));
-    case Verdict::Undetermined:
+    case MotionClass::Undetermined:
       break;
   }
   return "It cannot be told whether this is stick-slip.";
@@ -100,7 +100,7 @@ std::string verdict_sentence(const Source& source) {
 
 std::string key_numbers(const Source& source) {
   const Analysis& analysis = source.analysis;
-  if (analysis.verdict == Verdict::SteadySliding) return {};
+  if (analysis.motion == MotionClass::SteadySliding) return {};
   std::string numbers = key_number("frequency", analysis.frequency.quoted, "Hz") +
                         key_number("pattern spacing V/f", analysis.derived.pattern_spacing_m, "m");
   const Estimate& critical = analysis.derived.critical_speed_m_per_s;
@@ -144,14 +144,14 @@ std::string parameters_part(const Source& source) {
   const auto part = [](const std::string& content) {
     return section(" id=\"parameters\"", "Parameters of the model", content);
   };
-  if (!analysis.fit || analysis.verdict == Verdict::SteadySliding) {
-    const char* why = analysis.verdict == Verdict::SteadySliding
+  if (!analysis.fit || analysis.motion == MotionClass::SteadySliding) {
+    const char* why = analysis.motion == MotionClass::SteadySliding
                           ? "None: the model describes stick-slip, and this recording shows none."
                           : "None: the model was not fitted, or there are too few cycles to fit.";
     return part(fmt::format("<p class=\"absent\">{}</p>\n", why));
   }
   const FitResult& fit = *analysis.fit;
-  const bool is_doubtful = analysis.verdict == Verdict::Undetermined;
+  const bool is_doubtful = analysis.motion == MotionClass::Undetermined;
   std::string content =
       (is_doubtful ? "<p>Not to rely on: this may be no stick-slip.</p>\n" : "") + parameter_table(fit);
   if (!fit.conditional_on.empty())

@@ -156,10 +156,10 @@ Panel panel_over_speed(const Source& source, const std::string& name, const Disp
   return finished;
 }
 
-/// What the joint fit says over speed: between the recordings where there is a prediction.
+/// What the fit of the sweep says over speed: between the recordings where there is a prediction.
 Series fitted_spacing(const SweepSource& source) {
   if (source.prediction) return predicted_series(*source.prediction, &PredictedMotion::periodic_displacement_m);
-  const std::vector<SweepPoint>& points = source.sweep.joint->points;
+  const std::vector<SweepPoint>& points = source.sweep.fit->points;
   return series_of(source, [&points](std::size_t i) { return points[i].spacing_m; });
 }
 
@@ -221,11 +221,11 @@ Figure sweep_spacing_figure(const SweepSource& source) {
       "this is the test of the model, because the recording had no say in it. Line: the fit to all, with its 95 % "
       "band; where the band ends before "
       "the line, the recordings cannot tell whether there still is stick-slip.";
-  if (!source.sweep.joint) {
-    figure.absent = "There is no joint fit: " + source.sweep.joint_reason + ".";
+  if (!source.sweep.fit) {
+    figure.absent = "There is no joint fit: " + source.sweep.fit_reason + ".";
     return figure;
   }
-  const std::vector<SweepPoint>& points = source.sweep.joint->points;
+  const std::vector<SweepPoint>& points = source.sweep.fit->points;
   const Series measured =
       series_of(source, [&source](std::size_t i) { return source.sweep.recordings[i].derived.pattern_spacing_m; });
   const Series left_out = series_of(source, [&points](std::size_t i) { return points[i].spacing_left_out_m; });
@@ -252,7 +252,7 @@ Figure sweep_friction_figure(const SweepSource& source) {
       "sweep-friction", "Friction over speed",
       "Kinetic friction by the fitted friction law at the speeds of the sweep, with its 95 % band (alpha's uncertainty "
       "is in it). Dots: the mean force of recordings that slide steadily."};
-  const std::vector<SweepPoint> points = source.sweep.joint ? source.sweep.joint->points : std::vector<SweepPoint>{};
+  const std::vector<SweepPoint> points = source.sweep.fit ? source.sweep.fit->points : std::vector<SweepPoint>{};
   const Series law =
       points.empty() ? Series{} : series_of(source, [&points](std::size_t i) { return points[i].kinetic_friction_N; });
   if (law.estimates.empty()) {

@@ -16,8 +16,8 @@ namespace slipfit {
 namespace html {
 namespace {
 
-std::string verdict_of(const SweepSource& source) {
-  if (!source.sweep.joint) return fmt::format("{} recordings, no joint fit.", source.entries.size());
+std::string sweep_sentence(const SweepSource& source) {
+  if (!source.sweep.fit) return fmt::format("{} recordings, no joint fit.", source.entries.size());
   const Estimate& critical = source.sweep.derived.critical_speed_m_per_s;
   // The interval and not the standard error: it may be lopsided, and few recordings make it wide.
   const std::string end =
@@ -31,8 +31,8 @@ std::string verdict_of(const SweepSource& source) {
 
 std::string parameters_of(const SweepAnalysis& sweep) {
   return section(" id=\"parameters\"", "Parameters of all recordings",
-                 sweep.joint ? parameter_table(sweep.joint->fit)
-                             : "<p class=\"absent\">" + formula_text(sweep.joint_reason) + "</p>\n");
+                 sweep.fit ? parameter_table(sweep.fit->result)
+                           : "<p class=\"absent\">" + formula_text(sweep.fit_reason) + "</p>\n");
 }
 
 /// One unit a column: rows compare by eye.
@@ -66,12 +66,12 @@ std::string recording_row(const SweepSource& source, std::size_t i, const SweepU
   const Estimate on_surface{conditions.measured_spacing_m, {}, {}, {}};
   const double speed = units.speed.per_SI * conditions.speed_m_per_s;
   const Estimate& measured = analysis.derived.pattern_spacing_m;
-  const Estimate predicted = source.sweep.joint ? source.sweep.joint->points[i].spacing_left_out_m : Estimate{};
+  const Estimate predicted = source.sweep.fit ? source.sweep.fit->points[i].spacing_left_out_m : Estimate{};
   const bool is_left_out = source.sweep.roles[i] == SweepRole::LeftOut;
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td class=\"number\">{:.4g}</td><td>{}{}</td>{}{}{}<td "
       "class=\"number\">{}</td></tr>\n",
-      text(source.entries[i].id), speed, plain_words(name_of(analysis.verdict)), is_left_out ? ", left out" : "",
+      text(source.entries[i].id), speed, plain_words(name_of(analysis.motion)), is_left_out ? ", left out" : "",
       has_surface_spacing(source) ? quantity_cell(on_surface, units.spacing.per_SI) : "",
       quantity_cell(measured, units.spacing.per_SI), quantity_cell(predicted, units.spacing.per_SI),
       text(off_by(predicted, measured)));
@@ -108,9 +108,9 @@ std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   html::PageParts page;
   page.title = origin.name;
   page.kind = "sweep";
-  page.headline = html::verdict_of(source);
+  page.headline = html::sweep_sentence(source);
   page.summary =
-      "<p class=\"reason\">" + html::formula_text(sweep.joint_reason) + "</p>\n" + html::warnings_part(sweep.warnings);
+      "<p class=\"reason\">" + html::formula_text(sweep.fit_reason) + "</p>\n" + html::warnings_part(sweep.warnings);
   page.main = html::parameters_of(sweep) + html::figure_part(html::sweep_spacing_figure(source)) +
               html::figure_part(html::sweep_friction_figure(source)) + html::recordings_of(source) +
               html::figure_part(html::sweep_traces_figure(source)) + html::repeat_of(source, origin);

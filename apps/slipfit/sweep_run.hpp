@@ -8,7 +8,7 @@
 #include "slipfit/fit/fit.hpp"
 
 /// `fit --joint`: one parameter set for the recordings of a manifest's group.
-struct JointArguments {
+struct SweepArguments {
   std::string manifest;
   std::optional<std::string> group;
   std::vector<std::string> only;  ///< ids; empty: all of the group
@@ -18,4 +18,4 @@ struct JointArguments {
 };
 
 /// Reads the recordings, fits them together, writes the result. Throws Failure.
-void run_joint(const JointArguments& arguments, const slipfit::FitOptions& options);
+void run_sweep(const SweepArguments& arguments, const slipfit::FitOptions& options);

@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "joint_example.hpp"
 #include "refusal.hpp"
 #include "run_program.hpp"
+#include "sweep_example.hpp"
 
 using nlohmann::json;
 using test::check_refused;
 using test::slipfit;
 
 TEST_CASE("a joint fit of a Coulomb sweep says so: text, document, prediction") {
-  const test::JointExample example;
+  const test::SweepExample example;
   const test::ProgramResult text = slipfit({"fit", "--joint", example.manifest, "--group", "pad"});
   CHECK(text.exit_code == 0);
   for (const char* const part :
@@ -46,7 +46,7 @@ TEST_CASE("a joint fit of a Coulomb sweep says so: text, document, prediction") 
 }
 
 TEST_CASE("a velocity fit hands slope and alpha on to predict") {
-  const test::JointExample example;
+  const test::SweepExample example;
   json document = example.fit({"--group", "pad", "--tier", "velocity"});
   CHECK(document["model"]["tier"] == "velocity");
   CHECK(document["correlation"]["names"].size() == 6);
@@ -75,7 +75,7 @@ TEST_CASE("a velocity fit hands slope and alpha on to predict") {
 }
 
 TEST_CASE("fit --joint refuses what it cannot do, in one line") {
-  const test::JointExample example;
+  const test::SweepExample example;
   const std::string run = example.folder.path("slow.csv");
   check_refused({"fit", run, "--joint", example.manifest}, "REC does not go with --joint");
   check_refused({"fit", "--joint", example.folder.path("none.csv")}, "none.csv");
@@ -102,7 +102,7 @@ TEST_CASE("a sweep's unreadable recording is refused in the words of the manifes
 }
 
 TEST_CASE("one recording is no sweep: the answer says that nothing was fitted together, and why") {
-  const test::JointExample example;
+  const test::SweepExample example;
   const json document = example.fit({"--only", "slow"});
   CHECK(document["status"] == "undetermined");
   CHECK_FALSE(document.contains("parameters"));
@@ -113,7 +113,7 @@ TEST_CASE("one recording is no sweep: the answer says that nothing was fitted to
 }
 
 TEST_CASE("a joint fit gives the same bytes in every run, wherever its memory lies") {
-  const test::JointExample example;
+  const test::SweepExample example;
   const test::ProgramResult first = slipfit({"fit", "--joint", example.manifest, "--group", "pad", "--json"});
   REQUIRE(first.exit_code == 0);
   for (int run = 0; run < 4; ++run) {

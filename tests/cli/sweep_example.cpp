@@ -1,4 +1,4 @@
-#include "joint_example.hpp"
+#include "sweep_example.hpp"
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -8,7 +8,7 @@
 
 namespace test {
 
-JointExample::JointExample() {
+SweepExample::SweepExample() {
   const std::array<std::pair<const char*, const char*>, 3> speeds{
       {{"slow", "0.02"}, {"middle", "0.04"}, {"fast", "0.08"}}};
   std::string rows = "id,file,speed_m_per_s,force_view,group\n";
@@ -27,7 +27,7 @@ JointExample::JointExample() {
   static_cast<void>(folder.file("manifest.csv", rows));
 }
 
-nlohmann::json JointExample::fit(const std::vector<std::string>& options) const {
+nlohmann::json SweepExample::fit(const std::vector<std::string>& options) const {
   std::vector<std::string> arguments{"fit", "--joint", manifest, "--json", "--quiet", "--out", out};
   arguments.insert(arguments.end(), options.begin(), options.end());
   const ProgramResult result = slipfit(arguments);

@@ -1,4 +1,4 @@
-#include "joint_run.hpp"
+#include "sweep_run.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using slipfit::ManifestEntry;
 
-std::vector<ManifestEntry> read_manifest(const JointArguments& arguments) {
+std::vector<ManifestEntry> read_manifest(const SweepArguments& arguments) {
   auto entries = slipfit::read_manifest_group(arguments.manifest, arguments.group);
   if (!entries) throw Failure(ExitCode::WrongUsage, entries.error().message);
   std::vector<ManifestEntry> chosen;
@@ -39,13 +39,13 @@ std::vector<slipfit::SweepEntry> read_recordings(const std::vector<ManifestEntry
   throw Failure(manifest_asks_for_it ? ExitCode::WrongUsage : ExitCode::BadRecording, entries.error().message);
 }
 
-std::string name_of_fit(const JointArguments& arguments) {
+std::string name_of_fit(const SweepArguments& arguments) {
   return arguments.group ? *arguments.group : std::filesystem::path(arguments.manifest).stem().string();
 }
 
 }  // namespace
 
-void run_joint(const JointArguments& arguments, const slipfit::FitOptions& options) {
+void run_sweep(const SweepArguments& arguments, const slipfit::FitOptions& options) {
   const std::vector<OutputFile> outputs =
       outputs_of({{"--out", arguments.document.out}, {"--report", arguments.report}});
   check_outputs(outputs, arguments.manifest);

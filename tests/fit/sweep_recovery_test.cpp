@@ -18,11 +18,11 @@ namespace {
 const std::vector<double> kSpeeds{0.005, 0.01, 0.02, 0.04};
 
 const Parameter& parameter(const SweepAnalysis& sweep, const std::string& name) {
-  for (const Parameter& p : sweep.joint->fit.parameters) {
+  for (const Parameter& p : sweep.fit->result.parameters) {
     if (p.name() == name) return p;
   }
   FAIL("no parameter " << name);
-  return sweep.joint->fit.parameters.front();
+  return sweep.fit->result.parameters.front();
 }
 
 bool warns(const Warnings& warnings, const std::string& code) {
@@ -60,20 +60,20 @@ std::vector<SweepEntry> record_each(const std::vector<double>& speeds_m_per_s,
 
 }  // namespace
 
-TEST_CASE("joint: alpha and damping are told apart by a sweep, and each speed is predicted by the others") {
+TEST_CASE("sweep: alpha and damping are told apart by a sweep, and each speed is predicted by the others") {
   SweepScene scene;
   for (const double scatter_N : {0.0, 0.02}) {
     scene.scatter_N = scatter_N;
     const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
-    REQUIRE(sweep.joint);
-    CHECK(sweep.joint->fit.tier == Tier::Velocity);
-    CHECK(sweep.joint->level_shared);
-    CHECK(sweep.joint->difference_shared);
+    REQUIRE(sweep.fit);
+    CHECK(sweep.fit->result.tier == Tier::Velocity);
+    CHECK(sweep.fit->level_shared);
+    CHECK(sweep.fit->difference_shared);
     CHECK(parameter(sweep, "alpha_s_per_m").status == ParameterStatus::Identified);
     CHECK(parameter(sweep, "damping_ratio").status == ParameterStatus::Identified);
     check_recovery(sweep, scene);
     for (std::size_t i = 0; i < kSpeeds.size(); ++i) {
-      const Estimate& spacing = sweep.joint->points[i].spacing_left_out_m;
+      const Estimate& spacing = sweep.fit->points[i].spacing_left_out_m;
       REQUIRE(spacing.value);
       const double truth = scene.spacing_m(kSpeeds[i]);
       INFO("speed " << kSpeeds[i] << " predicted " << *spacing.value << " truth " << truth);
@@ -83,7 +83,7 @@ TEST_CASE("joint: alpha and damping are told apart by a sweep, and each speed is
   }
 }
 
-TEST_CASE("joint: a steadily sliding recording pins the kinetic friction at its speed") {
+TEST_CASE("sweep: a steadily sliding recording pins the kinetic friction at its speed") {
   const SweepScene scene;
   constexpr double kFast_m_per_s = 0.5;
   const double truth_N = scene.f0_N + scene.f1_N * std::exp(scene.alpha_s_per_m * kFast_m_per_s);
@@ -101,31 +101,31 @@ TEST_CASE("joint: a steadily sliding recording pins the kinetic friction at its 
   conditions.speed_m_per_s = kFast_m_per_s;
   entries.push_back({"fast", Recording::create(std::move(time_s), std::move(force_N), conditions).value()});
   const SweepAnalysis sweep = analyze_sweep(entries, {});
-  REQUIRE(without.joint);
-  REQUIRE(sweep.joint);
+  REQUIRE(without.fit);
+  REQUIRE(sweep.fit);
   CHECK(sweep.roles.back() == SweepRole::Steady);
-  CHECK(sweep.joint->level_shared);
+  CHECK(sweep.fit->level_shared);
   check_recovery(sweep, scene);
-  const Estimate& friction = sweep.joint->points.back().kinetic_friction_N;
+  const Estimate& friction = sweep.fit->points.back().kinetic_friction_N;
   REQUIRE(friction.value);
   CHECK(std::abs(*friction.value - truth_N) < 4.0 * *friction.standard_error);
   CHECK(*parameter(sweep, "f0_N").estimate.standard_error < 0.5 * *parameter(without, "f0_N").estimate.standard_error);
 }
 
-TEST_CASE("joint: the force that spring and damper transmit together") {
+TEST_CASE("sweep: the force that spring and damper transmit together") {
   SweepScene scene;
   scene.view = ForceView::Transmitted;
   scene.damping_ratio = 0.12;
   scene.scatter_N = 0.02;
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
-  REQUIRE(sweep.joint);
-  CHECK(sweep.joint->fit.tier == Tier::Velocity);
-  CHECK(*sweep.joint->fit.residual.reduced_chi2 == Approx(1.0).margin(0.1));
+  REQUIRE(sweep.fit);
+  CHECK(sweep.fit->result.tier == Tier::Velocity);
+  CHECK(*sweep.fit->result.residual.reduced_chi2 == Approx(1.0).margin(0.1));
   CHECK(parameter(sweep, "damping_ratio").status == ParameterStatus::Identified);
   check_recovery(sweep, scene);
 }
 
-TEST_CASE("joint: a sensor at the contact is left out") {
+TEST_CASE("sweep: a sensor at the contact is left out") {
   SweepScene scene;
   std::vector<SweepEntry> entries = test::record_sweep(scene, {0.005, 0.01});
   scene.view = ForceView::Contact;
@@ -134,46 +134,46 @@ TEST_CASE("joint: a sensor at the contact is left out") {
   CHECK(sweep.roles[2] == SweepRole::LeftOut);
 }
 
-TEST_CASE("joint: Coulomb friction needs no alpha") {
+TEST_CASE("sweep: Coulomb friction needs no alpha") {
   SweepScene scene;
   scene.f1_N = 0.0;
   scene.f0_N = 2.0;
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
-  REQUIRE(sweep.joint);
-  CHECK(sweep.joint->fit.tier == Tier::Damped);
+  REQUIRE(sweep.fit);
+  CHECK(sweep.fit->result.tier == Tier::Damped);
   CHECK(parameter(sweep, "alpha_s_per_m").status == ParameterStatus::Unidentified);
   CHECK_THAT(parameter(sweep, "alpha_s_per_m").estimate.note,
              Catch::Contains("Coulomb friction explains the recordings"));
   check_recovery(sweep, scene);
 }
 
-TEST_CASE("joint: one speed cannot tell alpha, and says so") {
+TEST_CASE("sweep: one speed cannot tell alpha, and says so") {
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep({}, {0.01, 0.0105}), {});
-  REQUIRE(sweep.joint);
-  CHECK(sweep.joint->fit.tier == Tier::Damped);
+  REQUIRE(sweep.fit);
+  CHECK(sweep.fit->result.tier == Tier::Damped);
   CHECK_FALSE(parameter(sweep, "alpha_s_per_m").estimate.value);
   CHECK_THAT(parameter(sweep, "alpha_s_per_m").estimate.note, Catch::Contains("one speed cannot tell alpha"));
 }
 
-TEST_CASE("joint: recordings with zeros of their own share no level; damping is then conditional") {
+TEST_CASE("sweep: recordings with zeros of their own share no level; damping is then conditional") {
   SweepScene scene;
   scene.offset_N = 0.3;
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
-  REQUIRE(sweep.joint);
-  CHECK_FALSE(sweep.joint->level_shared);
-  CHECK(warns(sweep.joint->fit.warnings, "level_differs"));
+  REQUIRE(sweep.fit);
+  CHECK_FALSE(sweep.fit->level_shared);
+  CHECK(warns(sweep.fit->result.warnings, "level_differs"));
   CHECK(parameter(sweep, "damping_ratio").status != ParameterStatus::Identified);
   const Parameter& stiffness = parameter(sweep, "stiffness_N_per_m");
   CHECK(std::abs(*stiffness.estimate.value - scene.stiffness_N_per_m) < 4.0 * *stiffness.estimate.standard_error);
 }
 
-TEST_CASE("joint: one recording with cycles is no sweep") {
+TEST_CASE("sweep: one recording with cycles is no sweep") {
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep({}, {0.01}), {});
-  CHECK_FALSE(sweep.joint);
-  CHECK_THAT(sweep.joint_reason, Catch::Contains("1 with stick-slip cycles"));
+  CHECK_FALSE(sweep.fit);
+  CHECK_THAT(sweep.fit_reason, Catch::Contains("1 with stick-slip cycles"));
 }
 
-TEST_CASE("joint: where recordings do not quite share k, F_k(v) stays because it predicts the unseen better") {
+TEST_CASE("sweep: where recordings do not quite share k, F_k(v) stays because it predicts the unseen better") {
   SweepScene scene;
   scene.f0_N = 1.0;
   scene.f1_N = 1.0;
@@ -184,19 +184,20 @@ TEST_CASE("joint: where recordings do not quite share k, F_k(v) stays because it
     return s;
   };
   const SweepAnalysis sweep = analyze_sweep(record_each(speeds, scene_of), {});
-  REQUIRE(sweep.joint);
-  CHECK(*sweep.joint->fit.residual.reduced_chi2 > 1.5);
-  CHECK(sweep.joint->fit.tier == Tier::Velocity);
-  CHECK_THAT(sweep.joint->fit.candidates.front().reason, Catch::Contains("spacing predicted for a recording left out"));
+  REQUIRE(sweep.fit);
+  CHECK(*sweep.fit->result.residual.reduced_chi2 > 1.5);
+  CHECK(sweep.fit->result.tier == Tier::Velocity);
+  CHECK_THAT(sweep.fit->result.candidates.front().reason,
+             Catch::Contains("spacing predicted for a recording left out"));
   check_recovery(sweep, scene);
   const Estimate& slope = parameter(sweep, "friction_slope_N_s_per_m").estimate;
   const double truth = scene.f1_N * scene.alpha_s_per_m;
   CHECK(slope.ci95->low < truth);
   CHECK(truth < slope.ci95->high);
-  for (const Parameter& p : sweep.joint->fit.parameters) CHECK(p.status != ParameterStatus::Identified);
+  for (const Parameter& p : sweep.fit->result.parameters) CHECK(p.status != ParameterStatus::Identified);
 }
 
-TEST_CASE("joint: where recordings do not quite share w_n, F_k(v) gains and yet Coulomb friction predicts better") {
+TEST_CASE("sweep: where recordings do not quite share w_n, F_k(v) gains and yet Coulomb friction predicts better") {
   SweepScene scene;
   scene.f0_N = 2.0;
   scene.f1_N = 0.0;
@@ -206,24 +207,24 @@ TEST_CASE("joint: where recordings do not quite share w_n, F_k(v) gains and yet 
     return s;
   };
   const SweepAnalysis sweep = analyze_sweep(record_each(kSpeeds, scene_of), {});
-  REQUIRE(sweep.joint);
-  CHECK(*sweep.joint->fit.residual.reduced_chi2 > 1.5);
-  CHECK(sweep.joint->fit.tier == Tier::Damped);
+  REQUIRE(sweep.fit);
+  CHECK(*sweep.fit->result.residual.reduced_chi2 > 1.5);
+  CHECK(sweep.fit->result.tier == Tier::Damped);
   check_recovery(sweep, scene);
   const Parameter& alpha = parameter(sweep, "alpha_s_per_m");
   CHECK(alpha.status == ParameterStatus::Unidentified);
   CHECK_THAT(alpha.estimate.note, Catch::Contains("spacing predicted for a recording left out"));
-  for (const Parameter& p : sweep.joint->fit.parameters) CHECK(p.status != ParameterStatus::Identified);
+  for (const Parameter& p : sweep.fit->result.parameters) CHECK(p.status != ParameterStatus::Identified);
 }
 
-TEST_CASE("joint: a kinetic friction that wanders from cycle to cycle is followed, and counts as scatter") {
+TEST_CASE("sweep: a kinetic friction that wanders from cycle to cycle is followed, and counts as scatter") {
   SweepScene scene;
   scene.level_scatter_N = 0.08;
   scene.cycles = 40.0;
   scene.seed = 41;
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
-  REQUIRE(sweep.joint);
-  CHECK(*sweep.joint->fit.residual.reduced_chi2 == Approx(1.0).margin(0.1));
+  REQUIRE(sweep.fit);
+  CHECK(*sweep.fit->result.residual.reduced_chi2 == Approx(1.0).margin(0.1));
   check_recovery(sweep, scene);
   double count = 0.0;
   for (const Analysis& analysis : sweep.recordings) {
@@ -245,7 +246,7 @@ TEST_CASE("joint: a kinetic friction that wanders from cycle to cycle is followe
   CHECK(*level.standard_error > 0.7 * scene.level_scatter_N / std::sqrt(count));
 }
 
-TEST_CASE("joint: where alpha is hardly told, intervals follow its valley to the other end") {
+TEST_CASE("sweep: where alpha is hardly told, intervals follow its valley to the other end") {
   // zeta times alpha is known, neither is: by its best values alone, with alpha > 0, this recording gave a slope of
   // -0.07 +- 0.06 N s/m and a difference of 1.105 +- 0.015 N.
   SweepScene scene;
@@ -253,7 +254,7 @@ TEST_CASE("joint: where alpha is hardly told, intervals follow its valley to the
   scene.cycles = 40.0;
   scene.seed = 3700;
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, {0.005, 0.01, 0.02, 0.04, 0.08}), {});
-  REQUIRE(sweep.joint);
+  REQUIRE(sweep.fit);
   const auto holds = [&](const char* name, double truth) {
     const Interval& ci = *parameter(sweep, name).estimate.ci95;
     return ci.low <= truth && truth <= ci.high;
@@ -266,7 +267,7 @@ TEST_CASE("joint: where alpha is hardly told, intervals follow its valley to the
         4.0 * *difference.standard_error);
 }
 
-TEST_CASE("joint: friction coefficients where the normal forces are stated, and differ") {
+TEST_CASE("sweep: friction coefficients where the normal forces are stated, and differ") {
   const SweepScene scene;
   constexpr double kFirst_N = 4.0;
   const auto scene_of = [&](std::size_t i) {
@@ -279,9 +280,9 @@ TEST_CASE("joint: friction coefficients where the normal forces are stated, and 
     return s;
   };
   const SweepAnalysis sweep = analyze_sweep(record_each(kSpeeds, scene_of), {});
-  REQUIRE(sweep.joint);
-  CHECK(sweep.joint->fit.conditional_on.back() == "normal force 4 N");
-  CHECK(sweep.joint->level_shared);
+  REQUIRE(sweep.fit);
+  CHECK(sweep.fit->result.conditional_on.back() == "normal force 4 N");
+  CHECK(sweep.fit->level_shared);
   check_recovery(sweep, scene);
   for (const auto& [name, truth] : {std::pair("mu0", scene.f0_N / kFirst_N), std::pair("mu1", scene.f1_N / kFirst_N)}) {
     const Parameter& p = parameter(sweep, name);
@@ -292,7 +293,7 @@ TEST_CASE("joint: friction coefficients where the normal forces are stated, and 
   }
   // Kinetic friction of a recording is that under its own load.
   for (std::size_t i = 0; i < kSpeeds.size(); ++i) {
-    const Estimate& friction = sweep.joint->points[i].kinetic_friction_N;
+    const Estimate& friction = sweep.fit->points[i].kinetic_friction_N;
     const double load = i % 2 == 0 ? 1.0 : 1.5;
     const double truth_N = load * (scene.f0_N + scene.f1_N * std::exp(scene.alpha_s_per_m * kSpeeds[i]));
     CHECK(std::abs(*friction.value - truth_N) < 4.0 * *friction.standard_error);
