@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "core/thresholds.hpp"
+#include "core/slip_thresholds.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::signal {
