@@ -227,7 +227,7 @@ Stretch plateau(std::span<const double> force) {
   const Blocks blocks = blocks_of(force);
   if (blocks.level.size() < thresholds::kFewestPlateauBlocks) return whole;
   const Split split = split_of(blocks.level);
-  if (std::abs(split.low) > thresholds::kRestLevel * split.high) return whole;
+  if (!(split.high > split.low) || std::abs(split.low) > thresholds::kRestLevel * split.high) return whole;
   Stretch run = longest_above(blocks.level, split);
   // What the level does in the middle of the run is how it moves while the body slides.
   const std::size_t edge = (run.end - run.begin) / 4;
