@@ -83,7 +83,7 @@ Answer run_velocity(const ForwardScene& scene, const WaveTimes& times) {
     const auto at = track->at(fall);
     fall -= at.z / at.d_tau;
   }
-  const double period = z0 - track->after().intercept;
+  const double period = z0 - track->after().value;
   return {Outcome::Cycle, period, repeat(times, fall, period, [&](double tau) { return track->at(tau).z; })};
 }
 

@@ -74,7 +74,7 @@ Trace stick_slip_trace(const Drive& drive, const Size& size, double noise_N, Ran
   double time_s = 0.0;
   while (slip && slip->resticks() && time_s < end_s) {
     const double next_N = truth.static_friction_N + truth.scatter_N * normal(random);
-    const double next_s = onset_s + (drive.onset_N(next_N) / u - slip->after().intercept) / omega;
+    const double next_s = onset_s + (drive.onset_N(next_N) / u - slip->after().value) / omega;
     for (; time_s < std::min(next_s, end_s); time_s += step_s) {
       trace.time_s.push_back(time_s);
       const double z = slip->at(omega * (time_s - onset_s)).z;
@@ -92,7 +92,7 @@ std::optional<double> Truth::spacing_m(double speed_m_per_s) const {
   const Drive drive{*this, speed_m_per_s};
   const std::optional<VelocityTrack> slip = drive.slip(static_friction_N);
   if (!slip || !slip->resticks()) return std::nullopt;
-  return speed_m_per_s * (drive.onset_N(static_friction_N) / drive.force_scale_N() - slip->after().intercept) /
+  return speed_m_per_s * (drive.onset_N(static_friction_N) / drive.force_scale_N() - slip->after().value) /
          natural_frequency_rad_per_s;
 }
 

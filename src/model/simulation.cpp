@@ -78,9 +78,9 @@ class VelocitySlips {
     slip.lambda = z0 + 2.0 * slip.zeta;
     path_ = model::first_slip<model::kPlain>(slip);
     trace_ = model::SlipTrace(slip);
-    if (path_.status == model::SlipStatus::NotSolved) runs_away_ = true;
+    if (path_.outcome == model::SlipOutcome::NotSolved) runs_away_ = true;
   }
-  [[nodiscard]] bool resticks() const { return path_.status == model::SlipStatus::Resticks; }
+  [[nodiscard]] bool resticks() const { return path_.outcome == model::SlipOutcome::Resticks; }
   [[nodiscard]] double tau_end() const { return path_.end.tau; }
   [[nodiscard]] double z_end() const { return path_.end.x[0] - 2.0 * units_.slip.zeta; }
   [[nodiscard]] Point at(double tau) {

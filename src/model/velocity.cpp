@@ -15,9 +15,9 @@ using model::is_positive;
 
 namespace {
 
-Regime regime_of(const model::ScaledSlip& slip, model::SlipStatus status) {
+Regime regime_of(const model::ScaledSlip& slip, model::SlipOutcome outcome) {
   const double total = slip.total_damping_ratio();
-  if (status == model::SlipStatus::Resticks) return total > 0.0 ? Regime::StickSlipBistable : Regime::StickSlip;
+  if (outcome == model::SlipOutcome::Resticks) return total > 0.0 ? Regime::StickSlipBistable : Regime::StickSlip;
   if (total < 0.0) return Regime::UnstableSteady;  // by round-off at best: docs/model.md (17)
   return total < 1.0 ? Regime::OscillatorySlip : Regime::ContinuousSlip;
 }
@@ -60,11 +60,11 @@ Result<VelocityMotion> velocity_motion(const Slider& slider, const VelocityFrict
   if (!in_units) return in_units.error();
   const model::ScaledSlip& slip = in_units.value().slip;
   const auto path = model::first_slip<model::kPlain>(slip);
-  if (path.status == model::SlipStatus::NotSolved) return model::no_convergence(slip);
+  if (path.outcome == model::SlipOutcome::NotSolved) return model::no_convergence(slip);
   VelocityMotion result;
   result.motion.lambda = slip.lambda;
-  result.motion.regime = regime_of(slip, path.status);
-  if (path.status == model::SlipStatus::Resticks) {
+  result.motion.regime = regime_of(slip, path.outcome);
+  if (path.outcome == model::SlipOutcome::Resticks) {
     result.motion.cycle = limit_cycle(in_units.value(), path, slider, friction, speed_m_per_s);
   }
   result.total_damping_ratio = slip.total_damping_ratio();
@@ -99,7 +99,8 @@ class ChainRule {
     const Jet f1 = jet(friction.f1_N(), VelocityParameter::F1);
     onset_N = f0 + f1;
     lambda = (jet(friction.static_N(), VelocityParameter::StaticFriction) - onset_N) / scale_N;
-    scaled_ = {lambda, zeta, f1 / scale_N, jet(friction.alpha_s_per_m(), VelocityParameter::Alpha) * speed};
+    const Jet rate = jet(friction.alpha_s_per_m(), VelocityParameter::Alpha) * speed;
+    scaled_ = {lambda - 2.0 * zeta, zeta, f1 / scale_N * rate, rate};
   }
 
   /// A scaled quantity by its value and its derivatives.
@@ -124,8 +125,8 @@ Result<std::optional<VelocityDerivatives>> velocity_derivatives(const Slider& sl
   const Result<model::SpeedUnits> in_units = model::in_speed_units(slider, friction, speed_m_per_s);
   if (!in_units) return in_units.error();
   const auto path = model::first_slip<model::kSensitive>(in_units.value().slip);
-  if (path.status == model::SlipStatus::NotSolved) return model::no_convergence(in_units.value().slip);
-  if (path.status == model::SlipStatus::SlidesOn) return Answer();
+  if (path.outcome == model::SlipOutcome::NotSolved) return model::no_convergence(in_units.value().slip);
+  if (path.outcome != model::SlipOutcome::Resticks) return Answer();
 
   const ChainRule chain(slider, friction, speed_m_per_s);
   const auto s_at = [&](const model::StepNode<model::kSensitive>& node) {

@@ -4,34 +4,40 @@
 // 1/w_n.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace slipfit::model {
 
 /// g(v) = F_k(v) - F_k(0+) and its derivatives with respect to the speed and to the law's two parameters.
 struct ExcessFriction {
-  double value = 0.0, slope = 0.0, d_strength = 0.0, d_rate = 0.0;
+  double value = 0.0, d_speed = 0.0, d_slope = 0.0, d_rate = 0.0;
 };
 
-/// g = strength (exp(rate v) - 1), strength = f1 w_n / (k V), rate = alpha V.
+/// g = slope (exp(rate v) - 1) / rate, slope = f1 alpha w_n / k, rate = alpha V; at rate 0 linear in the speed.
 struct ScaledLaw {
-  double strength = 0.0;
+  double slope = 0.0;
   double rate = 0.0;
 
   [[nodiscard]] ExcessFriction at(double v) const {
     // Overflow stays infinite: the error control rejects a step that meets it, but would believe in a large plateau.
-    const double growth = std::expm1(rate * v);
-    if (strength == 0.0) return {0.0, 0.0, growth, 0.0};  // not 0 * infinity
-    const double slope = strength * (growth + 1.0);
-    return {strength * growth, slope * rate, growth, slope * v};
+    const double x = rate * v;
+    const double growth = std::expm1(x);
+    const double d_slope = rate == 0.0 ? v : growth * (1.0 / rate);  // the division does not wait for the exponential
+    if (slope == 0.0) return {0.0, 0.0, d_slope, 0.0};               // not 0 * infinity
+    // The difference below loses its digits where x is small; the series leaves out x^4 / 144.
+    const double d_rate = std::abs(x) < 1e-3 ? v * v * (0.5 + x * (1.0 / 3.0 + x * (0.125 + x / 30.0)))
+                                             : (v * (growth + 1.0) - d_slope) / rate;
+    return {slope * d_slope, slope * (growth + 1.0), d_slope, slope * d_rate};
   }
 
   /// The smallest slope of the friction above the driving speed (v > 1): it alone can pull a fast slip below v = 1.
   [[nodiscard]] double smallest_slope_of_fast_slip() const {
-    const double here = at(1.0).slope;
+    const double here = at(1.0).d_speed;
     if (rate <= 0.0) return std::min(here, 0.0);  // the slope dies out: it lies between here and 0
-    return strength >= 0.0 ? here : -std::numeric_limits<double>::infinity();
+    return slope >= 0.0 ? here : -std::numeric_limits<double>::infinity();
   }
 };
 
@@ -44,9 +50,27 @@ struct ScaledSlip {
   ScaledLaw law;
 
   /// (c + c_v) / (2 sqrt(k m)) with the tangent c_v of the friction at the driving speed.
-  [[nodiscard]] double total_damping_ratio() const { return zeta + 0.5 * law.at(1.0).slope; }
+  [[nodiscard]] double total_damping_ratio() const { return zeta + 0.5 * law.at(1.0).d_speed; }
   /// s of steady sliding, v = 1.
   [[nodiscard]] double steady_s() const { return 2.0 * zeta + law.at(1.0).value; }
+};
+
+/// The state of a slip: s, v and the integral of s; or s, v and the derivatives of both at a fixed time with respect to
+/// the scaled parameters z0 = lambda - 2 zeta, zeta, slope and rate of the law.
+inline constexpr std::size_t kSpeed = 1;  ///< the component that comes to rest
+inline constexpr std::size_t kIntegral = 2;
+inline constexpr std::size_t kPlain = 3;
+inline constexpr std::size_t kScaledParameters = 4;
+inline constexpr std::size_t kFirstDs = 2;
+inline constexpr std::size_t kFirstDv = kFirstDs + kScaledParameters;
+inline constexpr std::size_t kSensitive = kFirstDv + kScaledParameters;
+
+/// State and its derivative at one instant.
+template <std::size_t N>
+struct StepNode {
+  double tau = 0.0;
+  std::array<double, N> x{};
+  std::array<double, N> dx{};
 };
 
 }  // namespace slipfit::model

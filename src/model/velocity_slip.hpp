@@ -13,24 +13,26 @@
 
 namespace slipfit::model {
 
-/// The scaled parameters in the order of the sensitivities: lambda, zeta, strength and rate of the law.
-inline constexpr std::size_t kScaledParameters = 4;
-inline constexpr std::size_t kIntegral = 2;                                ///< of s over the slip
-inline constexpr std::size_t kPlain = 3;                                   ///< s, v, integral of s
-inline constexpr std::size_t kSensitive = kPlain + 2 * kScaledParameters;  ///< and ds/dp, dv/dp
-inline constexpr std::size_t kFirstDs = kPlain;
-inline constexpr std::size_t kFirstDv = kPlain + kScaledParameters;
+/// How exactly a slip is followed.
+struct SlipAccuracy {
+  double tolerance;     ///< of a step, over the size of each component
+  double longest_step;  ///< at most 1: a third of the half turn in which v turns once
+  double layer_share;   ///< of the way to rest, and of the layer there, that a step may cross
+};
+/// The end of slip to 1e-10, derivatives to 1e-9: local errors add up to a few 1e-12 over a slip. With a share of 0.5
+/// the end was good to 2e-10 only.
+inline constexpr SlipAccuracy kExact{1e-13, 1.0, 0.3};
+/// To 1e-7, all that fits need; quintic polynomials across steps of 0.5 are good to 4e-7 of the motion.
+inline constexpr SlipAccuracy kForFits{1e-9, 0.5, 0.5};
 
 /// With rate < 0 the friction changes within 1 / |rate| above rest. The error estimate of Fehlberg's steps is blind to
 /// what only the last stage sees, and to friction that matters little for the motion: steps resolve this layer by
-/// themselves, and none falls into it from far above. Without it 1: a third of the half turn in which v turns once.
-inline double longest_slip_step(const ScaledLaw& law, double v, double acceleration) {
-  constexpr double kLongest = 1.0;
+/// themselves, and none falls into it from far above.
+inline double longest_slip_step(const ScaledLaw& law, const SlipAccuracy& accuracy, double v, double acceleration) {
   constexpr double kLayer = 40.0;  // exp(-40) is below round-off
-  constexpr double kShare = 0.3;   // with 0.5 the end of slip was good to 2e-10 only
   const bool leaves = acceleration >= 0.0 && law.rate * v < -kLayer;
-  if (law.rate >= 0.0 || leaves) return kLongest;
-  return std::min(kLongest, kShare * (v - 1.0 / law.rate) / std::abs(acceleration));
+  if (law.rate >= 0.0 || leaves) return accuracy.longest_step;
+  return std::min(accuracy.longest_step, accuracy.layer_share * (v - 1.0 / law.rate) / std::abs(acceleration));
 }
 
 /// s' = 1 - v, v' = s - 2 zeta v - g(v), and beside them (N = kSensitive) the derivatives of both equations with
@@ -38,20 +40,21 @@ inline double longest_slip_step(const ScaledLaw& law, double v, double accelerat
 template <std::size_t N>
 struct SlipSystem {
   ScaledSlip slip;
+  SlipAccuracy accuracy;
 
   [[nodiscard]] double longest_step(const StepNode<N>& node) const {
-    return longest_slip_step(slip.law, node.x[kSpeed], node.dx[kSpeed]);
+    return longest_slip_step(slip.law, accuracy, node.x[kSpeed], node.dx[kSpeed]);
   }
 
   void operator()(const std::array<double, N>& x, std::array<double, N>& dx, double /*tau*/) const {
-    const double v = x[1];
+    const double v = x[kSpeed];
     const ExcessFriction friction = slip.law.at(v);
     dx[0] = 1.0 - v;
-    dx[1] = x[0] - 2.0 * slip.zeta * v - friction.value;
-    dx[kIntegral] = x[0];
+    dx[kSpeed] = x[0] - 2.0 * slip.zeta * v - friction.value;
+    if constexpr (N == kPlain) dx[kIntegral] = x[0];
     if constexpr (N == kSensitive) {
-      const double damping = 2.0 * slip.zeta + friction.slope;
-      const std::array<double, kScaledParameters> direct{0.0, 2.0 * v, friction.d_strength, friction.d_rate};
+      const double damping = 2.0 * slip.zeta + friction.d_speed;
+      const std::array<double, kScaledParameters> direct{0.0, 2.0 * v, friction.d_slope, friction.d_rate};
       for (std::size_t p = 0; p < kScaledParameters; ++p) {
         dx[kFirstDs + p] = -x[kFirstDv + p];
         dx[kFirstDv + p] = x[kFirstDs + p] - damping * x[kFirstDv + p] - direct[p];
@@ -60,18 +63,17 @@ struct SlipSystem {
   }
 };
 
-/// Local errors of 1e-13 (4 digits below the 1e-9 asked of the derivatives) add up to a few 1e-12 over a slip.
 template <std::size_t N>
-StepError<N> step_error(const ScaledSlip& slip) {
-  StepError<N> error{1e-13, {}};
+StepError<N> step_error(const ScaledSlip& slip, const SlipAccuracy& accuracy) {
+  StepError<N> error{accuracy.tolerance, {}};
   const double size = 1.0 + slip.lambda;
-  error.floor[0] = error.floor[1] = error.floor[kIntegral] = size;
+  error.floor.fill(size);
   if constexpr (N == kSensitive) {
     // Sizes of the sensitivities; those of the law fade where the friction has changed before the slip is under way.
-    const double reach = 1.0 + std::abs(slip.law.rate) * size;
-    const double tiny = 1e-200;  // a law without strength has no sensitivity to its rate: 0 / 0
-    const std::array<double, kScaledParameters> sizes{1.0, size, (reach - 1.0) / reach + tiny,
-                                                      std::abs(slip.law.strength) * size / (reach * reach) + tiny};
+    const double reach = size / (1.0 + std::abs(slip.law.rate) * size);
+    const double tiny = 1e-200;  // a law without slope has no sensitivity to its rate: 0 / 0
+    const std::array<double, kScaledParameters> sizes{1.0, size, reach,
+                                                      std::abs(slip.law.slope) * reach * reach + tiny};
     for (std::size_t p = 0; p < kScaledParameters; ++p) {
       error.floor[kFirstDs + p] = error.floor[kFirstDv + p] = sizes[p];
     }
@@ -84,15 +86,19 @@ using SlipWalker = StepWalker<N, SlipSystem<N>>;
 
 /// A slip from stick. The first step must not jump over the layer at rest either; v grows as lambda tau.
 template <std::size_t N>
-SlipWalker<N> walk_slip(const ScaledSlip& slip) {
+SlipWalker<N> walk_slip(const ScaledSlip& slip, const SlipAccuracy& accuracy = kExact) {
   std::array<double, N> start{};
   start[0] = slip.lambda;
-  if constexpr (N == kSensitive) start[kFirstDs] = 1.0;  // s(0) = lambda
+  if constexpr (N == kSensitive) {  // s(0) = z0 + 2 zeta
+    start[kFirstDs] = 1.0;
+    start[kFirstDs + 1] = 2.0;
+  }
   const double first_step = 0.1 / (1.0 + std::abs(slip.law.rate) * (1.0 + slip.lambda));
-  return {SlipSystem<N>{slip}, start, step_error<N>(slip), first_step};
+  return {SlipSystem<N>{slip, accuracy}, start, step_error<N>(slip, accuracy), first_step};
 }
 
-enum class SlipStatus { Resticks, SlidesOn, NotSolved };
+/// Resticks, turns back before it has come to rest, or settles to steady sliding.
+enum class SlipOutcome { Resticks, TurnsBack, Settles, NotSolved };
 
 /// Only a slip that has been faster than the drive and falls below its speed can stick or turn back: below it the
 /// spring gains force, so that what accelerates goes on accelerating. Before that a creeping body only seems to, by
@@ -102,40 +108,55 @@ bool falls_below_drive(const Walker& walker) {
   return walker.from.x[kSpeed] >= 1.0 && walker.to.x[kSpeed] < 1.0;
 }
 
-/// The instants that matter. Where the slip slides on, `end` is its slowest point or where the motion has settled.
 template <std::size_t N>
-struct SlipPath {
-  SlipStatus status = SlipStatus::NotSolved;
-  StepNode<N> peak, trough, end;  ///< s is largest and smallest where v = 1
+struct SlipEnd {
+  SlipOutcome outcome = SlipOutcome::NotSolved;
+  StepNode<N> node;  ///< where it sticks or is slowest, or where the motion has settled
 };
 
 /// Steady sliding is stable and so close that the linear motion about it cannot reach v = 0 any more.
 template <std::size_t N>
 bool has_settled(const ScaledSlip& slip, const StepNode<N>& node) {
-  const double distance = std::abs(node.x[1] - 1.0) + std::abs(node.x[0] - slip.steady_s());
+  const double distance = std::abs(node.x[kSpeed] - 1.0) + std::abs(node.x[0] - slip.steady_s());
   return distance * (1.0 + std::abs(slip.law.rate)) < 1e-6 && slip.total_damping_ratio() > 0.0;
 }
 
 /// From stick until the mass is at rest again, or has turned back before, or has settled. One turn decides: orbits of
 /// two variables do not cross, so what has turned back once stays inside its own loop, docs/model.md (16).
-template <std::size_t N>
-SlipPath<N> follow_slip(const ScaledSlip& slip) {
+/// `after_step(walker)` is called after each step.
+template <std::size_t N, class AfterStep>
+SlipEnd<N> follow_slip(const ScaledSlip& slip, const SlipAccuracy& accuracy, const AfterStep& after_step) {
   constexpr int kMaxSteps = 5000;  // an ordinary slip needs 10 to 60; a stiff one gets 10 ms at most
-  SlipWalker<N> walker = walk_slip<N>(slip);
-  SlipPath<N> path;
+  SlipWalker<N> walker = walk_slip<N>(slip, accuracy);
   bool slows_down = false;
   for (int step = 0; step < kMaxSteps && walker.advance(); ++step) {
-    if (walker.from.x[kSpeed] < 1.0 && walker.to.x[kSpeed] >= 1.0) path.peak = locate_level(walker, 1.0, walker.to);
-    if (falls_below_drive(walker)) {
-      path.trough = locate_level(walker, 1.0, walker.to);
-      slows_down = true;
-    }
+    after_step(walker);
+    slows_down = slows_down || falls_below_drive(walker);
     const SpeedEvent<N> event = slows_down ? speed_event(walker) : SpeedEvent<N>();
-    path.end = event.rest ? *event.rest : event.turn ? *event.turn : walker.to;
-    if (event.rest) path.status = SlipStatus::Resticks;
-    if (event.turn || has_settled(slip, walker.to)) path.status = SlipStatus::SlidesOn;
-    if (path.status != SlipStatus::NotSolved) return path;
+    if (event.rest) return {SlipOutcome::Resticks, *event.rest};
+    if (event.turn) return {SlipOutcome::TurnsBack, *event.turn};
+    if (has_settled(slip, walker.to)) return {SlipOutcome::Settles, walker.to};
   }
+  return {};
+}
+
+/// The instants that matter: s is largest and smallest where v = 1.
+template <std::size_t N>
+struct SlipPath {
+  SlipOutcome outcome = SlipOutcome::NotSolved;
+  StepNode<N> peak, trough, end;
+};
+
+template <std::size_t N>
+SlipPath<N> follow_slip(const ScaledSlip& slip) {
+  SlipPath<N> path;
+  const auto keep_extremes = [&path](SlipWalker<N>& walker) {
+    if (walker.from.x[kSpeed] < 1.0 && walker.to.x[kSpeed] >= 1.0) path.peak = locate_level(walker, 1.0, walker.to);
+    if (falls_below_drive(walker)) path.trough = locate_level(walker, 1.0, walker.to);
+  };
+  const SlipEnd<N> last = follow_slip<N>(slip, kExact, keep_extremes);
+  path.outcome = last.outcome;
+  path.end = last.node;
   return path;
 }
 
@@ -144,7 +165,7 @@ template <std::size_t N>
 SlipPath<N> first_slip(const ScaledSlip& slip) {
   if (2.0 * slip.zeta + slip.law.smallest_slope_of_fast_slip() < 2.0) return follow_slip<N>(slip);
   SlipPath<N> path;
-  path.status = SlipStatus::SlidesOn;
+  path.outcome = SlipOutcome::Settles;
   return path;
 }
 

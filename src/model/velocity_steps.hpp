@@ -16,17 +16,9 @@
 #include <functional>
 #include <optional>
 
+#include "model/velocity_law.hpp"
+
 namespace slipfit::model {
-
-inline constexpr std::size_t kSpeed = 1;  ///< the component that comes to rest
-
-/// State and its derivative at one instant.
-template <std::size_t N>
-struct StepNode {
-  double tau = 0.0;
-  std::array<double, N> x{};
-  std::array<double, N> dx{};
-};
 
 /// Error of a step against |x| + h |x'| of each component, but never less than its floor.
 template <std::size_t N>
@@ -62,7 +54,7 @@ class StepWalker {
 
  public:
   StepWalker(const System& system, const State& start, const StepError<N>& error, double first_step)
-      : system_(system), controlled_(error), step_(first_step) {
+      : system_(system), controlled_(error, {}, kStepper), step_(first_step) {
     to.x = start;
     system_(to.x, to.dx, to.tau);
   }
@@ -102,6 +94,8 @@ class StepWalker {
   }
 
  private:
+  inline static const Fehlberg kStepper{};  ///< copied: a fresh one would be copied with its memory uninitialised
+
   System system_;
   Controlled controlled_;
   double step_;

@@ -22,10 +22,11 @@ inline Result<SpeedUnits> in_speed_units(const Slider& slider, const VelocityFri
   const double force_N = slider.stiffness_N_per_m() * speed_m_per_s / slider.natural_frequency_rad_per_s();
   if (!is_positive(force_N)) return out_of_range("k V / w_n (N)", force_N, "a number > 0");
   const double lambda = (friction.static_N() - friction.onset_N()) / force_N;
-  const ScaledLaw law{friction.f1_N() / force_N, friction.alpha_s_per_m() * speed_m_per_s};
+  const double rate = friction.alpha_s_per_m() * speed_m_per_s;
+  const ScaledLaw law{friction.f1_N() / force_N * rate, rate};
   if (!std::isfinite(lambda)) return out_of_range("lambda", lambda, "a finite number");
-  if (!std::isfinite(law.strength)) return out_of_range("f1 w_n / (k V)", law.strength, "a finite number");
-  if (!(std::isfinite(law.rate) && std::isfinite(law.at(1.0).slope))) {
+  if (!std::isfinite(law.slope)) return out_of_range("f1 alpha w_n / k", law.slope, "a finite number");
+  if (!(std::isfinite(law.rate) && std::isfinite(law.at(1.0).d_speed))) {
     return out_of_range("alpha * speed", law.rate, "a number whose exponential is finite");
   }
   return SpeedUnits{force_N, {lambda, slider.damping_ratio(), law}};
@@ -34,7 +35,7 @@ inline Result<SpeedUnits> in_speed_units(const Slider& slider, const VelocityFri
 inline Error no_convergence(const ScaledSlip& slip) {
   const auto text = [](double value) { return short_text(value); };
   return {"no_convergence", "the slip with lambda " + text(slip.lambda) + ", damping ratio " + text(slip.zeta) +
-                                ", f1 w_n / (k V) " + text(slip.law.strength) + ", alpha V " + text(slip.law.rate) +
+                                ", f1 alpha w_n / k " + text(slip.law.slope) + ", alpha V " + text(slip.law.rate) +
                                 " runs away or is too stiff to be followed, expected friction that changes less"};
 }
 

@@ -45,7 +45,7 @@ class Cycle {
   [[nodiscard]] bool sticks() const { return track_ && track_->resticks() && tau_stick() > 0.0; }
   [[nodiscard]] double omega_rad_per_s() const { return omega_.a; }
   [[nodiscard]] double tau_slip() const { return track_->tau_end(); }
-  [[nodiscard]] double tau_stick() const { return z0_.a - track_->after().intercept - tau_slip(); }
+  [[nodiscard]] double tau_stick() const { return z0_.a - track_->after().value - tau_slip(); }
 
   /// Force of a sample at a fixed time.
   [[nodiscard]] CycleJet force(double at) const {

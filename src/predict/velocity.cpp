@@ -65,8 +65,8 @@ std::optional<CycleJets> cycle_of(const SlipJets& slip, const model::VelocityTra
   const model::TrackEnd& end = track.end();
   Jet tau_slip(end.tau);
   tau_slip.v = -slip.jet(end.first).v / end.second.value;  // z'(tau) = 1 holds at the end
-  const model::TrackLine after = track.after();
-  const Jet tau_period = slip.z0 - slip.jet(after.intercept, after.d_z0, after.d_zeta, after.d_slope, after.d_rate);
+  const model::TrackValue after = track.after();
+  const Jet tau_period = slip.z0 - slip.jet(after.value, after.d_z0, after.d_zeta, after.d_slope, after.d_rate);
   if (!(tau_period.a > tau_slip.a)) return std::nullopt;
   const double falling = time_of_falling_force(track);
   const Jet period_s = tau_period / omega;

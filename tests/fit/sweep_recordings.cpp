@@ -43,7 +43,7 @@ slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offs
   double t = 0.0;
   while (t < s.cycles * period_s) {
     const double next_N = s.static_friction_N + s.scatter_N * normal(random);
-    const double next_s = onset_s + (scaled_onset(s, speed_m_per_s, next_N - level_N) - slip.after().intercept) / omega;
+    const double next_s = onset_s + (scaled_onset(s, speed_m_per_s, next_N - level_N) - slip.after().value) / omega;
     for (; t < next_s; t += step_s) {
       time_s.push_back(t);
       const slipfit::model::TrackPoint point = slip.at(omega * (t - onset_s));
@@ -68,7 +68,7 @@ slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offs
 double SweepScene::spacing_m(double speed_m_per_s) const {
   const VelocityTrack slip = slip_of(*this, speed_m_per_s, static_friction_N - kinetic_friction_N());
   return speed_m_per_s *
-         (scaled_onset(*this, speed_m_per_s, static_friction_N - kinetic_friction_N()) - slip.after().intercept) /
+         (scaled_onset(*this, speed_m_per_s, static_friction_N - kinetic_friction_N()) - slip.after().value) /
          natural_frequency_rad_per_s;
 }
 

@@ -61,7 +61,7 @@ TEST_CASE("track: end of slip, waveform and derivatives agree with the exact vel
 
     // z(tau) = intercept + tau after the slip: intercept = z_end - tau_end.
     const auto intercept_by = [&](VelocityParameter p) { return exact->end_force_N.by(p) - exact->slip_s.by(p); };
-    const model::TrackLine line = track->after();
+    const model::TrackValue line = track->after();
     const double by_z0 = intercept_by(VelocityParameter::StaticFriction);
     // At fixed z0 = lambda - 2 zeta; at a fixed F_k(0+) = f0 + f1; slope = f1 alpha.
     const double by_zeta = intercept_by(VelocityParameter::DampingRatio) + 2.0 * by_z0;

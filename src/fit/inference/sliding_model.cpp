@@ -51,8 +51,8 @@ std::optional<SlidingModel::Cycle> SlidingModel::cycle(double speed_m_per_s, dou
     y.v = p.d_z0 * z0.v + p.d_zeta * zeta.v + p.d_slope * scaled_slope.v + p.d_rate * rate.v;
     return y;
   };
-  const model::TrackLine line = track->after();
-  const Jet tau_period = z0 - jet(line.intercept, line);
+  const model::TrackValue& line = track->after();
+  const Jet tau_period = z0 - jet(line.value, line);
   const model::TrackEnd& end = track->end();
   Jet tau_slip(end.tau);
   tau_slip.v = -jet(end.first.value, end.first).v / end.second.value;  // z'(tau) = 1 holds at the end
