@@ -54,11 +54,11 @@ std::vector<double> guesses_s(const Recording& recording, const DampedFit& plain
   const BlockFit& blocks = plain.blocks;
   const double step_s = recording.sample_interval_s();
   const double of_fall_s = 0.7 * blocks.scales().half_period_s;
-  if (plain.refused_damping) return {of_fall_s};
   const std::optional<Smoothing> seen = estimate_smoothing(blocks, plain.held, step_s);
   if (!seen) return {};
   const double surely_s2 = seen->variance_s2 - thresholds::kRoundedSigmas * seen->standard_error_s2;
   if (!(surely_s2 > step_s * step_s / 12.0)) return {};
+  if (plain.refused_damping) return {of_fall_s};
   return {std::sqrt(12.0 * seen->variance_s2), of_fall_s};
 }
 
@@ -70,7 +70,8 @@ class Probe {
       : segmentation_(segmentation),
         held_(held_of(held)),
         step_s_(recording.sample_interval_s()),
-        plain_(plain.blocks) {
+        plain_(plain.blocks),
+        plain_misfit_(plain.misfit) {
     const Scales& scales = plain_.scales();
     const HumLines hum{plain_.level().lines_Hz, scales.time_begin_s};
     // Those that the fit could use, with room for an average over the whole fall on either side.
@@ -89,7 +90,7 @@ class Probe {
   /// Newton's steps in W^2, none by more than a factor of 4, until they are small or within the error; empty where they
   /// do not get smaller.
   [[nodiscard]] std::optional<double> converge(double average_s) const {
-    constexpr int kMostSteps = 8;
+    constexpr int kMostSteps = 6;
     double last_step = std::numeric_limits<double>::infinity();
     BlockFit fit = started(average_s);
     for (int step = 0; step < kMostSteps; ++step) {
@@ -102,8 +103,10 @@ class Probe {
       const double change = std::abs(next / square - 1.0);
       average_s = std::sqrt(next);
       if (average_s < step_s_ || average_s > 2.0 * plain_.scales().half_period_s) return std::nullopt;
-      if (change < kSmallStep || std::abs(beyond->variance_s2) < beyond->standard_error_s2) return average_s;
-      if (step > 2 && change > kShrinking * last_step) return std::nullopt;
+      if (change < kSmallStep || std::abs(beyond->variance_s2) < beyond->standard_error_s2) {
+        return misses_less(fit) ? std::optional(average_s) : std::nullopt;
+      }
+      if (step > 1 && change > kShrinking * last_step) return std::nullopt;
       last_step = change;
       fit = with_average(fit, average_s);
     }
@@ -111,9 +114,15 @@ class Probe {
   }
 
  private:
-  static constexpr std::size_t kProbeCycles = 16;
+  static constexpr std::size_t kProbeCycles = 10;
   static constexpr double kSmallStep = 0.05;
   static constexpr double kShrinking = 0.8;
+
+  /// Of the mean shape of the slips less than half of what the plain fit misses: worth a fit of all cycles.
+  [[nodiscard]] bool misses_less(const BlockFit& fit) const {
+    const std::optional<SegmentMisfit> misfit = find_misfit(fit, 0.0);
+    return !misfit || !plain_misfit_ || std::abs(misfit->size) < 0.5 * std::abs(plain_misfit_->size);
+  }
 
   [[nodiscard]] BlockFit with_average(const BlockFit& fit, double average_s) const {
     Scales scales = plain_.scales();
@@ -152,6 +161,7 @@ class Probe {
   Held held_;
   double step_s_;
   const BlockFit& plain_;
+  const std::optional<SegmentMisfit>& plain_misfit_;
   std::shared_ptr<const CycleSet> cycles_;
 };
 
@@ -182,7 +192,7 @@ class Trials {
       if (!beyond) break;
       Trial trial{std::move(*fit), *beyond, variance_s2};
       if (!best || trial.off() < best->off()) best = std::move(trial);
-      if (best->off() < thresholds::kSettledAverage) break;
+      if (best->fit.misfit || best->off() < thresholds::kSettledAverage) break;
       variance_s2 += beyond->variance_s2;
     }
     return best;
