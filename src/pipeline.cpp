@@ -26,15 +26,17 @@ namespace slipfit {
 namespace {
 
 /// The fit as far as its numbers can be believed: no parameters where the motion is not the model's, no natural
-/// frequency where the slips are not inertial, nothing identified where the cycles keep in step with the mains.
-std::optional<FitResult> qualify(std::optional<FitResult> fit, bool is_of_model, const Analysis& analysis,
-                                 double duration_s) {
+/// frequency where the slips are not inertial, nothing identified where the cycles are nearly waves or keep in step
+/// with the mains.
+std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classification& classification,
+                                 const Analysis& analysis, double duration_s) {
   if (!fit) return fit;
-  if (!is_of_model) return fit::without_parameters(*std::move(fit));
+  if (!classification.model_fits) return fit::without_parameters(*std::move(fit));
   const std::optional<double>& ring_Hz = analysis.transients.ring_down_frequency_Hz.value;
   const std::optional<double>& slips_Hz = analysis.frequency.quoted.value;
   const std::optional<double>& drop = analysis.cycles.force_drop;
   if (ring_Hz && drop) fit = fit::qualified_by_ring_down(*std::move(fit), *ring_Hz, *drop);
+  if (classification.nearly_wave) fit = fit::qualified_by_waves(*std::move(fit));
   if (slips_Hz) fit = fit::qualified_by_mains(*std::move(fit), *slips_Hz, duration_s);
   return fit;
 }
@@ -72,7 +74,7 @@ Analysis conclude(const Detected& detected, Estimates estimates, Classification 
   }
   analysis.cycle_table = fit != nullptr ? fit->cycles : fit::detected_cycles(recording, slips);
   analysis.transients = in_range(find_transients(detected, classification.motion));
-  analysis.fit = qualify(std::move(estimates.fit), classification.model_fits, analysis, recording.duration_s());
+  analysis.fit = qualify(std::move(estimates.fit), classification, analysis, recording.duration_s());
   analysis.motion = classification.motion;
   analysis.motion_reason = std::move(classification.reason);
   analysis.derived = derive(recording, analysis);

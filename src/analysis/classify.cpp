@@ -25,6 +25,13 @@ bool no_repetition(const SpectralFrequency& spectral) {
   return !spectral.value_Hz;
 }
 
+/// The periods of what repeats scatter by less than those of a motion with friction do.
+bool keeps_time_like_a_clock(const Recording& recording, const SpectralFrequency& spectral) {
+  if (!spectral.value_Hz || !spectral.standard_error_Hz) return false;
+  const double periods = recording.duration_s() * *spectral.value_Hz;
+  return *spectral.standard_error_Hz / *spectral.value_Hz * std::sqrt(periods) < thresholds::kClockScatter;
+}
+
 /// The second half of the recording moves little compared with the first swings: the motion died out.
 bool ends_flat(const Recording& recording, const Segmentation& segmentation) {
   const double last_s = segmentation.slips.empty() ? recording.time_s().front() : segmentation.slips.back().middle_s;
@@ -136,23 +143,29 @@ std::optional<Classification> as_round_swings(const Recording& recording, const 
   return std::nullopt;
 }
 
-/// Three sines follow the swings as well as sticks and slips do: no sticks have to be there.
-std::optional<Classification> as_wave(const Recording& recording, const Segmentation& segmentation,
-                                      const FitResult& fit) {
-  if (slips_are_sudden(segmentation)) return std::nullopt;
-  const std::optional<double> harmonic_rms = harmonic_residual_rms(recording, segmentation);
-  if (!harmonic_rms || *harmonic_rms > thresholds::kHarmonicTies * fit.residual.rms) return std::nullopt;
-  if (*harmonic_rms < thresholds::kHarmonicWins * fit.residual.rms) {
-    return Classification{MotionClass::OscillatorySlip,
-                          "three sines follow the swings better than sticks and slips do: an oscillation"};
-  }
-  return Classification{MotionClass::Undetermined,
-                        "three sines follow the swings as well as sticks and slips do: it may be an oscillation"};
+/// How much better sticks and slips follow the samples than three sines do: the difference of twice the logarithm of
+/// the likelihood, each at its best noise, of the cycles that the fit could use.
+std::optional<double> evidence_of_sticks(const Recording& recording, const Signals& signals, const FitResult& fit,
+                                         std::size_t used) {
+  const double counted_Hz = 1.0 / signal::median(slip_intervals_s(signals.segmentation));
+  const std::optional<double> harmonic_rms =
+      harmonic_residual_rms(recording, signals.spectral.value_Hz.value_or(counted_Hz));
+  if (!harmonic_rms || !(fit.residual.rms > 0.0)) return std::nullopt;
+  const double share = static_cast<double>(used) / static_cast<double>(fit.cycles.size());
+  return 2.0 * share * static_cast<double>(recording.size()) * std::log(*harmonic_rms / fit.residual.rms);
 }
 
-}  // namespace
+/// Three sines follow the swings as well as sticks and slips do: no sticks have to be there.
+Classification as_wave(double evidence) {
+  if (evidence < -thresholds::kEvidence) {
+    return {MotionClass::OscillatorySlip,
+            "three sines follow the swings better than sticks and slips do: an oscillation"};
+  }
+  return {MotionClass::Undetermined,
+          "three sines follow the swings as well as sticks and slips do: it may be an oscillation"};
+}
 
-Classification classify(const Recording& recording, const Estimates& estimates) {
+Classification classify_by_fit(const Recording& recording, const Estimates& estimates) {
   const Segmentation& segmentation = estimates.signals.segmentation;
   const SpectralFrequency& spectral = estimates.signals.spectral;
   if (auto early = by_counts(recording, segmentation, spectral)) return *early;
@@ -181,12 +194,26 @@ Classification classify(const Recording& recording, const Estimates& estimates) 
     return {MotionClass::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
   }
   if (auto round = as_round_swings(recording, segmentation, e)) return *round;
-  if (auto wave = as_wave(recording, segmentation, *estimates.fit)) return *wave;
+  const std::optional<double> evidence =
+      sudden ? std::nullopt : evidence_of_sticks(recording, estimates.signals, *estimates.fit, used);
+  if (evidence && *evidence < thresholds::kEvidence) return as_wave(*evidence);
   if (!close && !sudden) return without_model(recording, segmentation, spectral);
   return {MotionClass::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
                       100.0 * e.relative_residual),
-          false, true};
+          false, true, evidence && *evidence < thresholds::kPlainEvidence};
+}
+
+}  // namespace
+
+Classification classify(const Recording& recording, const Estimates& estimates) {
+  Classification classification = classify_by_fit(recording, estimates);
+  const bool keeps_time = keeps_time_like_a_clock(recording, estimates.signals.spectral);
+  if (classification.motion == MotionClass::OscillatorySlip && !classification.dies_out && keeps_time) {
+    return {MotionClass::Undetermined,
+            "swings without sticks that keep time like a clock: pick-up, ripple of the drive or an oscillation"};
+  }
+  return classification;
 }
 
 Classification classify_by_shape(const Recording& recording, const Signals& signals) {

@@ -5,56 +5,76 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 
 namespace slipfit {
 namespace {
 
-constexpr std::size_t kCycles = 5;  // in a window
+constexpr double kCycles = 5.0;  // in a window
 constexpr std::size_t kMostWindows = 40;
 constexpr Eigen::Index kHarmonics = 3;
-constexpr Eigen::Index kTerms = 2 + 2 * kHarmonics;
+constexpr Eigen::Index kTerms = 2 + 2 * kHarmonics;  // level and slope, cosines and sines
 
 struct Sum {
   double squares = 0.0;
   double freedom = 0.0;
 };
 
-/// Samples [begin, end) with this period.
+/// Samples [begin, end) with harmonics of about this period, which is a parameter as well: a step of it turns harmonic
+/// h in proportion to h and to the time.
 Sum residual_of(const Recording& recording, std::size_t begin, std::size_t end, double period_s) {
+  constexpr int kSteps = 3;
   const auto count = static_cast<Eigen::Index>(end - begin);
   if (count <= 2 * kTerms) return {};
-  Eigen::MatrixXd terms(count, kTerms);
-  Eigen::VectorXd force(count);
+  Eigen::MatrixXd terms(count, kTerms + 1);
+  Eigen::VectorXd force(count), time_s(count);
+  const double middle_s = 0.5 * (recording.time_s()[begin] + recording.time_s()[end - 1]);
   for (Eigen::Index i = 0; i < count; ++i) {
     const std::size_t sample = begin + static_cast<std::size_t>(i);
-    const double cycles = (recording.time_s()[sample] - recording.time_s()[begin]) / period_s;
     force(i) = recording.force()[sample];
-    terms(i, 0) = 1.0;
-    terms(i, 1) = cycles;
-    for (Eigen::Index h = 1; h <= kHarmonics; ++h) {
-      const double phase = 2.0 * std::numbers::pi * static_cast<double>(h) * cycles;
-      terms(i, 2 * h) = std::cos(phase);
-      terms(i, 2 * h + 1) = std::sin(phase);
-    }
+    time_s(i) = recording.time_s()[sample] - middle_s;
   }
-  const Eigen::VectorXd best = (terms.transpose() * terms).ldlt().solve(terms.transpose() * force);
-  return {(force - terms * best).squaredNorm(), static_cast<double>(count - kTerms)};
+  double best = force.squaredNorm();
+  for (int step = 0; step < kSteps; ++step) {
+    const Eigen::ArrayXd phase = (2.0 * std::numbers::pi / period_s) * time_s.array();
+    terms.col(0).setOnes();
+    terms.col(1) = time_s / period_s;
+    for (Eigen::Index h = 1; h <= kHarmonics; ++h) {
+      terms.col(2 * h) = (static_cast<double>(h) * phase).cos();
+      terms.col(2 * h + 1) = (static_cast<double>(h) * phase).sin();
+    }
+    const auto fixed = terms.leftCols(kTerms);
+    const Eigen::VectorXd waves = (fixed.transpose() * fixed).ldlt().solve(fixed.transpose() * force);
+    Eigen::ArrayXd turned = Eigen::ArrayXd::Zero(count);
+    for (Eigen::Index h = 1; h <= kHarmonics; ++h) {
+      turned += static_cast<double>(h) *
+                (waves(2 * h + 1) * terms.col(2 * h).array() - waves(2 * h) * terms.col(2 * h + 1).array());
+    }
+    terms.col(kTerms) = turned * phase;
+    const Eigen::VectorXd all = (terms.transpose() * terms).ldlt().solve(terms.transpose() * force);
+    best = std::min(best, (force - terms * all).squaredNorm());
+    period_s /= std::clamp(1.0 + all(kTerms), 0.8, 1.25);
+  }
+  return {best, static_cast<double>(count - kTerms - 1)};
 }
 
 }  // namespace
 
-std::optional<double> harmonic_residual_rms(const Recording& recording, const Segmentation& segmentation) {
-  const std::vector<DetectedSlip>& slips = segmentation.slips;
-  if (slips.size() <= kCycles) return std::nullopt;
-  const std::size_t windows = std::min(kMostWindows, (slips.size() - 1) / kCycles);
+std::optional<double> harmonic_residual_rms(const Recording& recording, double frequency_Hz) {
+  const double window_s = kCycles / frequency_Hz;
+  const auto fitting = static_cast<std::size_t>(recording.duration_s() / window_s);
+  if (fitting == 0) return std::nullopt;
+  const std::size_t windows = std::min(kMostWindows, fitting);
+  const std::span<const double> time_s = recording.time_s();
+  const double spare_s = recording.duration_s() - window_s;
+  const auto sample_at = [&](double seconds) {
+    return static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), seconds) - time_s.begin());
+  };
   Sum all;
   for (std::size_t window = 0; window < windows; ++window) {
-    const std::size_t first = window * (slips.size() - 1 - kCycles) / std::max<std::size_t>(1, windows - 1);
-    const DetectedSlip& from = slips[std::min(first, slips.size() - 1 - kCycles)];
-    const DetectedSlip& to = slips[std::min(first, slips.size() - 1 - kCycles) + kCycles];
-    const double period_s = (to.middle_s - from.middle_s) / static_cast<double>(kCycles);
-    if (!(period_s > 0.0)) continue;
-    const Sum sum = residual_of(recording, from.peak, to.peak, period_s);
+    const double share = static_cast<double>(window) / static_cast<double>(std::max<std::size_t>(1, windows - 1));
+    const double begin_s = time_s.front() + share * spare_s;
+    const Sum sum = residual_of(recording, sample_at(begin_s), sample_at(begin_s + window_s), 1.0 / frequency_Hz);
     all.squares += sum.squares;
     all.freedom += sum.freedom;
   }

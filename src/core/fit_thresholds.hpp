@@ -122,6 +122,16 @@ inline constexpr double kTellingError = 1.0 / 3.0;
 /// Standard errors of the rounding of the slips, beyond which samples were averaged. [1; derived: 0.6 % by chance]
 inline constexpr double kRoundedSigmas = 2.5;
 
+/// Standard errors of the averaging that is left, below which a search for it has settled. [1; convention: a twentieth
+/// of what the error adds]
+inline constexpr double kSettledAverage = 0.2;
+
+/// Misfit of the slips' mean shape with a term over that without, at most, where the term explains it. [1; convention]
+inline constexpr double kExplainedMisfit = 0.5;
+
+/// A term of the model over its standard error, at least. [1; convention]
+inline constexpr double kSureTerm = 3.0;
+
 /// Relative effect on w_n of averaging over a step of the clock, above which w_n and m are not identified. [1;
 /// convention]
 inline constexpr double kAverageShare = 0.01;

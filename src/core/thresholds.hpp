@@ -37,13 +37,17 @@ inline constexpr double kSineRestickShare = 0.95;
 /// cycles just above the limit of stick-slip]
 inline constexpr double kSineFit = 0.05;
 
-/// Residual of three harmonics over that of the fit, below which cycles are waves and no stick-slip. [1; convention:
-/// the null model, which has no sticks, is clearly the better one]
-inline constexpr double kHarmonicWins = 0.8;
+/// Twice the logarithm of the likelihood of sticks and slips over that of three harmonics, the null model without
+/// sticks, below which the two cannot be told apart. [1; convention: odds of ten to one]
+inline constexpr double kEvidence = 4.6;
 
-/// The same ratio up to which neither can be told from the other. [1; calibrated: synthetic cycles just above the limit
-/// of stick-slip stay above, noisy sines below]
-inline constexpr double kHarmonicTies = 1.03;
+/// The same below which the parameters that hang on this difference are no more than weak. [1; calibrated: sines with
+/// noise stay below, of cycles just above the limit of stick-slip three in four lie above]
+inline constexpr double kPlainEvidence = 60.0;
+
+/// Scatter of the periods, over the period, below which what repeats keeps time like a clock. [1; convention: pick-up
+/// and drives scatter by less, friction by more]
+inline constexpr double kClockScatter = 0.01;
 
 /// Onset force of the first half of the cycles over that of the second, above which swings die out. [1; convention]
 inline constexpr double kDecay = 1.7;
@@ -119,48 +123,6 @@ inline constexpr double kAlike = 0.05;
 /// Spectrum over count less one, above which the repetition is another thing than the slips (pick-up, ringing).
 /// [1; convention]
 inline constexpr double kAnotherThing = 2.0;
-
-// ## Slips in the trace
-
-/// Rise between two falls over the smaller of them, below which they may be a slip in two steps. [1; convention]
-inline constexpr double kPauseRise = 0.5;
-
-/// Time of that rise over the time of both falls, below which they are one slip. [1; convention]
-inline constexpr double kPauseTime = 0.75;
-
-/// Rate of a rise over that of the fall before it, above which it belongs to ringing. [1; calibrated: measured slips
-/// with ringing and benchmarks/independent, seeds 1 to 6]
-inline constexpr double kRingingRise = 0.4;
-
-/// Rate of the rises that are left over that of those that ring, below which something rings. [1; calibrated: as
-/// kRingingRise]
-inline constexpr double kRingApart = 0.15;
-
-/// Rate of a rise over that of its fall, above which the fall is a wave's. [1; calibrated: as kRingingRise]
-inline constexpr double kWaveRise = 0.65;
-
-/// Median rate of the rises over that of the falls, above which there may be waves alone. [1; calibrated: as
-/// kRingingRise]
-inline constexpr double kSuddenRate = 0.3;
-
-/// Time before a single fall over its own, below which it is none. [1; convention]
-inline constexpr double kLeastAlone = 2.5;
-
-/// Drop of a counted slip over the median drop, at least. [1; convention: docs/formats.md]
-inline constexpr double kCountedDrop = 0.25;
-
-/// Hysteresis of turning points over the noise. [1; derived: noise makes no turning point of 8 standard deviations]
-inline constexpr double kNoiseTurn = 8.0;
-
-/// Fewest slips that follow each other in a stretch that slides. [count; convention]
-inline constexpr std::size_t kFewestInStretch = 4;
-
-/// Interval over the long ones (90 % are shorter), and over the time of loading, beyond which a pause lies between two
-/// slips. [1; convention]
-inline constexpr double kPatience = 2.5;
-
-/// Step of the peaks over a large drop (90 % are smaller), beyond which the level is another. [1; convention]
-inline constexpr double kOtherLevel = 1.5;
 
 // ## Quality and spectrum
 

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <utility>
 
 #include "fit/contact/contact_fit.hpp"
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/level/mains_hum.hpp"
 #include "fit/report/recording_findings.hpp"
 #include "fit/selection/damped_fit.hpp"
+#include "fit/selection/fitted_average.hpp"
 #include "fit/selection/tiers.hpp"
 #include "signal/robust.hpp"
 
@@ -133,6 +135,10 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
     return fit::fit_contact(recording, segmentation, options);
   std::optional<DampedFit> damped = fit::fit_damped(recording, quality, segmentation, held_parameters(options));
   if (!damped) return std::nullopt;
+  if (!recording.conditions().sensor_average_s) {
+    auto averaged = fit::fit_average(recording, quality, segmentation, held_parameters(options), *damped);
+    if (averaged) damped = std::move(averaged);
+  }
   fit::TierFits fits{fit::fit_sawtooth(*damped), std::nullopt, std::move(*damped)};
   const fit::Resolution resolution = fit::resolution_of(recording, fits);
   const bool undamped_may_lose = resolution.damping_resolved && options.tier != Tier::Undamped;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/slip_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "signal/robust.hpp"
 #include "signal/smoothing.hpp"

@@ -33,6 +33,10 @@ class Reporter {
     report_dynamics();
     if (f_.law) report_law();
     if (f_.sensor_average_s) add_held(Id::SensorAverage, *f_.sensor_average_s);
+    if (f_.fitted_average) {
+      add(Id::SensorAverage, *f_.fitted_average, graded(Id::SensorAverage, *f_.fitted_average, slip_doubt()),
+          slip_note());
+    }
     report_model();
     result_.warnings.insert(result_.warnings.end(), f_.warnings.begin(), f_.warnings.end());
     std::sort(result_.parameters.begin(), result_.parameters.end(),

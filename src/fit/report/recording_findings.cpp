@@ -79,6 +79,15 @@ struct AveragingFindings {
 AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit, const BlockFit& blocks) {
   AveragingFindings result;
   if (recording.conditions().sensor_average_s) return result;
+  if (fit.average) {
+    result.warnings.push_back(
+        {"samples_averaged",
+         fmt::format(
+             "the slips are seen through averaging over {:.3g} ms, which is fitted together with them: state it "
+             "with --sensor-average where it is known",
+             1e3 * fit.average->seconds)});
+    return result;
+  }
   Held held = fit.held;
   if (fit.refused_damping) held[kDamping] = true;
   const double step_s = recording.sample_interval_s();
@@ -235,6 +244,10 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   findings.stiffness_note = std::move(stiffness.note);
   findings.warnings = std::move(stiffness.warnings);
   findings.sensor_average_s = recording.conditions().sensor_average_s;
+  if (const std::optional<FittedAverage>& average = fits.damped.average) {
+    findings.fitted_average =
+        symmetric(average->seconds, average->standard_error_s, fits.damped.uncertainty.degrees_of_freedom);
+  }
   findings.frequency_doubt = std::move(averaging.small_doubt);
   // Bent sticks begin and end in other slips than the model's.
   findings.slip_doubt = !averaging.doubt.empty()    ? averaging.doubt

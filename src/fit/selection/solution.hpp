@@ -10,6 +10,12 @@
 
 namespace slipfit::fit {
 
+/// Time over which the instrument averages its samples, as a fit found it.
+struct FittedAverage {
+  double seconds = 0.0;
+  double standard_error_s = 0.0;
+};
+
 /// The block fit of a recording and what it was reached with.
 struct DampedFit {
   BlockFit blocks;
@@ -19,7 +25,8 @@ struct DampedFit {
   std::optional<double> refused_damping;
   std::vector<std::size_t> excluded;  ///< samples in ascending order: impulses, clipped, outliers
   Uncertainty uncertainty;
-  std::optional<SegmentMisfit> misfit;  ///< slips are not shaped like the model's; the covariances allow for it
+  std::optional<SegmentMisfit> misfit;     ///< slips are not shaped like the model's; the covariances allow for it
+  std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none
 };
 
 }  // namespace slipfit::fit
