@@ -33,7 +33,7 @@ Estimate stick_stiffness(const Recording& recording, const Segmentation& segment
   std::vector<double> off;
   off.reserve(slopes.size());
   for (const double slope : slopes) off.push_back(std::abs(slope - middle));
-  constexpr double kMedianToSe = 1.4826 * 1.2533;  // median deviation to sd; error of a median over that of a mean
+  constexpr double kMedianToSe = signal::kMedianToSigma * 1.2533;  // error of a median over that of a mean
   const auto count = static_cast<double>(slopes.size());
   return fit::symmetric(middle, kMedianToSe * signal::median(std::move(off)) / std::sqrt(count), count - 1.0);
 }

@@ -1,6 +1,5 @@
 #include "batch/tables.hpp"
 
-#include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -18,27 +17,6 @@ using Json = nlohmann::ordered_json;
 struct SummaryColumn {
   std::string name;
   Json::json_pointer place;
-};
-
-constexpr std::array kSummaryParameters{
-    ParameterId::Stiffness,
-    ParameterId::FrictionDifference,
-    ParameterId::StaticFriction,
-    ParameterId::KineticFriction,
-    ParameterId::NaturalFrequency,
-    ParameterId::Mass,
-    ParameterId::DampingRatio,
-    ParameterId::DampingCoefficient,
-    ParameterId::FrictionCoefficientDifference,
-    ParameterId::StaticFrictionCoefficient,
-    ParameterId::KineticFrictionCoefficient,
-    ParameterId::FrictionSlope,
-    ParameterId::Alpha,
-    ParameterId::F0,
-    ParameterId::F1,
-    ParameterId::Mu0,
-    ParameterId::Mu1,
-    ParameterId::SensorAverage,
 };
 
 std::string csv_line(const std::vector<std::string>& cells) {
@@ -89,9 +67,9 @@ std::vector<SummaryColumn> make_columns() {
   columns.push_back({"measured_spacing_En", Place("/derived/measured_spacing_En/value")});
   columns.push_back({"tier", Place("/model/tier")});
   columns.push_back({"residual_rms_N", Place("/model/residual/rms_N")});
-  for (const ParameterId id : kSummaryParameters) {
-    const std::string key(info(id).key);
-    const std::string suffix = suffix_of(info(id).unit);
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const std::string key(parameter.key);
+    const std::string suffix = suffix_of(parameter.unit);
     const std::string name = key.substr(0, key.size() - suffix.size());
     add_estimate(columns, "/parameters/" + key, name, suffix);
     columns.push_back({name + "_status", Place("/parameters/" + key + "/status")});

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/names.hpp"
+#include "report/quantities.hpp"
 
 namespace slipfit {
 namespace {
@@ -89,8 +90,6 @@ Json frequency_json(const FrequencyReport& frequency) {
   if (!frequency.quoted.note.empty()) json["note"] = frequency.quoted.note;
   return json;
 }
-
-namespace {}  // namespace
 
 Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity) {
   Json json{
@@ -209,17 +208,11 @@ Json tests_json(const std::vector<ShortTest>& tests) {
 }
 
 Json derived_json(const Derived& derived) {
-  Json json{{"lambda", estimate(derived.lambda)},
-            {"gamma", estimate(derived.gamma)},
-            {"lambda_critical", estimate(derived.lambda_critical)},
-            {"critical_speed_m_per_s", estimate(derived.critical_speed_m_per_s)},
-            {"regime", derived.regime ? Json(*derived.regime) : Json(nullptr)},
-            {"bistable", derived.bistable ? Json(*derived.bistable) : Json(nullptr)},
-            {"periodic_displacement_m", estimate(derived.periodic_displacement_m)},
-            {"pattern_spacing_m", estimate(derived.pattern_spacing_m)},
-            {"pattern_spacing_sd_m", estimate(Estimate{derived.pattern_spacing_sd_m, {}, {}, {}})},
-            {"micro_vibration_spacing_m", estimate(derived.micro_vibration_spacing_m)},
-            {"impulse_rate_per_m", estimate(derived.impulse_rate_per_m)}};
+  Json json{{"regime", derived.regime ? Json(*derived.regime) : Json(nullptr)},
+            {"bistable", derived.bistable ? Json(*derived.bistable) : Json(nullptr)}};
+  for (const auto& quantity : kPredicted) json[std::string(quantity.key)] = estimate(derived.*quantity.estimate);
+  for (const auto& quantity : kMeasured) json[std::string(quantity.key)] = estimate(derived.*quantity.estimate);
+  json["pattern_spacing_sd_m"] = estimate(Estimate{derived.pattern_spacing_sd_m, {}, {}, {}});
   if (derived.observed_end) {
     json["observed_end_m_per_s"] = {number(derived.observed_end->sticks_m_per_s),
                                     number(derived.observed_end->slides_m_per_s)};
@@ -230,10 +223,11 @@ Json derived_json(const Derived& derived) {
 
 Json transients_json(const Transients& transients, ForceQuantity quantity) {
   const bool newtons = quantity == ForceQuantity::Force_N;
-  Json json{{"loading_stiffness_N_per_m", newtons ? estimate(transients.loading_stiffness_N_per_m) : Json()},
-            {"breakaway_force_N", newtons ? estimate(transients.breakaway_force) : Json()},
-            {"ringdown_frequency_Hz", estimate(transients.ring_down_frequency_Hz)},
-            {"ringdown_damping_ratio", estimate(transients.ring_down_damping_ratio)}};
+  Json json = Json::object();
+  for (const auto& row : kTransients) {
+    const bool is_force = row.unit.starts_with('N');
+    json[std::string(row.key)] = newtons || !is_force ? estimate(transients.*row.estimate) : Json();
+  }
   if (!newtons) json["breakaway_coefficient"] = estimate(transients.breakaway_force);
   return json;
 }

@@ -5,6 +5,7 @@
 
 #include "report/format.hpp"
 #include "report/names.hpp"
+#include "report/quantities.hpp"
 #include "report/table.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/text.hpp"
@@ -108,12 +109,17 @@ std::string with_spread(std::optional<double> value, std::optional<double> sprea
                      rounded(shown_spread, shown_spread), blank_unit);
 }
 
+Table estimate_table() {
+  return Table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
+}
+
 /// What is not known is a row only where the note says why. `unit`: of SI, or one to show.
 template <class Unit>
-void add_estimate(Table& table, const std::string& words, const Estimate& estimate, const Unit& unit) {
+void add_estimate(Table& table, std::string_view words, const Estimate& estimate, const Unit& unit) {
   if (!estimate.value && !estimate.ci95 && estimate.note.empty()) return;
-  const EstimateRow row = estimate_row(estimate, unit);  // NOLINT(*-array-to-pointer-decay): a unit in quotes
-  table.add({words, row.value, row.unit, row.interval == "-" ? std::string() : row.interval, one_line(estimate.note)});
+  const EstimateRow row = estimate_row(estimate, unit);
+  table.add({std::string(words), row.value, row.unit, row.interval == "-" ? std::string() : row.interval,
+             one_line(estimate.note)});
 }
 
 std::string regime_text(const Derived& derived) {
@@ -161,16 +167,14 @@ std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity) {
 }
 
 std::string transients_text(const Transients& transients, ForceQuantity quantity) {
-  Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
-  const auto add = [&](const char* words, const Estimate& estimate, const std::string& unit) {
-    if (estimate.value) add_estimate(table, words, estimate, unit);
-  };
-  if (quantity == ForceQuantity::Force_N) {
-    add("slope of the loading ramp / V", transients.loading_stiffness_N_per_m, "N/m");
+  Table table = estimate_table();
+  for (const auto& row : kTransients) {
+    const bool is_breakaway = row.unit == "N";
+    if (row.unit == "N/m" && quantity != ForceQuantity::Force_N) continue;
+    if (!(transients.*row.estimate).value) continue;
+    add_estimate(table, row.words, transients.*row.estimate,
+                 is_breakaway ? force_unit(quantity) : std::string(row.unit));
   }
-  add("first peak (breakaway)", transients.breakaway_force, force_unit(quantity));
-  add("ring-down, frequency", transients.ring_down_frequency_Hz, "Hz");
-  add("ring-down, damping ratio", transients.ring_down_damping_ratio, "");
   return table.empty() ? std::string() : "\nBefore and after the sliding\n" + table.text();
 }
 
@@ -180,10 +184,10 @@ std::string spacing_text(const Recording& recording, const Derived& derived) {
     const std::string& note = derived.pattern_spacing_m.note;
     return title + fmt::format("  none{}\n", note.empty() ? note : ": " + one_line(note));
   }
-  Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
-  add_estimate(table, "pattern spacing", derived.pattern_spacing_m, "m");
-  add_estimate(table, "its spread over cycles (sd)", Estimate{derived.pattern_spacing_sd_m, {}, {}, {}}, "m");
-  add_estimate(table, "impulses along the path", derived.impulse_rate_per_m, "1/m");
+  Table table = estimate_table();
+  for (const auto& row : kMeasured) add_estimate(table, row.words, derived.*row.estimate, std::string(row.unit));
+  add_estimate(table, "spread of the spacing over cycles (sd)", Estimate{derived.pattern_spacing_sd_m, {}, {}, {}},
+               std::string("m"));
   return title + table.text();
 }
 
@@ -191,14 +195,15 @@ std::string predicted_text(const Recording& recording, const Derived& derived) {
   const std::string title = "\nPredicted by the model at this speed\n";
   if (!derived.lambda.value && !derived.lambda.note.empty())
     return title + "  nothing: " + one_line(derived.lambda.note) + "\n";
-  Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
-  add_estimate(table, "periodic displacement", derived.periodic_displacement_m, "m");
-  add_estimate(table, "lambda", derived.lambda, "");
-  add_estimate(table, "lambda at the stick-slip limit", derived.lambda_critical, "");
-  const Estimate& critical = derived.critical_speed_m_per_s;
-  add_estimate(table, "critical speed", critical, speed_unit(recording.conditions().speed_unit, critical.value));
-  add_estimate(table, "F_s / F_k (gamma)", derived.gamma, "");
-  add_estimate(table, "micro-vibration spacing (estimate)", derived.micro_vibration_spacing_m, "m");
+  Table table = estimate_table();
+  for (const auto& row : kPredicted) {
+    const Estimate& estimate = derived.*row.estimate;
+    if (row.unit == "m/s") {
+      add_estimate(table, row.words, estimate, speed_unit(recording.conditions().speed_unit, estimate.value));
+    } else {
+      add_estimate(table, row.words, estimate, std::string(row.unit));
+    }
+  }
   if (table.empty() && !derived.regime) return {};
   return title + table.text() + (derived.regime ? regime_text(derived) : std::string());
 }

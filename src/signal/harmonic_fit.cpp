@@ -89,7 +89,7 @@ double noise_variance(const Eigen::VectorXd& residual) {
   for (Eigen::Index i = 1; i + 1 < residual.size(); ++i) {
     bends.push_back(std::abs(residual[i - 1] - 2.0 * residual[i] + residual[i + 1]));
   }
-  const double rms = 1.4826 * median(std::move(bends)) / std::sqrt(6.0);
+  const double rms = kMedianToSigma * median(std::move(bends)) / std::sqrt(6.0);
   return rms * rms;
 }
 

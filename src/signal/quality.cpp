@@ -14,8 +14,6 @@
 namespace slipfit {
 namespace {
 
-constexpr double kToSigma = 1.4826;  // median of |x| to standard deviation, normal distribution
-
 /// Noise from differences of one order, their coefficients and the root of the sum of their squares given.
 template <std::size_t N>
 double difference_noise(std::span<const double> force, const std::array<double, N>& coefficients, double norm) {
@@ -28,7 +26,7 @@ double difference_noise(std::span<const double> force, const std::array<double, 
     for (std::size_t k = 0; k < N; ++k) difference += coefficients[k] * force[i + k];
     sizes.push_back(std::abs(difference));
   }
-  return kToSigma * signal::median(std::move(sizes)) / norm;
+  return signal::kMedianToSigma * signal::median(std::move(sizes)) / norm;
 }
 
 /// Second differences do not see ramps, fourth ones do not see the bends of a wave with few samples a period either.
@@ -67,7 +65,7 @@ void assess_clock(const Recording& recording, Quality& quality) {
       deviations.push_back(std::abs(step - usual));
     }
   }
-  quality.clock_jitter = kToSigma * signal::median(std::move(deviations)) / usual;
+  quality.clock_jitter = signal::kMedianToSigma * signal::median(std::move(deviations)) / usual;
 }
 
 }  // namespace

@@ -12,6 +12,9 @@ inline std::size_t stride_for(std::size_t count) {
   return 1 + count / kEnough;
 }
 
+/// From the median of |x| to the standard deviation, normal distribution.
+inline constexpr double kMedianToSigma = 1.4826;
+
 /// Upper median; 0 for no values. Takes a copy to sort in.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0.0;

@@ -26,7 +26,7 @@ Smoothed RunningMeans::over(std::size_t width, std::size_t stride) const {
 
 double noise_of(const Smoothed& trace) {
   constexpr std::size_t kEnough = 4000;
-  constexpr double kToSigma = 1.4826 / 2.449489743;  // median to deviation; a second difference has sqrt(6) of it
+  constexpr double kToSigma = kMedianToSigma / 2.449489743;  // a second difference has sqrt(6) of the deviation
   const std::size_t lag = (trace.width + trace.stride - 1) / trace.stride;
   if (trace.values.size() < 2 * lag + 1) return 0.0;
   const std::size_t differences = trace.values.size() - 2 * lag;

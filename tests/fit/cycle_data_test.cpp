@@ -159,7 +159,7 @@ TEST_CASE("residuals are data minus model in sticks and slips, and nothing where
           (fit.model(c).level_at(t_s, fit.level_data(), fit.parameters.cycles[c].data()) + state.force_at(t_s)) -
           fit.model(c).hum_at(t_s, fit.level_data());
       const bool slips = t_s > state.onset_s && t_s < state.onset_s + state.slip_s();
-      CHECK(residuals.phase[i] == (slips ? Phase::Slip : Phase::Stick));
+      CHECK(residuals.part[i] == (slips ? CyclePart::Slip : CyclePart::Stick));
     }
   }
   double worst = 0.0;
@@ -168,5 +168,5 @@ TEST_CASE("residuals are data minus model in sticks and slips, and nothing where
   }
   CHECK(worst < 1e-12);
   CHECK(std::all_of(excluded.begin(), excluded.end(),
-                    [&](std::size_t i) { return residuals.phase[i] == Phase::None && residuals.value[i] == 0.0; }));
+                    [&](std::size_t i) { return residuals.part[i] == CyclePart::None && residuals.value[i] == 0.0; }));
 }

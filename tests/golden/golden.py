@@ -107,7 +107,7 @@ def same_text(expected, found):
 def differences(expected, found, place, fitted=True, error=None):
     if isinstance(expected, dict) and isinstance(found, dict):
         found = {key: part for key, part in found.items() if key not in LEFT_OUT}
-        if list(expected) != list(found):
+        if set(expected) != set(found):
             yield f"{place}: keys {list(expected)}, now {list(found)}"
             return
         own = expected.get("se") or expected.get("se_Hz")

@@ -208,56 +208,62 @@ CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Norm
   return sum.inverse_through(selection, cycles);
 }
 
+namespace {
+
+/// A unit of the jackknife (a cycle or a steady recording), its own parameters eliminated.
+struct Unit {
+  MatrixXd hessian;   ///< of the common parameters that it has
+  VectorXd score;     ///< of all common parameters
+  MatrixXd response;  ///< of the own parameters to the common ones, where a coordinate hangs on own ones
+};
+
+Unit eliminate(const Normal& n, Index common, Index local, const Held& held) {
+  MatrixXd follow = MatrixXd::Zero(n.local.rows(), n.common.rows());
+  if (n.local.rows() > 0) follow = -n.local.ldlt().solve(n.cross.transpose());
+  const VectorXd score = n.score + follow.transpose() * n.local_score;
+  Unit unit{n.common + n.cross * follow, VectorXd::Zero(common), MatrixXd::Zero(local, common)};
+  for (std::size_t i = 0; i < n.columns.size(); ++i) {
+    const Index column = n.columns[i];
+    const bool is_held = column < kGlobals && held[static_cast<std::size_t>(column)];
+    if (!is_held) unit.score(column) += score(static_cast<Index>(i));
+    if (local > 0) unit.response.col(column) += follow.col(static_cast<Index>(i));
+  }
+  return unit;
+}
+
+}  // namespace
+
 CoordinateMatrix jackknife_covariance(const Problem& problem, const std::vector<Normal>& normals,
                                       const Selection& selection, const Held& all_held) {
   const Held held = held_in(problem, all_held);
   const Index common = CommonColumns(problem).size();
-  const std::size_t units = normals.size();
   const Index local = selection.local.rows();
-  MatrixXd total = MatrixXd::Zero(common, common);
-  MatrixXd sum_response = MatrixXd::Zero(local, common);  // of d own / d common, where a coordinate hangs on own
-  VectorXd sum_local = VectorXd::Zero(local);
-  std::vector<MatrixXd> reduced(units);
-  std::vector<VectorXd> score(units);
-  std::vector<MatrixXd> response(units);
-  std::vector<VectorXd> locals(units, VectorXd::Zero(local));
-  for (std::size_t i = 0; i < units; ++i) {
-    const Normal& n = normals[i];
-    MatrixXd follow = MatrixXd::Zero(n.local.rows(), n.common.rows());
-    if (n.local.rows() > 0) follow = -n.local.ldlt().solve(n.cross.transpose());
-    reduced[i] = n.common + n.cross * follow;
-    add_scattered(reduced[i], n.columns, total);
-    const VectorXd eliminated_score = n.score + follow.transpose() * n.local_score;
-    score[i] = VectorXd::Zero(common);
-    response[i] = MatrixXd::Zero(local, common);
-    for (std::size_t c = 0; c < n.columns.size(); ++c) {
-      score[i](n.columns[c]) += eliminated_score(static_cast<Index>(c));
-      if (local > 0) response[i].col(n.columns[c]) += follow.col(static_cast<Index>(c));
-    }
-    if (local == 0) continue;
-    locals[i] = Eigen::Map<const VectorXd>(problem.recordings.front().parameters.cycles[i].data(), local);
-    sum_local += locals[i];
-    sum_response += response[i];
+  const auto local_of = [&](std::size_t unit) -> Eigen::Map<const VectorXd> {
+    return {local > 0 ? problem.recordings.front().parameters.cycles[unit].data() : nullptr, local};
+  };
+  MatrixXd hessian = MatrixXd::Zero(common, common);
+  MatrixXd response = MatrixXd::Zero(local, common);
+  VectorXd locals = VectorXd::Zero(local);
+  std::vector<Unit> units;
+  for (const Normal& normal : normals) {
+    locals += local_of(units.size());
+    units.push_back(eliminate(normal, common, local, held));
+    add_scattered(units.back().hessian, normal.columns, hessian);
+    response += units.back().response;
   }
-  const double others = static_cast<double>(units) - 1.0;
-  MatrixXd replicates(static_cast<Index>(units), Index{kCoordinates});
-  for (std::size_t i = 0; i < units; ++i) {
-    MatrixXd remaining = total;
-    add_scattered(-reduced[i], normals[i].columns, remaining);
+  const double others = static_cast<double>(units.size()) - 1.0;
+  MatrixXd replicates(static_cast<Index>(units.size()), Index{kCoordinates});
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    MatrixXd remaining = hessian;
+    add_scattered(-units[i].hessian, normals[i].columns, remaining);
     hold_rows(remaining, held);
-    for (std::size_t row = 0; row < held.size(); ++row) {
-      if (held[row]) score[i](static_cast<Index>(row)) = 0.0;
-    }
-    const VectorXd step = remaining.ldlt().solve(score[i]);  // dropping r_i'r_i changes the gradient by -score_i
-    VectorXd coordinates = selection.common.transpose() * step;
-    if (local > 0) {
-      const VectorXd mean_local = (sum_local - locals[i] + (sum_response - response[i]) * step) / others;
-      coordinates += selection.local.transpose() * mean_local;
-    }
-    replicates.row(static_cast<Index>(i)) = coordinates.transpose();
+    const VectorXd step = remaining.ldlt().solve(units[i].score);  // without r_i'r_i the gradient is -score_i
+    const VectorXd mean_local = (locals - local_of(i) + (response - units[i].response) * step) / others;
+    replicates.row(static_cast<Index>(i)) = selection.common.transpose() * step;
+    if (local > 0) replicates.row(static_cast<Index>(i)) += selection.local.transpose() * mean_local;
   }
   const MatrixXd centred = replicates.rowwise() - replicates.colwise().mean();
-  return others / static_cast<double>(units) * centred.transpose() * centred;
+  return others / static_cast<double>(units.size()) * centred.transpose() * centred;
 }
 
 CoordinateMatrix given(const CoordinateMatrix& covariance, Coordinate held) {

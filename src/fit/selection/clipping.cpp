@@ -35,7 +35,7 @@ std::vector<std::size_t> beyond_clip(const Recording& recording, const Quality& 
   std::vector<std::size_t> beyond;
   if (!quality.clip_high && !quality.clip_low) return beyond;
   for (std::size_t i = 0; i < recording.size(); ++i) {
-    if (residuals.phase[i] == Phase::None) continue;
+    if (residuals.part[i] == CyclePart::None) continue;
     const double model = recording.force()[i] - residuals.value[i];
     const bool above = quality.clip_high && model > *quality.clip_high - kReach * noise;
     const bool below = quality.clip_low && model < *quality.clip_low + kReach * noise;

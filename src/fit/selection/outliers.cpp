@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/fit_thresholds.hpp"
 #include "signal/robust.hpp"
@@ -9,61 +10,82 @@
 namespace slipfit::fit {
 namespace {
 
-/// Median size of the residuals in one phase, of every stride-th where they are many.
-double median_size(const Residuals& residuals, Phase phase) {
-  const auto count = static_cast<std::size_t>(std::count(residuals.phase.begin(), residuals.phase.end(), phase));
+/// Median size of the residuals in one part of the cycles, of every stride-th where they are many.
+double median_size(const Residuals& residuals, CyclePart part) {
+  const auto count = static_cast<std::size_t>(std::count(residuals.part.begin(), residuals.part.end(), part));
   const std::size_t stride = signal::stride_for(count);
   std::vector<double> sizes;
   sizes.reserve(count / stride + 1);
   std::size_t until_next = 1;
   for (std::size_t i = 0; i < residuals.value.size(); ++i) {
-    if (residuals.phase[i] != phase || --until_next > 0) continue;
+    if (residuals.part[i] != part || --until_next > 0) continue;
     sizes.push_back(std::abs(residuals.value[i]));
     until_next = stride;
   }
   return signal::median(std::move(sizes));
 }
 
+/// Data minus model, cycle by cycle. In stick the model is a straight line beside the level.
+class ResidualsOfCycles {
+ public:
+  ResidualsOfCycles(const Recording& recording, const BlockFit& fit)
+      : recording_(recording), fit_(fit), result_{std::vector<double>(recording.size(), 0.0), {}} {
+    result_.part.assign(recording.size(), CyclePart::None);
+    for (std::size_t c = 0; c < fit.size(); ++c) add(c);
+  }
+
+  [[nodiscard]] Residuals take() { return std::move(result_); }
+
+ private:
+  [[nodiscard]] std::size_t index_at(double t_s) const {
+    const auto time_s = recording_.time_s();
+    return static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), t_s) - time_s.begin());
+  }
+
+  void add(std::size_t cycle) {
+    const CycleState state = fit_.state(cycle);
+    const std::size_t begin = index_at(fit_.data(cycle).window_begin_s);
+    const std::size_t end = std::max(begin, index_at(fit_.data(cycle).window_end_s));
+    const std::size_t slip_begin = std::clamp(index_at(state.onset_s), begin, end);
+    const std::size_t slip_end = std::clamp(index_at(state.onset_s + state.slip_s()), slip_begin, end);
+    const double rate = state.force_scale * state.omega_rad_per_s;
+    const auto slip = [&state](double t_s) { return state.force_at(t_s); };
+    const auto stick = [&state, rate](double above) {
+      return [&state, rate, above](double t_s) { return above + rate * (t_s - state.onset_s); };
+    };
+    fill(cycle, begin, slip_begin, CyclePart::Stick, stick(state.force_scale * state.motion.before_slip(0.0).z));
+    fill(cycle, slip_begin, slip_end, CyclePart::Slip, slip);
+    fit_.scales().sensor_lag_s > 0.0  // the sensor still shows the slip
+        ? fill(cycle, slip_end, end, CyclePart::Stick, slip)
+        : fill(cycle, slip_end, end, CyclePart::Stick, stick(state.force_scale * state.motion.after_slip(0.0).z));
+  }
+
+  template <class Force>
+  void fill(std::size_t cycle, std::size_t begin, std::size_t end, CyclePart part, const Force& force_at) {
+    const CycleModel& model = fit_.model(cycle);
+    const double* const level = fit_.level_data();
+    const double* const local = fit_.parameters.cycles[cycle].data();
+    const bool hums = !fit_.level().lines_Hz.empty();
+    for (std::size_t i = begin; i < end; ++i) {
+      const double t_s = recording_.time_s()[i];
+      result_.value[i] = recording_.force()[i] - (model.level_at(t_s, level, local) + force_at(t_s));
+      if (hums) result_.value[i] -= model.hum_at(t_s, level);
+      result_.part[i] = part;
+    }
+  }
+
+  const Recording& recording_;
+  const BlockFit& fit_;
+  Residuals result_;
+};
+
 }  // namespace
 
 Residuals residuals_of(const Recording& recording, const BlockFit& fit, const std::vector<std::size_t>& excluded) {
-  const auto time_s = recording.time_s();
-  const auto force = recording.force();
-  Residuals residuals{std::vector<double>(recording.size(), 0.0), std::vector<Phase>(recording.size(), Phase::None)};
-  const auto index_at = [&](double t_s) {
-    return static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), t_s) - time_s.begin());
-  };
-  const double* level = fit.level_data();
-  for (std::size_t c = 0; c < fit.size(); ++c) {
-    const CycleModel& model = fit.model(c);
-    const CycleState state = fit.state(c);
-    const double* local = fit.parameters.cycles[c].data();
-    const auto fill = [&](std::size_t begin, std::size_t end, Phase phase, const auto& force_at) {
-      for (std::size_t i = begin; i < end; ++i) residuals.value[i] = force[i] - force_at(time_s[i]);
-      std::fill_n(residuals.phase.begin() + static_cast<std::ptrdiff_t>(begin), end - begin, phase);
-    };
-    const auto shown = [&](double t_s) { return model.level_at(t_s, level, local) + state.force_at(t_s); };
-    const auto stick = [&, rate = state.force_scale * state.omega_rad_per_s](double above) {
-      return [&, rate, above](double t_s) {
-        return model.level_at(t_s, level, local) + above + rate * (t_s - state.onset_s);
-      };
-    };
-    const std::size_t begin = index_at(fit.data(c).window_begin_s);
-    const std::size_t end = std::max(begin, index_at(fit.data(c).window_end_s));
-    const std::size_t slip_begin = std::clamp(index_at(state.onset_s), begin, end);
-    const std::size_t slip_end = std::clamp(index_at(state.onset_s + state.slip_s()), slip_begin, end);
-    const double before = state.force_scale * state.motion.before_slip(0.0).z;
-    const double after = state.force_scale * state.motion.after_slip(0.0).z;
-    fill(begin, slip_begin, Phase::Stick, stick(before));
-    fill(slip_begin, slip_end, Phase::Slip, shown);
-    fit.scales().sensor_lag_s > 0.0 ? fill(slip_end, end, Phase::Stick, shown)  // the sensor still shows the slip
-                                    : fill(slip_end, end, Phase::Stick, stick(after));
-    if (fit.level().lines_Hz.empty()) continue;
-    for (std::size_t i = begin; i < end; ++i) residuals.value[i] -= model.hum_at(time_s[i], level);
-  }
+  Residuals residuals = ResidualsOfCycles(recording, fit).take();
   for (const std::size_t sample : excluded) {
     residuals.value[sample] = 0.0;
-    residuals.phase[sample] = Phase::None;
+    residuals.part[sample] = CyclePart::None;
   }
   return residuals;
 }
@@ -74,13 +96,13 @@ std::vector<std::size_t> find_outliers(const Residuals& residuals, double noise)
     if (std::abs(residuals.value[i]) > thresholds::kOutlierSigmas * noise) outliers.push_back(i);
   }
   if (outliers.empty()) return outliers;
-  const auto bound_in = [&](Phase phase) {
-    return thresholds::kOutlierSigmas * std::max(1.4826 * median_size(residuals, phase), noise);
+  const auto bound_in = [&](CyclePart part) {
+    return thresholds::kOutlierSigmas * std::max(signal::kMedianToSigma * median_size(residuals, part), noise);
   };
-  const double stick_bound = bound_in(Phase::Stick);
-  const double slip_bound = bound_in(Phase::Slip);
+  const double stick_bound = bound_in(CyclePart::Stick);
+  const double slip_bound = bound_in(CyclePart::Slip);
   std::erase_if(outliers, [&](std::size_t i) {
-    return std::abs(residuals.value[i]) <= (residuals.phase[i] == Phase::Slip ? slip_bound : stick_bound);
+    return std::abs(residuals.value[i]) <= (residuals.part[i] == CyclePart::Slip ? slip_bound : stick_bound);
   });
   return outliers;
 }

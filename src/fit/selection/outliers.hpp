@@ -8,12 +8,12 @@
 namespace slipfit::fit {
 
 /// Which part of a cycle a sample is in; None: outside the fitted cycles, or excluded.
-enum class Phase : unsigned char { None, Stick, Slip };
+enum class CyclePart : unsigned char { None, Stick, Slip };
 
-/// Data minus model (hum included in the model) at every sample of the recording; 0 where the phase is None.
+/// Data minus model (hum included in the model) at every sample of the recording; 0 where the part is None.
 struct Residuals {
   std::vector<double> value;
-  std::vector<Phase> phase;
+  std::vector<CyclePart> part;
 };
 
 Residuals residuals_of(const Recording& recording, const BlockFit& fit, const std::vector<std::size_t>& excluded);

@@ -86,24 +86,19 @@ std::optional<chart::Panel> histogram(std::vector<double> values, std::string la
 }
 
 std::string distributions(const std::vector<BatchPageRow>& rows) {
-  const auto values = [&rows](Estimate BatchPageRow::*quantity, double per_SI) {
-    std::vector<double> found;
-    for (const BatchPageRow& row : rows) {
-      if (!is_group(row) && (row.*quantity).value) found.push_back(per_SI * *(row.*quantity).value);
-    }
-    return found;
-  };
   std::string figures;
-  const auto add = [&figures](const char* id, const std::string& label, std::vector<double> numbers) {
-    const auto panel = histogram(std::move(numbers), label);
-    if (!panel) return;
-    figures +=
-        "<figure>" + to_page_svg(chart::Chart{"", {}, {*panel}}, {id, "histogram of the " + label}) + "</figure>\n";
-  };
-  add("spacings", "pattern spacing V/f [mm]", values(&BatchPageRow::spacing_m, 1e3));
-  add("frequencies", "frequency [Hz]", values(&BatchPageRow::frequency_Hz, 1.0));
-  add("stiffnesses", "stiffness [N/m]", values(&BatchPageRow::stiffness_N_per_m, 1.0));
-  add("damping-ratios", "damping ratio [-]", values(&BatchPageRow::damping_ratio, 1.0));
+  for (const BatchColumn& column : kBatchColumns) {
+    std::vector<double> values;
+    for (const BatchPageRow& row : rows) {
+      const std::optional<double>& value = (row.*column.quantity).value;
+      if (!is_group(row) && value) values.push_back(column.per_SI * *value);
+    }
+    const std::string label = label_with_unit(column.heading, column.unit);
+    const auto panel = histogram(std::move(values), label);
+    if (!panel) continue;
+    const std::string picture = to_page_svg(chart::Chart{"", {}, {*panel}}, {column.id, "histogram of the " + label});
+    figures += "<figure>" + picture + "</figure>\n";
+  }
   if (figures.empty()) return {};
   return section("", "Distributions",
                  "<p class=\"guide\">How many recordings show which value; only those in which it is known.</p>\n"

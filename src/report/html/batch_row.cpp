@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 
@@ -17,19 +16,6 @@
 namespace slipfit {
 namespace html {
 namespace {
-
-/// One SI unit a column: rows compare by eye.
-struct Column {
-  const char* heading;
-  const char* unit;
-  double per_SI;
-  Estimate BatchPageRow::*quantity;
-};
-
-constexpr std::array<Column, 4> kRowColumns{{{"frequency", "Hz", 1.0, &BatchPageRow::frequency_Hz},
-                                             {"spacing V/f", "mm", 1e3, &BatchPageRow::spacing_m},
-                                             {"stiffness", "N/m", 1.0, &BatchPageRow::stiffness_N_per_m},
-                                             {"damping ratio", "-", 1.0, &BatchPageRow::damping_ratio}}};
 
 constexpr std::size_t kSparkColumns = 60;
 constexpr double kSparkWidth = 120.0;
@@ -108,8 +94,8 @@ std::string heading(const std::string& words, const char* css_class) {
 std::string batch_headings() {
   std::string cells = heading("recording", "") + "<th scope=\"col\">trace</th>" + heading("shows", "") +
                       heading("speed [mm/s]", "number");
-  for (const Column& column : kRowColumns)
-    cells += heading(fmt::format("{} [{}]", column.heading, column.unit), "number");
+  for (const BatchColumn& column : kBatchColumns)
+    cells += heading(label_with_unit(column.heading, column.unit), "number");
   return "<thead><tr>" + cells + heading("warnings", "") + "</tr></thead>\n";
 }
 
@@ -121,7 +107,7 @@ std::string batch_row(const BatchPageRow& row) {
       R"(<td class="name">{}</td><td>{}</td><td class="shows">{}</td><td class="number" data-value="{}">{}</td>)", name,
       spark(row.sparkline), text(plain_words(row.status)), speed,
       row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
-  for (const Column& column : kRowColumns) cells += quantity_cell(row.*column.quantity, column.per_SI);
+  for (const BatchColumn& column : kBatchColumns) cells += quantity_cell(row.*column.quantity, column.per_SI);
   std::string codes;
   for (const std::string& code : row.warnings) codes += "<span>" + text(code) + " </span>";
   cells += fmt::format("<td class=\"codes\">{}</td>", codes);

@@ -1,10 +1,26 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "report/batch_html.hpp"
 
 namespace slipfit::html {
+
+/// A quantity of the table, in one unit so that rows compare by eye, and its distribution.
+struct BatchColumn {
+  const char* heading;
+  const char* unit;
+  double per_SI;
+  Estimate BatchPageRow::*quantity;
+  const char* id;  ///< of the distribution
+};
+
+inline constexpr std::array<BatchColumn, 4> kBatchColumns{
+    {{"frequency", "Hz", 1.0, &BatchPageRow::frequency_Hz, "frequencies"},
+     {"pattern spacing V/f", "mm", 1e3, &BatchPageRow::spacing_m, "spacings"},
+     {"stiffness", "N/m", 1.0, &BatchPageRow::stiffness_N_per_m, "stiffnesses"},
+     {"damping ratio", "-", 1.0, &BatchPageRow::damping_ratio, "damping-ratios"}}};
 
 /// <thead> and <tr> of the table.
 std::string batch_headings();

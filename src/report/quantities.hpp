@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "slipfit/analysis.hpp"
+
+namespace slipfit {
+
+/// A quantity of a recording beside the parameters: its key in the document, its words and SI unit for people.
+template <class Owner>
+struct Quantity {
+  std::string_view key, words, unit;
+  Estimate Owner::*estimate;
+};
+
+/// What the model says at the recording's own speed.
+inline constexpr std::array<Quantity<Derived>, 6> kPredicted{
+    {{"periodic_displacement_m", "periodic displacement", "m", &Derived::periodic_displacement_m},
+     {"lambda", "lambda", "", &Derived::lambda},
+     {"lambda_critical", "lambda at the stick-slip limit", "", &Derived::lambda_critical},
+     {"critical_speed_m_per_s", "critical speed", "m/s", &Derived::critical_speed_m_per_s},
+     {"gamma", "F_s / F_k (gamma)", "", &Derived::gamma},
+     {"micro_vibration_spacing_m", "micro-vibration spacing (estimate)", "m", &Derived::micro_vibration_spacing_m}}};
+
+/// What speed and frequency give without a model.
+inline constexpr std::array<Quantity<Derived>, 2> kMeasured{
+    {{"pattern_spacing_m", "pattern spacing", "m", &Derived::pattern_spacing_m},
+     {"impulse_rate_per_m", "impulses along the path", "1/m", &Derived::impulse_rate_per_m}}};
+
+/// Of newtons; `breakaway_force` counts as the force column does.
+inline constexpr std::array<Quantity<Transients>, 4> kTransients{
+    {{"loading_stiffness_N_per_m", "slope of the loading ramp / V", "N/m", &Transients::loading_stiffness_N_per_m},
+     {"breakaway_force_N", "first peak (breakaway)", "N", &Transients::breakaway_force},
+     {"ringdown_frequency_Hz", "ring-down, frequency", "Hz", &Transients::ring_down_frequency_Hz},
+     {"ringdown_damping_ratio", "ring-down, damping ratio", "", &Transients::ring_down_damping_ratio}}};
+
+}  // namespace slipfit
