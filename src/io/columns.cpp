@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "io/column_search.hpp"
 #include "io/message.hpp"
+#include "io/side_columns.hpp"
 #include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {
@@ -102,6 +104,7 @@ std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<st
     if (!is_usable(column, c) || column.name.role != Role::TangentialForce) return 0;
     return column.name.rank == 1 && !coefficients.empty() ? 0 : column.name.rank;
   });
+  if (forces.size() > 1) forces = those_of_coefficient(layout, std::move(forces));
   if (!forces.empty()) return forces;
   if (!coefficients.empty()) return coefficients;
   return best_columns(layout, [&](const Column& column, std::size_t c) {
@@ -160,18 +163,6 @@ Result<Channel> force_channel(const Request& request, std::size_t column) {
                  fmt::format("Friction coefficient is {}, {}.", described, in_unit)};
 }
 
-/// The first displacement whose unit is a length.
-std::optional<Channel> choose_displacement(const Layout& layout, const Choice& choice) {
-  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
-    const Column& column = layout.columns[c];
-    if (column.name.role != Role::Displacement || !column.is_numeric() || column.name.unit.empty()) continue;
-    if (c == choice.force.column || (choice.time && c == choice.time->column)) continue;
-    const auto scale = parse_unit(column.name.unit, Dimension::Length);
-    if (scale) return Channel{c, scale.value().scale, ForceQuantity::Force_N, {}};
-  }
-  return std::nullopt;
-}
-
 std::vector<std::string> layout_sentences(const Layout& layout) {
   std::vector<std::string> sentences;
   if (layout.skipped_lines > 0) {
@@ -204,12 +195,11 @@ Result<Choice> choose_columns(const Layout& layout, const ReadOptions& options, 
   const auto force = force_channel(request, column.value());
   if (!force) return force.error();
   choice.force = force.value();
-  choice.displacement = choose_displacement(layout, choice);
   choice.assumed = layout_sentences(layout);
   choice.assumed.push_back(choice.time ? choice.time->sentence
                                        : counted_clock_sentence(layout, *options.sample_rate_Hz));
   choice.assumed.push_back(choice.force.sentence);
-  return choice;
+  return with_side_columns(std::move(choice), layout, options, file);
 }
 
 }  // namespace slipfit::reading

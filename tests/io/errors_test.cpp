@@ -23,7 +23,7 @@ slipfit::Error read_path_error(const std::filesystem::path& path) {
 TEST_CASE("each unusable content has its own error, in one line with the place") {
   const std::string rows = "0,1\n1,2\n2,1\n3,2\n";
   std::string backwards = "time,force\n";
-  for (int i = 0; i < 50; ++i) backwards += std::to_string(i % 20) + "," + std::to_string(i % 3) + "\n";
+  for (int i = 0; i < 50; ++i) backwards += std::to_string(i * 7 % 50) + "," + std::to_string(i % 3) + "\n";
   const std::vector<Case> cases = {
       {"empty", "", "empty_file", "empty"},
       {"blank lines", "\n  \n\t\n", "empty_file", "blank"},
@@ -36,7 +36,7 @@ TEST_CASE("each unusable content has its own error, in one line with the place")
       {"names only", "time,force\n", "no_numeric_column", "no rows of numbers"},
       {"one row", "time,force\n0,1\n", "too_few_samples", "run7.csv:2: only one row"},
       {"all NaN", "time,force\n0,nan\n1,nan\n2,NaN\n", "no_number_in_column", "column 2 'force'"},
-      {"backwards", backwards, "time_runs_backwards", "run7.csv:22: time runs backwards in 29 of 50 rows"},
+      {"backwards", backwards, "time_runs_backwards", "run7.csv:10: time runs backwards in 42 of 50 rows"},
       {"constant time", "time,force\n3,1\n3,2\n3,1\n", "time_constant", "3 s in all of 3 rows"},
       {"force unit unknown", "time,force [V]\n" + rows, "unknown_unit", "column 2 'force [V]'"},
       {"time unit unknown", "time [furlong],force\n" + rows, "unknown_unit", "--time-unit"},
@@ -129,5 +129,6 @@ TEST_CASE("a row of a million columns is told to be too long, not to hold no num
 
 TEST_CASE("the rules of Recording::create are reported with the file") {
   const auto error = read_error("time,force\n0,1\n1,2\n", {}, at_speed(0.0));
-  CHECK(error.code == "speed_not_positive");
+  CHECK(error.code == "no_speed");
+  CHECK(read_error("time,force\n0,1\n1,2\n", {}, at_speed(-1.0)).code == "speed_not_positive");
 }
