@@ -25,6 +25,13 @@ bool no_repetition(const SpectralFrequency& spectral) {
   return !spectral.value_Hz;
 }
 
+/// The periods of what repeats scatter by less than those of a motion with friction do.
+bool keeps_time_like_a_clock(const Recording& recording, const SpectralFrequency& spectral) {
+  if (!spectral.value_Hz || !spectral.standard_error_Hz) return false;
+  const double periods = recording.duration_s() * *spectral.value_Hz;
+  return *spectral.standard_error_Hz / *spectral.value_Hz * std::sqrt(periods) < thresholds::kClockScatter;
+}
+
 /// The second half of the recording moves little compared with the first swings: the motion died out.
 bool ends_flat(const Recording& recording, const Segmentation& segmentation) {
   const double last_s = segmentation.slips.empty() ? recording.time_s().front() : segmentation.slips.back().middle_s;
@@ -150,9 +157,7 @@ std::optional<Classification> as_wave(const Recording& recording, const Segmenta
                         "three sines follow the swings as well as sticks and slips do: it may be an oscillation"};
 }
 
-}  // namespace
-
-Classification classify(const Recording& recording, const Estimates& estimates) {
+Classification motion_of(const Recording& recording, const Estimates& estimates) {
   const Segmentation& segmentation = estimates.signals.segmentation;
   const SpectralFrequency& spectral = estimates.signals.spectral;
   if (auto early = by_counts(recording, segmentation, spectral)) return *early;
@@ -187,6 +192,18 @@ Classification classify(const Recording& recording, const Estimates& estimates) 
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
                       100.0 * e.relative_residual),
           false, true};
+}
+
+}  // namespace
+
+Classification classify(const Recording& recording, const Estimates& estimates) {
+  Classification motion = motion_of(recording, estimates);
+  const bool keeps_time = keeps_time_like_a_clock(recording, estimates.signals.spectral);
+  if (motion.verdict == Verdict::OscillatorySlip && !motion.dies_out && keeps_time) {
+    return {Verdict::Undetermined,
+            "swings without sticks that keep time like a clock: pick-up, ripple of the drive or an oscillation"};
+  }
+  return motion;
 }
 
 Classification classify_by_shape(const Recording& recording, const Signals& signals) {

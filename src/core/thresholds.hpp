@@ -45,6 +45,10 @@ inline constexpr double kHarmonicWins = 0.8;
 /// of stick-slip stay above, noisy sines below]
 inline constexpr double kHarmonicTies = 1.03;
 
+/// Scatter of the periods, over the period, below which what repeats keeps time like a clock. [1; convention: pick-up and
+/// drives scatter by less, friction by more]
+inline constexpr double kClockScatter = 0.01;
+
 /// Onset force of the first half of the cycles over that of the second, above which swings die out. [1; convention]
 inline constexpr double kDecay = 1.7;
 
@@ -161,6 +165,13 @@ inline constexpr double kPatience = 2.5;
 
 /// Step of the peaks over a large drop (90 % are smaller), beyond which the level is another. [1; convention]
 inline constexpr double kOtherLevel = 1.5;
+
+/// Step from rest to sliding over how much the force moves while the body slides, above which a run without slips is cut
+/// out. [1; convention]
+inline constexpr double kPlateauStep = 3.0;
+
+/// Fewest two-hundredths of a trace that make a plateau. [1; convention]
+inline constexpr std::size_t kFewestPlateauBlocks = 20;
 
 // ## Quality and spectrum
 

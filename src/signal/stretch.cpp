@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <span>
 #include <utility>
 
@@ -151,6 +152,100 @@ Stretch sliding_stretch(const std::vector<double>& force, const std::vector<Fall
     stretch.end = force.size();
   }
   return stretch;
+}
+
+namespace {
+
+/// Medians of blocks of the trace, and the largest movement that is usual within a block (90 % move less).
+struct Blocks {
+  std::size_t samples = 0;  ///< a block
+  std::vector<double> level;
+  double movement = 0.0;
+};
+
+Blocks blocks_of(std::span<const double> force) {
+  constexpr std::size_t kBlocks = 200;
+  constexpr std::size_t kFewestSamples = 5;
+  Blocks blocks;
+  blocks.samples = std::max(kFewestSamples, force.size() / kBlocks);
+  std::vector<double> movements;
+  for (std::size_t begin = 0; begin + blocks.samples <= force.size(); begin += blocks.samples) {
+    const auto block = force.subspan(begin, blocks.samples);
+    blocks.level.push_back(median({block.begin(), block.end()}));
+    const auto [low, high] = std::minmax_element(block.begin(), block.end());
+    movements.push_back(*high - *low);
+  }
+  blocks.movement = share_of(std::move(movements), 0.9);
+  return blocks;
+}
+
+/// Otsu's method: the value that parts the levels into two classes whose means differ most, weighted by their sizes.
+/// Between the means of the classes.
+struct Split {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+Split split_of(std::vector<double> levels) {
+  std::sort(levels.begin(), levels.end());
+  double total = 0.0;
+  for (const double level : levels) total += level;
+  const auto count = static_cast<double>(levels.size());
+  Split best;
+  double most = 0.0, below = 0.0;
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    below += levels[i - 1];
+    const auto first = static_cast<double>(i);
+    const Split split{below / first, (total - below) / (count - first)};
+    const double between = first * (count - first) * (split.high - split.low) * (split.high - split.low);
+    if (between > most) {
+      most = between;
+      best = split;
+    }
+  }
+  return best;
+}
+
+/// Blocks [begin, end) of the longest run above (or, where sliding pulls the other way, below) the middle of the split.
+Stretch longest_beyond(const std::vector<double>& levels, Split split) {
+  const double middle = 0.5 * (split.low + split.high);
+  const bool is_upper = std::abs(split.high) >= std::abs(split.low);
+  Stretch best, run;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if ((levels[i] > middle) != is_upper) {
+      run = {i + 1, i + 1};
+      continue;
+    }
+    run.end = i + 1;
+    if (run.end - run.begin > best.end - best.begin) best = run;
+  }
+  return best;
+}
+
+}  // namespace
+
+Stretch plateau(std::span<const double> force) {
+  const Stretch whole{0, force.size()};
+  const Blocks blocks = blocks_of(force);
+  if (blocks.level.size() < thresholds::kFewestPlateauBlocks) return whole;
+  const Split split = split_of(blocks.level);
+  Stretch run = longest_beyond(blocks.level, split);
+  // What the level does in the middle of the run is how it moves while the body slides.
+  const std::size_t edge = (run.end - run.begin) / 4;
+  const auto [low, high] = std::minmax_element(blocks.level.begin() + static_cast<std::ptrdiff_t>(run.begin + edge),
+                                               blocks.level.begin() + static_cast<std::ptrdiff_t>(run.end - edge));
+  const double movement = *high - *low + blocks.movement;
+  if (split.high - split.low < thresholds::kPlateauStep * movement) return whole;
+  const auto is_loading = [&](std::size_t i) {
+    return blocks.level[i] < *low - 0.5 * movement || blocks.level[i] > *high + 0.5 * movement;
+  };
+  while (run.begin < run.end && is_loading(run.begin)) ++run.begin;
+  while (run.begin < run.end && is_loading(run.end - 1)) --run.end;
+  // The blocks at its ends are partly of the loading and of the release.
+  const std::size_t begin = run.begin == 0 ? 0 : (run.begin + 1) * blocks.samples;
+  const std::size_t end = run.end == blocks.level.size() ? force.size() : (run.end - 1) * blocks.samples;
+  if (end < begin + thresholds::kFewestPlateauBlocks * blocks.samples) return whole;
+  return {begin, end};
 }
 
 }  // namespace slipfit::signal

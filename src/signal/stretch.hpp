@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "signal/turning_points.hpp"
@@ -17,5 +18,9 @@ struct Stretch {
 /// the last (stop, release and its ring-down, steady sliding), and the longest of several (pauses, strokes). The whole
 /// trace where fewer than 4 falls follow each other, and where less than a usual stick of ordinary force would be cut.
 Stretch sliding_stretch(const std::vector<double>& force, const std::vector<Fall>& falls);
+
+/// The longest stretch at the level of sliding, where the force has two levels far apart compared with how it moves at
+/// the upper one: a run without slips between rest, loading and release. The whole trace where it has not.
+Stretch plateau(std::span<const double> force);
 
 }  // namespace slipfit::signal
