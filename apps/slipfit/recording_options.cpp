@@ -95,6 +95,9 @@ void add_reading_options(CLI::App& command, slipfit::ReadOptions& options) {
                   "Unit of the force column: mN, gf; 1 for a coefficient");
   add_read_option(command, "--sample-rate", options.sample_rate_Hz, above_zero(Dimension::Frequency),
                   "Sampling rate (Hz), for a recording without a clock");
+  command.add_option("--sheet", options.sheet, "Sheet of a workbook, file of a zip archive: name or 1-based number");
+  command.add_option("--variable", options.variable,
+                     "Variable of a .mat file, dataset or group of HDF5, group of TDMS");
   command.add_option("--step", options.step, "Step of a file that holds several (slipfit info lists them)");
   add_read_option(
       command, "--rows", options.rows, [](const std::string&, const std::string& text) { return row_range(text); },

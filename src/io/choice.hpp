@@ -15,6 +15,7 @@ struct Channel {
   double scale = 1.0;
   ForceQuantity quantity = ForceQuantity::Force_N;  ///< of the force channel
   std::string sentence;                             ///< for Provenance::assumed
+  bool is_clock = false;                            ///< of the time: counted from midnight of its first day
 };
 
 /// Only rows whose cell says this are read.

@@ -42,10 +42,10 @@ Result<Layout> layout_of_head(TextSource& source, const std::string& file) {
 
 }  // namespace
 
-Result<OpenedFile> open_file(const std::filesystem::path& path) {
+Result<OpenedFile> open_file(const std::filesystem::path& path, const ReadOptions& options) {
   OpenedFile file;
   file.name = printable(path.string());
-  auto source = TextSource::open(path);
+  auto source = TextSource::open(path, {options.sheet, options.variable});
   if (!source) return source.error();
   file.source = std::move(source).value();
   auto layout = layout_of_head(*file.source, file.name);
@@ -78,6 +78,8 @@ Error error_of_reading(const std::string& file) {
   } catch (const ::io::error::line_length_limit_exceeded& e) {
     return {"line_too_long", fmt::format("{}:{}: the line is longer than 16 MB; is this a text file with a row a line?",
                                          file, e.file_line)};
+  } catch (const ContainerError& e) {
+    return e.error();
   } catch (const std::bad_alloc&) {
     return {"out_of_memory", file + ": not enough memory; read a part with --window"};
   } catch (const std::exception& e) {

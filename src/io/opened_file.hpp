@@ -20,7 +20,7 @@ struct OpenedFile {
 };
 
 /// Errors: those of TextSource, no_numeric_column, line_too_long, empty_file.
-Result<OpenedFile> open_file(const std::filesystem::path& path);
+Result<OpenedFile> open_file(const std::filesystem::path& path, const ReadOptions& options);
 
 /// The rows of --rows and --window that cannot be. Errors: bad_window, bad_rows, bad_sample_rate.
 std::optional<Error> check_options(const ReadOptions& options, const std::string& file);

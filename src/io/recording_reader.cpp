@@ -109,13 +109,14 @@ Result<Recording> build(Part part, const RowPlan& plan, const Conditions& condit
 Result<Recording> read_file(const std::filesystem::path& path, const std::string& name, const Conditions& conditions,
                             const ReadOptions& options) {
   if (const auto error = check_options(options, name)) return *error;
-  auto opened = open_file(path);
+  auto opened = open_file(path, options);
   if (!opened) return opened.error();
   OpenedFile file = std::move(opened).value();
-  auto chosen = choose_columns(file.layout, options, name);
+  auto chosen = choose_columns(file.layout, options, conditions.speed_m_per_s, name);
   if (!chosen) return chosen.error();
   Choice choice = std::move(chosen).value();
-  if (file.source->is_utf16()) choice.assumed.emplace_back("The text is in UTF-16.");
+  const std::vector<std::string>& packed = file.source->assumed();
+  choice.assumed.insert(choice.assumed.begin(), packed.begin(), packed.end());
   // The steps are counted over the whole file: with one of them the window is cut from it later.
   const std::optional<TimeWindow> window = options.step ? std::nullopt : options.window;
   RowPlan plan{file.layout, choice, options.sample_rate_Hz, options.rows, window, expected_rows(file, options)};

@@ -71,8 +71,7 @@ class RowReader {
         dialect_(plan.layout.dialect),
         wanted_(wanted_columns(plan.choice)),
         scales_(scales_of(plan.choice)),
-        is_clock_(plan.choice.time && plan.layout.columns[plan.choice.time->column].clocks >
-                                          plan.layout.columns[plan.choice.time->column].numbers) {
+        is_clock_(plan.choice.time && plan.choice.time->is_clock) {
     rows_.time_s.reserve(plan.expected_rows);
     rows_.force.reserve(plan.expected_rows);
   }
@@ -195,7 +194,9 @@ Reading RowReader::in_SI(Reading reading) {
   if (!has_clock()) {
     time_s = static_cast<double>(counted_++) / *plan_.sample_rate_Hz;
   } else if (is_clock_ && std::isfinite(time_s)) {
-    if (time_s < last_clock_s_ - kDay_s / 2.0) midnights_s_ += kDay_s;
+    const bool is_date = time_s > 1000.0 * kDay_s;
+    if (is_date && !std::isfinite(last_clock_s_)) midnights_s_ = -kDay_s * std::floor(time_s / kDay_s);
+    if (!is_date && time_s < last_clock_s_ - kDay_s / 2.0) midnights_s_ += kDay_s;
     last_clock_s_ = time_s;
     time_s += midnights_s_;
   }

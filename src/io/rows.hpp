@@ -10,6 +10,7 @@
 #include "io/choice.hpp"
 #include "io/layout.hpp"
 #include "io/text_source.hpp"
+#include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {
 

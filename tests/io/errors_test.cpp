@@ -27,7 +27,11 @@ TEST_CASE("each unusable content has its own error, in one line with the place")
   const std::vector<Case> cases = {
       {"empty", "", "empty_file", "empty"},
       {"blank lines", "\n  \n\t\n", "empty_file", "blank"},
-      {"binary", std::string("PK\x03\x04\0\0\0\x08", 8) + "abc", "binary_file", "not a text file"},
+      {"binary", std::string("PK\x07\x04\0\0\0\x08", 8) + "abc", "binary_file", "not a text file"},
+      {"no archive", std::string("PK\x03\x04\0\0\0\x08", 8) + "abc", "damaged_container", "is cut off"},
+      {"no gzip", "\x1F\x8B stream", "damaged_container", "gzip"},
+      {"no TDMS", "TDSm and nothing else", "damaged_container", "TDMS"},
+      {"old workbook", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1 and more", "old_workbook", "save it as .xlsx"},
       {"unprintable", "\x01\x02\x03\x04\x05\x06\x07\x0e\x0f text", "binary_file", "not a text file"},
       {"no encoding at all", "\xC0\xC1\xF8\xFF\xC0\xC1\xF8\xFF,1\n", "binary_file", "in UTF-8, Latin-1 or UTF-16"},
       {"UTF-16 of few digits without a mark", std::string("\x11\x04\x12\x04\x13\x04\x31\0\x32\0", 10), "binary_file",

@@ -35,6 +35,9 @@ struct ReadOptions {
   std::optional<std::string> force_unit;
   std::optional<double> sample_rate_Hz;  ///< for recordings without a clock
   std::optional<double> radius_m;        ///< of the contact from the axis: turns a speed of rotation into one
+  // What in a container is the recording:
+  std::optional<std::string> sheet;     ///< of a workbook, file of a zip archive: name or 1-based number
+  std::optional<std::string> variable;  ///< of a .mat file, dataset or group of HDF5, group of TDMS
   // Parts of the file, in the order in which they are taken:
   std::optional<RowRange> rows;
   std::optional<ColumnValue> where;
