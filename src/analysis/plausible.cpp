@@ -66,7 +66,8 @@ std::string remedy_for(const Seen& seen) {
 }  // namespace
 
 std::optional<Warning> implausible_units(const Recording& recording, const Analysis& analysis) {
-  if (recording.conditions().quantity != ForceQuantity::Force_N) return std::nullopt;
+  const bool has_slips = analysis.verdict == Verdict::StickSlip || analysis.verdict == Verdict::OscillatorySlip;
+  if (recording.conditions().quantity != ForceQuantity::Force_N || !has_slips) return std::nullopt;
   Seen seen{analysis.cycles.stick_stiffness.value, std::nullopt, analysis.derived.pattern_spacing_m.value};
   if (const Parameter* const mass = analysis.fit ? analysis.fit->find(ParameterId::Mass) : nullptr) {
     if (mass->status != ParameterStatus::Bounded) seen.mass_kg = mass->estimate.value;
