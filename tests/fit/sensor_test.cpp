@@ -122,7 +122,8 @@ TEST_CASE("a sensor much faster than the slip shows the slip itself") {
   for (const double tau : {-0.5, 0.3, 1.0, 2.0, slip.tau_end - 0.01}) {
     const double exact = tau < 0.0 ? slip.z0 + tau : model::slip_wave(slip, tau).z;
     const double slope = tau < 0.0 ? 1.0 : model::slip_wave(slip, tau).d_tau;
-    CHECK(fit::SensedSlip(fast, slip).at(tau).z == Approx(exact - 1e-5 * slope).epsilon(1e-8));  // lags by T, to first order
+    CHECK(fit::SensedSlip(fast, slip).at(tau).z ==
+          Approx(exact - 1e-5 * slope).epsilon(1e-8));  // lags by T, to first order
   }
 }
 
