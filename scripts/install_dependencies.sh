@@ -5,9 +5,11 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
-  nlohmann-json3-dev libfmt-dev libjs-dygraphs libxxhash-dev)
+  nlohmann-json3-dev libfmt-dev libjs-dygraphs libxxhash-dev zlib1g-dev libminizip-dev libpugixml-dev libmatio-dev
+  libhdf5-dev)
 case "${1:-test}" in
-  test) packages+=(catch2 python3 python3-jsonschema slurm-wlm munge locales dpkg-dev file) ;;
+  test) packages+=(catch2 python3 python3-jsonschema python3-openpyxl python3-scipy python3-h5py
+    slurm-wlm munge locales dpkg-dev file) ;;
   browser)
     packages=(chromium)
     command -v npm >/dev/null 2>&1 || packages+=(nodejs npm)

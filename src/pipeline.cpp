@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "analysis/classify.hpp"
+#include "analysis/coefficients.hpp"
 #include "analysis/cycle_statistics.hpp"
 #include "analysis/detect.hpp"
 #include "analysis/estimate.hpp"
+#include "analysis/plausible.hpp"
 #include "analysis/quoted_frequency.hpp"
 #include "analysis/ranges.hpp"
 #include "analysis/short_tests.hpp"
@@ -77,9 +79,11 @@ Analysis conclude(const Detected& detected, Estimates estimates, Classification 
   analysis.fit = qualify(std::move(estimates.fit), classification, analysis, recording.duration_s());
   analysis.motion = classification.motion;
   analysis.motion_reason = std::move(classification.reason);
+  analysis.coefficients = in_range(find_coefficients(detected, analysis));
   analysis.derived = derive(recording, analysis);
   analysis.tests = run_short_tests(recording, analysis);
   analysis.warnings = collect_warnings(detected, slips, analysis);
+  if (auto units = implausible_units(recording, analysis)) analysis.warnings.push_back(*std::move(units));
   analysis.fit = told_of_whole(std::move(analysis.fit), detected);
   analysis.timing.frequency_s = detected.seconds + estimates.frequency_s;
   analysis.timing.fit_s = estimates.fit_s;

@@ -28,14 +28,15 @@ double seconds_since(Clock::time_point start) {
 
 /// Options that contradict themselves are wrong usage; what depends on the file's content is an error of the recording.
 ExitCode exit_code_for(const std::string& error_code) {
-  const bool options = error_code == "conflicting_options" || error_code == "bad_window" ||
-                       error_code == "bad_sample_rate" || error_code == "speed_not_positive";
+  const bool options = error_code == "conflicting_options" || error_code == "bad_window" || error_code == "bad_rows" ||
+                       error_code == "bad_sample_rate" || error_code == "no_speed" ||
+                       error_code == "speed_not_positive";
   return options ? ExitCode::WrongUsage : ExitCode::BadRecording;
 }
 
 slipfit::Recording read(const AnalysisArguments& arguments) {
   auto recording = slipfit::read_recording(arguments.recording.file, conditions_from(arguments.recording),
-                                           arguments.recording.options);
+                                           read_options_from(arguments.recording));
   if (!recording) throw Failure(exit_code_for(recording.error().code), recording.error().message);
   return std::move(recording).value();
 }

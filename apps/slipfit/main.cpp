@@ -59,11 +59,13 @@ int run(int argc, char** argv) {
   const std::string typed_line = shell_line({argv, argv + argc});
   add_analyze_command(program, typed_line);
   add_fit_command(program, typed_line);
+  add_info_command(program);
   add_simulate_command(program);
   add_predict_command(program);
   add_plan_command(program);
   add_figures_command(program);
   add_batch_command(program);
+  add_manifest_command(program);
   add_merge_command(program);
   try {
     check_command(program, argc > 1 ? argv[1] : "");

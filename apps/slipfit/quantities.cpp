@@ -96,6 +96,18 @@ slipfit::TimeWindow time_window(const std::string& text) {
   return window;
 }
 
+slipfit::RowRange row_range(const std::string& text) {
+  const std::optional<slipfit::RowRange> rows = slipfit::parse_row_range(text);
+  if (!rows) refuse("--rows", fmt::format("bad rows '{}', expected A:B with 1 <= A < B", text));
+  return *rows;
+}
+
+slipfit::ColumnValue column_value(const std::string& text) {
+  const std::optional<slipfit::ColumnValue> where = slipfit::parse_column_value(text);
+  if (!where) refuse("--where", fmt::format("bad '{}', expected COLUMN=VALUE", text));
+  return *where;
+}
+
 slipfit::ForceView force_view(const std::string& text) {
   if (text == "spring") return slipfit::ForceView::Spring;
   if (text == "transmitted") return slipfit::ForceView::Transmitted;

@@ -31,4 +31,10 @@ double speed_standard_error(const std::string& text, double speed_m_per_s, const
 /// "T0:T1" in seconds, T0 < T1.
 slipfit::TimeWindow time_window(const std::string& text);
 
+/// "A:B" rows, 1 <= A < B.
+slipfit::RowRange row_range(const std::string& text);
+
+/// "COLUMN=VALUE"; the column may hold an equals sign, the value none.
+slipfit::ColumnValue column_value(const std::string& text);
+
 slipfit::ForceView force_view(const std::string& text);

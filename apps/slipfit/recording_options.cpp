@@ -81,27 +81,50 @@ void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
       [](const std::string& option, const std::string& text) { return quantity(option, text, Dimension::Force); },
       "Sensor reading at no force (N); absolute forces need it");
   add_instrument_options(command, conditions);
+  add_reading_options(command, options);
+}
+
+void add_reading_options(CLI::App& command, slipfit::ReadOptions& options) {
   command.add_option("--time-column", options.time_column, "Name or 1-based number");
   command.add_option("--force-column", options.force_column, "Name or 1-based number");
+  command.add_option("--normal-force-column", options.normal_force_column, "Name or 1-based number");
+  command.add_option("--speed-column", options.speed_column, "Name or 1-based number; of rpm with --radius");
   add_read_option(command, "--time-unit", options.time_unit, unit_of(Dimension::Time),
                   "Unit of the time column: ms, min");
   add_read_option(command, "--force-unit", options.force_unit, unit_of(Dimension::Force),
                   "Unit of the force column: mN, gf; 1 for a coefficient");
   add_read_option(command, "--sample-rate", options.sample_rate_Hz, above_zero(Dimension::Frequency),
                   "Sampling rate (Hz), for a recording without a clock");
+  command.add_option("--sheet", options.sheet, "Sheet of a workbook, file of a zip archive: name or 1-based number");
+  command.add_option("--variable", options.variable,
+                     "Variable of a .mat file, dataset or group of HDF5, group of TDMS");
+  command.add_option("--step", options.step, "Step of a file that holds several (slipfit info lists them)");
+  add_read_option(
+      command, "--rows", options.rows, [](const std::string&, const std::string& text) { return row_range(text); },
+      "A:B, rows of numbers, counted from 1");
+  add_read_option(
+      command, "--where", options.where, [](const std::string&, const std::string& text) { return column_value(text); },
+      "COLUMN=VALUE: rows whose cell in this column (name or number) says this");
   add_read_option(
       command, "--window", options.window,
       [](const std::string&, const std::string& text) { return time_window(text); },
       "T0:T1, seconds on the recording's own clock");
 }
 
+slipfit::ReadOptions read_options_from(const RecordingArguments& arguments) {
+  slipfit::ReadOptions options = arguments.options;
+  if (arguments.radius) options.radius_m = positive_quantity("--radius", *arguments.radius, Dimension::Length);
+  return options;
+}
+
 slipfit::Conditions conditions_from(const RecordingArguments& arguments) {
-  const std::string& speed = required(arguments.speed, "--speed", "the driving speed, for example --speed 10mm/s");
   slipfit::Conditions conditions = arguments.conditions;
-  conditions.speed_m_per_s = driving_speed(speed, arguments.radius);
-  conditions.speed_unit = slipfit::unit_in(speed);
-  if (arguments.radius) (void)positive_quantity("--radius", *arguments.radius, Dimension::Length);
+  if (arguments.speed) {
+    conditions.speed_m_per_s = driving_speed(*arguments.speed, arguments.radius);
+    conditions.speed_unit = slipfit::unit_in(*arguments.speed);
+  }
   if (arguments.speed_uncertainty) {
+    (void)required(arguments.speed, "--speed", "the driving speed that --speed-uncertainty is of");
     conditions.speed_standard_error_m_per_s =
         speed_standard_error(*arguments.speed_uncertainty, conditions.speed_m_per_s, arguments.radius);
   }

@@ -21,5 +21,11 @@ struct RecordingArguments {
 /// Text that is no value of its option throws Failure(WrongUsage).
 void add_recording_options(CLI::App& command, RecordingArguments& arguments);
 
-/// With the speed. Throws Failure(WrongUsage).
+/// What `ReadOptions` holds, but for the radius: which columns, units and part of the file to read.
+void add_reading_options(CLI::App& command, slipfit::ReadOptions& options);
+
+/// With the radius. Throws Failure(WrongUsage).
+slipfit::ReadOptions read_options_from(const RecordingArguments& arguments);
+
+/// With the speed, 0 where a column must tell it. Throws Failure(WrongUsage).
 slipfit::Conditions conditions_from(const RecordingArguments& arguments);

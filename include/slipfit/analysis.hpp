@@ -73,6 +73,13 @@ struct Transients {
   Estimate ring_down_damping_ratio;
 };
 
+/// Force over normal force, of the stretch that slides; each empty, with a reason, where it is not known.
+struct Coefficients {
+  Estimate static_first_peak;  ///< the breakaway peak
+  Estimate static_mean_peak;   ///< mean of the peaks before the slips
+  Estimate kinetic_mean;       ///< mean of the force while it slides
+};
+
 /// Everything that is known about one recording.
 struct Analysis {
   Quality quality;   ///< of the whole recording
@@ -86,7 +93,8 @@ struct Analysis {
   std::optional<FitResult> fit;  ///< empty: not asked for, or no cycles to fit
   Derived derived;
   Transients transients;
-  std::vector<ShortTest> tests;  ///< only where the kind of motion is stick-slip with a fit
+  std::optional<Coefficients> coefficients;  ///< empty without a normal force
+  std::vector<ShortTest> tests;              ///< only where the kind of motion is stick-slip with a fit
   Timing timing;
 };
 

@@ -133,6 +133,15 @@ Transients in_range(Transients transients) {
   return t;
 }
 
+std::optional<Coefficients> in_range(std::optional<Coefficients> coefficients) {
+  if (!coefficients) return coefficients;
+  for (Estimate* estimate :
+       {&coefficients->static_first_peak, &coefficients->static_mean_peak, &coefficients->kinetic_mean}) {
+    *estimate = within(std::move(*estimate), kAnyNumber);
+  }
+  return coefficients;
+}
+
 std::optional<SweepFit> in_range(std::optional<SweepFit> sweep) {
   if (!sweep) return sweep;
   sweep->result = in_range(std::move(sweep->result), {});

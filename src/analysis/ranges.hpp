@@ -14,6 +14,7 @@ FrequencyReport in_range(FrequencyReport frequency);
 CycleStatistics in_range(CycleStatistics cycles);
 Derived in_range(Derived derived);
 Transients in_range(Transients transients);
+std::optional<Coefficients> in_range(std::optional<Coefficients> coefficients);
 std::optional<SweepFit> in_range(std::optional<SweepFit> sweep);
 
 }  // namespace slipfit

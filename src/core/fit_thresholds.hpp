@@ -120,8 +120,9 @@ inline constexpr double kRoundedSigmas = 2.5;
 /// of what the error adds]
 inline constexpr double kSettledAverage = 0.2;
 
-/// Misfit of the slips' mean shape with a term over that without, at most, where the term explains it. [1; convention]
-inline constexpr double kExplainedMisfit = 0.5;
+/// Share of the variance of an instrument's impulse response for which its unknown shape counts. [1; convention: the
+/// variance is all that counts to second order]
+inline constexpr double kKernelShape = 0.03;
 
 /// A term of the model over its standard error, at least. [1; convention]
 inline constexpr double kSureTerm = 3.0;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/word_list.hpp"
+#include "io/dates.hpp"
 #include "io/short_decimal.hpp"
 
 namespace slipfit::reading {
@@ -67,8 +68,12 @@ bool is_missing(std::string_view text) {
   return is_in(kWords, lower(text));
 }
 
-/// hh:mm:ss with an optional fraction; anything else gives no number.
+/// hh:mm:ss with an optional fraction, behind a date or alone; anything else gives no number.
 Parsed parse_clock(std::string_view text, bool decimal_comma) {
+  if (const auto date = read_date(text)) {
+    const Parsed clock = parse_clock(date->clock, decimal_comma);
+    return clock.length == 0 ? Parsed{} : Parsed{date->midnight_s + clock.value, text.size()};
+  }
   double seconds = 0.0;
   for (int colons = 0; colons < 2; ++colons) {
     int part = 0;

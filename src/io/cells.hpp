@@ -15,7 +15,7 @@ struct Dialect {
 
 enum class CellKind {
   Number,
-  Clock,    ///< hh:mm:ss(.fff), value in seconds
+  Clock,    ///< hh:mm:ss(.fff), value in seconds; with a date: since 1970
   Blank,    ///< nothing
   Missing,  ///< nan, inf, n/a, ---, overflow: a reading that is none
   Text

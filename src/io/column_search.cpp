@@ -50,8 +50,8 @@ std::string list_columns(const Layout& layout) {
   return list + (layout.has_names ? "" : " (without names)");
 }
 
-Result<std::size_t> find_column(const Layout& layout, const std::string& wanted, const std::string& option,
-                                const std::string& file) {
+Result<std::size_t> find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
+                                       const std::string& file) {
   auto found = columns_called(layout, printable(wanted));
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
@@ -65,11 +65,15 @@ Result<std::size_t> find_column(const Layout& layout, const std::string& wanted,
     return Error{"unknown_column", fmt::format("{}: several columns are called '{}'; {}; give the number with {}", file,
                                                printable(wanted), list_columns(layout), option)};
   }
-  if (!layout.columns[found.front()].may_be_numeric()) {
-    return Error{"column_not_numeric", fmt::format("{}:{}: {} holds text, not numbers; choose another with {}", file,
-                                                   layout.first_data_line, describe(layout, found.front()), option)};
-  }
   return found.front();
+}
+
+Result<std::size_t> find_column(const Layout& layout, const std::string& wanted, const std::string& option,
+                                const std::string& file) {
+  auto found = find_column_of_any(layout, wanted, option, file);
+  if (!found || layout.columns[found.value()].may_be_numeric()) return found;
+  return Error{"column_not_numeric", fmt::format("{}:{}: {} holds text, not numbers; choose another with {}", file,
+                                                 layout.first_data_line, describe(layout, found.value()), option)};
 }
 
 Result<std::size_t> find_time_column(const Layout& layout, const std::string& file) {

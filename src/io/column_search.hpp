@@ -15,7 +15,11 @@ std::string describe(const Layout& layout, std::size_t column);
 /// "the columns are 1 'time', 2 'Fx', 3 'Fy'".
 std::string list_columns(const Layout& layout);
 
-/// By name (exact, then without unit or case) or 1-based number. Errors: unknown_column, column_not_numeric.
+/// By name (exact, then without unit or case) or 1-based number, whatever it holds. Error: unknown_column.
+Result<std::size_t> find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
+                                       const std::string& file);
+
+/// The same of a column of numbers. Errors: unknown_column, column_not_numeric.
 Result<std::size_t> find_column(const Layout& layout, const std::string& wanted, const std::string& option,
                                 const std::string& file);
 

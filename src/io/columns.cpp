@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "io/column_search.hpp"
 #include "io/message.hpp"
+#include "io/side_columns.hpp"
 #include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {
@@ -17,6 +20,7 @@ struct Request {
   const Layout& layout;
   const ReadOptions& options;
   const std::string& file;
+  double speed_m_per_s = 0.0;  ///< 0: not known
 };
 
 Error unit_error(const Request& request, std::size_t column, const std::string& cause, const std::string& option) {
@@ -34,6 +38,9 @@ struct GuessedUnit {
   std::string_view why;
 };
 
+/// Of a date in days, 1.7 s: a clock in seconds would step by 20 microseconds for hours.
+constexpr double kShortStep_d = 2e-5;
+
 /// Computers stamp in whole milliseconds since some start, or in milliseconds, micro- or nanoseconds since 1970.
 GuessedUnit guess_time_unit(const Column& column) {
   const bool is_stamp = mentions(column.name.base, {"stamp", "stempel", "tick"});
@@ -41,6 +48,8 @@ GuessedUnit guess_time_unit(const Column& column) {
   if (column.is_whole && start >= 1e17) return {"ns", "whole numbers of the size of nanoseconds since 1970"};
   if (column.is_whole && start >= 1e14) return {"us", "whole numbers of the size of microseconds since 1970"};
   if (column.is_whole && start >= 1e11) return {"ms", "whole numbers of the size of milliseconds since 1970"};
+  const bool is_of_Excel = start >= 20000.0 && start <= 80000.0 && column.median_step < kShortStep_d;
+  if (!column.is_whole && column.never_decreases && is_of_Excel) return {"d", "of the size of Excel's dates"};
   if (mentions(column.name.base, {"millis"})) return {"ms", "its name"};
   if (mentions(column.name.base, {"micros"})) return {"us", "its name"};
   if (is_stamp && column.is_whole && column.median_step > 1.0) return {"ms", "whole time stamps in steps above 1"};
@@ -59,21 +68,47 @@ Result<Channel> time_channel(const Request& request, std::size_t column) {
   const bool is_guess = !told && found.name.unit.empty();
   const std::string unit = is_guess ? std::string(guess.unit) : told.value_or(found.name.unit);
   Channel channel{column, 1.0, ForceQuantity::Force_N, fmt::format("Time is {}, a clock (h:min:s).", name)};
-  if (found.clocks > found.numbers) return channel;
+  if (found.clocks > found.numbers) {
+    channel.is_clock = true;
+    return channel;
+  }
   const auto scale = parse_unit(unit, Dimension::Time);
   if (!scale) return unit_error(request, column, scale.error().message, "--time-unit");
   channel.scale = scale.value().scale;
+  channel.is_clock = is_guess && guess.unit == "d";
   channel.sentence = is_guess ? fmt::format("Time is {}, taken to be in {} ({}).", name, unit, guess.why)
                               : fmt::format("Time is {}, in {}{}.", name, printable(unit), told ? " (as told)" : "");
   return channel;
 }
 
+/// Of a test at a known speed the displacement tells the time: t = x / V. Empty where there is none with a unit.
+std::optional<Channel> displacement_as_time(const Request& request) {
+  const auto& columns = request.layout.columns;
+  const auto way = std::find_if(columns.begin(), columns.end(), [](const Column& column) {
+    return column.name.role == Role::Displacement && column.varies && !column.name.unit.empty();
+  });
+  if (way == columns.end() || !(request.speed_m_per_s > 0.0)) return std::nullopt;
+  const auto scale = parse_unit(way->name.unit, Dimension::Length);
+  if (!scale) return std::nullopt;
+  std::vector<double> numbers;
+  std::copy_if(way->values.begin(), way->values.end(), std::back_inserter(numbers),
+               [](double value) { return std::isfinite(value); });
+  const double direction = numbers.back() < numbers.front() ? -1.0 : 1.0;
+  const auto column = static_cast<std::size_t>(way - columns.begin());
+  return Channel{
+      column, direction * scale.value().scale / request.speed_m_per_s, ForceQuantity::Force_N,
+      fmt::format("Time is {} over the driving speed, t = x/V (there is no clock).", describe(request.layout, column))};
+}
+
 /// Nothing where the sampling rate is the clock.
 Result<std::optional<Channel>> choose_time(const Request& request) {
-  const auto& [layout, options, file] = request;
+  const auto& [layout, options, file, speed_m_per_s] = request;
   if (!options.time_column && options.sample_rate_Hz) return std::optional<Channel>();
   const auto column = options.time_column ? find_column(layout, *options.time_column, "--time-column", file)
                                           : find_time_column(layout, file);
+  if (!column && column.error().code == "no_time_column") {
+    if (auto way = displacement_as_time(request)) return std::optional(*std::move(way));
+  }
   if (!column) return column.error();
   const auto channel = time_channel(request, column.value());
   if (!channel) return channel.error();
@@ -102,6 +137,7 @@ std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<st
     if (!is_usable(column, c) || column.name.role != Role::TangentialForce) return 0;
     return column.name.rank == 1 && !coefficients.empty() ? 0 : column.name.rank;
   });
+  if (forces.size() > 1) forces = those_of_coefficient(layout, std::move(forces));
   if (!forces.empty()) return forces;
   if (!coefficients.empty()) return coefficients;
   return best_columns(layout, [&](const Column& column, std::size_t c) {
@@ -112,7 +148,7 @@ std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<st
 }
 
 Result<std::size_t> choose_force(const Request& request, std::optional<std::size_t> time) {
-  const auto& [layout, options, file] = request;
+  const auto& [layout, options, file, speed_m_per_s] = request;
   if (options.force_column) return find_column(layout, *options.force_column, "--force-column", file);
   auto candidates = force_candidates(layout, time);
   const auto varies = [&](std::size_t c) { return request.layout.columns[c].varies; };
@@ -160,18 +196,6 @@ Result<Channel> force_channel(const Request& request, std::size_t column) {
                  fmt::format("Friction coefficient is {}, {}.", described, in_unit)};
 }
 
-/// The first displacement whose unit is a length.
-std::optional<Channel> choose_displacement(const Layout& layout, const Choice& choice) {
-  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
-    const Column& column = layout.columns[c];
-    if (column.name.role != Role::Displacement || !column.is_numeric() || column.name.unit.empty()) continue;
-    if (c == choice.force.column || (choice.time && c == choice.time->column)) continue;
-    const auto scale = parse_unit(column.name.unit, Dimension::Length);
-    if (scale) return Channel{c, scale.value().scale, ForceQuantity::Force_N, {}};
-  }
-  return std::nullopt;
-}
-
 std::vector<std::string> layout_sentences(const Layout& layout) {
   std::vector<std::string> sentences;
   if (layout.skipped_lines > 0) {
@@ -185,12 +209,13 @@ std::vector<std::string> layout_sentences(const Layout& layout) {
 
 }  // namespace
 
-Result<Choice> choose_columns(const Layout& layout, const ReadOptions& options, const std::string& file) {
+Result<Choice> choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s,
+                              const std::string& file) {
   if (options.time_column && options.sample_rate_Hz) {
     return Error{"conflicting_options",
                  file + ": both a time column and a sampling rate are given; leave out one of them"};
   }
-  const Request request{layout, options, file};
+  const Request request{layout, options, file, speed_m_per_s};
   const auto time = choose_time(request);
   if (!time) return time.error();
   Choice choice;
@@ -204,12 +229,11 @@ Result<Choice> choose_columns(const Layout& layout, const ReadOptions& options, 
   const auto force = force_channel(request, column.value());
   if (!force) return force.error();
   choice.force = force.value();
-  choice.displacement = choose_displacement(layout, choice);
   choice.assumed = layout_sentences(layout);
   choice.assumed.push_back(choice.time ? choice.time->sentence
                                        : counted_clock_sentence(layout, *options.sample_rate_Hz));
   choice.assumed.push_back(choice.force.sentence);
-  return choice;
+  return with_side_columns(std::move(choice), layout, options, file);
 }
 
 }  // namespace slipfit::reading

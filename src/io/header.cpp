@@ -1,6 +1,7 @@
 #include "io/header.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "io/names.hpp"
 
@@ -63,17 +64,22 @@ std::vector<std::string_view> split_header(std::string_view line, const Dialect&
   return {};
 }
 
-bool is_units_row(const std::vector<std::string_view>& cells) {
-  bool has_unit = false;
+struct CountedUnits {
+  std::size_t known = 0;
+  std::size_t unknown = 0;
+};
+
+CountedUnits count_units(const std::vector<std::string_view>& cells) {
+  CountedUnits count;
   for (const std::string_view cell : cells) {
     std::string_view text = unquote(cell);
     const bool in_brackets = text.size() > 2 && (text.front() == '[' || text.front() == '(');
     if (in_brackets) text = trim(text.substr(1, text.size() - 2));
     const UnitClass unit_class = classify_unit(text);
-    if (unit_class == UnitClass::NotAUnit && !in_brackets) return false;
-    has_unit = has_unit || unit_class != UnitClass::None;
+    if (unit_class == UnitClass::None) continue;
+    ++(unit_class == UnitClass::NotAUnit && !in_brackets ? count.unknown : count.known);
   }
-  return has_unit;
+  return count;
 }
 
 bool is_names_row(const std::vector<std::string_view>& cells) {
@@ -90,17 +96,36 @@ bool is_names_row(const std::vector<std::string_view>& cells) {
   return texts > 0 && (name.role != Role::Unknown || !name.unit.empty()) && name.text.size() < 40;
 }
 
+/// Units alone; or most of them units, and a row of names above.
+bool is_units_row(const std::vector<std::string_view>& cells, const std::vector<std::string_view>& above) {
+  const CountedUnits count = count_units(cells);
+  if (count.known == 0) return false;
+  if (count.unknown == 0) return true;
+  return count.known > count.unknown && is_names_row(above) && count_units(above).known <= count_units(above).unknown;
+}
+
+/// Neither blank nor a rule between header and data.
+bool says_something(std::string_view line) {
+  return std::any_of(line.begin(), line.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return std::isalnum(byte) != 0 || byte >= 0x80 || c == '%';
+  });
+}
+
 }  // namespace
 
 Header find_header(const std::vector<std::string_view>& lines, std::size_t data, const Dialect& dialect,
                    std::size_t columns) {
   std::vector<std::vector<std::string_view>> above;
+  std::vector<std::size_t> places;
   for (std::size_t i = data; i > 0 && above.size() < 2; --i) {
-    if (!trim(lines[i - 1]).empty()) above.push_back(split_header(lines[i - 1], dialect, columns));
+    if (!says_something(lines[i - 1])) continue;
+    above.push_back(split_header(lines[i - 1], dialect, columns));
+    places.push_back(i - 1);
   }
   above.resize(2);
   Header header;
-  if (!above[0].empty() && is_units_row(above[0])) {
+  if (!above[0].empty() && is_units_row(above[0], above[1])) {
     header.units = above[0];
     header.names = is_names_row(above[1]) ? above[1] : std::vector<std::string_view>{};
     header.lines = header.names.empty() ? 1 : 2;
@@ -109,6 +134,7 @@ Header find_header(const std::vector<std::string_view>& lines, std::size_t data,
     header.names = above[0];
     header.lines = 1;
   }
+  if (header.lines > 0) header.line = lines[places[header.lines - 1]];
   return header;
 }
 

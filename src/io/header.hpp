@@ -12,10 +12,11 @@ namespace slipfit::reading {
 struct Header {
   std::vector<std::string_view> names;
   std::vector<std::string_view> units;
+  std::string_view line;  ///< that of the names, else that of the units
   std::size_t lines = 0;
 };
 
-/// Looks at the two non-blank lines above line `data` (an index into `lines`).
+/// Looks at the two lines above line `data` (an index into `lines`) that hold a letter, a digit or a percent sign.
 Header find_header(const std::vector<std::string_view>& lines, std::size_t data, const Dialect& dialect,
                    std::size_t columns);
 

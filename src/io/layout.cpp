@@ -97,6 +97,7 @@ class ColumnScan {
   void add(const Cell& cell) {
     if (cell.kind == CellKind::Text) ++column_.texts;
     if (cell.kind == CellKind::Blank || cell.kind == CellKind::Missing) ++column_.missing;
+    column_.values.push_back(cell.value);
     if (cell.kind != CellKind::Number && cell.kind != CellKind::Clock) return;
     ++(cell.kind == CellKind::Number ? column_.numbers : column_.clocks);
     if (!cell.tag.empty()) ++tags_[std::string(cell.tag)];
@@ -150,6 +151,7 @@ std::optional<Layout> find_layout(const Lines& lines) {
   layout.first_data_line = *data + 1;
   const Header header = find_header(lines, *data, *dialect, shape.columns);
   layout.has_names = !header.names.empty();
+  layout.names_line = trim(header.line);
   const auto filled = std::count_if(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(*data),
                                     [](std::string_view line) { return !trim(line).empty(); });
   layout.skipped_lines = static_cast<std::size_t>(filled) - header.lines;

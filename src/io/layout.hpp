@@ -24,7 +24,8 @@ struct Column {
   bool is_whole = false;         ///< whole numbers only
   double first = 0.0;
   double median_step = 0.0;
-  std::string tag;  ///< what most numbers carry behind them
+  std::string tag;             ///< what most numbers carry behind them
+  std::vector<double> values;  ///< of every row looked at; NaN where it holds no number
 
   [[nodiscard]] bool is_numeric() const { return numbers + clocks > 0 && numbers + clocks >= texts; }
   /// No text in it: it may be a column of readings that are all missing.
@@ -38,7 +39,8 @@ struct Layout {
   std::size_t first_data_line = 1;  ///< 1-based
   std::size_t skipped_lines = 0;    ///< text before the data that is neither names nor units
   bool has_names = false;
-  std::size_t rows = 0;  ///< looked at
+  std::string names_line;  ///< as it stands in the file: above a further part of the data it stands again
+  std::size_t rows = 0;    ///< looked at
   double mean_line_length = 0.0;
 };
 

@@ -33,6 +33,16 @@ std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell) {
   return std::nullopt;
 }
 
+std::optional<Error> set_file(ManifestEntry& entry, const std::string& cell) {
+  entry.file = cell;
+  return std::nullopt;
+}
+
+std::optional<Error> set_group(ManifestEntry& entry, const std::string& cell) {
+  entry.group = to_utf8(cell);
+  return std::nullopt;
+}
+
 std::optional<Error> set_force_view(ManifestEntry& entry, const std::string& cell) {
   constexpr auto kViews = std::to_array<std::pair<std::string_view, ForceView>>(
       {{"spring", ForceView::Spring}, {"transmitted", ForceView::Transmitted}, {"contact", ForceView::Contact}});
@@ -57,6 +67,25 @@ std::optional<Error> set_option(ManifestEntry& entry, const std::string& cell) {
   return std::nullopt;
 }
 
+std::optional<Error> set_step(ManifestEntry& entry, const std::string& cell) {
+  const double step = plain_number(cell, false);
+  if (!(step >= 0.0 && step < 1e9)) return refusal("bad_step", cell, "the number of a step, as slipfit info lists it");
+  entry.options.step = static_cast<std::size_t>(step);
+  return std::nullopt;
+}
+
+std::optional<Error> set_rows(ManifestEntry& entry, const std::string& cell) {
+  entry.options.rows = parse_row_range(cell);
+  if (!entry.options.rows) return refusal("bad_rows", cell, "A:B with 1 <= A < B, rows counted from 1");
+  return std::nullopt;
+}
+
+std::optional<Error> set_where(ManifestEntry& entry, const std::string& cell) {
+  entry.options.where = parse_column_value(cell);
+  if (!entry.options.where) return refusal("bad_where", cell, "COLUMN=VALUE");
+  return std::nullopt;
+}
+
 template <auto Conditions::*target>
 void set_condition(ManifestEntry& entry, double number) {
   entry.conditions.*target = number;
@@ -74,6 +103,7 @@ struct ManifestField {
   SetText set_text = nullptr;
   std::string_view option{};  ///< of the command line, that says the same
   bool is_needed = false;
+  bool may_be_empty = false;  ///< although the column is needed
 
   [[nodiscard]] std::string full_name() const { return std::string(base) + std::string(suffix); }
 };
@@ -85,32 +115,26 @@ using Bound = ManifestField::Bound;
 // A name that begins like another one stands before it.
 constexpr std::array kFields = std::to_array<ManifestField>({
     {.base = "id", .set_text = set_id, .is_needed = true},
-    {.base = "file",
-     .set_text = [](ManifestEntry& entry, const std::string& cell) -> std::optional<Error> {
-       entry.file = cell;
-       return std::nullopt;
-     },
-     .is_needed = true},
+    {.base = "file", .set_text = set_file, .is_needed = true},
     {"speed_se", "_m_per_s", Dimension::Speed, Bound::NotNegative,
      set_condition<&Conditions::speed_standard_error_m_per_s>},
-    {.base = "speed",
-     .suffix = "_m_per_s",
-     .dimension = Dimension::Speed,
-     .bound = Bound::AboveZero,
-     .set_number = set_condition<&Conditions::speed_m_per_s>,
-     .is_needed = true},
+    {"speed", "_m_per_s", Dimension::Speed, Bound::AboveZero, set_condition<&Conditions::speed_m_per_s>, nullptr,
+     "--speed", true, true},
     {"normal_force", "_N", Dimension::Force, Bound::AboveZero, set_condition<&Conditions::normal_force_N>},
     {"zero_force", "_N", Dimension::Force, Bound::None, set_condition<&Conditions::zero_force_N>},
     {.base = "force_view", .set_text = set_force_view},
-    {.base = "group",
-     .set_text = [](ManifestEntry& entry,
-                    const std::string& cell) -> std::
-                                                 optional<Error> {
-                                                   entry.group = to_utf8(cell);
-                                                   return std::nullopt;
-                                                 }},
+    {.base = "group", .set_text = set_group},
     {.base = "time_column", .set_text = set_option<&ReadOptions::time_column>, .option = "--time-column"},
     {.base = "force_column", .set_text = set_option<&ReadOptions::force_column>, .option = "--force-column"},
+    {.base = "normal_force_column",
+     .set_text = set_option<&ReadOptions::normal_force_column>,
+     .option = "--normal-force-column"},
+    {.base = "speed_column", .set_text = set_option<&ReadOptions::speed_column>, .option = "--speed-column"},
+    {.base = "sheet", .set_text = set_option<&ReadOptions::sheet>, .option = "--sheet"},
+    {.base = "variable", .set_text = set_option<&ReadOptions::variable>, .option = "--variable"},
+    {.base = "step", .set_text = set_step, .option = "--step"},
+    {.base = "rows", .set_text = set_rows, .option = "--rows"},
+    {.base = "where", .set_text = set_where, .option = "--where"},
     {.base = "time_unit", .set_text = set_unit<Dimension::Time, &ReadOptions::time_unit>, .option = "--time-unit"},
     {.base = "force_unit", .set_text = set_unit<Dimension::Force, &ReadOptions::force_unit>, .option = "--force-unit"},
     {"sample_rate", "_Hz", Dimension::Frequency, Bound::AboveZero,
@@ -245,7 +269,7 @@ Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& na
 Result<ManifestEntry> with_cell(ManifestEntry entry, const ManifestColumn& column, const std::string& cell,
                                 bool decimal_comma) {
   const ManifestField& field = *column.field;
-  if (cell.empty() && !field.is_needed) return entry;
+  if (cell.empty() && (!field.is_needed || field.may_be_empty)) return entry;
   const auto error = cell.empty()       ? Error{"missing_value", "the field is empty, expected a value"}
                      : field.set_text   ? field.set_text(entry, cell)
                      : field.set_number ? set_number(entry, column, cell, decimal_comma)
@@ -258,8 +282,11 @@ std::string with_columns_for_options(std::string text) {
   for (const ManifestField& field : kFields) {
     if (field.option.empty()) continue;
     const std::string words = "the manifest's " + field.full_name();
-    for (std::size_t at = 0; (at = text.find(field.option, at)) != std::string::npos; at += words.size()) {
-      text.replace(at, field.option.size(), words);
+    for (std::size_t at = 0; (at = text.find(field.option, at)) != std::string::npos;) {
+      const std::size_t end = at + field.option.size();
+      const bool is_longer = end < text.size() && text[end] == '-';  // "--speed" of "--speed-column"
+      if (!is_longer) text.replace(at, field.option.size(), words);
+      at += is_longer ? field.option.size() : words.size();
     }
   }
   return text;

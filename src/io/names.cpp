@@ -91,6 +91,14 @@ struct RoleAndRank {
   int rank;
 };
 
+/// A letter alone is a speed only where its unit says so ("v [mm/s]"): it may be a voltage.
+RoleAndRank speed_role(const std::vector<std::string>& words, UnitClass unit) {
+  const bool is_speed_unit = unit == UnitClass::Speed || unit == UnitClass::Rotation;
+  const bool is_letter = std::all_of(words.begin(), words.end(), [](const auto& word) { return word.size() == 1; });
+  if (!is_speed_unit && (is_letter || unit != UnitClass::None)) return {Role::Other, 0};
+  return {Role::Speed, is_letter || has(words, kNominal) ? 1 : 2};
+}
+
 /// The order matters: "normal stress" is no force, "normal force" not the tangential one, "Friction [N]" no
 /// coefficient.
 RoleAndRank role_of(const std::vector<std::string>& words, UnitClass unit) {
@@ -101,23 +109,31 @@ RoleAndRank role_of(const std::vector<std::string>& words, UnitClass unit) {
     return {Role::Time, words.size() == 1 ? 3 : 2};
   }
   if (has(words, kOtherQuantity)) return {Role::Other, 0};
+  if (has(words, kVelocity) && words.front() != "f") return speed_role(words, unit);
+  if (has(words, kStep) && (unit == UnitClass::None || unit == UnitClass::One)) {
+    return {Role::Step, words.size() == 1 ? 2 : 1};
+  }
   if (has(words, kDisplacement) && !is_force_unit && !says_force) {
     return {has(words, kNormal) ? Role::Other : Role::Displacement, 2};
   }
   if (has(words, kCoefficient) && !is_force_unit) return {Role::FrictionCoefficient, 3};
-  if (has(words, kNormal) || (has(words, kLoad) && has(words, kNominal))) return {Role::NormalForce, 2};
+  if (has(words, kNormal) || (has(words, kLoad) && has(words, kNominal))) {
+    return {Role::NormalForce, has(words, kNominal) ? 1 : 2};
+  }
   if (has(words, kFriction)) {
-    if (is_force_unit || says_force) return {Role::TangentialForce, 3};
+    if (is_force_unit || says_force) return {Role::TangentialForce, 4};
     return {unit == UnitClass::None || unit == UnitClass::One ? Role::FrictionCoefficient : Role::Other, 2};
   }
   if (unit == UnitClass::Time || unit == UnitClass::Length) {
     return {unit == UnitClass::Time ? Role::Time : Role::Displacement, 1};
   }
-  if (has(words, kTangential)) return {Role::TangentialForce, 3};
+  if (has(words, kTangential)) return {Role::TangentialForce, 4};
+  if (has(words, kLateral)) return {Role::TangentialForce, 3};
   if (has(words, kForce) && (words.front() != "f" || unit_allows_force)) return {Role::TangentialForce, 2};
   if (has(words, kLoad)) return {Role::TangentialForce, 1};
   if (unit == UnitClass::Force) return {Role::TangentialForce, 1};
-  return {unit == UnitClass::Other || has(words, kCounter) ? Role::Other : Role::Unknown, 0};
+  const bool is_other = unit == UnitClass::Other || unit == UnitClass::Speed || unit == UnitClass::Rotation;
+  return {is_other || has(words, kCounter) ? Role::Other : Role::Unknown, 0};
 }
 
 }  // namespace
@@ -132,8 +148,14 @@ UnitClass classify_unit(std::string_view unit) {
   if (parsed->powers == kMetre) return UnitClass::Length;
   if (parsed->powers == kNewton) return UnitClass::Force;
   if (parsed->powers == kKilogram) return UnitClass::Mass;
+  if (parsed->powers == kSpeed) return UnitClass::Speed;
+  if (parsed->powers == kTurnsPerSecond || parsed->powers == kRadiansPerSecond) return UnitClass::Rotation;
   const bool is_number = parsed->powers == kPureNumber && unit.find('/') == std::string_view::npos;
   return is_number ? UnitClass::One : UnitClass::Other;
+}
+
+bool is_load(const ColumnName& name) {
+  return has(words_of(name.base), kLoad);
 }
 
 ColumnName read_name(std::string_view name_cell, std::string_view unit_cell) {

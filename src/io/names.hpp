@@ -6,18 +6,21 @@
 namespace slipfit::reading {
 
 /// What a column holds as far as its name and unit tell.
-enum class Role { Unknown, Time, TangentialForce, NormalForce, FrictionCoefficient, Displacement, Other };
+enum class Role { Unknown, Time, TangentialForce, NormalForce, FrictionCoefficient, Displacement, Speed, Step, Other };
 
 /// What a unit measures, as far as columns are told apart by it.
-enum class UnitClass { None, NotAUnit, Time, Length, Force, Mass, One, Other };
+enum class UnitClass { None, NotAUnit, Time, Length, Force, Mass, Speed, Rotation, One, Other };
 
 struct ColumnName {
   std::string text;  ///< as in the file, in UTF-8; empty where the file has none
   std::string base;  ///< without the unit
   std::string unit;  ///< "mN" of "force [mN]", "Ft (mN)", "force_mN", or from a units row; may be empty
   Role role = Role::Unknown;
-  int rank = 0;  ///< how strongly the name says so: 3 "Ft", 2 "force", 1 "load" or only the unit
+  int rank = 0;  ///< how strongly the name says so: 4 "Ft", 3 "Fx", 2 "force", 1 "load" or only the unit
 };
+
+/// Whether a word of the name means a load ("Load", "Last"): beside a friction force that is the normal force.
+bool is_load(const ColumnName& name);
 
 UnitClass classify_unit(std::string_view unit);
 

@@ -1,6 +1,7 @@
 #include "io/rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -13,30 +14,64 @@
 namespace slipfit::reading {
 namespace {
 
-constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
-
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDay_s = 86400.0;
+
+/// What may be read from a line. `Where` is compared, not kept.
+enum Slot : std::size_t { kTime, kForce, kWay, kNormalForce, kVelocity, kStepNumber, kWhere, kSlots };
 
 /// The numbers of a line; NaN where there is none.
 struct Reading {
-  double time = kNoValue;
-  double force = kNoValue;
-  double displacement = kNoValue;
+  std::array<double, kSlots> values{};
+  bool is_wanted = true;  ///< by --where
+
+  Reading() { values.fill(kNoValue); }
 };
+
+struct WantedColumn {
+  std::size_t column = 0;
+  Slot slot = kTime;
+};
+
+/// In the order of the columns.
+std::vector<WantedColumn> wanted_columns(const Choice& choice) {
+  std::vector<WantedColumn> wanted{{choice.force.column, kForce}};
+  const auto add = [&](const std::optional<Channel>& channel, Slot slot) {
+    if (channel) wanted.push_back({channel->column, slot});
+  };
+  add(choice.time, kTime);
+  add(choice.displacement, kWay);
+  add(choice.normal_force, kNormalForce);
+  add(choice.speed, kVelocity);
+  if (choice.step) wanted.push_back({*choice.step, kStepNumber});
+  if (choice.where) wanted.push_back({choice.where->column, kWhere});
+  std::stable_sort(wanted.begin(), wanted.end(),
+                   [](const WantedColumn& a, const WantedColumn& b) { return a.column < b.column; });
+  return wanted;
+}
+
+std::array<double, kSlots> scales_of(const Choice& choice) {
+  std::array<double, kSlots> scales{};
+  scales.fill(1.0);
+  const auto set = [&](const std::optional<Channel>& channel, Slot slot) {
+    if (channel) scales.at(slot) = channel->scale;
+  };
+  set(choice.time, kTime);
+  set(choice.force, kForce);
+  set(choice.displacement, kWay);
+  set(choice.normal_force, kNormalForce);
+  set(choice.speed, kVelocity);
+  return scales;
+}
 
 class RowReader {
  public:
   explicit RowReader(const RowPlan& plan)
       : plan_(plan),
         dialect_(plan.layout.dialect),
-        time_column_(column_of(plan.choice.time)),
-        force_column_(plan.choice.force.column),
-        displacement_column_(column_of(plan.choice.displacement)),
-        last_column_(std::max(
-            {plan.choice.time ? time_column_ : 0, force_column_, plan.choice.displacement ? displacement_column_ : 0})),
-        time_scale_(plan.choice.time ? plan.choice.time->scale : 1.0),
-        force_scale_(plan.choice.force.scale),
-        displacement_scale_(plan.choice.displacement ? plan.choice.displacement->scale : 1.0) {
+        wanted_(wanted_columns(plan.choice)),
+        scales_(scales_of(plan.choice)),
+        is_clock_(plan.choice.time && plan.choice.time->is_clock) {
     rows_.time_s.reserve(plan.expected_rows);
     rows_.force.reserve(plan.expected_rows);
   }
@@ -45,14 +80,13 @@ class RowReader {
     Reading reading = read_plain(line);
     if (!is_complete(reading)) {
       split(line, dialect_.delimiter, cells_);
-      reading.time = number_at(time_column_);
-      reading.force = number_at(force_column_);
+      for (const WantedColumn& wanted : wanted_) reading.values[wanted.slot] = number_at(wanted.column);
       if (!is_complete(reading) && !is_row()) return count_text_line(line, number);
     }
-    reading.time = has_clock() ? reading.time * time_scale_ : static_cast<double>(counted_++) / *plan_.sample_rate_Hz;
-    reading.force *= force_scale_;
-    reading.displacement *= displacement_scale_;
-    keep(reading, number);
+    ++rows_.count;
+    if (plan_.rows && (rows_.count < plan_.rows->first || rows_.count > plan_.rows->last)) return;
+    if (!reading.is_wanted) return;
+    keep(in_SI(reading), number);
   }
 
   Rows finish() {
@@ -61,27 +95,26 @@ class RowReader {
   }
 
  private:
-  static std::size_t column_of(const std::optional<Channel>& channel) { return channel ? channel->column : kNoColumn; }
-  [[nodiscard]] bool has_clock() const { return time_column_ != kNoColumn; }
+  [[nodiscard]] bool has_clock() const { return plan_.choice.time.has_value(); }
   [[nodiscard]] bool is_complete(const Reading& reading) const {
-    return (std::isfinite(reading.time) || !has_clock()) && std::isfinite(reading.force);
+    return (std::isfinite(reading.values[kTime]) || !has_clock()) && std::isfinite(reading.values[kForce]);
   }
   [[nodiscard]] Reading read_plain(const char* cell) const;
+  [[nodiscard]] bool is_where(std::string_view cell, double number) const;
   [[nodiscard]] double number_at(std::size_t column) const;
   [[nodiscard]] bool is_row() const;
+  [[nodiscard]] Reading in_SI(Reading reading);
   void count_text_line(std::string_view line, unsigned number);
   void keep(const Reading& reading, unsigned number);
+  void note_place(unsigned line);
 
   const RowPlan& plan_;
   Dialect dialect_;
-  std::size_t time_column_;
-  std::size_t force_column_;
-  std::size_t displacement_column_;
-  std::size_t last_column_;
-  double time_scale_;
-  double force_scale_;
-  double displacement_scale_;
-  double latest_s_ = -std::numeric_limits<double>::infinity();
+  std::vector<WantedColumn> wanted_;
+  std::array<double, kSlots> scales_;
+  bool is_clock_;  ///< h:min:s, which begins again at midnight
+  double midnights_s_ = 0.0;
+  double last_clock_s_ = -std::numeric_limits<double>::infinity();
   double low_s_ = std::numeric_limits<double>::infinity();
   double high_s_ = -std::numeric_limits<double>::infinity();
   std::size_t counted_ = 0;
@@ -94,26 +127,36 @@ class RowReader {
 Reading RowReader::read_plain(const char* cell) const {
   const char point = dialect_.decimal_comma ? ',' : '.';
   Reading reading;
+  const WantedColumn* wanted = wanted_.data();
+  const WantedColumn* const last = wanted + wanted_.size();
   for (std::size_t column = 0;; ++column) {
     if (dialect_.delimiter == ' ') {
       while (*cell == ' ' || *cell == '\t') ++cell;
     }
-    double* const wanted = column == time_column_           ? &reading.time
-                           : column == force_column_        ? &reading.force
-                           : column == displacement_column_ ? &reading.displacement
-                                                            : nullptr;
     const char* const begin = cell;
-    if (wanted != nullptr) {
+    if (column != wanted->column) {
+      cell = end_of_cell(cell, nullptr, dialect_.delimiter);
+    } else {
       const ShortDecimal number = read_short_decimal(cell, nullptr, point);
       const bool is_whole = number.is_number && (*number.end == dialect_.delimiter || *number.end == '\0');
       cell = is_whole ? number.end : end_of_cell(cell, nullptr, dialect_.delimiter);
-      *wanted = is_whole ? number.value
-                         : plain_number({begin, static_cast<std::size_t>(cell - begin)}, dialect_.decimal_comma);
-    } else {
-      cell = end_of_cell(cell, nullptr, dialect_.delimiter);
+      const std::string_view text(begin, static_cast<std::size_t>(cell - begin));
+      const double value = is_whole ? number.value : plain_number(text, dialect_.decimal_comma);
+      for (; wanted != last && wanted->column == column; ++wanted) {
+        reading.values[wanted->slot] = value;
+        if (wanted->slot == kWhere) reading.is_wanted = is_where(text, value);
+      }
     }
-    if (column == last_column_ || *cell++ == '\0') return reading;
+    if (wanted == last) return reading;
+    if (*cell++ == '\0') break;
   }
+  reading.is_wanted = reading.is_wanted && !plan_.choice.where;  // its cell was not reached
+  return reading;
+}
+
+bool RowReader::is_where(std::string_view cell, double number) const {
+  const WhereFilter& where = *plan_.choice.where;
+  return (where.number && number == *where.number) || unquote(cell) == std::string_view(where.text);
 }
 
 /// NaN where the cell holds no number, or one with another tag than this column's ("3 cells ready" among "1.79 N1").
@@ -129,7 +172,7 @@ double RowReader::number_at(std::size_t column) const {
 /// An incomplete line is a row when something in it is a number or says that a reading is missing.
 bool RowReader::is_row() const {
   for (std::size_t c = 0; c < std::min(cells_.size(), plan_.layout.columns.size()); ++c) {
-    const bool is_wanted = c == force_column_ || c == time_column_;
+    const bool is_wanted = c == plan_.choice.force.column || (has_clock() && c == plan_.choice.time->column);
     if (is_wanted && read_cell(cells_[c], dialect_.decimal_comma).kind == CellKind::Missing) return true;
     if (std::isfinite(number_at(c))) return true;
   }
@@ -141,32 +184,95 @@ void RowReader::count_text_line(std::string_view line, unsigned number) {
   const char delimiter = dialect_.delimiter == '\0' ? ' ' : dialect_.delimiter;
   if (std::all_of(line.begin(), line.end(), [&](char c) { return c == delimiter || trim({&c, 1}).empty(); })) return;
   if (rows_.text_lines++ == 0) rows_.first_text_line = number;
+  const bool is_names = !plan_.layout.names_line.empty() && trim(line) == plan_.layout.names_line;
+  if (is_names && !rows_.time_s.empty()) rows_.blocks.push_back(rows_.time_s.size());
+}
+
+Reading RowReader::in_SI(Reading reading) {
+  for (std::size_t slot = 0; slot < kSlots; ++slot) reading.values[slot] *= scales_[slot];
+  double& time_s = reading.values[kTime];
+  if (!has_clock()) {
+    time_s = static_cast<double>(counted_++) / *plan_.sample_rate_Hz;
+  } else if (is_clock_ && std::isfinite(time_s)) {
+    const bool is_date = time_s > 1000.0 * kDay_s;
+    if (is_date && !std::isfinite(last_clock_s_)) midnights_s_ = -kDay_s * std::floor(time_s / kDay_s);
+    if (!is_date && time_s < last_clock_s_ - kDay_s / 2.0) midnights_s_ += kDay_s;
+    last_clock_s_ = time_s;
+    time_s += midnights_s_;
+  }
+  return reading;
 }
 
 void RowReader::keep(const Reading& reading, unsigned number) {
-  if (plan_.window && std::isfinite(reading.time)) {
-    low_s_ = std::min(low_s_, reading.time);
-    high_s_ = std::max(high_s_, reading.time);
-    if (reading.time < plan_.window->begin_s || reading.time > plan_.window->end_s) return;
+  const double time_s = reading.values[kTime];
+  if (plan_.window && std::isfinite(time_s)) {
+    low_s_ = std::min(low_s_, time_s);
+    high_s_ = std::max(high_s_, time_s);
+    if (time_s < plan_.window->begin_s || time_s > plan_.window->end_s) return;
   }
-  if (!std::isfinite(reading.time) || !std::isfinite(reading.force)) {
+  if (!std::isfinite(time_s) || !std::isfinite(reading.values[kForce])) {
     ++rows_.without_number;
     return;
   }
-  if (reading.time < latest_s_) {
-    ++rows_.in_window;
-    if (rows_.backward++ == 0) rows_.first_backward_line = number;
-    return;
+  note_place(number);
+  rows_.time_s.push_back(time_s);
+  rows_.force.push_back(reading.values[kForce]);
+  if (plan_.choice.displacement) rows_.displacement_m.push_back(reading.values[kWay]);
+  if (plan_.choice.normal_force) rows_.normal_force_N.push_back(std::abs(reading.values[kNormalForce]));
+  if (plan_.choice.speed) rows_.speed_m_per_s.push_back(std::abs(reading.values[kVelocity]));
+  if (plan_.choice.step) rows_.step.push_back(reading.values[kStepNumber]);
+}
+
+void RowReader::note_place(unsigned line) {
+  const std::size_t sample = rows_.time_s.size();
+  if (!rows_.places.empty()) {
+    const RowPlace& last = rows_.places.back();
+    const std::size_t since = sample - last.sample;
+    if (rows_.count - last.row == since && line - last.line == since) return;
   }
-  if (reading.time == latest_s_) ++rows_.repeating;
-  ++rows_.in_window;
-  latest_s_ = reading.time;
-  rows_.time_s.push_back(reading.time);
-  rows_.force.push_back(reading.force);
-  if (std::isfinite(reading.displacement)) rows_.displacement.add({reading.time, reading.displacement});
+  rows_.places.push_back({sample, rows_.count, line});
+}
+
+/// Every vector of the samples; those without a column stay empty.
+template <class Change>
+void for_each_column(Rows& rows, const Change& change) {
+  for (std::vector<double>* column :
+       {&rows.time_s, &rows.force, &rows.displacement_m, &rows.normal_force_N, &rows.speed_m_per_s, &rows.step}) {
+    if (!column->empty()) change(*column);
+  }
 }
 
 }  // namespace
+
+RowPlace Rows::place_of(std::size_t sample) const {
+  const auto behind = std::upper_bound(places.begin(), places.end(), sample,
+                                       [](std::size_t s, const RowPlace& place) { return s < place.sample; });
+  if (behind == places.begin()) return {sample, sample + 1, 1};
+  const RowPlace& place = *std::prev(behind);
+  const std::size_t since = sample - place.sample;
+  return {sample, place.row + since, place.line + static_cast<unsigned>(since)};
+}
+
+void Rows::cut(std::size_t begin, std::size_t end) {
+  if (begin == 0 && end == time_s.size()) return;
+  const RowPlace first = place_of(begin);
+  std::erase_if(places, [&](const RowPlace& place) { return place.sample <= begin || place.sample >= end; });
+  for (RowPlace& place : places) place.sample -= begin;
+  places.insert(places.begin(), {0, first.row, first.line});
+  std::erase_if(blocks, [&](std::size_t block) { return block <= begin || block >= end; });
+  for (std::size_t& block : blocks) block -= begin;
+  for_each_column(*this, [&](std::vector<double>& column) {
+    column.erase(column.begin() + static_cast<std::ptrdiff_t>(end), column.end());
+    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(begin));
+  });
+}
+
+void Rows::keep(const std::vector<std::size_t>& samples) {
+  for_each_column(*this, [&](std::vector<double>& column) {
+    for (std::size_t i = 0; i < samples.size(); ++i) column[i] = column[samples[i]];
+    column.resize(samples.size());
+  });
+}
 
 Rows read_rows(const std::string& file, std::unique_ptr<TextSource> source, const RowPlan& plan) {
   RowReader reader(plan);

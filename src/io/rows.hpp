@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "io/columns.hpp"
-#include "io/displacement.hpp"
+#include "io/choice.hpp"
 #include "io/layout.hpp"
 #include "io/text_source.hpp"
+#include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {
 
@@ -19,29 +19,47 @@ struct RowPlan {
   const Layout& layout;
   const Choice& choice;
   std::optional<double> sample_rate_Hz;  ///< the clock where no time column is chosen
-  std::optional<TimeWindow> window;
+  std::optional<RowRange> rows;
+  std::optional<TimeWindow> window;  ///< what lies outside is not even kept
   std::size_t expected_rows = 0;
 };
 
-/// The two chosen columns in SI, time never decreasing, all finite; and what was left out.
+/// Where a sample stands in the file; holds for those behind it, too, up to the next place.
+struct RowPlace {
+  std::size_t sample = 0;  ///< index into Rows::time_s
+  std::size_t row = 1;     ///< 1-based, of the rows of numbers
+  unsigned line = 1;
+};
+
+/// The chosen columns in SI, in the order of the file; time and force are finite. And what was left out.
 struct Rows {
   std::vector<double> time_s;
   std::vector<double> force;
-  DisplacementTrack displacement;
-  std::size_t in_window = 0;  ///< rows with numbers inside the window, whatever their order
+  // Empty where no such column is chosen; NaN where a row does not hold it:
+  std::vector<double> displacement_m;
+  std::vector<double> normal_force_N;
+  std::vector<double> speed_m_per_s;
+  std::vector<double> step;
+  std::vector<std::size_t> blocks;  ///< samples before which the line of names stands again
+  std::vector<RowPlace> places;
+  std::size_t count = 0;  ///< rows in the file
   std::size_t without_number = 0;
-  std::size_t backward = 0;
-  std::size_t repeating = 0;
   std::size_t text_lines = 0;
-  unsigned first_backward_line = 0;
   unsigned first_text_line = 0;
   std::optional<TimeWindow> clock;  ///< where a window was asked for: what the clock covers inside and outside it
   Digest digest;                    ///< of the whole file
   std::uint64_t bytes = 0;
+
+  /// Row number and line of a sample.
+  [[nodiscard]] RowPlace place_of(std::size_t sample) const;
+  /// Keeps samples [begin, end).
+  void cut(std::size_t begin, std::size_t end);
+  /// Keeps the samples of these indices, ascending.
+  void keep(const std::vector<std::size_t>& samples);
 };
 
-/// One pass, 16 bytes a sample and the reader's own buffer. Throws what LineReader and its source throw; `file` is the
-/// name that it says.
+/// One pass, 16 bytes a sample, 8 for each further column, and the reader's own buffer. Throws what LineReader and its
+/// source throw; `file` is the name that it says.
 Rows read_rows(const std::string& file, std::unique_ptr<TextSource> source, const RowPlan& plan);
 
 }  // namespace slipfit::reading

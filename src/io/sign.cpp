@@ -44,15 +44,19 @@ std::size_t count_negative(std::span<const double> force) {
 
 }  // namespace
 
-bool is_reciprocating(std::span<const double> force) {
+std::size_t count_strokes(std::span<const double> force) {
   const auto samples = static_cast<double>(force.size());
   const auto negative = static_cast<double>(count_negative(force));
-  if (std::min(negative, samples - negative) < kLeastOfEitherSign * samples) return false;
+  if (std::min(negative, samples - negative) < kLeastOfEitherSign * samples) return 1;
   const double near = kNear * level_90(force);
   const auto near_zero = std::count_if(force.begin(), force.end(), [&](double f) { return std::abs(f) < near; });
-  if (static_cast<double>(near_zero) > kMostNear * samples) return false;
+  if (static_cast<double>(near_zero) > kMostNear * samples) return 1;
   const std::size_t turns = count_turns(force, near);
-  return turns >= kSmallestTurns && force.size() >= kShortestStroke * (turns + 1);
+  return turns >= kSmallestTurns && force.size() >= kShortestStroke * (turns + 1) ? turns + 1 : 1;
+}
+
+bool is_reciprocating(std::span<const double> force) {
+  return count_strokes(force) > 1;
 }
 
 bool is_negative_throughout(std::span<const double> force) {

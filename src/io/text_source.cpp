@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstring>
-#include <system_error>
+#include <utility>
 
 #include "io/message.hpp"
 
@@ -44,35 +43,31 @@ void unify_line_ends(char* begin, char* end, char next) {
   }
 }
 
-Error open_error(const std::string& name, int reason) {
-  if (reason == ENOENT || reason == ENOTDIR) return {"file_not_found", name + ": no such file; check the path"};
-  return {"not_readable", name + ": cannot be opened (" + std::strerror(reason) + "); check the permissions"};
-}
-
 }  // namespace
 
 Result<std::unique_ptr<TextSource>> TextSource::open(const std::filesystem::path& file) {
-  const std::string name = printable(file.string());
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
-    return Error{"is_directory", name + ": is a folder; name a file in it"};
-  }
+  return over(open_plain(file), printable(file.string()));
+}
+
+Result<std::unique_ptr<TextSource>> TextSource::open(const std::filesystem::path& file, const ContainerChoice& choice) {
+  return over(open_unpacked(file, choice), printable(file.string()));
+}
+
+Result<std::unique_ptr<TextSource>> TextSource::over(Result<TextStream> stream, const std::string& name) {
+  if (!stream) return stream.error();
   std::unique_ptr<TextSource> source(new TextSource);
-  source->file_.reset(std::fopen(file.c_str(), "rb"));
-  if (!source->file_) return open_error(name, errno);
+  source->stream_ = std::move(stream).value();
   source->raw_.resize(kProbe);
-  source->raw_.resize(std::fread(source->raw_.data(), 1, kProbe, source->file_.get()));
-  if (std::ferror(source->file_.get()) != 0) return open_error(name, errno);
+  source->raw_.resize(source->stream_.bytes->read(source->raw_.data(), kProbe));
   if (source->raw_.empty()) return Error{"empty_file", name + ": the file is empty; export the recording again"};
-  source->digester_->add(source->raw_);
   source->detect_encoding();
   if (!source->is_utf16() && looks_binary(source->raw_)) {
     return Error{
         "binary_file",
         name + ": not a text file in UTF-8, Latin-1 or UTF-16 with a byte order mark; export it as CSV or text"};
   }
-  const auto size = std::filesystem::file_size(file, ignored);
-  if (!ignored) source->estimated_size_ = static_cast<std::size_t>(source->is_utf16() ? size / 2 : size);
+  if (source->is_utf16()) source->stream_.assumed.emplace_back("The text is in UTF-16.");
+  source->estimated_size_ = source->is_utf16() ? source->stream_.size / 2 : source->stream_.size;
   return source;
 }
 
@@ -101,10 +96,7 @@ std::size_t TextSource::read_raw(char* buffer, std::size_t size) {
   std::memcpy(buffer, raw_.data() + raw_used_, kept);
   raw_used_ += kept;
   if (kept == size) return size;
-  const std::size_t got = std::fread(buffer + kept, 1, size - kept, file_.get());
-  if (std::ferror(file_.get()) != 0) throw std::system_error(errno, std::generic_category(), "reading failed");
-  digester_->add({buffer + kept, got});
-  return kept + got;
+  return kept + stream_.bytes->read(buffer + kept, size - kept);
 }
 
 void TextSource::decode_utf16_chunk() {

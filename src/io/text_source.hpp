@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "io/container/byte_stream.hpp"
 #include "io/line_reader.hpp"
 #include "slipfit/core/digest.hpp"
 #include "slipfit/core/result.hpp"
@@ -21,6 +22,8 @@ class TextSource final : public ::io::ByteSourceBase {
  public:
   /// Errors: file_not_found, is_directory, not_readable, empty_file, binary_file.
   static Result<std::unique_ptr<TextSource>> open(const std::filesystem::path& file);
+  /// Of what is packed in the file, too. Errors: those above, those of containers.
+  static Result<std::unique_ptr<TextSource>> open(const std::filesystem::path& file, const ContainerChoice& choice);
 
   /// The first `size` bytes of the text (fewer when there are no more), without consuming them.
   std::string_view head(std::size_t size);
@@ -28,17 +31,17 @@ class TextSource final : public ::io::ByteSourceBase {
   [[nodiscard]] bool head_is_everything() const { return ended_; }
   /// Of the text, not exact; 0 where the file does not say (a pipe).
   [[nodiscard]] std::size_t estimated_size() const { return estimated_size_; }
+  /// Sentences about what the text was packed in, and its encoding.
+  [[nodiscard]] const std::vector<std::string>& assumed() const { return stream_.assumed; }
   /// Of the file's bytes as they are read; it outlives the source, which a LineReader takes.
-  [[nodiscard]] std::shared_ptr<const Digester> digester() const { return digester_; }
+  [[nodiscard]] std::shared_ptr<const Digester> digester() const { return stream_.digester; }
   [[nodiscard]] bool is_utf16() const { return encoding_ != Encoding::Bytes; }
 
   int read(char* buffer, int size) override;
 
  private:
   enum class Encoding { Bytes, Utf16LittleEndian, Utf16BigEndian };
-  struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
+  static Result<std::unique_ptr<TextSource>> over(Result<TextStream> stream, const std::string& name);
 
   TextSource() = default;
   void detect_encoding();
@@ -47,8 +50,7 @@ class TextSource final : public ::io::ByteSourceBase {
   void decode_utf16_chunk();
   std::size_t fill(char* buffer, std::size_t size);
 
-  std::unique_ptr<std::FILE, CloseFile> file_;
-  std::shared_ptr<Digester> digester_ = std::make_shared<Digester>();
+  TextStream stream_;
   Encoding encoding_ = Encoding::Bytes;
   std::string raw_;  ///< read while opening
   std::size_t raw_used_ = 0;

@@ -12,17 +12,18 @@ constexpr std::string_view kTime =
     "micros zeitstempel versuchszeit uhrzeit clock seconds sec secs msec";
 constexpr std::string_view kOtherQuantity =
     "stress spannung pressure druck work arbeit energy energie temp temperature temperatur torque moment drehmoment "
-    "velocity speed geschwindigkeit rpm humidity feuchte voltage acceleration accel beschleunigung power wear "
+    "humidity feuchte voltage acceleration accel beschleunigung power wear "
     "verschleiss verschleiß radius angle winkel frequency frequenz stiffness mass thickness vibration";
+constexpr std::string_view kVelocity = "velocity speed geschwindigkeit rpm drehzahl v";
+constexpr std::string_view kStep = "step schritt segment stage phase abschnitt testschritt recipestep stepno";
 constexpr std::string_view kCounter =
-    "cycle cycles zyklus zyklen index idx sample samples step no nr number lap laps turns status marker event counter "
-    "id";
+    "cycle cycles zyklus zyklen index idx sample samples no nr number lap laps turns status marker event counter id";
 constexpr std::string_view kDisplacement =
     "displacement displ disp strain position pos weg standardweg stroke travel distance dist extension dehnung "
     "verschiebung hub path auslenkung traverse traversenweg crosshead elongation deflection";
 constexpr std::string_view kForce = "force forces kraft standardkraft fuerza forza effort f";
 constexpr std::string_view kLoad = "load last loadcell weight";
-constexpr std::string_view kNominal = "applied nominal";
+constexpr std::string_view kNominal = "applied nominal set soll target setpoint";
 constexpr std::string_view kNormal =
     "fn fz normal normalkraft normallast normalforce vertical downforce auflast preload vorlast";
 constexpr std::string_view kCoefficient =
@@ -30,7 +31,8 @@ constexpr std::string_view kCoefficient =
     "koeffizient";
 constexpr std::string_view kFriction = "friction frictional reibung frict";
 constexpr std::string_view kTangential =
-    "ft fx fy ff fr ffric ftan tangential lateral shear traction drag reibkraft reibungskraft tangentialkraft "
-    "querkraft zugkraft scherkraft horizontal pull pulling frictionforce tangentialforce";
+    "ft ff fr ffric ftan tangential shear traction drag reibkraft reibungskraft tangentialkraft zugkraft scherkraft "
+    "pull pulling frictionforce tangentialforce";
+constexpr std::string_view kLateral = "fx fy lateral querkraft horizontal";  // one of them may be the tangential force
 
 }  // namespace slipfit::reading

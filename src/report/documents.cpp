@@ -46,6 +46,7 @@ std::string to_json(const Recording& recording, const Analysis& analysis, const 
   if (analysis.fit) add_fit(json, *analysis.fit, recording.conditions().quantity);
   json["derived"] = derived_json(analysis.derived);
   json["transients"] = transients_json(analysis.transients, recording.conditions().quantity);
+  json["coefficients"] = coefficients_json(analysis.coefficients);
   json["tests"] = tests_json(analysis.tests);
   if (options.timing) json["timing"] = timing_json(analysis.timing);
   return text_of(json, options.layout);

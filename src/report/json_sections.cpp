@@ -221,6 +221,14 @@ Json derived_json(const Derived& derived) {
   return json;
 }
 
+/// Null without a load.
+Json coefficients_json(const std::optional<Coefficients>& coefficients) {
+  if (!coefficients) return {};
+  return {{"static_first_peak", estimate(coefficients->static_first_peak)},
+          {"static_mean_peak", estimate(coefficients->static_mean_peak)},
+          {"kinetic_mean", estimate(coefficients->kinetic_mean)}};
+}
+
 Json transients_json(const Transients& transients, ForceQuantity quantity) {
   const bool newtons = quantity == ForceQuantity::Force_N;
   Json json = Json::object();

@@ -15,6 +15,7 @@ Json parameters_json(const FitResult& fit);
 Json correlation_json(const FitResult& fit);
 Json tests_json(const std::vector<ShortTest>& tests);
 Json derived_json(const Derived& derived);
+Json coefficients_json(const std::optional<Coefficients>& coefficients);
 Json transients_json(const Transients& transients, ForceQuantity quantity);
 
 }  // namespace slipfit

@@ -70,6 +70,7 @@ std::string to_text(const Recording& recording, const Analysis& analysis) {
   text += frequency_text(analysis.frequency);
   text += cycles_text(analysis.cycles, recording.conditions().quantity);
   text += transients_text(analysis.transients, recording.conditions().quantity);
+  text += coefficients_text(analysis.coefficients);
   text += spacing_text(recording, analysis.derived);
   const bool moves_like_model =
       analysis.motion == MotionClass::StickSlip || analysis.motion == MotionClass::OscillatorySlip;
@@ -176,6 +177,18 @@ std::string transients_text(const Transients& transients, ForceQuantity quantity
                  is_breakaway ? force_unit(quantity) : std::string(row.unit));
   }
   return table.empty() ? std::string() : "\nBefore and after the sliding\n" + table.text();
+}
+
+std::string coefficients_text(const std::optional<Coefficients>& coefficients) {
+  if (!coefficients) return {};
+  Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
+  const auto add = [&](const char* words, const Estimate& estimate) {
+    if (estimate.value) add_estimate(table, words, estimate, "");
+  };
+  add("static, first peak", coefficients->static_first_peak);
+  add("static, mean of the peaks", coefficients->static_mean_peak);
+  add("kinetic, mean while sliding", coefficients->kinetic_mean);
+  return table.empty() ? std::string() : "\nCoefficient of friction\n" + table.text();
 }
 
 std::string spacing_text(const Recording& recording, const Derived& derived) {

@@ -26,6 +26,7 @@ std::string frequency_text(const FrequencyReport& frequency);
 std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity);
 std::string spacing_text(const Recording& recording, const Derived& derived);
 std::string transients_text(const Transients& transients, ForceQuantity quantity);
+std::string coefficients_text(const std::optional<Coefficients>& coefficients);
 std::string predicted_text(const Recording& recording, const Derived& derived);
 std::string recording_text(const Recording& recording, const Analysis& analysis);
 

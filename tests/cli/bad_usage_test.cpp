@@ -9,10 +9,11 @@ using test::slipfit;
 
 TEST_CASE("wrong usage is refused with exit code 2 and one line before the recording is opened") {
   const std::string file = "no-such-recording.csv";
-  check_refused({}, "analyze, fit, simulate");
+  check_refused({}, "analyze, fit, info, simulate");
   check_refused({"polish", "x.csv", "--speed", "1"}, "unknown command 'polish'");
   check_refused({"fit"}, "REC");
-  check_refused({"fit", file}, "--speed is missing");
+  const test::TemporaryFolder folder;
+  check_refused({"fit", folder.file("run.csv", test::simulated_csv("5"))}, "--speed is missing");
   check_refused({"fit", file, "--speed"}, "--speed");
   check_refused({"fit", file, "--speed", "1", "--sped", "2"}, "--sped");
   check_refused({"fit", file, "other.csv", "--speed", "1"}, "other.csv");

@@ -29,13 +29,13 @@ void collect_keys(const nlohmann::json& node, std::set<std::string>& keys) {
   }
 }
 
-std::string schema_file() {
-  return (project_folder() / "docs/fit.schema.json").string();
+std::string schema_file(const std::string& name = "fit") {
+  return (project_folder() / "docs" / (name + ".schema.json")).string();
 }
 
 /// Exit code 77 where no Python at hand has the module jsonschema: then there is nothing to test with.
-test::ProgramResult validate(const std::vector<std::string>& documents) {
-  std::vector<std::string> arguments{(project_folder() / "tests/cli/validate_schema.py").string(), schema_file()};
+test::ProgramResult validate(const std::vector<std::string>& documents, const std::string& schema = "fit") {
+  std::vector<std::string> arguments{(project_folder() / "tests/cli/validate_schema.py").string(), schema_file(schema)};
   arguments.insert(arguments.end(), documents.begin(), documents.end());
   const test::ProgramResult result = test::run_program("python3", arguments);
   if (result.exit_code != 77 || !std::filesystem::exists("/usr/bin/python3")) return result;
@@ -82,6 +82,33 @@ TEST_CASE("every kind of document obeys docs/fit.schema.json, with no key that t
   CHECK((result.exit_code == 0 || result.exit_code == 77));
 }
 
+TEST_CASE("what info says of a file obeys docs/info.schema.json, also of one that fit would refuse") {
+  const test::TemporaryFolder folder;
+  std::string steps = "Step,time [s],Fx [N],Fz [N],speed [mm/s]\n";
+  for (int i = 0; i < 90; ++i) {
+    steps += std::to_string(1 + i / 30) + "," + std::to_string(i % 30) + "," + std::to_string(i % 4) + ",2," +
+             std::to_string(1 + i / 30) + "\n";
+  }
+  std::vector<std::string> documents;
+  for (const std::string& text : {steps, test::simulated_csv("5"), std::string("a,b,c\n1,2,x\n2,1,y\n1,3,z\n")}) {
+    const std::string index = std::to_string(documents.size());
+    documents.push_back(folder.path(index + ".json"));
+    const auto result = slipfit({"info", folder.file(index + ".csv", text), "--json", "--out", documents.back()});
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+  }
+  const auto result = validate(documents, "info");
+  CAPTURE(result.out, result.err);
+  if (result.exit_code == 77) WARN("skipped: python3-jsonschema is not installed");
+  CHECK((result.exit_code == 0 || result.exit_code == 77));
+  const auto first = nlohmann::json::parse(test::content_of(documents[0]));
+  CHECK(first["steps"].size() == 3);
+  CHECK(first["steps"][1]["rows"] == nlohmann::json{31, 60});
+  CHECK(first["steps"][2]["speed_m_per_s"] == 0.003);
+  CHECK(first["taken"]["force_column"] == "Fx [N]");
+  CHECK(nlohmann::json::parse(test::content_of(documents[2]))["refusal"].is_string());
+}
+
 TEST_CASE("the schema check fails for a document that is wrong") {
   const test::TemporaryFolder folder;
   const std::string wrong = folder.file("wrong.json", R"({"schema": "slipfit.fit/1"})");
@@ -91,7 +118,9 @@ TEST_CASE("the schema check fails for a document that is wrong") {
 
 TEST_CASE("docs/formats.md names every key of the schema") {
   std::set<std::string> keys;
-  collect_keys(nlohmann::json::parse(test::content_of(schema_file())), keys);
+  for (const char* const schema : {"fit", "predict", "info"}) {
+    collect_keys(nlohmann::json::parse(test::content_of(schema_file(schema))), keys);
+  }
   const std::string formats = test::content_of((project_folder() / "docs/formats.md").string());
   CHECK(keys.size() > 90);
   for (const std::string& key : keys) CHECK_THAT(formats, Catch::Contains(key));

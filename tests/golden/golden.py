@@ -31,6 +31,8 @@ RECORDINGS = {  # name: options of `slipfit simulate` beside the common ones
     "middle": {"speed": 0.015, "seed": 8, **OF_SPEED},
     "fast": {"speed": 0.045, "seed": 9, **OF_SPEED},
 }
+STEPS = "Step,Timestamp,Fx (N),Fz (N),Velocity (mm/s),State\n" + "".join(
+    f"{step},{0.01 * i:.2f},{1 + (i % 7) / 10},{2 * step},{5 * step},on\n" for step in (1, 2) for i in range(60))
 GROUPED = ["slow", "middle", "fast"]
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 LEFT_OUT = {"version", "input_digest", "input_bytes"}  # the bytes of a recording hang on the last digit of each sample
@@ -60,6 +62,8 @@ class Documents:
         for name in ("damped", "undamped", "contact", "transmitted", "sparse", "steady"):
             speed, view = str(RECORDINGS[name]["speed"]), RECORDINGS[name].get("force-view", "spring")
             yield f"fit_{name}", self.document("fit", f"{name}.csv", "--speed", speed, "--force-view", view)
+        (self.folder / "steps.csv").write_text(STEPS)
+        yield "info", self.document("info", "steps.csv")
         yield "analyze", self.document("analyze", "damped.csv", "--speed", "0.01")
         yield "fit_joint", self.document("fit", "--joint", "runs.csv", "--group", "pair")
         self.run("fit", "damped.csv", "--speed", "0.01", "--json", "--quiet", "--out", "damped.json")

@@ -67,11 +67,21 @@ TEST_CASE("the tangential force is found by its name") {
   }
 }
 
-TEST_CASE("a friction coefficient is taken where there is no tangential force") {
+TEST_CASE("a friction coefficient beside a normal force is a force") {
   for (const std::string names :
-       {"Time(s),Displ(microns),Friction,Effective_Normal_stress(MPa)", "time,load [N],COF", "t,Fz,mu",
-        "t,x [mm],\xC2\xB5", "t,x [mm],\xB5 [-]", "time,laps,Friction coefficient", "Zeit,Auflast,Reibwert",
-        "time,Fn,Coefficient of friction ()", "time,speed,signal [1]"}) {
+       {"time,load [N],COF", "t,Fz,mu", "Zeit,Auflast,Reibwert", "time,Fn,Coefficient of friction ()"}) {
+    CAPTURE(names);
+    const auto recording = read_ok(table(names));
+    CHECK(recording.conditions().quantity == ForceQuantity::Force_N);
+    CHECK(recording.force()[0] == Approx(1.0 * 2.0));
+    CHECK(recording.conditions().normal_force_N == Approx(1.01));  // the lower median
+    CHECK(says(recording, {"Force is the friction coefficient times column 2"}));
+  }
+}
+
+TEST_CASE("a friction coefficient is taken where there is no tangential force") {
+  for (const std::string names : {"Time(s),Displ(microns),Friction,Effective_Normal_stress(MPa)", "t,x [mm],\xC2\xB5",
+                                  "t,x [mm],\xB5 [-]", "time,laps,Friction coefficient", "time,speed,signal [1]"}) {
     CAPTURE(names);
     const auto recording = read_ok(table(names));
     CHECK(recording.conditions().quantity == ForceQuantity::FrictionCoefficient);

@@ -23,11 +23,15 @@ slipfit::Error read_path_error(const std::filesystem::path& path) {
 TEST_CASE("each unusable content has its own error, in one line with the place") {
   const std::string rows = "0,1\n1,2\n2,1\n3,2\n";
   std::string backwards = "time,force\n";
-  for (int i = 0; i < 50; ++i) backwards += std::to_string(i % 20) + "," + std::to_string(i % 3) + "\n";
+  for (int i = 0; i < 50; ++i) backwards += std::to_string(i * 7 % 50) + "," + std::to_string(i % 3) + "\n";
   const std::vector<Case> cases = {
       {"empty", "", "empty_file", "empty"},
       {"blank lines", "\n  \n\t\n", "empty_file", "blank"},
-      {"binary", std::string("PK\x03\x04\0\0\0\x08", 8) + "abc", "binary_file", "not a text file"},
+      {"binary", std::string("PK\x07\x04\0\0\0\x08", 8) + "abc", "binary_file", "not a text file"},
+      {"no archive", std::string("PK\x03\x04\0\0\0\x08", 8) + "abc", "damaged_container", "is cut off"},
+      {"no gzip", "\x1F\x8B stream", "damaged_container", "gzip"},
+      {"no TDMS", "TDSm and nothing else", "damaged_container", "TDMS"},
+      {"old workbook", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1 and more", "old_workbook", "save it as .xlsx"},
       {"unprintable", "\x01\x02\x03\x04\x05\x06\x07\x0e\x0f text", "binary_file", "not a text file"},
       {"no encoding at all", "\xC0\xC1\xF8\xFF\xC0\xC1\xF8\xFF,1\n", "binary_file", "in UTF-8, Latin-1 or UTF-16"},
       {"UTF-16 of few digits without a mark", std::string("\x11\x04\x12\x04\x13\x04\x31\0\x32\0", 10), "binary_file",
@@ -36,7 +40,7 @@ TEST_CASE("each unusable content has its own error, in one line with the place")
       {"names only", "time,force\n", "no_numeric_column", "no rows of numbers"},
       {"one row", "time,force\n0,1\n", "too_few_samples", "run7.csv:2: only one row"},
       {"all NaN", "time,force\n0,nan\n1,nan\n2,NaN\n", "no_number_in_column", "column 2 'force'"},
-      {"backwards", backwards, "time_runs_backwards", "run7.csv:22: time runs backwards in 29 of 50 rows"},
+      {"backwards", backwards, "time_runs_backwards", "run7.csv:10: time runs backwards in 42 of 50 rows"},
       {"constant time", "time,force\n3,1\n3,2\n3,1\n", "time_constant", "3 s in all of 3 rows"},
       {"force unit unknown", "time,force [V]\n" + rows, "unknown_unit", "column 2 'force [V]'"},
       {"time unit unknown", "time [furlong],force\n" + rows, "unknown_unit", "--time-unit"},
@@ -129,5 +133,6 @@ TEST_CASE("a row of a million columns is told to be too long, not to hold no num
 
 TEST_CASE("the rules of Recording::create are reported with the file") {
   const auto error = read_error("time,force\n0,1\n1,2\n", {}, at_speed(0.0));
-  CHECK(error.code == "speed_not_positive");
+  CHECK(error.code == "no_speed");
+  CHECK(read_error("time,force\n0,1\n1,2\n", {}, at_speed(-1.0)).code == "speed_not_positive");
 }

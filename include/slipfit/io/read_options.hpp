@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace slipfit {
 
@@ -11,14 +13,42 @@ struct TimeWindow {
   double end_s = 0.0;
 };
 
+/// Rows of numbers, counted from 1 over the file (bounds included).
+struct RowRange {
+  std::size_t first = 1;
+  std::size_t last = 1;
+};
+
+/// The rows whose cell in this column says this: a number, or a text.
+struct ColumnValue {
+  std::string column;  ///< name, or 1-based number as text
+  std::string value;
+};
+
 /// What the user says about the file; everything left empty is found out, and said in `Provenance::assumed`.
 struct ReadOptions {
-  std::optional<std::string> time_column;   ///< name, or 1-based number as text
-  std::optional<std::string> force_column;  ///< name, or 1-based number as text
+  std::optional<std::string> time_column;          ///< name, or 1-based number as text
+  std::optional<std::string> force_column;         ///< name, or 1-based number as text
+  std::optional<std::string> normal_force_column;  ///< name, or 1-based number as text
+  std::optional<std::string> speed_column;         ///< name, or 1-based number as text
   std::optional<std::string> time_unit;
   std::optional<std::string> force_unit;
   std::optional<double> sample_rate_Hz;  ///< for recordings without a clock
+  std::optional<double> radius_m;        ///< of the contact from the axis: turns a speed of rotation into one
+  // What in a container is the recording:
+  std::optional<std::string> sheet;     ///< of a workbook, file of a zip archive: name or 1-based number
+  std::optional<std::string> variable;  ///< of a .mat file, dataset or group of HDF5, group of TDMS
+  // Parts of the file, in the order in which they are taken:
+  std::optional<RowRange> rows;
+  std::optional<ColumnValue> where;
+  std::optional<std::size_t> step;  ///< as `inspect_recording` counts them
   std::optional<TimeWindow> window;
 };
+
+/// "A:B" with 1 <= A < B.
+std::optional<RowRange> parse_row_range(std::string_view text);
+
+/// "COLUMN=VALUE"; a column's name may hold an equals sign, the value none.
+std::optional<ColumnValue> parse_column_value(std::string_view text);
 
 }  // namespace slipfit

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "fit/cycle/cycle_data.hpp"
 #include "fit/observation/sensor.hpp"
@@ -17,7 +18,9 @@ class CoulombCycle {
 
   /// `z0`: spring force above F_k at the onset. Needs z0 + 2 zeta > 0 and |zeta| < 1.
   CoulombCycle(double z0, double zeta, const Sensor& sensor)
-      : slip(model::solve_slip(z0, zeta)), after(model::stick_after(slip)), sensor_(sensor) {}
+      : slip(model::solve_slip(z0, zeta)), after(model::stick_after(slip)), sensor_(sensor) {
+    if (sensor.smooths()) sensed_.emplace(sensor, slip);
+  }
 
   model::Slip slip;
   model::StickLine after;
@@ -27,7 +30,7 @@ class CoulombCycle {
     const double reach = 0.5 * sensor_.average_tau;
     if (tau <= -reach) return before_slip(tau);
     if (tau > slip.tau_end + reach && sensor_.lag_tau == 0.0) return after_slip(tau);
-    if (sensor_.smooths()) return sensor_.wave_at(slip, tau);
+    if (sensed_) return sensed_->at(tau);
     const double decay = std::exp(-slip.zeta * tau);
     return in_slip(tau, decay * std::cos(slip.b * tau), decay * std::sin(slip.b * tau));
   }
@@ -83,6 +86,7 @@ class CoulombCycle {
   }
 
   Sensor sensor_;
+  std::optional<SensedSlip> sensed_;  ///< where the sensor smooths
 };
 
 }  // namespace slipfit::fit

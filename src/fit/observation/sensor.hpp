@@ -1,5 +1,7 @@
 #pragma once
 
+#include <ceres/jet.h>
+
 #include "model/slip.hpp"
 
 namespace slipfit::fit {
@@ -14,8 +16,33 @@ struct Sensor {
 
   /// It shows something else than the force at the time stamp.
   [[nodiscard]] bool smooths() const { return lag_tau > 0.0 || average_tau > 0.0; }
+};
+
+/// A slip as such an instrument shows it.
+class SensedSlip {
+ public:
+  SensedSlip(const Sensor& sensor, const model::Slip& slip);
+
   /// At any tau; the stick before the slip counts as long enough for the slip before it to be forgotten.
-  [[nodiscard]] model::WavePoint wave_at(const model::Slip& slip, double tau) const;
+  [[nodiscard]] model::WavePoint at(double tau) const;
+
+ private:
+  /// Derivatives with respect to z0, zeta, tau, ln w_n.
+  using Jet = ceres::Jet<double, 4>;
+
+  /// Force, its derivative and its integral from the onset on.
+  struct Force {
+    Jet z, slope, integral;
+  };
+
+  [[nodiscard]] Force force_at(const Jet& tau) const;
+  [[nodiscard]] Jet lagged_in_slip(const Jet& tau) const;
+  [[nodiscard]] Jet lagged_at(const Jet& tau) const;
+  [[nodiscard]] Force shown_at(const Jet& tau) const;
+
+  Sensor sensor_;
+  Jet z0_, zeta_, end_tau_, kappa_, half_;
+  model::SlipPoint<Jet> end_;
 };
 
 }  // namespace slipfit::fit

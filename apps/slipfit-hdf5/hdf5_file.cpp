@@ -1,0 +1,146 @@
+#include <hdf5.h>
+
+#include <array>
+#include <limits>
+
+#include "tables.hpp"
+
+using slipfit::reading::NumberTable;
+
+namespace {
+
+/// A handle of HDF5 and what closes it.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
+    if (id_ < 0) throw Refusal("damaged_container the HDF5 file is damaged; copy or export it again");
+  }
+  ~Handle() { close_(id_); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+bool is_number(hid_t type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  return kind == H5T_INTEGER || kind == H5T_FLOAT;
+}
+
+std::vector<std::string> number_fields(hid_t type) {
+  std::vector<std::string> fields;
+  for (int i = 0; i < H5Tget_nmembers(type); ++i) {
+    const Handle member(H5Tget_member_type(type, static_cast<unsigned>(i)), H5Tclose);
+    char* const name = H5Tget_member_name(type, static_cast<unsigned>(i));
+    if (is_number(member) && name != nullptr) fields.emplace_back(name);
+    H5free_memory(name);
+  }
+  return fields;
+}
+
+/// A chunk is unpacked as a whole.
+bool has_huge_chunks(hid_t dataset, hid_t type) {
+  constexpr hsize_t kMostChunkBytes = hsize_t{256} << 20U;
+  const Handle settings(H5Dget_create_plist(dataset), H5Pclose);
+  if (H5Pget_layout(settings) != H5D_CHUNKED) return false;
+  std::array<hsize_t, H5S_MAX_RANK> extents{};
+  const int rank = H5Pget_chunk(settings, static_cast<int>(extents.size()), extents.data());
+  double bytes = static_cast<double>(H5Tget_size(type));
+  for (int i = 0; i < rank; ++i) bytes *= static_cast<double>(extents.at(static_cast<std::size_t>(i)));
+  return bytes > static_cast<double>(kMostChunkBytes);
+}
+
+void add_dataset(hid_t file, const std::string& path, std::vector<ArrayShape>& arrays) {
+  const Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  const Handle type(H5Dget_type(dataset), H5Tclose);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 1 || rank > 2 || has_huge_chunks(dataset, type)) return;
+  std::array<hsize_t, 2> extents{1, 1};
+  H5Sget_simple_extent_dims(space, extents.data(), nullptr);
+  ArrayShape shape{path, path.substr(0, path.rfind('/')), extents[0], extents[1], {}};
+  if (shape.group.empty()) shape.group = "/";
+  const bool is_table = H5Tget_class(type) == H5T_COMPOUND && rank == 1;
+  if (is_table) shape.fields = number_fields(type);
+  constexpr hsize_t kMost = hsize_t{1} << 40U;  // lest products overflow
+  const bool is_sane = extents[0] > 0 && extents[1] > 0 && extents[0] < kMost && extents[1] < kMost / extents[0];
+  if (is_sane && (is_table ? !shape.fields.empty() : is_number(type))) arrays.push_back(shape);
+}
+
+struct Visit {
+  std::vector<std::string> datasets;
+};
+
+herr_t note_dataset(hid_t, const char* name, const H5O_info_t* info, void* data) {
+  constexpr std::size_t kMostDatasets = 10000;
+  auto* const visit = static_cast<Visit*>(data);
+  const bool is_of_MATLAB = name[0] == '#';  // what cells and objects refer to
+  if (info->type == H5O_TYPE_DATASET && !is_of_MATLAB) visit->datasets.push_back(std::string("/") + name);
+  return visit->datasets.size() < kMostDatasets ? 0 : 1;
+}
+
+std::string unit_of(hid_t dataset) {
+  for (const char* const name : {"unit", "units", "Unit", "Units", "unit_string"}) {
+    if (H5Aexists(dataset, name) <= 0) continue;
+    const Handle attribute(H5Aopen(dataset, name, H5P_DEFAULT), H5Aclose);
+    const Handle type(H5Aget_type(attribute), H5Tclose);
+    const Handle space(H5Aget_space(attribute), H5Sclose);
+    if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) continue;
+    if (H5Tis_variable_str(type) > 0) {
+      char* text = nullptr;
+      if (H5Aread(attribute, type, static_cast<void*>(&text)) < 0 || text == nullptr) continue;
+      std::string unit(text);
+      H5free_memory(text);
+      return unit;
+    }
+    std::string unit(H5Tget_size(type) + 1, '\0');
+    if (unit.size() < 256 && H5Aread(attribute, type, unit.data()) >= 0) return unit.substr(0, unit.find('\0'));
+  }
+  return {};
+}
+
+std::vector<double> read_as(hid_t dataset, hid_t type, std::uint64_t count) {
+  std::vector<double> values(static_cast<std::size_t>(count), std::numeric_limits<double>::quiet_NaN());
+  if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    throw Refusal(
+        "damaged_container the numbers in the HDF5 file are damaged, or packed by a filter that is not "
+        "installed; export it again");
+  }
+  return values;
+}
+
+void add_array(hid_t file, const ArrayShape& shape, NumberTable& table) {
+  const Handle dataset(H5Dopen2(file, shape.name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (shape.fields.empty()) {
+    const std::string unit = unit_of(dataset);
+    const std::string name = shape.name.substr(shape.name.rfind('/') + 1);
+    const auto values = read_as(dataset, H5T_NATIVE_DOUBLE, shape.length() * shape.width());
+    return add_columns(table, shape, values, unit.empty() ? name : name + " [" + unit + "]");
+  }
+  for (const std::string& field : shape.fields) {
+    const Handle type(H5Tcreate(H5T_COMPOUND, sizeof(double)), H5Tclose);
+    H5Tinsert(type, field.c_str(), 0, H5T_NATIVE_DOUBLE);
+    table.names.push_back(field);
+    table.columns.push_back(read_as(dataset, type, shape.length()));
+  }
+}
+
+}  // namespace
+
+NumberTable read_hdf5(const std::string& file, std::uint64_t size, const std::optional<std::string>& variable,
+                      std::string& chosen) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  const Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  Visit visit;
+  H5Ovisit2(opened, H5_INDEX_NAME, H5_ITER_NATIVE, note_dataset, &visit, H5O_INFO_BASIC);
+  std::vector<ArrayShape> arrays;
+  for (const std::string& path : visit.datasets) add_dataset(opened, path, arrays);
+  const TableShape shape = choose_table(arrays, variable, size);
+  chosen = shape.name;
+  NumberTable table;
+  for (const ArrayShape& array : shape.arrays) add_array(opened, array, table);
+  return table;
+}

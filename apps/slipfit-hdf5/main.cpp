@@ -1,0 +1,70 @@
+// slipfit-hdf5 mat|hdf5 FILE [VARIABLE]: numbers of a .mat or HDF5 file as CSV on standard output, for slipfit. A
+// program of its own: these libraries take some fifty others with them, and a damaged file that ends them ends nothing
+// else. The first line is "=NAME" of what was read, or "!CODE MESSAGE" of what is wrong.
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string_view>
+
+#include "tables.hpp"
+
+namespace {
+
+/// A file that makes a library run on or take all memory ends this program.
+void limit_resources() {
+  constexpr rlim_t kMostMemory = rlim_t{8} << 30U;
+  constexpr rlim_t kMostSeconds = 120;
+  const rlimit memory{kMostMemory, kMostMemory};
+  const rlimit time{kMostSeconds, kMostSeconds};
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_AS, &memory);
+  setrlimit(RLIMIT_CPU, &time);
+  setrlimit(RLIMIT_CORE, &no_core);
+}
+
+bool write(std::string_view text) {
+  return std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+}
+
+int refuse(const std::string& line) {
+  write("!" + line + "\n");
+  return 1;
+}
+
+int copy(slipfit::reading::NumberTable table, const std::string& chosen) {
+  bool written = write("=" + chosen + "\n");
+  const auto text = slipfit::reading::text_of(std::move(table));
+  std::vector<char> part(std::size_t{64} * 1024);
+  while (written) {
+    const std::size_t count = text->read(part.data(), part.size());
+    if (count == 0) break;
+    written = write({part.data(), count});
+  }
+  return written && std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+int run(std::string_view kind, const std::string& file, const std::optional<std::string>& variable) {
+  const auto size = std::filesystem::file_size(file);
+  std::string chosen;
+  auto table = kind == "mat" ? read_mat(file, size, variable, chosen) : read_hdf5(file, size, variable, chosen);
+  return copy(std::move(table), chosen);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3 || argc > 4) return 2;
+  limit_resources();
+  try {
+    return run(argv[1], argv[2], argc > 3 ? std::optional<std::string>(argv[3]) : std::nullopt);
+  } catch (const Refusal& refusal) {
+    return refuse(refusal.what());
+  } catch (const std::bad_alloc&) {
+    return refuse("container_too_large it needs more memory than there is; export a part of it as CSV");
+  } catch (const std::exception& error) {
+    return refuse(std::string("damaged_container ") + error.what());
+  }
+}

@@ -1,0 +1,110 @@
+#include "tables.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace {
+
+constexpr std::uint64_t kMostNumbers = std::uint64_t{1} << 28U;
+constexpr std::uint64_t kMostColumns = 1024;
+constexpr std::size_t kMostListed = 12;
+
+std::string listed(const std::vector<ArrayShape>& arrays) {
+  std::string list;
+  for (std::size_t i = 0; i < std::min(arrays.size(), kMostListed); ++i) {
+    list += (i == 0 ? "'" : ", '") + arrays[i].name + "'";
+  }
+  return list + (arrays.size() > kMostListed ? ", ..." : "");
+}
+
+std::uint64_t numbers_in(const TableShape& table) {
+  std::uint64_t numbers = 0;
+  for (const ArrayShape& array : table.arrays) numbers += array.length() * array.width();
+  return numbers;
+}
+
+std::uint64_t columns_of(const TableShape& table) {
+  std::uint64_t columns = 0;
+  for (const ArrayShape& array : table.arrays) columns += array.width();
+  return columns;
+}
+
+/// Vectors of one length in one group, the largest such set of each group.
+std::vector<TableShape> tables_of(const std::vector<ArrayShape>& arrays) {
+  std::vector<TableShape> tables;
+  std::map<std::pair<std::string, std::uint64_t>, TableShape> vectors;
+  for (const ArrayShape& array : arrays) {
+    if (!array.is_vector()) {
+      tables.push_back({array.name, {array}});
+    } else {
+      TableShape& together = vectors[{array.group, array.length()}];
+      together.name = array.group.empty() ? "vectors of the file" : array.group;
+      together.arrays.push_back(array);
+    }
+  }
+  for (auto& [key, table] : vectors) tables.push_back(std::move(table));
+  return tables;
+}
+
+bool is_better(const TableShape& a, const TableShape& b) {
+  const bool a_is_table = columns_of(a) > 1;
+  const bool b_is_table = columns_of(b) > 1;
+  return a_is_table != b_is_table ? a_is_table : numbers_in(a) > numbers_in(b);
+}
+
+/// "/run/force" is called so, without the first slash, and as MATLAB calls it: "run.force".
+bool is_called(const std::string& name, std::string wanted) {
+  if (name == wanted || name == "/" + wanted) return true;
+  std::replace(wanted.begin(), wanted.end(), '.', '/');
+  return name == "/" + wanted;
+}
+
+TableShape wanted_table(const std::vector<ArrayShape>& arrays, const std::string& variable) {
+  for (const ArrayShape& array : arrays) {
+    if (is_called(array.name, variable)) return {array.name, {array}};
+  }
+  for (TableShape& table : tables_of(arrays)) {
+    const std::string& group = table.arrays.front().group;
+    if (!group.empty() && is_called(group, variable)) return table;
+  }
+  throw Refusal("unknown_variable the file holds no numbers in '" + variable + "' but in " + listed(arrays) +
+                "; choose one with --variable");
+}
+
+}  // namespace
+
+TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::optional<std::string>& variable,
+                        std::uint64_t file_size) {
+  if (arrays.empty()) {
+    throw Refusal(
+        "unknown_variable the file holds no array of numbers (tables and other objects of MATLAB are none); "
+        "export it as a matrix or CSV");
+  }
+  TableShape chosen;
+  if (variable) {
+    chosen = wanted_table(arrays, *variable);
+  } else {
+    auto tables = tables_of(arrays);
+    chosen = *std::min_element(tables.begin(), tables.end(), is_better);
+  }
+  const std::uint64_t numbers = numbers_in(chosen);
+  if (numbers > kMostNumbers || columns_of(chosen) > kMostColumns ||
+      slipfit::reading::is_bomb(8 * numbers, file_size)) {
+    throw Refusal("container_too_large '" + chosen.name +
+                  "' is said to hold far more than the file, or than a recording; export a part of it as CSV");
+  }
+  return chosen;
+}
+
+void add_columns(slipfit::reading::NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,
+                 const std::string& name) {
+  const auto length = static_cast<std::size_t>(shape.length());
+  const auto width = static_cast<std::size_t>(shape.width());
+  const bool rows_are_long = shape.rows >= shape.columns;
+  for (std::size_t c = 0; c < width; ++c) {
+    std::vector<double> column(length);
+    for (std::size_t r = 0; r < length; ++r) column[r] = values[rows_are_long ? r * width + c : c * length + r];
+    table.names.push_back(width == 1 ? name : std::string());
+    table.columns.push_back(std::move(column));
+  }
+}

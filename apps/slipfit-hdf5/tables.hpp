@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "io/container/table_text.hpp"
+
+/// What ends the program: "code message".
+class Refusal : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// An array of numbers in a file, by its extents: one of them is 1 for a vector.
+struct ArrayShape {
+  std::string name;   ///< what --variable takes
+  std::string group;  ///< what holds it: a group, a structure; empty for the file
+  std::uint64_t rows = 1;
+  std::uint64_t columns = 1;
+  std::vector<std::string> fields;  ///< of a table of named columns
+
+  [[nodiscard]] bool is_vector() const { return fields.empty() && (rows == 1 || columns == 1); }
+  [[nodiscard]] std::uint64_t length() const { return fields.empty() && columns > rows ? columns : rows; }
+  [[nodiscard]] std::uint64_t width() const {
+    return fields.empty() ? (columns > rows ? rows : columns) : fields.size();
+  }
+};
+
+/// Arrays that are a table together: one array, or the vectors of one length in one group.
+struct TableShape {
+  std::string name;
+  std::vector<ArrayShape> arrays;
+};
+
+/// The one that --variable names (an array, or a group), else the one with the most numbers in at least two columns,
+/// else the longest vector. Throws Refusal.
+TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::optional<std::string>& variable,
+                        std::uint64_t file_size);
+
+/// The columns of an array that stands in memory row by row, or column by column; the longer extent is that of the
+/// rows.
+void add_columns(slipfit::reading::NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,
+                 const std::string& name);
+
+/// Walks through a file of MATLAB 5 to 7: its parts must end with it, and packed ones unpack to what their checksums
+/// say (matio leaves numbers of damaged ones as they happen to be). Throws Refusal.
+void check_mat(const std::string& name, std::uint64_t size);
+
+/// Of a file of MATLAB 5 to 7; of HDF5, which MATLAB 7.3 writes, too. Throw Refusal.
+slipfit::reading::NumberTable read_mat(const std::string& file, std::uint64_t size,
+                                       const std::optional<std::string>& variable, std::string& chosen);
+slipfit::reading::NumberTable read_hdf5(const std::string& file, std::uint64_t size,
+                                        const std::optional<std::string>& variable, std::string& chosen);

@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "output.hpp"
+#include "slipfit/io/manifest_draft.hpp"
+
+namespace {
+
+struct ManifestArguments {
+  std::vector<std::filesystem::path> paths;
+  std::optional<std::string> out;
+  bool quiet = false;
+};
+
+/// What the user has to fill in or should look at.
+void tell_of(const slipfit::ManifestDraft& draft) {
+  for (const slipfit::Error& error : draft.skipped) say("left out: " + error.message);
+  const auto without_speed =
+      std::count_if(draft.entries.begin(), draft.entries.end(), [](const auto& entry) { return !entry.speed_m_per_s; });
+  if (without_speed > 0) say(fmt::format("{} of {} without a speed: fill it in", without_speed, draft.entries.size()));
+}
+
+void run(const ManifestArguments& arguments) {
+  const auto outputs = outputs_of({{"--out", arguments.out}});
+  check_outputs(outputs, "");
+  const slipfit::ManifestDraft draft = slipfit::draft_manifest(arguments.paths);
+  if (draft.entries.empty()) {
+    const std::string why = draft.skipped.empty()
+                                ? "no files with a usual ending (csv, txt, xlsx, ...) in these folders"
+                                : draft.skipped.front().message;
+    throw Failure(ExitCode::BadRecording, "no recording found: " + why);
+  }
+  if (!arguments.quiet) tell_of(draft);
+  const std::filesystem::path folder = std::filesystem::path(arguments.out.value_or("")).parent_path();
+  const std::string text = slipfit::to_csv(draft, folder);
+  if (!arguments.out) return write_standard_output(text);
+  write_file(outputs.front(), text);
+  if (!arguments.quiet) say(fmt::format("wrote {} recordings to '{}'", draft.entries.size(), *arguments.out));
+}
+
+}  // namespace
+
+void add_manifest_command(CLI::App& program) {
+  CLI::App* const command =
+      program.add_subcommand("manifest", "Draft of a manifest: recordings, speeds and loads as columns and names tell");
+  const auto arguments = std::make_shared<ManifestArguments>();
+  command->add_option("PATH", arguments->paths, "Folders and files")->required();
+  command->add_option("--out", arguments->out, "Write it to this file");
+  command->add_flag("--quiet", arguments->quiet, "No messages on standard error but errors");
+  command->callback([arguments] { run(*arguments); });
+}

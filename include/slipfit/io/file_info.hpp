@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfit/core/result.hpp"
+#include "slipfit/io/read_options.hpp"
+
+namespace slipfit {
+
+/// A column of a file as its header and its first rows show it.
+struct ColumnInfo {
+  std::size_t index = 1;  ///< 1-based
+  std::string name;       ///< without the unit; empty where the file has none
+  std::string unit;
+  std::string quantity;  ///< "time", "force", ...; empty where it cannot be told
+};
+
+/// One of several recordings in a file, one after another.
+struct StepInfo {
+  std::size_t step = 1;              ///< what `ReadOptions::step` takes
+  RowRange rows;                     ///< what `ReadOptions::rows` takes
+  std::optional<TimeWindow> time_s;  ///< empty without a clock
+  std::optional<double> speed_m_per_s;
+  std::optional<double> normal_force_N;
+};
+
+/// What `read_recording` would take; columns as `ReadOptions` names them.
+struct TakenColumns {
+  std::optional<std::string> time_column, force_column, normal_force_column;
+  std::optional<double> speed_m_per_s;
+};
+
+/// What a file holds.
+struct FileInfo {
+  std::vector<ColumnInfo> columns;
+  std::size_t rows = 0;
+  std::optional<double> sample_rate_Hz;  ///< by the median time step of the part that would be read
+  std::vector<StepInfo> steps;
+  bool is_one_recording = true;  ///< the steps are read together: one clock, one speed, one load
+  std::size_t strokes = 1;       ///< of the part that would be read; the force of several turns its sign
+  TakenColumns taken;
+  std::vector<std::string> assumed;
+  std::optional<Error> refusal;  ///< why `read_recording` would refuse the file as it is
+};
+
+/// Looks at a file without refusing it for what `read_recording` needs. Errors: those of a file without rows of
+/// numbers, and of options that name what is not there.
+Result<FileInfo> inspect_recording(const std::filesystem::path& file, const ReadOptions& options = {});
+
+}  // namespace slipfit

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfit/core/result.hpp"
+
+namespace slipfit {
+
+/// One recording of a drafted manifest; what could not be told is empty.
+struct DraftEntry {
+  std::string id;
+  std::filesystem::path file;
+  std::optional<double> speed_m_per_s;
+  std::optional<double> normal_force_N;
+  std::string group;
+  std::optional<std::size_t> step;  ///< where a file holds several
+};
+
+struct ManifestDraft {
+  std::vector<DraftEntry> entries;
+  std::vector<Error> skipped;  ///< files that hold no recording, and why
+};
+
+/// The recordings in files and folders (with what lies below, by the usual endings). Speed and load come from columns,
+/// else from the file's name ("fdm_232g_50mm_min", "V-100mmps"); the rest of the name without a last number is the
+/// group.
+ManifestDraft draft_manifest(const std::vector<std::filesystem::path>& paths);
+
+/// As `ManifestReader` reads it from a file in `folder`.
+std::string to_csv(const ManifestDraft& draft, const std::filesystem::path& folder);
+
+}  // namespace slipfit

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "slipfit/core/digest.hpp"
+#include "slipfit/core/result.hpp"
+
+namespace slipfit::reading {
+
+/// Bytes one after another.
+class ByteStream {
+ public:
+  ByteStream() = default;
+  virtual ~ByteStream() = default;
+  ByteStream(const ByteStream&) = delete;
+  ByteStream& operator=(const ByteStream&) = delete;
+  /// Fewer than `size` at the end only. Throws std::system_error where the disk fails, ContainerError.
+  virtual std::size_t read(char* buffer, std::size_t size) = 0;
+};
+
+/// What a container turns out to be while it is unpacked: damaged, or far larger than a recording.
+class ContainerError : public std::runtime_error {
+ public:
+  explicit ContainerError(Error error) : std::runtime_error(error.message), error_(std::move(error)) {}
+  [[nodiscard]] const Error& error() const { return error_; }
+
+ private:
+  Error error_;
+};
+
+/// What in a container is the recording.
+struct ContainerChoice {
+  std::optional<std::string> sheet;     ///< of a workbook, or the file of a zip archive: name or 1-based number
+  std::optional<std::string> variable;  ///< of a .mat file, dataset of HDF5, group of TDMS
+};
+
+/// The text in a file, whatever it is packed in.
+struct TextStream {
+  std::unique_ptr<ByteStream> bytes;
+  std::shared_ptr<const Digester> digester;  ///< of the bytes of the file itself
+  std::size_t size = 0;                      ///< of the text; 0 where it is not known
+  std::vector<std::string> assumed;          ///< sentences about the container
+};
+
+/// The bytes of a file as they are. Errors: file_not_found, is_directory, not_readable.
+Result<TextStream> open_plain(const std::filesystem::path& file);
+
+/// Unpacked where the first bytes say that it is a container. Errors: those above, those of containers.
+Result<TextStream> open_unpacked(const std::filesystem::path& file, const ContainerChoice& choice);
+
+}  // namespace slipfit::reading

@@ -1,0 +1,28 @@
+#include <fmt/format.h>
+
+#include "io/container/formats.hpp"
+
+namespace slipfit::reading {
+
+Error damaged(const std::string& name, const std::string& what) {
+  return {"damaged_container", fmt::format("{}: {}; copy or export the file again", name, what)};
+}
+
+Error too_large(const std::string& name) {
+  return {"container_too_large",
+          name + ": unpacks to far more than a recording holds; unpack it yourself and give the file in it"};
+}
+
+Error not_built_in(const std::string& name, const std::string& kind, const std::string& package) {
+  return {"not_built_in", fmt::format("{}: {}, which this build of slipfit cannot read; export it as CSV, or build "
+                                      "slipfit with Debian's {}",
+                                      name, kind, package)};
+}
+
+Result<TextStream> open_old_workbook(const ContainerFile& file, const ContainerChoice& /*choice*/) {
+  return Error{"old_workbook", file.name +
+                                   ": a workbook in the format of before 2007 (.xls), or another document of "
+                                   "that kind; save it as .xlsx or CSV"};
+}
+
+}  // namespace slipfit::reading

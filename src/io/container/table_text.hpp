@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/container/byte_stream.hpp"
+
+namespace slipfit::reading {
+
+/// Columns of numbers out of a container; a shorter one ends with missing readings.
+struct NumberTable {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+};
+
+/// The table as CSV with a line of names. Each number reads back as the same double.
+std::unique_ptr<ByteStream> text_of(NumberTable table);
+
+/// Text that stands in memory.
+std::unique_ptr<ByteStream> text_of(std::string text);
+
+/// As one cell of CSV: on one line, in quotes where it must be.
+std::string csv_cell(std::string_view text);
+
+/// Whether unpacking to this size is out of all proportion to what is stored: deflate packs a thousandfold at most, and
+/// recordings tenfold.
+bool is_bomb(std::uintmax_t unpacked, std::uintmax_t stored);
+
+}  // namespace slipfit::reading

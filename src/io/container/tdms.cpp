@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <utility>
+
+#include "io/container/formats.hpp"
+#include "io/container/table_text.hpp"
+#include "io/container/tdms_segments.hpp"
+#include "io/message.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+/// "Group" and "Channel" of "/'Group'/'Channel'"; a quote in a name stands twice. Empty where there is no such part.
+std::pair<std::string, std::string> names_in(const std::string& path) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i] != '\'') continue;
+    parts.emplace_back();
+    for (++i; i < path.size() && (path[i] != '\'' || path.substr(i + 1, 1) == "'"); ++i) {
+      if (path[i] == '\'') ++i;
+      parts.back() += path[i];
+    }
+  }
+  parts.resize(2);
+  return {parts[0], parts[1]};
+}
+
+/// The channels of one group, behind a clock that its first channel states; a channel of time stamps becomes seconds
+/// from its first.
+NumberTable table_of(const std::vector<TdmsChannel>& channels, const std::string& group) {
+  NumberTable table;
+  for (const TdmsChannel& channel : channels) {
+    const auto [of_group, name] = names_in(channel.path);
+    if (of_group != group || channel.values.empty()) continue;
+    if (table.columns.empty() && channel.increment_s && channel.type != kTdmsTimeStamp) {
+      table.names.emplace_back("Time [s]");
+      table.columns.emplace_back();
+      for (std::size_t i = 0; i < channel.values.size(); ++i) {
+        table.columns.back().push_back(channel.offset_s + static_cast<double>(i) * *channel.increment_s);
+      }
+    }
+    const std::string unit = channel.type == kTdmsTimeStamp ? "s" : channel.unit;
+    table.names.push_back(unit.empty() ? name : name + " [" + unit + "]");
+    table.columns.push_back(channel.values);
+    if (channel.type != kTdmsTimeStamp) continue;
+    for (double& value : table.columns.back()) value -= channel.values.front();
+  }
+  return table;
+}
+
+/// The group with the most values, or the one that was asked for.
+Result<std::string> choose_group(const std::vector<TdmsChannel>& channels, const ContainerFile& file,
+                                 const ContainerChoice& choice) {
+  std::map<std::string, std::size_t> values;
+  for (const TdmsChannel& channel : channels) {
+    if (!channel.values.empty()) values[names_in(channel.path).first] += channel.values.size();
+  }
+  if (values.empty()) return damaged(file.name, "the TDMS file holds no channel of numbers");
+  std::vector<std::string> groups;
+  for (const auto& [group, count] : values) groups.push_back(group);
+  if (choice.variable) {
+    if (values.count(*choice.variable) > 0) return *choice.variable;
+    return Error{"unknown_variable", fmt::format("{}: the TDMS file holds no group '{}' with numbers but '{}'; choose "
+                                                 "one with --variable",
+                                                 file.name, printable(*choice.variable),
+                                                 printable(fmt::format("{}", fmt::join(groups, "', '"))))};
+  }
+  return std::max_element(values.begin(), values.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+}  // namespace
+
+Result<TextStream> open_tdms(const ContainerFile& file, const ContainerChoice& choice) {
+  constexpr std::uintmax_t kMost = std::uintmax_t{1} << 30U;
+  if (file.size > kMost) return too_large(file.name);
+  std::string content(static_cast<std::size_t>(file.size), '\0');
+  std::ifstream stream(file.path, std::ios::binary);
+  stream.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(stream.gcount()));
+  const auto channels = read_tdms(content);
+  if (!channels) return damaged(file.name, "the TDMS file is cut off or damaged");
+  for (const TdmsChannel& channel : *channels) {
+    if (!channel.is_daqmx && !channel.is_scaled) continue;
+    return Error{"daqmx_channels", fmt::format("{}: channel '{}' holds raw DAQmx data, whose scale is not read; export "
+                                               "it as scaled values or CSV",
+                                               file.name, printable(names_in(channel.path).second))};
+  }
+  const auto group = choose_group(*channels, file, choice);
+  if (!group) return group.error();
+  TextStream text;
+  text.bytes = text_of(table_of(*channels, group.value()));
+  text.assumed.push_back(fmt::format("Group '{}' of the TDMS file was read.", printable(group.value())));
+  return text;
+}
+
+}  // namespace slipfit::reading

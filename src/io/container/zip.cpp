@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include "io/container/formats.hpp"
+#include "io/container/table_text.hpp"
+#include "io/container/zip_archive.hpp"
+#include "io/message.hpp"
+
+#ifdef SLIPFIT_HAS_ZIP
+#include <minizip/unzip.h>
+#endif
+
+namespace slipfit::reading {
+
+#ifdef SLIPFIT_HAS_ZIP
+
+struct ZipArchive::Handle {
+  unzFile file = nullptr;
+  explicit Handle(unzFile opened) : file(opened) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() { unzClose(file); }
+};
+
+namespace {
+
+constexpr std::size_t kMostMembers = 10000;
+
+class MemberStream final : public ByteStream {
+ public:
+  /// `file` stands at the member and has it open; `owner` keeps it.
+  MemberStream(unzFile file, std::shared_ptr<void> owner, std::string name, std::uintmax_t stored)
+      : file_(file), owner_(std::move(owner)), name_(std::move(name)), stored_(stored) {}
+
+  std::size_t read(char* buffer, std::size_t size) override {
+    std::size_t count = 0;
+    while (count < size && !ended_) {
+      const int got = unzReadCurrentFile(file_, buffer + count, static_cast<unsigned>(size - count));
+      if (got < 0) throw ContainerError(damaged(name_, "the zip archive is damaged"));
+      count += static_cast<std::size_t>(got);
+      ended_ = got == 0;
+    }
+    unpacked_ += count;
+    if (is_bomb(unpacked_, stored_)) throw ContainerError(too_large(name_));
+    if (ended_ && !checked_ && unzCloseCurrentFile(file_) == UNZ_CRCERROR) {
+      throw ContainerError(damaged(name_, "the zip archive is damaged (checksum)"));
+    }
+    checked_ = ended_;
+    return count;
+  }
+
+ private:
+  unzFile file_;
+  std::shared_ptr<void> owner_;
+  std::string name_;
+  std::uintmax_t stored_;
+  std::uintmax_t unpacked_ = 0;
+  bool ended_ = false;
+  bool checked_ = false;
+};
+
+/// Hidden files and those that a Mac adds are none.
+bool is_file(const ZipMember& member) {
+  const std::string base = member.name.substr(member.name.rfind('/') + 1);
+  return !base.empty() && base.front() != '.' && !member.name.starts_with("__MACOSX/");
+}
+
+}  // namespace
+
+Result<ZipArchive> ZipArchive::open(const std::filesystem::path& path, const std::string& name) {
+  ZipArchive archive;
+  archive.name_ = name;
+  archive.handle_ = std::make_shared<Handle>(unzOpen64(path.c_str()));
+  unzFile const file = archive.handle_->file;
+  if (file == nullptr) return damaged(name, "begins like a zip archive but is none, or is cut off");
+  for (int status = unzGoToFirstFile(file); status == UNZ_OK; status = unzGoToNextFile(file)) {
+    unz_file_info64 info{};
+    std::array<char, 1024> member{};
+    if (unzGetCurrentFileInfo64(file, &info, member.data(), member.size() - 1, nullptr, 0, nullptr, 0) != UNZ_OK) {
+      return damaged(name, "the zip archive is damaged");
+    }
+    archive.members_.push_back({member.data(), info.uncompressed_size, info.compressed_size});
+    if (archive.members_.size() > kMostMembers) return too_large(name);
+  }
+  return archive;
+}
+
+const ZipMember* ZipArchive::find(const std::string& member) const {
+  const auto found =
+      std::find_if(members_.begin(), members_.end(), [&](const ZipMember& m) { return m.name == member; });
+  return found == members_.end() ? nullptr : &*found;
+}
+
+Result<std::unique_ptr<ByteStream>> ZipArchive::stream(ZipArchive archive, const std::string& member) {
+  unzFile const file = archive.handle_->file;
+  const ZipMember* const found = archive.find(member);
+  if (found == nullptr || unzLocateFile(file, member.c_str(), 1) != UNZ_OK || unzOpenCurrentFile(file) != UNZ_OK) {
+    return damaged(archive.name_, fmt::format("'{}' in it cannot be unpacked (encrypted, damaged, or packed by another "
+                                              "method than deflate)",
+                                              printable(member)));
+  }
+  return std::unique_ptr<ByteStream>(
+      std::make_unique<MemberStream>(file, archive.handle_, archive.name_, found->stored));
+}
+
+Result<std::string> ZipArchive::content(const std::string& member, std::size_t most) const {
+  auto opened = stream(*this, member);
+  if (!opened) return opened.error();
+  constexpr std::size_t kPart = std::size_t{256} * 1024;
+  std::string text;
+  for (;;) {
+    const std::size_t before = text.size();
+    text.resize(before + kPart);
+    text.resize(before + opened.value()->read(text.data() + before, kPart));
+    if (text.size() > most) return too_large(name_);
+    if (text.size() < before + kPart) return text;
+  }
+}
+
+Result<TextStream> open_zip(const ContainerFile& file, const ContainerChoice& choice) {
+  auto opened = ZipArchive::open(file.path, file.name);
+  if (!opened) return opened.error();
+  ZipArchive archive = std::move(opened).value();
+  if (archive.find("xl/workbook.xml") != nullptr) return open_workbook(archive, file.name, choice);
+  std::vector<std::string> names;
+  for (const ZipMember& member : archive.members()) {
+    if (is_file(member)) names.push_back(member.name);
+  }
+  if (names.empty()) return damaged(file.name, "the zip archive holds no file");
+  if (names.size() > 1 && !choice.sheet) {
+    return Error{"unknown_sheet",
+                 fmt::format("{}: the zip archive holds {} files ({}, {}, ...); unpack it, or name one "
+                             "with --sheet",
+                             file.name, names.size(), printable(names[0]), printable(names[1]))};
+  }
+  const auto at = choice.sheet ? find_named(names, *choice.sheet, file.name) : Result<std::size_t>(0);
+  if (!at) return at.error();
+  const std::string member = names[at.value()];
+  auto bytes = ZipArchive::stream(std::move(archive), member);
+  if (!bytes) return bytes.error();
+  TextStream text;
+  text.bytes = std::move(bytes).value();
+  text.assumed.push_back(fmt::format("The file is packed (zip): '{}' was read.", printable(member)));
+  return text;
+}
+
+#else
+
+Result<TextStream> open_zip(const ContainerFile& file, const ContainerChoice& /*choice*/) {
+  return not_built_in(file.name, "a zip archive or a workbook (.xlsx)",
+                      "zlib1g-dev, libminizip-dev and libpugixml-dev");
+}
+
+#endif
+
+Result<std::size_t> find_named(const std::vector<std::string>& names, const std::string& wanted,
+                               const std::string& file) {
+  const auto found = std::find(names.begin(), names.end(), wanted);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+  const bool is_number = error == std::errc() && end == wanted.data() + wanted.size();
+  if (is_number && number >= 1 && number <= names.size()) return number - 1;
+  constexpr std::size_t kMostListed = 12;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i) {
+    list += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i + 1, printable(names[i]));
+  }
+  return Error{"unknown_sheet", fmt::format("{}: holds no '{}' but {}{}; choose one with --sheet", file,
+                                            printable(wanted), list, names.size() > kMostListed ? ", ..." : "")};
+}
+
+}  // namespace slipfit::reading

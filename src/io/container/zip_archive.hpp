@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/container/byte_stream.hpp"
+#include "slipfit/core/result.hpp"
+
+namespace slipfit::reading {
+
+struct ZipMember {
+  std::string name;
+  std::uintmax_t unpacked = 0;  ///< as the archive states it
+  std::uintmax_t stored = 0;
+};
+
+/// A zip archive open for reading, over minizip.
+class ZipArchive {
+ public:
+  /// Error: damaged_container.
+  static Result<ZipArchive> open(const std::filesystem::path& path, const std::string& name);
+
+  [[nodiscard]] const std::vector<ZipMember>& members() const { return members_; }
+  [[nodiscard]] const ZipMember* find(const std::string& member) const;
+  /// One at a time; the archive goes into it. Throws ContainerError while it is read.
+  static Result<std::unique_ptr<ByteStream>> stream(ZipArchive archive, const std::string& member);
+  /// The whole of a member of at most `most` bytes. Errors: damaged_container, container_too_large.
+  [[nodiscard]] Result<std::string> content(const std::string& member, std::size_t most) const;
+
+ private:
+  struct Handle;
+  std::shared_ptr<Handle> handle_;
+  std::string name_;
+  std::vector<ZipMember> members_;
+};
+
+/// A workbook (.xlsx) as CSV. Errors: damaged_container, container_too_large, unknown_sheet, not_built_in.
+Result<TextStream> open_workbook(const ZipArchive& archive, const std::string& name, const ContainerChoice& choice);
+
+/// The place of a part by its name, else by its 1-based number. Error: unknown_sheet, with the names listed.
+Result<std::size_t> find_named(const std::vector<std::string>& names, const std::string& wanted,
+                               const std::string& file);
+
+}  // namespace slipfit::reading

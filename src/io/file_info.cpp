@@ -1,0 +1,149 @@
+#include "slipfit/io/file_info.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "io/columns.hpp"
+#include "io/levels.hpp"
+#include "io/message.hpp"
+#include "io/opened_file.hpp"
+#include "io/part.hpp"
+#include "io/rows.hpp"
+#include "io/sign.hpp"
+#include "io/steps.hpp"
+
+namespace slipfit {
+namespace {
+
+using namespace reading;
+
+std::string quantity_of(const ColumnName& name) {
+  switch (name.role) {
+    case Role::Time:
+      return "time";
+    case Role::TangentialForce:
+      return "force";
+    case Role::NormalForce:
+      return "normal_force";
+    case Role::FrictionCoefficient:
+      return "friction_coefficient";
+    case Role::Displacement:
+      return "displacement";
+    case Role::Speed:
+      return "speed";
+    case Role::Step:
+      return "step";
+    case Role::Unknown:
+    case Role::Other:
+      return {};
+  }
+  return {};
+}
+
+std::vector<ColumnInfo> columns_of(const Layout& layout) {
+  std::vector<ColumnInfo> columns;
+  for (const Column& column : layout.columns) {
+    columns.push_back({columns.size() + 1, column.name.base, column.name.unit, quantity_of(column.name)});
+  }
+  return columns;
+}
+
+/// As an option takes it: the name where no other column has it, else the number.
+std::string option_text(const Layout& layout, std::size_t column) {
+  const std::string& name = layout.columns[column].name.text;
+  const auto same = std::count_if(layout.columns.begin(), layout.columns.end(),
+                                  [&](const Column& other) { return other.name.text == name; });
+  return name.empty() || same > 1 ? std::to_string(column + 1) : name;
+}
+
+TakenColumns taken_columns(const Layout& layout, const Choice& choice) {
+  TakenColumns taken;
+  if (choice.time) taken.time_column = option_text(layout, choice.time->column);
+  taken.force_column = option_text(layout, choice.force.column);
+  if (choice.normal_force) taken.normal_force_column = option_text(layout, choice.normal_force->column);
+  return taken;
+}
+
+std::optional<double> value_of(const std::vector<double>& column, const Step& step) {
+  if (column.empty()) return std::nullopt;
+  const auto level = level_of(std::span(column).subspan(step.begin, step.end - step.begin));
+  return level && level->is_steady ? std::optional(level->value) : std::nullopt;
+}
+
+std::vector<StepInfo> steps_of(const Rows& rows, bool has_clock) {
+  std::vector<StepInfo> infos;
+  if (rows.time_s.empty()) return infos;
+  for (const Step& step : find_steps(rows)) {
+    StepInfo info{step.number, {rows.place_of(step.begin).row, rows.place_of(step.end - 1).row}, {}, {}, {}};
+    if (has_clock) info.time_s = TimeWindow{rows.time_s[step.begin], rows.time_s[step.end - 1]};
+    info.speed_m_per_s = value_of(rows.speed_m_per_s, step);
+    info.normal_force_N = value_of(rows.normal_force_N, step);
+    infos.push_back(info);
+  }
+  return infos;
+}
+
+std::optional<double> sample_rate_Hz(const std::vector<double>& time_s) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    if (time_s[i] > time_s[i - 1]) steps.push_back(time_s[i] - time_s[i - 1]);
+  }
+  if (steps.empty()) return std::nullopt;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return 1.0 / *middle;
+}
+
+/// What can be chosen; where columns cannot, any column of numbers, for the sake of the rows and their steps.
+Choice choice_for(const Layout& layout, const ReadOptions& options, FileInfo& info, const std::string& file) {
+  auto chosen = choose_columns(layout, options, 0.0, file);
+  if (chosen) {
+    info.taken = taken_columns(layout, chosen.value());
+    info.assumed = chosen.value().assumed;
+    return std::move(chosen).value();
+  }
+  info.refusal = chosen.error();
+  const auto numeric = std::find_if(layout.columns.begin(), layout.columns.end(),
+                                    [](const Column& column) { return column.is_numeric(); });
+  Choice any;
+  any.force.column = numeric == layout.columns.end() ? 0 : static_cast<std::size_t>(numeric - layout.columns.begin());
+  return any;
+}
+
+Result<FileInfo> inspect(const std::filesystem::path& path, const std::string& name, const ReadOptions& options) {
+  if (const auto error = check_options(options, name)) return *error;
+  auto opened = open_file(path, options);
+  if (!opened) return opened.error();
+  OpenedFile file = std::move(opened).value();
+  FileInfo info;
+  info.columns = columns_of(file.layout);
+  const std::vector<std::string> packed = file.source->assumed();
+  const Choice choice = choice_for(file.layout, options, info, name);
+  const RowPlan plan{file.layout, choice, options.sample_rate_Hz.value_or(1.0), options.rows, {}, 0};
+  Rows rows = read_rows(name, std::move(file.source), plan);
+  info.rows = rows.count;
+  info.steps = steps_of(rows, choice.time || options.sample_rate_Hz);
+  info.is_one_recording = rows.time_s.empty() || are_one_recording(rows, find_steps(rows));
+  auto part = take_part(std::move(rows), options, name);
+  if (!part) return part.error();
+  const Rows& taken = part.value().rows;
+  if (choice.time || options.sample_rate_Hz) info.sample_rate_Hz = sample_rate_Hz(taken.time_s);
+  if (!info.refusal) info.strokes = count_strokes(taken.force);
+  const auto speed = level_of(taken.speed_m_per_s);
+  if (speed && speed->is_steady) info.taken.speed_m_per_s = speed->value;
+  info.assumed.insert(info.assumed.begin(), packed.begin(), packed.end());
+  const std::vector<std::string>& assumed = part.value().assumed;
+  info.assumed.insert(info.assumed.end(), assumed.begin(), assumed.end());
+  return info;
+}
+
+}  // namespace
+
+Result<FileInfo> inspect_recording(const std::filesystem::path& file, const ReadOptions& options) {
+  const std::string name = printable(file.string());
+  return with_errors_of_reading(name, [&] { return inspect(file, name, options); });
+}
+
+}  // namespace slipfit

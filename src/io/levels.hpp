@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace slipfit::reading {
+
+/// The level that a measured speed or load holds while it is on.
+struct Level {
+  double value = 0.0;               ///< median
+  double standard_deviation = 0.0;  ///< robust, of single readings
+  bool is_steady = false;           ///< nearly all blocks of readings lie near the median
+};
+
+/// Readings below half of their 90 % level count as "off" (before the start, after the stop). Empty where the column
+/// holds nothing but zeros or no numbers.
+std::optional<Level> level_of(std::span<const double> values);
+
+/// Samples [begin, end).
+struct SampleRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// The stretches in which the column holds one level each, to the given relative tolerance, where there are several
+/// levels; a stretch of less than a twentieth of the samples is none. Empty where the column drifts.
+std::vector<SampleRange> stretches_of_levels(std::span<const double> values, double tolerance);
+
+}  // namespace slipfit::reading

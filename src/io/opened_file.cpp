@@ -1,0 +1,90 @@
+#include "io/opened_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "io/line_reader.hpp"
+#include "io/message.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+constexpr std::size_t kHead = std::size_t{64} * 1024;
+constexpr std::size_t kLongHead = std::size_t{4} * 1024 * 1024;  // for a preamble that fills the first part
+constexpr std::size_t kLongestLine = kLongHead / 4;              // of a file without rows of numbers in its head
+
+Result<Layout> layout_of_head(TextSource& source, const std::string& file) {
+  for (const std::size_t size : {kHead, kLongHead}) {
+    auto lines = split_lines(source.head(size));
+    const std::size_t last_length = lines.empty() ? 0 : lines.back().size();
+    if (!source.head_is_everything() && !lines.empty()) lines.pop_back();  // may be cut
+    if (auto layout = find_layout(lines)) return *std::move(layout);
+    if (!source.head_is_everything() && last_length > kLongestLine) {
+      return Error{"line_too_long", fmt::format("{}:{}: the line is longer than {} MB, which is too many columns; a "
+                                                "recording is text with a row a line, of a time and a force",
+                                                file, lines.size() + 1, kLongestLine >> 20)};
+    }
+    if (!source.head_is_everything()) continue;
+    const bool is_blank =
+        std::all_of(lines.begin(), lines.end(), [](std::string_view line) { return trim(line).empty(); });
+    if (is_blank) return Error{"empty_file", file + ": the file holds only blank lines; export the recording again"};
+    break;
+  }
+  return Error{"no_numeric_column", file +
+                                        ": no rows of numbers found; is this the right file? A recording is text with "
+                                        "a column of times and one of forces"};
+}
+
+}  // namespace
+
+Result<OpenedFile> open_file(const std::filesystem::path& path, const ReadOptions& options) {
+  OpenedFile file;
+  file.name = printable(path.string());
+  auto source = TextSource::open(path, {options.sheet, options.variable});
+  if (!source) return source.error();
+  file.source = std::move(source).value();
+  auto layout = layout_of_head(*file.source, file.name);
+  if (!layout) return layout.error();
+  file.layout = std::move(layout).value();
+  return file;
+}
+
+std::optional<Error> check_options(const ReadOptions& options, const std::string& file) {
+  if (const auto& window = options.window; window && !(window->begin_s < window->end_s)) {
+    return Error{"bad_window", fmt::format("{}: the window {}:{} s is empty; give T0:T1 in seconds with T0 < T1", file,
+                                           window->begin_s, window->end_s)};
+  }
+  if (const auto& rows = options.rows; rows && (rows->first < 1 || rows->first >= rows->last)) {
+    return Error{"bad_rows",
+                 fmt::format("{}: the rows {}:{} are none; give A:B with 1 <= A < B", file, rows->first, rows->last)};
+  }
+  if (const auto& rate = options.sample_rate_Hz; rate && !(*rate > 0.0 && std::isfinite(*rate))) {
+    return Error{"bad_sample_rate",
+                 fmt::format("{}: the sampling rate {} is not a positive number of samples a second; "
+                             "correct --sample-rate",
+                             file, *rate)};
+  }
+  return std::nullopt;
+}
+
+Error error_of_reading(const std::string& file) {
+  try {
+    throw;
+  } catch (const ::io::error::line_length_limit_exceeded& e) {
+    return {"line_too_long", fmt::format("{}:{}: the line is longer than 16 MB; is this a text file with a row a line?",
+                                         file, e.file_line)};
+  } catch (const ContainerError& e) {
+    return e.error();
+  } catch (const std::bad_alloc&) {
+    return {"out_of_memory", file + ": not enough memory; read a part with --window"};
+  } catch (const std::exception& e) {
+    return {"not_readable", file + ": reading failed (" + printable(e.what()) + "); check the disk"};
+  }
+}
+
+}  // namespace slipfit::reading

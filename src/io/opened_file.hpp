@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "io/layout.hpp"
+#include "io/text_source.hpp"
+#include "slipfit/core/result.hpp"
+#include "slipfit/io/read_options.hpp"
+
+namespace slipfit::reading {
+
+/// A file whose layout is known; its rows are still to be read.
+struct OpenedFile {
+  std::string name;  ///< as messages show it
+  std::unique_ptr<TextSource> source;
+  Layout layout;
+};
+
+/// Errors: those of TextSource, no_numeric_column, line_too_long, empty_file.
+Result<OpenedFile> open_file(const std::filesystem::path& path, const ReadOptions& options);
+
+/// The rows of --rows and --window that cannot be. Errors: bad_window, bad_rows, bad_sample_rate.
+std::optional<Error> check_options(const ReadOptions& options, const std::string& file);
+
+/// The exception in flight as an error. Errors: line_too_long, out_of_memory, not_readable.
+Error error_of_reading(const std::string& file);
+
+/// Runs `read()`, which returns a Result; what the disk, the memory or a line without end throws becomes an error.
+template <class Read>
+auto with_errors_of_reading(const std::string& file, const Read& read) -> decltype(read()) {
+  try {
+    return read();
+  } catch (...) {
+    return error_of_reading(file);
+  }
+}
+
+}  // namespace slipfit::reading

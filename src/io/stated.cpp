@@ -1,0 +1,98 @@
+#include "io/stated.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/column_search.hpp"
+#include "io/displacement.hpp"
+#include "io/levels.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+constexpr double kTolerance = 0.05;       // of a stated value against a slope or a load cell's mean
+constexpr double kSpeedTolerance = 0.01;  // of a stated speed against a column of speeds
+constexpr double kClearlyOff = 2.0;       // standard deviations of the column
+constexpr double kMostLoadScatter = 0.1;  // of the load, before its mean says little about the single slip
+
+bool differ(double stated, const Level& measured, double tolerance) {
+  const double bound = std::max(tolerance * stated, kClearlyOff * measured.standard_deviation);
+  return std::abs(stated - measured.value) > bound;
+}
+
+/// A displacement column that moves steadily at another speed than the stated one.
+std::optional<Warning> compare_with_displacement(const Rows& rows, const Choice& choice, const Layout& layout,
+                                                 double stated_m_per_s) {
+  if (!choice.displacement || rows.displacement_m.empty()) return std::nullopt;
+  DisplacementTrack track;
+  for (std::size_t i = 0; i < rows.time_s.size(); ++i) {
+    if (std::isfinite(rows.displacement_m[i])) track.add({rows.time_s[i], rows.displacement_m[i]});
+  }
+  const auto speed_m_per_s = steady_speed_m_per_s(track);
+  if (!speed_m_per_s || std::abs(*speed_m_per_s - stated_m_per_s) <= kTolerance * stated_m_per_s) return std::nullopt;
+  return Warning{"speed_differs_from_displacement",
+                 fmt::format("the speed is given as {:.6g} m/s, but {} moves at {:.6g} m/s", stated_m_per_s,
+                             describe(layout, choice.displacement->column), *speed_m_per_s)};
+}
+
+Error no_speed(const Choice& choice, const Layout& layout, const std::string& file) {
+  if (!choice.speed) {
+    return {"no_speed",
+            file + ": --speed is missing: give the driving speed, for example --speed 10mm/s (no column tells it)"};
+  }
+  return {"speed_varies", fmt::format("{}: {} holds no one speed; take a part of it with --step N, --rows A:B or "
+                                      "--window T0:T1, or give the speed with --speed",
+                                      file, describe(layout, choice.speed->column))};
+}
+
+void state_normal_force(StatedConditions& stated, const Rows& rows, const Choice& choice, const Layout& layout) {
+  const auto level = level_of(rows.normal_force_N);
+  if (!level) return;
+  const std::string name = describe(layout, choice.normal_force->column);
+  if (const auto& given = stated.conditions.normal_force_N) {
+    if (!differ(*given, *level, kTolerance)) return;
+    stated.warnings.push_back({"normal_force_differs", fmt::format("the normal force is given as {:.6g} N, but {} "
+                                                                   "holds {:.6g} N; the given one is used",
+                                                                   *given, name, level->value)});
+    return;
+  }
+  stated.conditions.normal_force_N = level->value;
+  stated.assumed.push_back(fmt::format("Normal force is {}: {:.6g} N, standard deviation {:.2g} N.", name, level->value,
+                                       level->standard_deviation));
+  if (level->standard_deviation > kMostLoadScatter * level->value || !level->is_steady) {
+    stated.warnings.push_back(
+        {"normal_force_varies", fmt::format("{} varies by more than a tenth of its median of {:.6g} N, which stands "
+                                            "for it everywhere; take a part with a steady load",
+                                            name, level->value)});
+  }
+}
+
+}  // namespace
+
+Result<StatedConditions> state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
+                                          const Conditions& conditions, const std::string& file) {
+  StatedConditions stated{conditions, {}, {}};
+  double& speed_m_per_s = stated.conditions.speed_m_per_s;
+  const auto measured = level_of(rows.speed_m_per_s);
+  if (speed_m_per_s == 0.0) {
+    if (!measured || !measured->is_steady) return no_speed(choice, layout, file);
+    speed_m_per_s = measured->value;
+    stated.assumed.push_back(fmt::format("Speed is {}: {:.6g} m/s, standard deviation {:.2g} m/s.",
+                                         describe(layout, choice.speed->column), speed_m_per_s,
+                                         measured->standard_deviation));
+  } else if (measured && differ(speed_m_per_s, *measured, kSpeedTolerance)) {
+    stated.warnings.push_back(
+        {"speed_differs", fmt::format("the speed is given as {:.6g} m/s, but {} holds {:.6g} m/s; the given one is "
+                                      "used, and stiffness and spacing follow it",
+                                      speed_m_per_s, describe(layout, choice.speed->column), measured->value)});
+  }
+  if (auto warning = compare_with_displacement(rows, choice, layout, speed_m_per_s)) {
+    stated.warnings.push_back(*std::move(warning));
+  }
+  if (choice.normal_force) state_normal_force(stated, rows, choice, layout);
+  return stated;
+}
+
+}  // namespace slipfit::reading

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/rows.hpp"
+#include "slipfit/core/result.hpp"
+
+namespace slipfit::reading {
+
+/// A part of a file that was recorded in one go: samples [begin, end).
+struct Step {
+  std::size_t number = 1;  ///< the file's own where each has another, else counted from 1
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// At least one. A new step begins where a column of step numbers changes, where the line of names stands again, where
+/// the clock begins again; where none of these happens, with each level of speed or load.
+std::vector<Step> find_steps(const Rows& rows);
+
+/// Whether the steps are one recording all the same: the clock goes on, and speed and load stay.
+bool are_one_recording(const Rows& rows, std::span<const Step> steps);
+
+/// The first that is about as long as the longest.
+const Step& main_step(std::span<const Step> steps);
+
+/// By its number, else by its place. Error: unknown_step.
+Result<Step> step_with_number(std::span<const Step> steps, std::size_t number, const std::string& file);
+
+}  // namespace slipfit::reading

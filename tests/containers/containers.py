@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+"""containers.py SLIPFIT: one recording as CSV and in every container, read to the same numbers to the last digit; and damaged, lying
+and swollen containers, refused in one line, soon and without much memory.
+
+The containers are made by other people's programs: Python's gzip, zipfile, openpyxl, scipy, h5py. TDMS is written by hand from its
+description. Exit 77 where a module is missing and nothing else failed."""
+
+import gzip
+import io
+import json
+import os
+import pathlib
+import resource
+import struct
+import subprocess
+import sys
+import tempfile
+import zipfile
+
+SLIPFIT = str(pathlib.Path(sys.argv[1]).resolve())
+MODEL = ["--stiffness", "5000", "--natural-frequency", "900", "--damping-ratio", "0.05", "--static-friction", "4", "--kinetic-friction", "3",
+         "--sample-rate", "10000", "--duration", "0.5", "--noise", "0.01", "--speed", "0.01", "--seed", "3"]
+MOST_MEMORY = 9 << 30
+LONGEST_S = 120
+
+
+def run(*arguments):
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+    return subprocess.run([SLIPFIT, *map(str, arguments)], capture_output=True, text=True, timeout=LONGEST_S, preexec_fn=limit)
+
+
+def numbers(file, *options):
+    """The document of a fit, but for what is about the file itself."""
+    done = run("fit", file, "--speed", "0.01", "--json", *options)
+    assert done.returncode == 0, f"{file}: {done.stderr}"
+    document = json.loads(done.stdout)
+    del document["id"]
+    for key in ("file", "input_digest", "input_bytes", "assumed"):
+        del document["recording"][key]
+    return document
+
+
+def tdms(names, columns, big_endian=False, interleaved=False, blocks=1):
+    """One segment; the values in blocks."""
+    order = ">" if big_endian else "<"
+    count = len(columns[0]) // blocks
+    text = lambda s: struct.pack(order + "I", len(s.encode())) + s.encode()
+    meta = struct.pack(order + "I", len(names) + 1) + text("/") + struct.pack(order + "II", 0xFFFFFFFF, 0)
+    for name, unit in names:
+        meta += text(f"/'Run'/'{name}'") + struct.pack(order + "IIIQ", 20, 10, 1, count)
+        meta += struct.pack(order + "I", 1) + text("unit_string") + struct.pack(order + "I", 0x20) + text(unit)
+    raw = b""
+    for b in range(blocks):
+        part = [c[b * count:(b + 1) * count] for c in columns]
+        flat = [v for row in zip(*part) for v in row] if interleaved else [v for c in part for v in c]
+        raw += struct.pack(f"{order}{len(flat)}d", *flat)
+    toc = 0x0E | (0x40 if big_endian else 0) | (0x20 if interleaved else 0)
+    lead = b"TDSm" + struct.pack("<I", toc) + struct.pack(order + "IQQ", 4713, len(meta) + len(raw), len(meta))
+    return lead + meta + raw
+
+
+def zipped(name, content, **options):
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, **options) as archive:
+        archive.writestr(name, content)
+    return file.getvalue()
+
+
+def plain_containers(folder, text, times, forces):
+    (folder / "run.csv.gz").write_bytes(gzip.compress(text))
+    (folder / "two.csv.gz").write_bytes(gzip.compress(text[:5000]) + gzip.compress(text[5000:]))
+    (folder / "renamed.csv").write_bytes(zipped("data/run.csv", text))
+    names = [("Time", "s"), ("Force", "N")]
+    for name, options in (("plain", {}), ("big", {"big_endian": True}), ("mixed", {"interleaved": True}), ("blocks", {"blocks": next(n for n in range(2, len(times)) if len(times) % n == 0)})):
+        (folder / f"{name}.tdms").write_bytes(tdms(names, [times, forces], **options))
+    return ["run.csv.gz", "two.csv.gz", "renamed.csv", "plain.tdms", "big.tdms", "mixed.tdms", "blocks.tdms"]
+
+
+def workbooks(folder, times, forces):
+    import openpyxl
+    book = openpyxl.Workbook()
+    book.active.title = "Parameters"
+    book.active.append(["Operator", "A. B."])
+    sheet = book.create_sheet("Specimen 1")
+    for row in [("Test of 2024", None), ("Time", "Force"), ("s", "N"), *zip(times, forces)]:
+        sheet.append(row)
+    book.save(folder / "run.xlsx")
+    return ["run.xlsx", ("run.xlsx", "--sheet", "Specimen 1"), ("run.xlsx", "--sheet", "2")]
+
+
+def mat_files(folder, times, forces):
+    import numpy
+    import scipy.io
+    scipy.io.savemat(folder / "v5.mat", {"time_s": times, "force_N": forces, "gain": 2.0})
+    scipy.io.savemat(folder / "v7.mat", {"run": {"time_s": times, "force_N": forces}}, do_compression=True)
+    scipy.io.savemat(folder / "matrix.mat", {"data": numpy.column_stack([times, forces])})
+    return ["v5.mat", "v7.mat", ("v7.mat", "--variable", "run"), ("matrix.mat", "--variable", "data")]
+
+
+def hdf5_files(folder, times, forces):
+    import h5py
+    import numpy
+    with h5py.File(folder / "group.h5", "w") as file:
+        group = file.create_group("runs/first")
+        for name, unit, values in (("time", "s", times), ("force", "N", forces)):
+            group.create_dataset(name, data=values, compression="gzip").attrs["unit"] = unit
+        file.create_dataset("scale", data=3.0)
+    with h5py.File(folder / "table.h5", "w") as file:
+        table = numpy.zeros(len(times), dtype=[("time", "f8"), ("force", "f8"), ("mark", "S4")])
+        table["time"], table["force"] = times, forces
+        file.create_dataset("table", data=table)
+        file.create_dataset("array", data=numpy.column_stack([times, forces]))
+    with h5py.File(folder / "v73.mat", "w", userblock_size=512) as file:
+        for name, values in (("time_s", times), ("force_N", forces)):
+            file.create_dataset(name, data=numpy.array([values])).attrs["MATLAB_class"] = numpy.bytes_("double")
+    with open(folder / "v73.mat", "r+b") as file:
+        file.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(116) + bytes(8) + struct.pack("<HH", 0x0200, 0x4D49))
+    return ["group.h5", ("group.h5", "--variable", "/runs/first"), "table.h5", ("table.h5", "--variable", "array"), "v73.mat"]
+
+
+def bombs(folder):
+    """Small files that unpack to much, or say so."""
+    zeros = b"time,force\n" + b"0,0\n" * (1 << 26)
+    (folder / "bomb.csv.gz").write_bytes(gzip.compress(zeros))
+    (folder / "bomb.zip").write_bytes(zipped("bomb.csv", zeros))
+    cells = b"<row>" + b"<c><v>0</v></c>" * 20 + b"</row>"
+    sheet = b"<worksheet><sheetData>" + cells * 800000 + b"</sheetData></worksheet>"
+    book = b'<workbook xmlns:r="x"><sheets><sheet name="a" sheetId="1" r:id="r1"/></sheets></workbook>'
+    links = b'<Relationships><Relationship Id="r1" Target="worksheets/sheet1.xml"/></Relationships>'
+    with zipfile.ZipFile(folder / "bomb.xlsx", "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in (("xl/workbook.xml", book), ("xl/_rels/workbook.xml.rels", links), ("xl/worksheets/sheet1.xml", sheet)):
+            archive.writestr(name, content)
+    huge = tdms([("a", "s"), ("b", "N")], [[0.0] * 4, [0.0] * 4])
+    (folder / "lie.tdms").write_bytes(huge.replace(struct.pack("<IIIQ", 20, 10, 1, 4), struct.pack("<IIIQ", 20, 10, 1, 1 << 60)))
+    (folder / "daqmx.tdms").write_bytes(huge.replace(struct.pack("<I", 0x0E), struct.pack("<I", 0x8E), 1))
+    names = ["bomb.csv.gz", "bomb.zip", "bomb.xlsx", "lie.tdms", "daqmx.tdms"]
+    try:
+        import h5py
+        with h5py.File(folder / "bomb.h5", "w") as file:
+            file.create_dataset("x", shape=(1 << 33, 2), dtype="f8", chunks=(1 << 16, 2), compression="gzip")
+        with h5py.File(folder / "chunk.h5", "w") as file:
+            file.create_dataset("x", shape=(1 << 28, 2), dtype="f8", chunks=(1 << 27, 2), compression="gzip")
+        names += ["bomb.h5", "chunk.h5"]
+    except ImportError:
+        pass
+    return names
+
+
+def damaged(folder, files):
+    """Each cut off at several places, with other bytes in it, and with a wrong beginning."""
+    for file in files:
+        content = (folder / file).read_bytes()
+        for share in (0.01, 0.1, 0.5, 0.9, 0.999):
+            yield file, f"cut at {share}", content[:max(20, int(share * len(content)))]
+        for place in range(30, len(content), max(1, len(content) // 12)):
+            yield file, f"byte {place} turned", content[:place] + bytes([content[place] ^ 0xFF]) * 4 + content[place + 4:]
+        yield file, "first bytes alone", content[:16]
+        yield file, "zeros behind the first bytes", content[:16] + bytes(4096)
+
+
+def check_refused(file, what, may_answer=False):
+    done = run("fit", file, "--speed", "0.01", "--quiet")
+    line = done.stderr.rstrip("\n")
+    is_refusal = done.returncode == 3 and line.startswith("slipfit: ") and "\n" not in line and "internal" not in line
+    assert is_refusal or (may_answer and done.returncode == 0), f"{what}: exit {done.returncode}: {done.stderr}"
+    return line
+
+
+def with_modules():
+    """Debian's own Python has the modules; the first may be another one."""
+    try:
+        import h5py, openpyxl, scipy  # noqa: F401
+    except ImportError:
+        if sys.executable != "/usr/bin/python3" and pathlib.Path("/usr/bin/python3").exists():
+            os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
+
+
+def main():
+    with_modules()
+    missing = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        rows = [line.split(",") for line in run("simulate", *MODEL).stdout.splitlines() if line[0].isdigit()]
+        times, forces = [float(r[0]) for r in rows], [round(float(r[1]), 9) for r in rows]  # openpyxl writes 16 digits
+        text = "".join(["time_s,force_N\n", *(f"{t!r},{f!r}\n" for t, f in zip(times, forces))])
+        (folder / "run.csv").write_text(text)
+        wanted = numbers(folder / "run.csv")
+        made = plain_containers(folder, text.encode(), times, forces)
+        for make in (workbooks, mat_files, hdf5_files):
+            try:
+                made += make(folder, times, forces)
+            except ImportError as error:
+                missing.append(error.name)
+        for entry in made:
+            file, *options = (entry,) if isinstance(entry, str) else entry
+            found = numbers(folder / file, *options)
+            assert found == wanted, f"{entry}: other numbers than the CSV's"
+        for file in bombs(folder):
+            print(check_refused(folder / file, file))
+        once = dict.fromkeys(e for e in made if isinstance(e, str))
+        for file, what, content in damaged(folder, once):
+            (folder / ("hostile-" + file)).write_bytes(content)
+            check_refused(folder / ("hostile-" + file), f"{file}, {what}", may_answer=True)
+    print(f"{len(made)} ways to the same numbers" + (f"; missing: {', '.join(missing)}" if missing else ""))
+    sys.exit(77 if missing else 0)
+
+
+main()

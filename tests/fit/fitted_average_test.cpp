@@ -1,0 +1,77 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "fit/scene.hpp"
+
+namespace slipfit {
+namespace {
+
+/// Printed plastic as in the issue of slow testers: k = 350 N/m, 232 g, zeta = 0.15, F_s - F_k = 200 mN.
+Scene printed_plastic() {
+  Scene s;
+  s.stiffness = 350.0;
+  s.omega = std::sqrt(350.0 / 0.232);
+  s.zeta = 0.15;
+  s.static_N = 1.2;
+  s.kinetic_N = 1.0;
+  s.speed = 1e-3;
+  s.jitter = 0.02;
+  s.samples_per_slip = 50.0;
+  s.cycles = 40.0;
+  return s;
+}
+
+/// The scene with every sample averaged over so many, noise of a hundredth of the friction difference added after it.
+Recording averaged(const Scene& s, std::size_t samples) {
+  const Recording exact = record(s);
+  std::vector<double> time_s, force;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise(0.0, 0.002);
+  for (std::size_t begin = 0; begin + samples <= exact.size(); ++begin) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < begin + samples; ++i) sum += exact.force()[i];
+    time_s.push_back(0.5 * (exact.time_s()[begin] + exact.time_s()[begin + samples - 1]));
+    force.push_back(sum / static_cast<double>(samples) + noise(random));
+  }
+  return Recording::create(std::move(time_s), std::move(force), exact.conditions()).value();
+}
+
+}  // namespace
+
+TEST_CASE("slips seen through an average that nobody stated: its time and the mass are found") {
+  const std::size_t samples = GENERATE(15, 31, 61);
+  CAPTURE(samples);
+  const Scene s = printed_plastic();
+  const Recording recording = averaged(s, samples);
+  const Analysis analysis = analyze_and_fit(recording, {});
+  REQUIRE(analysis.fit);
+  const Parameter& average = parameter(analysis, "sensor_average_s");
+  REQUIRE(average.estimate.ci95);
+  const double true_average_s = static_cast<double>(samples) * recording.sample_interval_s();
+  CHECK(average.estimate.ci95->low <= true_average_s);
+  CHECK(average.estimate.ci95->high >= true_average_s);
+  for (const auto& [name, truth] : {std::pair{"mass_kg", 0.232}, std::pair{"stiffness_N_per_m", 350.0},
+                                    std::pair{"damping_ratio", 0.15}, std::pair{"friction_difference_N", 0.2}}) {
+    INFO(name);
+    const Estimate& estimate = parameter(analysis, name).estimate;
+    REQUIRE(estimate.ci95);
+    CHECK(estimate.ci95->low <= truth);
+    CHECK(estimate.ci95->high >= truth);
+    CHECK(*estimate.value == Approx(truth).epsilon(0.1));
+  }
+  CHECK(has_warning(analysis, "samples_averaged"));
+}
+
+TEST_CASE("samples of an instant get no average") {
+  Scene s = printed_plastic();
+  s.noise = 0.01;
+  s.seed = GENERATE(range(1, 13));
+  const Analysis analysis = analyze_and_fit(record(s), {});
+  for (const Parameter& p : analysis.fit->parameters) CHECK(p.name() != "sensor_average_s");
+}
+
+}  // namespace slipfit
