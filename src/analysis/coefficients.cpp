@@ -34,7 +34,7 @@ Estimate mean_during_sliding(const Recording& recording, std::size_t cycles) {
 /// Beside its scatter the highest sample of a slip errs by the noise, and by what the force rises in half a sample.
 Estimate mean_of_peaks(const Recording& recording, const Analysis& analysis) {
   const CycleStatistics& cycles = analysis.cycles;
-  if (analysis.verdict == Verdict::SteadySliding) return unknown("steady sliding has no peaks");
+  if (analysis.motion == MotionClass::SteadySliding) return unknown("steady sliding has no peaks");
   if (cycles.count < 2 || !cycles.peak_force || !cycles.peak_force_sd) return unknown("fewer than two slips");
   const double scatter = *cycles.peak_force_sd / std::sqrt(static_cast<double>(cycles.count));
   const double rise = cycles.force_drop && cycles.stick_time_s && *cycles.stick_time_s > 0.0

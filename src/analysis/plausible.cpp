@@ -66,7 +66,7 @@ std::string remedy_for(const Seen& seen) {
 }  // namespace
 
 std::optional<Warning> implausible_units(const Recording& recording, const Analysis& analysis) {
-  const bool has_slips = analysis.verdict == Verdict::StickSlip || analysis.verdict == Verdict::OscillatorySlip;
+  const bool has_slips = analysis.motion == MotionClass::StickSlip || analysis.motion == MotionClass::OscillatorySlip;
   if (recording.conditions().quantity != ForceQuantity::Force_N || !has_slips) return std::nullopt;
   Seen seen{analysis.cycles.stick_stiffness.value, std::nullopt, analysis.derived.pattern_spacing_m.value};
   if (const Parameter* const mass = analysis.fit ? analysis.fit->find(ParameterId::Mass) : nullptr) {
