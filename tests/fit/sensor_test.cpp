@@ -122,7 +122,7 @@ TEST_CASE("a sensor much faster than the slip shows the slip itself") {
   for (const double tau : {-0.5, 0.3, 1.0, 2.0, slip.tau_end - 0.01}) {
     const double exact = tau < 0.0 ? slip.z0 + tau : model::slip_wave(slip, tau).z;
     const double slope = tau < 0.0 ? 1.0 : model::slip_wave(slip, tau).d_tau;
-    CHECK(SensedSlip(fast, slip).at(tau).z == Approx(exact - 1e-5 * slope).epsilon(1e-8));  // lags by T, to first order
+    CHECK(fit::SensedSlip(fast, slip).at(tau).z == Approx(exact - 1e-5 * slope).epsilon(1e-8));  // lags by T, to first order
   }
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("a moving average of the limit cycle is that of numerical integration"
     CAPTURE(lambda, zeta, row.at("window"), tau);
     // Differences of integrals of size lambda^2 over the window keep 1e-16 of them.
     const fit::Sensor logger{0.0, row.at("window")};
-    CHECK(SensedSlip(logger, slip).at(tau).z == Approx(row.at("average")).margin(1e-9 * (1.0 + lambda)));
+    CHECK(fit::SensedSlip(logger, slip).at(tau).z == Approx(row.at("average")).margin(1e-9 * (1.0 + lambda)));
   }
 }
 
