@@ -85,12 +85,6 @@ inline constexpr double kUnequalNoise = 0.25;
 /// Standard error of zeta, above which its interval comes from a profile. [1; calibrated: docs/accuracy.md]
 inline constexpr double kWideDamping = 0.02;
 
-/// Samples of a slip, up to which it does. [count; calibrated: docs/accuracy.md]
-inline constexpr double kFewSlipSamples = 4.0;
-
-/// Standard error of zeta, below which the scatter of the cycles pins it even then. [1; calibrated: docs/accuracy.md]
-inline constexpr double kPinnedDamping = 0.004;
-
 /// Relative standard error of alpha, from which on its interval comes from a profile. [1; calibrated: sweep_coverage]
 inline constexpr double kKnownRate = 0.15;
 

@@ -127,6 +127,24 @@ Residual residual_of(const DampedFit& chosen, const Quality& quality) {
   return residual;
 }
 
+Warnings warnings_of(const DampedFit& chosen) {
+  Warnings warnings;
+  if (const auto& misfit = chosen.misfit) {
+    warnings.push_back(
+        {"model_misfit",
+         fmt::format("the slips differ from the fitted curve in the same way in every cycle, by {:+.1f} % of the onset "
+                     "force {}: all parameters are approximate, and their intervals are widened by what changes when "
+                     "parts of the slip are left out",
+                     100.0 * misfit->size, words_of_position(misfit->position))});
+  }
+  const std::vector<double>& hum_Hz = chosen.blocks.level().lines_Hz;
+  if (!hum_Hz.empty()) {
+    warnings.push_back({"hum_fitted", fmt::format("hum of the mains at {:.4g} Hz is fitted together with the cycles",
+                                                  fmt::join(hum_Hz, ", "))});
+  }
+  return warnings;
+}
+
 }  // namespace
 
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
@@ -156,20 +174,8 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   result.residual = residual_of(chosen, quality);
   fit::report_parameters(fit::findings_of(recording, fits, resolution, result.residual), result);
   tabulate(recording, segmentation, chosen.blocks, result);
-  if (const auto& misfit = chosen.misfit) {
-    result.warnings.push_back(
-        {"model_misfit",
-         fmt::format("the slips differ from the fitted curve in the same way in every cycle, by {:+.1f} % of the onset "
-                     "force {}: all parameters are approximate, and their intervals are widened by what changes when "
-                     "parts of the slip are left out",
-                     100.0 * misfit->size, words_of_position(misfit->position))});
-  }
-  const std::vector<double>& hum_Hz = chosen.blocks.level().lines_Hz;
-  if (!hum_Hz.empty()) {
-    result.warnings.push_back(
-        {"hum_fitted",
-         fmt::format("hum of the mains at {:.4g} Hz is fitted together with the cycles", fmt::join(hum_Hz, ", "))});
-  }
+  const Warnings warnings = warnings_of(chosen);
+  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   if (options.curve) result.curve = curve_of(recording, chosen.blocks);
   return result;
 }

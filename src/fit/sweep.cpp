@@ -55,8 +55,8 @@ LawChoice choose_by_chance(const fit::SweepFits& fits, double speeds) {
   return {true, chance};
 }
 
-/// Where residuals are larger than the noise, misfit pays for parameters too: what counts is whether the law holds from
-/// one recording to the other.
+/// Where residuals are larger than the noise, more parameters fit the model's error as well: the law is then chosen by
+/// how well it predicts a recording left out.
 LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
   return {velocity_error < coulomb_error,
           fmt::format(

@@ -22,7 +22,7 @@ struct ScaledLaw {
   double rate = 0.0;
 
   [[nodiscard]] ExcessFriction at(double v) const {
-    // Overflow stays infinite: the error control rejects a step that meets it, but would believe in a large plateau.
+    // Overflow stays infinite: the error control rejects a step that meets it, but would accept a large constant.
     const double x = rate * v;
     const double growth = std::expm1(x);
     const double d_slope = rate == 0.0 ? v : growth * (1.0 / rate);  // the division does not wait for the exponential

@@ -25,9 +25,9 @@ inline constexpr SlipAccuracy kExact{1e-13, 1.0, 0.3};
 /// To 1e-7, all that fits need; quintic polynomials across steps of 0.5 are good to 4e-7 of the motion.
 inline constexpr SlipAccuracy kForFits{1e-9, 0.5, 0.5};
 
-/// With rate < 0 the friction changes within 1 / |rate| above rest. The error estimate of Fehlberg's steps is blind to
-/// what only the last stage sees, and to friction that matters little for the motion: steps resolve this layer by
-/// themselves, and none falls into it from far above.
+/// With rate < 0 the friction changes within 1 / |rate| above rest. The error estimate of Fehlberg's steps misses what
+/// only the last stage meets, and friction that changes the motion little: the length of a step is bounded so that none
+/// enters this layer from far above.
 inline double longest_slip_step(const ScaledLaw& law, const SlipAccuracy& accuracy, double v, double acceleration) {
   constexpr double kLayer = 40.0;  // exp(-40) is below round-off
   const bool leaves = acceleration >= 0.0 && law.rate * v < -kLayer;

@@ -43,8 +43,8 @@ struct StepError {
 };
 
 /// Walks a system forward. `System::longest_step(node)` bounds the step from there, so that the speed turns at most
-/// once in it and that nothing happens which only the last stage sees: the error estimate of these steps is blind to
-/// that. The nodes `from` and `to` are the ends of the last step.
+/// once in it and that nothing happens which only the last stage meets: the error estimate of these steps misses that.
+/// The nodes `from` and `to` are the ends of the last step.
 template <std::size_t N, class System>
 class StepWalker {
   using State = std::array<double, N>;

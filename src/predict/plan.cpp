@@ -118,7 +118,7 @@ class Planner {
   static constexpr double kLongest = 1e3;      // times as long as now: longer is no plan
   static constexpr double kGood = 0.1;         // less disturbance, as good as none
   static constexpr double kFastClock = 8.0;    // more samples
-  static constexpr double kHelpful = 0.7;      // below it a change pays by itself
+  static constexpr double kHelpful = 0.7;      // a change that lowers the error to less than this share helps by itself
 
   [[nodiscard]] PlanMatrix share_of(const PlanMatrix& information) const {
     return basis_.levels == LevelSharing::Shared ? information : predict::without_level(information);

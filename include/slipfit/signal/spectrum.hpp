@@ -32,7 +32,7 @@ struct SuspiciousLine {
 struct SpectralFrequency {
   std::optional<double> value_Hz;  ///< empty where no comb stands out (probability above 0.01)
   /// Of the mean frequency, periods that scatter included. 1.96 of it cover, in simulation with scattering periods,
-  /// 89-96 % from 40 cycles on, 78-95 % at 8 to 15 cycles, less below (nobody knows a scatter from 4 periods).
+  /// 89-96 % from 40 cycles on, 78-95 % at 8 to 15 cycles, less below (4 periods do not tell their scatter).
   std::optional<double> standard_error_Hz;
   double false_alarm_probability = 1.0;  ///< that noise with this background shows such a comb somewhere
   std::vector<double> harmonics_Hz;      ///< measured lines of the comb, fundamental first

@@ -27,7 +27,8 @@ struct Slopes {
   std::vector<double> slope;     ///< of the model, unit of force a second
 };
 
-/// Of the samples around one slip. The derivative with respect to the onset is that of the force, turned round.
+/// Of the samples around one slip. The derivative with respect to the onset is minus that of the force with respect to
+/// time.
 Slopes slopes_of(const BlockFit& fit, std::size_t cycle) {
   const CycleModel& model = fit.model(cycle);
   std::vector<double> residuals(model.residuals());

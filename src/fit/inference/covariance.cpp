@@ -214,7 +214,7 @@ namespace {
 struct Unit {
   MatrixXd hessian;   ///< of the common parameters that it has
   VectorXd score;     ///< of all common parameters
-  MatrixXd response;  ///< of the own parameters to the common ones, where a coordinate hangs on own ones
+  MatrixXd response;  ///< of the cycle's own parameters to the common ones; empty where no coordinate needs it
 };
 
 Unit eliminate(const Normal& n, Index common, Index local, const Held& held) {

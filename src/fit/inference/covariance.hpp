@@ -46,10 +46,10 @@ struct Normal {
   Eigen::VectorXd residuals;
 };
 
-/// How the coordinates hang on the common parameters and on the mean over the cycles of their own ones.
+/// Derivatives of the coordinates with respect to the common parameters and to the mean of the cycles' own ones.
 struct Selection {
   Eigen::MatrixXd common;  ///< common x coordinates
-  Eigen::MatrixXd local;   ///< own x coordinates; empty where no coordinate hangs on them
+  Eigen::MatrixXd local;   ///< own x coordinates; empty where all are 0
 };
 
 Linearised linearise(const BlockFit& fit, std::size_t cycle);

@@ -1,7 +1,6 @@
 #include "fit/inference/profile.hpp"
 
 #include <algorithm>
-#include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
@@ -13,8 +12,6 @@ namespace slipfit::fit {
 namespace {
 
 constexpr double kMostDamping = 0.85;
-/// The minimum may not be the only one where a slip has few samples: the scan finds others.
-constexpr std::array kScan{0.03, 0.08, 0.15, 0.25, 0.4, 0.6, kMostDamping};
 
 /// A fit with zeta held: how far its sum of squares lies above the smallest, as a distance in standard errors.
 struct HeldZeta {
@@ -97,12 +94,10 @@ double upper_quantile(double best, double distance_of_zero, double quantile) {
 
 }  // namespace
 
-bool needs_profile(const DampedFit& fit, double samples_per_slip) {
+bool needs_profile(const DampedFit& fit) {
   const Uncertainty& uncertainty = fit.uncertainty;
   if (fit.held[kDamping] || uncertainty.from_cycles || uncertainty.from_refits) return false;
-  const double se = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
-  return se > thresholds::kWideDamping ||
-         (samples_per_slip < thresholds::kFewSlipSamples && se > thresholds::kPinnedDamping);
+  return std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping))) > thresholds::kWideDamping;
 }
 
 std::optional<DampingProfile> profile_damping(const DampedFit& fit, const BlockFit& centre) {
@@ -115,13 +110,8 @@ std::optional<DampingProfile> profile_damping(const DampedFit& fit, const BlockF
   std::optional<HeldZeta> low = zero;
   if (best > 0.0 && zero->distance > quantile) low = profiler.reach(quantile, best - quantile * se, 0.0);
   const double wanted = upper_quantile(best, zero->distance, quantile);
-  std::optional<HeldZeta> high = profiler.reach(wanted, best + wanted * se, kMostDamping);
+  const std::optional<HeldZeta> high = profiler.reach(wanted, best + wanted * se, kMostDamping);
   if (!low || !high) return std::nullopt;
-  for (const double zeta : kScan) {
-    if (zeta < high->zeta) continue;
-    const std::optional<HeldZeta> other = profiler.at(zeta);
-    if (other && other->distance < wanted) high = other;
-  }
   const Coordinates origin = coordinates_of(centre);
   return DampingProfile{{low->zeta, high->zeta}, low->coordinates - origin, high->coordinates - origin};
 }

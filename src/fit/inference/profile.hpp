@@ -14,14 +14,13 @@ struct DampingProfile {
   Coordinates move_high;  ///< to the high end
 };
 
-/// Whether the sum of squares is no parabola over the interval of zeta: its standard error above 0.02, or slips of at
-/// most 4 samples unless the scatter of the cycles pins zeta (below 0.004). Only where the errors are those of white
-/// noise: a jackknife has no likelihood.
-bool needs_profile(const DampedFit& fit, double samples_per_slip);
+/// Whether the sum of squares is no parabola over the interval of zeta: its standard error is large. Only where the
+/// errors are those of white noise: a jackknife has no likelihood.
+bool needs_profile(const DampedFit& fit);
 
-/// `centre`: the best fit with zeta >= 0, from which the moves count. The interval is the hull of all zeta in [0, 0.85]
-/// whose sum of squares lies above the smallest by at most the square of the quantile; where it reaches 0, what lies
-/// below is cut off as in damping_interval. Empty where the fits with zeta held fail.
+/// `centre`: the best fit with zeta >= 0, from which the moves count. The interval holds the zeta in [0, 0.85] around
+/// the best whose sum of squares lies above the smallest by at most the square of the quantile; where it reaches 0,
+/// what lies below is cut off as in damping_interval. Empty where the fits with zeta held fail.
 std::optional<DampingProfile> profile_damping(const DampedFit& fit, const BlockFit& centre);
 
 }  // namespace slipfit::fit

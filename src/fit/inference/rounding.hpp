@@ -6,7 +6,7 @@
 
 namespace slipfit::fit {
 
-/// Recordings as the fitted model would give them, rounded to multiples of `step` counted from ever new places, noise
+/// Recordings as the fitted model would give them, rounded to multiples of `step` with a random offset, noise
 /// (what the residuals have beyond the rounding) included. Rounding repeats its errors from cycle to cycle where these
 /// are regular: neither residuals nor the spread over the cycles show it.
 class RoundedCopies {

@@ -30,7 +30,7 @@ double reduced_chi2(const BlockFit& fit);
 /// The coordinates of one recording at its solution: F_s - F_k and level are means over the cycles of the fit.
 Coordinates coordinates_of(const BlockFit& fit);
 
-/// How they hang on the fit's parameters there.
+/// Their derivatives with respect to the fit's parameters.
 Selection select(const BlockFit& fit);
 
 /// Held and continuous as the solution was found. White-noise covariance where residuals are white, otherwise the

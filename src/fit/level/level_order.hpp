@@ -5,7 +5,7 @@
 
 namespace slipfit::fit {
 
-/// Number of Legendre terms (1: constant) that the middles of the slips pay for, by BIC with a handicap against drift
+/// Number of Legendre terms (1: constant) that the middles of the slips justify, by BIC with a handicap against drift
 /// that scatter only imitates; at most a third of the slips.
 std::size_t choose_level_terms(const std::vector<double>& time_s, const std::vector<double>& level);
 

@@ -136,8 +136,8 @@ std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, st
   }
   const std::vector<signal::MainsLine> lines = signal::find_mains(power, bin_Hz, resolution_Hz);
   if (lines.empty()) return frequencies_Hz;
-  // The level beside a line, by which the spectrum judges, is too low where the cycles have taken up the noise around
-  // their harmonics: would noise alone do it?
+  // find_mains compares a line with its surroundings, which are too low where the fitted cycles have removed noise near
+  // their harmonics: a line must also be improbable against the noise of all residuals.
   const Prominence prominence(values);
   for (const signal::MainsLine& line : lines) {
     const double f_Hz = line.frequency_Hz;

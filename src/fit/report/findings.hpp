@@ -10,7 +10,7 @@
 
 namespace slipfit::fit {
 
-/// Of a speed without a standard error: what hangs on it.
+/// The condition on a speed without a standard error, and which parameters depend on it.
 inline constexpr const char* kStatedSpeed =
     "the stated driving speed (k, m and c are in inverse proportion to it; --speed-uncertainty widens their intervals)";
 

@@ -118,7 +118,7 @@ class Reporter {
     add(Id::Ageing, ageing, graded(Id::Ageing, ageing, slip_doubt()), slip_note());
   }
 
-  /// A force level hangs on the sensor's zero.
+  /// A force level depends on the sensor's zero.
   void report_absolute(Id id, const Jet& y) {
     const Estimate estimate = f_.intervals.interval_of(y);
     ParameterStatus status = graded(id, estimate, slip_doubt());

@@ -67,7 +67,7 @@ Spread spread_of(const DampedFit& fit) {
   return spread;
 }
 
-/// What averaging that nobody stated may have done.
+/// What averaging in the instrument may have changed where its duration is not stated.
 struct AveragingFindings {
   Coordinates one_sided = Coordinates::Zero();
   std::string doubt;        ///< of all that is read from the slip
@@ -133,7 +133,7 @@ DampingFindings damping_of(const TierFits& fits, const Resolution& resolution, c
   result.estimate.ci95 = damping_interval(fits.damped.blocks.parameters.globals[kDamping], se, quantile);
   const bool at_bound = is_at_bound(fits);
   std::optional<DampingProfile> along;
-  if (resolution.slip_resolved && needs_profile(fits.damped, resolution.samples_per_slip)) {
+  if (resolution.slip_resolved && needs_profile(fits.damped)) {
     along = profile_damping(fits.damped, blocks);
   }
   if (along) result.estimate.ci95 = along->interval;
@@ -197,6 +197,11 @@ void state_doubts(const TierFits& fits, const Resolution& resolution, const Resi
   }
 }
 
+std::optional<Estimate> fitted_average_of(const DampedFit& fit) {
+  if (!fit.average) return std::nullopt;
+  return symmetric(fit.average->seconds, fit.average->standard_error_s, fit.uncertainty.degrees_of_freedom);
+}
+
 }  // namespace
 
 std::string averaging_doubt(double change) {
@@ -244,10 +249,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   findings.stiffness_note = std::move(stiffness.note);
   findings.warnings = std::move(stiffness.warnings);
   findings.sensor_average_s = recording.conditions().sensor_average_s;
-  if (const std::optional<FittedAverage>& average = fits.damped.average) {
-    findings.fitted_average =
-        symmetric(average->seconds, average->standard_error_s, fits.damped.uncertainty.degrees_of_freedom);
-  }
+  findings.fitted_average = fitted_average_of(fits.damped);
   findings.frequency_doubt = std::move(averaging.small_doubt);
   // Bent sticks begin and end in other slips than the model's.
   findings.slip_doubt = !averaging.doubt.empty()    ? averaging.doubt

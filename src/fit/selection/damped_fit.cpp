@@ -56,7 +56,6 @@ class Fitter {
     const std::vector<CycleData> probe = spread_subset(cycles_, std::max<std::size_t>(kProbeCycles, 3 * level.terms));
     std::optional<BlockFit> start = fit_probe(probe, level);
     if (!start) return std::nullopt;
-    if (is_hopeless(*start)) return finish(std::move(*start));
     std::optional<BlockFit> fit =
         fit_from(std::move(cycles_), start->level(), start->parameters.globals, kMaxIterations, kRough);
     if (fit) fit = with_clean_data(std::move(*fit));
@@ -76,7 +75,7 @@ class Fitter {
            kForgotten * scales_.sensor_lag_s + 0.5 * scales_.sensor_average_s;
   }
 
-  /// The level model to begin with: the polynomial that the middles pay for, or at once one level a cycle.
+  /// The level model to begin with: the polynomial that the middles justify, or one level a cycle.
   [[nodiscard]] LevelModel first_level() const {
     std::vector<double> middles;
     std::vector<double> drops;
@@ -125,7 +124,7 @@ class Fitter {
     return (poor.chi2 - rich.chi2) / extra > thresholds::kWanderingRatio * noise2;
   }
 
-  /// Short runs with zeta held, from several damping ratios (and frequencies, where the fall is hardly sampled).
+  /// Short runs with zeta held, from several frequencies where the fall is hardly sampled or drawn out.
   [[nodiscard]] std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles,
                                                         const LevelModel& level) const {
     BlockFit fit(cycles, middles_s(cycles), scales_, level);
@@ -134,25 +133,20 @@ class Fitter {
     // Lag and averaging draw the fall out.
     const double smoothed_s = std::max(scales_.sensor_lag_s, 0.3 * scales_.sensor_average_s);
     if (smoothed_s > 0.05 * scales_.half_period_s) stretches = {1.0, 1.4, 2.0};
-    std::vector<double> dampings{0.05, 0.01, 0.15};
-    if (level.per_cycle) dampings = {0.05};  // a level a cycle takes up what a wrong zeta does to the troughs
-    if (held_values_.damping_ratio) dampings = {*held_values_.damping_ratio};
+    const double zeta = held_values_.damping_ratio.value_or(0.05);
+    SolveOptions quick{held_, false, true, kQuickIterations, kRough};
+    quick.held[kDamping] = true;
     double best_cost = std::numeric_limits<double>::infinity();
     Parameters best;
     for (const double stretch : stretches) {
-      for (const double zeta : dampings) {
-        const double b = std::sqrt(1.0 - zeta * zeta);
-        const double omega =
-            held_values_.natural_frequency_rad_per_s.value_or(stretch * std::numbers::pi / (scales_.half_period_s * b));
-        set_start(fit, segmentation_, {std::log(start_stiffness_), std::log(omega), zeta});
-        SolveOptions quick{held_, false, true, kQuickIterations, kRough};
-        quick.held[kDamping] = true;
-        const double cost = solve(fit, quick);
-        if (cost >= best_cost) continue;
-        best_cost = cost;
-        best = fit.parameters;
-        if (reduced_chi2(fit) < thresholds::kSuspectChi2) return fit;  // nothing left to find
-      }
+      const double omega = held_values_.natural_frequency_rad_per_s.value_or(
+          stretch * std::numbers::pi / (scales_.half_period_s * std::sqrt(1.0 - zeta * zeta)));
+      set_start(fit, segmentation_, {std::log(start_stiffness_), std::log(omega), zeta});
+      const double cost = solve(fit, quick);
+      if (cost >= best_cost) continue;
+      best_cost = cost;
+      best = fit.parameters;
+      if (reduced_chi2(fit) < thresholds::kSuspectChi2) return fit;  // nothing left to find
     }
     if (!std::isfinite(best_cost)) return std::nullopt;
     fit.parameters = best;
@@ -178,16 +172,9 @@ class Fitter {
     if (!(zeta + thresholds::kNegativeSigmas * se < 0.0)) return;
     refused_damping_ = zeta;
     held_[kDamping] = true;
-    // From the features again: the runaway zeta has dragged the other parameters along.
+    // Start again from the features: the other parameters have followed the wrong zeta.
     set_start(fit, segmentation_, {start_[0], start_[1], 0.0});
     solve(fit, {held_, false, true, kMaxIterations, tolerance});
-  }
-
-  /// Residuals of half the friction drop: no stick-slip, whatever more cycles would say.
-  [[nodiscard]] bool is_hopeless(const BlockFit& fit) const {
-    double mean = 0.0;
-    for (const Local& local : fit.parameters.cycles) mean += local[1] / static_cast<double>(fit.size());
-    return !(std::sqrt(reduced_chi2(fit)) * scales_.noise < 0.5 * std::abs(mean) * scales_.force);
   }
 
   /// Leaves out samples far from the fit and slips that it cannot explain, takes mains hum into the model, and refits.

@@ -34,7 +34,6 @@ class Finisher {
   /// Empty where the normal equations are singular: the cycles do not tell the shared parameters apart.
   [[nodiscard]] std::optional<DampedFit> finish(DampedFit result) const {
     result.uncertainty = estimate_uncertainty(result.blocks, {result.held, false});
-    if (!is_regular(result.uncertainty, result.held)) result.uncertainty = without_damping(result);
     if (!is_regular(result.uncertainty, result.held)) return std::nullopt;
     if (!result.blocks.level().per_cycle && !result.uncertainty.from_cycles) join_ramps(result);
     // Noise of a step and more spreads the rounding evenly: it is white then.
@@ -50,15 +49,6 @@ class Finisher {
   }
 
  private:
-  /// A slip of a sample or two does not tell zeta from w_n: what is known with zeta held, and zeta anywhere in [0, 1).
-  static Uncertainty without_damping(const DampedFit& result) {
-    Held held = result.held;
-    held[kDamping] = true;
-    Uncertainty uncertainty = estimate_uncertainty(result.blocks, {held, false});
-    if (!result.held[kDamping]) uncertainty.covariance(kDamping, kDamping) = 1.0;
-    return uncertainty;
-  }
-
   /// What refits to rounded copies of the model move the quantities by.
   [[nodiscard]] Moves moves_by_rounding(const DampedFit& result) const {
     const Residuals residuals = residuals_of(recording_, result.blocks, {});

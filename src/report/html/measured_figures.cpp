@@ -12,7 +12,7 @@ namespace {
 using chart::Colour, chart::Point, chart::Shape, chart::Stroke;
 
 constexpr int kSpectrumColumns = 600;       // on the logarithmic axis
-constexpr double kDepth = 3e-5;             // of the highest line: below is noise that nobody reads
+constexpr double kDepth = 3e-5;             // of the highest line: below is noise
 constexpr double kBelowFundamental = 20.0;  // where the axis begins
 constexpr std::size_t kMostHarmonics = 20;
 
