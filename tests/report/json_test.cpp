@@ -138,7 +138,7 @@ TEST_CASE("the keys stand in the order of the interface") {
   for (const auto& [key, value] : document.items()) keys.push_back(key);
   CHECK(keys == std::vector<std::string>{"schema", "version", "id", "recording", "status", "status_reason", "warnings",
                                          "frequency", "cycles", "model", "parameters", "correlation", "derived",
-                                         "transients", "tests"});
+                                         "transients", "coefficients", "tests"});
 }
 
 TEST_CASE("one line for a file with one result a line") {
