@@ -10,5 +10,5 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # The library is static: who links it needs what it is made of. The tool alone does not.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
-  "libceres-dev, libeigen3-dev, libfftw3-dev, libfmt-dev")
+  "libceres-dev, libeigen3-dev, libfftw3-dev, libfmt-dev, zlib1g-dev, libminizip-dev, libpugixml-dev")
 include(CPack)

@@ -82,6 +82,16 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
+/// "Force X", "Z-Force" are "fx", "fz".
+std::vector<std::string> with_direction(std::vector<std::string> words) {
+  const auto letter = std::find_if(words.begin(), words.end(), [](const std::string& word) {
+    return word.size() == 1 && std::string_view("xyz").find(word) != std::string_view::npos;
+  });
+  const bool is_force = std::any_of(words.begin(), words.end(), [](const auto& word) { return is_in(kForce, word); });
+  if (is_force && letter != words.end()) letter->insert(letter->begin(), 'f');
+  return words;
+}
+
 bool has(const std::vector<std::string>& words, std::string_view list) {
   return std::any_of(words.begin(), words.end(), [list](const std::string& word) { return is_in(list, word); });
 }
@@ -168,7 +178,7 @@ ColumnName read_name(std::string_view name_cell, std::string_view unit_cell) {
   const NameAndUnit parts = unit_text.empty() ? separate_unit(name.text) : NameAndUnit{name.text, unit_text};
   name.base = std::string(parts.base);
   name.unit = std::string(trim(parts.unit));
-  const RoleAndRank found = role_of(words_of(name.base), classify_unit(name.unit));
+  const RoleAndRank found = role_of(with_direction(words_of(name.base)), classify_unit(name.unit));
   name.role = found.role;
   name.rank = found.rank;
   return name;

@@ -53,6 +53,8 @@ TEST_CASE("the tangential force is found by its name") {
       {"t / s,x / mm,F / N", 3},
       {"Time, Strain,Standard force,Work", 3},
       {"time,F_n,F_t", 3},
+      {"time,Force Z,Force X", 3},
+      {"time,X-Force [N],Z-Force [N]", 2},
       {"time,signal", 2},
       {"time,Temperature [\xC2\xB0\x43],signal", 3},
       {"time,normal_force_N,lateral_force_mN", 3},
