@@ -86,6 +86,7 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
              "the slips are seen through averaging over {:.3g} ms, which is fitted together with them: state it "
              "with --sensor-average where it is known",
              1e3 * fit.average->seconds)});
+    result.doubt = "known if the instrument averages evenly over a time, as the fit takes it to";
     return result;
   }
   Held held = fit.held;

@@ -256,9 +256,15 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
   const double variance_s2 = best->variance_s2;
   DampedFit fit = with_average(*std::move(best));
   if (!tells_slips(fit) || gain_of(fit, plain) < thresholds::kTierPrice) return std::nullopt;
-  const std::optional<Trial> lagging = trials.fit(Kernel::FirstOrder, variance_s2);
-  if (lagging && gain_of(fit, lagging->fit) < thresholds::kEvidence) return std::nullopt;
-  return fit;
+  // A long tail rounds the slip less than its variance says: the search begins on both sides of it.
+  bool compared = false;
+  for (const double share : {1.0, 3.0}) {
+    const std::optional<Trial> lagging = trials.fit(Kernel::FirstOrder, share * variance_s2);
+    if (!lagging) continue;
+    compared = true;
+    if (gain_of(fit, lagging->fit) < thresholds::kEvidence) return std::nullopt;
+  }
+  return compared ? std::optional(std::move(fit)) : std::nullopt;
 }
 
 }  // namespace slipfit::fit
