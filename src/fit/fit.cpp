@@ -154,6 +154,7 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   std::optional<DampedFit> damped = fit::fit_damped(recording, quality, segmentation, held_parameters(options));
   if (!damped) return std::nullopt;
   if (!recording.conditions().sensor_average_s) {
+    damped->rounding = fit::estimate_smoothing(damped->blocks, damped->held, recording.sample_interval_s());
     auto averaged = fit::fit_average(recording, quality, segmentation, held_parameters(options), *damped);
     if (averaged) damped = std::move(averaged);
   }

@@ -89,10 +89,9 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
     result.doubt = "known if the instrument averages evenly over a time, as the fit takes it to";
     return result;
   }
-  Held held = fit.held;
-  if (fit.refused_damping) held[kDamping] = true;
   const double step_s = recording.sample_interval_s();
-  const std::optional<Smoothing> seen = estimate_smoothing(blocks, held, step_s);
+  const std::optional<Smoothing> seen =
+      &blocks == &fit.blocks ? fit.rounding : estimate_smoothing(blocks, fit.held, step_s);
   if (!seen) return result;
   const double of_a_step = step_s * step_s / 12.0;
   // Rounding to steps of the converter repeats its errors in every cycle: the scatter over them does not show it.

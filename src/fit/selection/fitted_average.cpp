@@ -54,7 +54,7 @@ std::vector<double> guesses_s(const Recording& recording, const DampedFit& plain
   const BlockFit& blocks = plain.blocks;
   const double step_s = recording.sample_interval_s();
   const double of_fall_s = 0.7 * blocks.scales().half_period_s;
-  const std::optional<Smoothing> seen = estimate_smoothing(blocks, plain.held, step_s);
+  const std::optional<Smoothing>& seen = plain.rounding;
   if (!seen) return {};
   const double surely_s2 = seen->variance_s2 - thresholds::kRoundedSigmas * seen->standard_error_s2;
   if (!(surely_s2 > step_s * step_s / 12.0)) return {};
@@ -95,7 +95,7 @@ class Probe {
     BlockFit fit = started(average_s);
     for (int step = 0; step < kMostSteps; ++step) {
       const std::optional<Held> held = solve_with_damping(fit);
-      if (!held) return std::nullopt;
+      if (!held || (step == 0 && !misses_less(fit, kWorthMoreSteps))) return std::nullopt;
       const std::optional<Smoothing> beyond = estimate_smoothing(fit, *held, step_s_);
       if (!beyond) return std::nullopt;
       const double square = average_s * average_s;
@@ -104,7 +104,7 @@ class Probe {
       average_s = std::sqrt(next);
       if (average_s < step_s_ || average_s > 2.0 * plain_.scales().half_period_s) return std::nullopt;
       if (change < kSmallStep || std::abs(beyond->variance_s2) < beyond->standard_error_s2) {
-        return misses_less(fit) ? std::optional(average_s) : std::nullopt;
+        return misses_less(fit, kWorthAllCycles) ? std::optional(average_s) : std::nullopt;
       }
       if (step > 1 && change > kShrinking * last_step) return std::nullopt;
       last_step = change;
@@ -117,11 +117,13 @@ class Probe {
   static constexpr std::size_t kProbeCycles = 10;
   static constexpr double kSmallStep = 0.05;
   static constexpr double kShrinking = 0.8;
+  static constexpr double kWorthMoreSteps = 0.75;  // misfit over that of the plain fit
+  static constexpr double kWorthAllCycles = 0.5;
 
-  /// Of the mean shape of the slips less than half of what the plain fit misses: worth a fit of all cycles.
-  [[nodiscard]] bool misses_less(const BlockFit& fit) const {
+  /// Of the mean shape of the slips less than this share of what the plain fit misses.
+  [[nodiscard]] bool misses_less(const BlockFit& fit, double share) const {
     const std::optional<SegmentMisfit> misfit = find_misfit(fit, 0.0);
-    return !misfit || !plain_misfit_ || std::abs(misfit->size) < 0.5 * std::abs(plain_misfit_->size);
+    return !misfit || !plain_misfit_ || std::abs(misfit->size) < share * std::abs(plain_misfit_->size);
   }
 
   [[nodiscard]] BlockFit with_average(const BlockFit& fit, double average_s) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fit/inference/misfit.hpp"
+#include "fit/inference/smoothing.hpp"
 #include "fit/inference/uncertainty.hpp"
 #include "fit/problem/block_fit.hpp"
 
@@ -26,6 +27,7 @@ struct DampedFit {
   std::vector<std::size_t> excluded;  ///< samples in ascending order: impulses, clipped, outliers
   Uncertainty uncertainty;
   std::optional<SegmentMisfit> misfit;     ///< slips are not shaped like the model's; the covariances allow for it
+  std::optional<Smoothing> rounding{};     ///< of the slips beyond what is stated of the sensor; empty: not told
   std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none
 };
 
