@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "core/csv_line.hpp"
 #include "io/cells.hpp"
 #include "slipfit/fit/parameter.hpp"
 #include "slipfit/report/text.hpp"
@@ -18,19 +19,6 @@ struct SummaryColumn {
   std::string name;
   Json::json_pointer place;
 };
-
-std::string csv_line(const std::vector<std::string>& cells) {
-  std::string line;
-  for (const std::string& cell : cells) {
-    if (&cell != &cells.front()) line += ',';
-    const bool is_plain = cell.find_first_of(",;\"\n\r\t#") == std::string::npos &&
-                          (cell.empty() || (cell.front() != ' ' && cell.back() != ' '));
-    if (!is_plain) line += '"';
-    for (const char c : cell) line += c == '"' ? std::string("\"\"") : std::string(1, c);
-    if (!is_plain) line += '"';
-  }
-  return line;
-}
 
 /// Text from outside as a cell: what a spreadsheet would run as a formula (= + - @ in front) gets a ' in front.
 std::string text_cell(const std::string& text) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/clock_step.hpp"
+
 namespace slipfit {
 namespace {
 
@@ -19,40 +21,6 @@ bool all_readable(const std::vector<double>& values) {
 
 void flush_to_zero(std::vector<double>& values) {
   for (double& value : values) value = std::abs(value) < kSmallest ? 0.0 : value;
-}
-
-std::vector<double> positive_steps(const std::vector<double>& time_s, std::size_t stride) {
-  std::vector<double> steps;
-  steps.reserve(time_s.size() / stride + 1);
-  for (std::size_t i = 1; i < time_s.size(); i += stride) {
-    if (time_s[i] > time_s[i - 1]) steps.push_back(time_s[i] - time_s[i - 1]);
-  }
-  return steps;
-}
-
-double upper_median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// A clock's steps take few values, so that the median of some of them is mostly that of all, which counting proves.
-double median_positive_step(const std::vector<double>& time_s) {
-  constexpr std::size_t kSome = 16;
-  const std::vector<double> some = positive_steps(time_s, kSome);
-  if (some.empty()) return upper_median(positive_steps(time_s, 1));
-  const double guess = upper_median(some);
-  std::size_t positive = 0;
-  std::size_t below = 0;
-  std::size_t equal = 0;
-  for (std::size_t i = 1; i < time_s.size(); ++i) {
-    const double step = time_s[i] - time_s[i - 1];
-    positive += step > 0.0 ? 1U : 0U;
-    below += step > 0.0 && step < guess ? 1U : 0U;
-    equal += step == guess ? 1U : 0U;
-  }
-  const bool is_median = below <= positive / 2 && positive / 2 < below + equal;
-  return is_median ? guess : upper_median(positive_steps(time_s, 1));
 }
 
 bool is_even(const std::vector<double>& time_s) {

@@ -151,11 +151,12 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
                                        const Segmentation& segmentation, const FitOptions& options) {
   if (recording.conditions().force_view == ForceView::Contact)
     return fit::fit_contact(recording, segmentation, options);
-  std::optional<DampedFit> damped = fit::fit_damped(recording, quality, segmentation, held_parameters(options));
+  const HeldParameters held = held_parameters(options);
+  std::optional<DampedFit> damped = fit::fit_damped(recording, quality, segmentation, held);
   if (!damped) return std::nullopt;
   if (!recording.conditions().sensor_average_s) {
     damped->rounding = fit::estimate_smoothing(damped->blocks, damped->held, recording.sample_interval_s());
-    auto averaged = fit::fit_average(recording, quality, segmentation, held_parameters(options), *damped);
+    auto averaged = fit::fit_average(recording, quality, segmentation, held, *damped);
     if (averaged) damped = std::move(averaged);
   }
   fit::TierFits fits{fit::fit_sawtooth(*damped), std::nullopt, std::move(*damped)};

@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.hpp"
+
 namespace slipfit::reading {
 namespace {
 
 constexpr std::size_t kMostPositions = 4096;
 constexpr std::size_t kBlocks = 64;
-
-double quantile(std::vector<double> values, double part) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 }  // namespace
 
@@ -38,10 +34,10 @@ std::optional<double> steady_speed_m_per_s(const DisplacementTrack& track) {
     speeds.push_back(std::abs(positions[i].displacement_m - positions[i - step].displacement_m) / duration_s);
   }
   if (speeds.size() < 4) return std::nullopt;
-  const double fast_m_per_s = quantile(speeds, 0.9);
+  const double fast_m_per_s = quantile_of(speeds, 0.9);
   std::erase_if(speeds, [&](double v) { return !(v > 0.2 * fast_m_per_s); });  // standing, or about to start
   if (speeds.size() < 3) return std::nullopt;
-  const double speed_m_per_s = quantile(speeds, 0.5);
+  const double speed_m_per_s = quantile_of(speeds, 0.5);
   const auto alike = std::count_if(speeds.begin(), speeds.end(),
                                    [&](double v) { return std::abs(v - speed_m_per_s) <= 0.2 * speed_m_per_s; });
   const bool is_steady = 10 * alike >= 6 * static_cast<std::ptrdiff_t>(speeds.size());

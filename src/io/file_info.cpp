@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "core/clock_step.hpp"
 #include "io/columns.hpp"
 #include "io/levels.hpp"
 #include "io/message.hpp"
@@ -72,10 +73,10 @@ std::optional<double> value_of(const std::vector<double>& column, const Step& st
   return level && level->is_steady ? std::optional(level->value) : std::nullopt;
 }
 
-std::vector<StepInfo> steps_of(const Rows& rows, bool has_clock) {
+std::vector<StepInfo> infos_of(const Rows& rows, std::span<const Step> steps, bool has_clock) {
   std::vector<StepInfo> infos;
   if (rows.time_s.empty()) return infos;
-  for (const Step& step : find_steps(rows)) {
+  for (const Step& step : steps) {
     StepInfo info{step.number, {rows.place_of(step.begin).row, rows.place_of(step.end - 1).row}, {}, {}, {}};
     if (has_clock) info.time_s = TimeWindow{rows.time_s[step.begin], rows.time_s[step.end - 1]};
     info.speed_m_per_s = value_of(rows.speed_m_per_s, step);
@@ -83,17 +84,6 @@ std::vector<StepInfo> steps_of(const Rows& rows, bool has_clock) {
     infos.push_back(info);
   }
   return infos;
-}
-
-std::optional<double> sample_rate_Hz(const std::vector<double>& time_s) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < time_s.size(); ++i) {
-    if (time_s[i] > time_s[i - 1]) steps.push_back(time_s[i] - time_s[i - 1]);
-  }
-  if (steps.empty()) return std::nullopt;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return 1.0 / *middle;
 }
 
 /// What can be chosen; where columns cannot, any column of numbers, for the sake of the rows and their steps.
@@ -124,12 +114,15 @@ Result<FileInfo> inspect(const std::filesystem::path& path, const std::string& n
   const RowPlan plan{file.layout, choice, options.sample_rate_Hz.value_or(1.0), options.rows, {}, 0};
   Rows rows = read_rows(name, std::move(file.source), plan);
   info.rows = rows.count;
-  info.steps = steps_of(rows, choice.time || options.sample_rate_Hz);
-  info.is_one_recording = rows.time_s.empty() || are_one_recording(rows, find_steps(rows));
+  const bool has_clock = choice.time || options.sample_rate_Hz;
+  const std::vector<Step> steps = find_steps(rows);
+  info.steps = infos_of(rows, steps, has_clock);
+  info.is_one_recording = rows.time_s.empty() || are_one_recording(rows, steps);
   auto part = take_part(std::move(rows), options, name);
   if (!part) return part.error();
   const Rows& taken = part.value().rows;
-  if (choice.time || options.sample_rate_Hz) info.sample_rate_Hz = sample_rate_Hz(taken.time_s);
+  const double step_s = median_positive_step(taken.time_s);
+  if (has_clock && step_s > 0.0) info.sample_rate_Hz = 1.0 / step_s;
   if (!info.refusal) info.strokes = count_strokes(taken.force);
   const auto speed = level_of(taken.speed_m_per_s);
   if (speed && speed->is_steady) info.taken.speed_m_per_s = speed->value;

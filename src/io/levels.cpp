@@ -5,6 +5,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "core/quantile.hpp"
+
 namespace slipfit::reading {
 namespace {
 
@@ -14,12 +16,6 @@ constexpr double kSteadyWithin = 0.1;
 constexpr double kSteadyPart = 0.8;
 constexpr double kNormalQuartile = 0.6745;    // of a normal distribution, in standard deviations
 constexpr std::size_t kShortestStretch = 20;  // parts of the column
-
-double quantile_of(std::vector<double> values, double part) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 std::vector<double> finite(std::span<const double> values) {
   std::vector<double> kept;

@@ -6,6 +6,7 @@
 #include <set>
 #include <system_error>
 
+#include "core/csv_line.hpp"
 #include "io/cells.hpp"
 #include "io/file_name.hpp"
 #include "io/message.hpp"
@@ -70,12 +71,6 @@ std::string number_cell(const std::optional<double>& value) {
   return value ? fmt::format("{:.6g}", *value) : std::string();
 }
 
-std::string text_cell(const std::string& text) {
-  std::string quoted;
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text.find_first_of(",\"#") == std::string::npos ? text : '"' + quoted + '"';
-}
-
 }  // namespace
 
 ManifestDraft draft_manifest(const std::vector<fs::path>& paths) {
@@ -105,10 +100,10 @@ std::string to_csv(const ManifestDraft& draft, const fs::path& folder) {
     std::error_code error;
     fs::path file = fs::proximate(entry.file, folder.empty() ? fs::path(".") : folder, error);
     if (error) file = entry.file;
-    text += fmt::format("{},{},{},{},{}", text_cell(entry.id), text_cell(file.string()),
-                        number_cell(entry.speed_m_per_s), number_cell(entry.normal_force_N), text_cell(entry.group));
-    if (has_steps) text += "," + (entry.step ? std::to_string(*entry.step) : std::string());
-    text += "\n";
+    std::vector<std::string> cells{entry.id, file.string(), number_cell(entry.speed_m_per_s),
+                                   number_cell(entry.normal_force_N), entry.group};
+    if (has_steps) cells.push_back(entry.step ? std::to_string(*entry.step) : std::string());
+    text += csv_line(cells) + "\n";
   }
   return text;
 }

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include "core/quantile.hpp"
 
 namespace slipfit::reading {
 namespace {
@@ -21,9 +24,7 @@ double level_90(std::span<const double> force) {
   const std::size_t stride = std::max<std::size_t>(1, force.size() / kLevelSamples);
   std::vector<double> sizes;
   for (std::size_t i = 0; i < force.size(); i += stride) sizes.push_back(std::abs(force[i]));
-  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(sizes.size() - 1));
-  std::nth_element(sizes.begin(), at, sizes.end());
-  return *at;
+  return quantile_of(std::move(sizes), 0.9);
 }
 
 /// Changes from beyond +threshold to beyond -threshold and back.

@@ -5,18 +5,12 @@
 #include <span>
 #include <utility>
 
+#include "core/quantile.hpp"
 #include "core/slip_thresholds.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::signal {
 namespace {
-
-double share_of(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 /// What is usual among the falls of a trace.
 struct Usual {
@@ -37,7 +31,7 @@ class Train {
       intervals.push_back(interval(i));
       rates.push_back((peak(i) - trough(i - 1)) / static_cast<double>(falls[i].peak - falls[i - 1].trough + 1));
     }
-    usual_ = {median(drops), share_of(drops, 0.9), median(intervals), share_of(intervals, 0.9), median(rates)};
+    usual_ = {median(drops), quantile_of(drops, 0.9), median(intervals), quantile_of(intervals, 0.9), median(rates)};
   }
 
   [[nodiscard]] double peak(std::size_t i) const { return force_[falls_[i].peak]; }
@@ -174,7 +168,7 @@ Blocks blocks_of(std::span<const double> force) {
     const auto [low, high] = std::minmax_element(block.begin(), block.end());
     movements.push_back(*high - *low);
   }
-  blocks.movement = share_of(std::move(movements), 0.9);
+  blocks.movement = quantile_of(std::move(movements), 0.9);
   return blocks;
 }
 

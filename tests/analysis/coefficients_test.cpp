@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/checks.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/pipeline.hpp"
 
@@ -45,15 +46,6 @@ Recording sawteeth(unsigned seed, const Conditions& conditions) {
   auto recording = Recording::create(std::move(time_s), std::move(force), conditions);
   REQUIRE(recording.ok());
   return std::move(recording).value();
-}
-
-bool holds(const Estimate& estimate, double truth) {
-  return estimate.ci95 && estimate.ci95->low <= truth && truth <= estimate.ci95->high;
-}
-
-bool warns(const Analysis& analysis, const std::string& code) {
-  return std::any_of(analysis.warnings.begin(), analysis.warnings.end(),
-                     [&](const Warning& warning) { return warning.code == code; });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "analysis/checks.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/pipeline.hpp"
 
@@ -59,15 +60,6 @@ Recording run_with_release(const Run& run) {
   Conditions conditions;
   conditions.speed_m_per_s = run.speed_m_per_s;
   return Recording::create(std::move(time_s), std::move(force), conditions).value();
-}
-
-bool holds(const Estimate& estimate, double truth) {
-  return estimate.ci95 && estimate.ci95->low <= truth && truth <= estimate.ci95->high;
-}
-
-bool warns(const Analysis& analysis, const std::string& code) {
-  return std::any_of(analysis.warnings.begin(), analysis.warnings.end(),
-                     [&](const Warning& warning) { return warning.code == code; });
 }
 
 }  // namespace

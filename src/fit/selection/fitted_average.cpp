@@ -177,6 +177,7 @@ struct Trial {
   [[nodiscard]] double off() const { return std::abs(beyond.variance_s2) / beyond.standard_error_s2; }
 };
 
+/// Fits of all cycles with a kernel of about the given variance.
 class Trials {
  public:
   Trials(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
@@ -227,7 +228,7 @@ bool tells_slips(const DampedFit& fit) {
 }
 
 /// With what W is not known by in the covariance.
-DampedFit with_average(Trial trial) {
+DampedFit with_average_error(Trial trial) {
   const double error_s2 = std::hypot(trial.beyond.standard_error_s2, trial.beyond.variance_s2,
                                      thresholds::kKernelShape * trial.variance_s2);
   const double average_s = std::sqrt(12.0 * trial.variance_s2);
@@ -256,7 +257,7 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
   }
   if (!best) return std::nullopt;
   const double variance_s2 = best->variance_s2;
-  DampedFit fit = with_average(*std::move(best));
+  DampedFit fit = with_average_error(*std::move(best));
   if (!tells_slips(fit) || gain_of(fit, plain) < thresholds::kTierPrice) return std::nullopt;
   // A long tail rounds the slip less than its variance says: the search begins on both sides of it.
   bool compared = false;
