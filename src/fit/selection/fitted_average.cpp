@@ -62,6 +62,21 @@ std::vector<double> guesses_s(const Recording& recording, const DampedFit& plain
   return {std::sqrt(12.0 * seen->variance_s2), of_fall_s};
 }
 
+/// Every so many samples around the slip, so that few are left; sticks as they are.
+CycleData thinned(CycleData cycle) {
+  constexpr std::size_t kSamples = 100;  // of four half periods: enough for the shape, and 10 cycles for the noise
+  const std::size_t stride = 1 + cycle.time_s.size() / kSamples;
+  const auto thin = [&](auto& values) {
+    for (std::size_t i = 0; i * stride < values.size(); ++i) values[i] = values[i * stride];
+    values.resize((values.size() + stride - 1) / stride);
+  };
+  thin(cycle.samples);
+  thin(cycle.time_s);
+  thin(cycle.force);
+  thin(cycle.weight);
+  return cycle;
+}
+
 /// The search for W on some of the cycles, from the features of the slips.
 class Probe {
  public:
@@ -82,6 +97,7 @@ class Probe {
     std::erase_if(cycles,
                   [&](const CycleData& cycle) { return !std::binary_search(used.begin(), used.end(), cycle.slip); });
     cycles = spread_subset(cycles, kProbeCycles);
+    std::transform(cycles.begin(), cycles.end(), cycles.begin(), thinned);
     std::vector<double> middles_s;
     for (const CycleData& cycle : cycles) middles_s.push_back(segmentation.slips[cycle.slip].middle_s);
     cycles_ = std::make_shared<CycleSet>(std::move(cycles), std::move(middles_s), plain_.level(), scales);
@@ -100,13 +116,13 @@ class Probe {
       if (!beyond) return std::nullopt;
       const double square = average_s * average_s;
       const double next = std::clamp(square + 12.0 * beyond->variance_s2, 0.25 * square, 4.0 * square);
-      const double change = std::abs(next / square - 1.0);
+      const double change = std::abs(std::log(next / square));
       average_s = std::sqrt(next);
       if (average_s < step_s_ || average_s > 2.0 * plain_.scales().half_period_s) return std::nullopt;
       if (change < kSmallStep || std::abs(beyond->variance_s2) < beyond->standard_error_s2) {
         return misses_less(fit, kWorthAllCycles) ? std::optional(average_s) : std::nullopt;
       }
-      if (step > 1 && change > kShrinking * last_step) return std::nullopt;
+      if (change > kShrinking * last_step) return std::nullopt;
       last_step = change;
       fit = with_average(fit, average_s);
     }
