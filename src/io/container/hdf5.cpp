@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -74,8 +75,41 @@ std::string find_reader() {
   return {};
 }
 
+class OpenFile {
+ public:
+  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+/// The libraries want a file in which they can go to and fro: one in memory, so that the bytes are read once, and may
+/// come through a pipe. Whether all went in.
+bool copy(TextStream& packed, int descriptor) {
+  std::vector<char> piece(std::size_t{256} * 1024);
+  while (const std::size_t got = packed.bytes->read(piece.data(), piece.size())) {
+    for (std::size_t written = 0; written < got;) {
+      const ::ssize_t count = ::write(descriptor, piece.data() + written, got - written);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) return false;
+      written += static_cast<std::size_t>(count);
+    }
+  }
+  return true;
+}
+
+/// The program finds the file as kFileOfReader.
+constexpr int kDescriptorOfReader = 3;
+constexpr const char* kFileOfReader = "/proc/self/fd/3";
+
 Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const std::vector<std::string>& arguments,
-                                             const std::string& name) {
+                                             int file, const std::string& name) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     return Error{"not_readable", name + ": no pipe can be made; close programs"};
@@ -85,6 +119,7 @@ Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const s
   posix_spawn_file_actions_t actions{};
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, file, kDescriptorOfReader);
   ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   ::pid_t process = 0;
   const int failed = ::posix_spawn(&process, program.c_str(), &actions, nullptr, words.data(), environ);
@@ -95,19 +130,22 @@ Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const s
   return Error{"not_readable", name + ": slipfit-hdf5 cannot be started; check its permissions"};
 }
 
-Result<TextStream> open_with_reader(const char* kind, const ContainerFile& file, const ContainerChoice& choice) {
+Result<TextStream> open_with_reader(const char* kind, TextStream packed, const std::string& name,
+                                    const ContainerChoice& choice) {
   const std::string program = find_reader();
-  if (program.empty()) return not_built_in(file.name, "a MATLAB or HDF5 file", "libhdf5-dev and libmatio-dev");
-  std::vector<std::string> arguments{program, kind, file.path.string()};
+  if (program.empty()) return not_built_in(name, "a MATLAB or HDF5 file", "libhdf5-dev and libmatio-dev");
+  const OpenFile file(::memfd_create("slipfit", MFD_CLOEXEC));
+  if (file.descriptor() < 0 || !copy(packed, file.descriptor())) return too_large(name);
+  std::vector<std::string> arguments{program, kind, kFileOfReader};
   if (choice.variable) arguments.push_back(*choice.variable);
-  auto started = start(program, arguments, file.name);
+  auto started = start(program, arguments, file.descriptor(), name);
   if (!started) return started.error();
   std::unique_ptr<ProgramStream> bytes = std::move(started).value();
   const std::string first = bytes->line();
   if (!first.starts_with('=')) {
     const std::size_t blank = std::min(first.find(' '), first.size());
-    if (!first.starts_with('!') || blank == first.size()) return damaged(file.name, "the file is damaged");
-    return Error{first.substr(1, blank - 1), file.name + ": " + printable(first.substr(blank + 1))};
+    if (!first.starts_with('!') || blank == first.size()) return damaged(name, "the file is damaged");
+    return Error{first.substr(1, blank - 1), name + ": " + printable(first.substr(blank + 1))};
   }
   TextStream text;
   text.bytes = std::move(bytes);
@@ -117,12 +155,12 @@ Result<TextStream> open_with_reader(const char* kind, const ContainerFile& file,
 
 }  // namespace
 
-Result<TextStream> open_hdf5(const ContainerFile& file, const ContainerChoice& choice) {
-  return open_with_reader("hdf5", file, choice);
+Result<TextStream> open_hdf5(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  return open_with_reader("hdf5", std::move(packed), name, choice);
 }
 
-Result<TextStream> open_mat(const ContainerFile& file, const ContainerChoice& choice) {
-  return open_with_reader("mat", file, choice);
+Result<TextStream> open_mat(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  return open_with_reader("mat", std::move(packed), name, choice);
 }
 
 }  // namespace slipfit::reading
