@@ -15,6 +15,7 @@
 #include "analysis/plausible.hpp"
 #include "analysis/quoted_frequency.hpp"
 #include "analysis/ranges.hpp"
+#include "analysis/repeats.hpp"
 #include "analysis/short_tests.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/sweep_checks.hpp"
@@ -138,11 +139,23 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   sweep.derived =
       in_range(derive_from_sweep(sweep.fit ? sweep.fit->result : FitResult{}, observed_end(entries, sweep.recordings)));
   sweep.fit_reason = describe_roles(sweep.roles);
+  sweep.repeats = compare_repeats(entries, sweep.recordings);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
   if (sweep.fit) {
     const Warnings& of_fit = sweep.fit->result.warnings;
     sweep.warnings.insert(sweep.warnings.end(), of_fit.begin(), of_fit.end());
   }
+  return sweep;
+}
+
+SweepAnalysis analyze_each(std::span<const SweepEntry> entries) {
+  SweepAnalysis sweep;
+  for (const SweepEntry& entry : entries) {
+    sweep.recordings.push_back(analyze(entry.recording));
+    sweep.roles.push_back(role_of(entry.recording, sweep.recordings.back()));
+  }
+  sweep.fit_reason = "each recording was analysed on its own; slipfit fit fits them together";
+  sweep.repeats = compare_repeats(entries, sweep.recordings);
   return sweep;
 }
 

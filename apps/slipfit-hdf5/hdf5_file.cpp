@@ -1,6 +1,7 @@
 #include <hdf5.h>
 
 #include <array>
+#include <fstream>
 #include <limits>
 
 #include "tables.hpp"
@@ -128,12 +129,23 @@ void add_array(hid_t file, const ArrayShape& shape, NumberTable& table) {
   }
 }
 
+/// The library resolves links in the path of a file that it opens itself; slipfit's has no path.
+hid_t open_in_memory(const std::string& file, std::uint64_t size) {
+  constexpr std::size_t kIncrement = std::size_t{1} << 20U;
+  std::vector<char> content(static_cast<std::size_t>(size));
+  std::ifstream(file, std::ios::binary).read(content.data(), static_cast<std::streamsize>(size));
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access, kIncrement, 0);
+  H5Pset_file_image(access, content.data(), content.size());
+  return H5Fopen("recording", H5F_ACC_RDONLY, access);
+}
+
 }  // namespace
 
 NumberTable read_hdf5(const std::string& file, std::uint64_t size, const std::optional<std::string>& variable,
                       std::string& chosen) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Handle opened(open_in_memory(file, size), H5Fclose);
   Visit visit;
   H5Ovisit2(opened, H5_INDEX_NAME, H5_ITER_NATIVE, note_dataset, &visit, H5O_INFO_BASIC);
   std::vector<ArrayShape> arrays;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <new>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "failure.hpp"
@@ -17,6 +18,7 @@
 #include "slipfit/report/html.hpp"
 #include "slipfit/report/json.hpp"
 #include "slipfit/report/text.hpp"
+#include "sweep_run.hpp"
 
 namespace {
 
@@ -105,6 +107,18 @@ void keep_freed_memory([[maybe_unused]] const std::string& file) {
 #endif
 }
 
+/// What is of one recording alone.
+void refuse_for_pieces(const AnalysisArguments& arguments) {
+  for (const auto& [option, is_given] : {std::pair{"--cycles", arguments.cycles.has_value()},
+                                         {"--curve", arguments.curve.has_value()},
+                                         {"--plots", arguments.plots.has_value()},
+                                         {"--timing", arguments.timing}}) {
+    if (!is_given) continue;
+    throw Failure(ExitCode::WrongUsage,
+                  fmt::format("{} is of one recording, and does not go with --strokes or --segments", option));
+  }
+}
+
 }  // namespace
 
 void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
@@ -128,4 +142,21 @@ void run_analysis(const AnalysisArguments& arguments,
   result.timing.read_s = read_s;
   result.timing.total_s = seconds_since(start);
   write_all_results(arguments, recording, result);
+}
+
+bool is_of_pieces(const AnalysisArguments& arguments) {
+  return arguments.recording.strokes || arguments.recording.segments;
+}
+
+void run_pieces(const AnalysisArguments& arguments,
+                const std::function<slipfit::SweepAnalysis(const std::vector<slipfit::SweepEntry>&)>& analysis) {
+  refuse_for_pieces(arguments);
+  const std::string& file = arguments.recording.file;
+  check_outputs(outputs_from(arguments), file);
+  const auto pieces =
+      slipfit::read_pieces(file, conditions_from(arguments.recording), read_options_from(arguments.recording));
+  if (!pieces) throw Failure(exit_code_for(pieces.error().code), pieces.error().message);
+  write_sweep(
+      {std::filesystem::path(file).stem().string(), arguments.document, arguments.report, arguments.command_line},
+      pieces.value(), analysis(pieces.value()));
 }

@@ -4,10 +4,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "output.hpp"
 #include "recording_options.hpp"
 #include "slipfit/pipeline.hpp"
+#include "slipfit/sweep.hpp"
 
 /// What `analyze` and `fit` share: which results to write, and where.
 struct AnalysisArguments {
@@ -26,3 +28,10 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments);
 /// Reads the recording, analyses it, writes every result that was asked for. Throws Failure.
 void run_analysis(const AnalysisArguments& arguments,
                   const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis);
+
+/// Whether the strokes or segments of the recording are to be read.
+bool is_of_pieces(const AnalysisArguments& arguments);
+
+/// The same of several recordings in one file. Throws Failure.
+void run_pieces(const AnalysisArguments& arguments,
+                const std::function<slipfit::SweepAnalysis(const std::vector<slipfit::SweepEntry>&)>& analysis);

@@ -8,5 +8,9 @@ void add_analyze_command(CLI::App& program, const std::string& command_line) {
   const auto arguments = std::make_shared<AnalysisArguments>();
   arguments->command_line = command_line;
   add_analysis_options(*command, *arguments);
-  command->callback([arguments] { run_analysis(*arguments, slipfit::analyze); });
+  command->callback([arguments] {
+    if (is_of_pieces(*arguments))
+      return run_pieces(*arguments, [](const auto& entries) { return analyze_each(entries); });
+    run_analysis(*arguments, slipfit::analyze);
+  });
 }

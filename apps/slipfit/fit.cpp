@@ -35,6 +35,16 @@ SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& co
           arguments.analysis.command_line};
 }
 
+/// The strokes or segments of one file as a joint fit.
+auto fit_together(const slipfit::FitOptions& options) {
+  return [options](const std::vector<slipfit::SweepEntry>& entries) {
+    for (const slipfit::SweepEntry& entry : entries) {
+      if (const auto error = check_joint(entry.recording)) throw Failure(ExitCode::WrongUsage, error->message);
+    }
+    return analyze_sweep(entries, options);
+  };
+}
+
 }  // namespace
 
 void add_fit_command(CLI::App& program, const std::string& command_line) {
@@ -53,13 +63,15 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
   command->add_option("--group", arguments->group, "With --joint: this group of the manifest");
   command->add_option("--only", arguments->only, "With --joint: these recordings (ID,ID,...)")->delimiter(',');
   command->callback([arguments, command] {
-    const FitKind kind = arguments->sweep ? FitKind::Sweep : FitKind::Single;
+    const bool is_of_several = arguments->sweep || is_of_pieces(arguments->analysis);
+    const FitKind kind = is_of_several ? FitKind::Sweep : FitKind::Single;
     slipfit::FitOptions options = fit_options_from(arguments->tier, arguments->fixed, kind);
     if (arguments->sweep) return run_sweep(sweep_arguments(*arguments, *command), options);
     if (arguments->group || !arguments->only.empty()) {
       throw Failure(ExitCode::WrongUsage, "--group and --only choose recordings of a manifest: give it with --joint");
     }
     if (arguments->analysis.recording.file.empty()) throw Failure(ExitCode::WrongUsage, "REC is required");
+    if (is_of_several) return run_pieces(arguments->analysis, fit_together(options));
     options.curve = arguments->analysis.curve || arguments->analysis.report || arguments->analysis.plots;
     run_analysis(arguments->analysis, [&options](const slipfit::Recording& recording) {
       return slipfit::analyze_and_fit(recording, options);

@@ -11,7 +11,6 @@
 #include "output.hpp"
 #include "recording_options.hpp"
 #include "slipfit/io/file_info.hpp"
-#include "slipfit/io/recording_reader.hpp"
 #include "slipfit/pipeline.hpp"
 
 namespace {
@@ -30,14 +29,8 @@ Inspection inspect(const RecordingArguments& arguments) {
   auto info = slipfit::inspect_recording(arguments.file, options);
   if (!info) throw Failure(ExitCode::BadRecording, info.error().message);
   Inspection inspection{std::move(info).value(), {}};
-  if (inspection.info.refusal) return inspection;
-  slipfit::Conditions conditions;
-  conditions.speed_m_per_s = inspection.info.taken.speed_m_per_s.value_or(1.0);
-  const auto recording = slipfit::read_recording(arguments.file, conditions, options);
-  if (recording) {
-    inspection.sliding_s.push_back(slipfit::analyze(recording.value()).sliding);
-  } else {
-    inspection.info.refusal = recording.error();
+  if (const auto& recording = inspection.info.recording) {
+    inspection.sliding_s.push_back(slipfit::analyze(*recording).sliding);
   }
   return inspection;
 }

@@ -2,17 +2,22 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "commands.hpp"
 #include "failure.hpp"
 #include "output.hpp"
+#include "slipfit/core/units.hpp"
 
 namespace {
 
@@ -49,6 +54,34 @@ void check_command(const CLI::App& program, const std::string& first_argument) {
   throw Failure(ExitCode::WrongUsage, "unknown command '" + first_argument + "', expected one of " + known);
 }
 
+bool is_unit(const std::string& text) {
+  for (const auto dimension :
+       {slipfit::Dimension::Time, slipfit::Dimension::Length, slipfit::Dimension::Speed, slipfit::Dimension::Force,
+        slipfit::Dimension::Frequency, slipfit::Dimension::Mass, slipfit::Dimension::AngularSpeed}) {
+    if (slipfit::parse_unit(text, dimension)) return true;
+  }
+  return false;
+}
+
+/// "--speed 10 mm/s" without quotes arrives as three words: a number behind an option and a unit, which no file is
+/// called, are one.
+std::vector<std::string> with_quantities_joined(const std::vector<std::string>& words) {
+  std::vector<std::string> joined;
+  for (const std::string& word : words) {
+    const bool is_behind_number = joined.size() >= 2 && joined[joined.size() - 2].starts_with("--") &&
+                                  joined[joined.size() - 2].find('=') == std::string::npos &&
+                                  slipfit::parse_quantity(joined.back(), slipfit::Dimension::Dimensionless) &&
+                                  slipfit::unit_in(joined.back()).empty();
+    std::error_code error;
+    if (is_behind_number && is_unit(word) && !std::filesystem::exists(word, error)) {
+      joined.back() += " " + word;
+    } else {
+      joined.push_back(word);
+    }
+  }
+  return joined;
+}
+
 int run(int argc, char** argv) {
   CLI::App program("Fits a stick-slip friction model to tribometer recordings", "slipfit");
   program.set_version_flag("--version", std::string("slipfit ") + SLIPFIT_VERSION);
@@ -70,7 +103,9 @@ int run(int argc, char** argv) {
   add_surface_command(program, typed_line);
   try {
     check_command(program, argc > 1 ? argv[1] : "");
-    program.parse(argc, argv);
+    std::vector<std::string> words = with_quantities_joined({argv + std::min(argc, 1), argv + argc});
+    std::reverse(words.begin(), words.end());  // as CLI11 takes them
+    program.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     return report_parse_result(program, error);
   } catch (const Failure& failure) {

@@ -21,6 +21,12 @@ std::string checked_unit(const std::string& option, const std::string& unit, Dim
   return unit;
 }
 
+std::string checked_force_scale(const std::string& text) {
+  if (slipfit::parse_force_scale(text)) return text;
+  throw Failure(ExitCode::WrongUsage,
+                fmt::format("--force-scale: bad '{}', expected newtons for a unit: '5 N/V'", text));
+}
+
 /// An option whose text is read by `read(option, text)`.
 template <class Target, class Read>
 CLI::Option* add_read_option(CLI::App& command, const std::string& option, Target& target, const Read& read,
@@ -82,6 +88,9 @@ void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
       "Sensor reading at no force (N); absolute forces need it");
   add_instrument_options(command, conditions);
   add_reading_options(command, options);
+  command.add_flag("--strokes{both}", arguments.strokes,
+                   "Reciprocating test: each stroke is a recording; --strokes=positive, =negative for one direction");
+  command.add_flag("--segments", arguments.segments, "Each stretch of one speed is a recording: a sweep in one file");
 }
 
 void add_reading_options(CLI::App& command, slipfit::ReadOptions& options) {
@@ -93,6 +102,10 @@ void add_reading_options(CLI::App& command, slipfit::ReadOptions& options) {
                   "Unit of the time column: ms, min");
   add_read_option(command, "--force-unit", options.force_unit, unit_of(Dimension::Force),
                   "Unit of the force column: mN, gf; 1 for a coefficient");
+  add_read_option(
+      command, "--force-scale", options.force_scale,
+      [](const std::string&, const std::string& text) { return checked_force_scale(text); },
+      "Force for a unit of what the force column holds: '5 N/V'");
   add_read_option(command, "--sample-rate", options.sample_rate_Hz, above_zero(Dimension::Frequency),
                   "Sampling rate (Hz), for a recording without a clock");
   command.add_option("--sheet", options.sheet, "Sheet of a workbook, file of a zip archive: name or 1-based number");
@@ -113,6 +126,17 @@ void add_reading_options(CLI::App& command, slipfit::ReadOptions& options) {
 
 slipfit::ReadOptions read_options_from(const RecordingArguments& arguments) {
   slipfit::ReadOptions options = arguments.options;
+  if (arguments.strokes) {
+    const auto strokes = slipfit::parse_strokes(*arguments.strokes);
+    if (!strokes || arguments.segments) {
+      throw Failure(ExitCode::WrongUsage,
+                    strokes
+                        ? "--strokes and --segments: give one of them"
+                        : fmt::format("--strokes: bad '{}', expected both, positive or negative", *arguments.strokes));
+    }
+    options.pieces = *strokes;
+  }
+  if (arguments.segments) options.pieces = slipfit::Pieces::Segments;
   if (arguments.radius) options.radius_m = positive_quantity("--radius", *arguments.radius, Dimension::Length);
   return options;
 }

@@ -16,6 +16,8 @@ struct RecordingArguments {
   std::optional<std::string> speed;
   std::optional<std::string> speed_uncertainty;
   std::optional<std::string> radius;
+  std::optional<std::string> strokes;
+  bool segments = false;
 };
 
 /// Text that is no value of its option throws Failure(WrongUsage).
@@ -24,7 +26,7 @@ void add_recording_options(CLI::App& command, RecordingArguments& arguments);
 /// What `ReadOptions` holds, but for the radius: which columns, units and part of the file to read.
 void add_reading_options(CLI::App& command, slipfit::ReadOptions& options);
 
-/// With the radius. Throws Failure(WrongUsage).
+/// With the radius, strokes and segments. Throws Failure(WrongUsage).
 slipfit::ReadOptions read_options_from(const RecordingArguments& arguments);
 
 /// With the speed, 0 where a column must tell it. Throws Failure(WrongUsage).

@@ -52,14 +52,20 @@ void run_sweep(const SweepArguments& arguments, const slipfit::FitOptions& optio
   const std::vector<ManifestEntry> manifest = read_manifest(arguments);
   for (const ManifestEntry& entry : manifest) check_outputs(outputs, entry.file.string());
   const std::vector<slipfit::SweepEntry> entries = read_recordings(manifest);
-  const slipfit::SweepAnalysis sweep = slipfit::analyze_sweep(entries, options);
+  write_sweep({name_of_fit(arguments), arguments.document, arguments.report, arguments.command_line}, entries,
+              slipfit::analyze_sweep(entries, options));
+}
+
+void write_sweep(const SweepDocument& document, const std::vector<slipfit::SweepEntry>& entries,
+                 const slipfit::SweepAnalysis& sweep) {
   slipfit::JsonOptions layout;
-  layout.id = name_of_fit(arguments);
-  write_results(arguments.document, outputs, [&](const std::string& option) {
+  layout.id = document.name;
+  const std::vector<OutputFile> outputs = outputs_of({{"--out", document.document.out}, {"--report", document.report}});
+  write_results(document.document, outputs, [&](const std::string& option) {
     if (option == "--report") {
-      return to_html(entries, sweep, predict_around(entries, sweep), {layout.id, arguments.command_line});
+      return to_html(entries, sweep, predict_around(entries, sweep), {layout.id, document.command_line});
     }
-    return arguments.document.json ? slipfit::to_json(entries, sweep, layout) + "\n"
-                                   : slipfit::to_text(entries, sweep, layout.id);
+    return document.document.json ? slipfit::to_json(entries, sweep, layout) + "\n"
+                                  : slipfit::to_text(entries, sweep, layout.id);
   });
 }

@@ -1,29 +1,33 @@
-#include <fmt/format.h>
-
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit {
 
+std::optional<Error> check_joint(const Recording& recording) {
+  const std::string& file = recording.provenance().file;
+  const Conditions& conditions = recording.conditions();
+  if (conditions.quantity != ForceQuantity::Force_N) {
+    return Error{"not_a_force", file +
+                                    ": holds a friction coefficient, and a joint fit needs forces: give the normal "
+                                    "force (normal_force_N in a manifest)"};
+  }
+  if (conditions.force_view == ForceView::Spring) return std::nullopt;
+  return Error{"view_not_spring", file +
+                                      ": force_view is not spring, and a joint fit knows the spring force only: fit "
+                                      "this recording on its own"};
+}
+
 Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manifest) {
   std::vector<SweepEntry> entries;
   for (const ManifestEntry& entry : manifest) {
-    auto recording = read_recording(entry.file, entry.conditions, entry.options);
-    if (!recording) return in_words_of_manifest(recording.error());
-    const Conditions& conditions = recording.value().conditions();
-    if (conditions.quantity != ForceQuantity::Force_N) {
-      return Error{"not_a_force", fmt::format("{}: holds a friction coefficient, and a joint fit needs forces: give "
-                                              "normal_force_N in the manifest",
-                                              entry.file.string())};
+    auto pieces = read_pieces(entry.file, entry.conditions, entry.options);
+    if (!pieces) return in_words_of_manifest(pieces.error());
+    for (NamedRecording& piece : std::move(pieces).value()) {
+      if (auto error = check_joint(piece.recording)) return *std::move(error);
+      piece.id = piece.id.empty() ? entry.id : entry.id + " " + piece.id;
+      entries.push_back(std::move(piece));
     }
-    if (conditions.force_view != ForceView::Spring) {
-      return Error{"view_not_spring",
-                   fmt::format("{}: force_view is not spring, and a joint fit knows the spring force only: fit this "
-                               "recording on its own",
-                               entry.file.string())};
-    }
-    entries.push_back({entry.id, std::move(recording).value()});
   }
   return entries;
 }

@@ -76,17 +76,30 @@ InputState compare_input(const DocumentJson& recording, const std::filesystem::p
   return digest == now->text() ? InputState::Same : InputState::Changed;
 }
 
+/// What the document says of each file; several recordings in a row may be of one.
+std::vector<DocumentJson> files_of(const DocumentJson& recordings) {
+  std::vector<DocumentJson> files;
+  for (const DocumentJson& recording : recordings) {
+    DocumentJson file = recording.value("recording", DocumentJson::object());
+    const auto name = [](const DocumentJson& json) { return json.value("file", DocumentJson()); };
+    if (files.empty() || name(files.back()) != name(file)) files.push_back(std::move(file));
+  }
+  return files;
+}
+
 /// Whether the files of a recording, or of a group's recordings, are those that a document was made of, by their sizes
 /// and digests.
-InputState compare_inputs(const std::string& document, const std::vector<std::filesystem::path>& inputs) {
+InputState compare_inputs(const std::string& document, std::vector<std::filesystem::path> inputs) {
   const DocumentJson json = DocumentJson::parse(document, nullptr, false);
   if (!json.is_object()) return InputState::Changed;
   const DocumentJson recordings =
       json.contains("recording") ? DocumentJson::array({json}) : json.value("recordings", DocumentJson::array());
-  if (recordings.size() != inputs.size()) return InputState::Changed;
+  const std::vector<DocumentJson> files = files_of(recordings);
+  inputs.erase(std::unique(inputs.begin(), inputs.end()), inputs.end());
+  if (files.size() != inputs.size()) return InputState::Changed;
   InputState state = InputState::Same;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const InputState found = compare_input(recordings[i].value("recording", DocumentJson::object()), inputs[i]);
+    const InputState found = compare_input(files[i], inputs[i]);
     if (found == InputState::Changed) return found;
     if (found == InputState::Gone) state = found;
   }
@@ -106,7 +119,19 @@ std::string name_of(const WorkItem& item) {
   return one_line(item.inputs.size() == 1 ? item.inputs.front().string() : item.key.id);
 }
 
+/// Of a row with strokes: a fit of all of them, as of a group.
+Result<BatchFit> fit_pieces_of(const ManifestEntry& entry, const BatchOptions& options) {
+  auto fit = group_fit(options.fit, options.report)(entry.id, {entry});
+  if (!fit) return fit;
+  BatchFit result = std::move(fit).value();
+  if (!options.report) return result;
+  const auto pieces = read_pieces(entry.file, entry.conditions, entry.options);
+  if (pieces) result.sparkline = sparkline_of(pieces.value().front().recording);
+  return result;
+}
+
 Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions& options) {
+  if (entry.options.pieces != Pieces::One) return fit_pieces_of(entry, options);
   const auto read = read_recording(entry.file, entry.conditions, entry.options);
   if (!read) return in_words_of_manifest(read.error());
   const Recording& recording = read.value();

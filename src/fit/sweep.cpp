@@ -181,6 +181,7 @@ class Assembler {
       findings.damping_doubt = "holds for Coulomb friction only: the recordings share no level or static friction";
     }
     findings.law = fit::LawFindings{choice.velocity, choice.reason, outcome_.static_friction == StaticFriction::Ages};
+    findings.law->at_one_speed = speed_ratio(recordings_) < thresholds::kLeastSpeedRatio;
     if (data_.loads_known) findings.law->reference_normal_force_N = reference_normal_force_N();
     return findings;
   }

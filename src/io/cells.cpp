@@ -40,7 +40,33 @@ Parsed parse_point(std::string_view text) {
   return parsed;
 }
 
+/// Characters of "-1.234.567": points between groups of three digits; 0 where there is no such point.
+std::size_t length_of_groups(std::string_view text) {
+  std::size_t at = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
+  const auto digits = [&] {
+    std::size_t count = 0;
+    while (at < text.size() && is_digit(text[at])) ++at, ++count;
+    return count;
+  };
+  if (at < text.size() && text[at] == '0') return 0;
+  const std::size_t first = digits();
+  if (first < 1 || first > 3) return 0;
+  const std::size_t begin = at;
+  while (at < text.size() && text[at] == '.') {
+    ++at;
+    if (digits() != 3) return 0;
+  }
+  return at > begin ? at : 0;
+}
+
 Parsed parse_comma(std::string_view text) {
+  if (const std::size_t groups = length_of_groups(text); groups > 0 && text.size() <= kLongestNumber) {
+    std::string plain(text.substr(0, groups));
+    const std::size_t points = std::erase(plain, '.');
+    Parsed parsed = parse_comma(plain.append(text.substr(groups)));
+    if (parsed.length > 0) parsed.length += points;
+    return parsed;
+  }
   std::array<char, kLongestNumber> copy{};
   const std::size_t length = std::min(text.size(), copy.size());
   if (text.substr(0, length).find('.') != std::string_view::npos) {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/unit_text.hpp"
 #include "io/column_search.hpp"
 #include "io/message.hpp"
 #include "io/side_columns.hpp"
@@ -126,7 +127,8 @@ std::string counted_clock_sentence(const Layout& layout, double sample_rate_Hz) 
 }
 
 /// Candidates for the force, best first in rank; a "load" beside a friction coefficient is the normal load.
-std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<std::size_t> time) {
+std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<std::size_t> time,
+                                          const std::optional<std::string>& force_scale) {
   const auto is_usable = [&](const Column& column, std::size_t c) {
     return column.may_be_numeric() && (!time || *time != c);
   };
@@ -140,6 +142,15 @@ std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<st
   if (forces.size() > 1) forces = those_of_coefficient(layout, std::move(forces));
   if (!forces.empty()) return forces;
   if (!coefficients.empty()) return coefficients;
+  if (force_scale) {
+    const auto scale = parse_force_scale(*force_scale);
+    const auto of_scale = scale ? read_unit(scale->unit) : std::nullopt;
+    forces = best_columns(layout, [&](const Column& column, std::size_t c) {
+      const auto unit = read_unit(column.name.unit);
+      return is_usable(column, c) && unit && of_scale && unit->powers == of_scale->powers ? 1 : 0;
+    });
+    if (!forces.empty()) return forces;
+  }
   return best_columns(layout, [&](const Column& column, std::size_t c) {
     if (!is_usable(column, c) || column.name.role != Role::Unknown || !column.is_numeric()) return 0;
     const bool is_counter = column.is_whole && column.is_regular;  // line numbers
@@ -150,7 +161,7 @@ std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<st
 Result<std::size_t> choose_force(const Request& request, std::optional<std::size_t> time) {
   const auto& [layout, options, file, speed_m_per_s] = request;
   if (options.force_column) return find_column(layout, *options.force_column, "--force-column", file);
-  auto candidates = force_candidates(layout, time);
+  auto candidates = force_candidates(layout, time, options.force_scale);
   const auto varies = [&](std::size_t c) { return request.layout.columns[c].varies; };
   if (std::count_if(candidates.begin(), candidates.end(), varies) == 1) {
     candidates = {*std::find_if(candidates.begin(), candidates.end(), varies)};
@@ -170,9 +181,27 @@ Result<std::size_t> choose_force(const Request& request, std::optional<std::size
   return candidates.front();
 }
 
+/// Of a voltage and its like, by what the user says a unit of it is. Without a unit in the file it is that of the
+/// scale.
+Result<Channel> scaled_channel(const Request& request, std::size_t column, const std::string& text) {
+  const auto scale = parse_force_scale(text);
+  const std::string described = describe(request.layout, column);
+  const std::string& named = request.layout.columns[column].name.unit;
+  const std::string unit = request.options.force_unit.value_or(named.empty() && scale ? scale->unit : named);
+  const auto of_column = read_unit(unit);
+  const auto of_scale = scale ? read_unit(scale->unit) : std::nullopt;
+  if (!of_scale || !of_column || of_scale->powers != of_column->powers) {
+    return unit_error(request, column, fmt::format("'{}' does not go with --force-scale '{}'", unit, text),
+                      "--force-unit");
+  }
+  return Channel{column, of_column->factor * scale->N_per_SI, ForceQuantity::Force_N,
+                 fmt::format("Force is {}, in {}, at {} (as told).", described, printable(unit), printable(text))};
+}
+
 /// The unit decides between force and coefficient; without one the name does.
 Result<Channel> force_channel(const Request& request, std::size_t column) {
   const ColumnName& name = request.layout.columns[column].name;
+  if (request.options.force_scale) return scaled_channel(request, column, *request.options.force_scale);
   const bool is_told = request.options.force_unit.has_value();
   const std::string unit = is_told ? *request.options.force_unit : name.unit;
   const std::string described = describe(request.layout, column);
@@ -191,7 +220,12 @@ Result<Channel> force_channel(const Request& request, std::size_t column) {
                    fmt::format("Force is {}, {}.", described, in_unit)};
   }
   const auto as_number = parse_unit(unit, Dimension::Dimensionless);
-  if (!as_number) return unit_error(request, column, as_force.error().message, "--force-unit");
+  if (!as_number) {
+    const auto known = read_unit(unit);
+    const bool is_volt = known && known->powers == kVolt;
+    return unit_error(request, column, as_force.error().message,
+                      is_volt ? "--force-scale '5 N/V' (newtons a volt of this sensor)" : "--force-unit");
+  }
   return Channel{column, as_number.value().scale, ForceQuantity::FrictionCoefficient,
                  fmt::format("Friction coefficient is {}, {}.", described, in_unit)};
 }

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "io/layout.hpp"
+#include "io/short_decimal.hpp"
 
 namespace slipfit::reading {
 namespace {
@@ -122,6 +123,26 @@ std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines) 
     return Dialect{'\0', true};
   }
   return best;
+}
+
+bool is_comma_twice(const std::vector<std::string_view>& lines, const Layout& layout) {
+  const std::size_t columns = layout.columns.size();
+  const bool are_whole = std::all_of(layout.columns.begin(), layout.columns.end(), [](const Column& column) {
+    return column.is_whole && column.clocks == 0 && column.texts == 0;
+  });
+  if (layout.dialect.delimiter != ',' || layout.dialect.decimal_comma || !are_whole || columns < 3) return false;
+  bool has_zero_in_front = false;  // "001" is no whole number that anybody writes
+  for (std::size_t i = layout.first_data_line - 1; i < lines.size(); ++i) {
+    if (lines[i].find('.') != std::string_view::npos) return false;
+    for (const std::string_view cell : split(lines[i], ',')) {
+      has_zero_in_front = has_zero_in_front || (cell.size() > 1 && cell[0] == '0' && is_digit(cell[1]));
+    }
+  }
+  std::size_t above = layout.first_data_line - 1;
+  while (above > 0 && trim(lines[above - 1]).empty()) --above;
+  const std::size_t names = above > 0 ? split(lines[above - 1], ',').size() : 0;
+  return names > 1 && names < columns ? columns == 2 * names || has_zero_in_front
+                                      : has_zero_in_front && names != columns && columns % 2 == 0;
 }
 
 }  // namespace slipfit::reading

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "core/clock_step.hpp"
+#include "io/build.hpp"
 #include "io/columns.hpp"
 #include "io/levels.hpp"
 #include "io/message.hpp"
 #include "io/opened_file.hpp"
 #include "io/part.hpp"
-#include "io/rows.hpp"
 #include "io/sign.hpp"
 #include "io/steps.hpp"
 
@@ -91,7 +91,6 @@ Choice choice_for(const Layout& layout, const ReadOptions& options, FileInfo& in
   auto chosen = choose_columns(layout, options, 0.0, file);
   if (chosen) {
     info.taken = taken_columns(layout, chosen.value());
-    info.assumed = chosen.value().assumed;
     return std::move(chosen).value();
   }
   info.refusal = chosen.error();
@@ -102,40 +101,50 @@ Choice choice_for(const Layout& layout, const ReadOptions& options, FileInfo& in
   return any;
 }
 
+/// The recording that would be read, where it can be; at any speed where no column tells it.
+void add_recording(FileInfo& info, Part part, const LoadedFile& file) {
+  info.strokes = std::max<std::size_t>(1, find_strokes(part.rows.force).size());
+  Conditions conditions;
+  conditions.speed_m_per_s = info.taken.speed_m_per_s.value_or(1.0);
+  auto recording = build_recording(std::move(part), file, conditions);
+  if (recording) {
+    info.recording = std::move(recording).value();
+  } else {
+    info.refusal = recording.error();
+  }
+}
+
 Result<FileInfo> inspect(const std::filesystem::path& path, const std::string& name, const ReadOptions& options) {
   if (const auto error = check_options(options, name)) return *error;
   auto opened = open_file(path, options);
   if (!opened) return opened.error();
-  OpenedFile file = std::move(opened).value();
   FileInfo info;
-  info.columns = columns_of(file.layout);
-  const std::vector<std::string> packed = file.source->assumed();
-  const Choice choice = choice_for(file.layout, options, info, name);
-  const RowPlan plan{file.layout, choice, options.sample_rate_Hz.value_or(1.0), options.rows, {}, 0};
-  Rows rows = read_rows(name, std::move(file.source), plan);
-  info.rows = rows.count;
-  const bool has_clock = choice.time || options.sample_rate_Hz;
-  const std::vector<Step> steps = find_steps(rows);
-  info.steps = infos_of(rows, steps, has_clock);
-  info.is_one_recording = rows.time_s.empty() || are_one_recording(rows, steps);
-  auto part = take_part(std::move(rows), options, name);
+  info.columns = columns_of(opened.value().layout);
+  Choice choice = choice_for(opened.value().layout, options, info, name);
+  LoadedFile file = load_rows(std::move(opened).value(), std::move(choice), options);
+  info.rows = file.rows.count;
+  const bool has_clock = file.choice.time || options.sample_rate_Hz;
+  const std::vector<Step> steps = find_steps(file.rows);
+  info.steps = infos_of(file.rows, steps, has_clock);
+  info.is_one_recording = file.rows.time_s.empty() || are_one_recording(file.rows, steps);
+  info.assumed = file.choice.assumed;
+  auto part = take_part(std::move(file.rows), options, name);
   if (!part) return part.error();
   const Rows& taken = part.value().rows;
   const double step_s = median_positive_step(taken.time_s);
   if (has_clock && step_s > 0.0) info.sample_rate_Hz = 1.0 / step_s;
-  if (!info.refusal) info.strokes = count_strokes(taken.force);
   const auto speed = level_of(taken.speed_m_per_s);
   if (speed && speed->is_steady) info.taken.speed_m_per_s = speed->value;
-  info.assumed.insert(info.assumed.begin(), packed.begin(), packed.end());
   const std::vector<std::string>& assumed = part.value().assumed;
   info.assumed.insert(info.assumed.end(), assumed.begin(), assumed.end());
+  if (!info.refusal) add_recording(info, std::move(part).value(), file);
   return info;
 }
 
 }  // namespace
 
 Result<FileInfo> inspect_recording(const std::filesystem::path& file, const ReadOptions& options) {
-  const std::string name = printable(file.string());
+  const std::string name = name_of_file(file);
   return with_errors_of_reading(name, [&] { return inspect(file, name, options); });
 }
 

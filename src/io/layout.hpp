@@ -53,6 +53,9 @@ std::vector<std::string_view> choose_samples(const std::vector<std::string_view>
 /// The dialect under which most of the lines are rows of numbers; nothing where none makes any.
 std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines);
 
+/// Whether the comma parts the columns and is the decimal sign, too: "0,001,0,51" below two names.
+bool is_comma_twice(const std::vector<std::string_view>& lines, const Layout& layout);
+
 /// Nothing where the lines hold no rows of numbers.
 std::optional<Layout> find_layout(const std::vector<std::string_view>& lines);
 

@@ -66,6 +66,17 @@ std::optional<Level> level_of(std::span<const double> values) {
   return level;
 }
 
+std::vector<double> block_speeds_m_per_s(std::span<const double> time_s, std::span<const double> displacement_m,
+                                         std::size_t blocks) {
+  const std::size_t step = std::max<std::size_t>(1, time_s.size() / blocks);
+  std::vector<double> speeds;
+  for (std::size_t i = step; i < time_s.size(); i += step) {
+    const double speed = std::abs(displacement_m[i] - displacement_m[i - step]) / (time_s[i] - time_s[i - step]);
+    if (std::isfinite(speed)) speeds.push_back(speed);
+  }
+  return speeds;
+}
+
 std::vector<SampleRange> stretches_of_levels(std::span<const double> values, double tolerance) {
   const auto blocks = block_medians(values);
   const std::size_t size = block_size(values.size());

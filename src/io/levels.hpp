@@ -18,6 +18,10 @@ struct Level {
 /// holds nothing but zeros or no numbers.
 std::optional<Level> level_of(std::span<const double> values);
 
+/// How fast a displacement moves in each of so many parts, without sign; parts without a duration are left out.
+std::vector<double> block_speeds_m_per_s(std::span<const double> time_s, std::span<const double> displacement_m,
+                                         std::size_t blocks);
+
 /// Samples [begin, end).
 struct SampleRange {
   std::size_t begin = 0;

@@ -37,7 +37,7 @@ char delimiter_of(std::string_view names) {
 class ManifestReader::Implementation {
  public:
   Implementation(const std::filesystem::path& file, std::unique_ptr<TextSource> source)
-      : name_(printable(file.string())), folder_(file.parent_path()), lines_(name_.c_str(), std::move(source)) {}
+      : name_(name_of_file(file)), folder_(file.parent_path()), lines_(name_.c_str(), std::move(source)) {}
 
   std::optional<Error> read_names() {
     const auto line = next_line();
@@ -143,7 +143,7 @@ const std::vector<std::string>& ManifestReader::ignored_columns() const {
 
 Result<std::vector<ManifestEntry>> read_manifest_group(const std::filesystem::path& file,
                                                        const std::optional<std::string>& group) {
-  const std::string name = printable(file.string());
+  const std::string name = name_of_file(file);
   auto reader = ManifestReader::open(file);
   if (!reader) return reader.error();
   ManifestReader rows = std::move(reader).value();

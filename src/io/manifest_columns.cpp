@@ -15,11 +15,8 @@
 namespace slipfit::reading {
 namespace {
 
-using SetNumber = void (*)(ManifestEntry&, double);
-using SetText = std::optional<Error> (*)(ManifestEntry&, const std::string&);
-
-Error refusal(const char* code, const std::string& cell, const char* expected) {
-  return {code, fmt::format("bad value '{}', expected {}", printable(cell), expected)};
+std::optional<Error> refusal(const char* code, const std::string& cell, const char* expected) {
+  return Error{code, fmt::format("bad value '{}', expected {}", printable(cell), expected)};
 }
 
 std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell) {
@@ -76,14 +73,23 @@ std::optional<Error> set_step(ManifestEntry& entry, const std::string& cell) {
 
 std::optional<Error> set_rows(ManifestEntry& entry, const std::string& cell) {
   entry.options.rows = parse_row_range(cell);
-  if (!entry.options.rows) return refusal("bad_rows", cell, "A:B with 1 <= A < B, rows counted from 1");
-  return std::nullopt;
+  return entry.options.rows ? std::nullopt : refusal("bad_rows", cell, "A:B with 1 <= A < B, rows counted from 1");
 }
 
 std::optional<Error> set_where(ManifestEntry& entry, const std::string& cell) {
   entry.options.where = parse_column_value(cell);
-  if (!entry.options.where) return refusal("bad_where", cell, "COLUMN=VALUE");
-  return std::nullopt;
+  return entry.options.where ? std::nullopt : refusal("bad_where", cell, "COLUMN=VALUE");
+}
+
+std::optional<Error> set_strokes(ManifestEntry& entry, const std::string& cell) {
+  const auto strokes = parse_strokes(cell);
+  entry.options.pieces = strokes.value_or(Pieces::One);
+  return strokes ? std::nullopt : refusal("bad_strokes", cell, "both, positive or negative");
+}
+
+std::optional<Error> set_force_scale(ManifestEntry& entry, const std::string& cell) {
+  entry.options.force_scale = cell;
+  return parse_force_scale(cell) ? std::nullopt : refusal("unknown_unit", cell, "newtons for a unit, such as 5 N/V");
 }
 
 template <auto Conditions::*target>
@@ -99,8 +105,8 @@ struct ManifestField {
   std::string_view suffix{};             ///< behind the base: the SI unit of the full name
   std::optional<Dimension> dimension{};  ///< empty: text
   Bound bound = Bound::None;
-  SetNumber set_number = nullptr;  ///< nothing and `dimension`: a window
-  SetText set_text = nullptr;
+  void (*set_number)(ManifestEntry&, double) = nullptr;  ///< nothing and `dimension`: a window
+  std::optional<Error> (*set_text)(ManifestEntry&, const std::string&) = nullptr;
   std::string_view option{};  ///< of the command line, that says the same
   bool is_needed = false;
   bool may_be_empty = false;  ///< although the column is needed
@@ -135,6 +141,8 @@ constexpr std::array kFields = std::to_array<ManifestField>({
     {.base = "step", .set_text = set_step, .option = "--step"},
     {.base = "rows", .set_text = set_rows, .option = "--rows"},
     {.base = "where", .set_text = set_where, .option = "--where"},
+    {.base = "strokes", .set_text = set_strokes, .option = "--strokes"},
+    {.base = "force_scale", .set_text = set_force_scale, .option = "--force-scale"},
     {.base = "time_unit", .set_text = set_unit<Dimension::Time, &ReadOptions::time_unit>, .option = "--time-unit"},
     {.base = "force_unit", .set_text = set_unit<Dimension::Force, &ReadOptions::force_unit>, .option = "--force-unit"},
     {"sample_rate", "_Hz", Dimension::Frequency, Bound::AboveZero,
@@ -166,8 +174,7 @@ std::optional<UnitText> unit_behind(std::string_view name, std::string_view base
   if (rest.size() > 2 && ((rest.front() == '[' && rest.back() == ']') || (rest.front() == '(' && rest.back() == ')'))) {
     return UnitText{std::string(trim(rest.substr(1, rest.size() - 2))), true};
   }
-  if (rest.front() == '_') return UnitText{spelled_out(rest.substr(1)), false};
-  return std::nullopt;
+  return rest.front() == '_' ? std::optional(UnitText{spelled_out(rest.substr(1)), false}) : std::nullopt;
 }
 
 /// Nothing where the name is unknown. Error: unknown_unit, in brackets only ("speed_old" is some other column).
@@ -201,12 +208,11 @@ Result<double> number_in(const std::string& text, const ManifestColumn& column, 
                          bool decimal_comma) {
   if (!column.scale) {
     Result<double> value = parse_quantity(text, *column.field->dimension);
-    if (value) return value;
-    return Error{value.error().code, printable(value.error().message)};
+    return value ? value : Result<double>(Error{value.error().code, printable(value.error().message)});
   }
   const Cell number = read_cell(text, decimal_comma && text.find(',') != std::string::npos);
   if (number.kind == CellKind::Number && number.tag.empty()) return number.value * *column.scale;
-  return refusal("bad_number", cell, "a plain number, in the unit that the column's name gives");
+  return *refusal("bad_number", cell, "a plain number, in the unit that the column's name gives");
 }
 
 std::optional<Error> set_number(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell,
@@ -214,9 +220,8 @@ std::optional<Error> set_number(ManifestEntry& entry, const ManifestColumn& colu
   const Result<double> number = number_in(cell, column, cell, decimal_comma);
   if (!number) return number.error();
   const Bound bound = column.field->bound;
-  if (bound == Bound::AboveZero && !(number.value() > 0.0)) {
-    return refusal("out_of_range", cell, "a number above zero");
-  }
+  const bool is_too_low = bound == Bound::AboveZero && !(number.value() > 0.0);
+  if (is_too_low) return refusal("out_of_range", cell, "a number above zero");
   if (bound == Bound::NotNegative && number.value() < 0.0) return refusal("out_of_range", cell, "zero or more");
   column.field->set_number(entry, number.value());
   if (column.field->base == "speed") entry.conditions.speed_unit = column.scale ? column.unit : unit_in(cell);
@@ -225,7 +230,7 @@ std::optional<Error> set_number(ManifestEntry& entry, const ManifestColumn& colu
 
 std::optional<Error> set_window(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell,
                                 bool decimal_comma) {
-  const Error wrong = refusal("bad_window", cell, "T0:T1 with T0 < T1, on the recording's own clock");
+  const auto wrong = refusal("bad_window", cell, "T0:T1 with T0 < T1, on the recording's own clock");
   const std::size_t colon = cell.find(':');
   if (colon == std::string::npos) return wrong;
   const Result<double> begin_s = number_in(cell.substr(0, colon), column, cell, decimal_comma);

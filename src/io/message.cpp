@@ -49,6 +49,10 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string name_of_file(const std::filesystem::path& file) {
+  return file == "-" ? "standard input" : printable(file.string());
+}
+
 std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,9 @@ std::string to_utf8(std::string_view text);
 
 /// One line of valid UTF-8: control characters are shown as \n, \t or \x1b.
 std::string printable(std::string_view text);
+
+/// As messages and reports show it; "-" is standard input.
+std::string name_of_file(const std::filesystem::path& file);
 
 /// "1 row", "12 rows".
 std::string counted(std::size_t count, std::string_view noun);

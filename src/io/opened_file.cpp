@@ -8,6 +8,8 @@
 #include <new>
 #include <utility>
 
+#include "io/column_search.hpp"
+#include "io/columns.hpp"
 #include "io/line_reader.hpp"
 #include "io/message.hpp"
 
@@ -16,14 +18,24 @@ namespace {
 
 constexpr std::size_t kHead = std::size_t{64} * 1024;
 constexpr std::size_t kLongHead = std::size_t{4} * 1024 * 1024;  // for a preamble that fills the first part
-constexpr std::size_t kLongestLine = kLongHead / 4;              // of a file without rows of numbers in its head
+constexpr std::size_t kMostShown = 40;
+constexpr std::size_t kLongestLine = kLongHead / 4;  // of a file without rows of numbers in its head
 
 Result<Layout> layout_of_head(TextSource& source, const std::string& file) {
   for (const std::size_t size : {kHead, kLongHead}) {
     auto lines = split_lines(source.head(size));
     const std::size_t last_length = lines.empty() ? 0 : lines.back().size();
     if (!source.head_is_everything() && !lines.empty()) lines.pop_back();  // may be cut
-    if (auto layout = find_layout(lines)) return *std::move(layout);
+    if (auto layout = find_layout(lines)) {
+      if (!is_comma_twice(lines, *layout)) return *std::move(layout);
+      return Error{
+          "comma_twice",
+          fmt::format("{}:{}: the comma parts the columns and is the decimal sign, too ('{}'), so that columns "
+                      "cannot be told from decimals; export with semicolons or tabs between the columns, or "
+                      "with decimal points",
+                      file, layout->first_data_line,
+                      printable(lines[layout->first_data_line - 1].substr(0, kMostShown)))};
+    }
     if (!source.head_is_everything() && last_length > kLongestLine) {
       return Error{"line_too_long", fmt::format("{}:{}: the line is longer than {} MB, which is too many columns; a "
                                                 "recording is text with a row a line, of a time and a force",
@@ -40,11 +52,34 @@ Result<Layout> layout_of_head(TextSource& source, const std::string& file) {
                                         "a column of times and one of forces"};
 }
 
+constexpr std::size_t kMostReserved = std::size_t{1} << 27;
+
+std::size_t expected_rows(const OpenedFile& file, const ReadOptions& options) {
+  if (options.window || options.rows || options.where) return 0;
+  return std::min(kMostReserved, static_cast<std::size_t>(1.02 * static_cast<double>(file.source->estimated_size()) /
+                                                          std::max(1.0, file.layout.mean_line_length)));
+}
+
+/// A column of friction coefficients beside one of normal forces: their products are the force.
+void make_forces(Rows& rows, Choice& choice, const Layout& layout) {
+  if (choice.force.quantity != ForceQuantity::FrictionCoefficient || !choice.normal_force) return;
+  std::vector<std::size_t> known;
+  for (std::size_t i = 0; i < rows.force.size(); ++i) {
+    rows.force[i] *= rows.normal_force_N[i];
+    if (std::isfinite(rows.force[i])) known.push_back(i);
+  }
+  rows.without_number += rows.force.size() - known.size();
+  if (known.size() < rows.force.size()) rows.keep(known);
+  choice.force.quantity = ForceQuantity::Force_N;
+  choice.assumed.push_back(
+      fmt::format("Force is the friction coefficient times {}.", describe(layout, choice.normal_force->column)));
+}
+
 }  // namespace
 
 Result<OpenedFile> open_file(const std::filesystem::path& path, const ReadOptions& options) {
   OpenedFile file;
-  file.name = printable(path.string());
+  file.name = name_of_file(path);
   auto source = TextSource::open(path, {options.sheet, options.variable});
   if (!source) return source.error();
   file.source = std::move(source).value();
@@ -52,6 +87,29 @@ Result<OpenedFile> open_file(const std::filesystem::path& path, const ReadOption
   if (!layout) return layout.error();
   file.layout = std::move(layout).value();
   return file;
+}
+
+LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options) {
+  const std::vector<std::string>& packed = file.source->assumed();
+  choice.assumed.insert(choice.assumed.begin(), packed.begin(), packed.end());
+  // The steps are counted over the whole file: with one of them the window is cut from it later.
+  const std::optional<TimeWindow> window = options.step ? std::nullopt : options.window;
+  const RowPlan plan{file.layout,  choice, options.sample_rate_Hz.value_or(1.0),
+                     options.rows, window, expected_rows(file, options)};
+  Warnings warnings = file.source->warnings();
+  Rows rows = read_rows(file.name, std::move(file.source), plan);
+  make_forces(rows, choice, file.layout);
+  return {std::move(file.name), std::move(file.layout), std::move(choice), options,
+          std::move(rows),      std::move(warnings)};
+}
+
+Result<LoadedFile> load_file(const std::filesystem::path& path, double speed_m_per_s, const ReadOptions& options) {
+  if (const auto error = check_options(options, name_of_file(path))) return *error;
+  auto opened = open_file(path, options);
+  if (!opened) return opened.error();
+  auto choice = choose_columns(opened.value().layout, options, speed_m_per_s, opened.value().name);
+  if (!choice) return choice.error();
+  return load_rows(std::move(opened).value(), std::move(choice).value(), options);
 }
 
 std::optional<Error> check_options(const ReadOptions& options, const std::string& file) {

@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "io/choice.hpp"
 #include "io/layout.hpp"
+#include "io/rows.hpp"
 #include "io/text_source.hpp"
 #include "slipfit/core/result.hpp"
 #include "slipfit/io/read_options.hpp"
@@ -21,6 +23,23 @@ struct OpenedFile {
 
 /// Errors: those of TextSource, no_numeric_column, line_too_long, empty_file.
 Result<OpenedFile> open_file(const std::filesystem::path& path, const ReadOptions& options);
+
+/// A file whose rows are read, and what was asked for.
+struct LoadedFile {
+  std::string name;
+  Layout layout;
+  Choice choice;
+  ReadOptions options;
+  Rows rows;
+  Warnings warnings;  ///< of what the text was packed in
+};
+
+/// Reads the rows. With a window of the options that comes before the steps, what lies outside is not even kept.
+LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options);
+
+/// The same of the columns that the options and names tell. Errors: those of open_file, check_options and
+/// choose_columns.
+Result<LoadedFile> load_file(const std::filesystem::path& path, double speed_m_per_s, const ReadOptions& options);
 
 /// The rows of --rows and --window that cannot be. Errors: bad_window, bad_rows, bad_sample_rate.
 std::optional<Error> check_options(const ReadOptions& options, const std::string& file);

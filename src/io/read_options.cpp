@@ -1,8 +1,11 @@
 #include "slipfit/io/read_options.hpp"
 
 #include <charconv>
+#include <cmath>
 
+#include "core/unit_text.hpp"
 #include "io/cells.hpp"
+#include "slipfit/core/units.hpp"
 
 namespace slipfit {
 
@@ -14,6 +17,22 @@ std::optional<RowRange> parse_row_range(std::string_view text) {
   const auto [stop, last_error] = std::from_chars(colon + 1, end, rows.last);
   const bool is_range = last_error == std::errc() && stop == end && rows.first >= 1 && rows.first < rows.last;
   return is_range ? std::optional(rows) : std::nullopt;
+}
+
+std::optional<Pieces> parse_strokes(std::string_view text) {
+  if (text.empty() || text == "both") return Pieces::Strokes;
+  if (text == "positive") return Pieces::PositiveStrokes;
+  return text == "negative" ? std::optional(Pieces::NegativeStrokes) : std::nullopt;
+}
+
+std::optional<ForceScale> parse_force_scale(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  const std::string_view unit = reading::trim(text.substr(slash + 1));
+  const auto force = parse_quantity(text.substr(0, slash), Dimension::Force);
+  const auto per = read_unit(unit);
+  if (!force || !per || !(std::abs(force.value()) > 0.0)) return std::nullopt;
+  return ForceScale{force.value() / per->factor, std::string(unit)};
 }
 
 std::optional<ColumnValue> parse_column_value(std::string_view text) {

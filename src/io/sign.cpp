@@ -27,16 +27,32 @@ double level_90(std::span<const double> force) {
   return quantile_of(std::move(sizes), 0.9);
 }
 
-/// Changes from beyond +threshold to beyond -threshold and back.
-std::size_t count_turns(std::span<const double> force, double threshold) {
-  std::size_t turns = 0;
-  int side = 0;
-  for (const double f : force) {
-    const int now = f > threshold ? 1 : f < -threshold ? -1 : side;
-    if (side != 0 && now != side) ++turns;
-    side = now;
+/// From the first to behind the last sample beyond the threshold on either side in turn.
+std::vector<Stroke> sides_of(std::span<const double> force, double threshold) {
+  std::vector<Stroke> sides;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    if (!(std::abs(force[i]) > threshold)) continue;
+    const bool is_positive = force[i] > 0.0;
+    if (sides.empty() || sides.back().is_positive != is_positive) sides.push_back({i, i, is_positive});
+    sides.back().end = i + 1;
   }
-  return turns;
+  return sides;
+}
+
+/// The force turns at the rate of the spring: from the rate through zero follows how long it takes from the highest
+/// level. Half as much again, as it bends near sliding, and a twentieth of the stroke at least.
+Stroke without_ends(Stroke stroke, std::span<const double> force, double samples_through_zero, double threshold) {
+  constexpr double kReserve = 1.5;
+  constexpr double kLeast = 0.05;
+  std::vector<double> sizes;
+  for (const double f : force.subspan(stroke.begin, stroke.end - stroke.begin)) sizes.push_back(std::abs(f));
+  const double rise = quantile_of(std::move(sizes), 0.95) - threshold;
+  const auto length = static_cast<double>(stroke.end - stroke.begin);
+  const auto ends = static_cast<std::size_t>(
+      std::ceil(std::max(kReserve * rise * samples_through_zero / (2.0 * threshold), kLeast * length)));
+  const bool is_left = 4 * ends < stroke.end - stroke.begin;
+  return is_left ? Stroke{stroke.begin + ends, stroke.end - ends, stroke.is_positive}
+                 : Stroke{stroke.begin, stroke.begin, stroke.is_positive};
 }
 
 std::size_t count_negative(std::span<const double> force) {
@@ -45,19 +61,26 @@ std::size_t count_negative(std::span<const double> force) {
 
 }  // namespace
 
-std::size_t count_strokes(std::span<const double> force) {
+std::vector<Stroke> find_strokes(std::span<const double> force) {
   const auto samples = static_cast<double>(force.size());
   const auto negative = static_cast<double>(count_negative(force));
-  if (std::min(negative, samples - negative) < kLeastOfEitherSign * samples) return 1;
+  if (std::min(negative, samples - negative) < kLeastOfEitherSign * samples) return {};
   const double near = kNear * level_90(force);
   const auto near_zero = std::count_if(force.begin(), force.end(), [&](double f) { return std::abs(f) < near; });
-  if (static_cast<double>(near_zero) > kMostNear * samples) return 1;
-  const std::size_t turns = count_turns(force, near);
-  return turns >= kSmallestTurns && force.size() >= kShortestStroke * (turns + 1) ? turns + 1 : 1;
+  if (static_cast<double>(near_zero) > kMostNear * samples) return {};
+  std::vector<Stroke> strokes = sides_of(force, near);
+  if (strokes.size() <= kSmallestTurns || force.size() < kShortestStroke * strokes.size()) return {};
+  std::vector<double> turns;
+  for (std::size_t i = 1; i < strokes.size(); ++i) {
+    turns.push_back(static_cast<double>(strokes[i].begin - strokes[i - 1].end + 1));
+  }
+  const double turn = quantile_of(std::move(turns), 0.5);
+  for (Stroke& stroke : strokes) stroke = without_ends(stroke, force, turn, near);
+  return strokes;
 }
 
 bool is_reciprocating(std::span<const double> force) {
-  return count_strokes(force) > 1;
+  return !find_strokes(force).empty();
 }
 
 bool is_negative_throughout(std::span<const double> force) {

@@ -2,12 +2,20 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace slipfit::reading {
 
-/// A force that dwells at +F and at -F in turn: the strokes of a reciprocating test; else 1. A saw-tooth that swings
+/// Samples [begin, end) of a stroke, without the ends in which the force turns. Empty where it does nothing but turn.
+struct Stroke {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  bool is_positive = true;
+};
+
+/// A force that dwells at +F and at -F in turn: the strokes of a reciprocating test; else none. A saw-tooth that swings
 /// through zero has no strokes: it spends as much time near zero as anywhere.
-std::size_t count_strokes(std::span<const double> force);
+std::vector<Stroke> find_strokes(std::span<const double> force);
 
 /// Of several strokes.
 bool is_reciprocating(std::span<const double> force);

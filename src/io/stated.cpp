@@ -4,14 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "core/quantile.hpp"
 #include "io/column_search.hpp"
-#include "io/displacement.hpp"
 #include "io/levels.hpp"
 
 namespace slipfit::reading {
 namespace {
 
+constexpr std::size_t kBlocks = 64;
 constexpr double kTolerance = 0.05;       // of a stated value against a slope or a load cell's mean
 constexpr double kSpeedTolerance = 0.01;  // of a stated speed against a column of speeds
 constexpr double kClearlyOff = 2.0;       // standard deviations of the column
@@ -22,15 +24,26 @@ bool differ(double stated, const Level& measured, double tolerance) {
   return std::abs(stated - measured.value) > bound;
 }
 
+/// The speed of the parts where a displacement moves (median of block slopes, without sign), if most of them move at
+/// one speed.
+std::optional<double> steady_speed_m_per_s(const Rows& rows) {
+  std::vector<double> speeds = block_speeds_m_per_s(rows.time_s, rows.displacement_m, kBlocks);
+  if (speeds.size() < 4) return std::nullopt;
+  const double fast_m_per_s = quantile_of(speeds, 0.9);
+  std::erase_if(speeds, [&](double v) { return !(v > 0.2 * fast_m_per_s); });  // standing, or about to start
+  if (speeds.size() < 3) return std::nullopt;
+  const double speed_m_per_s = quantile_of(speeds, 0.5);
+  const auto alike = std::count_if(speeds.begin(), speeds.end(),
+                                   [&](double v) { return std::abs(v - speed_m_per_s) <= 0.2 * speed_m_per_s; });
+  const bool is_steady = 10 * alike >= 6 * static_cast<std::ptrdiff_t>(speeds.size());
+  return is_steady ? std::optional(speed_m_per_s) : std::nullopt;
+}
+
 /// A displacement column that moves steadily at another speed than the stated one.
 std::optional<Warning> compare_with_displacement(const Rows& rows, const Choice& choice, const Layout& layout,
                                                  double stated_m_per_s) {
   if (!choice.displacement || rows.displacement_m.empty()) return std::nullopt;
-  DisplacementTrack track;
-  for (std::size_t i = 0; i < rows.time_s.size(); ++i) {
-    if (std::isfinite(rows.displacement_m[i])) track.add({rows.time_s[i], rows.displacement_m[i]});
-  }
-  const auto speed_m_per_s = steady_speed_m_per_s(track);
+  const auto speed_m_per_s = steady_speed_m_per_s(rows);
   if (!speed_m_per_s || std::abs(*speed_m_per_s - stated_m_per_s) <= kTolerance * stated_m_per_s) return std::nullopt;
   return Warning{"speed_differs_from_displacement",
                  fmt::format("the speed is given as {:.6g} m/s, but {} moves at {:.6g} m/s", stated_m_per_s,

@@ -120,6 +120,21 @@ bool are_one_recording(const Rows& rows, std::span<const Step> steps) {
   return is_level_kept(rows.speed_m_per_s, steps, kSpeedStep) && is_level_kept(rows.normal_force_N, steps, kLoadStep);
 }
 
+std::vector<Step> segments_of_steps(const Rows& rows, std::span<const Step> steps) {
+  if (rows.speed_m_per_s.empty()) return {steps.begin(), steps.end()};
+  std::vector<Step> segments;
+  for (const Step& step : steps) {
+    const auto speed = std::span(rows.speed_m_per_s).subspan(step.begin, step.end - step.begin);
+    auto levels = stretches_of_levels(speed, kSpeedStep);
+    const auto level = level_of(speed);
+    if (levels.empty() && level && level->is_steady) levels.push_back({0, speed.size()});
+    for (const SampleRange& range : levels) {
+      segments.push_back({segments.size() + 1, step.begin + range.begin, step.begin + range.end});
+    }
+  }
+  return segments;
+}
+
 const Step& main_step(std::span<const Step> steps) {
   const auto length = [](const Step& step) { return static_cast<double>(step.end - step.begin); };
   double longest = 0.0;

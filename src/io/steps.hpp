@@ -25,6 +25,10 @@ std::vector<Step> find_steps(const Rows& rows);
 /// Whether the steps are one recording all the same: the clock goes on, and speed and load stay.
 bool are_one_recording(const Rows& rows, std::span<const Step> steps);
 
+/// Of each step the levels of its speed where it has several, else itself; those of no one speed are left out.
+/// Numbered from 1. Without a column of speeds the steps themselves.
+std::vector<Step> segments_of_steps(const Rows& rows, std::span<const Step> steps);
+
 /// The first that is about as long as the longest.
 const Step& main_step(std::span<const Step> steps);
 

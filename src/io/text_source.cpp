@@ -46,11 +46,11 @@ void unify_line_ends(char* begin, char* end, char next) {
 }  // namespace
 
 Result<std::unique_ptr<TextSource>> TextSource::open(const std::filesystem::path& file) {
-  return over(open_plain(file), printable(file.string()));
+  return over(open_plain(file), name_of_file(file));
 }
 
 Result<std::unique_ptr<TextSource>> TextSource::open(const std::filesystem::path& file, const ContainerChoice& choice) {
-  return over(open_unpacked(file, choice), printable(file.string()));
+  return over(open_unpacked(file, choice), name_of_file(file));
 }
 
 Result<std::unique_ptr<TextSource>> TextSource::over(Result<TextStream> stream, const std::string& name) {

@@ -33,6 +33,7 @@ class TextSource final : public ::io::ByteSourceBase {
   [[nodiscard]] std::size_t estimated_size() const { return estimated_size_; }
   /// Sentences about what the text was packed in, and its encoding.
   [[nodiscard]] const std::vector<std::string>& assumed() const { return stream_.assumed; }
+  [[nodiscard]] const Warnings& warnings() const { return stream_.warnings; }
   /// Of the file's bytes as they are read; it outlives the source, which a LineReader takes.
   [[nodiscard]] std::shared_ptr<const Digester> digester() const { return stream_.digester; }
   [[nodiscard]] bool is_utf16() const { return encoding_ != Encoding::Bytes; }

@@ -70,6 +70,16 @@ Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole ro
   return json;
 }
 
+Json repeats_json(const std::vector<Repeat>& repeats) {
+  Json json = Json::object();
+  for (const Repeat& repeat : repeats) {
+    json[repeat.name] = estimate(repeat.mean);
+    json[repeat.name]["sd"] = number(repeat.standard_deviation);
+    json[repeat.name]["count"] = repeat.count;
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const JsonOptions& options) {
@@ -80,6 +90,7 @@ std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sw
         member_json(entries[i], sweep.recordings[i], sweep.roles[i], sweep.fit ? &sweep.fit->points[i] : nullptr));
   }
   json["recordings"] = std::move(members);
+  if (!sweep.repeats.empty()) json["repeats"] = repeats_json(sweep.repeats);
   json["status"] = name_of(sweep.fit ? MotionClass::StickSlip : MotionClass::Undetermined);
   json["status_reason"] = sweep.fit_reason;
   json["warnings"] = warnings_json(sweep.warnings);

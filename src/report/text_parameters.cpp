@@ -150,6 +150,17 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
   return "\nRecordings\n" + table.text();
 }
 
+std::string repeats_text(const std::vector<Repeat>& repeats) {
+  if (repeats.empty()) return {};
+  Table table({Align::Left, Align::Left, Align::Left, Align::Right});
+  table.add({"", "mean, 95 % interval", "sd between recordings", "recordings"});
+  for (const Repeat& repeat : repeats) {
+    table.add({repeat.words, estimate_text(repeat.mean, repeat.unit),
+               quantity_text(repeat.standard_deviation, repeat.unit), std::to_string(repeat.count)});
+  }
+  return "\nAt one speed: scatter between the recordings\n" + table.text();
+}
+
 }  // namespace
 
 std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name) {
@@ -157,7 +168,7 @@ std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   if (!sweep.fit)
     text = fmt::format("{}: {} recordings, no joint fit: {}\n", one_line(name), entries.size(), sweep.fit_reason);
   if (sweep.fit) text += parameters_text(sweep.fit->result, ForceQuantity::Force_N, "");
-  text += recordings_text(entries, sweep);
+  text += recordings_text(entries, sweep) + repeats_text(sweep.repeats);
   if (sweep.fit || sweep.derived.observed_end) {
     text += "\nEnd of stick-slip\n" + critical_speed_text(sweep.derived.critical_speed_m_per_s,
                                                           sweep.derived.lambda_critical,

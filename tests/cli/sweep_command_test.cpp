@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "recordings.hpp"
 #include "refusal.hpp"
 #include "run_program.hpp"
 #include "sweep_example.hpp"
@@ -119,4 +120,42 @@ TEST_CASE("a joint fit gives the same bytes in every run, wherever its memory li
   for (int run = 0; run < 4; ++run) {
     CHECK(slipfit({"fit", "--joint", example.manifest, "--group", "pad", "--json"}).out == first.out);
   }
+}
+
+TEST_CASE("strokes of one recording are fitted together, alone and as a row of a batch") {
+  const test::TemporaryFolder folder;
+  std::string text = "time [s],force [N]\n";
+  for (int i = 0; i < 8000; ++i) {
+    const int in_stroke = i % 2000;
+    const double side = i / 2000 % 2 == 0 ? 1.0 : -1.0;
+    const double ramp = i < 2000 ? 1.0 : std::min(1.0, in_stroke / 25.0 - 1.0);
+    text +=
+        std::to_string(1e-3 * i) + "," + std::to_string(side * ramp * test::sawtooth_N(1e-3 * in_stroke, 0.2)) + "\n";
+  }
+  const std::string file = folder.file("run.csv", text);
+  const auto fit = test::slipfit({"fit", file, "--speed", "0.01", "--strokes", "--json"});
+  REQUIRE(fit.exit_code == 0);
+  const auto document = nlohmann::json::parse(fit.out);
+  CHECK(document["recordings"].size() == 4);
+  CHECK(document["repeats"]["frequency_Hz"]["value"].get<double>() == Approx(5.0).epsilon(0.02));
+  for (const auto& [name, parameter] : document["parameters"].items()) {
+    const bool hangs_on_speed = name == "friction_difference_N" || name == "damping_ratio";
+    if (hangs_on_speed) CHECK(parameter["status"] != "identified");
+  }
+  const auto analysis = test::slipfit({"analyze", file, "--speed", "0.01", "--strokes=negative", "--json"});
+  REQUIRE(analysis.exit_code == 0);
+  CHECK(nlohmann::json::parse(analysis.out)["recordings"].size() == 2);
+  test::check_refused({"fit", file, "--speed", "0.01", "--strokes", "--curve", folder.path("c.csv")},
+                      "of one recording");
+  test::check_refused({"fit", file, "--speed", "0.01", "--strokes=up"}, "positive or negative");
+
+  const std::string manifest = folder.file("runs.csv", "id,file,speed_m_per_s,strokes\nr1,run.csv,0.01,both\n");
+  const std::vector<std::string> batch{"batch", manifest, "--out", folder.path("out"), "--quiet", "--jobs", "1"};
+  REQUIRE(test::slipfit(batch).exit_code == 0);
+  const std::string results = test::content_of(folder.path("out/results.jsonl"));
+  CHECK(nlohmann::json::parse(results)["recordings"].size() == 4);
+  std::vector<std::string> again = batch;
+  again.emplace_back("--resume");
+  REQUIRE(test::slipfit(again).exit_code == 0);
+  CHECK(nlohmann::json::parse(test::content_of(folder.path("out/run.json")))["before"] == 1);
 }

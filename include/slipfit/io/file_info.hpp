@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"
 #include "slipfit/io/read_options.hpp"
 
@@ -44,7 +45,8 @@ struct FileInfo {
   std::size_t strokes = 1;       ///< of the part that would be read; the force of several turns its sign
   TakenColumns taken;
   std::vector<std::string> assumed;
-  std::optional<Error> refusal;  ///< why `read_recording` would refuse the file as it is
+  std::optional<Error> refusal;        ///< why `read_recording` would refuse the file as it is
+  std::optional<Recording> recording;  ///< what it reads else, with a speed of 1 m/s where no column tells it
 };
 
 /// Looks at a file without refusing it for what `read_recording` needs. Errors: those of a file without rows of

@@ -25,6 +25,10 @@ struct ColumnValue {
   std::string value;
 };
 
+/// Which recordings a file holds. Strokes: those of a reciprocating test, of both directions or of one sign of the
+/// force; segments: the stretches of one speed each.
+enum class Pieces { One, Strokes, PositiveStrokes, NegativeStrokes, Segments };
+
 /// What the user says about the file; everything left empty is found out, and said in `Provenance::assumed`.
 struct ReadOptions {
   std::optional<std::string> time_column;          ///< name, or 1-based number as text
@@ -33,8 +37,9 @@ struct ReadOptions {
   std::optional<std::string> speed_column;         ///< name, or 1-based number as text
   std::optional<std::string> time_unit;
   std::optional<std::string> force_unit;
-  std::optional<double> sample_rate_Hz;  ///< for recordings without a clock
-  std::optional<double> radius_m;        ///< of the contact from the axis: turns a speed of rotation into one
+  std::optional<std::string> force_scale;  ///< "5 N/V": the force for a unit of what the column holds
+  std::optional<double> sample_rate_Hz;    ///< for recordings without a clock
+  std::optional<double> radius_m;          ///< of the contact from the axis: turns a speed of rotation into one
   // What in a container is the recording:
   std::optional<std::string> sheet;     ///< of a workbook, file of a zip archive: name or 1-based number
   std::optional<std::string> variable;  ///< of a .mat file, dataset or group of HDF5, group of TDMS
@@ -43,10 +48,21 @@ struct ReadOptions {
   std::optional<ColumnValue> where;
   std::optional<std::size_t> step;  ///< as `inspect_recording` counts them
   std::optional<TimeWindow> window;
+  Pieces pieces = Pieces::One;  ///< `read_pieces` takes them apart
 };
 
 /// "A:B" with 1 <= A < B.
 std::optional<RowRange> parse_row_range(std::string_view text);
+
+/// "both" or empty, "positive", "negative".
+std::optional<Pieces> parse_strokes(std::string_view text);
+
+/// What "5 N/V" says: newtons for one SI unit of the column's quantity.
+struct ForceScale {
+  double N_per_SI = 1.0;
+  std::string unit;  ///< "V"
+};
+std::optional<ForceScale> parse_force_scale(std::string_view text);
 
 /// "COLUMN=VALUE"; a column's name may hold an equals sign, the value none.
 std::optional<ColumnValue> parse_column_value(std::string_view text);

@@ -26,6 +26,7 @@ struct LawFindings {
   std::string reason;                                ///< why it does, or not
   bool ages = false;                                 ///< static friction grows with the stick time
   std::optional<double> reference_normal_force_N{};  ///< known for all recordings
+  bool at_one_speed = false;                         ///< then no more is told of it than by one recording
 };
 
 /// All that the parameters of a fit are made from, of one recording or a sweep.

@@ -159,7 +159,8 @@ class Reporter {
 
   /// From one speed F_s - F_k and zeta cannot be told from friction that depends on the speed.
   [[nodiscard]] ParameterStatus at_one_speed(ParameterStatus status) const {
-    return status == ParameterStatus::Identified && !f_.law ? ParameterStatus::Conditional : status;
+    const bool is_one = !f_.law || f_.law->at_one_speed;
+    return status == ParameterStatus::Identified && is_one ? ParameterStatus::Conditional : status;
   }
 
   /// m = k / w_n^2
@@ -176,9 +177,8 @@ class Reporter {
     if (!f_.damping_known()) return add_unknown(Id::DampingRatio, f_.damping.note);
     const std::string doubt = slip_doubt().empty() ? f_.damping_doubt : slip_doubt();
     const ParameterStatus status = at_one_speed(graded(Id::DampingRatio, f_.damping, doubt));
-    const bool weak = status == ParameterStatus::Weak;
     add(Id::DampingRatio, f_.damping, status,
-        weak                                     ? (doubt.empty() ? weak_damping() : doubt)
+        status == ParameterStatus::Weak          ? (doubt.empty() ? weak_damping() : doubt)
         : status == ParameterStatus::Conditional ? kOneSpeed
                                                  : "");
     if (!f_.in_newtons) return;

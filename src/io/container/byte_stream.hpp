@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "slipfit/core/digest.hpp"
+#include "slipfit/core/estimate.hpp"
 #include "slipfit/core/result.hpp"
 
 namespace slipfit::reading {
@@ -46,12 +47,13 @@ struct TextStream {
   std::shared_ptr<const Digester> digester;  ///< of the bytes of the file itself
   std::size_t size = 0;                      ///< of the text; 0 where it is not known
   std::vector<std::string> assumed;          ///< sentences about the container
+  Warnings warnings;
 };
 
-/// The bytes of a file as they are. Errors: file_not_found, is_directory, not_readable.
+/// The bytes of a file, or for "-" of standard input, as they are. Errors: file_not_found, is_directory, not_readable.
 Result<TextStream> open_plain(const std::filesystem::path& file);
 
-/// Unpacked where the first bytes say that it is a container. Errors: those above, those of containers.
+/// Unpacked where the first bytes say that it is a container. Errors: those above, those of containers, no_container.
 Result<TextStream> open_unpacked(const std::filesystem::path& file, const ContainerChoice& choice);
 
 }  // namespace slipfit::reading

@@ -19,8 +19,9 @@ Error not_built_in(const std::string& name, const std::string& kind, const std::
                                       name, kind, package)};
 }
 
-Result<TextStream> open_old_workbook(const ContainerFile& file, const ContainerChoice& /*choice*/) {
-  return Error{"old_workbook", file.name +
+Result<TextStream> open_old_workbook(TextStream /*packed*/, const std::string& name,
+                                     const ContainerChoice& /*choice*/) {
+  return Error{"old_workbook", name +
                                    ": a workbook in the format of before 2007 (.xls), or another document of "
                                    "that kind; save it as .xlsx or CSV"};
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,29 +12,28 @@
 
 namespace slipfit::reading {
 
-/// A container that is read here and there.
-struct ContainerFile {
-  std::filesystem::path path;
-  std::string name;  ///< as messages show it
-  std::uintmax_t size = 0;
-};
+/// `packed`: the bytes of the whole file, which are read once; `name`: as messages show it.
+using OpenFormat = Result<TextStream>(TextStream packed, const std::string& name, const ContainerChoice& choice);
 
-/// While it is read. Error: not_built_in.
-Result<TextStream> unpack_gzip(TextStream packed, const std::string& name);
+/// Unpacked while it is read. Error: not_built_in.
+OpenFormat open_gzip;
 
 /// A zip archive with one text file, or a workbook. Errors: not_built_in, damaged_container, container_too_large,
 /// unknown_sheet.
-Result<TextStream> open_zip(const ContainerFile& file, const ContainerChoice& choice);
+OpenFormat open_zip;
 
 /// Errors: damaged_container, container_too_large, unknown_variable, daqmx_channels.
-Result<TextStream> open_tdms(const ContainerFile& file, const ContainerChoice& choice);
+OpenFormat open_tdms;
 
 /// HDF5 and MATLAB 7.3; MATLAB 5 to 7. Errors: not_built_in, damaged_container, container_too_large, unknown_variable.
-Result<TextStream> open_hdf5(const ContainerFile& file, const ContainerChoice& choice);
-Result<TextStream> open_mat(const ContainerFile& file, const ContainerChoice& choice);
+OpenFormat open_hdf5;
+OpenFormat open_mat;
 
 /// The binary format of before 2007. Error: old_workbook.
-Result<TextStream> open_old_workbook(const ContainerFile& file, const ContainerChoice& choice);
+OpenFormat open_old_workbook;
+
+/// All bytes, for formats that are read here and there. Error: container_too_large.
+Result<std::string> read_all(TextStream& packed, const std::string& name);
 
 /// A program beside this one that reads what needs large libraries: its name, and what it takes to be built.
 struct Helper {
@@ -44,7 +41,10 @@ struct Helper {
   std::vector<std::string> arguments;
   std::string kind;     ///< of file, for messages
   std::string package;  ///< of Debian
+  int file = -1;        ///< descriptor that the program finds as kFileOfHelper; -1: none
 };
+
+inline constexpr const char* kFileOfHelper = "/proc/self/fd/3";
 
 struct HelperOutput {
   std::string first;  ///< line, behind its "="

@@ -71,7 +71,7 @@ class GzipStream final : public ByteStream {
 
 }  // namespace
 
-Result<TextStream> unpack_gzip(TextStream packed, const std::string& name) {
+Result<TextStream> open_gzip(TextStream packed, const std::string& name, const ContainerChoice& /*choice*/) {
   packed.bytes = std::make_unique<GzipStream>(std::move(packed.bytes), name);
   packed.size = 0;
   packed.assumed.emplace_back("The file is packed (gzip).");
@@ -80,7 +80,7 @@ Result<TextStream> unpack_gzip(TextStream packed, const std::string& name) {
 
 #else
 
-Result<TextStream> unpack_gzip(TextStream /*packed*/, const std::string& name) {
+Result<TextStream> open_gzip(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
   return not_built_in(name, "packed with gzip", "zlib1g-dev and libminizip-dev");
 }
 

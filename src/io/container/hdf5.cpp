@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -74,17 +75,49 @@ std::string find_helper(const std::string& name) {
   return {};
 }
 
-Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const std::vector<std::string>& arguments,
+class OpenFile {
+ public:
+  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+/// The libraries want a file in which they can go to and fro: one in memory, so that the bytes are read once, and may
+/// come through a pipe. Whether all went in.
+bool copy(TextStream& packed, int descriptor) {
+  std::vector<char> piece(std::size_t{256} * 1024);
+  while (const std::size_t got = packed.bytes->read(piece.data(), piece.size())) {
+    for (std::size_t written = 0; written < got;) {
+      const ::ssize_t count = ::write(descriptor, piece.data() + written, got - written);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) return false;
+      written += static_cast<std::size_t>(count);
+    }
+  }
+  return true;
+}
+
+constexpr int kDescriptorOfHelper = 3;  // kFileOfHelper
+
+Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const Helper& helper,
                                              const std::string& name) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     return Error{"not_readable", name + ": no pipe can be made; close programs"};
-  std::vector<char*> words;
-  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  std::vector<char*> words{const_cast<char*>(program.c_str())};
+  for (const std::string& argument : helper.arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
   posix_spawn_file_actions_t actions{};
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  if (helper.file >= 0) ::posix_spawn_file_actions_adddup2(&actions, helper.file, kDescriptorOfHelper);
   ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   ::pid_t process = 0;
   const int failed = ::posix_spawn(&process, program.c_str(), &actions, nullptr, words.data(), environ);
@@ -92,14 +125,20 @@ Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const s
   ::close(ends[1]);
   if (failed == 0) return std::make_unique<ProgramStream>(process, ends[0], name);
   ::close(ends[0]);
-  return Error{"not_readable", name + ": " + program + " cannot be started; check its permissions"};
+  return Error{"not_readable", name + ": " + helper.program + " cannot be started; check its permissions"};
 }
 
-Result<TextStream> open_with_reader(const char* kind, const ContainerFile& file, const ContainerChoice& choice) {
-  std::vector<std::string> arguments{kind, file.path.string()};
-  if (choice.variable) arguments.push_back(*choice.variable);
-  auto output =
-      run_helper({"slipfit-hdf5", arguments, "a MATLAB or HDF5 file", "libhdf5-dev and libmatio-dev"}, file.name);
+Result<TextStream> open_with_reader(const char* kind, TextStream packed, const std::string& name,
+                                    const ContainerChoice& choice) {
+  const OpenFile file(::memfd_create("slipfit", MFD_CLOEXEC));
+  if (file.descriptor() < 0 || !copy(packed, file.descriptor())) return too_large(name);
+  Helper helper{"slipfit-hdf5",
+                {kind, kFileOfHelper},
+                "a MATLAB or HDF5 file",
+                "libhdf5-dev and libmatio-dev",
+                file.descriptor()};
+  if (choice.variable) helper.arguments.push_back(*choice.variable);
+  auto output = run_helper(helper, name);
   if (!output) return output.error();
   TextStream text;
   HelperOutput read = std::move(output).value();
@@ -113,9 +152,7 @@ Result<TextStream> open_with_reader(const char* kind, const ContainerFile& file,
 Result<HelperOutput> run_helper(const Helper& helper, const std::string& name) {
   const std::string program = find_helper(helper.program);
   if (program.empty()) return not_built_in(name, helper.kind, helper.package);
-  std::vector<std::string> words{program};
-  words.insert(words.end(), helper.arguments.begin(), helper.arguments.end());
-  auto started = start(program, words, name);
+  auto started = start(program, helper, name);
   if (!started) return started.error();
   std::unique_ptr<ProgramStream> bytes = std::move(started).value();
   const std::string first = bytes->line();
@@ -125,12 +162,12 @@ Result<HelperOutput> run_helper(const Helper& helper, const std::string& name) {
   return Error{first.substr(1, blank - 1), name + ": " + printable(first.substr(blank + 1))};
 }
 
-Result<TextStream> open_hdf5(const ContainerFile& file, const ContainerChoice& choice) {
-  return open_with_reader("hdf5", file, choice);
+Result<TextStream> open_hdf5(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  return open_with_reader("hdf5", std::move(packed), name, choice);
 }
 
-Result<TextStream> open_mat(const ContainerFile& file, const ContainerChoice& choice) {
-  return open_with_reader("mat", file, choice);
+Result<TextStream> open_mat(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  return open_with_reader("mat", std::move(packed), name, choice);
 }
 
 }  // namespace slipfit::reading

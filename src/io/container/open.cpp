@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -56,12 +58,12 @@ struct OpenedBytes {
 
 Result<OpenedBytes> open_bytes(const std::filesystem::path& file) {
   constexpr std::size_t kStart = 1024;
-  const std::string name = printable(file.string());
+  const std::string name = name_of_file(file);
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
     return Error{"is_directory", name + ": is a folder; name a file in it"};
   }
-  std::FILE* const opened = std::fopen(file.c_str(), "rb");
+  std::FILE* const opened = file == "-" ? ::fdopen(::dup(STDIN_FILENO), "rb") : std::fopen(file.c_str(), "rb");
   if (opened == nullptr) return open_error(name, errno);
   std::string start(kStart, '\0');
   start.resize(std::fread(start.data(), 1, kStart, opened));
@@ -71,37 +73,53 @@ Result<OpenedBytes> open_bytes(const std::filesystem::path& file) {
     return open_error(name, reason);
   }
   auto digester = std::make_shared<Digester>();
-  OpenedBytes bytes{{std::make_unique<FileStream>(opened, start, digester), digester, 0, {}}, start};
+  OpenedBytes bytes{{std::make_unique<FileStream>(opened, start, digester), digester, 0, {}, {}}, start};
   const auto size = std::filesystem::file_size(file, ignored);
   if (!ignored) bytes.stream.size = static_cast<std::size_t>(size);
   return bytes;
 }
 
-/// Containers that are read here and there instead of from front to end: the digest is made first.
-std::uintmax_t digest_all(ByteStream& bytes) {
-  std::vector<char> piece(std::size_t{256} * 1024);
-  std::uintmax_t size = 0;
-  while (const std::size_t got = bytes.read(piece.data(), piece.size())) size += got;
-  return size;
-}
-
-using OpenFormat = Result<TextStream> (*)(const ContainerFile&, const ContainerChoice&);
-
+/// A kind of file by its first bytes, and the option that chooses something in it.
 struct Format {
   std::string_view magic;
   std::size_t offset = 0;
-  OpenFormat open = nullptr;
+  OpenFormat* open = nullptr;
+  std::string_view kind;
+  std::string_view option;
 };
 
 using namespace std::string_view_literals;
+constexpr std::string_view kSheet = "--sheet";
+constexpr std::string_view kVariable = "--variable";
 constexpr std::array kFormats = std::to_array<Format>({
-    {"PK\x03\x04"sv, 0, open_zip},
-    {"TDSm"sv, 0, open_tdms},
-    {"\x89HDF\r\n\x1a\n"sv, 0, open_hdf5},
-    {"MATLAB 5.0 MAT-file"sv, 0, open_mat},
-    {"\x89HDF\r\n\x1a\n"sv, 512, open_hdf5},  // behind a block of the user's own: MATLAB 7.3
-    {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv, 0, open_old_workbook},
+    {"\x1F\x8B"sv, 0, open_gzip, "text packed with gzip", {}},
+    {"PK\x03\x04"sv, 0, open_zip, "a workbook or a zip archive", kSheet},
+    {"TDSm"sv, 0, open_tdms, "a TDMS file", kVariable},
+    {"\x89HDF\r\n\x1a\n"sv, 0, open_hdf5, "an HDF5 file", kVariable},
+    {"MATLAB 5.0 MAT-file"sv, 0, open_mat, "a MATLAB file", kVariable},
+    {"\x89HDF\r\n\x1a\n"sv, 512, open_hdf5, "a MATLAB file", kVariable},  // behind a block of the user's own
+    {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv, 0, open_old_workbook, {}, {}},
+    {{}, 0, nullptr, "plain text", {}},
 });
+
+const Format& format_of(std::string_view start) {
+  return *std::find_if(kFormats.begin(), kFormats.end(), [&](const Format& format) {
+    return start.size() >= format.offset && start.substr(format.offset).starts_with(format.magic);
+  });
+}
+
+/// An option that has no meaning in this kind of file is no option to leave unread.
+std::optional<Error> check_choice(const Format& format, const ContainerChoice& choice, const std::string& name) {
+  for (const std::string_view option : {kSheet, kVariable}) {
+    const bool is_given = (option == kSheet ? choice.sheet : choice.variable).has_value();
+    if (!is_given || format.kind.empty() || format.option == option) continue;
+    const std::string_view has = option == kSheet ? "sheets" : "variables";
+    return Error{"no_container",
+                 fmt::format("{}: is {}, which has no {}; leave out {}{}", name, format.kind, has, option,
+                             format.option.empty() ? "" : fmt::format(" (or choose with {})", format.option))};
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -115,21 +133,31 @@ Result<TextStream> open_unpacked(const std::filesystem::path& file, const Contai
   auto opened = open_bytes(file);
   if (!opened) return opened.error();
   OpenedBytes bytes = std::move(opened).value();
-  const std::string name = printable(file.string());
-  if (bytes.start.starts_with("\x1F\x8B")) return unpack_gzip(std::move(bytes.stream), name);
-  for (const Format& format : kFormats) {
-    if (bytes.start.size() < format.offset ||
-        !std::string_view(bytes.start).substr(format.offset).starts_with(format.magic)) {
-      continue;
-    }
-    const std::uintmax_t size = digest_all(*bytes.stream.bytes);
-    auto unpacked = format.open({file, name, size}, choice);
-    if (!unpacked) return unpacked;
-    TextStream text = std::move(unpacked).value();
-    text.digester = bytes.stream.digester;
-    return text;
+  const std::string name = name_of_file(file);
+  const Format& format = format_of(bytes.start);
+  if (auto error = check_choice(format, choice, name)) return *std::move(error);
+  if (format.open == nullptr) return std::move(bytes.stream);
+  auto digester = bytes.stream.digester;
+  auto unpacked = format.open(std::move(bytes.stream), name, choice);
+  if (!unpacked) return unpacked;
+  TextStream text = std::move(unpacked).value();
+  text.digester = std::move(digester);
+  return text;
+}
+
+Result<std::string> read_all(TextStream& packed, const std::string& name) {
+  constexpr std::size_t kMost = std::size_t{2} << 30U;
+  constexpr std::size_t kPiece = std::size_t{256} * 1024;
+  std::string content;
+  content.reserve(std::min(packed.size, kMost));
+  for (std::size_t got = kPiece; got == kPiece;) {
+    if (content.size() > kMost) return too_large(name);
+    const std::size_t before = content.size();
+    content.resize(before + kPiece);
+    got = packed.bytes->read(content.data() + before, kPiece);
+    content.resize(before + got);
   }
-  return std::move(bytes.stream);
+  return content;
 }
 
 }  // namespace slipfit::reading

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <utility>
 
@@ -52,20 +51,20 @@ NumberTable table_of(const std::vector<TdmsChannel>& channels, const std::string
 }
 
 /// The group with the most values, or the one that was asked for.
-Result<std::string> choose_group(const std::vector<TdmsChannel>& channels, const ContainerFile& file,
+Result<std::string> choose_group(const std::vector<TdmsChannel>& channels, const std::string& name,
                                  const ContainerChoice& choice) {
   std::map<std::string, std::size_t> values;
   for (const TdmsChannel& channel : channels) {
     if (!channel.values.empty()) values[names_in(channel.path).first] += channel.values.size();
   }
-  if (values.empty()) return damaged(file.name, "the TDMS file holds no channel of numbers");
+  if (values.empty()) return damaged(name, "the TDMS file holds no channel of numbers");
   std::vector<std::string> groups;
   for (const auto& [group, count] : values) groups.push_back(group);
   if (choice.variable) {
     if (values.count(*choice.variable) > 0) return *choice.variable;
     return Error{"unknown_variable", fmt::format("{}: the TDMS file holds no group '{}' with numbers but '{}'; choose "
                                                  "one with --variable",
-                                                 file.name, printable(*choice.variable),
+                                                 name, printable(*choice.variable),
                                                  printable(fmt::format("{}", fmt::join(groups, "', '"))))};
   }
   return std::max_element(values.begin(), values.end(),
@@ -75,26 +74,28 @@ Result<std::string> choose_group(const std::vector<TdmsChannel>& channels, const
 
 }  // namespace
 
-Result<TextStream> open_tdms(const ContainerFile& file, const ContainerChoice& choice) {
-  constexpr std::uintmax_t kMost = std::uintmax_t{1} << 30U;
-  if (file.size > kMost) return too_large(file.name);
-  std::string content(static_cast<std::size_t>(file.size), '\0');
-  std::ifstream stream(file.path, std::ios::binary);
-  stream.read(content.data(), static_cast<std::streamsize>(content.size()));
-  content.resize(static_cast<std::size_t>(stream.gcount()));
-  const auto channels = read_tdms(content);
-  if (!channels) return damaged(file.name, "the TDMS file is cut off or damaged");
-  for (const TdmsChannel& channel : *channels) {
+Result<TextStream> open_tdms(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  const auto content = read_all(packed, name);
+  if (!content) return content.error();
+  const auto tdms = read_tdms(content.value());
+  if (!tdms) return damaged(name, "the TDMS file is cut off or damaged");
+  for (const TdmsChannel& channel : tdms->channels) {
     if (!channel.is_daqmx && !channel.is_scaled) continue;
     return Error{"daqmx_channels", fmt::format("{}: channel '{}' holds raw DAQmx data, whose scale is not read; export "
                                                "it as scaled values or CSV",
-                                               file.name, printable(names_in(channel.path).second))};
+                                               name, printable(names_in(channel.path).second))};
   }
-  const auto group = choose_group(*channels, file, choice);
+  const auto group = choose_group(tdms->channels, name, choice);
   if (!group) return group.error();
   TextStream text;
-  text.bytes = text_of(table_of(*channels, group.value()));
+  text.bytes = text_of(table_of(tdms->channels, group.value()));
   text.assumed.push_back(fmt::format("Group '{}' of the TDMS file was read.", printable(group.value())));
+  if (tdms->bytes_left_over > 0) {
+    text.warnings.push_back(
+        {"container_cut", fmt::format("the last block of the TDMS file is cut off: its {} bytes were left out; if "
+                                      "samples are missing, copy the file again",
+                                      tdms->bytes_left_over)});
+  }
   return text;
 }
 

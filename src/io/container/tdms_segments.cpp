@@ -2,6 +2,7 @@
 // lead-in, meta data and raw data. Channels of plain numbers and time stamps are read; DAQmx raw data and strings are
 // not.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -56,65 +57,50 @@ class Cursor {
   std::endian order_;
 };
 
-/// 0 for what has no fixed size or is no number.
-std::size_t size_of(std::uint32_t type) {
-  switch (type) {
-    case 1:
-    case 5:
-    case 0x21:
-      return 1;
-    case 2:
-    case 6:
-      return 2;
-    case 3:
-    case 7:
-    case 9:
-    case 0x19:
-      return 4;
-    case 4:
-    case 8:
-    case 10:
-    case 0x1A:
-      return 8;
-    case kTdmsTimeStamp:
-      return 16;
-    default:
-      return 0;
-  }
+template <class Number>
+double read_number(Cursor& cursor) {
+  return static_cast<double>(cursor.number<Number>());
 }
 
-double read_value(Cursor& cursor, std::uint32_t type) {
-  switch (type) {
-    case 1:
-      return cursor.number<std::int8_t>();
-    case 2:
-      return cursor.number<std::int16_t>();
-    case 3:
-      return cursor.number<std::int32_t>();
-    case 4:
-      return static_cast<double>(cursor.number<std::int64_t>());
-    case 5:
-    case 0x21:
-      return cursor.number<std::uint8_t>();
-    case 6:
-      return cursor.number<std::uint16_t>();
-    case 7:
-      return cursor.number<std::uint32_t>();
-    case 8:
-      return static_cast<double>(cursor.number<std::uint64_t>());
-    case 9:
-    case 0x19:
-      return static_cast<double>(cursor.number<float>());
-    case 10:
-    case 0x1A:
-      return cursor.number<double>();
-    case kTdmsTimeStamp: {
-      const double fraction = std::ldexp(static_cast<double>(cursor.number<std::uint64_t>()), -64);
-      return static_cast<double>(cursor.number<std::int64_t>()) + fraction;
-    }
-    default:
-      throw Damaged{};
-  }
+double read_time_stamp(Cursor& cursor) {
+  const double fraction = std::ldexp(read_number<std::uint64_t>(cursor), -64);
+  return read_number<std::int64_t>(cursor) + fraction;
+}
+
+struct NumberType {
+  std::uint32_t code = 0;
+  std::size_t bytes = 0;
+  double (*read)(Cursor&) = nullptr;
+};
+
+constexpr std::array kNumberTypes = std::to_array<NumberType>({
+    {1, 1, read_number<std::int8_t>},
+    {2, 2, read_number<std::int16_t>},
+    {3, 4, read_number<std::int32_t>},
+    {4, 8, read_number<std::int64_t>},
+    {5, 1, read_number<std::uint8_t>},
+    {6, 2, read_number<std::uint16_t>},
+    {7, 4, read_number<std::uint32_t>},
+    {8, 8, read_number<std::uint64_t>},
+    {9, 4, read_number<float>},
+    {10, 8, read_number<double>},
+    {0x19, 4, read_number<float>},
+    {0x1A, 8, read_number<double>},
+    {0x21, 1, read_number<std::uint8_t>},
+    {kTdmsTimeStamp, 16, read_time_stamp},
+});
+
+/// Null for what has no fixed size or is no number.
+const NumberType* type_with_code(std::uint32_t code) {
+  const auto* const found = std::find_if(kNumberTypes.begin(), kNumberTypes.end(),
+                                         [code](const NumberType& type) { return type.code == code; });
+  return found == kNumberTypes.end() ? nullptr : found;
+}
+
+void append_value(TdmsChannel& channel, Cursor& cursor) {
+  const NumberType* const type = type_with_code(channel.type);
+  if (type == nullptr) throw Damaged{};
+  channel.values.push_back(type->read(cursor));
 }
 
 class TdmsReader {
@@ -122,9 +108,10 @@ class TdmsReader {
   explicit TdmsReader(std::string_view file) : file_(file) {}
 
   /// Throws Damaged.
-  std::vector<TdmsChannel> read() {
+  TdmsContent read() {
     constexpr std::size_t kLeadIn = 28;
-    for (std::size_t begin = 0; begin + kLeadIn <= file_.size();) {
+    std::size_t begin = 0;
+    while (begin + kLeadIn <= file_.size()) {
       const std::string_view lead = file_.substr(begin, kLeadIn);
       if (!lead.starts_with("TDSm")) throw Damaged{};
       const auto toc = Cursor(lead.substr(4), std::endian::little).number<std::uint32_t>();
@@ -140,12 +127,15 @@ class TdmsReader {
       if ((toc & kRaw) != 0) read_raw(body.substr(static_cast<std::size_t>(meta)), order, toc);
       begin += kLeadIn + static_cast<std::size_t>(segment);
     }
-    return std::move(channels_);
+    left_over_ += file_.size() - begin;
+    return {std::move(channels_), left_over_};
   }
 
  private:
   TdmsChannel& channel_of(const std::string& path) {
+    constexpr std::size_t kMostObjects = 4096;
     const auto [place, is_new] = index_.emplace(path, channels_.size());
+    if (index_.size() > kMostObjects) throw Damaged{};
     if (is_new) channels_.push_back({path, {}, {}, 0.0, false, false, false, 0, 0, 0, {}});
     return channels_[place->second];
   }
@@ -183,10 +173,10 @@ class TdmsReader {
       skip_vector(4);
       return;
     }
-    const std::size_t size = size_of(channel.type);
-    if (size == 0 && channel.type != kString) throw Damaged{};
-    if (size > 0 && channel.count > UINT64_MAX / size) throw Damaged{};
-    channel.bytes = channel.type == kString ? cursor.number<std::uint64_t>() : channel.count * size;
+    const NumberType* const type = type_with_code(channel.type);
+    if (type == nullptr && channel.type != kString) throw Damaged{};
+    if (type != nullptr && channel.count > UINT64_MAX / type->bytes) throw Damaged{};
+    channel.bytes = type == nullptr ? cursor.number<std::uint64_t>() : channel.count * type->bytes;
   }
 
   static void read_property(Cursor& cursor, TdmsChannel& channel) {
@@ -197,7 +187,9 @@ class TdmsReader {
       if (name == "unit_string") channel.unit = value;
       return;
     }
-    const double value = read_value(cursor, type);
+    const NumberType* const number = type_with_code(type);
+    if (number == nullptr) throw Damaged{};
+    const double value = number->read(cursor);
     if (name == "wf_increment" && value > 0.0) channel.increment_s = value;
     if (name == "wf_start_offset") channel.offset_s = value;
     if (name == "NI_Number_Of_Scales") channel.is_scaled = value > 0.0;
@@ -213,6 +205,7 @@ class TdmsReader {
       block += channel.bytes;
     }
     if (block == 0) return;
+    left_over_ += raw.size() % block;
     Cursor cursor(raw, order);
     for (std::uint64_t blocks = raw.size() / block; blocks > 0; --blocks) {
       (toc & kInterleaved) != 0 ? read_interleaved(cursor) : read_in_turn(cursor);
@@ -226,7 +219,7 @@ class TdmsReader {
         (void)cursor.bytes(channel.bytes);
         continue;
       }
-      for (std::uint64_t i = 0; i < channel.count; ++i) channel.values.push_back(read_value(cursor, channel.type));
+      for (std::uint64_t i = 0; i < channel.count; ++i) append_value(channel, cursor);
     }
   }
 
@@ -236,9 +229,7 @@ class TdmsReader {
       if (channels_[at].count != count || channels_[at].type == kString) throw Damaged{};
     }
     for (std::uint64_t i = 0; i < count; ++i) {
-      for (const std::size_t at : order_) {
-        channels_[at].values.push_back(read_value(cursor, channels_[at].type));
-      }
+      for (const std::size_t at : order_) append_value(channels_[at], cursor);
     }
   }
 
@@ -246,11 +237,12 @@ class TdmsReader {
   std::vector<TdmsChannel> channels_;
   std::map<std::string, std::size_t> index_;
   std::vector<std::size_t> order_;  ///< channels with data in this segment
+  std::uint64_t left_over_ = 0;
 };
 
 }  // namespace
 
-std::optional<std::vector<TdmsChannel>> read_tdms(std::string_view file) {
+std::optional<TdmsContent> read_tdms(std::string_view file) {
   TdmsReader reader(file);
   try {
     return reader.read();

@@ -25,7 +25,12 @@ struct TdmsChannel {
   std::vector<double> values;
 };
 
-/// The objects of a TDMS file in the order in which they appear. Empty where the file is cut off or damaged.
-std::optional<std::vector<TdmsChannel>> read_tdms(std::string_view file);
+struct TdmsContent {
+  std::vector<TdmsChannel> channels;  ///< in the order in which they appear
+  std::uint64_t bytes_left_over = 0;  ///< of a block that is not whole, which a writer that was stopped leaves
+};
+
+/// Empty where the file is cut off elsewhere than between values, or damaged.
+std::optional<TdmsContent> read_tdms(std::string_view file);
 
 }  // namespace slipfit::reading

@@ -54,7 +54,9 @@ std::string text_below(const pugi::xml_node& node) {
   std::string text;
   for (const pugi::xml_node part : node) {
     if (is(part, "t")) text += part.text().get();
-    if (is(part, "r")) text += text_below(part);
+    for (const pugi::xml_node piece : is(part, "r") ? part : pugi::xml_node()) {
+      if (is(piece, "t")) text += piece.text().get();
+    }
   }
   return text;
 }

@@ -18,9 +18,53 @@ namespace slipfit::reading {
 
 #ifdef SLIPFIT_HAS_ZIP
 
+/// What minizip takes for a file.
+struct MemoryFile {
+  std::string content;
+  std::size_t at = 0;
+};
+
+namespace {
+
+MemoryFile& memory(voidpf file) {
+  return *static_cast<MemoryFile*>(file);
+}
+
+unsigned long read_memory(voidpf /*opaque*/, voidpf file, void* buffer, unsigned long size) {
+  const std::size_t count = memory(file).content.copy(static_cast<char*>(buffer), size, memory(file).at);
+  memory(file).at += count;
+  return count;
+}
+
+long seek_memory(voidpf /*opaque*/, voidpf file, ZPOS64_T offset, int origin) {
+  const std::size_t size = memory(file).content.size();
+  const std::size_t from = origin == ZLIB_FILEFUNC_SEEK_SET   ? 0
+                           : origin == ZLIB_FILEFUNC_SEEK_CUR ? memory(file).at
+                                                              : size;
+  const ZPOS64_T to = from + offset;  // from the end it is below 0, which wraps to the same place
+  if (to > size) return -1;
+  memory(file).at = static_cast<std::size_t>(to);
+  return 0;
+}
+
+unzFile open_in_memory(MemoryFile& content) {
+  zlib_filefunc64_def functions{};
+  functions.opaque = &content;
+  functions.zopen64_file = [](voidpf opaque, const void* /*name*/, int /*mode*/) { return opaque; };
+  functions.zread_file = read_memory;
+  functions.zseek64_file = seek_memory;
+  functions.ztell64_file = [](voidpf /*opaque*/, voidpf file) -> ZPOS64_T { return memory(file).at; };
+  functions.zclose_file = [](voidpf /*opaque*/, voidpf /*file*/) { return 0; };
+  functions.zerror_file = [](voidpf /*opaque*/, voidpf /*file*/) { return 0; };
+  return unzOpen2_64("", &functions);
+}
+
+}  // namespace
+
 struct ZipArchive::Handle {
+  MemoryFile content;
   unzFile file = nullptr;
-  explicit Handle(unzFile opened) : file(opened) {}
+  explicit Handle(std::string bytes) : content{std::move(bytes), 0}, file(open_in_memory(content)) {}
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   ~Handle() { unzClose(file); }
@@ -71,10 +115,10 @@ bool is_file(const ZipMember& member) {
 
 }  // namespace
 
-Result<ZipArchive> ZipArchive::open(const std::filesystem::path& path, const std::string& name) {
+Result<ZipArchive> ZipArchive::open(std::string content, const std::string& name) {
   ZipArchive archive;
   archive.name_ = name;
-  archive.handle_ = std::make_shared<Handle>(unzOpen64(path.c_str()));
+  archive.handle_ = std::make_shared<Handle>(std::move(content));
   unzFile const file = archive.handle_->file;
   if (file == nullptr) return damaged(name, "begins like a zip archive but is none, or is cut off");
   for (int status = unzGoToFirstFile(file); status == UNZ_OK; status = unzGoToNextFile(file)) {
@@ -121,23 +165,25 @@ Result<std::string> ZipArchive::content(const std::string& member, std::size_t m
   }
 }
 
-Result<TextStream> open_zip(const ContainerFile& file, const ContainerChoice& choice) {
-  auto opened = ZipArchive::open(file.path, file.name);
+Result<TextStream> open_zip(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  auto content = read_all(packed, name);
+  if (!content) return content.error();
+  auto opened = ZipArchive::open(std::move(content).value(), name);
   if (!opened) return opened.error();
   ZipArchive archive = std::move(opened).value();
-  if (archive.find("xl/workbook.xml") != nullptr) return open_workbook(archive, file.name, choice);
+  if (archive.find("xl/workbook.xml") != nullptr) return open_workbook(archive, name, choice);
   std::vector<std::string> names;
   for (const ZipMember& member : archive.members()) {
     if (is_file(member)) names.push_back(member.name);
   }
-  if (names.empty()) return damaged(file.name, "the zip archive holds no file");
+  if (names.empty()) return damaged(name, "the zip archive holds no file");
   if (names.size() > 1 && !choice.sheet) {
     return Error{"unknown_sheet",
                  fmt::format("{}: the zip archive holds {} files ({}, {}, ...); unpack it, or name one "
                              "with --sheet",
-                             file.name, names.size(), printable(names[0]), printable(names[1]))};
+                             name, names.size(), printable(names[0]), printable(names[1]))};
   }
-  const auto at = choice.sheet ? find_named(names, *choice.sheet, file.name) : Result<std::size_t>(0);
+  const auto at = choice.sheet ? find_named(names, *choice.sheet, name) : Result<std::size_t>(0);
   if (!at) return at.error();
   const std::string member = names[at.value()];
   auto bytes = ZipArchive::stream(std::move(archive), member);
@@ -150,9 +196,8 @@ Result<TextStream> open_zip(const ContainerFile& file, const ContainerChoice& ch
 
 #else
 
-Result<TextStream> open_zip(const ContainerFile& file, const ContainerChoice& /*choice*/) {
-  return not_built_in(file.name, "a zip archive or a workbook (.xlsx)",
-                      "zlib1g-dev, libminizip-dev and libpugixml-dev");
+Result<TextStream> open_zip(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
+  return not_built_in(name, "a zip archive or a workbook (.xlsx)", "zlib1g-dev, libminizip-dev and libpugixml-dev");
 }
 
 #endif

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,8 +20,8 @@ struct ZipMember {
 /// A zip archive open for reading, over minizip.
 class ZipArchive {
  public:
-  /// Error: damaged_container.
-  static Result<ZipArchive> open(const std::filesystem::path& path, const std::string& name);
+  /// Of its bytes. Errors: damaged_container, container_too_large.
+  static Result<ZipArchive> open(std::string content, const std::string& name);
 
   [[nodiscard]] const std::vector<ZipMember>& members() const { return members_; }
   [[nodiscard]] const ZipMember* find(const std::string& member) const;

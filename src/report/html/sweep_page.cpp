@@ -89,6 +89,20 @@ std::string recordings_of(const SweepSource& source) {
                  table(" class=\"plain-table\"", columns, rows));
 }
 
+/// Of recordings that are all at one speed.
+std::string repeats_of(const std::vector<Repeat>& repeats) {
+  if (repeats.empty()) return {};
+  std::string rows;
+  for (const Repeat& repeat : repeats) {
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"number\">{}</td></tr>\n",
+                        text(repeat.words), text(estimate_text(repeat.mean, repeat.unit)),
+                        text(quantity_text(repeat.standard_deviation, repeat.unit)), repeat.count);
+  }
+  return section(" class=\"flows\"", "At one speed: scatter between the recordings",
+                 table(" class=\"plain-table\"",
+                       {"", "mean, 95 % interval", "standard deviation between recordings", "#recordings"}, rows));
+}
+
 std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
   std::string facts = fact("program", fmt::format("slipfit {}", SLIPFIT_VERSION)) + command_fact(origin.command_line);
   for (std::size_t i = 0; i < source.entries.size(); ++i) {
@@ -113,7 +127,8 @@ std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sw
       "<p class=\"reason\">" + html::formula_text(sweep.fit_reason) + "</p>\n" + html::warnings_part(sweep.warnings);
   page.main = html::parameters_of(sweep) + html::figure_part(html::sweep_spacing_figure(source)) +
               html::figure_part(html::sweep_friction_figure(source)) + html::recordings_of(source) +
-              html::figure_part(html::sweep_traces_figure(source)) + html::repeat_of(source, origin);
+              html::repeats_of(sweep.repeats) + html::figure_part(html::sweep_traces_figure(source)) +
+              html::repeat_of(source, origin);
   return html::page_from(page);
 }
 

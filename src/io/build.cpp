@@ -1,0 +1,175 @@
+#include "io/build.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/quantile.hpp"
+#include "io/levels.hpp"
+#include "io/sign.hpp"
+#include "io/stated.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+/// What every recording of a part is made of.
+struct Interpreted {
+  std::vector<double> time_s;
+  std::vector<double> force;
+  std::vector<double> displacement_m;  ///< empty without such a column
+  Conditions conditions;
+  Provenance provenance;
+};
+
+/// Normal force and zero: from what the column says to a force.
+void interpret_force(Interpreted& part, ForceQuantity column) {
+  Conditions& conditions = part.conditions;
+  conditions.quantity = column;
+  if (column == ForceQuantity::FrictionCoefficient && conditions.normal_force_N) {
+    for (double& value : part.force) value *= *conditions.normal_force_N;
+    conditions.quantity = ForceQuantity::Force_N;
+    part.provenance.assumed.push_back(
+        fmt::format("Force is the friction coefficient times the normal force of {} N.", *conditions.normal_force_N));
+  }
+  if (!conditions.zero_force_N) return;
+  if (conditions.quantity == ForceQuantity::Force_N) {
+    for (double& value : part.force) value -= *conditions.zero_force_N;
+    return;
+  }
+  part.provenance.warnings.push_back(
+      {"zero_force_ignored",
+       "a zero force in newtons cannot be subtracted from a friction coefficient without the normal force"});
+}
+
+Result<Interpreted> interpret(Part part, const LoadedFile& file, const Conditions& conditions) {
+  if (const auto error = check_part(part, file)) return *error;
+  auto stated = state_conditions(part.rows, file.choice, file.layout, conditions, file.name);
+  if (!stated) return stated.error();
+  Interpreted result{{}, {}, {}, stated.value().conditions, describe_part(part, file)};
+  const auto append = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
+  append(result.provenance.assumed, stated.value().assumed);
+  append(result.provenance.warnings, stated.value().warnings);
+  result.time_s = std::move(part.rows.time_s);
+  result.force = std::move(part.rows.force);
+  result.displacement_m = std::move(part.rows.displacement_m);
+  interpret_force(result, file.choice.force.quantity);
+  return result;
+}
+
+Error reciprocating(const std::vector<double>& time_s, const std::string& file) {
+  return {
+      "reciprocating",
+      fmt::format("{}: the sign of the force turns with every stroke (a reciprocating test), and one "
+                  "stroke is one recording; take them all with --strokes, or one with --window T0:T1 (in s; from {} "
+                  "to {})",
+                  file, time_s.front(), time_s.back())};
+}
+
+Result<Recording> create(Interpreted part, const std::string& file) {
+  auto recording =
+      Recording::create(std::move(part.time_s), std::move(part.force), part.conditions, std::move(part.provenance));
+  if (!recording) return Error{recording.error().code, file + ": " + recording.error().message};
+  return recording;
+}
+
+/// Where a displacement is known, only what moves at nearly one speed: a crank turns slowly at its ends.
+SampleRange at_full_speed(const Interpreted& part, const Stroke& stroke) {
+  constexpr std::size_t kBlocks = 32;
+  constexpr double kFull = 0.9;
+  const std::size_t size = stroke.end - stroke.begin;
+  if (part.displacement_m.empty() || size < 2 * kBlocks) return {stroke.begin, stroke.end};
+  const auto of = [&](const std::vector<double>& column) { return std::span(column).subspan(stroke.begin, size); };
+  const std::vector<double> speeds = block_speeds_m_per_s(of(part.time_s), of(part.displacement_m), kBlocks);
+  const double full = kFull * quantile_of(speeds, 0.9);
+  const auto is_full = [full](double speed) { return speed >= full; };
+  const auto first = std::find_if(speeds.begin(), speeds.end(), is_full);
+  const auto last = std::find_if(speeds.rbegin(), speeds.rend(), is_full);
+  if (first == speeds.end()) return {stroke.begin, stroke.end};
+  const std::size_t step = size / kBlocks;
+  return {stroke.begin + step * static_cast<std::size_t>(first - speeds.begin()),
+          std::min(stroke.end, stroke.begin + step * (1 + static_cast<std::size_t>(speeds.rend() - last)))};
+}
+
+/// Of the displacement in what is kept of a stroke with the stated speed.
+std::optional<Warning> compare_speed(const Interpreted& part, const SampleRange& kept) {
+  constexpr double kTolerance = 0.05;
+  if (part.displacement_m.empty() || kept.end - kept.begin < 2) return std::nullopt;
+  const double moved_m = std::abs(part.displacement_m[kept.end - 1] - part.displacement_m[kept.begin]);
+  const double speed = moved_m / (part.time_s[kept.end - 1] - part.time_s[kept.begin]);
+  const double stated = part.conditions.speed_m_per_s;
+  if (!std::isfinite(speed) || std::abs(speed - stated) <= kTolerance * stated) return std::nullopt;
+  return Warning{
+      "speed_differs_from_displacement",
+      fmt::format("the speed is given as {:.6g} m/s, but in this stroke the displacement moves at {:.6g} m/s", stated,
+                  speed)};
+}
+
+Result<NamedRecording> record(const Interpreted& part, const Stroke& stroke, std::size_t number,
+                              const std::string& file) {
+  const SampleRange kept = at_full_speed(part, stroke);
+  const auto cut = [&](const std::vector<double>& column) {
+    return std::vector<double>(column.begin() + static_cast<std::ptrdiff_t>(kept.begin),
+                               column.begin() + static_cast<std::ptrdiff_t>(kept.end));
+  };
+  const char sign = stroke.is_positive ? '+' : '-';
+  Interpreted own{cut(part.time_s), cut(part.force), {}, part.conditions, part.provenance};
+  for (double& force : own.force) force = stroke.is_positive ? force : -force;
+  own.provenance.assumed.push_back(
+      fmt::format("Stroke {} is {:.6g} to {:.6g} s, without the ends in which the force turns; its force has the sign "
+                  "{} in the file.",
+                  number, own.time_s.front(), own.time_s.back(), sign));
+  if (auto warning = compare_speed(part, kept)) own.provenance.warnings.push_back(*std::move(warning));
+  auto recording = create(std::move(own), file);
+  if (!recording) return recording.error();
+  return NamedRecording{fmt::format("stroke {} ({})", number, sign), std::move(recording).value()};
+}
+
+}  // namespace
+
+Result<Recording> build_recording(Part part, const LoadedFile& file, const Conditions& conditions) {
+  auto interpreted = interpret(std::move(part), file, conditions);
+  if (!interpreted) return interpreted.error();
+  Interpreted one = std::move(interpreted).value();
+  if (is_negative_throughout(one.force)) {
+    for (double& force : one.force) force = -force;
+    one.provenance.assumed.emplace_back("The force is negative throughout: its sign was turned.");
+  }
+  if (is_reciprocating(one.force)) return reciprocating(one.time_s, file.name);
+  return create(std::move(one), file.name);
+}
+
+Result<std::vector<NamedRecording>> build_strokes(Part part, const LoadedFile& file, const Conditions& conditions) {
+  auto interpreted = interpret(std::move(part), file, conditions);
+  if (!interpreted) return interpreted.error();
+  const Interpreted& all = interpreted.value();
+  const std::vector<Stroke> strokes = find_strokes(all.force);
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    const bool is_wanted = file.options.pieces == Pieces::Strokes ||
+                           strokes[i].is_positive == (file.options.pieces == Pieces::PositiveStrokes);
+    if (is_wanted && strokes[i].begin < strokes[i].end) wanted.push_back(i);
+  }
+  if (wanted.empty()) {
+    return Error{"no_strokes", file.name +
+                                   ": the force does not dwell at either sign in turn, as it does in the strokes "
+                                   "of a reciprocating test; leave out --strokes"};
+  }
+  // Of both directions a pair at a time, so that each is there as often as the other.
+  const std::size_t group = file.options.pieces == Pieces::Strokes ? 2 : 1;
+  const std::size_t groups = (wanted.size() + group - 1) / group;
+  const std::size_t taken = std::min(groups, kMostPieces / group);
+  std::vector<NamedRecording> recordings;
+  for (std::size_t g = 0; g < taken; ++g) {
+    const std::size_t first = group * (g * groups / taken);
+    for (std::size_t i = first; i < std::min(first + group, wanted.size()); ++i) {
+      auto recording = record(all, strokes[wanted[i]], wanted[i] + 1, file.name);
+      if (!recording) return recording.error();
+      recordings.push_back(std::move(recording).value());
+    }
+  }
+  return recordings;
+}
+
+}  // namespace slipfit::reading

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "io/opened_file.hpp"
+#include "io/part.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/core/result.hpp"
+#include "slipfit/io/named_recording.hpp"
+
+namespace slipfit::reading {
+
+/// Forces that oppose the motion, and what the columns say of speed and load. Errors: those of check_part,
+/// state_conditions and Recording::create; reciprocating.
+Result<Recording> build_recording(Part part, const LoadedFile& file, const Conditions& conditions);
+
+/// The strokes of a reciprocating test, of those of `file.options.pieces` at most `kMostPieces`, spread evenly. Errors:
+/// those above; no_strokes.
+Result<std::vector<NamedRecording>> build_strokes(Part part, const LoadedFile& file, const Conditions& conditions);
+
+/// A joint fit of more takes minutes.
+constexpr std::size_t kMostPieces = 16;
+
+}  // namespace slipfit::reading
