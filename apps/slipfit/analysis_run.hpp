@@ -8,6 +8,7 @@
 #include "output.hpp"
 #include "recording_options.hpp"
 #include "slipfit/pipeline.hpp"
+#include "surface_options.hpp"
 
 /// What `analyze` and `fit` share: which results to write, and where.
 struct AnalysisArguments {
@@ -18,6 +19,7 @@ struct AnalysisArguments {
   std::optional<std::string> curve;
   std::optional<std::string> report;  ///< HTML file
   std::optional<std::string> plots;   ///< folder for SVG files
+  SurfaceArguments surface;           ///< the worn track; an empty file name: none
   std::string command_line;           ///< as typed, for the report
 };
 

@@ -2,6 +2,7 @@
 
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
+#include "slipfit/surface/comparison.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit {
@@ -9,7 +10,9 @@ namespace slipfit {
 Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manifest) {
   std::vector<SweepEntry> entries;
   for (const ManifestEntry& entry : manifest) {
-    auto recording = read_recording(entry.file, entry.conditions, entry.options);
+    const auto stated = with_worn_track(entry.conditions, entry.surface);
+    if (!stated) return in_words_of_manifest(stated.error());
+    auto recording = read_recording(entry.file, stated.value(), entry.options);
     if (!recording) return in_words_of_manifest(recording.error());
     const Conditions& conditions = recording.value().conditions();
     if (conditions.quantity != ForceQuantity::Force_N) {

@@ -20,6 +20,7 @@
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/sweep_html.hpp"
 #include "slipfit/report/text.hpp"
+#include "slipfit/surface/comparison.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit::batch {
@@ -107,7 +108,9 @@ std::string name_of(const WorkItem& item) {
 }
 
 Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions& options) {
-  const auto read = read_recording(entry.file, entry.conditions, entry.options);
+  const auto conditions = with_worn_track(entry.conditions, entry.surface);
+  if (!conditions) return in_words_of_manifest(conditions.error());
+  const auto read = read_recording(entry.file, conditions.value(), entry.options);
   if (!read) return in_words_of_manifest(read.error());
   const Recording& recording = read.value();
   FitOptions fit = options.fit;
