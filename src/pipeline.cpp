@@ -23,6 +23,7 @@
 #include "analysis/warnings.hpp"
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/selection/qualify.hpp"
+#include "slipfit/surface/comparison.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit {
@@ -44,6 +45,17 @@ std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classificat
   return fit;
 }
 
+/// Whether the worn track has the spacing that the force tells, V / f.
+Derived with_worn_track(Derived derived, const Conditions& conditions) {
+  if (!conditions.worn_track) return derived;
+  SpacingComparison compared = compare_spacings(derived.pattern_spacing_m, conditions.worn_track->spacing_m);
+  derived.surface_spacing_m = conditions.worn_track->spacing_m;
+  derived.surface_ratio = std::move(compared.ratio);
+  derived.surface_En = std::move(compared.En);
+  derived.surface_verdict = std::move(compared.verdict);
+  return derived;
+}
+
 /// What follows from the fit and from what was measured, at the recording's own speed.
 Derived derive(const Recording& recording, const Analysis& analysis) {
   Derived derived;
@@ -51,7 +63,8 @@ Derived derive(const Recording& recording, const Analysis& analysis) {
   if (!analysis.fit && recording.conditions().measured_spacing_m) {
     derived.measured_spacing_En = Estimate{{}, {}, {}, "needs a fitted model"};
   }
-  return in_range(with_measured_spacing(std::move(derived), recording, analysis.frequency, analysis.cycles));
+  derived = with_measured_spacing(std::move(derived), recording, analysis.frequency, analysis.cycles);
+  return in_range(with_worn_track(std::move(derived), recording.conditions()));
 }
 
 /// The fitted curve counts its samples in the part that slides: told in samples of the whole recording.

@@ -18,6 +18,7 @@
 #include "slipfit/report/html.hpp"
 #include "slipfit/report/json.hpp"
 #include "slipfit/report/text.hpp"
+#include "slipfit/surface/comparison.hpp"
 #include "sweep_run.hpp"
 
 namespace {
@@ -37,8 +38,14 @@ ExitCode exit_code_for(const std::string& error_code) {
 }
 
 slipfit::Recording read(const AnalysisArguments& arguments) {
-  auto recording = slipfit::read_recording(arguments.recording.file, conditions_from(arguments.recording),
-                                           read_options_from(arguments.recording));
+  slipfit::Conditions conditions = conditions_from(arguments.recording);
+  if (!arguments.surface.file.empty()) {
+    const MeasuredSurface measured = measure(arguments.surface);
+    conditions.worn_track =
+        std::make_shared<const slipfit::WornTrack>(slipfit::worn_track_of(measured.profile, measured.surface));
+  }
+  auto recording =
+      slipfit::read_recording(arguments.recording.file, conditions, read_options_from(arguments.recording));
   if (!recording) throw Failure(exit_code_for(recording.error().code), recording.error().message);
   return std::move(recording).value();
 }

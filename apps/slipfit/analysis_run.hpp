@@ -10,6 +10,7 @@
 #include "recording_options.hpp"
 #include "slipfit/pipeline.hpp"
 #include "slipfit/sweep.hpp"
+#include "surface_options.hpp"
 
 /// What `analyze` and `fit` share: which results to write, and where.
 struct AnalysisArguments {
@@ -20,6 +21,7 @@ struct AnalysisArguments {
   std::optional<std::string> curve;
   std::optional<std::string> report;  ///< HTML file
   std::optional<std::string> plots;   ///< folder for SVG files
+  SurfaceArguments surface;           ///< the worn track; an empty file name: none
   std::string command_line;           ///< as typed, for the report
 };
 

@@ -59,6 +59,9 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
   command->add_option("--fix", arguments->fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
       ->allow_extra_args(false);
   command->add_option("--curve", arguments->analysis.curve, "Write time, force, fitted force and residual (CSV)");
+  command->add_option("--surface", arguments->analysis.surface.file,
+                      "Profile or image of the worn track: is its pattern that of the slips?");
+  add_profile_options(*command, arguments->analysis.surface);
   command->add_option("--joint", arguments->sweep, "Manifest (CSV): one set of parameters for its recordings");
   command->add_option("--group", arguments->group, "With --joint: this group of the manifest");
   command->add_option("--only", arguments->only, "With --joint: these recordings (ID,ID,...)")->delimiter(',');

@@ -118,6 +118,10 @@ Derived in_range(Derived derived) {
   }
   derived.gamma = within(std::move(derived.gamma), {1.0, std::numeric_limits<double>::infinity()});
   derived.pattern_spacing_sd_m = within(derived.pattern_spacing_sd_m, kNotNegative);
+  for (auto* const quantity : {&derived.surface_spacing_m, &derived.surface_ratio}) {
+    if (*quantity) *quantity = within(**quantity, kNotNegative);
+  }
+  if (derived.surface_En) derived.surface_En = within(*std::move(derived.surface_En), kAnyNumber);
   if (derived.measured_spacing_En) {
     derived.measured_spacing_En = within(*std::move(derived.measured_spacing_En), kAnyNumber);
   }

@@ -1,5 +1,6 @@
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
+#include "slipfit/surface/comparison.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit {
@@ -21,7 +22,9 @@ std::optional<Error> check_joint(const Recording& recording) {
 Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manifest) {
   std::vector<SweepEntry> entries;
   for (const ManifestEntry& entry : manifest) {
-    auto pieces = read_pieces(entry.file, entry.conditions, entry.options);
+    const auto stated = with_worn_track(entry.conditions, entry.surface);
+    if (!stated) return in_words_of_manifest(stated.error());
+    auto pieces = read_pieces(entry.file, stated.value(), entry.options);
     if (!pieces) return in_words_of_manifest(pieces.error());
     for (NamedRecording& piece : std::move(pieces).value()) {
       if (auto error = check_joint(piece.recording)) return *std::move(error);

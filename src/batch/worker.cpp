@@ -20,6 +20,7 @@
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/sweep_html.hpp"
 #include "slipfit/report/text.hpp"
+#include "slipfit/surface/comparison.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit::batch {
@@ -132,7 +133,9 @@ Result<BatchFit> fit_pieces_of(const ManifestEntry& entry, const BatchOptions& o
 
 Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions& options) {
   if (entry.options.pieces != Pieces::One) return fit_pieces_of(entry, options);
-  const auto read = read_recording(entry.file, entry.conditions, entry.options);
+  const auto conditions = with_worn_track(entry.conditions, entry.surface);
+  if (!conditions) return in_words_of_manifest(conditions.error());
+  const auto read = read_recording(entry.file, conditions.value(), entry.options);
   if (!read) return in_words_of_manifest(read.error());
   const Recording& recording = read.value();
   FitOptions fit = options.fit;

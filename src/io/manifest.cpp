@@ -108,6 +108,7 @@ class ManifestReader::Implementation {
       entry = std::move(result).value();
     }
     entry.file = folder_ / entry.file;
+    if (!entry.surface.empty()) entry.surface = folder_ / entry.surface;
     return entry;
   }
 

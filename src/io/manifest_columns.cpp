@@ -30,8 +30,9 @@ std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell) {
   return std::nullopt;
 }
 
-std::optional<Error> set_file(ManifestEntry& entry, const std::string& cell) {
-  entry.file = cell;
+template <auto ManifestEntry::*target>
+std::optional<Error> set_path(ManifestEntry& entry, const std::string& cell) {
+  entry.*target = cell;
   return std::nullopt;
 }
 
@@ -121,7 +122,7 @@ using Bound = ManifestField::Bound;
 // A name that begins like another one stands before it.
 constexpr std::array kFields = std::to_array<ManifestField>({
     {.base = "id", .set_text = set_id, .is_needed = true},
-    {.base = "file", .set_text = set_file, .is_needed = true},
+    {.base = "file", .set_text = set_path<&ManifestEntry::file>, .is_needed = true},
     {"speed_se", "_m_per_s", Dimension::Speed, Bound::NotNegative,
      set_condition<&Conditions::speed_standard_error_m_per_s>},
     {"speed", "_m_per_s", Dimension::Speed, Bound::AboveZero, set_condition<&Conditions::speed_m_per_s>, nullptr,
@@ -136,6 +137,7 @@ constexpr std::array kFields = std::to_array<ManifestField>({
      .set_text = set_option<&ReadOptions::normal_force_column>,
      .option = "--normal-force-column"},
     {.base = "speed_column", .set_text = set_option<&ReadOptions::speed_column>, .option = "--speed-column"},
+    {.base = "surface", .set_text = set_path<&ManifestEntry::surface>, .option = "--surface"},
     {.base = "sheet", .set_text = set_option<&ReadOptions::sheet>, .option = "--sheet"},
     {.base = "variable", .set_text = set_option<&ReadOptions::variable>, .option = "--variable"},
     {.base = "step", .set_text = set_step, .option = "--step"},
@@ -150,6 +152,8 @@ constexpr std::array kFields = std::to_array<ManifestField>({
     {.base = "window", .suffix = "_s", .dimension = Dimension::Time, .option = "--window"},
     {"drive_period", "_s", Dimension::Time, Bound::AboveZero, set_condition<&Conditions::drive_period_s>},
     {"sensor_average", "_s", Dimension::Time, Bound::NotNegative, set_condition<&Conditions::sensor_average_s>},
+    {"measured_spacing_se", "_m", Dimension::Length, Bound::NotNegative,
+     set_condition<&Conditions::measured_spacing_se_m>},
     {"measured_spacing", "_m", Dimension::Length, Bound::AboveZero, set_condition<&Conditions::measured_spacing_m>},
 });
 

@@ -28,15 +28,16 @@ Estimate force_ratio(const FitResult& fit, const Conditions& conditions) {
   return {1.0 + excess, se, Interval{1.0 + std::max(0.0, excess - 1.96 * se), 1.0 + excess + 1.96 * se}, {}};
 }
 
-/// E_n as interlaboratory comparisons have it, (predicted - measured) / U with the 95 % reach U of the prediction.
-Estimate spacing_score(const Estimate& predicted_m, double measured_m) {
+/// E_n of ISO 13528, (predicted - measured) / U with U from the 95 % reach of the prediction and of the measurement.
+Estimate spacing_score(const Estimate& predicted_m, double measured_m, std::optional<double> measured_se_m) {
   if (!predicted_m.value || !predicted_m.ci95) return unknown("needs a predicted spacing with its interval");
   const double difference_m = *predicted_m.value - measured_m;
   const double reach_m =
       difference_m > 0.0 ? *predicted_m.value - predicted_m.ci95->low : predicted_m.ci95->high - *predicted_m.value;
-  if (!(reach_m > 0.0)) return unknown("the predicted spacing has no width");
-  return {difference_m / reach_m, std::nullopt, std::nullopt,
-          "the measured spacing counts as exact: its own uncertainty would make this smaller"};
+  const double both_m = std::hypot(reach_m, 1.959963985 * measured_se_m.value_or(0.0));
+  if (!(both_m > 0.0)) return unknown("the predicted spacing has no width");
+  return {difference_m / both_m, std::nullopt, std::nullopt,
+          measured_se_m ? "" : "the measured spacing counts as exact: its own uncertainty would make this smaller"};
 }
 
 /// V, and with it every distance at the measured speed, has the error of the stated speed.
@@ -111,7 +112,8 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
       motion.cycle ? at_uncertain_speed(propagation.positive(motion.cycle->periodic_displacement_m))
                    : unknown("the fitted model has no stick-slip at this speed");
   if (conditions.measured_spacing_m) {
-    derived.measured_spacing_En = spacing_score(derived.periodic_displacement_m, *conditions.measured_spacing_m);
+    derived.measured_spacing_En = spacing_score(derived.periodic_displacement_m, *conditions.measured_spacing_m,
+                                                conditions.measured_spacing_se_m);
   }
   return derived;
 }

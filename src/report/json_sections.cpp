@@ -217,6 +217,12 @@ Json derived_json(const Derived& derived) {
     json["observed_end_m_per_s"] = {number(derived.observed_end->sticks_m_per_s),
                                     number(derived.observed_end->slides_m_per_s)};
   }
+  if (derived.surface_spacing_m) {
+    json["surface_spacing_m"] = estimate(*derived.surface_spacing_m);
+    json["surface_ratio"] = estimate(derived.surface_ratio.value_or(Estimate{}));
+    json["surface_En"] = estimate(derived.surface_En.value_or(Estimate{}));
+    json["surface_verdict"] = derived.surface_verdict;
+  }
   if (derived.measured_spacing_En) json["measured_spacing_En"] = estimate(*derived.measured_spacing_En);
   return json;
 }

@@ -72,6 +72,7 @@ std::string to_text(const Recording& recording, const Analysis& analysis) {
   text += transients_text(analysis.transients, recording.conditions().quantity);
   text += coefficients_text(analysis.coefficients);
   text += spacing_text(recording, analysis.derived);
+  text += surface_text(analysis.derived);
   const bool moves_like_model =
       analysis.motion == MotionClass::StickSlip || analysis.motion == MotionClass::OscillatorySlip;
   if (moves_like_model) text += predicted_text(recording, analysis.derived);
@@ -202,6 +203,15 @@ std::string spacing_text(const Recording& recording, const Derived& derived) {
   add_estimate(table, "spread of the spacing over cycles (sd)", Estimate{derived.pattern_spacing_sd_m, {}, {}, {}},
                std::string("m"));
   return title + table.text();
+}
+
+std::string surface_text(const Derived& derived) {
+  if (!derived.surface_spacing_m) return {};
+  Table table = estimate_table();
+  add_estimate(table, "pattern on the worn surface", *derived.surface_spacing_m, "m");
+  add_estimate(table, "over the spacing by force (V/f)", derived.surface_ratio.value_or(Estimate{}), "");
+  add_estimate(table, "E_n of the two (within +-1: agree)", derived.surface_En.value_or(Estimate{}), "");
+  return "\nOn the worn surface\n" + table.text() + "  " + one_line(derived.surface_verdict) + "\n";
 }
 
 std::string predicted_text(const Recording& recording, const Derived& derived) {

@@ -25,6 +25,8 @@ std::string warnings_text(const Warnings& warnings);
 std::string frequency_text(const FrequencyReport& frequency);
 std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity);
 std::string spacing_text(const Recording& recording, const Derived& derived);
+/// What the worn track shows beside it; empty where none was given.
+std::string surface_text(const Derived& derived);
 std::string transients_text(const Transients& transients, ForceQuantity quantity);
 std::string coefficients_text(const std::optional<Coefficients>& coefficients);
 std::string predicted_text(const Recording& recording, const Derived& derived);

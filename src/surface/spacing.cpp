@@ -21,7 +21,6 @@ constexpr double kChance = -7.0;
 constexpr double kStillRegular = -3.0;  // at a distance that the scan has shown
 constexpr double kKeptChance = 0.3;     // share of the best logarithm
 constexpr double kSureComb = 1e-4;
-constexpr double kCertainComb = 1e-10;
 constexpr double kHintOfRidges = -1.5;
 constexpr std::size_t kFewestRidges = 6;
 constexpr double kFewestSamples = 6.0;       // of a ridge
@@ -167,19 +166,26 @@ Pattern measured(std::span<const double> heights, const Combs& combs, const Patt
   return pattern;
 }
 
-/// A comb that roughness hides from the count: believed where ridges of that distance show at any smoothing.
+/// The most regular ridges of about this distance, at any smoothing; without places where there are none.
+Pattern most_regular(std::span<const double> heights, double distance) {
+  Pattern best;
+  for (Pattern& look : looked_at(heights, distance)) {
+    const bool same = std::abs(mean_distance(look) / distance - 1.0) < 0.1;
+    if (same && (best.places.empty() || look.log_chance < best.log_chance)) best = std::move(look);
+  }
+  return best;
+}
+
+/// A comb that roughness hides from the count: believed where ridges of that distance show at any smoothing, and more
+/// plainly than those of twice it (of which it would be every second line).
 std::optional<Pattern> by_comb(std::span<const double> heights, const Combs& combs) {
   const auto comb = combs.find(std::nullopt);
-  if (!comb || comb->chance > kSureComb || comb->value < kFewestSamples) return std::nullopt;
-  Pattern best;
-  for (Pattern& look : looked_at(heights, comb->value)) {
-    const bool same = std::abs(mean_distance(look) / comb->value - 1.0) < 0.1;
-    const bool is_certain = comb->chance < kCertainComb && comb->value > kFewestCombSamples;
-    const bool shows = look.log_chance < kHintOfRidges || is_certain;
-    if (same && shows && (best.places.empty() || look.log_chance < best.log_chance)) best = std::move(look);
-  }
+  if (!comb || comb->chance > kSureComb || comb->value < kFewestCombSamples) return std::nullopt;
+  Pattern best = most_regular(heights, comb->value);
+  const bool shows = !best.places.empty() && best.log_chance < kHintOfRidges &&
+                     best.log_chance < most_regular(heights, 2.0 * comb->value).log_chance;
   best.comb_chance = comb->chance;
-  if (best.places.empty()) {
+  if (!shows) {
     best.doubt = "a line of the spectrum stands out, but no ridges are seen at its spacing";
     best.comb_spacing = comb->value;
     return best;
@@ -187,6 +193,11 @@ std::optional<Pattern> by_comb(std::span<const double> heights, const Combs& com
   best.spacing = normal_interval(comb->value, comb->standard_error);
   best.is_from_comb = true;
   return best;
+}
+
+double mean_height(const Pattern& pattern) {
+  const std::vector<double>& heights = pattern.ridges.heights;
+  return std::accumulate(heights.begin(), heights.end(), 0.0) / std::max(1.0, static_cast<double>(heights.size()));
 }
 
 /// Edges of a coarser pattern have short waves of their own: a whole number of them for each of its ridges.
@@ -208,8 +219,9 @@ std::vector<Pattern> find_patterns(std::span<const double> heights) {
   for (const Pattern& seen : scan(heights)) {
     Pattern pattern = measured(heights, combs, seen);
     if (!patterns.empty() && is_overtone(seen, patterns.front())) {
-      // Every third of regular ridges may stand out by chance.
-      const bool is_surer = pattern.spacing && pattern.log_chance < 2.0 * patterns.front().log_chance;
+      // Every third of regular ridges may stand out by chance, but not as high as the ridges themselves.
+      const bool is_surer = pattern.spacing && pattern.log_chance < 2.0 * patterns.front().log_chance &&
+                            mean_height(pattern) > 1.5 * mean_height(patterns.front());
       if (is_surer) patterns = {std::move(pattern)};
     } else if (patterns.empty() || !patterns.front().spacing) {
       patterns = {std::move(pattern)};

@@ -1,8 +1,7 @@
-#!/ usr / bin / env python3
-""
-    "files.py SLIPFIT: one profile as text, SDF and X3P, written from the standards' descriptions, read to the same numbers to the last
-    digit;
-images of a pattern; and damaged, lying and swollen files, refused in one line, soon and without much memory."""
+#!/usr/bin/env python3
+"""files.py SLIPFIT: one profile as text, SDF and X3P, written from the standards' descriptions, read to the same numbers to the last
+digit; images of a pattern; damaged, lying and swollen files, refused in one line, soon and without much memory; and a track beside the
+force that wore it, also in a manifest."""
 
 import io
 import json
@@ -229,12 +228,65 @@ def x3p_xml(n):
         return archive.read("main.xml")
 
 
+def program(*arguments):
+    return subprocess.run([SLIPFIT, *map(str, arguments)], capture_output=True, text=True, timeout=120, check=False)
+
+
+def track(spacing_m, folder, name):
+    rng = random.Random(9)
+    pitch_m = spacing_m / 40
+    rows = "".join(f"{i * pitch_m * 1e3:.9g},{((i / 40) % 1) + rng.gauss(0, 0.03):.5f}\n" for i in range(2000))
+    (folder / name).write_text("x [mm],z [um]\n" + rows)
+    return folder / name
+
+
+def check_beside_the_force(folder):
+    """The pattern of the slips, of every second slip, and none; the same in a manifest."""
+    force = folder / "force.csv"
+    made = program("simulate", "--stiffness", "5000", "--natural-frequency", "900", "--damping-ratio", "0.05", "--static-friction", "4",
+                   "--kinetic-friction", "3", "--sample-rate", "10000", "--duration", "2", "--noise", "0.01", "--jitter", "0.02", "--speed", "0.01",
+                   "--seed", "3", "--out", force)
+    assert made.returncode == 0, made.stderr
+
+    def derived(*options):
+        done = program("fit", force, "--speed", "0.01", "--json", *options)
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)["derived"]
+
+    plain = derived()
+    assert "surface_En" not in plain
+    spacing_m = plain["pattern_spacing_m"]["value"]
+    same = derived("--surface", track(spacing_m, folder, "same.csv"), "--report", folder / "page.html")
+    assert abs(same["surface_En"]["value"]) <= 1 and same["surface_verdict"].startswith("agrees"), same
+    low, high = same["surface_ratio"]["ci95"]
+    assert low < 1 < high
+    assert {k: v for k, v in same.items() if not k.startswith("surface")} == plain, "the surface changes nothing of the fit"
+    page = (folder / "page.html").read_text()
+    assert "measured profile of the worn track" in page and "On the worn surface" in page
+    twice = derived("--surface", track(2 * spacing_m, folder, "twice.csv"))
+    assert twice["surface_En"]["value"] > 1 and "2 times as coarse" in twice["surface_verdict"], twice
+    assert derived("--surface", track(1.4 * spacing_m, folder, "other.csv"))["surface_verdict"].startswith("no relation")
+    gone = program("fit", force, "--speed", "0.01", "--surface", folder / "gone.x3p")
+    assert gone.returncode == 3 and gone.stderr.count("\n") == 1
+    (folder / "runs.csv").write_text("id,file,speed_m_per_s,surface,measured_spacing_um,measured_spacing_se_um\n"
+                                     f"a,force.csv,0.01,same.csv,{1.2e6 * spacing_m},\nb,force.csv,0.01,,{1.2e6 * spacing_m},{1e6 * spacing_m}\n"
+                                     "c,force.csv,0.01,gone.x3p,,\n")
+    done = program("batch", folder / "runs.csv", "--out", folder / "batch", "--jobs", "1")
+    assert done.returncode == 1, done.stderr
+    a, b = (json.loads(line)["derived"] for line in (folder / "batch/results.jsonl").read_text().splitlines())
+    assert a["surface_En"] == same["surface_En"]
+    assert "counts as exact" in a["measured_spacing_En"]["note"] and "note" not in b["measured_spacing_En"]
+    assert abs(a["measured_spacing_En"]["value"]) > 1 > abs(b["measured_spacing_En"]["value"])
+    assert "c,file_not_found" in (folder / "batch/failures.csv").read_text()
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         check_numbers(folder)
         check_images(folder)
         check_hostile(folder)
+        check_beside_the_force(folder)
 
 
 main()

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,6 +19,15 @@ enum class ForceView { Spring, Transmitted, Contact };
 
 /// What the force column holds: newtons, or a friction coefficient whose normal force is not known.
 enum class ForceQuantity { Force_N, FrictionCoefficient };
+
+/// The track that was worn in the test, as a profile of it shows it.
+struct WornTrack {
+  std::string file;
+  Estimate spacing_m;  ///< empty, with a reason, where the surface does not tell it
+  double pitch_m = 0.0;
+  std::vector<double> height;          ///< not a number where nothing was measured
+  std::vector<double> ridge_places_m;  ///< from the first sample
+};
 
 /// How the recording was made: what the trace itself does not tell.
 struct Conditions {
@@ -37,7 +47,9 @@ struct Conditions {
   std::optional<double> drive_period_s;      ///< > 0, of what may set the rhythm: a motor's step, an excitation
   std::optional<double> mass_kg;             ///< > 0, of the moving body: held against k / w_n^2, never forced
   std::optional<double> measured_spacing_m;  ///< > 0, of the worn surface: a prediction is held against it
-  std::string speed_unit = {};               ///< that the speed was given in ("mm/min"): reports show it; empty: m/s
+  std::optional<double> measured_spacing_se_m;  ///< >= 0; empty: the measured spacing counts as exact
+  std::shared_ptr<const WornTrack> worn_track;  ///< none: no surface was given
+  std::string speed_unit = {};                  ///< that the speed was given in ("mm/min"): reports show it; empty: m/s
 };
 
 /// Where the numbers came from and what the reader had to assume, count or leave out.

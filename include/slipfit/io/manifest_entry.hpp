@@ -13,7 +13,8 @@ namespace slipfit {
 struct ManifestEntry {
   std::string id;  ///< not empty, no slash, no control character, not of the form "group:..."
   std::filesystem::path file;
-  std::string group;  ///< empty: of no group
+  std::filesystem::path surface;  ///< of the worn track; empty: none
+  std::string group;              ///< empty: of no group
   Conditions conditions;
   ReadOptions options;
   std::size_t row = 0;   ///< 1, 2, ... over the recordings

@@ -27,6 +27,10 @@ struct Derived {
   Estimate micro_vibration_spacing_m;          ///< estimate only, see docs/model.md section 8
   Estimate impulse_rate_per_m;                 ///< 1 / spacing
   std::optional<ObservedEnd> observed_end;     ///< of a sweep
+  std::optional<Estimate> surface_spacing_m;   ///< on the worn track, where one was given; so for the next three
+  std::optional<Estimate> surface_ratio;       ///< over pattern_spacing_m
+  std::optional<Estimate> surface_En;          ///< (surface_spacing_m - pattern_spacing_m) / U, ISO 13528
+  std::string surface_verdict;                 ///< one sentence
   std::optional<Estimate>
       measured_spacing_En;  ///< where `Conditions` has a measured spacing: (predicted - measured) / U
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "report/html/figure.hpp"
@@ -142,6 +143,36 @@ Panel fine_strip(double spacing, double length, const std::string& unit) {
   return panel;
 }
 
+/// As much of the measured profile as the pattern above it is long, at the same scale; begins at a ridge.
+Panel track_strip(const WornTrack& track, double length, const DisplayUnit& unit) {
+  Panel panel = strip("measured profile of the worn track", unit.unit, length);
+  panel.height_px = 110.0;
+  const double first_m = track.ridge_places_m.empty() ? 0.0 : track.ridge_places_m.front();
+  chart::Line line{"", Colour::Blue, chart::Stroke::Solid, {}, 1.0};
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (auto i = static_cast<std::size_t>(first_m / track.pitch_m); i < track.height.size(); ++i) {
+    const double at = unit.per_SI * (track.pitch_m * static_cast<double>(i) - first_m);
+    if (at > length) break;
+    line.points.push_back({at, track.height[i]});
+    if (!std::isfinite(track.height[i])) continue;
+    low = std::min(low, track.height[i]);
+    high = std::max(high, track.height[i]);
+  }
+  if (!(low < high)) return panel;
+  for (chart::Point& point : line.points) point.y = 0.05 + 0.9 * (point.y - low) / (high - low);
+  panel.lines.push_back(std::move(line));
+  return panel;
+}
+
+void add_track(Figure& figure, const Source& source, double length, const DisplayUnit& unit) {
+  const auto& track = source.recording.conditions().worn_track;
+  if (!track) return;
+  figure.chart->panels.push_back(track_strip(*track, length, unit));
+  figure.guide += " Below it, to the same scale, the measured profile of the worn track: " +
+                  source.analysis.derived.surface_verdict + ".";
+}
+
 }  // namespace
 
 Figure pattern_figure(const Source& source) {
@@ -168,10 +199,10 @@ Figure pattern_figure(const Source& source) {
   figure.chart = chart::Chart{"Abrasion pattern, to scale", {}, {coarse}};
   const std::string source_words = is_predicted ? "predicted by the fitted model" : "measured (V/f)";
   figure.guide = fmt::format(
-      "The surface from above, one ridge a slip, along the path to scale: mean spacing {}, {}, with the scatter of "
-      "this "
-      "recording's slips. The height of the ridges and their shape are not predicted; they are drawn alike.",
+      "The surface from above, one ridge a slip, along the path to scale: mean spacing {}, {}, with the scatter "
+      "of this recording's slips. The height of the ridges and their shape are not predicted; they are drawn alike.",
       quantity_of(spacing, "m"), source_words);
+  add_track(figure, source, per_SI * length_m, unit);
   const Estimate& fine = derived.micro_vibration_spacing_m;
   if (fine.value && *fine.value > 0.0 && length_m / *fine.value < static_cast<double>(kMostFine)) {
     figure.chart->panels.push_back(fine_strip(per_SI * *fine.value, per_SI * length_m, unit.unit));

@@ -210,10 +210,6 @@ Figure speed_figure(const Source& source) {
   return figure;
 }
 
-const std::string& given_speed_unit(const SweepSource& source) {
-  return source.entries.front().recording.conditions().speed_unit;
-}
-
 Figure sweep_spacing_figure(const SweepSource& source) {
   Figure figure{"sweep-spacing", "Pattern spacing over speed"};
   figure.guide =
@@ -239,6 +235,12 @@ Figure sweep_spacing_figure(const SweepSource& source) {
   panel.add_curve("joint fit", Colour::Blue, fitted);
   panel.add_markers("measured (V/f)", Colour::Black, Shape::Dot, measured);
   panel.add_markers("predicted without it", Colour::Vermillion, Shape::Ring, left_out);
+  const Series worn = series_of(
+      source, [&source](std::size_t i) { return spacing_on_surface(source.entries[i].recording.conditions()); });
+  if (!worn.estimates.empty()) {
+    panel.add_markers("on the worn surface", Colour::Green, Shape::Triangle, worn);
+    figure.guide += " Triangles: the pattern on the worn surface, with its 95 % interval where one is known.";
+  }
   figure.chart = chart::Chart{"Pattern spacing over speed",
                               {},
                               {panel.finished("spacing", chart::Scale::Logarithmic, critical_speed_of(source))}};

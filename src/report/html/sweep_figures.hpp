@@ -19,6 +19,9 @@ struct SweepSource {
 /// The unit in which the manifest gives the speeds; empty: SI.
 const std::string& given_speed_unit(const SweepSource& source);
 
+/// Measured on the worn track: by a profile of it, else as stated.
+Estimate spacing_on_surface(const Conditions& conditions);
+
 Figure sweep_spacing_figure(const SweepSource& source);
 Figure sweep_friction_figure(const SweepSource& source);
 Figure sweep_traces_figure(const SweepSource& source);

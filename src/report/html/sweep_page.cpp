@@ -47,7 +47,7 @@ SweepUnits units_of(const SweepSource& source) {
   for (std::size_t i = 0; i < source.entries.size(); ++i) {
     const Conditions& conditions = source.entries[i].recording.conditions();
     fastest_m_per_s = std::max(fastest_m_per_s, conditions.speed_m_per_s);
-    widest_m = std::max({widest_m, conditions.measured_spacing_m.value_or(0.0),
+    widest_m = std::max({widest_m, spacing_on_surface(conditions).value.value_or(0.0),
                          source.sweep.recordings[i].derived.pattern_spacing_m.value.value_or(0.0)});
   }
   return {speed_unit(given_speed_unit(source), fastest_m_per_s), display_unit("m", widest_m)};
@@ -56,14 +56,14 @@ SweepUnits units_of(const SweepSource& source) {
 /// Of the pattern on the worn surface, where the manifest gives it for any of them.
 bool has_surface_spacing(const SweepSource& source) {
   return std::any_of(source.entries.begin(), source.entries.end(), [](const SweepEntry& entry) {
-    return entry.recording.conditions().measured_spacing_m.has_value();
+    return spacing_on_surface(entry.recording.conditions()).value.has_value();
   });
 }
 
 std::string recording_row(const SweepSource& source, std::size_t i, const SweepUnits& units) {
   const Analysis& analysis = source.sweep.recordings[i];
   const Conditions& conditions = source.entries[i].recording.conditions();
-  const Estimate on_surface{conditions.measured_spacing_m, {}, {}, {}};
+  const Estimate on_surface = spacing_on_surface(conditions);
   const double speed = units.speed.per_SI * conditions.speed_m_per_s;
   const Estimate& measured = analysis.derived.pattern_spacing_m;
   const Estimate predicted = source.sweep.fit ? source.sweep.fit->points[i].spacing_left_out_m : Estimate{};
@@ -114,6 +114,19 @@ std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
 }
 
 }  // namespace
+
+Estimate spacing_on_surface(const Conditions& conditions) {
+  if (conditions.worn_track) return conditions.worn_track->spacing_m;
+  const std::optional<double>& stated_m = conditions.measured_spacing_m;
+  const std::optional<double>& se_m = conditions.measured_spacing_se_m;
+  if (!stated_m || !se_m) return {stated_m, {}, {}, {}};
+  return {stated_m, se_m, Interval{*stated_m - 1.96 * *se_m, *stated_m + 1.96 * *se_m}, {}};
+}
+
+const std::string& given_speed_unit(const SweepSource& source) {
+  return source.entries.front().recording.conditions().speed_unit;
+}
+
 }  // namespace html
 
 std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sweep,
