@@ -70,20 +70,20 @@ def row(name, cases):
 def chart(file, methods):
     """Error over time, both logarithmic; methods: name -> (seconds, rms, note)."""
     def x(seconds):
-        return 90 + 150 * (np.log10(seconds) + 5)
+        return 90 + 110 * (np.log10(seconds) + 5)
 
     def y(error):
         return 300 - 110 * (np.log10(error) + 2)
     parts = ['<svg xmlns="http://www.w3.org/2000/svg" width="720" height="360" font-family="sans-serif" font-size="13">',
              '<rect width="720" height="360" fill="white"/>']
-    for k in range(-5, -1):
+    for k in range(-5, 1):
         parts.append(f'<line x1="{x(10.0**k):.0f}" x2="{x(10.0**k):.0f}" y1="40" y2="310" stroke="#ddd"/>'
-                     f'<text x="{x(10.0**k):.0f}" y="328" text-anchor="middle">{ {-5: "10 us", -4: "0.1 ms", -3: "1 ms", -2: "10 ms"}[k]}</text>')
+                     f'<text x="{x(10.0**k):.0f}" y="328" text-anchor="middle">{ {-5: "10 us", -4: "0.1 ms", -3: "1 ms", -2: "10 ms", -1: "0.1 s", 0: "1 s"}[k]}</text>')
     for error in (0.01, 0.03, 0.1, 0.3, 1.0):
         parts.append(f'<line x1="90" x2="640" y1="{y(error):.0f}" y2="{y(error):.0f}" stroke="#ddd"/>'
                      f'<text x="82" y="{y(error) + 4:.0f}" text-anchor="end">{100 * error:.0f} %</text>')
     for name, (seconds, error, colour) in methods.items():
-        parts.append(f'<circle cx="{x(seconds):.0f}" cy="{y(error):.0f}" r="6" fill="{colour}"/><text x="{x(seconds) + 10:.0f}" y="{y(error) + 4:.0f}">{name}</text>')
+        parts.append(f'<circle cx="{x(seconds):.0f}" cy="{y(error):.0f}" r="6" fill="{colour}"/><text x="{x(seconds) - 10:.0f}" y="{y(error) + 4:.0f}" text-anchor="end">{name}</text>')
     parts.append('<text x="365" y="350" text-anchor="middle">time for a profile (median)</text>'
                  '<text x="90" y="24">rms error of the spacing on the profiles that slipfit answers</text></svg>')
     pathlib.Path(file).write_text("\n".join(parts) + "\n", encoding="utf-8")

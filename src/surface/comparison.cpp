@@ -16,6 +16,12 @@ double reach_towards(const Estimate& from, double other) {
 
 /// A coarse pattern of every second, third, ... slip. A whole number is told only where its neighbours are not as good.
 std::string ratio_verdict(double ratio, double relative_reach) {
+  if (std::abs(ratio - 1.0) < 0.15) {
+    return fmt::format(
+        "nearly the same: the spacings differ by {:.2g} %, more than their uncertainties allow; a stated "
+        "speed that is off does that (--speed-uncertainty)",
+        100.0 * std::abs(ratio - 1.0));
+  }
   for (const bool is_coarser : {true, false}) {
     const double times = is_coarser ? ratio : 1.0 / ratio;
     const double whole = std::round(times);

@@ -27,6 +27,7 @@ TEST_CASE("a pattern of every second slip is told from one that has nothing to d
   CHECK_THAT(compare_spacings(known(100e-6, 2e-6), known(201e-6, 3e-6)).verdict, Catch::Contains("2 times as coarse"));
   CHECK_THAT(compare_spacings(known(100e-6, 2e-6), known(33.5e-6, 0.5e-6)).verdict, Catch::Contains("3 times as fine"));
   CHECK_THAT(compare_spacings(known(100e-6, 2e-6), known(150e-6, 3e-6)).verdict, Catch::StartsWith("no relation"));
+  CHECK_THAT(compare_spacings(known(100e-6, 1e-6), known(103e-6, 1e-6)).verdict, Catch::StartsWith("nearly the same"));
   // At a tenth of reach every ratio above two is next to some whole number.
   CHECK_THAT(compare_spacings(known(100e-6, 10e-6), known(600e-6, 60e-6)).verdict, Catch::StartsWith("no relation"));
 }
