@@ -73,11 +73,22 @@ struct Transients {
   Estimate ring_down_damping_ratio;
 };
 
+/// What a standard takes from a test, and where this one was made otherwise.
+struct StandardCoefficients {
+  std::string standard;    ///< "ASTM D1894"
+  std::string prescribes;  ///< one sentence
+  Estimate static_coefficient, kinetic_coefficient;
+  std::vector<std::string> differs;  ///< sentences; what slipfit cannot see is not among them
+};
+
 /// Force over normal force, of the stretch that slides; each empty, with a reason, where it is not known.
 struct Coefficients {
-  Estimate static_first_peak;  ///< the breakaway peak
-  Estimate static_mean_peak;   ///< mean of the peaks before the slips
-  Estimate kinetic_mean;       ///< mean of the force while it slides
+  Estimate static_first_peak;                        ///< the breakaway peak
+  Estimate static_mean_peak;                         ///< mean of the peaks before the slips
+  Estimate kinetic_mean;                             ///< mean of the force while it slides
+  Estimate kinetic_first_third, kinetic_last_third;  ///< of its time
+  std::optional<double> static_peak_sd, kinetic_sd;  ///< scatter of the peaks; of the force
+  std::vector<StandardCoefficients> standards;
 };
 
 /// Everything that is known about one recording.

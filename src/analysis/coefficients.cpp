@@ -1,6 +1,9 @@
 #include "analysis/coefficients.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -18,9 +21,8 @@ namespace {
 constexpr std::size_t kMostBlocks = 20;
 
 /// Mean of a force that hangs together over times: the scatter is that of means over blocks of whole cycles or, without
-/// cycles, of a twentieth of the recording.
-Estimate mean_during_sliding(const Recording& recording, std::size_t cycles) {
-  const std::span<const double> force = recording.force();
+/// cycles, of a twentieth of the samples.
+Estimate mean_during_sliding(std::span<const double> force, std::size_t cycles) {
   const std::size_t blocks = cycles >= 2 ? std::min(kMostBlocks, cycles) : kMostBlocks;
   if (force.size() < 2 * blocks) return unknown("too few samples");
   std::vector<double> means;
@@ -76,21 +78,88 @@ Estimate over_load(Estimate force, double load_N, bool zero_is_known) {
   return force;
 }
 
+/// What the standards ask for that a recording shows. ASTM D1894-14, 8 to 10; ISO 8295:1995, 6 to 9.
+struct Standard {
+  const char* name;
+  const char* prescribes;
+  double speed_m_per_s, speed_tolerance_m_per_s;
+  double load_N, load_tolerance_N;
+  double travel_m;  ///< over which the kinetic force is averaged
+};
+
+constexpr std::array kStandards = std::to_array<Standard>(
+    {{"ASTM D1894",
+      "a sled of 200 g and 63.5 mm square at 150 mm/min; static: the first maximum; kinetic: the mean over 130 mm",
+      0.150 / 60.0, 0.030 / 60.0, 1.961, 0.049, 0.130},
+     {"ISO 8295",
+      "1.96 N on 40 cm^2 at 100 mm/min, after 15 s at rest; static: the first maximum; kinetic: the mean over the "
+      "first "
+      "60 mm behind it",
+      0.100 / 60.0, 0.010 / 60.0, 1.96, 0.02, 0.060}});
+
+/// What slides: force in its own unit, and how often it slips.
+struct Sliding {
+  const Recording& recording;
+  std::size_t cycles = 0;
+  bool slips = false;
+
+  /// Mean over samples [begin, end).
+  [[nodiscard]] Estimate mean(std::size_t begin, std::size_t end) const {
+    const double share = static_cast<double>(end - begin) / static_cast<double>(recording.size());
+    return mean_during_sliding(recording.force().subspan(begin, end - begin),
+                               static_cast<std::size_t>(share * static_cast<double>(cycles)));
+  }
+};
+
+std::vector<std::string> differences(const Standard& standard, const Sliding& sliding,
+                                     const std::optional<double>& load_N) {
+  const double speed = sliding.recording.conditions().speed_m_per_s;
+  const double travel_m = speed * sliding.recording.duration_s();
+  std::vector<std::string> differs;
+  if (std::abs(speed - standard.speed_m_per_s) > standard.speed_tolerance_m_per_s) {
+    differs.push_back(fmt::format("driven at {:.3g} mm/min, not {:.3g}", 6e4 * speed, 6e4 * standard.speed_m_per_s));
+  }
+  if (load_N && std::abs(*load_N - standard.load_N) > standard.load_tolerance_N) {
+    differs.push_back(fmt::format("pressed with {:.3g} N, not {:.3g}", *load_N, standard.load_N));
+  }
+  if (travel_m < standard.travel_m) {
+    differs.push_back(fmt::format("slid {:.3g} mm of {:.3g}", 1e3 * travel_m, 1e3 * standard.travel_m));
+  }
+  if (sliding.slips) differs.emplace_back("stick-slip: the mean of a force that swings is no force of sliding");
+  return differs;
+}
+
 }  // namespace
 
 std::optional<Coefficients> find_coefficients(const Detected& detected, const Analysis& analysis) {
-  const Conditions& conditions = detected.recording().conditions();
+  const Recording& recording = detected.recording();
+  const Conditions& conditions = recording.conditions();
   const bool are_coefficients = conditions.quantity == ForceQuantity::FrictionCoefficient;
   if (!are_coefficients && !conditions.normal_force_N) return std::nullopt;
   const double load_N = are_coefficients ? 1.0 : *conditions.normal_force_N;
-  const bool zero_is_known = conditions.zero_force_N.has_value();
+  const auto of = [&](Estimate force) {
+    return over_load(std::move(force), load_N, conditions.zero_force_N.has_value());
+  };
+  const Sliding sliding{recording, analysis.cycles.count, analysis.motion == MotionClass::StickSlip};
+  const std::size_t size = recording.size();
   Coefficients coefficients;
-  coefficients.static_first_peak = over_load(analysis.transients.breakaway_force, load_N, zero_is_known);
-  Estimate peaks = mean_of_peaks(detected.recording(), analysis);
+  coefficients.static_first_peak = of(analysis.transients.breakaway_force);
+  Estimate peaks = mean_of_peaks(recording, analysis);
   if (auto fitted = fitted_static_friction(analysis)) peaks = in_both_intervals(*std::move(fitted), peaks);
-  coefficients.static_mean_peak = over_load(std::move(peaks), load_N, zero_is_known);
-  coefficients.kinetic_mean =
-      over_load(mean_during_sliding(detected.recording(), analysis.cycles.count), load_N, zero_is_known);
+  if (peaks.value && analysis.cycles.peak_force_sd)
+    coefficients.static_peak_sd = *analysis.cycles.peak_force_sd / load_N;
+  coefficients.static_mean_peak = of(std::move(peaks));
+  coefficients.kinetic_mean = of(mean_during_sliding(recording.force(), analysis.cycles.count));
+  coefficients.kinetic_first_third = of(sliding.mean(0, size / 3));
+  coefficients.kinetic_last_third = of(sliding.mean(size - size / 3, size));
+  coefficients.kinetic_sd = describe({recording.force().begin(), recording.force().end()}).sd / load_N;
+  for (const Standard& standard : kStandards) {
+    const double end_s = recording.time_s().front() + standard.travel_m / conditions.speed_m_per_s;
+    const auto end = std::upper_bound(recording.time_s().begin(), recording.time_s().end(), end_s);
+    coefficients.standards.push_back({standard.name, standard.prescribes, coefficients.static_first_peak,
+                                      of(sliding.mean(0, static_cast<std::size_t>(end - recording.time_s().begin()))),
+                                      differences(standard, sliding, conditions.normal_force_N)});
+  }
   return coefficients;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "slipfit/core/range.hpp"
 
@@ -139,10 +140,13 @@ Transients in_range(Transients transients) {
 
 std::optional<Coefficients> in_range(std::optional<Coefficients> coefficients) {
   if (!coefficients) return coefficients;
-  for (Estimate* estimate :
-       {&coefficients->static_first_peak, &coefficients->static_mean_peak, &coefficients->kinetic_mean}) {
-    *estimate = within(std::move(*estimate), kAnyNumber);
+  std::vector<Estimate*> estimates{&coefficients->static_first_peak, &coefficients->static_mean_peak,
+                                   &coefficients->kinetic_mean, &coefficients->kinetic_first_third,
+                                   &coefficients->kinetic_last_third};
+  for (StandardCoefficients& standard : coefficients->standards) {
+    estimates.insert(estimates.end(), {&standard.static_coefficient, &standard.kinetic_coefficient});
   }
+  for (Estimate* estimate : estimates) *estimate = within(std::move(*estimate), kAnyNumber);
   return coefficients;
 }
 

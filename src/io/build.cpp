@@ -144,7 +144,7 @@ Result<std::vector<NamedRecording>> build_strokes(Part part, const LoadedFile& f
   auto interpreted = interpret(std::move(part), file, conditions);
   if (!interpreted) return interpreted.error();
   const Interpreted& all = interpreted.value();
-  const std::vector<Stroke> strokes = find_strokes(all.force);
+  const std::vector<Stroke> strokes = take_strokes(all.force);
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     const bool is_wanted = file.options.pieces == Pieces::Strokes ||
@@ -152,9 +152,12 @@ Result<std::vector<NamedRecording>> build_strokes(Part part, const LoadedFile& f
     if (is_wanted && strokes[i].begin < strokes[i].end) wanted.push_back(i);
   }
   if (wanted.empty()) {
-    return Error{"no_strokes", file.name +
-                                   ": the force does not dwell at either sign in turn, as it does in the strokes "
-                                   "of a reciprocating test; leave out --strokes"};
+    const char* const why = strokes.empty()
+                                ? ": the force does not turn its sign again and again, as in the strokes of a "
+                                  "reciprocating test; leave out --strokes"
+                                : ": there is no stroke of this sign in which the force does more than turn; "
+                                  "take longer strokes, or a part of one with --window";
+    return Error{"no_strokes", file.name + why};
   }
   // Of both directions a pair at a time, so that each is there as often as the other.
   const std::size_t group = file.options.pieces == Pieces::Strokes ? 2 : 1;

@@ -14,6 +14,7 @@ namespace {
 // A uniform saw-tooth about zero has 27 % of its samples below 0.3 of its 90 % level, a sine 19 %, white noise 38 %;
 // strokes have what the turning takes, a few per cent.
 constexpr double kNear = 0.3;
+constexpr double kNearAsTold = 0.1;
 constexpr double kMostNear = 0.12;
 constexpr double kLeastOfEitherSign = 0.2;
 constexpr std::size_t kSmallestTurns = 2;
@@ -40,9 +41,9 @@ std::vector<Stroke> sides_of(std::span<const double> force, double threshold) {
 }
 
 /// The force turns at the rate of the spring: from the rate through zero follows how long it takes from the highest
-/// level. Half as much again, as it bends near sliding, and a twentieth of the stroke at least.
+/// level. A quarter more, as it bends near sliding, and a twentieth of the stroke at least.
 Stroke without_ends(Stroke stroke, std::span<const double> force, double samples_through_zero, double threshold) {
-  constexpr double kReserve = 1.5;
+  constexpr double kReserve = 1.25;
   constexpr double kLeast = 0.05;
   std::vector<double> sizes;
   for (const double f : force.subspan(stroke.begin, stroke.end - stroke.begin)) sizes.push_back(std::abs(f));
@@ -50,9 +51,21 @@ Stroke without_ends(Stroke stroke, std::span<const double> force, double samples
   const auto length = static_cast<double>(stroke.end - stroke.begin);
   const auto ends = static_cast<std::size_t>(
       std::ceil(std::max(kReserve * rise * samples_through_zero / (2.0 * threshold), kLeast * length)));
-  const bool is_left = 4 * ends < stroke.end - stroke.begin;
+  const bool is_left = 3 * ends < stroke.end - stroke.begin;
   return is_left ? Stroke{stroke.begin + ends, stroke.end - ends, stroke.is_positive}
                  : Stroke{stroke.begin, stroke.begin, stroke.is_positive};
+}
+
+std::vector<Stroke> parted(std::span<const double> force, double near) {
+  std::vector<Stroke> strokes = sides_of(force, near);
+  if (strokes.size() <= kSmallestTurns || force.size() < kShortestStroke * strokes.size()) return {};
+  std::vector<double> turns;
+  for (std::size_t i = 1; i < strokes.size(); ++i) {
+    turns.push_back(static_cast<double>(strokes[i].begin - strokes[i - 1].end + 1));
+  }
+  const double turn = quantile_of(std::move(turns), 0.5);
+  for (Stroke& stroke : strokes) stroke = without_ends(stroke, force, turn, near);
+  return strokes;
 }
 
 std::size_t count_negative(std::span<const double> force) {
@@ -68,15 +81,11 @@ std::vector<Stroke> find_strokes(std::span<const double> force) {
   const double near = kNear * level_90(force);
   const auto near_zero = std::count_if(force.begin(), force.end(), [&](double f) { return std::abs(f) < near; });
   if (static_cast<double>(near_zero) > kMostNear * samples) return {};
-  std::vector<Stroke> strokes = sides_of(force, near);
-  if (strokes.size() <= kSmallestTurns || force.size() < kShortestStroke * strokes.size()) return {};
-  std::vector<double> turns;
-  for (std::size_t i = 1; i < strokes.size(); ++i) {
-    turns.push_back(static_cast<double>(strokes[i].begin - strokes[i - 1].end + 1));
-  }
-  const double turn = quantile_of(std::move(turns), 0.5);
-  for (Stroke& stroke : strokes) stroke = without_ends(stroke, force, turn, near);
-  return strokes;
+  return parted(force, near);
+}
+
+std::vector<Stroke> take_strokes(std::span<const double> force) {
+  return parted(force, kNearAsTold * level_90(force));
 }
 
 bool is_reciprocating(std::span<const double> force) {

@@ -17,6 +17,10 @@ struct Stroke {
 /// through zero has no strokes: it spends as much time near zero as anywhere.
 std::vector<Stroke> find_strokes(std::span<const double> force);
 
+/// The same of a recording that is told to be of strokes: whatever turns its sign, slips that nearly reach zero
+/// included.
+std::vector<Stroke> take_strokes(std::span<const double> force);
+
 /// Of several strokes.
 bool is_reciprocating(std::span<const double> force);
 

@@ -15,10 +15,11 @@ struct BatchPageRow {
   std::string id;
   std::string status;                   ///< as in the document: stick_slip, ...
   std::optional<double> speed_m_per_s;  ///< empty for a group
-  Estimate frequency_Hz, spacing_m, stiffness_N_per_m, damping_ratio;
-  std::vector<std::string> warnings;  ///< their codes, each once
-  std::string report_file;            ///< of its own page, relative to the batch's; empty: none
-  std::string sparkline;              ///< of `sparkline_of`; empty: none
+  Estimate frequency_Hz, spacing_m, stiffness_N_per_m, friction_difference_N, damping_ratio;
+  std::string stiffness_status, difference_status, damping_status;  ///< identified, conditional, ...; empty: not fitted
+  std::vector<std::string> warnings;                                ///< their codes, each once
+  std::string report_file;  ///< of its own page, relative to the batch's; empty: none
+  std::string sparkline;    ///< of `sparkline_of`; empty: none
 };
 
 /// From a document of schema slipfit.fit/1, one line of results.jsonl; without page and sparkline. What the document

@@ -230,9 +230,17 @@ Json derived_json(const Derived& derived) {
 /// Null without a load.
 Json coefficients_json(const std::optional<Coefficients>& coefficients) {
   if (!coefficients) return {};
-  return {{"static_first_peak", estimate(coefficients->static_first_peak)},
-          {"static_mean_peak", estimate(coefficients->static_mean_peak)},
-          {"kinetic_mean", estimate(coefficients->kinetic_mean)}};
+  Json json = Json::object();
+  for (const auto& row : kCoefficients) json[std::string(row.key)] = estimate((*coefficients).*row.estimate);
+  for (const auto& row : kCoefficientSpreads) json[std::string(row.key)] = number((*coefficients).*row.value);
+  json["standards"] = array_of(coefficients->standards, [](const StandardCoefficients& standard) {
+    return Json{{"standard", standard.standard},
+                {"prescribes", standard.prescribes},
+                {"static_coefficient", estimate(standard.static_coefficient)},
+                {"kinetic_coefficient", estimate(standard.kinetic_coefficient)},
+                {"differs", standard.differs}};
+  });
+  return json;
 }
 
 Json transients_json(const Transients& transients, ForceQuantity quantity) {

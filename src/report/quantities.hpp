@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "slipfit/analysis.hpp"
@@ -34,5 +35,22 @@ inline constexpr std::array<Quantity<Transients>, 4> kTransients{
      {"breakaway_force_N", "first peak (breakaway)", "N", &Transients::breakaway_force},
      {"ringdown_frequency_Hz", "ring-down, frequency", "Hz", &Transients::ring_down_frequency_Hz},
      {"ringdown_damping_ratio", "ring-down, damping ratio", "", &Transients::ring_down_damping_ratio}}};
+
+/// Of friction, where a load is known.
+inline constexpr std::array<Quantity<Coefficients>, 5> kCoefficients{
+    {{"static_first_peak", "static, first peak", "", &Coefficients::static_first_peak},
+     {"static_mean_peak", "static, mean of the peaks", "", &Coefficients::static_mean_peak},
+     {"kinetic_mean", "kinetic, mean while sliding", "", &Coefficients::kinetic_mean},
+     {"kinetic_first_third", "kinetic, first third", "", &Coefficients::kinetic_first_third},
+     {"kinetic_last_third", "kinetic, last third", "", &Coefficients::kinetic_last_third}}};
+
+/// Their scatter.
+struct CoefficientSpread {
+  std::string_view key, words;
+  std::optional<double> Coefficients::*value;
+};
+inline constexpr std::array<CoefficientSpread, 2> kCoefficientSpreads{
+    {{"static_peak_sd", "scatter of the peaks (sd)", &Coefficients::static_peak_sd},
+     {"kinetic_sd", "scatter of the force while sliding (sd)", &Coefficients::kinetic_sd}}};
 
 }  // namespace slipfit

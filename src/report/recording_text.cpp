@@ -183,13 +183,23 @@ std::string transients_text(const Transients& transients, ForceQuantity quantity
 std::string coefficients_text(const std::optional<Coefficients>& coefficients) {
   if (!coefficients) return {};
   Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
-  const auto add = [&](const char* words, const Estimate& estimate) {
+  const auto add = [&](std::string_view words, const Estimate& estimate) {
     if (estimate.value) add_estimate(table, words, estimate, "");
   };
-  add("static, first peak", coefficients->static_first_peak);
-  add("static, mean of the peaks", coefficients->static_mean_peak);
-  add("kinetic, mean while sliding", coefficients->kinetic_mean);
-  return table.empty() ? std::string() : "\nCoefficient of friction\n" + table.text();
+  for (const auto& row : kCoefficients) add(row.words, (*coefficients).*row.estimate);
+  for (const auto& row : kCoefficientSpreads) {
+    add(row.words, Estimate{(*coefficients).*row.value, {}, {}, {}});
+  }
+  if (table.empty()) return {};
+  std::string text = "\nCoefficient of friction\n" + table.text();
+  for (const StandardCoefficients& standard : coefficients->standards) {
+    text += fmt::format("  as {} asks: static {}, kinetic {}\n    prescribed: {}\n    here: {}\n", standard.standard,
+                        estimate_text(standard.static_coefficient, ""), estimate_text(standard.kinetic_coefficient, ""),
+                        standard.prescribes,
+                        standard.differs.empty() ? "as prescribed, as far as a recording shows it"
+                                                 : fmt::format("{}", fmt::join(standard.differs, "; ")));
+  }
+  return text;
 }
 
 std::string spacing_text(const Recording& recording, const Derived& derived) {

@@ -66,6 +66,40 @@ TEST_CASE("coefficients of friction hold the truth in their intervals") {
   CHECK(of_mean >= 35);
 }
 
+TEST_CASE("thirds, scatter and what the standards ask stand beside the coefficients") {
+  constexpr double kLoad_N = 1.96;
+  const double standard_speed = 0.150 / 60.0;  // of ASTM D1894: 6 s are 15 mm
+  const auto coefficients = analyze(sawteeth(3, conditions_of(kLoad_N, standard_speed))).coefficients;
+  REQUIRE(coefficients);
+  const double mean = *coefficients->kinetic_mean.value;
+  CHECK(*coefficients->kinetic_first_third.value == Approx(mean).epsilon(0.05));
+  CHECK(*coefficients->kinetic_last_third.value == Approx(mean).epsilon(0.05));
+  CHECK(*coefficients->kinetic_sd == Approx(kDrop_N / std::sqrt(12.0) / kLoad_N).epsilon(0.1));
+  CHECK(*coefficients->static_peak_sd == Approx(0.08 / kLoad_N).epsilon(0.4));
+  REQUIRE(coefficients->standards.size() == 2);
+  const StandardCoefficients& astm = coefficients->standards[0];
+  CHECK(astm.standard == "ASTM D1894");
+  REQUIRE(astm.differs.size() == 2);
+  CHECK(astm.differs[0].starts_with("slid 15 mm of 130"));
+  CHECK(astm.differs[1].starts_with("stick-slip"));
+  CHECK(*astm.kinetic_coefficient.value == Approx(mean));
+  CHECK(coefficients->standards[1].differs[0] == "driven at 150 mm/min, not 100");
+}
+
+TEST_CASE("of a longer path the standards take its beginning") {
+  std::vector<double> time_s, force;
+  for (int i = 0; i < 12000; ++i) {  // 200 mm; friction falls from 1.2 N to 0.8 N behind 100 mm
+    time_s.push_back(0.01 * i);
+    force.push_back((i < 6000 ? 1.2 : 0.8) + 0.01 * std::sin(12.9898 * i));
+  }
+  auto recording = Recording::create(std::move(time_s), std::move(force), conditions_of(2.0, 0.100 / 60.0));
+  REQUIRE(recording.ok());
+  const auto coefficients = analyze(recording.value()).coefficients;
+  REQUIRE(coefficients);
+  CHECK(*coefficients->standards[1].kinetic_coefficient.value == Approx(0.6).epsilon(0.01));
+  CHECK(*coefficients->standards[0].kinetic_coefficient.value == Approx((100 * 0.6 + 30 * 0.4) / 130).epsilon(0.01));
+}
+
 TEST_CASE("without a load there are no coefficients; of a column of coefficients they are those") {
   CHECK_FALSE(analyze(sawteeth(1, conditions_of(std::nullopt))).coefficients);
   Conditions conditions = conditions_of(std::nullopt);

@@ -70,7 +70,7 @@ TEST_CASE("strokes of one sign, and at most sixteen") {
 }
 
 TEST_CASE("of a crank only what moves at nearly full speed is a stroke, and another speed is warned of") {
-  const auto strokes = pieces_of(reciprocating(6, 0.0, true), Pieces::Strokes, 20e-3 * M_PI);
+  const auto strokes = pieces_of(reciprocating(6, 0.0, true), Pieces::Strokes, 0.06);  // 63 mm/s in the middle
   REQUIRE(strokes.ok());
   CHECK(strokes.value()[2].recording.duration_s() < 0.4);
   CHECK(strokes.value()[2].recording.time_s().front() == Approx(2.35).margin(0.05));

@@ -38,6 +38,15 @@ TEST_CASE("a batch's page has a row a recording, sortable by value, with a link 
   CHECK_THAT(page, Contains("no_force_column"));
 }
 
+TEST_CASE("a batch's page says of F_s - F_k and of the damping ratio what they are") {
+  slipfit::BatchPageRow shown = row("run");
+  shown.friction_difference_N = {1.25, 1e-9, slipfit::Interval{1.249999998, 1.250000002}, {}};
+  shown.difference_status = "conditional";
+  const std::string page = to_html(slipfit::BatchPage{"batch", {shown}, {}});
+  CHECK_THAT(page, Contains("F_s - F_k [N]"));
+  CHECK_THAT(page, Contains("1.2500<small>[1.2500, 1.2500]</small><small><span class=\"status conditional\">"));
+}
+
 TEST_CASE("a batch's page keeps text from outside text") {
   const std::string hostile = "</script><script>alert(1)</script>";
   slipfit::BatchPage batch{hostile, {row(hostile)}, {{hostile, hostile, hostile}}};

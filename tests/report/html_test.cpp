@@ -216,3 +216,20 @@ TEST_CASE("a force that differs in its last digit alone is a flat trace, not a p
   const std::string low = page.substr(begin + 12, page.find(',', begin) - begin - 12);
   CHECK_THAT(page, Contains("\"force_high\":" + low + ","));
 }
+
+TEST_CASE("each chart has its data beside it, and the page a button's script to save them") {
+  const std::string page = to_html(test::small_recording(), test::full_analysis(), {}, {"slipfit fit run.csv"});
+  CHECK_THAT(page, Contains("class=\"chart-data\">[{\"panel\":1,\"name\":\""));
+  CHECK_THAT(page, Contains("Copy table"));
+}
+
+TEST_CASE("coefficients of friction and what the standards ask stand on the page") {
+  slipfit::Analysis analysis = test::full_analysis();
+  analysis.coefficients.emplace();
+  analysis.coefficients->static_first_peak = {0.51, 0.01, slipfit::Interval{0.49, 0.53}, {}};
+  analysis.coefficients->standards.push_back(
+      {"ASTM D1894", "a sled", {}, {0.4, 0.01, slipfit::Interval{0.38, 0.42}, {}}, {"driven at 50 mm/min, not 150"}});
+  const std::string page = to_html(test::small_recording(), analysis, {}, {});
+  CHECK_THAT(page, Contains("static, first peak") && Contains("0.510"));
+  CHECK_THAT(page, Contains("kinetic, as ASTM D1894") && Contains("driven at 50 mm/min, not 150"));
+}

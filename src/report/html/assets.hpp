@@ -11,6 +11,7 @@ std::string_view table_part();
 std::string_view style();
 std::string_view trace_script();
 std::string_view table_script();
+std::string_view save_script();      ///< of every page
 std::string_view dygraphs_script();  ///< empty where the build had no dygraphs
 std::string_view dygraphs_style();
 

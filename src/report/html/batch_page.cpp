@@ -96,7 +96,8 @@ std::string distributions(const std::vector<BatchPageRow>& rows) {
     const std::string label = label_with_unit(column.heading, column.unit);
     const auto panel = histogram(std::move(values), label);
     if (!panel) continue;
-    const std::string picture = to_page_svg(chart::Chart{"", {}, {*panel}}, {column.id, "histogram of the " + label});
+    const std::string picture =
+        picture_with_data(chart::Chart{"", {}, {*panel}}, column.id, "histogram of the " + label);
     figures += "<figure>" + picture + "</figure>\n";
   }
   if (figures.empty()) return {};

@@ -107,7 +107,10 @@ std::string batch_row(const BatchPageRow& row) {
       R"(<td class="name">{}</td><td>{}</td><td class="shows">{}</td><td class="number" data-value="{}">{}</td>)", name,
       spark(row.sparkline), text(plain_words(row.status)), speed,
       row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
-  for (const BatchColumn& column : kBatchColumns) cells += quantity_cell(row.*column.quantity, column.per_SI);
+  for (const BatchColumn& column : kBatchColumns) {
+    const std::string status = column.parameter_status != nullptr ? row.*column.parameter_status : std::string();
+    cells += quantity_cell(row.*column.quantity, column.per_SI, status);
+  }
   std::string codes;
   for (const std::string& code : row.warnings) codes += "<span>" + text(code) + " </span>";
   cells += fmt::format("<td class=\"codes\">{}</td>", codes);
@@ -130,7 +133,12 @@ Result<BatchPageRow> batch_page_row(const std::string& document) {
   row.frequency_Hz = estimate_in(child(json, "frequency"), "value_Hz", "se_Hz", "ci95_Hz");
   row.spacing_m = member(json, "derived", "pattern_spacing_m");
   row.stiffness_N_per_m = member(json, "parameters", "stiffness_N_per_m");
+  row.friction_difference_N = member(json, "parameters", "friction_difference_N");
   row.damping_ratio = member(json, "parameters", "damping_ratio");
+  const auto status_of = [&](const char* name) { return text_in(child(child(json, "parameters"), name), "status"); };
+  row.stiffness_status = status_of("stiffness_N_per_m");
+  row.difference_status = status_of("friction_difference_N");
+  row.damping_status = status_of("damping_ratio");
   row.warnings = codes_in(child(json, "warnings"));
   return row;
 }

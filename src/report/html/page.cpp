@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
 #include "report/html/trace_data.hpp"
+#include "report/json_values.hpp"
 #include "report/names.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -24,7 +27,7 @@ std::string trace_part(const Figure& figure, const Source& source) {
                  {"label", text(figure.label)},
                  {"slips_key", shows_cycles(source.analysis) ? "<span class=\"key slips\"></span>slips" : ""},
                  {"fit_key", has_fitted_curve(source.analysis) ? "<span class=\"key fit\"></span>fit" : ""},
-                 {"chart", to_page_svg(*figure.chart, {figure.id, figure.label})}});
+                 {"chart", picture_with_data(*figure.chart, figure.id, figure.label)}});
 }
 
 /// Charts in their order; what the recording does not allow stands behind them, in a few lines.
@@ -66,7 +69,39 @@ std::string page_from(const PageParts& parts) {
                                  {"main", parts.main},
                                  {"version", SLIPFIT_VERSION},
                                  {"credits", text(parts.credits)},
-                                 {"scripts", parts.scripts}});
+                                 {"scripts", parts.scripts + script_element(assets::save_script())}});
+}
+
+namespace {
+
+/// {"panel":1,"name":"...","x":[...],"y":[...]}, as save.js takes it; five digits are finer than a picture.
+std::string series_json(std::size_t panel, const std::string& name, std::span<const chart::Point> points) {
+  std::string x;
+  std::string y;
+  for (const chart::Point& point : points) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
+    x += fmt::format("{}{:.5g}", x.empty() ? "" : ",", point.x);
+    y += fmt::format("{}{:.5g}", y.empty() ? "" : ",", point.y);
+  }
+  return fmt::format(R"({{"panel":{},"name":{},"x":[{}],"y":[{}]}},)", panel, text_of(Json(name), JsonLayout::OneLine),
+                     x, y);
+}
+
+}  // namespace
+
+std::string picture_with_data(const chart::Chart& chart, const std::string& id, const std::string& label) {
+  std::string data;
+  for (std::size_t i = 0; i < chart.panels.size(); ++i) {
+    const chart::Panel& panel = chart.panels[i];
+    const std::string axes = panel.y.label + " over " + panel.x.label;
+    const auto words = [&axes](const std::string& name) { return name.empty() ? axes : name + ", " + axes; };
+    for (const chart::Line& line : panel.lines) data += series_json(i + 1, words(line.name), line.points);
+    for (const chart::Markers& marks : panel.markers) data += series_json(i + 1, words(marks.name), marks.points);
+    for (const chart::Area& area : panel.areas) data += series_json(i + 1, words(area.name), area.outline);
+  }
+  if (!data.empty()) data.pop_back();
+  return to_page_svg(chart, {id, label}) + R"(<script type="application/json" class="chart-data">)" +
+         script_json("[" + data + "]") + "</script>";
 }
 
 std::string script_element(std::string_view script) {
@@ -76,7 +111,7 @@ std::string script_element(std::string_view script) {
 std::string figure_part(const Figure& figure) {
   const std::string content =
       figure.chart ? fmt::format("<p class=\"guide\">{}</p>\n<figure>{}</figure>\n", formula_text(figure.guide),
-                                 to_page_svg(*figure.chart, {figure.id, figure.label}))
+                                 picture_with_data(*figure.chart, figure.id, figure.label))
                    : fmt::format("<p class=\"absent\">{}</p>\n", formula_text(figure.absent));
   return section(fmt::format(" id=\"{}-section\"", figure.id), text(figure.title), content);
 }
@@ -97,8 +132,8 @@ std::string to_html(const Recording& recording, const Analysis& analysis, const 
   page.headline = html::motion_sentence(source);
   page.summary = "<p class=\"reason\">" + html::capitalised(html::formula_text(analysis.motion_reason)) + "</p>\n" +
                  html::key_numbers(source) + html::warnings_part(analysis.warnings);
-  page.main = html::parameters_part(source) + html::figures_part(source) + html::quality_part(source) +
-              html::numbers_part(source) + html::repeat_part(source, origin);
+  page.main = html::parameters_part(source) + html::coefficients_part(source) + html::figures_part(source) +
+              html::quality_part(source) + html::numbers_part(source) + html::repeat_part(source, origin);
   if (has_interactive_trace()) {
     page.library_style = assets::dygraphs_style();
     page.credits = "; interactive trace by dygraphs (MIT licence)";

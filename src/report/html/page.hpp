@@ -22,8 +22,8 @@ struct PageParts {
 std::string page_from(const PageParts& parts);
 std::string script_element(std::string_view script);
 
-/// <td> with a quantity rounded by its uncertainty, its interval, and the value to sort by.
-std::string quantity_cell(const Estimate& SI, double per_SI);
+/// <td> with a quantity rounded by its uncertainty, its interval, the value to sort by, and the status of a parameter.
+std::string quantity_cell(const Estimate& SI, double per_SI, const std::string& status = {});
 /// A sentence with a capital at its beginning.
 std::string capitalised(std::string sentence);
 /// "command" with what was typed, for <dl>; empty where nothing was.
@@ -36,8 +36,12 @@ std::string warnings_part(const Warnings& warnings);
 std::string parameters_part(const Source& source);
 /// The table alone.
 std::string parameter_table(const FitResult& fit);
+/// Empty without a load.
+std::string coefficients_part(const Source& source);
 std::string quality_part(const Source& source);
 std::string repeat_part(const Source& source, const ReportOrigin& origin);
+/// The picture, and its points as CSV for the button that saves them.
+std::string picture_with_data(const chart::Chart& chart, const std::string& id, const std::string& label);
 /// <section> with the chart, or with the reason why there is none.
 std::string figure_part(const Figure& figure);
 

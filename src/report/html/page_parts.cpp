@@ -57,11 +57,19 @@ std::string unbroken(const std::string& quantity) {
 
 }  // namespace
 
-std::string quantity_cell(const Estimate& SI, double per_SI) {
-  const EstimateRow shown = estimate_row(SI, {per_SI, ""});
+std::string quantity_cell(const Estimate& SI, double per_SI, const std::string& status) {
+  // Rows compare by eye: five digits, however well a number is known; the document has them all.
+  constexpr double kFinest = 1e-3;  // of the value: two digits of it are five of the value
+  Estimate rounded_SI = SI;
+  if (SI.value && SI.standard_error) {
+    rounded_SI.standard_error = std::max(*SI.standard_error, kFinest * std::abs(*SI.value));
+  }
+  const EstimateRow shown = estimate_row(rounded_SI, {per_SI, ""});
   const std::string interval = shown.interval == "-" ? "" : "<small>" + text(shown.interval) + "</small>";
   const std::string value = SI.value ? fmt::format("{}", *SI.value) : std::string();
-  return fmt::format(R"(<td class="number" data-value="{}">{}{}</td>)", value, text(shown.value), interval);
+  const std::string mark =
+      status.empty() ? "" : fmt::format(R"(<small><span class="status {0}">{0}</span></small>)", text(status));
+  return fmt::format(R"(<td class="number" data-value="{}">{}{}{}</td>)", value, text(shown.value), interval, mark);
 }
 
 std::string capitalised(std::string sentence) {

@@ -98,7 +98,7 @@ std::string repeats_of(const std::vector<Repeat>& repeats) {
                         text(repeat.words), text(estimate_text(repeat.mean, repeat.unit)),
                         text(quantity_text(repeat.standard_deviation, repeat.unit)), repeat.count);
   }
-  return section(" class=\"flows\"", "At one speed: scatter between the recordings",
+  return section("", "At one speed: scatter between the recordings",
                  table(" class=\"plain-table\"",
                        {"", "mean, 95 % interval", "standard deviation between recordings", "#recordings"}, rows));
 }
@@ -107,10 +107,14 @@ std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
   std::string facts = fact("program", fmt::format("slipfit {}", SLIPFIT_VERSION)) + command_fact(origin.command_line);
   for (std::size_t i = 0; i < source.entries.size(); ++i) {
     const Provenance& provenance = source.entries[i].recording.provenance();
+    const bool is_of_same_file = i > 0 && source.entries[i - 1].recording.provenance().file == provenance.file;
+    if (is_of_same_file) continue;  // strokes, segments
     facts += fmt::format("<dt>{}</dt><dd>{}<br><code>{}</code></dd>\n", text(source.entries[i].id),
                          text(provenance.file), provenance.input_digest ? provenance.input_digest->text() : "");
   }
-  return section(" id=\"repeat\" class=\"flows\"", "To repeat this", fact_list(facts));
+  constexpr std::size_t kMostTogether = 12;  // on a printed page
+  const bool is_short = source.entries.size() <= kMostTogether;
+  return section(is_short ? " id=\"repeat\"" : " id=\"repeat\" class=\"flows\"", "To repeat this", fact_list(facts));
 }
 
 }  // namespace

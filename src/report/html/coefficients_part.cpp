@@ -1,0 +1,39 @@
+#include <fmt/format.h>
+
+#include "report/html/markup.hpp"
+#include "report/html/page.hpp"
+#include "report/quantities.hpp"
+
+namespace slipfit::html {
+namespace {
+
+std::string row_of(std::string_view words, const Estimate& estimate) {
+  const EstimateRow shown = estimate_row(estimate, std::string());
+  return fmt::format(
+      "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"interval\">{}</td><td>{}</td></tr>\n",
+      text(words), text(shown.value), text(shown.interval), formula_text(estimate.note));
+}
+
+}  // namespace
+
+std::string coefficients_part(const Source& source) {
+  const auto& coefficients = source.analysis.coefficients;
+  if (!coefficients) return {};
+  std::string rows;
+  for (const auto& row : kCoefficients) rows += row_of(row.words, (*coefficients).*row.estimate);
+  for (const auto& row : kCoefficientSpreads) {
+    rows += row_of(row.words, Estimate{(*coefficients).*row.value, {}, {}, {}});
+  }
+  for (const StandardCoefficients& standard : coefficients->standards) {
+    const std::string differs = standard.differs.empty() ? std::string("as prescribed, as far as a recording shows it")
+                                                         : fmt::format("{}", fmt::join(standard.differs, "; "));
+    Estimate kinetic = standard.kinetic_coefficient;
+    kinetic.note = standard.standard + " prescribes " + standard.prescribes + ". Here: " + differs;
+    rows += row_of("static, as " + standard.standard, standard.static_coefficient);
+    rows += row_of("kinetic, as " + standard.standard, kinetic);
+  }
+  return section(" id=\"coefficients\" class=\"flows\"", "Coefficient of friction",
+                 table(" class=\"parameters\"", {"", "#value", "95 % interval", "what it is"}, rows));
+}
+
+}  // namespace slipfit::html
