@@ -35,7 +35,7 @@ ExitCode exit_code_for(const std::string& error_code) {
 }
 
 slipfit::Recording read(const AnalysisArguments& arguments) {
-  auto recording = slipfit::read_recording(arguments.recording.file, conditions_from(arguments.recording),
+  auto recording = slipfit::read_recording(only_file(arguments.recording), conditions_from(arguments.recording),
                                            read_options_from(arguments.recording));
   if (!recording) throw Failure(exit_code_for(recording.error().code), recording.error().message);
   return std::move(recording).value();
@@ -118,8 +118,8 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
 
 void run_analysis(const AnalysisArguments& arguments,
                   const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis) {
-  keep_freed_memory(arguments.recording.file);
-  check_outputs(outputs_from(arguments), arguments.recording.file);
+  keep_freed_memory(only_file(arguments.recording));
+  check_outputs(outputs_from(arguments), only_file(arguments.recording));
   if (arguments.plots) make_folder({"--plots", *arguments.plots});
   const Clock::time_point start = Clock::now();
   const slipfit::Recording recording = read(arguments);

@@ -10,7 +10,7 @@ Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manife
   std::vector<SweepEntry> entries;
   for (const ManifestEntry& entry : manifest) {
     auto recording = read_recording(entry.file, entry.conditions, entry.options);
-    if (!recording) return in_words_of_manifest(recording.error());
+    if (!recording) return entry.line > 0 ? in_words_of_manifest(recording.error()) : recording.error();
     const Conditions& conditions = recording.value().conditions();
     if (conditions.quantity != ForceQuantity::Force_N) {
       return Error{"not_a_force", fmt::format("{}: holds a friction coefficient, and a joint fit needs forces: give "

@@ -108,6 +108,7 @@ class ManifestReader::Implementation {
       entry = std::move(result).value();
     }
     entry.file = folder_ / entry.file;
+    entry.group = entry.conditions.labels.group;
     return entry;
   }
 

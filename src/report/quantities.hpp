@@ -28,6 +28,12 @@ inline constexpr std::array<Quantity<Derived>, 2> kMeasured{
     {{"pattern_spacing_m", "pattern spacing", "m", &Derived::pattern_spacing_m},
      {"impulse_rate_per_m", "impulses along the path", "1/m", &Derived::impulse_rate_per_m}}};
 
+/// Where a load is known.
+inline constexpr std::array<Quantity<Coefficients>, 3> kCoefficients{
+    {{"static_first_peak", "static, first peak", "", &Coefficients::static_first_peak},
+     {"static_mean_peak", "static, mean of the peaks", "", &Coefficients::static_mean_peak},
+     {"kinetic_mean", "kinetic, mean while sliding", "", &Coefficients::kinetic_mean}}};
+
 /// Of newtons; `breakaway_force` counts as the force column does.
 inline constexpr std::array<Quantity<Transients>, 4> kTransients{
     {{"loading_stiffness_N_per_m", "slope of the loading ramp / V", "N/m", &Transients::loading_stiffness_N_per_m},

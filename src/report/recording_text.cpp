@@ -181,13 +181,11 @@ std::string transients_text(const Transients& transients, ForceQuantity quantity
 
 std::string coefficients_text(const std::optional<Coefficients>& coefficients) {
   if (!coefficients) return {};
-  Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
-  const auto add = [&](const char* words, const Estimate& estimate) {
-    if (estimate.value) add_estimate(table, words, estimate, "");
-  };
-  add("static, first peak", coefficients->static_first_peak);
-  add("static, mean of the peaks", coefficients->static_mean_peak);
-  add("kinetic, mean while sliding", coefficients->kinetic_mean);
+  Table table = estimate_table();
+  for (const auto& row : kCoefficients) {
+    const Estimate& estimate = (*coefficients).*row.estimate;
+    if (estimate.value) add_estimate(table, row.words, estimate, std::string());
+  }
   return table.empty() ? std::string() : "\nCoefficient of friction\n" + table.text();
 }
 

@@ -19,6 +19,12 @@ enum class ForceView { Spring, Transmitted, Contact };
 /// What the force column holds: newtons, or a friction coefficient whose normal force is not known.
 enum class ForceQuantity { Force_N, FrictionCoefficient };
 
+/// What the user calls a recording and what it is of; each may be empty. Results carry them, nothing is computed of
+/// them.
+struct Labels {
+  std::string group, sample, material, operator_name;
+};
+
 /// How the recording was made: what the trace itself does not tell.
 struct Conditions {
   double speed_m_per_s = 0.0;                          ///< driving speed, > 0
@@ -38,6 +44,7 @@ struct Conditions {
   std::optional<double> mass_kg;             ///< > 0, of the moving body: held against k / w_n^2, never forced
   std::optional<double> measured_spacing_m;  ///< > 0, of the worn surface: a prediction is held against it
   std::string speed_unit = {};               ///< that the speed was given in ("mm/min"): reports show it; empty: m/s
+  Labels labels = {};
 };
 
 /// Where the numbers came from and what the reader had to assume, count or leave out.
