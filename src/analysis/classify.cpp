@@ -148,8 +148,11 @@ std::optional<Classification> as_round_swings(const Recording& recording, const 
 std::optional<double> evidence_of_sticks(const Recording& recording, const Signals& signals, const FitResult& fit,
                                          std::size_t used) {
   const double counted_Hz = 1.0 / signal::median(slip_intervals_s(signals.segmentation));
-  const std::optional<double> harmonic_rms =
-      harmonic_residual_rms(recording, signals.spectral.value_Hz.value_or(counted_Hz));
+  std::optional<double> harmonic_rms = harmonic_residual_rms(recording, counted_Hz);
+  if (signals.spectral.value_Hz) {
+    const std::optional<double> other = harmonic_residual_rms(recording, *signals.spectral.value_Hz);
+    if (other) harmonic_rms = std::min(*other, harmonic_rms.value_or(*other));
+  }
   if (!harmonic_rms || !(fit.residual.rms > 0.0)) return std::nullopt;
   const double share = static_cast<double>(used) / static_cast<double>(fit.cycles.size());
   return 2.0 * share * static_cast<double>(recording.size()) * std::log(*harmonic_rms / fit.residual.rms);

@@ -49,6 +49,10 @@ inline constexpr double kDriftHandicap = 10.0;
 /// in white noise]
 inline constexpr double kSureHum = 20.0;
 
+/// Mean of the unit vectors of a line's phases at the onsets of the slips, above which it is in step with them.
+/// [1; derived: exp(-0.81 n) by chance with n cycles]
+inline constexpr double kInStep = 0.9;
+
 /// Power of fitted hum over that of the residuals, above which outliers are looked for again. [1; convention]
 inline constexpr double kBlurringHum = 0.5;
 

@@ -228,10 +228,10 @@ Stretch plateau(std::span<const double> force) {
   const auto [low, high] = std::minmax_element(blocks.level.begin() + static_cast<std::ptrdiff_t>(run.begin + edge),
                                                blocks.level.begin() + static_cast<std::ptrdiff_t>(run.end - edge));
   const double movement = *high - *low + blocks.movement;
+  const double lowest = *low - 0.5 * movement;
+  const double highest = *high + 0.5 * movement;
   if (split.high - split.low < thresholds::kPlateauStep * movement) return whole;
-  const auto is_loading = [&](std::size_t i) {
-    return blocks.level[i] < *low - 0.5 * movement || blocks.level[i] > *high + 0.5 * movement;
-  };
+  const auto is_loading = [&](std::size_t i) { return blocks.level[i] < lowest || blocks.level[i] > highest; };
   while (run.begin < run.end && is_loading(run.begin)) ++run.begin;
   while (run.begin < run.end && is_loading(run.end - 1)) --run.end;
   // The blocks at its ends are partly of the loading and of the release.

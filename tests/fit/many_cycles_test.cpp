@@ -71,6 +71,22 @@ TEST_CASE("a part of many cycles gives the parameters, and the warning says so")
   CHECK(*frequency.standard_error < 1e-3 / period_s);
 }
 
+TEST_CASE("lines that keep the phase of the slips are of the cycles' shape and not of the mains") {
+  // Straight ramps at 25 Hz with sudden falls: what the model misses of them repeats at 50, 100, 150 Hz and so on.
+  constexpr int kPeriod = 400;
+  std::vector<double> time_s, force;
+  for (int i = 0; i < 100 * kPeriod; ++i) {
+    time_s.push_back(1e-4 * i);
+    force.push_back(3.0 + static_cast<double>(i % kPeriod) / kPeriod);
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = 0.01;
+  const Analysis analysis = analyze_and_fit(Recording::create(time_s, force, conditions).value(), {});
+  REQUIRE(analysis.motion == MotionClass::StickSlip);
+  CHECK(!has_warning(analysis, "hum_fitted"));
+  CHECK(std::abs(*parameter(analysis, "stiffness_N_per_m").estimate.value - 2500.0) < 1.0);
+}
+
 TEST_CASE("hum beside a part of the cycles is one line, not one for each gap between the runs") {
   Scene s = scene_of_many_cycles();
   s.hum = 0.05;

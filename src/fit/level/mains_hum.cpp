@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <utility>
 
@@ -109,6 +110,16 @@ struct Prominence {
   [[nodiscard]] double of(double amplitude_squared) const { return 0.5 * amplitude_squared * used * used / square; }
 };
 
+/// A line that has the same phase at the onset of every slip cannot be told from the shape of the cycles: the length of
+/// the mean of the phases' unit vectors is then 1, of phases that have nothing to do with the slips 1 / sqrt(cycles).
+bool is_in_step(const BlockFit& fit, double frequency_Hz) {
+  std::complex<double> sum;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    sum += std::polar(1.0, 2.0 * std::numbers::pi * frequency_Hz * (fit.state(i).onset_s - fit.state(0).onset_s));
+  }
+  return std::abs(sum) > thresholds::kInStep * static_cast<double>(fit.size());
+}
+
 }  // namespace
 
 double hum_amplitude(const BlockFit& fit) {
@@ -142,7 +153,7 @@ std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, st
   for (const signal::MainsLine& line : lines) {
     const double f_Hz = line.frequency_Hz;
     const auto is_near = [&](double f) { return std::abs(f - f_Hz) < 2.0 * resolution_Hz; };
-    if (std::any_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near)) continue;
+    if (std::any_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near) || is_in_step(fit, f_Hz)) continue;
     if (prominence.of(power_in_spectrum(power, bin_Hz, values.size(), f_Hz)) > 2.0 * thresholds::kSureHum ||
         prominence.of(power_of(fit_term(values, step_s, f_Hz))) > thresholds::kSureHum) {
       frequencies_Hz.push_back(f_Hz);

@@ -219,9 +219,19 @@ class Bundle {
     }
   }
 
+  /// What a fit can explain settles in some ten steps however large it is. What it cannot may creep along a valley: not
+  /// for longer than the rest of the program takes.
+  [[nodiscard]] int most_iterations() const {
+    constexpr double kMostEvaluations = 3e6;  // of a sample
+    constexpr double kFewest = 20.0;
+    const double most = std::max(kFewest, kMostEvaluations / static_cast<double>(residuals_));
+    return recordings_.size() > 1 ? options_.max_iterations
+                                  : static_cast<int>(std::min<double>(options_.max_iterations, most));
+  }
+
   [[nodiscard]] ceres::Solver::Options solver_options() const {
     ceres::Solver::Options solver;
-    solver.max_num_iterations = options_.max_iterations;
+    solver.max_num_iterations = most_iterations();
     // Continuity couples neighbouring cycles: a banded matrix with a border instead of independent blocks.
     solver.linear_solver_type = options_.continuous ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_SCHUR;
     // Damped steps move a long chain of joined cycles only a part of the way (23 steps at 5000 cycles, 4 undamped); it

@@ -3,33 +3,28 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
-#include "fit/cycle/start.hpp"
 #include "fit/inference/smoothing.hpp"
-#include "fit/problem/solve.hpp"
 #include "fit/selection/damped_fit.hpp"
+#include "fit/selection/kernel_search.hpp"
 #include "fit/selection/tiers.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
 namespace {
 
-/// Shapes of an instrument's impulse response with the same variance sigma^2.
-enum class Kernel { MovingAverage, FirstOrder };
+constexpr std::size_t kSearchCycles = 10;   // enough to begin with
+constexpr std::size_t kCompareCycles = 60;  // enough to tell two kernels apart
+constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
+constexpr double kForgottenLags = 8.0;      // e^-8
 
-Recording seen_through(const Recording& recording, Kernel kernel, double variance_s2) {
+Recording with_average(const Recording& recording, double variance_s2) {
   Conditions conditions = recording.conditions();
-  if (kernel == Kernel::MovingAverage) {
-    conditions.sensor_average_s = std::sqrt(12.0 * variance_s2);
-  } else {
-    conditions.sensor_bandwidth_Hz = 1.0 / (2.0 * std::numbers::pi * std::sqrt(variance_s2));
-  }
+  conditions.sensor_average_s = std::sqrt(12.0 * variance_s2);
   const auto time_s = recording.time_s();
   const auto force = recording.force();
   return Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()}, conditions,
@@ -62,112 +57,7 @@ std::vector<double> guesses_s(const Recording& recording, const DampedFit& plain
   return {std::sqrt(12.0 * seen->variance_s2), of_fall_s};
 }
 
-/// The search for W on some of the cycles, from the features of the slips.
-class Probe {
- public:
-  Probe(const Recording& recording, const Segmentation& segmentation, const HeldParameters& held,
-        const DampedFit& plain)
-      : segmentation_(segmentation),
-        held_(held_of(held)),
-        step_s_(recording.sample_interval_s()),
-        plain_(plain.blocks),
-        plain_misfit_(plain.misfit) {
-    const Scales& scales = plain_.scales();
-    const HumLines hum{plain_.level().lines_Hz, scales.time_begin_s};
-    // Those that the fit could use, with room for an average over the whole fall on either side.
-    std::vector<std::size_t> used;
-    for (std::size_t i = 0; i < plain_.size(); ++i) used.push_back(plain_.data(i).slip);
-    std::vector<CycleData> cycles =
-        cut_cycles(recording, segmentation, 2.0 * scales.half_period_s, plain.excluded, hum);
-    std::erase_if(cycles,
-                  [&](const CycleData& cycle) { return !std::binary_search(used.begin(), used.end(), cycle.slip); });
-    cycles = spread_subset(cycles, kProbeCycles);
-    std::vector<double> middles_s;
-    for (const CycleData& cycle : cycles) middles_s.push_back(segmentation.slips[cycle.slip].middle_s);
-    cycles_ = std::make_shared<CycleSet>(std::move(cycles), std::move(middles_s), plain_.level(), scales);
-  }
-
-  /// Newton's steps in W^2, none by more than a factor of 4, until they are small or within the error; empty where they
-  /// do not get smaller.
-  [[nodiscard]] std::optional<double> converge(double average_s) const {
-    constexpr int kMostSteps = 6;
-    double last_step = std::numeric_limits<double>::infinity();
-    BlockFit fit = started(average_s);
-    for (int step = 0; step < kMostSteps; ++step) {
-      const std::optional<Held> held = solve_with_damping(fit);
-      if (!held || (step == 0 && !misses_less(fit, kWorthMoreSteps))) return std::nullopt;
-      const std::optional<Smoothing> beyond = estimate_smoothing(fit, *held, step_s_);
-      if (!beyond) return std::nullopt;
-      const double square = average_s * average_s;
-      const double next = std::clamp(square + 12.0 * beyond->variance_s2, 0.25 * square, 4.0 * square);
-      const double change = std::abs(next / square - 1.0);
-      average_s = std::sqrt(next);
-      if (average_s < step_s_ || average_s > 2.0 * plain_.scales().half_period_s) return std::nullopt;
-      if (change < kSmallStep || std::abs(beyond->variance_s2) < beyond->standard_error_s2) {
-        return misses_less(fit, kWorthAllCycles) ? std::optional(average_s) : std::nullopt;
-      }
-      if (step > 1 && change > kShrinking * last_step) return std::nullopt;
-      last_step = change;
-      fit = with_average(fit, average_s);
-    }
-    return std::nullopt;
-  }
-
- private:
-  static constexpr std::size_t kProbeCycles = 10;
-  static constexpr double kSmallStep = 0.05;
-  static constexpr double kShrinking = 0.8;
-  static constexpr double kWorthMoreSteps = 0.75;  // misfit over that of the plain fit
-  static constexpr double kWorthAllCycles = 0.5;
-
-  /// Of the mean shape of the slips less than this share of what the plain fit misses.
-  [[nodiscard]] bool misses_less(const BlockFit& fit, double share) const {
-    const std::optional<SegmentMisfit> misfit = find_misfit(fit, 0.0);
-    return !misfit || !plain_misfit_ || std::abs(misfit->size) < share * std::abs(plain_misfit_->size);
-  }
-
-  [[nodiscard]] BlockFit with_average(const BlockFit& fit, double average_s) const {
-    Scales scales = plain_.scales();
-    scales.sensor_average_s = average_s;
-    BlockFit next(cycles_, scales);
-    next.parameters = fit.parameters;
-    return next;
-  }
-
-  /// Averaging draws the fall out: the squares of its own time and of W add up.
-  [[nodiscard]] BlockFit started(double average_s) const {
-    constexpr double kLeast = 0.2;
-    const double half_s = plain_.scales().half_period_s;
-    const double own = std::max(kLeast, 1.0 - average_s * average_s / (half_s * half_s));
-    BlockFit fit(cycles_, plain_.scales());
-    set_start(fit, segmentation_,
-              {plain_.parameters.globals[kLogStiffness], std::log(std::numbers::pi / (half_s * std::sqrt(own))), 0.1});
-    fit.parameters.level = plain_.parameters.level;
-    return with_average(fit, average_s);
-  }
-
-  /// What is held at the solution: zeta at 0 where its best value is negative. Empty: no solution.
-  [[nodiscard]] std::optional<Held> solve_with_damping(BlockFit& fit) const {
-    constexpr int kIterations = 25;
-    constexpr double kRough = 0.1;  // SolveOptions::tolerance
-    Held held = held_;
-    if (!std::isfinite(solve(fit, {held, false, true, kIterations, kRough}))) return std::nullopt;
-    if (held[kDamping] || fit.parameters.globals[kDamping] >= 0.0) return held;
-    fit.parameters.globals[kDamping] = 0.0;
-    held[kDamping] = true;
-    if (!std::isfinite(solve(fit, {held, false, true, kIterations, kRough}))) return std::nullopt;
-    return held;
-  }
-
-  const Segmentation& segmentation_;
-  Held held_;
-  double step_s_;
-  const BlockFit& plain_;
-  const std::optional<SegmentMisfit>& plain_misfit_;
-  std::shared_ptr<const CycleSet> cycles_;
-};
-
-/// A fit of all cycles with a kernel in it, and what is left to smooth.
+/// A fit of all cycles with an average in it, and what is left to smooth.
 struct Trial {
   DampedFit fit;
   Smoothing beyond;
@@ -177,7 +67,7 @@ struct Trial {
   [[nodiscard]] double off() const { return std::abs(beyond.variance_s2) / beyond.standard_error_s2; }
 };
 
-/// Fits of all cycles with a kernel of about the given variance.
+/// Fits of all cycles with an average of about the given variance.
 class Trials {
  public:
   Trials(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
@@ -185,11 +75,11 @@ class Trials {
       : recording_(recording), quality_(quality), segmentation_(segmentation), held_(held) {}
 
   /// Newton's steps in sigma^2; where outliers come and go with it they do not settle, and the nearest is taken.
-  [[nodiscard]] std::optional<Trial> fit(Kernel kernel, double variance_s2) const {
+  [[nodiscard]] std::optional<Trial> fit(double variance_s2) const {
     constexpr int kMostFits = 3;
     std::optional<Trial> best;
     for (int fits = 0; fits < kMostFits && variance_s2 > 0.0; ++fits) {
-      auto fit = fit_damped(seen_through(recording_, kernel, variance_s2), quality_, segmentation_, held_);
+      auto fit = fit_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_);
       if (!fit) break;
       const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
       if (!beyond) break;
@@ -227,6 +117,26 @@ bool tells_slips(const DampedFit& fit) {
          fit.average->seconds < stick_s(fit.blocks) && resting_share(fit.blocks) >= thresholds::kRestickShare;
 }
 
+/// The variance of the average that explains some of the samples of some cycles best; empty where a sensor of first
+/// order is not ten times less likely. A long tail rounds the slip less than its variance says: the search for it
+/// begins on both sides. `plain` tells how far samples are independent.
+std::optional<double> best_average(const std::vector<double>& variances_s2, const KernelSearch& search,
+                                   const DampedFit& plain) {
+  double best_s2 = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double variance_s2 : variances_s2) {
+    const double sum = search.least_squares(Kernel::MovingAverage, variance_s2);
+    if (sum >= least) continue;
+    least = sum;
+    best_s2 = variance_s2;
+  }
+  const double lag = std::min(search.least_squares(Kernel::FirstOrder, best_s2),
+                              search.least_squares(Kernel::FirstOrder, kLongTail * best_s2));
+  const double independent = search.residuals() * effective_samples(plain) / plain.uncertainty.samples;
+  if (!(independent * std::log(lag / least) > thresholds::kEvidence)) return std::nullopt;
+  return best_s2;
+}
+
 /// With what W is not known by in the covariance.
 DampedFit with_average_error(Trial trial) {
   const double error_s2 = std::hypot(trial.beyond.standard_error_s2, trial.beyond.variance_s2,
@@ -245,29 +155,24 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
                                      const DampedFit& plain) {
   const std::vector<double> guesses = guesses_s(recording, plain);
   if (guesses.empty()) return std::nullopt;
-  const Probe probe(recording, segmentation, held, plain);
-  const Trials trials(recording, quality, segmentation, held);
-  std::optional<Trial> best;
+  const double width_s = 2.0 * plain.blocks.scales().half_period_s;
+  const KernelSearch search(recording, segmentation, held, plain, width_s, kSearchCycles);
+  std::vector<double> variances_s2;
   for (const double guess_s : guesses) {
-    const std::optional<double> average_s = probe.converge(guess_s);
-    if (!average_s) continue;
-    std::optional<Trial> trial = trials.fit(Kernel::MovingAverage, *average_s * *average_s / 12.0);
-    if (!trial || (best && best->fit.uncertainty.noise <= trial->fit.uncertainty.noise)) continue;
-    best = std::move(trial);
+    const std::optional<double> average_s = search.converge(guess_s);
+    if (average_s) variances_s2.push_back(*average_s * *average_s / 12.0);
   }
-  if (!best) return std::nullopt;
-  const double variance_s2 = best->variance_s2;
-  DampedFit fit = with_average_error(*std::move(best));
-  if (!tells_slips(fit) || gain_of(fit, plain) < thresholds::kTierPrice) return std::nullopt;
-  // A long tail rounds the slip less than its variance says: the search begins on both sides of it.
-  bool compared = false;
-  for (const double share : {1.0, 3.0}) {
-    const std::optional<Trial> lagging = trials.fit(Kernel::FirstOrder, share * variance_s2);
-    if (!lagging) continue;
-    compared = true;
-    if (gain_of(fit, lagging->fit) < thresholds::kEvidence) return std::nullopt;
-  }
-  return compared ? std::optional(std::move(fit)) : std::nullopt;
+  if (variances_s2.empty()) return std::nullopt;
+  const double longest_lag_s = std::sqrt(kLongTail * *std::max_element(variances_s2.begin(), variances_s2.end()));
+  const KernelSearch comparison(recording, segmentation, held, plain, width_s + kForgottenLags * longest_lag_s,
+                                kCompareCycles);
+  const std::optional<double> variance_s2 = best_average(variances_s2, comparison, plain);
+  if (!variance_s2) return std::nullopt;
+  std::optional<Trial> trial = Trials(recording, quality, segmentation, held).fit(*variance_s2);
+  if (!trial) return std::nullopt;
+  DampedFit fit = with_average_error(*std::move(trial));
+  const bool is_taken = tells_slips(fit) && gain_of(fit, plain) > thresholds::kTierPrice;
+  return is_taken ? std::optional(std::move(fit)) : std::nullopt;
 }
 
 }  // namespace slipfit::fit

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+#include "fit/inference/misfit.hpp"
+#include "fit/problem/block_fit.hpp"
+#include "fit/selection/solution.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/parameter.hpp"
+#include "slipfit/signal/cycles.hpp"
+
+namespace slipfit::fit {
+
+/// Shapes of an instrument's impulse response.
+enum class Kernel { MovingAverage, FirstOrder };
+
+/// The search for the variance sigma^2 of an instrument's kernel on some of the cycles and, of these, some of the
+/// samples around their slips, from the features of the slips. A moving average over W has sigma^2 = W^2 / 12, a lag T
+/// of first order T^2.
+class KernelSearch {
+ public:
+  /// `plain`: the fit of all cycles without a kernel. `half_width_s`: around the middle of a slip, what the kernel may
+  /// change.
+  KernelSearch(const Recording& recording, const Segmentation& segmentation, const HeldParameters& held,
+               const DampedFit& plain, double half_width_s, std::size_t cycles);
+
+  /// W of a moving average: Newton's steps in W^2, none by more than a factor of 4, until they are small or within the
+  /// error; empty where they do not get smaller, or where the slips are not explained much better than by `plain`.
+  [[nodiscard]] std::optional<double> converge(double average_s) const;
+
+  /// Least sum of squares, in units of the noise, over a few of Newton's steps; infinity without a solution.
+  [[nodiscard]] double least_squares(Kernel kernel, double variance_s2) const;
+
+  /// In the sum of squares.
+  [[nodiscard]] double residuals() const;
+
+ private:
+  [[nodiscard]] bool misses_less(const BlockFit& fit, double share) const;
+  [[nodiscard]] BlockFit with_kernel(const BlockFit& fit, Kernel kernel, double variance_s2) const;
+  [[nodiscard]] BlockFit started(Kernel kernel, double variance_s2) const;
+  [[nodiscard]] std::optional<Held> solve_with_damping(BlockFit& fit) const;
+
+  const Segmentation& segmentation_;
+  Held held_;
+  double step_s_;
+  const BlockFit& plain_;
+  const std::optional<SegmentMisfit>& plain_misfit_;
+  std::shared_ptr<const CycleSet> cycles_;
+};
+
+}  // namespace slipfit::fit
