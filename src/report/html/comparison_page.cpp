@@ -103,10 +103,10 @@ std::string number_cell(const EstimateRow& row) {
 
 std::string table_row(const ComparisonRow& row) {
   const std::string note = row.note.empty() ? "" : "<span class=\"note\">" + formula_text(row.note) + "</span>";
-  return fmt::format("<tr><td>{}{}</td>{}{}{}{}<td class=\"number\">{}<small>alone: {}</small></td><td>{}</td></tr>\n",
-                     formula_text(row.words), note, number_cell(row.a), number_cell(row.b), number_cell(row.difference),
-                     number_cell(row.ratio), text(row.p_adjusted), text(row.p_value),
-                     row.differs ? "yes" : "not shown");
+  return fmt::format("<tr><td>{}{}</td><td>{}</td>{}{}{}{}<td class=\"number\">{}<small>alone: {}</small></td></tr>\n",
+                     formula_text(row.words), note, row.differs ? "yes" : "not shown", number_cell(row.a),
+                     number_cell(row.b), number_cell(row.difference), number_cell(row.ratio), text(row.p_adjusted),
+                     text(row.p_value));
 }
 
 std::string quantities_part(const Comparison& comparison) {
@@ -119,7 +119,7 @@ std::string quantities_part(const Comparison& comparison) {
           ? "<p class=\"absent\">None.</p>\n"
           : "<p class=\"guide\">In brackets: 95 % intervals. p: that chance alone shows as much where A and B do "
             "not differ, for all quantities together (Holm; they differ below 0.05), and for each alone.</p>\n" +
-                table(" class=\"plain-table\"", {"quantity", "#A", "#B", "#B - A", "#B / A", "#p", "differs"}, rows);
+                table(" class=\"plain-table\"", {"quantity", "differs", "#A", "#B", "#B - A", "#B / A", "#p"}, rows);
   return section(" id=\"quantities\" class=\"flows\"", "What is compared", compared) +
          (absent.empty() ? "" : section(" id=\"absent\"", "What cannot be compared", list(absent)));
 }
