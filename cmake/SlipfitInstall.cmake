@@ -10,6 +10,9 @@ install(TARGETS slipfit_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 if(TARGET slipfit_hdf5)
   install(TARGETS slipfit_hdf5 RUNTIME DESTINATION "${CMAKE_INSTALL_LIBEXECDIR}/slipfit")
 endif()
+if(TARGET slipfit_image)
+  install(TARGETS slipfit_image RUNTIME DESTINATION "${CMAKE_INSTALL_LIBEXECDIR}/slipfit")
+endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/slipfit" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(EXPORT slipfit_targets NAMESPACE slipfit:: FILE slipfit-targets.cmake DESTINATION "${SLIPFIT_CMAKE_DIR}")
 
@@ -23,7 +26,8 @@ install(FILES
   "${PROJECT_SOURCE_DIR}/cmake/FindMinizip.cmake"
   DESTINATION "${SLIPFIT_CMAKE_DIR}")
 install(FILES "${PROJECT_SOURCE_DIR}/docs/fit.schema.json" "${PROJECT_SOURCE_DIR}/docs/predict.schema.json"
-  "${PROJECT_SOURCE_DIR}/docs/info.schema.json" "${PROJECT_SOURCE_DIR}/docs/compare.schema.json" "${PROJECT_SOURCE_DIR}/LICENSE"
+  "${PROJECT_SOURCE_DIR}/docs/info.schema.json" "${PROJECT_SOURCE_DIR}/docs/compare.schema.json"
+  "${PROJECT_SOURCE_DIR}/docs/surface.schema.json" "${PROJECT_SOURCE_DIR}/LICENSE"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/slipfit")
 
 if(SLIPFIT_BUILD_TESTS)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# fuzz.sh [SECONDS] [TARGET...]: runs each fuzz target (recording, manifest, unit, fit_document, pipeline) for SECONDS (600), one
+# fuzz.sh [SECONDS] [TARGET...]: runs each fuzz target (recording, manifest, unit, fit_document, surface, pipeline) for SECONDS (600), one
 # after the other, from the corpus in testdata/fuzz_corpus. Needs clang. Inputs that broke something are left in
 # build/fuzz-found/TARGET: mend, then keep a small one in testdata/fuzz_corpus/TARGET, where ctest replays it.
 set -euo pipefail
@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 seconds="${1:-600}"
 targets=("${@:2}")
-[ ${#targets[@]} -gt 0 ] || targets=(pipeline recording fit_document manifest unit)
+[ ${#targets[@]} -gt 0 ] || targets=(pipeline recording fit_document manifest unit surface)
 
 cmake --preset fuzz
 cmake --build --preset fuzz --parallel "$(nproc 2>/dev/null || echo 2)"

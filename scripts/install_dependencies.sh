@@ -6,7 +6,7 @@ set -euo pipefail
 
 packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libjs-dygraphs libxxhash-dev zlib1g-dev libminizip-dev libpugixml-dev libmatio-dev
-  libhdf5-dev)
+  libhdf5-dev libleptonica-dev)
 case "${1:-test}" in
   test) packages+=(catch2 python3 python3-jsonschema python3-openpyxl python3-scipy python3-h5py
     slurm-wlm munge locales dpkg-dev file) ;;

@@ -23,6 +23,7 @@ ALLOWED = {
     "io": {"core"},
     "signal": {"core"},
     "model": {"core"},
+    "surface": {"core", "io", "signal", "model"},
     "fit": {"core", "signal", "model"},
     "predict": {"core", "model", "fit"},
     "chart": set(),

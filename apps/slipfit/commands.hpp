@@ -13,6 +13,7 @@ void add_figures_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_simulate_command(CLI::App& program);
 void add_manifest_command(CLI::App& program);
+void add_surface_command(CLI::App& program, const std::string& command_line);
 void add_merge_command(CLI::App& program);
 void add_predict_command(CLI::App& program);
 void add_plan_command(CLI::App& program);

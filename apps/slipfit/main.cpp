@@ -68,6 +68,7 @@ int run(int argc, char** argv) {
   add_batch_command(program);
   add_manifest_command(program);
   add_merge_command(program);
+  add_surface_command(program, typed_line);
   try {
     check_command(program, argc > 1 ? argv[1] : "");
     program.parse(argc, argv);

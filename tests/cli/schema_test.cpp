@@ -166,3 +166,33 @@ TEST_CASE("docs/formats.md lists every warning that a recording full of defects 
     CHECK_THAT(formats, Catch::Contains(code));
   }
 }
+
+TEST_CASE("what surface says obeys docs/surface.schema.json, with a pattern and without") {
+  const test::TemporaryFolder folder;
+  std::string ridges = "x [um],z [um]\n";
+  std::string rough = ridges;
+  unsigned state = 1;
+  for (int i = 0; i < 900; ++i) {
+    state = 1664525U * state + 1013904223U;
+    const double noise = static_cast<double>(state >> 8U) / (1U << 24U);
+    ridges += std::to_string(i) + "," + std::to_string(i % 30 / 15.0 + 0.1 * noise) + "\n";
+    rough += std::to_string(i) + "," + std::to_string(noise) + "\n";
+  }
+  std::vector<std::string> documents;
+  for (const std::string& text : {ridges, rough}) {
+    const std::string index = std::to_string(documents.size());
+    documents.push_back(folder.path(index + ".json"));
+    const auto result = slipfit({"surface", folder.file(index + ".csv", text), "--json", "--out", documents.back()});
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+  }
+  const auto result = validate(documents, "surface");
+  CAPTURE(result.out, result.err);
+  if (result.exit_code == 77) WARN("skipped: python3-jsonschema is not installed");
+  CHECK((result.exit_code == 0 || result.exit_code == 77));
+  const auto found = nlohmann::json::parse(test::content_of(documents[0]));
+  CHECK(found["status"] == "periodic");
+  CHECK(found["spacing_m"]["ci95"][0] <= 30e-6);
+  CHECK(found["spacing_m"]["ci95"][1] >= 30e-6);
+  CHECK(nlohmann::json::parse(test::content_of(documents[1]))["status"] == "none");
+}

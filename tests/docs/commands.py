@@ -37,7 +37,7 @@ def simulate(slipfit, folder, name, options):
 
 
 def make_files(slipfit, folder):
-    """run7.csv, wet.csv, log.txt (no clock), sweep.csv with a group dry, runs.csv: the names that the documents use."""
+    """run7.csv, wet.csv, log.txt (no clock), sweep.csv with a group dry, runs.csv, profile.csv, heights.txt: the names that the documents use."""
     simulate(slipfit, folder, "run7.csv", [*COULOMB, "--speed", "10mm/s", "--duration", "62", "--sample-rate", "500"])
     simulate(slipfit, folder, "wet.csv", [*MODEL, "--kinetic-friction", "4.5", "--speed", "10mm/s", "--duration", "62", "--sample-rate", "500"])
     simulate(slipfit, folder, "slow.csv", [*COULOMB, "--speed", "1.2mm/s", "--duration", "200", "--sample-rate", "4"])
@@ -49,6 +49,9 @@ def make_files(slipfit, folder):
         rows.append(f"v{speed},v{speed}.csv,{speed},dry\n")
     (folder / "sweep.csv").write_text("id,file,speed_m_per_s,group\n" + "".join(rows))
     (folder / "runs.csv").write_text("id,file,speed_m_per_s\nrun7,run7.csv,0.01\n")
+    heights = [(i % 40) / 20 + 0.01 * (i * 7919 % 13) for i in range(2000)]
+    (folder / "profile.csv").write_text("x [um],z [um]\n" + "".join(f"{0.5 * i},{h:.3f}\n" for i, h in enumerate(heights)))
+    (folder / "heights.txt").write_text("".join(f"{h:.3f}\n" for h in heights))
     os.symlink(slipfit, folder / "slipfit")
 
 

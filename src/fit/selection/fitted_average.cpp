@@ -71,8 +71,8 @@ struct Trial {
 class Trials {
  public:
   Trials(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-         const HeldParameters& held)
-      : recording_(recording), quality_(quality), segmentation_(segmentation), held_(held) {}
+         const HeldParameters& held, double plain_noise)
+      : recording_(recording), quality_(quality), segmentation_(segmentation), held_(held), plain_noise_(plain_noise) {}
 
   /// Newton's steps in sigma^2; where outliers come and go with it they do not settle, and the nearest is taken.
   [[nodiscard]] std::optional<Trial> fit(double variance_s2) const {
@@ -85,7 +85,9 @@ class Trials {
       if (!beyond) break;
       Trial trial{std::move(*fit), *beyond, variance_s2};
       if (!best || trial.off() < best->off()) best = std::move(trial);
-      if (best->fit.misfit || best->off() < thresholds::kSettledAverage) break;
+      const bool is_hopeless =
+          best->fit.misfit || best->fit.refused_damping || best->fit.uncertainty.noise > plain_noise_;
+      if (is_hopeless || best->off() < thresholds::kSettledAverage) break;
       variance_s2 += beyond->variance_s2;
     }
     return best;
@@ -96,6 +98,7 @@ class Trials {
   const Quality& quality_;
   const Segmentation& segmentation_;
   const HeldParameters& held_;
+  double plain_noise_;  // of the fit without an average
 };
 
 double resting_share(const BlockFit& blocks) {
@@ -168,7 +171,8 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
                                 kCompareCycles);
   const std::optional<double> variance_s2 = best_average(variances_s2, comparison, plain);
   if (!variance_s2) return std::nullopt;
-  std::optional<Trial> trial = Trials(recording, quality, segmentation, held).fit(*variance_s2);
+  std::optional<Trial> trial =
+      Trials(recording, quality, segmentation, held, plain.uncertainty.noise).fit(*variance_s2);
   if (!trial) return std::nullopt;
   DampedFit fit = with_average_error(*std::move(trial));
   const bool is_taken = tells_slips(fit) && gain_of(fit, plain) > thresholds::kTierPrice;

@@ -95,7 +95,7 @@ std::optional<double> KernelSearch::converge(double average_s) const {
 }
 
 double KernelSearch::least_squares(Kernel kernel, double variance_s2) const {
-  constexpr int kMostSteps = 4;
+  constexpr int kMostSteps = 3;
   double least = std::numeric_limits<double>::infinity();
   BlockFit fit = started(kernel, variance_s2);
   for (int step = 0; step < kMostSteps; ++step) {
@@ -149,7 +149,7 @@ BlockFit KernelSearch::started(Kernel kernel, double variance_s2) const {
 
 /// What is held at the solution: zeta at 0 where its best value is negative. Empty: no solution.
 std::optional<Held> KernelSearch::solve_with_damping(BlockFit& fit) const {
-  constexpr int kIterations = 25;
+  constexpr int kIterations = 12;
   constexpr double kRough = 0.1;  // SolveOptions::tolerance
   Held held = held_;
   if (!std::isfinite(solve(fit, {held, false, true, kIterations, kRough}))) return std::nullopt;

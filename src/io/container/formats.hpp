@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "io/container/byte_stream.hpp"
 #include "slipfit/core/result.hpp"
@@ -35,6 +37,22 @@ Result<TextStream> open_mat(const ContainerFile& file, const ContainerChoice& ch
 
 /// The binary format of before 2007. Error: old_workbook.
 Result<TextStream> open_old_workbook(const ContainerFile& file, const ContainerChoice& choice);
+
+/// A program beside this one that reads what needs large libraries: its name, and what it takes to be built.
+struct Helper {
+  std::string program;
+  std::vector<std::string> arguments;
+  std::string kind;     ///< of file, for messages
+  std::string package;  ///< of Debian
+};
+
+struct HelperOutput {
+  std::string first;  ///< line, behind its "="
+  std::unique_ptr<ByteStream> bytes;
+};
+
+/// Errors: not_built_in, damaged_container, that of its first line ("!CODE MESSAGE").
+Result<HelperOutput> run_helper(const Helper& helper, const std::string& name);
 
 Error damaged(const std::string& name, const std::string& what);
 Error too_large(const std::string& name);

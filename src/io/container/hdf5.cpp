@@ -62,13 +62,13 @@ class ProgramStream final : public ByteStream {
 };
 
 /// Beside this program, where it is installed, or empty.
-std::string find_reader() {
+std::string find_helper(const std::string& name) {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
   for (const std::filesystem::path& folder :
        {self.parent_path(), self.parent_path() / "../libexec/slipfit", self.parent_path() / "../apps",
         std::filesystem::path(SLIPFIT_LIBEXEC_DIR)}) {
-    const auto program = folder / "slipfit-hdf5";
+    const auto program = folder / name;
     if (::access(program.c_str(), X_OK) == 0) return program.string();
   }
   return {};
@@ -92,30 +92,38 @@ Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const s
   ::close(ends[1]);
   if (failed == 0) return std::make_unique<ProgramStream>(process, ends[0], name);
   ::close(ends[0]);
-  return Error{"not_readable", name + ": slipfit-hdf5 cannot be started; check its permissions"};
+  return Error{"not_readable", name + ": " + program + " cannot be started; check its permissions"};
 }
 
 Result<TextStream> open_with_reader(const char* kind, const ContainerFile& file, const ContainerChoice& choice) {
-  const std::string program = find_reader();
-  if (program.empty()) return not_built_in(file.name, "a MATLAB or HDF5 file", "libhdf5-dev and libmatio-dev");
-  std::vector<std::string> arguments{program, kind, file.path.string()};
+  std::vector<std::string> arguments{kind, file.path.string()};
   if (choice.variable) arguments.push_back(*choice.variable);
-  auto started = start(program, arguments, file.name);
-  if (!started) return started.error();
-  std::unique_ptr<ProgramStream> bytes = std::move(started).value();
-  const std::string first = bytes->line();
-  if (!first.starts_with('=')) {
-    const std::size_t blank = std::min(first.find(' '), first.size());
-    if (!first.starts_with('!') || blank == first.size()) return damaged(file.name, "the file is damaged");
-    return Error{first.substr(1, blank - 1), file.name + ": " + printable(first.substr(blank + 1))};
-  }
+  auto output =
+      run_helper({"slipfit-hdf5", arguments, "a MATLAB or HDF5 file", "libhdf5-dev and libmatio-dev"}, file.name);
+  if (!output) return output.error();
   TextStream text;
-  text.bytes = std::move(bytes);
-  text.assumed.push_back("Of the file '" + printable(first.substr(1)) + "' was read.");
+  HelperOutput read = std::move(output).value();
+  text.bytes = std::move(read.bytes);
+  text.assumed.push_back("Of the file '" + printable(read.first) + "' was read.");
   return text;
 }
 
 }  // namespace
+
+Result<HelperOutput> run_helper(const Helper& helper, const std::string& name) {
+  const std::string program = find_helper(helper.program);
+  if (program.empty()) return not_built_in(name, helper.kind, helper.package);
+  std::vector<std::string> words{program};
+  words.insert(words.end(), helper.arguments.begin(), helper.arguments.end());
+  auto started = start(program, words, name);
+  if (!started) return started.error();
+  std::unique_ptr<ProgramStream> bytes = std::move(started).value();
+  const std::string first = bytes->line();
+  if (first.starts_with('=')) return HelperOutput{first.substr(1), std::move(bytes)};
+  const std::size_t blank = std::min(first.find(' '), first.size());
+  if (!first.starts_with('!') || blank == first.size()) return damaged(name, "the file is damaged");
+  return Error{first.substr(1, blank - 1), name + ": " + printable(first.substr(blank + 1))};
+}
 
 Result<TextStream> open_hdf5(const ContainerFile& file, const ContainerChoice& choice) {
   return open_with_reader("hdf5", file, choice);

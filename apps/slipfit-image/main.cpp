@@ -1,0 +1,81 @@
+// slipfit-image FILE: grey values of a PNG, TIFF or JPEG on standard output, for slipfit: "=WIDTHxHEIGHT", a line end,
+// then two bytes a pixel, the lower first, row by row. "!CODE MESSAGE" where something is wrong. A program of its own:
+// the libraries take several others with them, and a damaged file that ends them ends nothing else.
+#include <leptonica/allheaders.h>
+#include <sys/resource.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+namespace {
+
+struct Destroy {
+  void operator()(Pix* image) const { pixDestroy(&image); }
+};
+using Image = std::unique_ptr<Pix, Destroy>;
+
+constexpr std::int64_t kMostPixels = std::int64_t{64} << 20U;
+
+/// A file that makes a library run on or take all memory ends this program.
+void limit_resources() {
+  constexpr rlim_t kMostMemory = rlim_t{2} << 30U;
+  constexpr rlim_t kMostSeconds = 60;
+  const rlimit memory{kMostMemory, kMostMemory};
+  const rlimit time{kMostSeconds, kMostSeconds};
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_AS, &memory);
+  setrlimit(RLIMIT_CPU, &time);
+  setrlimit(RLIMIT_CORE, &no_core);
+}
+
+int refuse(const char* line) {
+  std::printf("!%s\n", line);
+  return 1;
+}
+
+/// Eight or sixteen bits a pixel, without colours.
+Image grey(Image image) {
+  if (pixGetDepth(image.get()) == 16) return image;
+  return Image(pixConvertTo8(image.get(), 0));
+}
+
+bool write(const Image& image) {
+  const int width = pixGetWidth(image.get());
+  const int height = pixGetHeight(image.get());
+  const bool is_deep = pixGetDepth(image.get()) == 16;
+  std::printf("=%dx%d\n", width, height);
+  std::vector<unsigned char> row(2 * static_cast<std::size_t>(width));
+  for (int y = 0; y < height; ++y) {
+    const l_uint32* const line = pixGetData(image.get()) + static_cast<std::ptrdiff_t>(y) * pixGetWpl(image.get());
+    for (int x = 0; x < width; ++x) {
+      const unsigned value = is_deep ? GET_DATA_TWO_BYTES(line, x) : GET_DATA_BYTE(line, x);
+      row[2 * static_cast<std::size_t>(x)] = static_cast<unsigned char>(value & 255U);
+      row[2 * static_cast<std::size_t>(x) + 1] = static_cast<unsigned char>(value >> 8U);
+    }
+    if (std::fwrite(row.data(), 1, row.size(), stdout) != row.size()) return false;
+  }
+  return std::fflush(stdout) == 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  limit_resources();
+  setMsgSeverity(L_SEVERITY_NONE);
+  l_int32 format = 0;
+  l_int32 width = 0;
+  l_int32 height = 0;
+  if (pixReadHeader(argv[1], &format, &width, &height, nullptr, nullptr, nullptr) != 0) {
+    return refuse("damaged_surface the image is damaged, or of a kind that is not read; save it as PNG");
+  }
+  if (static_cast<std::int64_t>(width) * height > kMostPixels) {
+    return refuse("map_too_large the image has more than 64 million pixels; cut the track out of it");
+  }
+  Image image(pixRead(argv[1]));
+  if (image) image = grey(std::move(image));
+  if (!image) return refuse("damaged_surface the image is damaged; save it as PNG");
+  return write(image) ? 0 : 1;
+}

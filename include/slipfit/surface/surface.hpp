@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfit/core/estimate.hpp"
+#include "slipfit/core/result.hpp"
+
+namespace slipfit {
+
+/// Heights along a worn track at equal distances; not a number where nothing was measured.
+struct Profile {
+  std::string file;
+  double pitch_m = 0.0;
+  std::vector<double> height;       ///< in metres, or grey values
+  bool height_in_metres = true;     ///< false: grey values of an image, or heights without a unit
+  std::size_t rows = 1;             ///< averaged across the direction of sliding
+  std::optional<double> along_rad;  ///< direction of sliding from the x axis of an areal measurement
+  /// Samples after which what coded the file repeats (the blocks of JPEG): a spacing equal to it is none.
+  std::optional<double> block_samples;
+  std::vector<std::string> assumed;
+};
+
+/// What the user says about the file; everything left empty is found out, and said in `Profile::assumed`.
+struct ProfileOptions {
+  std::optional<double> unit_m;         ///< of lengths and heights of a text without units
+  std::optional<double> pitch_m;        ///< of a text of heights alone
+  std::optional<double> pixel_m;        ///< of an image
+  std::optional<double> along_rad;      ///< direction of sliding from the x axis of an areal measurement
+  std::optional<std::string> x_column;  ///< name, or 1-based number as text
+  std::optional<std::string> z_column;
+};
+
+/// A text with heights, X3P (ISO 25178-72), SDF (ISO 25178-71), PNG, TIFF or JPEG. Errors carry file and remedy in one
+/// line; docs/formats.md lists their codes.
+Result<Profile> read_profile(const std::filesystem::path& file, const ProfileOptions& options = {});
+
+/// What repeats along the profile. Periodic: distances scatter by less than a fifth; irregular: by more, the mean is
+/// known all the same; none: nothing more regular than on a random surface; undetermined: something, but not enough.
+enum class SurfaceStatus { Periodic, Irregular, None, Undetermined };
+
+struct Surface {
+  SurfaceStatus status = SurfaceStatus::Undetermined;
+  Estimate spacing_m;                     ///< mean distance of the ridges: of all that the same rubbing would leave
+  Estimate fine_spacing_m;                ///< of a finer pattern on the same track
+  Estimate ridge_height;                  ///< peak over the next valley, in metres or grey values
+  Estimate begin_spacing_m;               ///< of a straight line through the distances, at the first ridge
+  Estimate end_spacing_m;                 ///< at the last ridge
+  std::optional<double> spacing_sd_m;     ///< from ridge to ridge, what locating them adds included
+  std::optional<double> rsm_m;            ///< RSm of ISO 21920-2 (ISO 4287)
+  std::optional<double> asymmetry;        ///< median length of a rise over that of a fall, in the direction of x
+  std::optional<double> cutoff_m;         ///< of the Gaussian filter (ISO 16610-21) that took form and waviness
+  std::optional<double> smoothed_over_m;  ///< of the one that took the roughness before ridges were counted
+  std::size_t ridges = 0;
+  std::vector<double> ridge_places_m;  ///< from the first sample
+  std::string method;                  ///< "ridges", "comb" or empty
+  Warnings warnings;
+};
+
+/// Errors: too_few_points, constant_profile, too_many_holes, too_few_ridges.
+Result<Surface> measure_surface(const Profile& profile);
+
+}  // namespace slipfit

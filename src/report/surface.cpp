@@ -1,0 +1,96 @@
+#include "slipfit/report/surface.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "report/format.hpp"
+#include "report/json_values.hpp"
+
+namespace slipfit {
+namespace {
+
+Json surface_warnings(const Warnings& warnings) {
+  return array_of(warnings, [](const Warning& w) { return Json{{"code", w.code}, {"message", w.message}}; });
+}
+
+std::string surface_row(const char* name, const std::string& value) {
+  return fmt::format("  {:<22} {}\n", name, value);
+}
+
+std::string estimate_of(const char* name, const Estimate& estimate, const std::string& unit) {
+  return estimate.value ? surface_row(name, estimate_text(estimate, unit)) : std::string();
+}
+
+std::string length_of(const char* name, const std::optional<double>& length_m) {
+  return length_m ? surface_row(name, quantity_text(*length_m, "m")) : std::string();
+}
+
+}  // namespace
+
+std::string name_of(SurfaceStatus status) {
+  switch (status) {
+    case SurfaceStatus::Periodic:
+      return "periodic";
+    case SurfaceStatus::Irregular:
+      return "irregular";
+    case SurfaceStatus::None:
+      return "none";
+    case SurfaceStatus::Undetermined:
+      break;
+  }
+  return "undetermined";
+}
+
+std::string to_json(const Profile& profile, const Surface& surface) {
+  Json json{{"schema", "slipfit.surface/1"}, {"version", SLIPFIT_VERSION}};
+  json["profile"] = {
+      {"file", profile.file},
+      {"points", profile.height.size()},
+      {"pitch_m", number(profile.pitch_m)},
+      {"rows", profile.rows},
+      {"along_degrees", profile.along_rad ? number(*profile.along_rad * 180.0 / std::numbers::pi) : Json()}};
+  json["status"] = name_of(surface.status);
+  json["spacing_m"] = estimate(surface.spacing_m);
+  json["fine_spacing_m"] = estimate(surface.fine_spacing_m);
+  const bool in_metres = profile.height_in_metres;
+  json["ridge_height_m"] =
+      in_metres ? estimate(surface.ridge_height) : estimate(Estimate{{}, {}, {}, "the heights have no unit"});
+  json["ridges"] = surface.ridges;
+  json["spacing_sd_m"] = number(surface.spacing_sd_m);
+  json["spacing_begin_m"] = estimate(surface.begin_spacing_m);
+  json["spacing_end_m"] = estimate(surface.end_spacing_m);
+  json["asymmetry"] = number(surface.asymmetry);
+  json["rsm_m"] = number(surface.rsm_m);
+  json["cutoff_m"] = number(surface.cutoff_m);
+  json["smoothed_over_m"] = number(surface.smoothed_over_m);
+  json["method"] = surface.method.empty() ? Json() : Json(surface.method);
+  json["warnings"] = surface_warnings(surface.warnings);
+  json["assumed"] = profile.assumed;
+  return text_of(json);
+}
+
+std::string to_text(const Profile& profile, const Surface& surface) {
+  std::string text = fmt::format("{}: {} points, pitch {}\n\nPattern\n", profile.file, profile.height.size(),
+                                 quantity_text(profile.pitch_m, "m"));
+  text += surface_row("status", name_of(surface.status));
+  text += surface.spacing_m.value ? estimate_of("spacing", surface.spacing_m, "m")
+                                  : surface_row("spacing", "not known: " + surface.spacing_m.note);
+  text += estimate_of("fine spacing", surface.fine_spacing_m, "m");
+  if (surface.ridges > 0) text += surface_row("ridges", fmt::format("{}", surface.ridges));
+  text += length_of("scatter (sd)", surface.spacing_sd_m);
+  text += estimate_of("spacing at the begin", surface.begin_spacing_m, "m");
+  text += estimate_of("spacing at the end", surface.end_spacing_m, "m");
+  text += estimate_of("ridge height", surface.ridge_height, profile.height_in_metres ? "m" : "");
+  if (surface.asymmetry) text += surface_row("rise over fall", fmt::format("{:.2f}", *surface.asymmetry));
+  text += length_of("RSm", surface.rsm_m);
+  text += length_of("cut-off of the waves", surface.cutoff_m);
+  text += length_of("ridges smoothed over", surface.smoothed_over_m);
+  if (!surface.warnings.empty()) text += "\nWarnings\n";
+  for (const Warning& warning : surface.warnings) text += fmt::format("  - {}: {}\n", warning.code, warning.message);
+  if (!profile.assumed.empty()) text += "\nAssumed while reading\n";
+  for (const std::string& sentence : profile.assumed) text += "  - " + sentence + "\n";
+  return text;
+}
+
+}  // namespace slipfit

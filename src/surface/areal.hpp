@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfit/core/result.hpp"
+#include "slipfit/surface/surface.hpp"
+
+namespace slipfit::surface {
+
+/// The height of what was not measured.
+constexpr double kHole = std::numeric_limits<double>::quiet_NaN();
+
+/// Heights or grey values over an area, row by row; not a number where nothing was measured.
+struct HeightMap {
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+  double x_pitch_m = 0.0;
+  double y_pitch_m = 0.0;
+  std::vector<double> values;
+  bool in_metres = true;
+};
+
+constexpr std::size_t kMostPoints = std::size_t{64} << 20U;
+Error map_too_large(const std::string& file);
+
+/// All rows averaged across the direction of sliding: the given one, else that in which the averages vary most (form
+/// aside). A single row is the profile itself.
+Profile profile_of(const HeightMap& map, std::optional<double> along_rad);
+
+/// Heights at these places, on even steps: as they stand where they are even, else between neighbours. Errors:
+/// places_not_rising, no_unit.
+Result<Profile> profile_of(std::vector<double> places_m, std::vector<double> heights, const std::string& file);
+
+}  // namespace slipfit::surface

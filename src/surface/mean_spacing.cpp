@@ -1,0 +1,98 @@
+#include "surface/mean_spacing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/special_functions/beta.hpp>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace slipfit::surface {
+namespace {
+
+/// 1 + 2 rho: what is left of the variance of a mean of many distances whose neighbours have the correlation rho.
+constexpr std::array kRemainders = {0.03, 0.06, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0};
+
+/// Student's t of the mean at one correlation, and how well that correlation explains the data.
+struct Component {
+  double centre = 0.0;
+  double width = 0.0;
+  double log_evidence = 0.0;
+  double weight = 0.0;
+};
+
+/// Generalised least squares with the covariance tridiagonal (rho, 1, rho), factorised on the way.
+Component component(std::span<const double> distances, double rho, double origin, double floor) {
+  double pivot = 1.0;
+  double ones = 1.0;
+  double data = distances[0] - origin;
+  double one_one = 0.0;
+  double one_data = 0.0;
+  double data_data = 0.0;
+  double log_determinant = 0.0;
+  for (std::size_t i = 0;; ++i) {
+    one_one += ones * ones / pivot;
+    one_data += ones * data / pivot;
+    data_data += data * data / pivot;
+    log_determinant += std::log(pivot);
+    if (i + 1 == distances.size()) break;
+    const double factor = rho / pivot;
+    pivot = 1.0 - rho * factor;
+    ones = 1.0 - factor * ones;
+    data = distances[i + 1] - origin - factor * data;
+  }
+  const auto n = static_cast<double>(distances.size());
+  const double rest = std::max(floor, data_data - one_data * one_data / one_one);
+  return {origin + one_data / one_one, std::sqrt(rest / ((n - 1.0) * one_one)),
+          -0.5 * (log_determinant + std::log(one_one) + (n - 1.0) * std::log(rest)), 0.0};
+}
+
+double student_below(double t, double freedom) {
+  const double tail = 0.5 * boost::math::ibeta(0.5 * freedom, 0.5, freedom / (freedom + t * t));
+  return t < 0.0 ? tail : 1.0 - tail;
+}
+
+double quantile(const std::vector<Component>& mixture, double freedom, double probability) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Component& c : mixture) {
+    low = std::min(low, c.centre - 100.0 * c.width);
+    high = std::max(high, c.centre + 100.0 * c.width);
+  }
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    double below = 0.0;
+    for (const Component& c : mixture) below += c.weight * student_below((middle - c.centre) / c.width, freedom);
+    (below < probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+std::optional<MeanSpacing> mean_spacing(std::span<const double> distances) {
+  if (distances.size() < 4) return std::nullopt;
+  const auto n = static_cast<double>(distances.size());
+  double origin = 0.0;
+  for (const double d : distances) origin += d / n;
+  const double floor = n * 1e-12 * origin * origin;
+  std::vector<Component> mixture;
+  double best = -std::numeric_limits<double>::infinity();
+  for (const double remainder : kRemainders) {
+    mixture.push_back(component(distances, 0.5 * (remainder - 1.0), origin, floor));
+    best = std::max(best, mixture.back().log_evidence);
+  }
+  double sum = 0.0;
+  for (Component& c : mixture) sum += c.weight = std::exp(c.log_evidence - best);
+  MeanSpacing mean;
+  for (Component& c : mixture) {
+    c.weight /= sum;
+    mean.value += c.weight * c.centre;
+  }
+  mean.ci95 = {quantile(mixture, n - 1.0, 0.025), quantile(mixture, n - 1.0, 0.975)};
+  mean.standard_error = 0.5 * (mean.ci95.high - mean.ci95.low) / 1.959963985;
+  return mean;
+}
+
+}  // namespace slipfit::surface

@@ -1,0 +1,249 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/quantile.hpp"
+#include "slipfit/core/range.hpp"
+#include "slipfit/surface/surface.hpp"
+#include "surface/filter.hpp"
+#include "surface/roughness.hpp"
+#include "surface/spacing.hpp"
+
+namespace slipfit {
+namespace {
+
+using surface::Pattern;
+
+constexpr std::size_t kFewestPoints = 40;  // five ridges of eight samples
+constexpr double kMostHoles = 0.1;
+constexpr double kIrregular = 0.2;
+constexpr double kFewestRidges = 5.0;
+constexpr Range kPositive{1e-300, 1e300};
+
+Error too_few_ridges(const Profile& profile, double count) {
+  return {"too_few_ridges",
+          fmt::format("{}: the track holds only about {:.0f} ridges, and fewer than {:.0f} do not tell their spacing; "
+                      "measure a longer track",
+                      profile.file, count, kFewestRidges)};
+}
+
+std::optional<Error> refusal(const Profile& profile) {
+  const std::vector<double>& z = profile.height;
+  const auto holes =
+      static_cast<std::size_t>(std::count_if(z.begin(), z.end(), [](double h) { return !std::isfinite(h); }));
+  if (z.size() < kFewestPoints) {
+    return Error{"too_few_points",
+                 fmt::format("{}: {} points are too few for a pattern (at least {}); measure a longer "
+                             "track or at a smaller pitch",
+                             profile.file, z.size(), kFewestPoints)};
+  }
+  if (static_cast<double>(holes) > kMostHoles * static_cast<double>(z.size())) {
+    return Error{
+        "too_many_holes",
+        fmt::format("{}: {:.0f} % of the points were not measured, at most a tenth is bridged; measure the track "
+                    "again or cut it to its good part",
+                    profile.file, 100.0 * static_cast<double>(holes) / static_cast<double>(z.size()))};
+  }
+  const auto known = std::find_if(z.begin(), z.end(), [](double h) { return std::isfinite(h); });
+  if (std::all_of(z.begin(), z.end(), [&](double h) { return !std::isfinite(h) || h == *known; })) {
+    return Error{"constant_profile", profile.file +
+                                         ": all heights are equal: there is no surface in it; check the column "
+                                         "(--z-column) and the range of the instrument"};
+  }
+  return std::nullopt;
+}
+
+/// Lines over what was not measured.
+std::vector<double> bridged(const std::vector<double>& heights) {
+  std::vector<double> result = heights;
+  std::size_t last = heights.size();  // of the known ones; none so far
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (!std::isfinite(heights[i])) continue;
+    const double from = last < heights.size() ? heights[last] : heights[i];
+    const std::size_t first = last < heights.size() ? last + 1 : 0;
+    for (std::size_t k = first; k < i; ++k) {
+      result[k] = from + (heights[i] - from) * static_cast<double>(k + 1 - first) / static_cast<double>(i + 1 - first);
+    }
+    last = i;
+  }
+  for (std::size_t k = last + 1; k < heights.size(); ++k) result[k] = heights[last];
+  return result;
+}
+
+Estimate estimate(const surface::MeanSpacing& mean, double scale) {
+  return within(
+      Estimate{
+          mean.value * scale, mean.standard_error * scale, Interval{mean.ci95.low * scale, mean.ci95.high * scale}, {}},
+      kPositive);
+}
+
+Estimate unknown(std::string note) {
+  return {std::nullopt, std::nullopt, std::nullopt, std::move(note)};
+}
+
+Estimate normal(double value, double standard_error) {
+  const double half = 1.959963985 * standard_error;
+  return {value, standard_error, Interval{value - half, value + half}, {}};
+}
+
+/// Of each ridge over the next valley; neighbours are taken as independent.
+Estimate mean_height(const std::vector<double>& heights) {
+  const auto n = static_cast<double>(heights.size());
+  const double mean = std::accumulate(heights.begin(), heights.end(), 0.0) / n;
+  return within(normal(mean, mean * surface::variation(heights) / std::sqrt(n)), kNotNegative);
+}
+
+struct Trend {
+  Estimate begin, end;
+};
+
+/// A straight line through the distances over their places along the track.
+Trend trend_of(const std::vector<double>& distances, double pitch_m) {
+  const auto n = static_cast<double>(distances.size());
+  const double mean = std::accumulate(distances.begin(), distances.end(), 0.0) / n;
+  const double middle = 0.5 * (n - 1.0);
+  double moment = 0.0;
+  for (std::size_t i = 0; i < distances.size(); ++i) moment += (static_cast<double>(i) - middle) * distances[i];
+  const double spread = n * (n * n - 1.0) / 12.0;
+  const double slope = moment / spread;
+  double rest = 0.0;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const double off = distances[i] - mean - slope * (static_cast<double>(i) - middle);
+    rest += off * off;
+  }
+  const double variance = rest / std::max(1.0, n - 2.0);
+  const double error = std::sqrt(variance * (1.0 / n + middle * middle / spread));
+  const auto at = [&](double index) {
+    return within(normal((mean + slope * (index - middle)) * pitch_m, error * pitch_m), kPositive);
+  };
+  return {at(0.0), at(n - 1.0)};
+}
+
+/// Median length of a rise over that of a fall.
+std::optional<double> asymmetry_of(const surface::Ridges& ridges) {
+  std::vector<double> rises;
+  std::vector<double> falls;
+  for (std::size_t i = 0; i < ridges.peaks.size(); ++i) {
+    falls.push_back(ridges.valleys[i] - ridges.peaks[i]);
+    if (i > 0) rises.push_back(ridges.peaks[i] - ridges.valleys[i - 1]);
+  }
+  if (rises.empty()) return std::nullopt;
+  const auto median = [](std::vector<double> values) {
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+  };
+  const double fall = median(falls);
+  return fall > 0.0 ? std::optional(median(rises) / fall) : std::nullopt;
+}
+
+/// RSm of the profile about the mean line of a standard cut-off; of the profile's own length where that is shorter.
+void add_rsm(const Profile& profile, const std::vector<double>& heights, double element_m, Surface& found) {
+  const double length_m = profile.pitch_m * static_cast<double>(heights.size());
+  const double cutoff_m = std::min(surface::standard_cutoff_m(element_m), length_m / 3.0);
+  found.cutoff_m = cutoff_m;
+  std::vector<double> rough = heights;
+  const std::vector<double> waves = surface::waviness(heights, std::max(2.0, cutoff_m / profile.pitch_m));
+  for (std::size_t i = 0; i < rough.size(); ++i) rough[i] -= waves[i];
+  if (const auto width = surface::mean_element_width(rough, cutoff_m / profile.pitch_m)) {
+    found.rsm_m = *width * profile.pitch_m;
+  }
+}
+
+void add_ridges(const Profile& profile, const Pattern& pattern, Surface& found) {
+  const surface::Ridges& ridges = pattern.ridges;
+  found.ridges = ridges.count();
+  for (const double place : ridges.peaks) found.ridge_places_m.push_back(place * profile.pitch_m);
+  found.ridge_height = mean_height(ridges.heights);
+  if (!profile.height_in_metres) found.ridge_height.note = "in the unit of the file: not known in metres";
+  found.asymmetry = asymmetry_of(ridges);
+  found.smoothed_over_m = ridges.smoothed_over * profile.pitch_m;
+  const std::vector<double> apart = surface::distances(pattern.places);
+  found.spacing_sd_m = pattern.variation * surface::mean_distance(pattern) * profile.pitch_m;
+  const Trend trend = trend_of(apart, profile.pitch_m);
+  found.begin_spacing_m = trend.begin;
+  found.end_spacing_m = trend.end;
+}
+
+/// A spacing that what coded the file has by itself.
+bool is_of_the_code(const Profile& profile, const surface::MeanSpacing& spacing) {
+  if (!profile.block_samples) return false;
+  for (const double blocks : {1.0, 2.0}) {
+    const double apart = std::abs(spacing.value - blocks * *profile.block_samples);
+    if (apart < std::max(2.0 * spacing.standard_error, 0.01 * spacing.value)) return true;
+  }
+  return false;
+}
+
+void conclude(const Profile& profile, const std::vector<Pattern>& patterns, Surface& found) {
+  if (patterns.empty()) {
+    found.status = SurfaceStatus::None;
+    found.spacing_m = unknown("nothing repeats more regularly than on a random surface");
+    return;
+  }
+  const Pattern& pattern = patterns.front();
+  if (!pattern.spacing) {
+    found.status = SurfaceStatus::Undetermined;
+    found.spacing_m = unknown(pattern.doubt);
+    return;
+  }
+  if (is_of_the_code(profile, *pattern.spacing)) {
+    found.status = SurfaceStatus::Undetermined;
+    found.spacing_m =
+        unknown("what repeats has the length of the blocks that JPEG codes an image in; save it as PNG or TIFF");
+    return;
+  }
+  found.status =
+      pattern.variation < kIrregular || pattern.is_from_comb ? SurfaceStatus::Periodic : SurfaceStatus::Irregular;
+  found.method = pattern.is_from_comb ? "comb" : "ridges";
+  found.spacing_m = estimate(*pattern.spacing, profile.pitch_m);
+  add_ridges(profile, pattern, found);
+  if (patterns.size() > 1) found.fine_spacing_m = estimate(*patterns.back().spacing, profile.pitch_m);
+}
+
+void warn(Surface& found) {
+  if (!found.spacing_m.value) return;
+  found.warnings.push_back({"origin_not_known",
+                            "a pattern alone does not tell what left it: marks of turning, milling or grinding repeat "
+                            "as well; they have the same "
+                            "spacing beside the track, and a spacing of stick-slip grows with the speed of sliding"});
+  if (found.rsm_m && std::abs(*found.rsm_m / *found.spacing_m.value - 1.0) > 0.2) {
+    found.warnings.push_back({"rsm_differs",
+                              "RSm differs from the spacing by more than a fifth: it counts roughness and "
+                              "waves as well as ridges"});
+  }
+  const auto& begin = found.begin_spacing_m;
+  const auto& end = found.end_spacing_m;
+  if (begin.value && end.value &&
+      std::abs(*begin.value - *end.value) > 3.0 * std::hypot(*begin.standard_error, *end.standard_error)) {
+    found.warnings.push_back({"spacing_drifts", "the spacing changes along the track: the mean stands for all of it"});
+  }
+}
+
+}  // namespace
+
+Result<Surface> measure_surface(const Profile& profile) {
+  if (auto error = refusal(profile)) return *error;
+  const std::vector<double> heights = surface::without_form(bridged(profile.height));
+  const std::vector<Pattern> patterns = surface::find_patterns(heights);
+  Surface found;
+  if (!patterns.empty() && patterns.front().comb_spacing > 0.0) {
+    const double count = static_cast<double>(heights.size()) / patterns.front().comb_spacing;
+    if (count < kFewestRidges) return too_few_ridges(profile, count);
+  }
+  conclude(profile, patterns, found);
+  const double length_m = profile.pitch_m * static_cast<double>(heights.size());
+  add_rsm(profile, heights, found.spacing_m.value.value_or(length_m / 20.0), found);
+  const auto holes =
+      std::count_if(profile.height.begin(), profile.height.end(), [](double h) { return !std::isfinite(h); });
+  if (holes > 0) {
+    found.warnings.push_back(
+        {"holes_bridged", fmt::format("{} points that were not measured were bridged by lines", holes)});
+  }
+  warn(found);
+  return found;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,92 @@
+#include <array>
+#include <string_view>
+
+#include "io/container/byte_stream.hpp"
+#include "io/message.hpp"
+#include "io/opened_file.hpp"
+#include "slipfit/surface/surface.hpp"
+#include "surface/readers.hpp"
+
+namespace slipfit {
+namespace surface {
+
+Error damaged_surface(const SurfaceFile& file, const std::string& what) {
+  return {"damaged_surface", file.name + ": " + what + "; copy or export the file again"};
+}
+
+Result<std::string> whole_file(const SurfaceFile& file, std::size_t most) {
+  auto opened = reading::open_plain(file.path);
+  if (!opened) return opened.error();
+  constexpr std::size_t kPart = std::size_t{256} * 1024;
+  std::string bytes;
+  for (;;) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + kPart);
+    bytes.resize(before + opened.value().bytes->read(bytes.data() + before, kPart));
+    if (bytes.size() > most) return map_too_large(file.name);
+    if (bytes.size() < before + kPart) return bytes;
+  }
+}
+
+namespace {
+
+using namespace std::string_view_literals;
+enum class Kind { Text, Sdf, X3p, Image };
+
+struct Magic {
+  std::string_view start;
+  Kind kind = Kind::Text;
+  bool is_jpeg = false;
+};
+
+constexpr std::array kMagics = std::to_array<Magic>({{"aISO-1.0"sv, Kind::Sdf},
+                                                     {"aBCR-1.0"sv, Kind::Sdf},
+                                                     {"bISO-1.0"sv, Kind::Sdf},
+                                                     {"bBCR-1.0"sv, Kind::Sdf},
+                                                     {"PK\x03\x04"sv, Kind::X3p},
+                                                     {"\x89PNG\r\n\x1a\n"sv, Kind::Image},
+                                                     {"\xFF\xD8\xFF"sv, Kind::Image, true},
+                                                     {"II*\0"sv, Kind::Image},
+                                                     {"MM\0*"sv, Kind::Image}});
+
+/// The blocks of eight pixels that JPEG codes an image in show along its axes.
+void note_blocks(Profile& profile) {
+  const double c = std::abs(std::cos(profile.along_rad.value_or(0.0)));
+  if (c > 0.99 || c < 0.14) profile.block_samples = 8.0;
+}
+
+Result<Profile> read(const SurfaceFile& file, const Magic& magic, const ProfileOptions& options) {
+  if (magic.kind == Kind::Text) return read_text_profile(file, options);
+  auto map = magic.kind == Kind::Sdf   ? read_sdf(file)
+             : magic.kind == Kind::X3p ? read_x3p(file)
+                                       : read_image(file, options);
+  if (!map) return map.error();
+  if (map.value().values.size() < 2) return damaged_surface(file, "it holds no points");
+  Profile profile = profile_of(map.value(), options.along_rad);
+  if (magic.is_jpeg) note_blocks(profile);
+  return profile;
+}
+
+}  // namespace
+}  // namespace surface
+
+Result<Profile> read_profile(const std::filesystem::path& path, const ProfileOptions& options) {
+  const surface::SurfaceFile file{path, reading::printable(path.string())};
+  return reading::with_errors_of_reading(file.name, [&]() -> Result<Profile> {
+    auto opened = reading::open_plain(path);
+    if (!opened) return opened.error();
+    std::array<char, 16> start{};
+    const std::size_t size = opened.value().bytes->read(start.data(), start.size());
+    surface::Magic found;
+    for (const surface::Magic& magic : surface::kMagics) {
+      if (std::string_view(start.data(), size).starts_with(magic.start)) found = magic;
+    }
+    auto profile = surface::read(file, found, options);
+    if (!profile) return profile;
+    Profile named = std::move(profile).value();
+    named.file = file.name;
+    return named;
+  });
+}
+
+}  // namespace slipfit

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace slipfit::surface {
+
+/// The ridges that a profile shows between two wavelengths. Places in samples of the profile.
+struct Ridges {
+  double smoothed_over = 0.0;                        ///< cut-off of the Gaussian filter that takes the roughness
+  double waves_above = 0.0;                          ///< cut-off of the one that takes form and waviness
+  std::vector<double> peaks, falls, valleys, rises;  ///< places; falls and rises at half of their height
+  std::vector<double> heights;                       ///< peak over the valley behind it
+
+  [[nodiscard]] std::size_t count() const { return peaks.size(); }
+};
+
+/// `heights` without form. Turning points count from 0.3 of the usual swing on; what the ends of the profile cut is
+/// left out.
+Ridges find_ridges(std::span<const double> heights, double smoothed_over, double waves_above);
+
+std::vector<double> distances(std::span<const double> places);
+
+/// Standard deviation over mean; 0 of fewer than two.
+double variation(std::span<const double> values);
+
+}  // namespace slipfit::surface

@@ -1,0 +1,211 @@
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/cells.hpp"
+#include "io/container/formats.hpp"
+#include "io/container/zip_archive.hpp"
+#include "io/message.hpp"
+#include "surface/readers.hpp"
+
+#ifdef SLIPFIT_HAS_XLSX
+#include <pugixml.hpp>
+#endif
+
+// ISO 25178-72: a zip archive whose main.xml says what the numbers in bindata/data.bin, or in the XML itself, are.
+
+namespace slipfit::surface {
+
+#ifdef SLIPFIT_HAS_XLSX
+
+namespace {
+
+using reading::ZipArchive;
+constexpr std::size_t kMostXml = std::size_t{256} << 20U;
+
+/// CX, CY or CZ of Record1. An absolute axis has a number for each point, an incremental one a step.
+struct Axis {
+  bool is_absolute = false;
+  char type = 'D';
+  double increment = 1.0;
+  double offset = 0.0;
+
+  [[nodiscard]] std::size_t bytes() const { return type == 'I' ? 2 : type == 'D' ? 8 : 4; }
+};
+
+Axis axis_of(const pugi::xml_node& axes, const char* name) {
+  const pugi::xml_node node = axes.child(name);
+  const std::string_view type = reading::trim(node.child("DataType").text().as_string("D"));
+  const auto number = [&](const char* field, double standard) {
+    const double value = reading::plain_number(reading::trim(node.child(field).text().as_string()), false);
+    return std::isfinite(value) ? value : standard;
+  };
+  return {reading::trim(node.child("AxisType").text().as_string("A")).starts_with('A'),
+          type.empty() ? 'D' : type.front(), number("Increment", 1.0), number("Offset", 0.0)};
+}
+
+double number_of(std::string_view bytes, std::size_t place, const Axis& axis) {
+  const auto as = [&](auto number) {
+    std::memcpy(&number, bytes.data() + place, sizeof number);
+    return static_cast<double>(number);
+  };
+  if (axis.type == 'I') return as(std::int16_t{});
+  if (axis.type == 'L') return as(std::int32_t{});
+  return axis.type == 'F' ? as(float{}) : as(double{});
+}
+
+/// The document, and what it says about the points.
+struct X3p {
+  const SurfaceFile& file;
+  const ZipArchive& archive;
+  pugi::xml_document document;
+  pugi::xml_node record3;
+  Axis x, y, z;
+  std::size_t columns = 0;
+  std::size_t rows = 1;
+  std::vector<double> places_m;  ///< of an absolute x axis
+};
+
+/// "bindata/data.bin" and the like: of this archive, whatever stands before it.
+Result<std::string> linked(const X3p& x3p, const char* link, std::size_t most) {
+  const std::string name(reading::trim(x3p.record3.child("DataLink").child(link).text().as_string()));
+  if (name.empty() || x3p.archive.find(name) == nullptr) {
+    return damaged_surface(x3p.file, "it names a part '" + reading::printable(name) + "' that it does not hold");
+  }
+  return x3p.archive.content(name, most);
+}
+
+/// A bit of each point: whether it was measured.
+std::optional<Error> leave_out_invalid(X3p& x3p, std::vector<double>& heights) {
+  if (reading::trim(x3p.record3.child("DataLink").child("ValidPointsLink").text().as_string()).empty())
+    return std::nullopt;
+  auto valid = linked(x3p, "ValidPointsLink", kMostPoints);
+  if (!valid) return valid.error();
+  if (valid.value().size() < (heights.size() + 7) / 8)
+    return damaged_surface(x3p.file, "its list of valid points is cut off");
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if ((static_cast<unsigned char>(valid.value()[i / 8]) >> (i % 8) & 1U) == 0U) heights[i] = kHole;
+  }
+  return std::nullopt;
+}
+
+Result<std::vector<double>> binary_heights_of(X3p& x3p) {
+  const std::size_t count = x3p.columns * x3p.rows;
+  const std::size_t before = (x3p.x.is_absolute ? x3p.x.bytes() : 0) + (x3p.y.is_absolute ? x3p.y.bytes() : 0);
+  const std::size_t point = before + x3p.z.bytes();
+  auto bytes = linked(x3p, "PointDataLink", count * point + 1024);
+  if (!bytes) return bytes.error();
+  if (bytes.value().size() / point < count)
+    return damaged_surface(x3p.file, "it ends before the points that it announces");
+  std::vector<double> heights(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (x3p.x.is_absolute) {
+      x3p.places_m.push_back(x3p.x.offset + x3p.x.increment * number_of(bytes.value(), i * point, x3p.x));
+    }
+    heights[i] = x3p.z.offset + x3p.z.increment * number_of(bytes.value(), i * point + before, x3p.z);
+  }
+  if (auto error = leave_out_invalid(x3p, heights)) return *error;
+  return heights;
+}
+
+/// "x;y;z" a Datum, empty fields where an axis is incremental or nothing was measured.
+Result<std::vector<double>> listed_heights(X3p& x3p) {
+  const std::size_t count = x3p.columns * x3p.rows;
+  std::vector<double> heights;
+  for (const pugi::xml_node datum : x3p.record3.child("DataList").children("Datum")) {
+    if (heights.size() == count) break;
+    const std::string_view text = datum.text().as_string();
+    const std::size_t last = text.rfind(';');
+    const double z =
+        reading::plain_number(reading::trim(last == std::string_view::npos ? text : text.substr(last + 1)), false);
+    if (x3p.x.is_absolute) {
+      const double x = reading::plain_number(reading::trim(text.substr(0, text.find(';'))), false);
+      if (!std::isfinite(x)) continue;
+      x3p.places_m.push_back(x3p.x.offset + x3p.x.increment * x);
+    }
+    heights.push_back(x3p.z.offset + x3p.z.increment * z);
+  }
+  if (heights.size() < count) return damaged_surface(x3p.file, "it ends before the points that it announces");
+  return heights;
+}
+
+/// Numbers of points along x and y. Several layers (SizeZ) are none of a surface.
+std::optional<Error> read_sizes(X3p& x3p) {
+  const pugi::xml_node matrix = x3p.record3.child("MatrixDimension");
+  const auto size = [](const pugi::xml_node& node) { return static_cast<std::size_t>(node.text().as_ullong()); };
+  x3p.columns = matrix ? size(matrix.child("SizeX")) : size(x3p.record3.child("ListDimension"));
+  x3p.rows = matrix ? size(matrix.child("SizeY")) : 1;
+  if (x3p.columns == 0 || x3p.rows == 0) return damaged_surface(x3p.file, "it does not say how many points it holds");
+  if (matrix && size(matrix.child("SizeZ")) > 1) {
+    return damaged_surface(x3p.file, "it holds several layers, and a surface is one");
+  }
+  if (x3p.columns > kMostPoints || x3p.rows > kMostPoints / x3p.columns) return map_too_large(x3p.file.name);
+  return std::nullopt;
+}
+
+Result<HeightMap> map_of(X3p& x3p) {
+  auto heights = x3p.record3.child("DataLink") ? binary_heights_of(x3p) : listed_heights(x3p);
+  if (!heights) return heights.error();
+  HeightMap map{x3p.columns, x3p.rows, x3p.x.increment, x3p.y.increment, std::move(heights).value(), true};
+  if (x3p.x.is_absolute && x3p.rows == 1) {
+    auto even = profile_of(std::move(x3p.places_m), std::move(map.values), x3p.file.name);
+    if (!even) return even.error();
+    map.x_pitch_m = even.value().pitch_m;
+    map.values = even.value().height;
+    map.columns = map.values.size();
+  } else if (x3p.x.is_absolute || (x3p.rows > 1 && x3p.y.is_absolute)) {
+    return Error{"point_cloud",
+                 x3p.file.name + ": a cloud of points, not a grid; export it as a grid (SUR with incremental axes)"};
+  }
+  const auto is_length = [](double pitch) { return std::isfinite(pitch) && pitch > 0.0; };
+  if (!is_length(map.x_pitch_m) || (map.rows > 1 && !is_length(map.y_pitch_m))) {
+    return damaged_surface(x3p.file, "it gives no distance of the points");
+  }
+  return map;
+}
+
+}  // namespace
+
+Result<HeightMap> read_x3p(const SurfaceFile& file) {
+  try {
+    auto opened = ZipArchive::open(file.path, file.name);
+    if (!opened) return opened.error();
+    const ZipArchive archive = std::move(opened).value();
+    if (archive.find("main.xml") == nullptr) {
+      return Error{
+          "not_a_surface",
+          file.name + ": a zip archive without main.xml, which is no X3P file; give X3P, SDF, text or an image"};
+    }
+    auto xml = archive.content("main.xml", kMostXml);
+    if (!xml) return xml.error();
+    X3p x3p{file, archive, {}, {}, {}, {}, {}, 0, 1, {}};
+    if (!x3p.document.load_buffer(xml.value().data(), xml.value().size(), pugi::parse_minimal | pugi::parse_escapes)) {
+      return damaged_surface(file, "its main.xml is no XML");
+    }
+    const pugi::xml_node root = x3p.document.document_element();
+    const pugi::xml_node axes = root.child("Record1").child("Axes");
+    x3p.record3 = root.child("Record3");
+    x3p.x = axis_of(axes, "CX");
+    x3p.y = axis_of(axes, "CY");
+    x3p.z = axis_of(axes, "CZ");
+    if (auto error = read_sizes(x3p)) return *error;
+    return map_of(x3p);
+  } catch (const reading::ContainerError& error) {
+    return error.error();
+  }
+}
+
+#else
+
+Result<HeightMap> read_x3p(const SurfaceFile& file) {
+  return reading::not_built_in(file.name, "an X3P file", "zlib1g-dev, libminizip-dev and libpugixml-dev");
+}
+
+#endif
+
+}  // namespace slipfit::surface
