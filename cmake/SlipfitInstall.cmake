@@ -26,7 +26,8 @@ install(FILES
   "${PROJECT_SOURCE_DIR}/cmake/FindMinizip.cmake"
   DESTINATION "${SLIPFIT_CMAKE_DIR}")
 install(FILES "${PROJECT_SOURCE_DIR}/docs/fit.schema.json" "${PROJECT_SOURCE_DIR}/docs/predict.schema.json"
-  "${PROJECT_SOURCE_DIR}/docs/info.schema.json" "${PROJECT_SOURCE_DIR}/docs/surface.schema.json"  "${PROJECT_SOURCE_DIR}/LICENSE"
+  "${PROJECT_SOURCE_DIR}/docs/info.schema.json" "${PROJECT_SOURCE_DIR}/docs/compare.schema.json"
+  "${PROJECT_SOURCE_DIR}/docs/surface.schema.json" "${PROJECT_SOURCE_DIR}/LICENSE"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/slipfit")
 
 if(SLIPFIT_BUILD_TESTS)

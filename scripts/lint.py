@@ -29,7 +29,7 @@ ALLOWED = {
     "chart": set(),
     "figures": {"core", "model", "chart"},
 }
-ON_TOP = {"analysis", "report", "batch", "pipeline"}  # these, and apps/, may include every layer
+ON_TOP = {"analysis", "compare", "report", "batch", "pipeline"}  # these, and apps/, may include every layer
 LAYERS = set(ALLOWED) | ON_TOP
 ROOTS = ("src", "include/slipfit")
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"](slipfit/)?([\w/]+)\.hpp[>"]')

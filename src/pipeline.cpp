@@ -141,6 +141,10 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   std::vector<SweepRecording> recordings;
   members.reserve(entries.size());  // the recordings of the fit refer to them
   for (const SweepEntry& entry : entries) {
+    if (options.tell_step) {
+      options.tell_step("analysing recording " + std::to_string(members.size() + 1) + " of " +
+                        std::to_string(entries.size()));
+    }
     Member& member = members.emplace_back(analyze_member(entry.recording));
     const Recording& used = member.detected.recording();
     const Signals& signals = member.estimates.signals;

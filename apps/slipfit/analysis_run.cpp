@@ -45,7 +45,7 @@ slipfit::Recording read(const AnalysisArguments& arguments) {
         std::make_shared<const slipfit::WornTrack>(slipfit::worn_track_of(measured.profile, measured.surface));
   }
   auto recording =
-      slipfit::read_recording(arguments.recording.file, conditions, read_options_from(arguments.recording));
+      slipfit::read_recording(only_file(arguments.recording), conditions, read_options_from(arguments.recording));
   if (!recording) throw Failure(exit_code_for(recording.error().code), recording.error().message);
   return std::move(recording).value();
 }
@@ -139,8 +139,8 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
 
 void run_analysis(const AnalysisArguments& arguments,
                   const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis) {
-  keep_freed_memory(arguments.recording.file);
-  check_outputs(outputs_from(arguments), arguments.recording.file);
+  keep_freed_memory(only_file(arguments.recording));
+  check_outputs(outputs_from(arguments), only_file(arguments.recording));
   if (arguments.plots) make_folder({"--plots", *arguments.plots});
   const Clock::time_point start = Clock::now();
   const slipfit::Recording recording = read(arguments);
@@ -158,7 +158,7 @@ bool is_of_pieces(const AnalysisArguments& arguments) {
 void run_pieces(const AnalysisArguments& arguments,
                 const std::function<slipfit::SweepAnalysis(const std::vector<slipfit::SweepEntry>&)>& analysis) {
   refuse_for_pieces(arguments);
-  const std::string& file = arguments.recording.file;
+  const std::string& file = only_file(arguments.recording);
   check_outputs(outputs_from(arguments), file);
   const auto pieces =
       slipfit::read_pieces(file, conditions_from(arguments.recording), read_options_from(arguments.recording));

@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "batch_folder.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
 #include "fit_options.hpp"
@@ -24,6 +25,7 @@ constexpr std::size_t kMostJobs = 1024;
 
 struct BatchArguments {
   std::string manifest;
+  RecordingArguments recording;  ///< of a folder
   std::string out;
   std::optional<std::size_t> jobs;
   std::string timeout = "10min";
@@ -37,7 +39,12 @@ struct BatchArguments {
 };
 
 void add_options(CLI::App& command, BatchArguments& arguments) {
-  command.add_option("MANIFEST", arguments.manifest, "CSV: id,file,speed_m_per_s, one row a recording")->required();
+  add_recording_options(command, arguments.recording);
+  command.remove_option(command.get_option("REC"));
+  command
+      .add_option("MANIFEST", arguments.manifest,
+                  "CSV: id,file,speed_m_per_s, one row a recording; or a folder: its manifest is drafted into --out")
+      ->required();
   command.add_option("--out", arguments.out, "Folder of the results; made where it is missing")->required();
   command.add_option("--jobs", arguments.jobs, "Recordings at a time; without it one a core that this process may use");
   command.add_option("--timeout", arguments.timeout, "Longest time for a recording; then it counts as failed")
@@ -121,6 +128,25 @@ slipfit::BatchOutcome run_shown(const slipfit::BatchOptions& options, const Batc
   return std::move(outcome).value();
 }
 
+/// A manifest goes as it is; that of a folder is drafted first.
+BatchArguments with_manifest(BatchArguments arguments, const CLI::App& command) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(arguments.manifest, ignored)) {
+    refuse_recording_options(command);
+    return arguments;
+  }
+  if (arguments.shard) {
+    throw Failure(ExitCode::WrongUsage,
+                  fmt::format("--shard: the shards need one manifest, draft it first ({} --out runs.csv)",
+                              shell_line({"slipfit", "manifest", arguments.manifest})));
+  }
+  DocumentOptions messages;
+  messages.quiet = arguments.quiet;
+  arguments.manifest =
+      drafted_manifest({arguments.manifest, arguments.out, arguments.recording}, command, teller(messages));
+  return arguments;
+}
+
 void run(const BatchArguments& arguments) {
   const slipfit::BatchOptions options = options_from(arguments);
   const StopSignals signals;
@@ -144,5 +170,5 @@ void add_batch_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("batch", "The fit of every recording of a manifest, into a folder");
   const auto arguments = std::make_shared<BatchArguments>();
   add_options(*command, *arguments);
-  command->callback([arguments] { run(*arguments); });
+  command->callback([arguments, command] { run(with_manifest(*arguments, *command)); });
 }

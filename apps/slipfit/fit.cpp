@@ -1,8 +1,13 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <set>
 
 #include "analysis_run.hpp"
 #include "commands.hpp"
+#include "drafts.hpp"
 #include "failure.hpp"
 #include "fit_options.hpp"
 #include "sweep_run.hpp"
@@ -27,9 +32,9 @@ SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& co
     throw Failure(ExitCode::WrongUsage,
                   option->get_name() + " does not go with --joint: the manifest says how each recording was made");
   }
-  return {*arguments.sweep,
-          arguments.group,
-          arguments.only,
+  return {arguments.group ? *arguments.group : std::filesystem::path(*arguments.sweep).stem().string(),
+          *arguments.sweep,
+          manifest_entries(*arguments.sweep, arguments.group, arguments.only),
           arguments.analysis.document,
           arguments.analysis.report,
           arguments.analysis.command_line};
@@ -45,6 +50,30 @@ auto fit_together(const slipfit::FitOptions& options) {
   };
 }
 
+/// What they have in common by their names.
+std::string name_of(const std::vector<slipfit::ManifestEntry>& entries) {
+  const std::string& group = entries.front().group;
+  const bool is_common = std::all_of(entries.begin(), entries.end(),
+                                     [&group](const slipfit::ManifestEntry& entry) { return entry.group == group; });
+  return is_common && !group.empty() ? group : fmt::format("{} and {} more", entries.front().id, entries.size() - 1);
+}
+
+/// Several recordings, each as its file, its name and the options tell.
+SweepArguments sweep_of_files(const FitArguments& arguments, const CLI::App& command) {
+  for (const char* const single :
+       {"--cycles", "--curve", "--plots", "--timing", "--mass", "--sensor-bandwidth", "--sensor-resonance"}) {
+    if (command.get_option(single)->count() == 0) continue;
+    throw Failure(ExitCode::WrongUsage,
+                  fmt::format("{} belongs to one recording, and several are named: they are fitted together", single));
+  }
+  const AnalysisArguments& analysis = arguments.analysis;
+  const Tell tell = teller(analysis.document);
+  const auto draft = draft_of(analysis.recording.files, read_options_from(analysis.recording), tell);
+  std::vector<slipfit::ManifestEntry> entries = entries_of(draft, analysis.recording, tell);
+  const std::string name = name_of(entries);
+  return {name, {}, std::move(entries), analysis.document, analysis.report, analysis.command_line};
+}
+
 }  // namespace
 
 void add_fit_command(CLI::App& program, const std::string& command_line) {
@@ -53,7 +82,8 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
   const auto arguments = std::make_shared<FitArguments>();
   arguments->analysis.command_line = command_line;
   add_analysis_options(*command, arguments->analysis);
-  command->get_option("REC")->required(false);
+  command->get_option("REC")->required(false)->description(
+      "Recording; several are fitted together, each at its own speed");
   command->add_option("--tier", arguments->tier, "Model: auto, sawtooth, undamped, damped, velocity (joint)")
       ->capture_default_str();
   command->add_option("--fix", arguments->fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
@@ -66,15 +96,17 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
   command->add_option("--group", arguments->group, "With --joint: this group of the manifest");
   command->add_option("--only", arguments->only, "With --joint: these recordings (ID,ID,...)")->delimiter(',');
   command->callback([arguments, command] {
-    const bool is_of_several = arguments->sweep || is_of_pieces(arguments->analysis);
+    const std::vector<std::string>& files = arguments->analysis.recording.files;
+    const bool is_of_several = arguments->sweep || files.size() > 1 || is_of_pieces(arguments->analysis);
     const FitKind kind = is_of_several ? FitKind::Sweep : FitKind::Single;
     slipfit::FitOptions options = fit_options_from(arguments->tier, arguments->fixed, kind);
     if (arguments->sweep) return run_sweep(sweep_arguments(*arguments, *command), options);
     if (arguments->group || !arguments->only.empty()) {
       throw Failure(ExitCode::WrongUsage, "--group and --only choose recordings of a manifest: give it with --joint");
     }
-    if (arguments->analysis.recording.file.empty()) throw Failure(ExitCode::WrongUsage, "REC is required");
-    if (is_of_several) return run_pieces(arguments->analysis, fit_together(options));
+    if (files.empty()) throw Failure(ExitCode::WrongUsage, "REC is required");
+    if (is_of_pieces(arguments->analysis)) return run_pieces(arguments->analysis, fit_together(options));
+    if (is_of_several) return run_sweep(sweep_of_files(*arguments, *command), options);
     options.curve = arguments->analysis.curve || arguments->analysis.report || arguments->analysis.plots;
     run_analysis(arguments->analysis, [&options](const slipfit::Recording& recording) {
       return slipfit::analyze_and_fit(recording, options);

@@ -26,7 +26,7 @@ struct Inspection {
 /// Where slips are does not hang on the speed: any will do where the file has none.
 Inspection inspect(const RecordingArguments& arguments) {
   const slipfit::ReadOptions options = read_options_from(arguments);
-  auto info = slipfit::inspect_recording(arguments.file, options);
+  auto info = slipfit::inspect_recording(arguments.files.front(), options);
   if (!info) throw Failure(ExitCode::BadRecording, info.error().message);
   Inspection inspection{std::move(info).value(), {}};
   if (const auto& recording = inspection.info.recording) {
@@ -130,7 +130,7 @@ struct InfoArguments {
 };
 
 void run(const InfoArguments& arguments) {
-  const std::string& file = arguments.recording.file;
+  const std::string& file = only_file(arguments.recording);
   const std::vector<OutputFile> outputs = outputs_of({{"--out", arguments.document.out}});
   check_outputs(outputs, file);
   const Inspection inspection = inspect(arguments.recording);
@@ -145,7 +145,7 @@ void add_info_command(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("info", "What a file holds: columns, units, clock, steps; and what would be read of it");
   const auto arguments = std::make_shared<InfoArguments>();
-  command->add_option("FILE", arguments->recording.file, "Recording")->required();
+  command->add_option("FILE", arguments->recording.files, "Recording")->required();
   command->add_option("--radius", arguments->recording.radius, "Distance of the contact from the axis: 12mm");
   add_reading_options(*command, arguments->recording.options);
   add_document_options(*command, arguments->document, "text");

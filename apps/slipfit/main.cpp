@@ -97,6 +97,7 @@ int run(int argc, char** argv) {
   add_predict_command(program);
   add_plan_command(program);
   add_figures_command(program);
+  add_compare_command(program, typed_line);
   add_batch_command(program);
   add_manifest_command(program);
   add_merge_command(program);

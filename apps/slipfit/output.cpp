@@ -142,6 +142,11 @@ void say(const std::string& message) {
   (void)std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
+std::function<void(const std::string&)> teller(const DocumentOptions& options) {
+  if (options.quiet) return [](const std::string&) {};
+  return say;
+}
+
 std::string shell_line(const std::vector<std::string>& words) {
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
   std::string line = "slipfit";

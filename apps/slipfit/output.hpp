@@ -44,6 +44,9 @@ void write_results(const DocumentOptions& options, const std::vector<OutputFile>
 
 void write_standard_output(const std::string& content);
 
+/// Says messages, but with --quiet.
+std::function<void(const std::string&)> teller(const DocumentOptions& options);
+
 /// A message to standard error, "slipfit: ...", on one line.
 void say(const std::string& message);
 

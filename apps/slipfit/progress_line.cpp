@@ -55,12 +55,14 @@ ProgressLine::~ProgressLine() {
   if (shown_) write_error_stream("\r\x1b[K");
 }
 
+void ProgressLine::show(const std::string& text) {
+  if (!on_terminal_) return;
+  write_error_stream("\r" + text + "\x1b[K");
+  shown_ = true;
+}
+
 void ProgressLine::show(const slipfit::BatchProgress& progress) {
-  if (on_terminal_) {
-    write_error_stream("\r" + bar_of(progress) + text_of(progress) + "\x1b[K");
-    shown_ = true;
-    return;
-  }
+  if (on_terminal_) return show(bar_of(progress) + text_of(progress));
   const auto now = std::chrono::steady_clock::now();
   if (now - last_line_ < kLineInterval) return;
   last_line_ = now;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "slipfit/batch/batch.hpp"
 
-/// Shows on standard error how far a batch is: a bar that moves on a terminal, a line every ten seconds elsewhere.
+/// Shows on standard error how far long work is: on a terminal a line that changes; elsewhere, of a batch alone, a line
+/// every ten seconds.
 class ProgressLine {
  public:
   ProgressLine();
@@ -16,6 +18,8 @@ class ProgressLine {
   ProgressLine& operator=(ProgressLine&&) = delete;
 
   void show(const slipfit::BatchProgress& progress);
+  /// On a terminal alone.
+  void show(const std::string& text);
 
  private:
   bool on_terminal_;

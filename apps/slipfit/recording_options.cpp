@@ -74,9 +74,10 @@ void add_instrument_options(CLI::App& command, slipfit::Conditions& conditions) 
 void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
   slipfit::Conditions& conditions = arguments.conditions;
   slipfit::ReadOptions& options = arguments.options;
-  command.add_option("REC", arguments.file, "Recording: text with a time and a force column")->required();
-  command.add_option("--speed", arguments.speed,
-                     "Driving speed: 0.01 (m/s), 10mm/s, '600 mm/min'; 60rpm with --radius");
+  command.add_option("REC", arguments.files, "Recording: text with a time and a force column")->required();
+  command
+      .add_option("--speed", arguments.speeds, "Driving speed: 0.01 (m/s), 10mm/s, '600 mm/min'; 60rpm with --radius")
+      ->allow_extra_args(false);
   command.add_option("--speed-uncertainty", arguments.speed_uncertainty,
                      "Standard error of the speed: 0.1mm/s, or a percentage: 1%");
   command.add_option("--radius", arguments.radius, "Distance of the contact from the axis: 12mm");
@@ -124,6 +125,11 @@ void add_reading_options(CLI::App& command, slipfit::ReadOptions& options) {
       "T0:T1, seconds on the recording's own clock");
 }
 
+const std::string& only_file(const RecordingArguments& arguments) {
+  if (arguments.files.size() == 1) return arguments.files.front();
+  throw Failure(ExitCode::WrongUsage, fmt::format("'{}' is a second file, expected one", arguments.files.at(1)));
+}
+
 slipfit::ReadOptions read_options_from(const RecordingArguments& arguments) {
   slipfit::ReadOptions options = arguments.options;
   if (arguments.strokes) {
@@ -142,13 +148,18 @@ slipfit::ReadOptions read_options_from(const RecordingArguments& arguments) {
 }
 
 slipfit::Conditions conditions_from(const RecordingArguments& arguments) {
+  if (arguments.speeds.size() > 1) throw Failure(ExitCode::WrongUsage, "--speed: one recording has one, give it once");
+  return conditions_at(arguments, arguments.speeds.empty() ? std::nullopt : std::optional(arguments.speeds.front()));
+}
+
+slipfit::Conditions conditions_at(const RecordingArguments& arguments, const std::optional<std::string>& speed) {
   slipfit::Conditions conditions = arguments.conditions;
-  if (arguments.speed) {
-    conditions.speed_m_per_s = driving_speed(*arguments.speed, arguments.radius);
-    conditions.speed_unit = slipfit::unit_in(*arguments.speed);
+  if (speed) {
+    conditions.speed_m_per_s = driving_speed(*speed, arguments.radius);
+    conditions.speed_unit = slipfit::unit_in(*speed);
   }
   if (arguments.speed_uncertainty) {
-    (void)required(arguments.speed, "--speed", "the driving speed that --speed-uncertainty is of");
+    (void)required(speed, "--speed", "the driving speed that --speed-uncertainty is of");
     conditions.speed_standard_error_m_per_s =
         speed_standard_error(*arguments.speed_uncertainty, conditions.speed_m_per_s, arguments.radius);
   }

@@ -3,34 +3,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "failure.hpp"
+#include "progress_line.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/sweep_html.hpp"
 
-namespace {
-
 using slipfit::ManifestEntry;
 
-std::vector<ManifestEntry> read_manifest(const SweepArguments& arguments) {
-  auto entries = slipfit::read_manifest_group(arguments.manifest, arguments.group);
+std::vector<ManifestEntry> manifest_entries(const std::string& manifest, const std::optional<std::string>& group,
+                                            const std::vector<std::string>& only) {
+  auto entries = slipfit::read_manifest_group(manifest, group);
   if (!entries) throw Failure(ExitCode::WrongUsage, entries.error().message);
   std::vector<ManifestEntry> chosen;
-  for (const std::string& id : arguments.only) {
+  for (const std::string& id : only) {
     const auto entry = std::find_if(entries.value().begin(), entries.value().end(),
                                     [&id](const ManifestEntry& candidate) { return candidate.id == id; });
     if (entry == entries.value().end()) {
-      throw Failure(ExitCode::WrongUsage,
-                    fmt::format("{}: no recording '{}'{}, named by --only", arguments.manifest, id,
-                                arguments.group ? " in group '" + *arguments.group + "'" : ""));
+      throw Failure(ExitCode::WrongUsage, fmt::format("{}: no recording '{}'{}, named by --only", manifest, id,
+                                                      group ? " in group '" + *group + "'" : ""));
     }
     chosen.push_back(*entry);
   }
-  return arguments.only.empty() ? std::move(entries).value() : chosen;
+  return only.empty() ? std::move(entries).value() : chosen;
 }
+
+namespace {
 
 std::vector<slipfit::SweepEntry> read_recordings(const std::vector<ManifestEntry>& manifest) {
   auto entries = slipfit::read_sweep(manifest);
@@ -39,8 +39,12 @@ std::vector<slipfit::SweepEntry> read_recordings(const std::vector<ManifestEntry
   throw Failure(manifest_asks_for_it ? ExitCode::WrongUsage : ExitCode::BadRecording, entries.error().message);
 }
 
-std::string name_of_fit(const SweepArguments& arguments) {
-  return arguments.group ? *arguments.group : std::filesystem::path(arguments.manifest).stem().string();
+/// Some seconds for a dozen recordings.
+slipfit::SweepAnalysis analyzed(const std::vector<slipfit::SweepEntry>& entries, slipfit::FitOptions options,
+                                const DocumentOptions& document) {
+  ProgressLine line;
+  if (!document.quiet) options.tell_step = [&line](const std::string& step) { line.show(step); };
+  return slipfit::analyze_sweep(entries, options);
 }
 
 }  // namespace
@@ -49,11 +53,10 @@ void run_sweep(const SweepArguments& arguments, const slipfit::FitOptions& optio
   const std::vector<OutputFile> outputs =
       outputs_of({{"--out", arguments.document.out}, {"--report", arguments.report}});
   check_outputs(outputs, arguments.manifest);
-  const std::vector<ManifestEntry> manifest = read_manifest(arguments);
-  for (const ManifestEntry& entry : manifest) check_outputs(outputs, entry.file.string());
-  const std::vector<slipfit::SweepEntry> entries = read_recordings(manifest);
-  write_sweep({name_of_fit(arguments), arguments.document, arguments.report, arguments.command_line}, entries,
-              slipfit::analyze_sweep(entries, options));
+  for (const ManifestEntry& entry : arguments.entries) check_outputs(outputs, entry.file.string());
+  const std::vector<slipfit::SweepEntry> entries = read_recordings(arguments.entries);
+  write_sweep({arguments.name, arguments.document, arguments.report, arguments.command_line}, entries,
+              analyzed(entries, options, arguments.document));
 }
 
 void write_sweep(const SweepDocument& document, const std::vector<slipfit::SweepEntry>& entries,

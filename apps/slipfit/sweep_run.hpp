@@ -6,13 +6,14 @@
 
 #include "output.hpp"
 #include "slipfit/fit/fit.hpp"
+#include "slipfit/io/manifest_entry.hpp"
 #include "slipfit/sweep.hpp"
 
-/// `fit --joint`: one parameter set for the recordings of a manifest's group.
+/// A joint fit: one parameter set for several recordings.
 struct SweepArguments {
-  std::string manifest;
-  std::optional<std::string> group;
-  std::vector<std::string> only;  ///< ids; empty: all of the group
+  std::string name;      ///< the document's id
+  std::string manifest;  ///< empty: none, the recordings were named one by one
+  std::vector<slipfit::ManifestEntry> entries;
   DocumentOptions document;
   std::optional<std::string> report;
   std::string command_line;  ///< as typed, for the report
@@ -27,6 +28,11 @@ struct SweepDocument {
 };
 void write_sweep(const SweepDocument& document, const std::vector<slipfit::SweepEntry>& entries,
                  const slipfit::SweepAnalysis& sweep);
+
+/// Those of a manifest, or of its group, or these ids alone. Throws Failure(WrongUsage).
+std::vector<slipfit::ManifestEntry> manifest_entries(const std::string& manifest,
+                                                     const std::optional<std::string>& group,
+                                                     const std::vector<std::string>& only);
 
 /// Reads the recordings, fits them together, writes the result. Throws Failure.
 void run_sweep(const SweepArguments& arguments, const slipfit::FitOptions& options);

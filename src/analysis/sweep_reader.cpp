@@ -22,10 +22,11 @@ std::optional<Error> check_joint(const Recording& recording) {
 Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manifest) {
   std::vector<SweepEntry> entries;
   for (const ManifestEntry& entry : manifest) {
+    const auto told = [&entry](const Error& error) { return entry.line > 0 ? in_words_of_manifest(error) : error; };
     const auto stated = with_worn_track(entry.conditions, entry.surface);
-    if (!stated) return in_words_of_manifest(stated.error());
+    if (!stated) return told(stated.error());
     auto pieces = read_pieces(entry.file, stated.value(), entry.options);
-    if (!pieces) return in_words_of_manifest(pieces.error());
+    if (!pieces) return told(pieces.error());
     for (NamedRecording& piece : std::move(pieces).value()) {
       if (auto error = check_joint(piece.recording)) return *std::move(error);
       piece.id = piece.id.empty() ? entry.id : entry.id + " " + piece.id;

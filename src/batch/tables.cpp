@@ -6,6 +6,7 @@
 
 #include "core/csv_line.hpp"
 #include "io/cells.hpp"
+#include "report/quantities.hpp"
 #include "slipfit/fit/parameter.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -51,8 +52,8 @@ std::vector<SummaryColumn> make_columns() {
   add_estimate(columns, "/derived/pattern_spacing_m", "pattern_spacing", "_m");
   add_estimate(columns, "/derived/periodic_displacement_m", "periodic_displacement", "_m");
   add_estimate(columns, "/derived/critical_speed_m_per_s", "critical_speed", "_m_per_s");
-  for (const char* const name : {"static_first_peak", "static_mean_peak", "kinetic_mean"}) {
-    add_estimate(columns, std::string("/coefficients/") + name, name, "");
+  for (const auto& row : kCoefficients) {
+    add_estimate(columns, "/coefficients/" + std::string(row.key), std::string(row.key), "");
   }
   columns.push_back({"regime", Place("/derived/regime")});
   columns.push_back({"measured_spacing_En", Place("/derived/measured_spacing_En/value")});

@@ -267,6 +267,7 @@ class Assembler {
 std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
   const SweepData data = fit::prepare_sweep(recordings, options);
   if (data.fitted.size() < 2) return std::nullopt;
+  if (options.tell_step) options.tell_step(fmt::format("fitting {} recordings together", data.fitted.size()));
   const std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
   if (!fits) return std::nullopt;
   LawChoice choice = options.tier ? LawChoice{*options.tier == Tier::Velocity, "asked for by --tier"}

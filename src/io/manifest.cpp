@@ -109,6 +109,7 @@ class ManifestReader::Implementation {
     }
     entry.file = folder_ / entry.file;
     if (!entry.surface.empty()) entry.surface = folder_ / entry.surface;
+    entry.group = entry.conditions.labels.group;
     return entry;
   }
 

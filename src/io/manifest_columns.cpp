@@ -36,8 +36,9 @@ std::optional<Error> set_path(ManifestEntry& entry, const std::string& cell) {
   return std::nullopt;
 }
 
-std::optional<Error> set_group(ManifestEntry& entry, const std::string& cell) {
-  entry.group = to_utf8(cell);
+template <auto Labels::*target>
+std::optional<Error> set_label(ManifestEntry& entry, const std::string& cell) {
+  entry.conditions.labels.*target = to_utf8(cell);
   return std::nullopt;
 }
 
@@ -130,7 +131,10 @@ constexpr std::array kFields = std::to_array<ManifestField>({
     {"normal_force", "_N", Dimension::Force, Bound::AboveZero, set_condition<&Conditions::normal_force_N>},
     {"zero_force", "_N", Dimension::Force, Bound::None, set_condition<&Conditions::zero_force_N>},
     {.base = "force_view", .set_text = set_force_view},
-    {.base = "group", .set_text = set_group},
+    {.base = "group", .set_text = set_label<&Labels::group>},
+    {.base = "sample", .set_text = set_label<&Labels::sample>},
+    {.base = "material", .set_text = set_label<&Labels::material>},
+    {.base = "operator", .set_text = set_label<&Labels::operator_name>},
     {.base = "time_column", .set_text = set_option<&ReadOptions::time_column>, .option = "--time-column"},
     {.base = "force_column", .set_text = set_option<&ReadOptions::force_column>, .option = "--force-column"},
     {.base = "normal_force_column",

@@ -73,12 +73,12 @@ std::string number_cell(const std::optional<double>& value) {
 
 }  // namespace
 
-ManifestDraft draft_manifest(const std::vector<fs::path>& paths) {
+ManifestDraft draft_manifest(const std::vector<fs::path>& paths, const ReadOptions& options) {
   ManifestDraft draft;
   std::set<std::string> ids;
   for (const fs::path& path : paths) {
     for (const fs::path& file : files_below(path)) {
-      const auto info = inspect_recording(file);
+      const auto info = inspect_recording(file, options);
       if (!info) draft.skipped.push_back(info.error());
       if (!info) continue;
       for (DraftEntry& entry : entries_of(file, info.value())) {
@@ -91,11 +91,13 @@ ManifestDraft draft_manifest(const std::vector<fs::path>& paths) {
   return draft;
 }
 
-std::string to_csv(const ManifestDraft& draft, const fs::path& folder) {
+std::string to_csv(const ManifestDraft& draft, const fs::path& folder, const std::vector<DraftColumn>& columns) {
   const bool has_steps = std::any_of(draft.entries.begin(), draft.entries.end(),
                                      [](const DraftEntry& entry) { return entry.step.has_value(); });
-  std::string text =
-      has_steps ? "id,file,speed_m_per_s,normal_force_N,group,step\n" : "id,file,speed_m_per_s,normal_force_N,group\n";
+  std::vector<std::string> names{"id", "file", "speed_m_per_s", "normal_force_N", "group"};
+  if (has_steps) names.emplace_back("step");
+  for (const DraftColumn& column : columns) names.push_back(column.name);
+  std::string text = csv_line(names) + "\n";
   for (const DraftEntry& entry : draft.entries) {
     std::error_code error;
     fs::path file = fs::proximate(entry.file, folder.empty() ? fs::path(".") : folder, error);
@@ -103,6 +105,7 @@ std::string to_csv(const ManifestDraft& draft, const fs::path& folder) {
     std::vector<std::string> cells{entry.id, file.string(), number_cell(entry.speed_m_per_s),
                                    number_cell(entry.normal_force_N), entry.group};
     if (has_steps) cells.push_back(entry.step ? std::to_string(*entry.step) : std::string());
+    for (const DraftColumn& column : columns) cells.push_back(column.cell);
     text += csv_line(cells) + "\n";
   }
   return text;

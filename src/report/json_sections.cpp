@@ -35,26 +35,34 @@ Json quality_json(const Recording& recording, const Quality& quality) {
 Json recording_json(const Recording& recording, const Analysis& analysis) {
   const Conditions& conditions = recording.conditions();
   const Provenance& provenance = recording.provenance();
-  return Json{{"file", provenance.file},
-              {"input_digest", provenance.input_digest ? Json(provenance.input_digest->text()) : Json()},
-              {"input_bytes", provenance.input_bytes ? Json(*provenance.input_bytes) : Json()},
-              {"samples", recording.size()},
-              {"sample_rate_Hz", number(1.0 / recording.sample_interval_s())},
-              {"duration_s", number(recording.duration_s())},
-              {"speed_m_per_s", number(conditions.speed_m_per_s)},
-              {"speed_se_m_per_s", number(conditions.speed_standard_error_m_per_s)},
-              {"normal_force_N", number(conditions.normal_force_N)},
-              {"force_view", name_of(conditions.force_view)},
-              {"force_quantity", name_of(conditions.quantity)},
-              {"zero_force_N", number(conditions.zero_force_N)},
-              {"mass_kg", number(conditions.mass_kg)},
-              {"sensor_bandwidth_Hz", number(conditions.sensor_bandwidth_Hz)},
-              {"drive_period_s", number(conditions.drive_period_s)},
-              {"sensor_average_s", number(conditions.sensor_average_s)},
-              {"sensor_resonance_Hz", number(conditions.sensor_resonance_Hz)},
-              {"assumed", provenance.assumed},
-              {"sliding_s", {number(analysis.sliding.begin_s), number(analysis.sliding.end_s)}},
-              {"quality", quality_json(recording, analysis.quality)}};
+  Json json{{"file", provenance.file},
+            {"input_digest", provenance.input_digest ? Json(provenance.input_digest->text()) : Json()},
+            {"input_bytes", provenance.input_bytes ? Json(*provenance.input_bytes) : Json()},
+            {"samples", recording.size()},
+            {"sample_rate_Hz", number(1.0 / recording.sample_interval_s())},
+            {"duration_s", number(recording.duration_s())},
+            {"speed_m_per_s", number(conditions.speed_m_per_s)},
+            {"speed_se_m_per_s", number(conditions.speed_standard_error_m_per_s)},
+            {"normal_force_N", number(conditions.normal_force_N)},
+            {"force_view", name_of(conditions.force_view)},
+            {"force_quantity", name_of(conditions.quantity)},
+            {"zero_force_N", number(conditions.zero_force_N)},
+            {"mass_kg", number(conditions.mass_kg)},
+            {"sensor_bandwidth_Hz", number(conditions.sensor_bandwidth_Hz)},
+            {"drive_period_s", number(conditions.drive_period_s)},
+            {"sensor_average_s", number(conditions.sensor_average_s)},
+            {"sensor_resonance_Hz", number(conditions.sensor_resonance_Hz)},
+            {"assumed", provenance.assumed},
+            {"sliding_s", {number(analysis.sliding.begin_s), number(analysis.sliding.end_s)}},
+            {"quality", quality_json(recording, analysis.quality)}};
+  const Labels& labels = conditions.labels;
+  for (const auto& [key, label] : {std::pair{"group", &labels.group},
+                                   {"sample", &labels.sample},
+                                   {"material", &labels.material},
+                                   {"operator", &labels.operator_name}}) {
+    if (!label->empty()) json[key] = *label;
+  }
+  return json;
 }
 
 Json warnings_json(const Warnings& warnings) {
@@ -232,6 +240,7 @@ Json coefficients_json(const std::optional<Coefficients>& coefficients) {
   if (!coefficients) return {};
   Json json = Json::object();
   for (const auto& row : kCoefficients) json[std::string(row.key)] = estimate((*coefficients).*row.estimate);
+  for (const auto& row : kCoefficientThirds) json[std::string(row.key)] = estimate((*coefficients).*row.estimate);
   for (const auto& row : kCoefficientSpreads) json[std::string(row.key)] = number((*coefficients).*row.value);
   json["standards"] = array_of(coefficients->standards, [](const StandardCoefficients& standard) {
     return Json{{"standard", standard.standard},

@@ -29,6 +29,12 @@ inline constexpr std::array<Quantity<Derived>, 2> kMeasured{
     {{"pattern_spacing_m", "pattern spacing", "m", &Derived::pattern_spacing_m},
      {"impulse_rate_per_m", "impulses along the path", "1/m", &Derived::impulse_rate_per_m}}};
 
+/// Of friction, where a load is known.
+inline constexpr std::array<Quantity<Coefficients>, 3> kCoefficients{
+    {{"static_first_peak", "static, first peak", "", &Coefficients::static_first_peak},
+     {"static_mean_peak", "static, mean of the peaks", "", &Coefficients::static_mean_peak},
+     {"kinetic_mean", "kinetic, mean while sliding", "", &Coefficients::kinetic_mean}}};
+
 /// Of newtons; `breakaway_force` counts as the force column does.
 inline constexpr std::array<Quantity<Transients>, 4> kTransients{
     {{"loading_stiffness_N_per_m", "slope of the loading ramp / V", "N/m", &Transients::loading_stiffness_N_per_m},
@@ -36,12 +42,9 @@ inline constexpr std::array<Quantity<Transients>, 4> kTransients{
      {"ringdown_frequency_Hz", "ring-down, frequency", "Hz", &Transients::ring_down_frequency_Hz},
      {"ringdown_damping_ratio", "ring-down, damping ratio", "", &Transients::ring_down_damping_ratio}}};
 
-/// Of friction, where a load is known.
-inline constexpr std::array<Quantity<Coefficients>, 5> kCoefficients{
-    {{"static_first_peak", "static, first peak", "", &Coefficients::static_first_peak},
-     {"static_mean_peak", "static, mean of the peaks", "", &Coefficients::static_mean_peak},
-     {"kinetic_mean", "kinetic, mean while sliding", "", &Coefficients::kinetic_mean},
-     {"kinetic_first_third", "kinetic, first third", "", &Coefficients::kinetic_first_third},
+/// Whether friction changes on the way.
+inline constexpr std::array<Quantity<Coefficients>, 2> kCoefficientThirds{
+    {{"kinetic_first_third", "kinetic, first third", "", &Coefficients::kinetic_first_third},
      {"kinetic_last_third", "kinetic, last third", "", &Coefficients::kinetic_last_third}}};
 
 /// Their scatter.

@@ -182,11 +182,12 @@ std::string transients_text(const Transients& transients, ForceQuantity quantity
 
 std::string coefficients_text(const std::optional<Coefficients>& coefficients) {
   if (!coefficients) return {};
-  Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
+  Table table = estimate_table();
   const auto add = [&](std::string_view words, const Estimate& estimate) {
     if (estimate.value) add_estimate(table, words, estimate, "");
   };
   for (const auto& row : kCoefficients) add(row.words, (*coefficients).*row.estimate);
+  for (const auto& row : kCoefficientThirds) add(row.words, (*coefficients).*row.estimate);
   for (const auto& row : kCoefficientSpreads) {
     add(row.words, Estimate{(*coefficients).*row.value, {}, {}, {}});
   }

@@ -10,6 +10,21 @@ using test::BatchScene;
 using test::files_in;
 using test::lines_of;
 
+namespace {
+
+/// The results, but for the groups that the manifest gives.
+std::string without_groups(const std::string& results) {
+  std::string text;
+  for (const std::string& line : lines_of(results)) {
+    auto document = nlohmann::ordered_json::parse(line);
+    document["recording"].erase("group");
+    text += document.dump() + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
 TEST_CASE("a batch writes one document and one summary row a recording, in the manifest's order, and nothing else") {
   const BatchScene scene(7);
   const auto run = batch(scene.manifest(), scene.path("out"));
@@ -40,7 +55,7 @@ TEST_CASE("a line of results.jsonl is the document of slipfit fit, on one line")
   REQUIRE(batch(scene.manifest(), scene.path("out"), {"--tier", "undamped"}).exit_code == 0);
   const auto fit = test::slipfit({"fit", scene.path("r0.csv"), "--speed", "0.02", "--tier", "undamped", "--json"});
   const auto expected = nlohmann::ordered_json::parse(fit.out);
-  CHECK(lines_of(files_in(scene.path("out")).results).at(0) == expected.dump());
+  CHECK(without_groups(files_in(scene.path("out")).results) == expected.dump() + "\n");
 }
 
 TEST_CASE("the files of a batch do not depend on the number of jobs") {
@@ -90,7 +105,7 @@ TEST_CASE("one recording's failure is a row of failures.csv with its code, and t
              Catch::StartsWith("2,none,") && Catch::Contains(",failed,") && Catch::EndsWith(",file_not_found"));
   CHECK(std::count(summary[2].begin(), summary[2].end(), ',') == std::count(summary[0].begin(), summary[0].end(), ','));
   REQUIRE(batch(scene.manifest(), scene.path("alone")).exit_code == 0);
-  CHECK(files.results == files_in(scene.path("alone")).results);
+  CHECK(files.results == without_groups(files_in(scene.path("alone")).results));
 }
 
 TEST_CASE("what the manifest calls its recordings never runs as a formula in a spreadsheet") {

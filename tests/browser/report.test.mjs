@@ -112,9 +112,22 @@ test("a hostile file name stays text", async () => {
   fs.copyFileSync(demo, file);
   const page = await open(report(file, "hostile.html"));
   assert.ok((await page.locator("p.file").textContent()).endsWith(kHostile));
-  assert.ok((await page.title()).endsWith(kHostile));
+  assert.equal(await page.title(), path.basename(kHostile));
+  assert.equal(await page.locator("h1").textContent(), path.basename(kHostile));
   assert.equal(await page.locator("script").count(), 3);
   assert.ok((await drawnPixels(page)) > 5000);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});
+
+test("the page of a comparison shows the cycles of both sides", async () => {
+  simulate("other.csv", 2);
+  slipfit("compare", demo, shot("other.csv"), "--speed", "10mm/s", "--quiet", "--out", shot("compare.txt"), "--report",
+    shot("compare.html"));
+  const page = await open(shot("compare.html"));
+  assert.ok((await page.locator("#quantities tbody tr").count()) > 5);
+  assert.ok((await page.locator("svg#cycles path").count()) >= 4);
+  await page.screenshot({ path: shot("compare.png"), fullPage: true });
   assert.deepEqual(page.faults, []);
   await page.close();
 });

@@ -24,7 +24,7 @@ TEST_CASE("fit --report writes one page, the same bytes every time, beside the u
   CHECK_THAT(first.out, Contains("stick-slip"));
   CHECK_THAT(first.err, Contains("wrote '" + example.page + "'"));
   const std::string page = test::content_of(example.page);
-  CHECK_THAT(page, Contains("<h1>Stick-slip at ") && Contains("--speed 20mm/s --report"));
+  CHECK_THAT(page, Contains("<p class=\"headline\">Stick-slip at ") && Contains("--speed 20mm/s --report"));
   REQUIRE(slipfit(arguments).exit_code == 0);
   CHECK(test::content_of(example.page) == page);
 }

@@ -109,6 +109,26 @@ TEST_CASE("what info says of a file obeys docs/info.schema.json, also of one tha
   CHECK(nlohmann::json::parse(test::content_of(documents[2]))["refusal"].is_string());
 }
 
+TEST_CASE("a comparison obeys docs/compare.schema.json") {
+  const test::TemporaryFolder folder;
+  const std::string run = folder.file("run.csv", test::simulated_csv("5"));
+  const std::string steady = folder.file("steady.csv", test::recording_csv(500, 1000.0, [](double) { return 2.0; }));
+  std::vector<std::string> documents;
+  for (const std::string& other : {run, steady}) {
+    documents.push_back(folder.path(std::to_string(documents.size()) + ".json"));
+    REQUIRE(slipfit({"compare", run, other, "--speed", "20mm/s", "--normal-force", "5", "--json", "--out",
+                     documents.back()})
+                .exit_code == 0);
+  }
+  const auto result = validate(documents, "compare");
+  CAPTURE(result.err);
+  if (result.exit_code == 77) {
+    WARN("skipped: python3-jsonschema is not installed");
+    return;
+  }
+  CHECK(result.exit_code == 0);
+}
+
 TEST_CASE("the schema check fails for a document that is wrong") {
   const test::TemporaryFolder folder;
   const std::string wrong = folder.file("wrong.json", R"({"schema": "slipfit.fit/1"})");
@@ -118,7 +138,7 @@ TEST_CASE("the schema check fails for a document that is wrong") {
 
 TEST_CASE("docs/formats.md names every key of the schema") {
   std::set<std::string> keys;
-  for (const char* const schema : {"fit", "predict", "info"}) {
+  for (const char* const schema : {"fit", "predict", "info", "compare"}) {
     collect_keys(nlohmann::json::parse(test::content_of(schema_file(schema))), keys);
   }
   const std::string formats = test::content_of((project_folder() / "docs/formats.md").string());

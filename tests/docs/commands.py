@@ -37,8 +37,9 @@ def simulate(slipfit, folder, name, options):
 
 
 def make_files(slipfit, folder):
-    """run7.csv, log.txt (no clock), sweep.csv with a group dry, runs.csv: profile.csv, heights.txt: the names that the documents use."""
+    """run7.csv, wet.csv, log.txt (no clock), sweep.csv with a group dry, runs.csv, profile.csv, heights.txt: the names that the documents use."""
     simulate(slipfit, folder, "run7.csv", [*COULOMB, "--speed", "10mm/s", "--duration", "62", "--sample-rate", "500"])
+    simulate(slipfit, folder, "wet.csv", [*MODEL, "--kinetic-friction", "4.5", "--speed", "10mm/s", "--duration", "62", "--sample-rate", "500"])
     simulate(slipfit, folder, "slow.csv", [*COULOMB, "--speed", "1.2mm/s", "--duration", "200", "--sample-rate", "4"])
     forces = [line.split(",")[1] for line in (folder / "slow.csv").read_text().splitlines()[2:]]
     (folder / "log.txt").write_text("force_N\n" + "\n".join(forces) + "\n")

@@ -12,7 +12,8 @@ namespace {
 void check(const slipfit::ManifestEntry& entry) {
   fuzz::demand(fuzz::is_one_line(entry.id) && entry.id.find('/') == std::string::npos, "an id is a name: " + entry.id);
   fuzz::demand(!entry.id.starts_with("group:"), "an id is not one of a group");
-  fuzz::demand(std::isfinite(entry.conditions.speed_m_per_s) && entry.conditions.speed_m_per_s > 0.0, "speed > 0");
+  fuzz::demand(std::isfinite(entry.conditions.speed_m_per_s) && entry.conditions.speed_m_per_s >= 0.0,
+               "speed, or 0: a column tells it");
   const auto& normal_N = entry.conditions.normal_force_N;
   fuzz::demand(!normal_N || (std::isfinite(*normal_N) && *normal_N > 0.0), "normal force > 0");
   const auto& rate_Hz = entry.options.sample_rate_Hz;

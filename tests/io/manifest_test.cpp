@@ -66,13 +66,18 @@ TEST_CASE("a manifest gives ids, files beside it and speeds, in its own order") 
 TEST_CASE("every optional column of a manifest reaches the entry, and an empty cell says nothing") {
   const std::string columns =
       "normal_force_N,zero_force_N,speed_se_m_per_s,force_view,group,time_column,force_column,time_unit,force_unit,"
-      "sample_rate_Hz,window_s,measured_spacing_m";
-  const ManifestEntry full = entry_with(columns, "5,-0.5,1e-4,contact,rubber,t,Ft,ms,mN,1000,1.5:20,4e-4");
+      "sample_rate_Hz,window_s,measured_spacing_m,sample,material,operator";
+  const ManifestEntry full =
+      entry_with(columns, "5,-0.5,1e-4,contact,rubber,t,Ft,ms,mN,1000,1.5:20,4e-4,S 7,\"EPDM, 70 Sh A\",K\xF6nig");
   CHECK(full.conditions.normal_force_N == 5.0);
   CHECK(full.conditions.zero_force_N == -0.5);
   CHECK(full.conditions.speed_standard_error_m_per_s == 1e-4);
   CHECK(full.conditions.force_view == slipfit::ForceView::Contact);
   CHECK(full.group == "rubber");
+  CHECK(full.conditions.labels.group == "rubber");
+  CHECK(full.conditions.labels.sample == "S 7");
+  CHECK(full.conditions.labels.material == "EPDM, 70 Sh A");
+  CHECK(full.conditions.labels.operator_name == "K\u00F6nig");  // Latin-1 becomes UTF-8
   CHECK(full.options.time_column == "t");
   CHECK(full.options.force_column == "Ft");
   CHECK(full.options.time_unit == "ms");
@@ -83,13 +88,14 @@ TEST_CASE("every optional column of a manifest reaches the entry, and an empty c
   CHECK(full.options.window->end_s == 20.0);
   CHECK(full.conditions.measured_spacing_m == 4e-4);
 
-  const ManifestEntry empty = entry_with(columns, ",,,,,,,,,,,");
+  const ManifestEntry empty = entry_with(columns, ",,,,,,,,,,,,,,");
   CHECK_FALSE(empty.conditions.normal_force_N);
   CHECK_FALSE(empty.conditions.zero_force_N);
   CHECK(empty.conditions.force_view == slipfit::ForceView::Spring);
   CHECK_FALSE(empty.options.time_column);
   CHECK_FALSE(empty.options.sample_rate_Hz);
   CHECK_FALSE(empty.options.window);
+  CHECK(empty.conditions.labels.sample.empty());
 }
 
 TEST_CASE("a unit stands in the name of a manifest's column, or in the cell") {
@@ -121,10 +127,10 @@ TEST_CASE("a manifest may have a byte order mark, CRLF, quotes, comments, blank 
 }
 
 TEST_CASE("columns that mean nothing are named, not used") {
-  const TempFile file("id,operator,file,speed_m_per_s,speed_old\na,me,a.csv,1,x\n", "runs.csv");
+  const TempFile file("id,weather,file,speed_m_per_s,speed_old\na,fair,a.csv,1,x\n", "runs.csv");
   const auto reader = ManifestReader::open(file.path());
   REQUIRE(reader.ok());
-  CHECK(reader.value().ignored_columns() == std::vector<std::string>{"operator", "speed_old"});
+  CHECK(reader.value().ignored_columns() == std::vector<std::string>{"weather", "speed_old"});
 }
 
 TEST_CASE("each fault of a manifest is one line with file, line, column, value and what was expected") {

@@ -72,7 +72,8 @@ nlohmann::json trace_data_in(const std::string& page) {
 TEST_CASE("the page says the kind of motion in a sentence and each parameter's status in words") {
   const slipfit::Recording recording = test::small_recording();
   const std::string page = page_of(recording, test::full_analysis());
-  CHECK_THAT(page, Contains("<h1>Stick-slip at 5.432\u00a0±\u00a00.012\u00a0Hz: a pattern of 1.8409"));
+  CHECK_THAT(page,
+             Contains("<p class=\"headline\">Stick-slip at 5.432\u00a0±\u00a00.012\u00a0Hz: a pattern of 1.8409"));
   const std::string table = section(page, "parameters");
   CHECK_THAT(table, Contains("1002.3") && Contains("[999.9, 1004.8]"));
   CHECK_THAT(table, Contains("only its interval is known") && Contains("the data cannot tell it") &&
@@ -111,7 +112,7 @@ TEST_CASE("steady sliding: words in place of cycles, parameters and pattern") {
   slipfit::Analysis analysis = fitted(recording);
   analysis.motion = slipfit::MotionClass::SteadySliding;
   const std::string page = page_of(recording, analysis);
-  CHECK_THAT(page, Contains("<h1>Steady sliding at 10\u00a0mm/s: no stick-slip, no pattern.</h1>"));
+  CHECK_THAT(page, Contains("<p class=\"headline\">Steady sliding at 10\u00a0mm/s: no stick-slip, no pattern.</p>"));
   const std::string absent = section(page, "absent");
   for (const char* title : {"Cycles laid over each other", "Damping from peaks and troughs", "The abrasion pattern"}) {
     CAPTURE(title);

@@ -102,7 +102,7 @@ TEST_CASE("the page of a sweep without a joint fit says why, and shows each reco
   sweep.analysis.roles[1] = SweepRole::LeftOut;
   sweep.prediction.reset();
   const std::string page = sweep.page();
-  CHECK_THAT(page, Contains("<h1>2 recordings, no joint fit.</h1>"));
+  CHECK_THAT(page, Contains("<p class=\"headline\">2 recordings, no joint fit.</p>"));
   CHECK_THAT(page, Contains("<h2>Parameters of all recordings</h2>\n<p class=\"absent\">1 with stick-slip cycles"));
   CHECK_THAT(page, Contains("There is no joint fit: 1 with stick-slip cycles, 0 sliding steadily, 1 left out."));
   CHECK_THAT(page, Contains("Kinetic friction over speed is not known."));

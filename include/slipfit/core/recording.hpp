@@ -29,6 +29,12 @@ struct WornTrack {
   std::vector<double> ridge_places_m;  ///< from the first sample
 };
 
+/// What the user calls a recording and what it is of; each may be empty. Results carry them, nothing is computed of
+/// them.
+struct Labels {
+  std::string group, sample, material, operator_name;
+};
+
 /// How the recording was made: what the trace itself does not tell.
 struct Conditions {
   double speed_m_per_s = 0.0;                          ///< driving speed, > 0
@@ -50,6 +56,7 @@ struct Conditions {
   std::optional<double> measured_spacing_se_m;  ///< >= 0; empty: the measured spacing counts as exact
   std::shared_ptr<const WornTrack> worn_track;  ///< none: no surface was given
   std::string speed_unit = {};                  ///< that the speed was given in ("mm/min"): reports show it; empty: m/s
+  Labels labels = {};
 };
 
 /// Where the numbers came from and what the reader had to assume, count or leave out.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slipfit/core/result.hpp"
+#include "slipfit/io/read_options.hpp"
 
 namespace slipfit {
 
@@ -27,10 +28,16 @@ struct ManifestDraft {
 
 /// The recordings in files and folders (with what lies below, by the usual endings). Speed and load come from columns,
 /// else from the file's name ("fdm_232g_50mm_min", "V-100mmps"); the rest of the name without a last number is the
-/// group.
-ManifestDraft draft_manifest(const std::vector<std::filesystem::path>& paths);
+/// group. `options`: how each is read.
+ManifestDraft draft_manifest(const std::vector<std::filesystem::path>& paths, const ReadOptions& options = {});
+
+/// A column of a manifest with the same cell in every row.
+struct DraftColumn {
+  std::string name, cell;
+};
 
 /// As `ManifestReader` reads it from a file in `folder`.
-std::string to_csv(const ManifestDraft& draft, const std::filesystem::path& folder);
+std::string to_csv(const ManifestDraft& draft, const std::filesystem::path& folder,
+                   const std::vector<DraftColumn>& columns = {});
 
 }  // namespace slipfit

@@ -18,7 +18,7 @@ struct ManifestEntry {
   Conditions conditions;
   ReadOptions options;
   std::size_t row = 0;   ///< 1, 2, ... over the recordings
-  std::size_t line = 0;  ///< in the manifest, for messages
+  std::size_t line = 0;  ///< in the manifest, for messages; 0: of none
 };
 
 }  // namespace slipfit

@@ -1,5 +1,7 @@
 #include "fit/inference/sweep_outcome.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +18,9 @@ std::vector<std::optional<LeftOut>> leave_out_each(const SweepData& data, const 
   std::vector<std::optional<LeftOut>> each;
   for (std::size_t recording = 0; recording < solution.recordings.size(); ++recording) {
     each.emplace_back();
+    if (data.tell_step) {
+      data.tell_step(fmt::format("fitting without recording {} of {}", recording + 1, solution.recordings.size()));
+    }
     const std::optional<SweepSolution> others = leave_out(solution, recording);
     if (others) each.back() = LeftOut{coordinates_of(*others, kind), spread_of(data, *others, kind)};
   }

@@ -89,6 +89,7 @@ double median_period_s(const BlockFit& blocks) {
 
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
   SweepData data;
+  data.tell_step = options.tell_step;
   data.loads_known = std::all_of(recordings.begin(), recordings.end(), [](const SweepRecording& sweep) {
     return sweep.recording.conditions().normal_force_N.has_value();
   });

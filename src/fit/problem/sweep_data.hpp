@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fit/problem/steady_run.hpp"
@@ -24,7 +26,8 @@ struct SweepData {
   std::vector<double> loads;                          ///< normal force over the first recording's; 1 where not known
   bool loads_known = false;
   Units units;
-  std::vector<std::size_t> fitted;  ///< recordings with cycles
+  std::vector<std::size_t> fitted;                    ///< recordings with cycles
+  std::function<void(const std::string&)> tell_step;  ///< FitOptions
 };
 
 /// From onset to onset; a cycle that could not be fitted makes one interval long.

@@ -21,32 +21,6 @@ constexpr std::size_t kSparkColumns = 60;
 constexpr double kSparkWidth = 120.0;
 constexpr double kSparkHeight = 26.0;
 
-/// null where it is absent, or `json` is no object: documents come from files.
-Json child(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found == json.end() ? Json() : *found;
-}
-
-std::string text_in(const Json& json, const char* key) {
-  const Json found = child(json, key);
-  return found.is_string() ? found.get<std::string>() : std::string();
-}
-
-std::optional<double> number_in(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
-}
-
-Estimate estimate_in(const Json& json, const char* value, const char* error, const char* interval) {
-  Estimate estimate{number_in(json, value), number_in(json, error), {}, {}};
-  const auto bounds = json.find(interval);
-  if (bounds != json.end() && bounds->is_array() && bounds->size() == 2 && (*bounds)[0].is_number() &&
-      (*bounds)[1].is_number()) {
-    estimate.ci95 = Interval{(*bounds)[0].get<double>(), (*bounds)[1].get<double>()};
-  }
-  return estimate;
-}
-
 std::vector<std::string> codes_in(const Json& warnings) {
   std::vector<std::string> codes;
   for (const Json& warning : warnings) {
@@ -59,7 +33,7 @@ std::vector<std::string> codes_in(const Json& warnings) {
 /// Empty where it is absent; a bounded parameter keeps its interval alone.
 Estimate member(const Json& document, const char* section, const char* name) {
   const Json quantity = child(child(document, section), name);
-  Estimate estimate = estimate_in(quantity, "value", "se", "ci95");
+  Estimate estimate = estimate_in(quantity);
   const std::string status = text_in(quantity, "status");
   if (status == "bounded" || status == "unidentified") estimate.value.reset();
   return estimate;
@@ -130,7 +104,7 @@ Result<BatchPageRow> batch_page_row(const std::string& document) {
                  fmt::format("'{}': no fit document, expected one line of results.jsonl", document.substr(0, 60))};
   }
   row.speed_m_per_s = number_in(child(json, "recording"), "speed_m_per_s");
-  row.frequency_Hz = estimate_in(child(json, "frequency"), "value_Hz", "se_Hz", "ci95_Hz");
+  row.frequency_Hz = estimate_in(child(json, "frequency"), "_Hz");
   row.spacing_m = member(json, "derived", "pattern_spacing_m");
   row.stiffness_N_per_m = member(json, "parameters", "stiffness_N_per_m");
   row.friction_difference_N = member(json, "parameters", "friction_difference_N");

@@ -21,6 +21,7 @@ std::string coefficients_part(const Source& source) {
   if (!coefficients) return {};
   std::string rows;
   for (const auto& row : kCoefficients) rows += row_of(row.words, (*coefficients).*row.estimate);
+  for (const auto& row : kCoefficientThirds) rows += row_of(row.words, (*coefficients).*row.estimate);
   for (const auto& row : kCoefficientSpreads) {
     rows += row_of(row.words, Estimate{(*coefficients).*row.value, {}, {}, {}});
   }

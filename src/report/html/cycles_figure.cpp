@@ -6,38 +6,22 @@
 
 #include "report/html/figure.hpp"
 #include "report/html/scaling.hpp"
+#include "report/html/stack.hpp"
 
 namespace slipfit::html {
 namespace {
 
 using chart::Colour, chart::Panel, chart::Point, chart::Stroke;
 
-constexpr std::size_t kMostCycles = 30;
 constexpr std::size_t kCycleColumns = 110;  // of one cycle
-constexpr double kBefore = 0.3;             // periods before the slip
-constexpr double kAfter = 0.8;              // periods after it
-constexpr double kSlipBefore = 1.0;         // slip times, close up
-constexpr double kSlipAfter = 2.5;
-
-/// What each cycle is laid on: the onset and F_k by the fit, else the turning points.
-struct Anchor {
-  double time_s = 0.0;
-  double force = 0.0;
-  double height = 0.0;  ///< of the peak above it, for the typical cycle
-};
-
 Anchor anchor_of(const Cycle& cycle) {
   const double force = cycle.level_force.value_or(cycle.trough_force);
   return {cycle.onset_s.value_or(cycle.peak_s), force, cycle.onset_force.value_or(cycle.peak_force) - force};
 }
 
-struct Stack {
-  std::vector<Anchor> anchors;  ///< evenly chosen
-  Anchor typical;               ///< of median height
-  bool on_kinetic_level = false;
-};
+}  // namespace
 
-Stack stack_of(const Analysis& analysis) {
+Stack stack_of(const Analysis& analysis, std::size_t most_cycles) {
   Stack stack;
   std::vector<Anchor> all;
   const bool is_fitted = analysis.cycles.used > 0;
@@ -46,7 +30,7 @@ Stack stack_of(const Analysis& analysis) {
   }
   if (all.empty()) return stack;
   stack.on_kinetic_level = is_fitted;
-  const std::size_t count = std::min(kMostCycles, all.size());
+  const std::size_t count = std::min(most_cycles, all.size());
   for (std::size_t i = 0; i < count; ++i) stack.anchors.push_back(all[i * all.size() / count]);
   const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
   std::nth_element(all.begin(), middle, all.end(),
@@ -55,14 +39,7 @@ Stack stack_of(const Analysis& analysis) {
   return stack;
 }
 
-/// Seconds around the slip.
-struct Window {
-  double before_s = 0.0;
-  double after_s = 0.0;
-};
-
-/// One cycle of `force`, laid on its anchor.
-std::vector<Point> laid(const Source& source, std::span<const double> force, const Anchor& anchor, Window window) {
+std::vector<Point> laid(const Source& source, std::span<const double> force, const Anchor& anchor, CycleWindow window) {
   const SampleRange range =
       samples_between(source.recording, anchor.time_s - window.before_s, anchor.time_s + window.after_s);
   const double scale = source.force_unit.per_SI;
@@ -72,16 +49,38 @@ std::vector<Point> laid(const Source& source, std::span<const double> force, con
   return points;
 }
 
-Panel panel_of(const Source& source, const Stack& stack, Window window) {
-  chart::Line measured{"measured cycles", Colour::Grey, Stroke::Solid, {}, 0.6};
-  Span height;
-  for (const Anchor& anchor : stack.anchors) {
-    for (const Point& point : laid(source, source.recording.force(), anchor, window)) {
-      measured.points.push_back(point);
-      height.add(point.y);
-    }
-    measured.points.push_back({0.0, std::numeric_limits<double>::quiet_NaN()});
+std::vector<CycleWindow> windows_of(const CycleStatistics& cycles, double sample_interval_s) {
+  constexpr double kBefore = 0.3;      // periods before the slip
+  constexpr double kAfter = 0.8;       // periods after it
+  constexpr double kSlipBefore = 1.0;  // slip times, close up
+  constexpr double kSlipAfter = 2.5;
+  if (!cycles.period_s) return {};
+  std::vector<CycleWindow> windows{{kBefore * *cycles.period_s, kAfter * *cycles.period_s}};
+  const double slip_s = cycles.slip_time_s.value_or(0.0);
+  const bool is_resolved = slip_s > 2.0 * sample_interval_s;
+  if (is_resolved && kSlipAfter * slip_s < windows.front().after_s) {
+    windows.push_back({kSlipBefore * slip_s, kSlipAfter * slip_s});
   }
+  return windows;
+}
+
+chart::Line laid_cycles(const Source& source, const Stack& stack, CycleWindow window) {
+  chart::Line line{"", Colour::Grey, Stroke::Solid, {}, 0.6};
+  for (const Anchor& anchor : stack.anchors) {
+    const std::vector<Point> points = laid(source, source.recording.force(), anchor, window);
+    line.points.insert(line.points.end(), points.begin(), points.end());
+    line.points.push_back({0.0, std::numeric_limits<double>::quiet_NaN()});
+  }
+  return line;
+}
+
+namespace {
+
+Panel panel_of(const Source& source, const Stack& stack, CycleWindow window) {
+  chart::Line measured = laid_cycles(source, stack, window);
+  measured.name = "measured cycles";
+  Span height;
+  for (const Point& point : measured.points) height.add(point.y);
   const DisplayUnit unit = display_unit("s", window.after_s);
   chart::Line model{"fit of a typical cycle", Colour::Vermillion, Stroke::Solid,
                     laid(source, source.fitted, stack.typical, window), 2.4};
@@ -114,19 +113,16 @@ Figure cycles_figure(const Source& source) {
     figure.absent = "Steady sliding has no cycles.";
     return figure;
   }
-  const Stack stack = stack_of(source.analysis);
+  constexpr std::size_t kMostCycles = 30;
+  const Stack stack = stack_of(source.analysis, kMostCycles);
   const CycleStatistics& cycles = source.analysis.cycles;
-  if (stack.anchors.empty() || !cycles.period_s) {
+  const auto windows = windows_of(cycles, source.recording.sample_interval_s());
+  if (stack.anchors.empty() || windows.empty()) {
     figure.absent = "There are too few slips to lay cycles over each other.";
     return figure;
   }
   chart::Chart chart{"Cycles laid over each other", {}, {}};
-  chart.panels.push_back(panel_of(source, stack, {kBefore * *cycles.period_s, kAfter * *cycles.period_s}));
-  const double slip_s = cycles.slip_time_s.value_or(0.0);
-  const bool is_resolved = slip_s > 2.0 * source.recording.sample_interval_s();
-  if (is_resolved && kSlipAfter * slip_s < kAfter * *cycles.period_s) {
-    chart.panels.push_back(panel_of(source, stack, {kSlipBefore * slip_s, kSlipAfter * slip_s}));
-  }
+  for (const CycleWindow& window : windows) chart.panels.push_back(panel_of(source, stack, window));
   figure.chart = std::move(chart);
   figure.label = fmt::format("{} of {} cycles laid over each other, with the fit of a typical one",
                              stack.anchors.size(), cycles.count);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,6 +63,7 @@ std::string numbers_part(const Source& source) {
 
 std::string page_from(const PageParts& parts) {
   return filled(assets::page(), {{"title", text(parts.title)},
+                                 {"place", parts.place},
                                  {"style", parts.library_style + std::string(assets::style())},
                                  {"kind", parts.kind},
                                  {"headline", parts.headline},
@@ -104,6 +106,25 @@ std::string picture_with_data(const chart::Chart& chart, const std::string& id, 
          script_json("[" + data + "]") + "</script>";
 }
 
+std::string title_of(const Recording& recording) {
+  const std::string name = std::filesystem::path(recording.provenance().file).filename().string();
+  return name.empty() ? "recording" : name;
+}
+
+std::string place_of(const Recording& recording) {
+  const std::string& file = recording.provenance().file;
+  const Labels& labels = recording.conditions().labels;
+  std::string place = file == title_of(recording) || file.empty() ? "" : "<p class=\"file\">" + text(file) + "</p>\n";
+  std::string facts;
+  for (const auto& [term, label] : {std::pair{"sample", &labels.sample},
+                                    {"material", &labels.material},
+                                    {"operator", &labels.operator_name},
+                                    {"group", &labels.group}}) {
+    if (!label->empty()) facts += (facts.empty() ? "" : " · ") + fmt::format("{}: {}", term, text(*label));
+  }
+  return facts.empty() ? place : place + "<p class=\"file\">" + facts + "</p>\n";
+}
+
 std::string script_element(std::string_view script) {
   return "<script>" + std::string(script) + "</script>\n";
 }
@@ -125,9 +146,9 @@ bool has_interactive_trace() {
 std::string to_html(const Recording& recording, const Analysis& analysis, const Background& background,
                     const ReportOrigin& origin) {
   const html::Source source = html::source_of(recording, analysis, background);
-  const std::string& file = recording.provenance().file;
   html::PageParts page;
-  page.title = file.empty() ? "recording" : file;
+  page.title = html::title_of(recording);
+  page.place = html::place_of(recording);
   page.kind = "recording";
   page.headline = html::motion_sentence(source);
   page.summary = "<p class=\"reason\">" + html::capitalised(html::formula_text(analysis.motion_reason)) + "</p>\n" +

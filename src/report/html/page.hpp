@@ -11,7 +11,8 @@ namespace slipfit::html {
 /// What differs between the pages: HTML, but for the title, which is text. Empty parts are left out.
 struct PageParts {
   std::string title;
-  std::string kind;  ///< "recording", "sweep" or "batch": for the style sheet
+  std::string place;  ///< path and labels, under the title
+  std::string kind;   ///< "recording", "sweep" or "batch": for the style sheet
   std::string headline;
   std::string summary;  ///< under the headline
   std::string main;
@@ -20,6 +21,10 @@ struct PageParts {
   std::string scripts;  ///< elements <script>
 };
 std::string page_from(const PageParts& parts);
+/// Under the title: where the file lies, and what the manifest says of it.
+std::string place_of(const Recording& recording);
+/// Of a file's path: its name; "recording" where there is none.
+std::string title_of(const Recording& recording);
 std::string script_element(std::string_view script);
 
 /// <td> with a quantity rounded by its uncertainty, its interval, the value to sort by, and the status of a parameter.

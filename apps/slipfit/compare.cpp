@@ -1,0 +1,236 @@
+#include "slipfit/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "commands.hpp"
+#include "drafts.hpp"
+#include "failure.hpp"
+#include "output.hpp"
+#include "progress_line.hpp"
+#include "slipfit/io/manifest.hpp"
+#include "slipfit/io/recording_reader.hpp"
+#include "slipfit/pipeline.hpp"
+#include "slipfit/report/comparison.hpp"
+#include "slipfit/report/json.hpp"
+#include "sweep_run.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using slipfit::ManifestEntry;
+
+struct CompareArguments {
+  std::vector<std::string> sides;  ///< A and B, or one source with two groups
+  std::vector<std::string> files_a, files_b;
+  std::vector<std::string> groups;
+  RecordingArguments recording;
+  DocumentOptions document;
+  std::optional<std::string> report;
+  std::string command_line;
+};
+
+/// What is named for one side.
+struct SideArguments {
+  std::vector<std::string> paths;
+  std::optional<std::string> group;
+  RecordingArguments recording;
+};
+
+/// A side before its recordings are fitted.
+struct Source {
+  slipfit::ComparisonSide side;
+  std::vector<ManifestEntry> entries;
+};
+
+std::string text_of_file(const std::string& file) {
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+/// One document, or one a line.
+bool is_results_file(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return (stream >> std::ws).peek() == '{';
+}
+
+void add_fit(const std::string& document, const std::string& place, const SideArguments& arguments, Source& source) {
+  auto fit = slipfit::compared_fit(document);
+  if (!fit) throw Failure(ExitCode::WrongUsage, fmt::format("{}: {}", place, fit.error().message));
+  const bool is_joint = fit.value().id.starts_with("group:");
+  if (is_joint || (arguments.group && fit.value().group != *arguments.group)) return;
+  source.side.fits.push_back(std::move(fit).value());
+}
+
+void add_results(const std::string& file, const SideArguments& arguments, Source& source) {
+  const std::string content = text_of_file(file);
+  const std::size_t before = source.side.fits.size();
+  std::istringstream lines(content);
+  std::string line;
+  const bool is_log = fs::path(file).extension() == ".jsonl";
+  if (!is_log) add_fit(content, file, arguments, source);
+  for (std::size_t number = 1; is_log && std::getline(lines, line); ++number) {
+    add_fit(line, fmt::format("{}:{}", file, number), arguments, source);
+  }
+  if (source.side.fits.size() > before) return;
+  const std::string group = arguments.group ? fmt::format(" of group '{}'", *arguments.group) : std::string();
+  throw Failure(ExitCode::WrongUsage, fmt::format("'{}': no result{} in it", file, group));
+}
+
+bool is_manifest(const std::string& file) {
+  return slipfit::ManifestReader::open(file).ok();
+}
+
+void keep_group(const std::string& group, std::vector<ManifestEntry>& entries) {
+  std::erase_if(entries, [&group](const ManifestEntry& entry) { return entry.group != group; });
+  if (entries.empty()) throw Failure(ExitCode::WrongUsage, fmt::format("--group: no recording of '{}'", group));
+}
+
+/// Files and folders of recordings are drafted together, so that --speed may be given once for each.
+Source source_of(const SideArguments& arguments, const Tell& tell) {
+  Source source;
+  std::vector<std::string> recordings;
+  for (const std::string& path : arguments.paths) {
+    std::error_code ignored;
+    const std::string log = (fs::path(path) / "results.jsonl").string();
+    const bool is_folder = fs::is_directory(path, ignored);
+    if (is_folder && fs::exists(log, ignored)) {
+      add_results(log, arguments, source);
+    } else if (!is_folder && is_results_file(path)) {
+      add_results(path, arguments, source);
+    } else if (!is_folder && is_manifest(path)) {
+      for (ManifestEntry& entry : manifest_entries(path, arguments.group, {}))
+        source.entries.push_back(std::move(entry));
+    } else {
+      recordings.push_back(path);
+    }
+  }
+  if (!recordings.empty()) {
+    const auto draft = draft_of(recordings, read_options_from(arguments.recording), tell);
+    auto entries = entries_of(draft, arguments.recording, tell);
+    if (arguments.group) keep_group(*arguments.group, entries);
+    source.entries.insert(source.entries.end(), entries.begin(), entries.end());
+  }
+  return source;
+}
+
+std::string name_of(const SideArguments& arguments) {
+  if (arguments.group) return *arguments.group;
+  fs::path path(arguments.paths.front());
+  if (!path.has_filename()) path = path.parent_path();
+  const std::string name = path.stem().string();
+  return arguments.paths.size() == 1 ? name : fmt::format("{} and {} more", name, arguments.paths.size() - 1);
+}
+
+slipfit::ComparedRecording analysed(const ManifestEntry& entry) {
+  auto recording = slipfit::read_recording(entry.file, entry.conditions, entry.options);
+  if (!recording) {
+    const slipfit::Error error = entry.line > 0 ? slipfit::in_words_of_manifest(recording.error()) : recording.error();
+    throw Failure(ExitCode::BadRecording, error.message);
+  }
+  slipfit::Analysis analysis = slipfit::analyze_and_fit(recording.value(), {});
+  return {std::move(recording).value(), std::move(analysis)};
+}
+
+/// Fits the recordings of both sides; keeps them where a page shows their cycles.
+class Fitting {
+ public:
+  Fitting(const CompareArguments& arguments, std::size_t total) : arguments_(arguments), total_(total) {}
+
+  std::vector<slipfit::ComparedRecording> fit(Source& source) {
+    std::vector<slipfit::ComparedRecording> kept;
+    for (const ManifestEntry& entry : source.entries) {
+      if (!arguments_.document.quiet) line_.show(fmt::format("fitting recording {} of {}", ++done_, total_));
+      slipfit::ComparedRecording one = analysed(entry);
+      slipfit::JsonOptions options;
+      options.id = entry.id;
+      source.side.fits.push_back(slipfit::compared_fit(to_json(one.recording, one.analysis, options)).value());
+      if (arguments_.report) kept.push_back(std::move(one));
+    }
+    return kept;
+  }
+
+ private:
+  const CompareArguments& arguments_;
+  std::size_t total_ = 0;
+  std::size_t done_ = 0;
+  ProgressLine line_;
+};
+
+/// Paths, group and speed of each side.
+std::pair<SideArguments, SideArguments> sides_of(const CompareArguments& arguments) {
+  SideArguments a{arguments.files_a, {}, arguments.recording};
+  SideArguments b{arguments.files_b, {}, arguments.recording};
+  const std::vector<std::string>& sides = arguments.sides;
+  const bool has_two_groups = arguments.groups.size() == 2;
+  if (!sides.empty()) a.paths.insert(a.paths.begin(), sides.front());
+  if (sides.size() > 1 || (has_two_groups && !sides.empty())) b.paths.insert(b.paths.begin(), sides.back());
+  if (a.paths.empty() || b.paths.empty()) {
+    throw Failure(ExitCode::WrongUsage,
+                  "two sides are compared: give A and B, or --a FILE... --b FILE..., or one source with two groups "
+                  "(--group A --group B)");
+  }
+  if (!arguments.groups.empty()) a.group = arguments.groups.front();
+  if (!arguments.groups.empty()) b.group = arguments.groups.back();
+  if (const std::vector<std::string>& speeds = arguments.recording.speeds; speeds.size() == 2) {
+    a.recording.speeds = {speeds.front()};
+    b.recording.speeds = {speeds.back()};
+  } else if (speeds.size() > 2) {
+    throw Failure(ExitCode::WrongUsage, "--speed: give it once for both sides, or twice, for A and for B");
+  }
+  return {a, b};
+}
+
+void run(const CompareArguments& arguments) {
+  const auto outputs = outputs_of({{"--out", arguments.document.out}, {"--report", arguments.report}});
+  const auto [side_a, side_b] = sides_of(arguments);
+  for (const SideArguments* const side : {&side_a, &side_b}) {
+    for (const std::string& path : side->paths) check_outputs(outputs, path);
+  }
+  const Tell tell = teller(arguments.document);
+  Source a = source_of(side_a, tell);
+  Source b = source_of(side_b, tell);
+  slipfit::ComparisonOrigin origin;
+  origin.command_line = arguments.command_line;
+  {
+    Fitting fitting(arguments, a.entries.size() + b.entries.size());
+    origin.recordings_a = fitting.fit(a);
+    origin.recordings_b = fitting.fit(b);
+  }
+  a.side.name = name_of(side_a);
+  b.side.name = name_of(side_b);
+  const slipfit::Comparison comparison = slipfit::compare(a.side, b.side);
+  write_results(arguments.document, outputs, [&](const std::string& option) {
+    if (option == "--report") return to_html(comparison, origin);
+    return arguments.document.json ? to_json(comparison) + "\n" : to_text(comparison);
+  });
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& program, const std::string& command_line) {
+  CLI::App* const command =
+      program.add_subcommand("compare", "Do two recordings, groups of repeats or results differ?");
+  const auto arguments = std::make_shared<CompareArguments>();
+  arguments->command_line = command_line;
+  add_recording_options(*command, arguments->recording);
+  command->remove_option(command->get_option("REC"));
+  command
+      ->add_option("SIDES", arguments->sides,
+                   "A and B: a recording, a folder or manifest of repeats, a result of fit --json or of batch")
+      ->expected(0, 2);
+  command->add_option("--a", arguments->files_a, "More recordings or results of A");
+  command->add_option("--b", arguments->files_b, "More recordings or results of B");
+  command->add_option("--group", arguments->groups, "Group of the manifest or the results; twice: of A and of B")
+      ->expected(1, 2)
+      ->allow_extra_args(false);
+  add_document_options(*command, arguments->document, "text");
+  command->add_option("--report", arguments->report, "Write a page to look at and to print (HTML, one file)");
+  command->callback([arguments] { run(*arguments); });
+}

@@ -1,0 +1,194 @@
+#include "slipfit/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+
+#include "compare/statistics.hpp"
+#include "core/unknown.hpp"
+
+namespace slipfit {
+namespace {
+
+using Fits = std::vector<ComparedFit>;
+
+/// The values of one quantity that the fits of a side tell.
+struct SideValues {
+  std::vector<Estimate> known;
+  std::string status;
+  std::string why_not;  ///< of the first fit that does not tell it
+  bool is_absent = true;
+};
+
+/// From the surest to the least sure.
+std::size_t doubt_of(const std::string& status) {
+  constexpr std::array<const char*, 3> kOrder{"identified", "conditional", "weak"};
+  return static_cast<std::size_t>(std::find(kOrder.begin(), kOrder.end(), status) - kOrder.begin());
+}
+
+SideValues values_of(const Fits& fits, std::size_t quantity) {
+  SideValues side;
+  for (const ComparedFit& fit : fits) {
+    const ComparedValue& value = fit.values[quantity];
+    side.is_absent = side.is_absent && value.is_absent;
+    if (!value.estimate.value) {
+      if (side.why_not.empty()) side.why_not = value.estimate.note;
+      continue;
+    }
+    if (side.known.empty() || doubt_of(value.status) > doubt_of(side.status)) side.status = value.status;
+    side.known.push_back(value.estimate);
+  }
+  return side;
+}
+
+SideEstimate side_estimate(const SideValues& side) {
+  if (side.known.empty()) return {unknown(side.why_not), 0, {}};
+  return {comparing::mean_of(side.known), side.known.size(), side.status};
+}
+
+ComparisonMethod method_of(std::size_t recordings_a, std::size_t recordings_b) {
+  if (recordings_a > 1 && recordings_b > 1) return ComparisonMethod::Welch;
+  if (recordings_a > 1) return ComparisonMethod::ScatterOfA;
+  return recordings_b > 1 ? ComparisonMethod::ScatterOfB : ComparisonMethod::StandardErrors;
+}
+
+std::string why_not_compared(const SideValues& a, const SideValues& b) {
+  if (a.known.empty() && b.known.empty()) return "not known in A and B: " + a.why_not;
+  if (a.known.empty()) return "not known in A: " + a.why_not;
+  return b.known.empty() ? "not known in B: " + b.why_not : "without a standard error";
+}
+
+QuantityComparison compare_quantity(const ComparedQuantity& quantity, const SideValues& a, const SideValues& b) {
+  QuantityComparison result;
+  result.quantity = quantity;
+  result.a = side_estimate(a);
+  result.b = side_estimate(b);
+  result.difference = result.ratio = unknown(why_not_compared(a, b));
+  if (a.known.empty() || b.known.empty()) return result;
+  const bool are_single = a.known.size() == 1 && b.known.size() == 1;
+  const auto pair = are_single ? comparing::by_standard_errors(a.known.front(), b.known.front())
+                               : comparing::by_scatter(a.known, b.known);
+  if (!pair) return result;
+  result.method = method_of(a.known.size(), b.known.size());
+  result.difference = comparing::difference_of(*pair);
+  result.ratio = comparing::ratio_of(*pair);
+  result.p_value = comparing::p_value_of(*pair);
+  return result;
+}
+
+void adjust(std::vector<QuantityComparison>& quantities) {
+  std::vector<double> p_values;
+  for (const QuantityComparison& quantity : quantities) {
+    if (quantity.p_value) p_values.push_back(*quantity.p_value);
+  }
+  const std::vector<double> adjusted = comparing::holm(p_values);
+  auto next = adjusted.begin();
+  for (QuantityComparison& quantity : quantities) {
+    if (quantity.p_value) quantity.p_adjusted = *next++;
+  }
+}
+
+/// What a condition was at its least and its most; empty where no fit tells it.
+std::optional<Interval> range_of(const Fits& fits, std::optional<double> ComparedFit::*condition) {
+  std::optional<Interval> range;
+  for (const ComparedFit& fit : fits) {
+    const std::optional<double>& value = fit.*condition;
+    if (!value) continue;
+    range = range ? Interval{std::min(range->low, *value), std::max(range->high, *value)} : Interval{*value, *value};
+  }
+  return range;
+}
+
+/// By more than rounding of what was typed: a hundredth.
+bool differ(const Fits& a, const Fits& b, std::optional<double> ComparedFit::*condition) {
+  constexpr double kSame = 1.01;
+  const auto range_a = range_of(a, condition);
+  const auto range_b = range_of(b, condition);
+  if (!range_a || !range_b) return false;
+  return std::max(range_a->high, range_b->high) > kSame * std::min(range_a->low, range_b->low);
+}
+
+/// "0.02 to 0.05 m/s"
+std::string stated(const Fits& fits, std::optional<double> ComparedFit::*condition, const char* unit) {
+  const Interval range = *range_of(fits, condition);
+  return range.low == range.high ? fmt::format("{:.4g} {}", range.low, unit)
+                                 : fmt::format("{:.4g} to {:.4g} {}", range.low, range.high, unit);
+}
+
+void warn_of_conditions(Comparison& comparison) {
+  const Fits& a = comparison.a.fits;
+  const Fits& b = comparison.b.fits;
+  if (differ(a, b, &ComparedFit::speed_m_per_s)) {
+    comparison.warnings.push_back(
+        {"speeds_differ",
+         fmt::format("driving speed of A: {}, of B: {}: whatever depends on the speed (frequency, "
+                     "spacing, friction) may differ for that reason alone",
+                     stated(a, &ComparedFit::speed_m_per_s, "m/s"), stated(b, &ComparedFit::speed_m_per_s, "m/s"))});
+  }
+  if (differ(a, b, &ComparedFit::normal_force_N)) {
+    comparison.warnings.push_back(
+        {"loads_differ",
+         fmt::format("normal force of A: {}, of B: {}: friction forces differ for that reason, and "
+                     "frequency and spacing with them; coefficients of friction allow for it",
+                     stated(a, &ComparedFit::normal_force_N, "N"), stated(b, &ComparedFit::normal_force_N, "N"))});
+  }
+  const auto differs_from_first = [&a](const ComparedFit& fit) { return fit.motion != a.front().motion; };
+  if (std::any_of(a.begin(), a.end(), differs_from_first) || std::any_of(b.begin(), b.end(), differs_from_first)) {
+    comparison.warnings.push_back({"motions_differ",
+                                   "the recordings do not all show the same kind of motion: numbers "
+                                   "are compared where both sides have them"});
+  }
+}
+
+void warn_of_same_recording(Comparison& comparison) {
+  std::set<std::string> sources;
+  for (const Fits* const fits : {&comparison.a.fits, &comparison.b.fits}) {
+    for (const ComparedFit& fit : *fits) {
+      if (fit.source.empty() || sources.insert(fit.source).second) continue;
+      comparison.warnings.push_back(
+          {"recording_repeated", fmt::format("'{}' holds the same bytes as another recording that is compared: it is "
+                                             "no repeat, and what counts it twice finds too small intervals",
+                                             fit.id)});
+      return;
+    }
+  }
+}
+
+void warn_of_repeats(Comparison& comparison) {
+  const bool one_a = comparison.a.fits.size() == 1;
+  const bool one_b = comparison.b.fits.size() == 1;
+  if (one_a && one_b) {
+    comparison.warnings.push_back(
+        {"scatter_unknown",
+         "one recording on each side: the intervals come from the standard errors of the fits, and how much repeats "
+         "of a test scatter is not known; that two recordings differ does not show that two materials do (give "
+         "repeats: several files, or a group)"});
+  } else if (one_a || one_b) {
+    comparison.warnings.push_back(
+        {"scatter_of_one_side", fmt::format("{} is one recording: it is taken to scatter as the repeats of {} do",
+                                            one_a ? 'A' : 'B', one_a ? 'B' : 'A')});
+  }
+}
+
+}  // namespace
+
+Comparison compare(const ComparisonSide& a, const ComparisonSide& b) {
+  Comparison comparison{a, b, {}, {}};
+  const auto quantities = compared_quantities();
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const SideValues values_a = values_of(a.fits, i);
+    const SideValues values_b = values_of(b.fits, i);
+    if (values_a.is_absent && values_b.is_absent) continue;
+    comparison.quantities.push_back(compare_quantity(quantities[i], values_a, values_b));
+  }
+  adjust(comparison.quantities);
+  warn_of_repeats(comparison);
+  warn_of_same_recording(comparison);
+  warn_of_conditions(comparison);
+  return comparison;
+}
+
+}  // namespace slipfit

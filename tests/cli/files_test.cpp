@@ -1,0 +1,106 @@
+// Several recordings without a manifest written by hand: fit a.csv b.csv, batch FOLDER.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "recordings.hpp"
+#include "refusal.hpp"
+#include "run_program.hpp"
+#include "sweep_example.hpp"
+
+using nlohmann::json;
+using test::check_refused;
+using test::simulated_csv;
+using test::slipfit;
+
+TEST_CASE("fit of several files is the joint fit, with a speed each") {
+  const test::SweepExample example;
+  const std::string slow = example.folder.path("slow.csv");
+  const std::string middle = example.folder.path("middle.csv");
+  const std::string fast = example.folder.path("fast.csv");
+  const json joint = example.fit({"--group", "pad"});
+  const test::ProgramResult result =
+      slipfit({"fit", slow, middle, fast, "--speed", "20mm/s", "--speed", "40mm/s", "--speed", "80mm/s", "--json"});
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.err.empty());
+  const json files = json::parse(result.out);
+  CHECK(files["parameters"] == joint["parameters"]);
+  CHECK(files["recordings"][1]["id"] == "middle");
+
+  const std::string named_slow = example.folder.file("pad_20mmps.csv", test::content_of(slow));
+  const std::string named_fast = example.folder.file("pad_80mmps.csv", test::content_of(fast));
+  const test::ProgramResult named = slipfit({"fit", named_slow, named_fast, "--json"});
+  REQUIRE(named.exit_code == 0);
+  CHECK(json::parse(named.out)["id"] == "pad");
+  CHECK(json::parse(named.out)["recordings"][1]["recording"]["speed_m_per_s"].get<double>() == Approx(0.08));
+}
+
+TEST_CASE("fit of several files refuses in one line what it cannot tell, with a remedy that works") {
+  const test::SweepExample example;
+  const std::string slow = example.folder.path("slow.csv");
+  const std::string fast = example.folder.path("fast.csv");
+  check_refused({"fit", slow, fast}, "slipfit manifest " + slow + " --out runs.csv");
+  check_refused({"fit", slow, fast, slow, "--speed", "1", "--speed", "2"}, "--speed is given 2 times");
+  check_refused({"fit", slow, fast, "--speed", "1", "--cycles", example.folder.path("c.csv")}, "--cycles");
+  check_refused({"fit", slow, fast, "--speed", "1", "--tier", "sawtooth"}, "no tier of a joint fit");
+  const std::string drafted = example.folder.path("runs.csv");
+  CHECK(slipfit({"manifest", slow, fast, "--out", drafted, "--quiet"}).exit_code == 0);
+  const test::ProgramResult missing = slipfit({"fit", slow, example.folder.path("none.csv"), "--speed", "1"});
+  CHECK(missing.exit_code == 3);
+  CHECK_THAT(missing.err, Catch::Contains("none.csv"));
+  const std::string two = example.folder.file("two.csv", "time,left force,right force\n0,1,2\n1,2,1\n2,1,2\n3,2,1\n");
+  const test::ProgramResult ambiguous = slipfit({"fit", slow, two, "--speed", "1"});
+  CHECK(ambiguous.exit_code == 3);
+  CHECK_THAT(ambiguous.err, Catch::Contains("--force-column") && !Catch::Contains("manifest"));
+}
+
+TEST_CASE("batch takes a folder: its manifest is drafted, and options fill what names do not tell") {
+  const test::TemporaryFolder folder;
+  const std::string runs = folder.path("runs");
+  std::filesystem::create_directory(runs);
+  static_cast<void>(folder.file("runs/a_20mmps.csv", simulated_csv("1")));
+  static_cast<void>(folder.file("runs/b.csv", simulated_csv("2")));
+  const std::string out = folder.path("runs/out");
+  const std::vector<std::string> command{"batch",  runs,     "--out", out,      "--speed",
+                                         "10mm/s", "--zero", "0.5 N", "--quiet"};
+  REQUIRE(slipfit(command).exit_code == 0);
+  const std::string manifest = test::content_of(out + "/manifest.csv");
+  CHECK_THAT(manifest, Catch::Contains("zero_force") && Catch::Contains("a_20mmps,../a_20mmps.csv,0.02,") &&
+                           Catch::Contains("b,../b.csv,0.01,"));
+  const std::string results = test::content_of(out + "/results.jsonl");
+  CHECK(test::lines_in(results) == 2);
+  CHECK_THAT(results, Catch::Contains("\"zero_force_N\":0.5"));
+
+  std::vector<std::string> again = command;
+  check_refused(again, "--resume");
+  again.push_back("--resume");
+  CHECK(slipfit(again).exit_code == 0);
+  again[5] = "30mm/s";
+  check_refused(again, "differs from what would be drafted now");
+  check_refused({"batch", runs, "--out", out, "--shard", "1/2"}, "slipfit manifest");
+  check_refused({"batch", runs, "--out", out, "--mass", "1"}, "--mass");
+  check_refused({"batch", out + "/manifest.csv", "--out", folder.path("o"), "--speed", "1"},
+                "--speed does not go with");
+  CHECK(test::content_of(out + "/results.jsonl") == results);
+}
+
+TEST_CASE("sample, material and operator of a manifest reach results and pages, whose heading is the file's name") {
+  const test::TemporaryFolder folder;
+  static_cast<void>(folder.file("run.csv", simulated_csv("1")));
+  const std::string manifest = folder.file(
+      "runs.csv", "id,file,speed_m_per_s,group,sample,material,operator\nr,run.csv,0.02,dry,S7,<EPDM>,K\u00F6nig\n");
+  const std::string out = folder.path("out");
+  REQUIRE(slipfit({"batch", manifest, "--out", out, "--quiet", "--report", out + "/index.html"}).exit_code == 0);
+  const json recording = json::parse(test::content_of(out + "/results.jsonl"))["recording"];
+  CHECK(recording["sample"] == "S7");
+  CHECK(recording["material"] == "<EPDM>");
+  CHECK(recording["operator"] == "K\u00F6nig");
+  CHECK(recording["group"] == "dry");
+  const std::string page = test::content_of(out + "/recordings/00001-r.html");
+  CHECK_THAT(page, Catch::Contains("<h1>run.csv</h1>") &&
+                       Catch::Contains("<p class=\"file\">" + folder.path("run.csv")) &&
+                       Catch::Contains("sample: S7") && Catch::Contains("material: &lt;EPDM&gt;") &&
+                       Catch::Contains("operator: K\u00F6nig"));
+}
