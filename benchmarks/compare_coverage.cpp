@@ -184,10 +184,10 @@ void add_others(const std::vector<ComparedFit>& a, const std::vector<ComparedFit
   const auto values_b = values_in(b, static_cast<std::size_t>(at - quantities.begin()));
   if (values_a.size() < 2 || values_b.size() < 2) return;
   const auto random = [](const std::vector<Estimate>& v) { return weighted(v, between_variance(v)); };
-  tally.others["standard_errors_alone"] += is_alarm(weighted(values_a, 0.0), weighted(values_b, 0.0)) ? 1 : 0;
-  tally.others["dersimonian_laird"] += is_alarm(random(values_a), random(values_b)) ? 1 : 0;
-  tally.others["knapp_hartung"] += is_alarm(knapp_hartung(values_a), knapp_hartung(values_b)) ? 1 : 0;
-  tally.others["welch_plain"] += is_alarm(plain(values_a), plain(values_b)) ? 1 : 0;
+  tally.others["standard_errors_alone"] += is_alarm(weighted(values_a, 0.0), weighted(values_b, 0.0)) ? 1U : 0U;
+  tally.others["dersimonian_laird"] += is_alarm(random(values_a), random(values_b)) ? 1U : 0U;
+  tally.others["knapp_hartung"] += is_alarm(knapp_hartung(values_a), knapp_hartung(values_b)) ? 1U : 0U;
+  tally.others["welch_plain"] += is_alarm(plain(values_a), plain(values_b)) ? 1U : 0U;
 }
 
 struct Setting {

@@ -9,97 +9,11 @@
 #include <utility>
 
 #include "io/cells.hpp"
+#include "io/manifest_setters.hpp"
 #include "io/message.hpp"
 #include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {
-namespace {
-
-std::optional<Error> refusal(const char* code, const std::string& cell, const char* expected) {
-  return Error{code, fmt::format("bad value '{}', expected {}", printable(cell), expected)};
-}
-
-std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell) {
-  const bool has_slash = cell.find_first_of("/\\") != std::string::npos;
-  const bool has_control =
-      std::any_of(cell.begin(), cell.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
-  if (has_slash || has_control || cell.starts_with("group:")) {
-    return refusal("bad_id", cell, "a name without slash or control character that does not begin with 'group:'");
-  }
-  entry.id = to_utf8(cell);
-  return std::nullopt;
-}
-
-template <auto ManifestEntry::*target>
-std::optional<Error> set_path(ManifestEntry& entry, const std::string& cell) {
-  entry.*target = cell;
-  return std::nullopt;
-}
-
-template <auto Labels::*target>
-std::optional<Error> set_label(ManifestEntry& entry, const std::string& cell) {
-  entry.conditions.labels.*target = to_utf8(cell);
-  return std::nullopt;
-}
-
-std::optional<Error> set_force_view(ManifestEntry& entry, const std::string& cell) {
-  constexpr auto kViews = std::to_array<std::pair<std::string_view, ForceView>>(
-      {{"spring", ForceView::Spring}, {"transmitted", ForceView::Transmitted}, {"contact", ForceView::Contact}});
-  const auto* const view = std::find_if(kViews.begin(), kViews.end(), [&](const auto& v) { return v.first == cell; });
-  if (view == kViews.end()) return refusal("unknown_force_view", cell, "spring, transmitted or contact");
-  entry.conditions.force_view = view->second;
-  return std::nullopt;
-}
-
-template <Dimension dimension, std::optional<std::string> ReadOptions::*target>
-std::optional<Error> set_unit(ManifestEntry& entry, const std::string& cell) {
-  const Result<UnitScale> unit = parse_unit(cell, dimension);
-  const bool is_coefficient = dimension == Dimension::Force && parse_unit(cell, Dimension::Dimensionless);
-  if (!unit && !is_coefficient) return Error{"unknown_unit", printable(unit.error().message)};
-  entry.options.*target = cell;
-  return std::nullopt;
-}
-
-template <auto ReadOptions::*target>
-std::optional<Error> set_option(ManifestEntry& entry, const std::string& cell) {
-  entry.options.*target = cell;
-  return std::nullopt;
-}
-
-std::optional<Error> set_step(ManifestEntry& entry, const std::string& cell) {
-  const double step = plain_number(cell, false);
-  if (!(step >= 0.0 && step < 1e9)) return refusal("bad_step", cell, "the number of a step, as slipfit info lists it");
-  entry.options.step = static_cast<std::size_t>(step);
-  return std::nullopt;
-}
-
-std::optional<Error> set_rows(ManifestEntry& entry, const std::string& cell) {
-  entry.options.rows = parse_row_range(cell);
-  return entry.options.rows ? std::nullopt : refusal("bad_rows", cell, "A:B with 1 <= A < B, rows counted from 1");
-}
-
-std::optional<Error> set_where(ManifestEntry& entry, const std::string& cell) {
-  entry.options.where = parse_column_value(cell);
-  return entry.options.where ? std::nullopt : refusal("bad_where", cell, "COLUMN=VALUE");
-}
-
-std::optional<Error> set_strokes(ManifestEntry& entry, const std::string& cell) {
-  const auto strokes = parse_strokes(cell);
-  entry.options.pieces = strokes.value_or(Pieces::One);
-  return strokes ? std::nullopt : refusal("bad_strokes", cell, "both, positive or negative");
-}
-
-std::optional<Error> set_force_scale(ManifestEntry& entry, const std::string& cell) {
-  entry.options.force_scale = cell;
-  return parse_force_scale(cell) ? std::nullopt : refusal("unknown_unit", cell, "newtons for a unit, such as 5 N/V");
-}
-
-template <auto Conditions::*target>
-void set_condition(ManifestEntry& entry, double number) {
-  entry.conditions.*target = number;
-}
-
-}  // namespace
 
 struct ManifestField {
   enum class Bound { AboveZero, NotNegative, None };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "io/cells.hpp"
 #include "io/container/formats.hpp"
@@ -169,11 +170,20 @@ Result<HeightMap> map_of(X3p& x3p) {
   return map;
 }
 
+Result<ZipArchive> open_archive(const SurfaceFile& file) {
+  auto packed = reading::open_plain(file.path);
+  if (!packed) return packed.error();
+  reading::TextStream bytes = std::move(packed).value();
+  auto content = reading::read_all(bytes, file.name);
+  if (!content) return content.error();
+  return ZipArchive::open(std::move(content).value(), file.name);
+}
+
 }  // namespace
 
 Result<HeightMap> read_x3p(const SurfaceFile& file) {
   try {
-    auto opened = ZipArchive::open(file.path, file.name);
+    auto opened = open_archive(file);
     if (!opened) return opened.error();
     const ZipArchive archive = std::move(opened).value();
     if (archive.find("main.xml") == nullptr) {
