@@ -146,7 +146,7 @@ std::optional<Coefficients> in_range(std::optional<Coefficients> coefficients) {
   for (StandardCoefficients& standard : coefficients->standards) {
     estimates.insert(estimates.end(), {&standard.static_coefficient, &standard.kinetic_coefficient});
   }
-  for (Estimate* estimate : estimates) *estimate = within(std::move(*estimate), kAnyNumber);
+  for (Estimate* estimate : estimates) *estimate = within(std::move(*estimate), kNotNegative);
   return coefficients;
 }
 
