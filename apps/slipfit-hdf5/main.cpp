@@ -1,7 +1,6 @@
 // slipfit-hdf5 mat|hdf5 FILE [VARIABLE]: numbers of a .mat or HDF5 file as CSV on standard output, for slipfit. A
 // program of its own: these libraries take some fifty others with them, and a damaged file that ends them ends nothing
 // else. The first line is "=NAME" of what was read, or "!CODE MESSAGE" of what is wrong.
-#include <sys/resource.h>
 
 #include <cstdio>
 #include <exception>
@@ -9,21 +8,13 @@
 #include <new>
 #include <string_view>
 
+#include "../helper_limits.hpp"
 #include "tables.hpp"
 
 namespace {
 
-/// A file that makes a library run on or take all memory ends this program.
-void limit_resources() {
-  constexpr rlim_t kMostMemory = rlim_t{8} << 30U;
-  constexpr rlim_t kMostSeconds = 120;
-  const rlimit memory{kMostMemory, kMostMemory};
-  const rlimit time{kMostSeconds, kMostSeconds};
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_AS, &memory);
-  setrlimit(RLIMIT_CPU, &time);
-  setrlimit(RLIMIT_CORE, &no_core);
-}
+constexpr rlim_t kMostMemory = rlim_t{8} << 30U;
+constexpr rlim_t kMostSeconds = 120;
 
 bool write(std::string_view text) {
   return std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
@@ -57,7 +48,7 @@ int run(std::string_view kind, const std::string& file, const std::optional<std:
 
 int main(int argc, char** argv) {
   if (argc < 3 || argc > 4) return 2;
-  limit_resources();
+  limit_resources(kMostMemory, kMostSeconds);
   try {
     return run(argv[1], argv[2], argc > 3 ? std::optional<std::string>(argv[3]) : std::nullopt);
   } catch (const Refusal& refusal) {

@@ -2,12 +2,13 @@
 // then two bytes a pixel, the lower first, row by row. "!CODE MESSAGE" where something is wrong. A program of its own:
 // the libraries take several others with them, and a damaged file that ends them ends nothing else.
 #include <leptonica/allheaders.h>
-#include <sys/resource.h>
 
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <vector>
+
+#include "../helper_limits.hpp"
 
 namespace {
 
@@ -18,17 +19,8 @@ using Image = std::unique_ptr<Pix, Destroy>;
 
 constexpr std::int64_t kMostPixels = std::int64_t{64} << 20U;
 
-/// A file that makes a library run on or take all memory ends this program.
-void limit_resources() {
-  constexpr rlim_t kMostMemory = rlim_t{2} << 30U;
-  constexpr rlim_t kMostSeconds = 60;
-  const rlimit memory{kMostMemory, kMostMemory};
-  const rlimit time{kMostSeconds, kMostSeconds};
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_AS, &memory);
-  setrlimit(RLIMIT_CPU, &time);
-  setrlimit(RLIMIT_CORE, &no_core);
-}
+constexpr rlim_t kMostMemory = rlim_t{2} << 30U;
+constexpr rlim_t kMostSeconds = 60;
 
 int refuse(const char* line) {
   std::printf("!%s\n", line);
@@ -63,7 +55,7 @@ bool write(const Image& image) {
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
-  limit_resources();
+  limit_resources(kMostMemory, kMostSeconds);
   setMsgSeverity(L_SEVERITY_NONE);
   l_int32 format = 0;
   l_int32 width = 0;

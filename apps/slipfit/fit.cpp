@@ -32,12 +32,11 @@ SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& co
     throw Failure(ExitCode::WrongUsage,
                   option->get_name() + " does not go with --joint: the manifest says how each recording was made");
   }
-  return {arguments.group ? *arguments.group : std::filesystem::path(*arguments.sweep).stem().string(),
+  const AnalysisArguments& analysis = arguments.analysis;
+  const std::string name = arguments.group ? *arguments.group : std::filesystem::path(*arguments.sweep).stem().string();
+  return {{name, analysis.document, analysis.report, analysis.command_line},
           *arguments.sweep,
-          manifest_entries(*arguments.sweep, arguments.group, arguments.only),
-          arguments.analysis.document,
-          arguments.analysis.report,
-          arguments.analysis.command_line};
+          manifest_entries(*arguments.sweep, arguments.group, arguments.only)};
 }
 
 /// The strokes or segments of one file as a joint fit.
@@ -71,7 +70,7 @@ SweepArguments sweep_of_files(const FitArguments& arguments, const CLI::App& com
   const auto draft = draft_of(analysis.recording.files, read_options_from(analysis.recording), tell);
   std::vector<slipfit::ManifestEntry> entries = entries_of(draft, analysis.recording, tell);
   const std::string name = name_of(entries);
-  return {name, {}, std::move(entries), analysis.document, analysis.report, analysis.command_line};
+  return {{name, analysis.document, analysis.report, analysis.command_line}, {}, std::move(entries)};
 }
 
 }  // namespace

@@ -47,28 +47,29 @@ slipfit::SweepAnalysis analyzed(const std::vector<slipfit::SweepEntry>& entries,
   return slipfit::analyze_sweep(entries, options);
 }
 
+std::vector<OutputFile> outputs_from(const SweepDocument& document) {
+  return outputs_of({{"--out", document.options.out}, {"--report", document.report}});
+}
+
 }  // namespace
 
 void run_sweep(const SweepArguments& arguments, const slipfit::FitOptions& options) {
-  const std::vector<OutputFile> outputs =
-      outputs_of({{"--out", arguments.document.out}, {"--report", arguments.report}});
+  const std::vector<OutputFile> outputs = outputs_from(arguments.document);
   check_outputs(outputs, arguments.manifest);
   for (const ManifestEntry& entry : arguments.entries) check_outputs(outputs, entry.file.string());
   const std::vector<slipfit::SweepEntry> entries = read_recordings(arguments.entries);
-  write_sweep({arguments.name, arguments.document, arguments.report, arguments.command_line}, entries,
-              analyzed(entries, options, arguments.document));
+  write_sweep(arguments.document, entries, analyzed(entries, options, arguments.document.options));
 }
 
 void write_sweep(const SweepDocument& document, const std::vector<slipfit::SweepEntry>& entries,
                  const slipfit::SweepAnalysis& sweep) {
   slipfit::JsonOptions layout;
   layout.id = document.name;
-  const std::vector<OutputFile> outputs = outputs_of({{"--out", document.document.out}, {"--report", document.report}});
-  write_results(document.document, outputs, [&](const std::string& option) {
+  write_results(document.options, outputs_from(document), [&](const std::string& option) {
     if (option == "--report") {
       return to_html(entries, sweep, predict_around(entries, sweep), {layout.id, document.command_line});
     }
-    return document.document.json ? slipfit::to_json(entries, sweep, layout) + "\n"
-                                  : slipfit::to_text(entries, sweep, layout.id);
+    return document.options.json ? slipfit::to_json(entries, sweep, layout) + "\n"
+                                 : slipfit::to_text(entries, sweep, layout.id);
   });
 }

@@ -9,23 +9,22 @@
 #include "slipfit/io/manifest_entry.hpp"
 #include "slipfit/sweep.hpp"
 
-/// A joint fit: one parameter set for several recordings.
-struct SweepArguments {
-  std::string name;      ///< the document's id
-  std::string manifest;  ///< empty: none, the recordings were named one by one
-  std::vector<slipfit::ManifestEntry> entries;
-  DocumentOptions document;
+/// What is written of several recordings, and where.
+struct SweepDocument {
+  std::string name;  ///< the document's id
+  DocumentOptions options;
   std::optional<std::string> report;
   std::string command_line;  ///< as typed, for the report
 };
 
-/// What is written of several recordings, and how it is called.
-struct SweepDocument {
-  std::string name;
-  DocumentOptions document;
-  std::optional<std::string> report;
-  std::string command_line;
+/// A joint fit: one parameter set for several recordings.
+struct SweepArguments {
+  SweepDocument document;
+  std::string manifest;  ///< empty: none, the recordings were named one by one
+  std::vector<slipfit::ManifestEntry> entries;
 };
+
+/// Throws Failure.
 void write_sweep(const SweepDocument& document, const std::vector<slipfit::SweepEntry>& entries,
                  const slipfit::SweepAnalysis& sweep);
 
