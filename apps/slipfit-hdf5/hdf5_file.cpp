@@ -49,7 +49,7 @@ bool has_huge_chunks(hid_t dataset, hid_t type) {
   if (H5Pget_layout(settings) != H5D_CHUNKED) return false;
   std::array<hsize_t, H5S_MAX_RANK> extents{};
   const int rank = H5Pget_chunk(settings, static_cast<int>(extents.size()), extents.data());
-  double bytes = static_cast<double>(H5Tget_size(type));
+  auto bytes = static_cast<double>(H5Tget_size(type));
   for (int i = 0; i < rank; ++i) bytes *= static_cast<double>(extents.at(static_cast<std::size_t>(i)));
   return bytes > static_cast<double>(kMostChunkBytes);
 }
@@ -135,7 +135,7 @@ hid_t open_in_memory(const std::string& file, std::uint64_t size) {
   std::vector<char> content(static_cast<std::size_t>(size));
   std::ifstream(file, std::ios::binary).read(content.data(), static_cast<std::streamsize>(size));
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fapl_core(access, kIncrement, 0);
+  H5Pset_fapl_core(access, kIncrement, false);
   H5Pset_file_image(access, content.data(), content.size());
   return H5Fopen("recording", H5F_ACC_RDONLY, access);
 }

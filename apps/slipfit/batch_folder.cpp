@@ -44,8 +44,8 @@ std::vector<slipfit::DraftColumn> columns_from(const CLI::App& command) {
   static const std::set<std::string> kNoColumn{"--mass", "--sensor-bandwidth", "--sensor-resonance", "--step"};
   std::vector<slipfit::DraftColumn> columns;
   for (const CLI::Option* const option : given_options(command)) {
-    if (kFilled.count(option->get_name()) > 0) continue;
-    if (kNoColumn.count(option->get_name()) > 0) {
+    if (kFilled.contains(option->get_name())) continue;
+    if (kNoColumn.contains(option->get_name())) {
       throw Failure(ExitCode::WrongUsage, option->get_name() + " belongs to one recording: use slipfit fit");
     }
     columns.push_back({column_of(option->get_name()), option->results().front()});
@@ -103,7 +103,7 @@ std::string drafted_manifest(const BatchFolder& folder, const CLI::App& command,
   fill(draft, folder.options);
   check_speeds(draft, folder, tell);
   make_folder({"--out", folder.out});
-  const std::string file = (fs::path(folder.out) / "manifest.csv").string();
+  std::string file = (fs::path(folder.out) / "manifest.csv").string();
   const std::string text = slipfit::to_csv(draft, folder.out, columns);
   check_same(file, text);
   write_file({"--out", file}, text);

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -55,12 +56,10 @@ void check_command(const CLI::App& program, const std::string& first_argument) {
 }
 
 bool is_unit(const std::string& text) {
-  for (const auto dimension :
-       {slipfit::Dimension::Time, slipfit::Dimension::Length, slipfit::Dimension::Speed, slipfit::Dimension::Force,
-        slipfit::Dimension::Frequency, slipfit::Dimension::Mass, slipfit::Dimension::AngularSpeed}) {
-    if (slipfit::parse_unit(text, dimension)) return true;
-  }
-  return false;
+  using enum slipfit::Dimension;
+  constexpr std::array kDimensions{Time, Length, Speed, Force, Frequency, Mass, AngularSpeed};
+  return std::any_of(kDimensions.begin(), kDimensions.end(),
+                     [&text](slipfit::Dimension dimension) { return bool(slipfit::parse_unit(text, dimension)); });
 }
 
 /// "--speed 10 mm/s" without quotes arrives as three words: a number behind an option and a unit, which no file is

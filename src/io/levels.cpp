@@ -82,7 +82,7 @@ std::vector<SampleRange> stretches_of_levels(std::span<const double> values, dou
   const std::size_t size = block_size(values.size());
   const double standing = blocks.empty() ? 0.0 : tolerance * *std::max_element(blocks.begin(), blocks.end());
   std::vector<SampleRange> stretches;
-  double lowest = INFINITY;
+  double lowest = HUGE_VAL;
   double highest = 0.0;
   for (std::size_t begin = 0; begin < blocks.size();) {
     std::size_t end = begin;

@@ -22,7 +22,7 @@ constexpr std::size_t kMostSteps = 50;
 bool has_usual_ending(const fs::path& file) {
   static const std::set<std::string> kEndings{".csv", ".txt",  ".tsv", ".dat", ".asc",  ".lvm", ".gz",
                                               ".zip", ".xlsx", ".mat", ".h5",  ".hdf5", ".tdms"};
-  return kEndings.count(reading::lower(file.extension().string())) > 0;
+  return kEndings.contains(reading::lower(file.extension().string()));
 }
 
 /// In the order of their names, lest the draft depend on the disk.

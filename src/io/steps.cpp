@@ -79,6 +79,7 @@ std::vector<Step> steps_of_levels(const Rows& rows) {
   auto stretches = stretches_of_levels(rows.speed_m_per_s, kSpeedStep);
   if (stretches.empty()) stretches = stretches_of_levels(rows.normal_force_N, kLoadStep);
   std::vector<Step> steps;
+  steps.reserve(stretches.size());
   for (const SampleRange& stretch : stretches) steps.push_back({steps.size() + 1, stretch.begin, stretch.end});
   if (steps.empty()) steps.push_back({1, 0, rows.time_s.size()});
   return steps;

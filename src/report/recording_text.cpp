@@ -117,7 +117,7 @@ Table estimate_table() {
 
 /// What is not known is a row only where the note says why. `unit`: of SI, or one to show.
 template <class Unit>
-void add_estimate(Table& table, std::string_view words, const Estimate& estimate, const Unit& unit) {
+void add_estimate(Table& table, std::string_view words, const Estimate& estimate, Unit unit) {
   if (!estimate.value && !estimate.ci95 && estimate.note.empty()) return;
   const EstimateRow row = estimate_row(estimate, unit);
   table.add({std::string(words), row.value, row.unit, row.interval == "-" ? std::string() : row.interval,

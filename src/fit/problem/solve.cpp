@@ -26,8 +26,9 @@ class CycleCost : public ceres::CostFunction {
         jacobian_(model.residuals(), model.columns()),
         reduced_(model.columns() + 1, model.columns() + 1) {
     set_num_residuals(static_cast<int>(model.columns() + 1));
-    for (const std::size_t size : {model.globals(), std::size_t{has_difference_}, std::size_t{model.has_constant()},
-                                   model.drift_parameters(), model.local_parameters()}) {
+    for (const std::size_t size :
+         {model.globals(), std::size_t{has_difference_ ? 1U : 0U}, std::size_t{model.has_constant() ? 1U : 0U},
+          model.drift_parameters(), model.local_parameters()}) {
       if (size > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(size));
     }
   }

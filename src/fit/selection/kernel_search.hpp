@@ -21,10 +21,10 @@ enum class Kernel { MovingAverage, FirstOrder };
 /// of first order T^2.
 class KernelSearch {
  public:
-  /// `plain`: the fit of all cycles without a kernel. `half_width_s`: around the middle of a slip, what the kernel may
-  /// change.
+  /// `plain`: the fit of all cycles without a kernel. `count`: of cycles. `half_width_s`: around the middle of a slip,
+  /// what the kernel may change.
   KernelSearch(const Recording& recording, const Segmentation& segmentation, const HeldParameters& held,
-               const DampedFit& plain, double half_width_s, std::size_t cycles);
+               const DampedFit& plain, double half_width_s, std::size_t count);
 
   /// W of a moving average: Newton's steps in W^2, none by more than a factor of 4, until they are small or within the
   /// error; empty where they do not get smaller, or where the slips are not explained much better than by `plain`.

@@ -21,9 +21,12 @@ class GzipStream final : public ByteStream {
     if (inflateInit2(&state_, kGzipWindow) != Z_OK) throw std::bad_alloc();
   }
   ~GzipStream() override { inflateEnd(&state_); }
+  GzipStream(const GzipStream&) = delete;
+  GzipStream& operator=(const GzipStream&) = delete;
 
   std::size_t read(char* buffer, std::size_t size) override {
-    state_.next_out = reinterpret_cast<Bytef*>(buffer);
+    state_.next_out =
+        reinterpret_cast<Bytef*>(buffer);  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast): zlib's bytes
     state_.avail_out = static_cast<uInt>(size);
     while (state_.avail_out > 0 && !ended_) {
       if (state_.avail_in == 0 && !fill()) throw ContainerError(damaged(name_, "the gzip file ends too soon"));
@@ -42,8 +45,9 @@ class GzipStream final : public ByteStream {
 
  private:
   bool fill() {
-    state_.next_in = input_.data();
-    state_.avail_in = static_cast<uInt>(packed_->read(reinterpret_cast<char*>(input_.data()), input_.size()));
+    state_.next_in =
+        reinterpret_cast<Bytef*>(input_.data());  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast): as above
+    state_.avail_in = static_cast<uInt>(packed_->read(input_.data(), input_.size()));
     stored_ += state_.avail_in;
     return state_.avail_in > 0;
   }
@@ -63,7 +67,7 @@ class GzipStream final : public ByteStream {
   std::unique_ptr<ByteStream> packed_;
   std::string name_;
   z_stream state_{};
-  std::array<Bytef, 65536> input_{};
+  std::array<char, 65536> input_{};
   std::uintmax_t unpacked_ = 0;
   std::uintmax_t stored_ = 0;
   bool ended_ = false;

@@ -12,8 +12,6 @@
 #include "io/container/formats.hpp"
 #include "io/message.hpp"
 
-extern char** environ;
-
 namespace slipfit::reading {
 namespace {
 
@@ -25,6 +23,8 @@ class ProgramStream final : public ByteStream {
     ::close(pipe_);
     if (!ended_) (void)wait();
   }
+  ProgramStream(const ProgramStream&) = delete;
+  ProgramStream& operator=(const ProgramStream&) = delete;
 
   std::size_t read(char* buffer, std::size_t size) override {
     std::size_t count = 0;
@@ -111,8 +111,11 @@ Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const H
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     return Error{"not_readable", name + ": no pipe can be made; close programs"};
-  std::vector<char*> words{const_cast<char*>(program.c_str())};
-  for (const std::string& argument : helper.arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  std::vector<std::string> texts{program};
+  texts.insert(texts.end(), helper.arguments.begin(), helper.arguments.end());
+  std::vector<char*> words;
+  words.reserve(texts.size() + 1);
+  for (std::string& word : texts) words.push_back(word.data());
   words.push_back(nullptr);
   posix_spawn_file_actions_t actions{};
   ::posix_spawn_file_actions_init(&actions);

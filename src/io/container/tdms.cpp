@@ -42,7 +42,7 @@ NumberTable table_of(const std::vector<TdmsChannel>& channels, const std::string
       }
     }
     const std::string unit = channel.type == kTdmsTimeStamp ? "s" : channel.unit;
-    table.names.push_back(unit.empty() ? name : name + " [" + unit + "]");
+    table.names.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
     table.columns.push_back(channel.values);
     if (channel.type != kTdmsTimeStamp) continue;
     for (double& value : table.columns.back()) value -= channel.values.front();
@@ -59,9 +59,10 @@ Result<std::string> choose_group(const std::vector<TdmsChannel>& channels, const
   }
   if (values.empty()) return damaged(name, "the TDMS file holds no channel of numbers");
   std::vector<std::string> groups;
+  groups.reserve(values.size());
   for (const auto& [group, count] : values) groups.push_back(group);
   if (choice.variable) {
-    if (values.count(*choice.variable) > 0) return *choice.variable;
+    if (values.contains(*choice.variable)) return *choice.variable;
     return Error{"unknown_variable", fmt::format("{}: the TDMS file holds no group '{}' with numbers but '{}'; choose "
                                                  "one with --variable",
                                                  name, printable(*choice.variable),

@@ -119,7 +119,7 @@ class TdmsReader {
       Cursor sizes(lead.substr(12), order);
       const std::uint64_t left = file_.size() - begin - kLeadIn;
       const std::uint64_t segment = std::min(sizes.number<std::uint64_t>(), left);  // all ones: the writer did not end
-      const std::uint64_t meta = sizes.number<std::uint64_t>();
+      const auto meta = sizes.number<std::uint64_t>();
       if (meta > segment) throw Damaged{};
       const std::string_view body = file_.substr(begin + kLeadIn, static_cast<std::size_t>(segment));
       Cursor cursor(body.substr(0, static_cast<std::size_t>(meta)), order);

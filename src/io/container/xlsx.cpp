@@ -175,6 +175,7 @@ Result<TextStream> open_workbook(const ZipArchive& archive, const std::string& n
   const std::vector<Sheet>& sheets = workbook.value().sheets;
   if (sheets.empty()) return damaged(name, "the workbook holds no sheet");
   std::vector<std::string> names;
+  names.reserve(sheets.size());
   for (const Sheet& sheet : sheets) names.push_back(sheet.name);
   const auto largest =
       std::max_element(sheets.begin(), sheets.end(), [](const Sheet& a, const Sheet& b) { return a.bytes < b.bytes; });

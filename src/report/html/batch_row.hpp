@@ -9,11 +9,11 @@ namespace slipfit::html {
 
 /// A quantity of the table, in one unit so that rows compare by eye, and its distribution.
 struct BatchColumn {
-  const char* heading;
-  const char* unit;
-  double per_SI;
-  Estimate BatchPageRow::*quantity;
-  const char* id;                                         ///< of the distribution
+  const char* heading = nullptr;
+  const char* unit = nullptr;
+  double per_SI = 1.0;
+  Estimate BatchPageRow::*quantity = nullptr;
+  const char* id = nullptr;                               ///< of the distribution
   std::string BatchPageRow::*parameter_status = nullptr;  ///< null for what is no parameter
 };
 

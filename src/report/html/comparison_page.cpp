@@ -27,7 +27,7 @@ struct ChartSide {
 std::vector<CycleWindow> windows_of_side(const Recordings& recordings) {
   for (const ComparedRecording& one : recordings) {
     if (!shows_cycles(one.analysis)) continue;
-    const auto windows = windows_of(one.analysis.cycles, one.recording.sample_interval_s());
+    auto windows = windows_of(one.analysis.cycles, one.recording.sample_interval_s());
     if (!windows.empty()) return windows;
   }
   return {};

@@ -96,7 +96,9 @@ std::string picture_with_data(const chart::Chart& chart, const std::string& id, 
   for (std::size_t i = 0; i < chart.panels.size(); ++i) {
     const chart::Panel& panel = chart.panels[i];
     const std::string axes = panel.y.label + " over " + panel.x.label;
-    const auto words = [&axes](const std::string& name) { return name.empty() ? axes : name + ", " + axes; };
+    const auto words = [&axes](const std::string& name) {
+      return name.empty() ? axes : fmt::format("{}, {}", name, axes);
+    };
     for (const chart::Line& line : panel.lines) data += series_json(i + 1, words(line.name), line.points);
     for (const chart::Markers& marks : panel.markers) data += series_json(i + 1, words(marks.name), marks.points);
     for (const chart::Area& area : panel.areas) data += series_json(i + 1, words(area.name), area.outline);

@@ -16,7 +16,7 @@ namespace slipfit::html {
 namespace {
 
 template <class Unit>
-std::string key_number(const std::string& name, const Estimate& estimate, const Unit& unit) {
+std::string key_number(const std::string& name, const Estimate& estimate, Unit unit) {
   const EstimateRow row = estimate_row(estimate, unit);
   const std::string shown = row.value == "-" ? "not known" : row.value + (row.unit.empty() ? "" : " " + row.unit);
   const std::string interval = row.interval == "-" ? "" : "<small>" + text(row.interval) + "</small>";

@@ -41,7 +41,7 @@ std::vector<chart::Point> drawn_profile(const Profile& profile, const ProfileUni
 
 /// Height of the profile at the sample next to a place.
 double height_at(const Profile& profile, double place_m) {
-  const double last = static_cast<double>(profile.height.size() - 1);
+  const auto last = static_cast<double>(profile.height.size() - 1);
   return profile.height[static_cast<std::size_t>(std::clamp(std::round(place_m / profile.pitch_m), 0.0, last))];
 }
 
