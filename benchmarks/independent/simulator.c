@@ -17,6 +17,8 @@ typedef struct {
   double sensor_omega, sensor_damping;    /* second-order sensor; 0: none */
   double precursor_at, precursor_share;   /* small fall at this share of the way to F_s */
   double aftershock_s, aftershock_share;  /* small fall so long after a slip */
+  double velocity_law;                    /* of stribeck_force: 0 exponential, 1 logarithmic, 2 hyperbolic */
+  double ageing_law;                      /* 0 ln(1 + t/t_c), 1 power of t/t_c, 2 saturating */
 } Model;
 
 /* What changes with time, one value a sample; static friction further takes a factor for each slip. */
@@ -35,9 +37,18 @@ static double sign_of(double x) { return x < 0 ? -1.0 : 1.0; }
 
 static double friction(const Model *m, double kinetic, double excess, double speed, double slid) {
   double f = kinetic + m->quadratic * speed * speed;
-  if (m->stribeck_speed > 0) f += m->stribeck_force * exp(-fabs(speed) / m->stribeck_speed);
+  if (m->stribeck_speed > 0) {
+    const double x = fabs(speed) / m->stribeck_speed;
+    f += m->stribeck_force * (m->velocity_law == 0 ? exp(-x) : m->velocity_law == 1 ? -log1p(x) : 1.0 / (1.0 + x));
+  }
   if (m->weakening_length > 0 && slid < m->weakening_length) f += excess * (1.0 - slid / m->weakening_length);
   return f;
+}
+
+static double aged(const Model *m, double stick_s) {
+  if (m->ageing_time <= 0) return 0.0;
+  const double x = stick_s / m->ageing_time;
+  return m->ageing * (m->ageing_law == 0 ? log1p(x) : m->ageing_law == 1 ? pow(x, 0.25) : -expm1(-x));
 }
 
 static double tangent(const Model *m, const State *s, int sliding) {
@@ -156,7 +167,7 @@ long simulate(const Model *m, const Course *course, double start_force, double *
       if (!o.sliding) {
         o.fs = course->static_friction[i] * course->slip_factor[o.slips % course->factors] +
                kinetic * (1.0 - course->slip_factor[o.slips % course->factors]);
-        if (m->ageing_time > 0) o.fs += m->ageing * log1p(o.stick_s / m->ageing_time);
+        o.fs += aged(m, o.stick_s);
         small_falls(m, &o);
         if (fabs(o.state.force + damper * drive) >= o.fs) begin_slip(m, &o, drive, now, slips);
       }
@@ -168,6 +179,14 @@ long simulate(const Model *m, const Course *course, double start_force, double *
         end_slip(m, &o, now + share * h, slips);
         o.state = stepped(m, o.state, (1.0 - share) * h, drive, kinetic, o.fs, 0, o.direction);
       } else if (!o.sliding) {
+        const double tension = fabs(before.force + damper * drive), next = fabs(o.state.force + damper * drive);
+        const double fs = o.fs + aged(m, o.stick_s + h) - aged(m, o.stick_s);
+        if (next >= fs && next > tension) { /* within this step: both are straight over it */
+          const double share = (o.fs - tension) / ((next - tension) - (fs - o.fs));
+          o.state = stepped(m, before, share * h, drive, kinetic, o.fs, 0, o.direction);
+          begin_slip(m, &o, drive, now + share * h, slips);
+          o.state = stepped(m, o.state, (1.0 - share) * h, drive, kinetic, o.fs, 1, o.direction);
+        }
         o.stick_s += h;
       }
     }

@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""Draws sweeps of every family with their truth: OUT/FAMILY-SEED/{manifest.csv, RUN.csv} and OUT/truth.jsonl.
+
+    make_sweeps.py OUT [--count 25] [--seed 1] [--only coulomb5,two]
+"""
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import zlib
+
+import numpy as np
+
+import sweeps
+from simulator import write_csv
+
+FAMILIES = {f.__name__: f for f in sweeps.FAMILIES}
+
+
+def make(out, family, seed):
+    sweep = FAMILIES[family](np.random.default_rng([seed, zlib.crc32(family.encode())]))
+    folder = out / f"{family}-{seed}"
+    folder.mkdir(parents=True, exist_ok=True)
+    traces = [sweeps.trace(sweep, run) for run in sweep.runs]
+    loads = any(run.stated_load for run in sweep.runs)
+    with open(folder / "manifest.csv", "w", encoding="utf-8") as manifest:
+        manifest.write("id,file,speed_m_per_s" + (",normal_force_N" if loads else "") + "\n")
+        for i, run in enumerate(sweep.runs):
+            write_csv(folder / f"run{i}.csv", *traces[i if run.source is None else run.source])
+            load = f",{run.stated_load:.6g}" if loads else ""
+            manifest.write(f"run{i},run{i}.csv,{run.stated_speed or run.speed:.9g}{load}\n")
+    return {"id": folder.name, "family": family, "speeds_m_per_s": [r.speed for r in sweep.runs], **sweeps.truth_of(sweep)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--count", type=int, default=25)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default=",".join(FAMILIES))
+    parser.add_argument("--jobs", type=int, default=2)
+    arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    tasks = [(arguments.out, family, seed) for family in arguments.only.split(",")
+             for seed in range(arguments.seed, arguments.seed + arguments.count)]
+    with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool, open(arguments.out / "truth.jsonl", "w", encoding="utf-8") as truths:
+        for truth in pool.map(make, *zip(*tasks)):
+            truths.write(json.dumps(truth, default=float) + "\n")
+
+
+if __name__ == "__main__":
+    main()

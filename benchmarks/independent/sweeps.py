@@ -1,0 +1,313 @@
+"""Families of simulated sweeps with their truth: what happens at speeds that were not measured, and where stick-slip ends.
+
+A sweep is one sliding pair at several speeds; a family bends one thing in it. Seeds from 5000 up are for reports.
+"""
+import dataclasses
+
+import numpy as np
+
+from simulator import Model, simulate
+
+BEYOND = (2.0, 4.0)  # of the fastest recording
+
+
+@dataclasses.dataclass
+class Run:
+    """One recording: what was driven, and what the manifest says of it."""
+    speed: float
+    model: Model
+    drop: float
+    kinetic: float
+    stated_speed: float = None
+    stated_load: float = None
+    average: int = 0     # samples
+    offset: float = 0.0  # N
+    source: int = None   # the trace is that of this other recording
+
+
+@dataclasses.dataclass
+class Sweep:
+    """Proportions of a pair, its recordings, and the number of the one that is wrong (None: none is)."""
+    rng: np.random.Generator
+    runs: list
+    noise: float
+    per_slip: float
+    load: float = 1.0  # share of the friction at the speeds predicted
+    bad: int = None
+    slips: tuple = (14, 25)
+
+
+def base_model(rng, zeta=(0.03, 0.2)):
+    return Model(stiffness=10 ** rng.uniform(2, 4), omega=2 * np.pi * 10 ** rng.uniform(0.7, 1.8), damping_ratio=rng.uniform(*zeta))
+
+
+def draw(rng, count, span, bend=None, fastest=(6, 20), zeta=(0.03, 0.2)):
+    """`bend(model, drop)` changes the model; F_s - F_k(0+) stays `drop` after a stick of the middle speed, roughly."""
+    model = base_model(rng, zeta)
+    drop = 10 ** rng.uniform(-1.0, 0.7)
+    top = drop / model.stiffness * model.omega / np.exp(rng.uniform(*np.log(fastest)))
+    speeds = top * span ** (-np.arange(count)[::-1] / max(1, count - 1)) * np.exp(0.03 * rng.standard_normal(count) * (count > 2))
+    kinetic = drop * rng.uniform(1.5, 5)
+    if bend:
+        drop, kinetic = bend(model, drop, kinetic, speeds)
+    runs = [Run(v, model, drop, kinetic) for v in speeds]
+    return Sweep(rng, runs, drop * np.exp(rng.uniform(*np.log((0.003, 0.03)))), rng.uniform(10, 30))
+
+
+def stick_s(model, drop, speed):
+    return 1.8 * drop / (model.stiffness * speed)
+
+
+def ageing(rng, law=0, cut_off=(-4, -2), share=(0.03, 0.08), exponential=False):
+    """Static friction grows by `share` of F_s - F_k a factor of e in stick time, by one of three functions of it; `cut_off`:
+    powers of ten of the time below which ln(1 + t/t_c) ends, over the stick of the middle speed."""
+    def bend(model, drop, kinetic, speeds):
+        middle = stick_s(model, drop, np.sqrt(speeds[0] * speeds[-1]))
+        amount = rng.uniform(*share) * drop
+        model.ageing_law = law
+        if law == 0:
+            model.ageing, model.ageing_time = amount, middle * 10 ** rng.uniform(*cut_off)
+            now = amount * np.log1p(middle / model.ageing_time)
+        elif law == 1:
+            model.ageing, model.ageing_time = amount / 0.25, middle
+            now = model.ageing
+        else:
+            model.ageing, model.ageing_time = amount * 3, middle * 10 ** rng.uniform(-0.4, 0.4)
+            now = -model.ageing * np.expm1(-middle / model.ageing_time)
+        if exponential:
+            velocity(rng, 0)(model, drop, kinetic, speeds)
+        return max(0.2 * drop, drop - now), kinetic
+    return bend
+
+
+def velocity(rng, law, sign=1):
+    def bend(model, drop, kinetic, speeds):
+        slip_speed = drop / model.stiffness * model.omega
+        model.velocity_law = law
+        if law == 1:
+            model.stribeck_force, model.stribeck_speed = sign * drop * rng.uniform(0.02, 0.08), slip_speed * 10 ** rng.uniform(-2.5, -1)
+        else:
+            model.stribeck_force, model.stribeck_speed = sign * drop * rng.uniform(0.1, 0.4), slip_speed * 10 ** rng.uniform(-0.7, 0.5)
+        return drop + max(0.0, model.stribeck_force), kinetic  # F_s - F_k(0+) = drop; the level stays positive
+    return bend
+
+
+def coulomb5(rng):
+    return draw(rng, 5, 8)
+
+
+def coulomb3(rng):
+    return draw(rng, 3, rng.uniform(4, 8))
+
+
+def exponential(rng):
+    return draw(rng, 5, 8, velocity(rng, 0))
+
+
+def age_ln3(rng):
+    return draw(rng, 3, rng.uniform(4, 8), ageing(rng))
+
+
+def age_ln4(rng):
+    return draw(rng, 4, rng.uniform(4, 8), ageing(rng))
+
+
+def age_ln6(rng):
+    return draw(rng, 6, rng.uniform(8, 20), ageing(rng))
+
+
+def age_cutoff(rng):
+    return draw(rng, 4, rng.uniform(4, 8), ageing(rng, cut_off=(-0.7, 0.3)))
+
+
+def age_power(rng):
+    return draw(rng, 4, rng.uniform(4, 8), ageing(rng, 1))
+
+
+def age_saturating(rng):
+    return draw(rng, 4, rng.uniform(4, 8), ageing(rng, 2))
+
+
+def age_exponential(rng):
+    return draw(rng, 4, rng.uniform(4, 8), ageing(rng, exponential=True))
+
+
+def log_falling(rng):
+    return draw(rng, 4, rng.uniform(4, 8), velocity(rng, 1))
+
+
+def log_rising(rng):
+    return draw(rng, 4, rng.uniform(4, 8), velocity(rng, 1, -1))
+
+
+def hyperbolic(rng):
+    return draw(rng, 4, rng.uniform(4, 8), velocity(rng, 2))
+
+
+def two(rng):
+    return draw(rng, 2, rng.uniform(4, 8), ageing(rng))
+
+
+def two_coulomb(rng):
+    return draw(rng, 2, rng.uniform(4, 8))
+
+
+def narrow(rng):
+    return draw(rng, 4, 1.2, ageing(rng))
+
+
+def trended(rng):
+    """k changes with ln V, by 5 to 15 % over the sweep."""
+    sweep = draw(rng, 4, rng.uniform(4, 8))
+    total = rng.uniform(0.05, 0.15) * rng.choice([-1, 1])
+    speeds = np.array([r.speed for r in sweep.runs])
+    for run in sweep.runs:
+        run.model = trended_model(sweep.runs[0].model, speeds, total, run.speed)
+    sweep.model_at = lambda v, first=sweep.runs[0].model: trended_model(first, speeds, total, v)
+    return sweep
+
+
+def trended_model(first, speeds, total, speed):
+    share = np.log(speed / speeds[0]) / np.log(speeds[-1] / speeds[0])
+    model = Model.from_buffer_copy(first)
+    model.stiffness *= 1 + total * share
+    model.omega *= np.sqrt(1 + total * share)
+    return model
+
+
+def averaging(rng):
+    sweep = draw(rng, 4, rng.uniform(4, 8))
+    width = int(rng.integers(3, 9))
+    for run in sweep.runs:
+        run.average = width
+    return sweep
+
+
+def drifting(rng):
+    """The surface changes from recording to recording, as with its temperature: F_s - F_k by 5 to 20 % over the sweep."""
+    sweep = draw(rng, 5, 8)
+    total = rng.uniform(0.05, 0.2) * rng.choice([-1, 1])
+    in_order = rng.random() < 0.5
+    for i, place in enumerate(np.arange(5) if in_order else rng.permutation(5)):
+        sweep.runs[i].drop *= 1 + total * (place / 4 - 0.5)
+    sweep.drop = sweep.runs[-1].drop if in_order else float(np.mean([r.drop for r in sweep.runs]))
+    return sweep
+
+
+def zeros(rng):
+    sweep = draw(rng, 5, 8)
+    for run in sweep.runs:
+        run.offset = run.drop * 0.3 * rng.standard_normal()
+    return sweep
+
+
+def wrong_loads(rng):
+    """Loads differ twofold; the stated ones are off by 5 %."""
+    sweep = draw(rng, 5, 8)
+    for i, run in enumerate(sweep.runs):
+        load = 1.0 if i == 0 else rng.uniform(1, 2)
+        run.drop, run.kinetic = run.drop * load, run.kinetic * load
+        run.stated_load = 5.0 * load * (1 if i == 0 else 1 + 0.05 * rng.standard_normal())
+    return sweep
+
+
+def near_critical(rng):
+    """The fastest recordings stand near the end of stick-slip and beyond it."""
+    sweep = draw(rng, 6, rng.uniform(20, 40), zeta=(0.1, 0.3), fastest=(1.0, 2.5))
+    return sweep
+
+
+def _bad(rng, change):
+    sweep = draw(rng, 5, 8)
+    sweep.bad = int(rng.integers(0, 5))
+    change(sweep, sweep.runs[sweep.bad])
+    return sweep
+
+
+def bad_speed(rng):
+    return _bad(rng, lambda s, r: setattr(r, "stated_speed", 1.1 * r.speed))
+
+
+def bad_unit(rng):
+    return _bad(rng, lambda s, r: setattr(r, "stated_speed", r.speed / 60))
+
+
+def other_material(rng):
+    def change(sweep, run):
+        run.drop *= rng.choice([0.6, 0.7, 1.4, 1.6])
+        run.model = Model.from_buffer_copy(run.model)
+        run.model.stiffness *= rng.uniform(1.2, 1.6)
+        run.model.omega *= rng.uniform(0.8, 1.2)
+    return _bad(rng, change)
+
+
+def one_file_twice(rng):
+    return _bad(rng, lambda s, r: setattr(r, "source", (s.bad + 1) % 5))
+
+
+def swapped(rng):
+    sweep = draw(rng, 5, 8)
+    a, b = rng.choice(5, 2, replace=False)
+    sweep.runs[a].source, sweep.runs[b].source = int(b), int(a)
+    sweep.bad = (int(a), int(b))
+    return sweep
+
+
+def level_only(rng):
+    return _bad(rng, lambda s, r: setattr(r, "kinetic", 1.15 * r.kinetic))
+
+
+def trace(sweep, run):
+    model, rng = run.model, sweep.rng
+    step = 1.1 * np.pi / model.omega / sweep.per_slip
+    period = 1.1 * np.pi / model.omega + stick_s(model, run.drop, run.speed)
+    n = int(np.ceil(rng.integers(*sweep.slips) * period / step))
+    full = np.full(n, run.speed)
+    motion = simulate(model, step, full, run.kinetic + run.drop, run.kinetic, start_force=run.kinetic)
+    force = motion.force + run.offset
+    if run.average:
+        force = np.convolve(np.pad(force, run.average, "edge"), np.ones(run.average) / run.average, "same")[run.average:-run.average]
+    return motion.time_s, force + sweep.noise * rng.standard_normal(n)
+
+
+def limit_period(model, drop, kinetic, speed):
+    """Of the last ten slips of forty; None: sticking has ended."""
+    period = 1.1 * np.pi / model.omega + stick_s(model, drop, speed)
+    step = 0.02 / model.omega
+    slips = 40
+    n = int(slips * 1.5 * period / step) + 1
+    n = min(n, 4_000_000)
+    motion = simulate(model, step, np.full(n, speed), kinetic + drop, kinetic, start_force=kinetic + drop)
+    onset = motion.slips["onset_s"]
+    if len(onset) < 15 or onset[-1] < (n * step - 3 * period):
+        return None
+    return (onset[-1] - onset[-11]) / 10
+
+
+def truth_of(sweep):
+    sound = next(r for i, r in enumerate(sweep.runs) if i != sweep.bad and (r.stated_load or 5.0) == 5.0)
+    fastest = max(r.speed for r in sweep.runs)
+    model_at = getattr(sweep, "model_at", lambda v: sound.model)
+    mean_drop = getattr(sweep, "drop", sound.drop)  # of the first recording where loads differ
+    rows = []
+    for times in BEYOND:
+        v = times * fastest
+        period = limit_period(model_at(v), mean_drop, sound.kinetic, v)
+        rows.append({"speed_m_per_s": v, "spacing_m": v * period if period else None})
+    slow, fast = 0.2 * fastest, 400 * fastest
+    if limit_period(model_at(slow), mean_drop, sound.kinetic, slow) is None:
+        critical = None
+    else:
+        while fast > 1.005 * slow:
+            middle = np.sqrt(slow * fast)
+            if limit_period(model_at(middle), mean_drop, sound.kinetic, middle):
+                slow = middle
+            else:
+                fast = middle
+        critical = slow if slow < 390 * fastest else None
+    return {"rows": rows, "critical_speed_m_per_s": critical, "bad": sweep.bad, "load_N": sound.stated_load}
+
+
+FAMILIES = [coulomb5, coulomb3, exponential, age_ln3, age_ln4, age_ln6, age_cutoff, age_power, age_saturating, age_exponential, log_falling,
+            log_rising, hyperbolic, two, two_coulomb, narrow, trended, averaging, drifting, zeros, wrong_loads, near_critical, bad_speed,
+            bad_unit, other_material, one_file_twice, swapped, level_only]
