@@ -104,6 +104,10 @@ Analysis conclude(const Detected& detected, Estimates estimates, Classification 
   return analysis;
 }
 
+void append(Warnings& warnings, const Warnings& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
 /// A recording of a sweep on its own.
 struct Member {
   Detected detected;
@@ -158,9 +162,10 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   sweep.fit_reason = describe_roles(sweep.roles);
   sweep.repeats = compare_repeats(entries, sweep.recordings);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
+  append(sweep.warnings, check_duplicates(entries));
   if (sweep.fit) {
-    const Warnings& of_fit = sweep.fit->result.warnings;
-    sweep.warnings.insert(sweep.warnings.end(), of_fit.begin(), of_fit.end());
+    append(sweep.warnings, check_agreement(entries, sweep.recordings, *sweep.fit));
+    append(sweep.warnings, sweep.fit->result.warnings);
   }
   return sweep;
 }

@@ -210,6 +210,34 @@ std::optional<slipfit::Ageing> ageing(const std::string& file, const JsonNode& d
   return slipfit::Ageing{rate_N, stick_s};
 }
 
+/// Of a sweep. Documents of earlier versions have none.
+std::optional<slipfit::SpeedReach> reach(const JsonNode& document) {
+  if (!document.has("model") || !document.member("model").has("speeds_m_per_s")) return std::nullopt;
+  const JsonNode model = document.member("model");
+  const JsonNode speeds = model.member("speeds_m_per_s");
+  if (speeds.array_size() != 2) speeds.fail("[slowest, fastest]");
+  slipfit::SpeedReach reach{speeds.element(0).positive(), speeds.element(1).positive(), std::nullopt};
+  if (reach.slowest_m_per_s > reach.fastest_m_per_s) speeds.fail("[slowest, fastest]");
+  if (model.has("trend_beyond")) reach.trend = checked_error(model.member("trend_beyond"));
+  return reach;
+}
+
+std::optional<double> normal_force_N(const JsonNode& document) {
+  if (!document.has("model") || !document.member("model").has("normal_force_N")) return std::nullopt;
+  return document.member("model").member("normal_force_N").positive();
+}
+
+slipfit::Warnings warnings(const JsonNode& document) {
+  slipfit::Warnings list;
+  if (!document.has("warnings")) return list;
+  const JsonNode nodes = document.member("warnings");
+  for (std::size_t i = 0; i < nodes.array_size(); ++i) {
+    const JsonNode warning = nodes.element(i);
+    list.push_back({warning.member("code").text(), warning.member("message").text()});
+  }
+  return list;
+}
+
 std::optional<slipfit::Estimate> kinetic_friction_N(const JsonNode& parameters) {
   if (!parameters.has("kinetic_friction_N")) return std::nullopt;
   const JsonNode parameter = parameters.member("kinetic_friction_N");
@@ -261,6 +289,9 @@ FitDocument read_fit_document(const std::string& file) {
   estimate.degrees_of_freedom = degrees_of_freedom(document);
   read_covariance(document, result.model);
   result.model.kinetic_friction_N = kinetic_friction_N(parameters);
+  estimate.reach = reach(document);
+  estimate.normal_force_N = normal_force_N(document);
   result.conditional_on = conditions(document);
+  result.warnings = warnings(document);
   return result;
 }

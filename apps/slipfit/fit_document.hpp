@@ -11,6 +11,7 @@
 struct FitDocument {
   slipfit::PredictionModel model;
   std::vector<std::string> conditional_on;
+  slipfit::Warnings warnings;
 };
 
 /// What a plan needs of it beside: how the recordings with cycles were made, their noise and scatter (medians).

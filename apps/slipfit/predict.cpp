@@ -28,6 +28,7 @@ constexpr std::size_t kMostSpeeds = 100'000;  // about 100 MB of JSON: more is t
 struct PredictArguments {
   std::optional<std::string> file;
   std::optional<std::string> speeds;
+  std::optional<std::string> normal_force;
   ModelArguments model;
   DocumentOptions document;
   std::optional<std::string> csv;
@@ -37,6 +38,9 @@ void add_options(CLI::App& command, PredictArguments& arguments) {
   command.add_option("FIT.json", arguments.file, "Document of slipfit fit --json; or the model options in its place");
   command.add_option("--speeds", arguments.speeds,
                      "A:B:N, N speeds from A to B in equal ratios: 1mm/s:1m/s:50; or a list: 5mm/s,10mm/s");
+  command.add_option(
+      "--normal-force", arguments.normal_force,
+      "Predict under this load: 2.3, 2.3N; of a fit whose recordings state theirs (default: their mean)");
   add_model_options(command, arguments.model);
   add_document_options(command, arguments.document, "table");
   command.add_option("--csv", arguments.csv, "Write one row a speed: value, low and high of every quantity (CSV)");
@@ -107,6 +111,18 @@ void check_places(const PredictArguments& arguments, const std::vector<OutputFil
   check_outputs(outputs, "");
 }
 
+void set_load(FitDocument& document, const PredictArguments& arguments) {
+  const double load_N = positive_quantity("--normal-force", *arguments.normal_force, Dimension::Force);
+  if (!document.model.estimate.normal_force_N) {
+    throw Failure(ExitCode::WrongUsage,
+                  fmt::format("--normal-force: the recordings of '{}' state no normal force; fit them again with "
+                              "--normal-force or the manifest's normal_force_N",
+                              *arguments.file));
+  }
+  document.model = slipfit::at_load(std::move(document.model), load_N);
+  document.conditional_on.push_back(fmt::format("friction in proportion to the normal force, here {:.6g} N", load_N));
+}
+
 /// A model, and where it comes from.
 struct Basis {
   slipfit::PredictionModel model;
@@ -121,7 +137,9 @@ Basis basis_from(const PredictArguments& arguments, const CLI::App& command) {
   }
   if (arguments.file) {
     FitDocument document = read_fit_document(*arguments.file);
-    return {std::move(document.model), {*arguments.file, std::move(document.conditional_on)}};
+    if (arguments.normal_force) set_load(document, arguments);
+    return {std::move(document.model),
+            {*arguments.file, std::move(document.conditional_on), {}, std::move(document.warnings)}};
   }
   if (!stated) {
     throw Failure(ExitCode::WrongUsage,

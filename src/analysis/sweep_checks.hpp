@@ -17,4 +17,12 @@ ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<
 /// What only several speeds can tell: that the repetition is geometry or a control loop, not stick-slip.
 Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
 
+/// Names the recording that stands furthest from the others where at least half of them agree: by the stiffness of its
+/// own fit, else by the spacing that a fit without it predicts, else by its force level. Needs four with cycles.
+Warnings check_agreement(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
+                         const SweepFit& fit);
+
+/// Recordings with the same samples, whatever their files are called.
+Warnings check_duplicates(std::span<const SweepEntry> entries);
+
 }  // namespace slipfit

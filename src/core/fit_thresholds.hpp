@@ -166,7 +166,35 @@ inline constexpr double kAgeingSpeedRatio = 2.0;
 /// Chance below which static friction ages. [1; convention]
 inline constexpr double kAgeingChance = 0.01;
 
+/// Least recordings that show a trend of static friction over the speed. [1; convention: two always lie on a line]
+inline constexpr std::size_t kTrendRecordings = 3;
+
+/// Errors by which the spacing predicted without a recording may differ from its own, beyond which it disagrees with
+/// the others. [1; calibrated: benchmarks/independent/sweeps.py]
+inline constexpr double kLeftOutErrors = 5.0;
+
+/// Least relative difference for that. [1; calibrated: as above]
+inline constexpr double kLeftOutShare = 0.02;
+
+/// By how many times it stands further apart than half of the recordings: where most do, the model lacks something, and
+/// none is wrong. [1; calibrated: as above, 17 and more where one is wrong, below 6 where none is]
+inline constexpr double kStandsApart = 8.0;
+
+/// ln of the ratio of speeds from which on an end of the sweep tells how far its law carries. [1; convention]
+inline constexpr double kBeyondDistance = 0.1;
+
+/// Least recordings of which one can be told to be the wrong one. [1; convention: of three, any two may agree by
+/// chance]
+inline constexpr std::size_t kNamingRecordings = 4;
+
 // ## Predictions
+
+/// Ratio of a speed to the nearest one of a sweep, up to which a sweep that cannot show a trend of static friction
+/// tells intervals. [1; convention]
+inline constexpr double kUntrendedRatio = 1.5;
+
+/// The same, beyond which a prediction is said to be far. [1; convention]
+inline constexpr double kFarRatio = 4.0;
 
 /// Reach of alpha V, above which linear propagation does not hold. [1; calibrated: up to it bands hold 93 % or more of
 /// the motions that the covariance allows, at 1.6 88 %, at 2.4 84 % (tests/predict)]

@@ -1,8 +1,13 @@
 #include "slipfit/fit/result.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace slipfit {
+
+double SpeedReach::distance_to(double speed_m_per_s) const {
+  return std::max({0.0, std::log(speed_m_per_s / fastest_m_per_s), std::log(slowest_m_per_s / speed_m_per_s)});
+}
 
 const Parameter* FitResult::find(ParameterId id) const {
   const auto found =

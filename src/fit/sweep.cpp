@@ -141,20 +141,21 @@ class Assembler {
     }
     sweep.result.residual.rms = residual_rms(solution);
     if (std::any_of(data_.loads.begin(), data_.loads.end(), [](double load) { return load != 1.0; })) {
-      sweep.result.conditional_on.push_back(fmt::format("normal force {:g} N", *reference_normal_force_N()));
+      sweep.result.conditional_on.push_back(
+          fmt::format("normal force {:.6g} N, the mean of the recordings", *data_.mean_load_N));
     }
     sweep.result.residual.reduced_chi2 = solution.chi2 / solution.degrees_of_freedom;
     add_warnings(sweep);
     fit::report_parameters(findings(choice), sweep.result);
+    if (sweep.result.estimate) {
+      sweep.result.estimate->reach = outcome_.reach;
+      sweep.result.estimate->normal_force_N = data_.mean_load_N;
+    }
     for (std::size_t i = 0; i < recordings_.size(); ++i) sweep.points.push_back(point_of(i));
     return sweep;
   }
 
  private:
-  [[nodiscard]] std::optional<double> reference_normal_force_N() const {
-    return recordings_.front().recording.conditions().normal_force_N;
-  }
-
   [[nodiscard]] fit::Findings findings(const LawChoice& choice) const {
     const SweepSolution& solution = outcome_.solution;
     fit::Findings findings{values_, data_.units, intervals_, damping(), solution.held};
@@ -182,7 +183,7 @@ class Assembler {
     }
     findings.law = fit::LawFindings{choice.velocity, choice.reason, outcome_.static_friction == StaticFriction::Ages};
     findings.law->at_one_speed = speed_ratio(recordings_) < thresholds::kLeastSpeedRatio;
-    if (data_.loads_known) findings.law->reference_normal_force_N = reference_normal_force_N();
+    findings.law->reference_normal_force_N = data_.mean_load_N;
     return findings;
   }
 
@@ -249,7 +250,7 @@ class Assembler {
   [[nodiscard]] Estimate spacing_without(const std::optional<LeftOut>& one, double speed, double load) const {
     if (!one) return unknown("too few recordings to leave one out");
     const fit::SlidingModel model(fit::with_damping_cut(one->values, one->spread.covariance), data_.units);
-    return spacing_of(model.spacing(speed, load), fit::Intervals(one->spread),
+    return spacing_of(model.spacing(speed, load), fit::Intervals(fit::spread_at(*one, speed)),
                       "no stick-slip at this speed by the others");
   }
 

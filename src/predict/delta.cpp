@@ -31,8 +31,8 @@ ModelJets jets_of(const ModelEstimate& model) {
           Jet(model.ageing.value_or(Ageing{}).rate_N, 6)};
 }
 
-Propagation::Propagation(const ModelEstimate& model)
-    : model_(model), quantile_(fit::t_quantile(model.degrees_of_freedom)) {}
+Propagation::Propagation(ModelEstimate model)
+    : model_(std::move(model)), quantile_(fit::t_quantile(model_.degrees_of_freedom)) {}
 
 double Propagation::standard_error(const Jet& y) const {
   double variance = 0.0;
@@ -52,6 +52,19 @@ Estimate Propagation::positive(const Jet& y) const {
 
 bool Propagation::law_is_open_at(double speed_m_per_s) const {
   return quantile_ * standard_error(jets_of(model_).alpha_s_per_m) * speed_m_per_s > thresholds::kStraightLaw;
+}
+
+std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_per_s) {
+  if (!model.reach) return model;
+  const double distance = model.reach->distance_to(speed_m_per_s);
+  if (!model.reach->trend) {
+    return distance < std::log(thresholds::kUntrendedRatio) ? std::optional(model) : std::nullopt;
+  }
+  ModelEstimate wider = model;
+  constexpr std::size_t kDifference = 3;
+  wider.covariance[kDifference][kDifference] +=
+      std::pow(*model.reach->trend * distance / fit::t_quantile(model.degrees_of_freedom), 2);
+  return wider;
 }
 
 Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s) {

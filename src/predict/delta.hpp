@@ -26,7 +26,7 @@ ModelJets jets_of(const ModelEstimate& model);
 /// From derivatives to standard errors and 95 % intervals.
 class Propagation {
  public:
-  explicit Propagation(const ModelEstimate& model);
+  explicit Propagation(ModelEstimate model);
 
   [[nodiscard]] double standard_error(const Jet& y) const;
   /// 97.5 % quantile of Student's t
@@ -39,9 +39,18 @@ class Propagation {
   [[nodiscard]] bool law_is_open_at(double speed_m_per_s) const;
 
  private:
-  const ModelEstimate& model_;
+  ModelEstimate model_;
   double quantile_ = 0.0;
 };
+
+/// Why there is no interval far beyond the speeds of such a sweep.
+inline constexpr const char* kUntrended =
+    "two recordings, or speeds within a factor of 2, cannot tell whether static friction ages: nothing is known more "
+    "than a factor of 1.5 beyond them";
+
+/// The model with what its sweep does not know of F_s - F_k(0+) at a speed beyond the recordings; empty where it knows
+/// nothing of it there.
+std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_per_s);
 
 /// Where stick-slip from rest ends. Unknown where zeta cannot be told from 0; at zeta = 0 it has no end, from zeta = 1
 /// on there is none.

@@ -95,7 +95,7 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   const predict::ModelJets p = predict::jets_of(model);
   const predict::Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed);  // [Paper] eq. (9)
   derived.lambda = propagation.positive(lambda);
-  predict::CriticalPoint critical = predict::critical_point(model, propagation);
+  predict::CriticalPoint critical = predict::critical_point(model);
   derived.lambda_critical = std::move(critical.lambda);
   const auto at_uncertain_speed = [&](Estimate distance) {
     return with_speed_error(std::move(distance), speed_error, propagation.quantile());
@@ -132,7 +132,7 @@ Derived derive_from_sweep(const FitResult& fit, const ObservedEnd& observed) {
     derived.critical_speed_m_per_s = critical_speed(derived.lambda_critical, observed);
     return derived;
   }
-  predict::CriticalPoint critical = predict::critical_point(*fit.estimate, predict::Propagation(*fit.estimate));
+  predict::CriticalPoint critical = predict::critical_point(*fit.estimate);
   derived.lambda_critical = std::move(critical.lambda);
   derived.critical_speed_m_per_s = critical_speed(critical.speed_m_per_s, observed);
   return derived;

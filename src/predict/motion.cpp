@@ -1,15 +1,47 @@
 #include "predict/motion.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "core/fit_thresholds.hpp"
+#include "core/unknown.hpp"
 #include "predict/ageing.hpp"
 #include "predict/coulomb.hpp"
 #include "predict/velocity.hpp"
 
 namespace slipfit::predict {
 
-CriticalPoint critical_point(const ModelEstimate& model, const Propagation& propagation) {
+namespace {
+
+CriticalPoint critical_point_by_law(const ModelEstimate& model) {
+  const Propagation propagation(model);
   if (model.ageing) return ageing_critical_point(model, propagation);
   if (model.speed_dependence) return velocity_critical_point(model, propagation);
   return coulomb_critical_point(model, propagation);
+}
+
+}  // namespace
+
+CriticalPoint critical_point(const ModelEstimate& model) {
+  CriticalPoint point = critical_point_by_law(model);
+  const std::optional<double> speed = point.speed_m_per_s.value;
+  if (!speed || !(*speed > 0.0) || !model.reach) return point;
+  const double distance = model.reach->distance_to(*speed);
+  const bool far = distance > std::log(thresholds::kUntrendedRatio);
+  if (far && !model.reach->trend) {
+    point.speed_m_per_s = unknown(kUntrended);
+  } else if (far && (model.speed_dependence || model.ageing)) {
+    point.speed_m_per_s =
+        unknown(fmt::format("the law of {} friction puts it at {:.4g} m/s, a factor of {:.2g} beyond the recordings: "
+                            "another law that fits them as well "
+                            "puts it elsewhere",
+                            model.ageing ? "static" : "kinetic", *speed, std::exp(distance)));
+  } else if (const std::optional<ModelEstimate> wider = beyond(model, *speed)) {
+    return critical_point_by_law(*wider);
+  }
+  return point;
 }
 
 MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s) {

@@ -177,7 +177,7 @@ class Planner {
   /// The lower end of its interval, where static friction ages: the margin of the single slip says nothing there.
   [[nodiscard]] std::optional<double> end_of_stick_slip() const {
     if (!basis_.estimate.ageing) return std::nullopt;
-    const Estimate critical = predict::critical_point(basis_.estimate, propagation_).speed_m_per_s;
+    const Estimate critical = predict::critical_point(basis_.estimate).speed_m_per_s;
     return critical.ci95 ? std::optional(critical.ci95->low) : std::nullopt;
   }
 

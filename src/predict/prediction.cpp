@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "core/fit_thresholds.hpp"
 #include "predict/delta.hpp"
 #include "predict/motion.hpp"
 #include "slipfit/core/range.hpp"
@@ -14,45 +15,50 @@ namespace {
 
 using predict::Jet;
 
+Estimate without_interval(const Estimate& estimate) {
+  return {estimate.value, std::nullopt, std::nullopt, estimate.note};
+}
+
+/// The motion at one speed.
 class Predictor {
  public:
-  explicit Predictor(const PredictionModel& model)
+  Predictor(const PredictionModel& model, const predict::CriticalPoint& critical, double speed_m_per_s)
       : model_(model),
-        propagation_(model.estimate),
-        jets_(predict::jets_of(model.estimate)),
-        critical_(predict::critical_point(model.estimate, propagation_)) {
-    if (!model.has_covariance) {
-      critical_ = {without_interval(critical_.lambda), without_interval(critical_.speed_m_per_s)};
-    }
-  }
+        wider_(predict::beyond(model.estimate, speed_m_per_s)),
+        critical_(critical),
+        speed_m_per_s_(speed_m_per_s),
+        propagation_(wider_.value_or(model.estimate)),
+        jets_(predict::jets_of(model.estimate)) {}
 
-  [[nodiscard]] Estimate critical_speed_m_per_s() const { return within(critical_.speed_m_per_s, kNotNegative); }
-  [[nodiscard]] Estimate critical_lambda() const { return within(critical_.lambda, kNotNegative); }
-
-  [[nodiscard]] PredictedMotion motion_at(double speed_m_per_s) const {
+  [[nodiscard]] PredictedMotion motion() const {
     PredictedMotion row;
-    row.speed_m_per_s = speed_m_per_s;
-    const predict::MotionJets motion = predict::motion_at(model_.estimate, speed_m_per_s);
+    row.speed_m_per_s = speed_m_per_s_;
+    const predict::MotionJets motion = predict::motion_at(model_.estimate, speed_m_per_s_);
     const Jet difference_N = motion.aged_difference_N.value_or(jets_.difference_N);
-    row.lambda = positive(jets_.omega_rad_per_s * difference_N / (jets_.stiffness_N_per_m * speed_m_per_s));
+    row.lambda = positive(jets_.omega_rad_per_s * difference_N / (jets_.stiffness_N_per_m * speed_m_per_s_));
     row.regime = predict::name_of(motion.regime);
     row.bistable = motion.regime == Regime::StickSlipBistable;
     if (motion.cycle) add_cycle(*motion.cycle, row);
-    if (is_doubtful(motion, speed_m_per_s)) {
+    if (is_doubtful(motion)) {
       withdraw_intervals(row,
                          "within the uncertainty of the critical speed: the data cannot tell whether there is "
                          "stick-slip at this speed");
-    } else if (model_.has_covariance && propagation_.law_is_open_at(speed_m_per_s)) {
+    } else if (model_.has_covariance && !wider_) {
+      withdraw_intervals(row, predict::kUntrended);
+    } else if (model_.has_covariance && propagation_.law_is_open_at(speed_m_per_s_)) {
       withdraw_intervals(row, "alpha is not known well enough for an interval at this speed");
     } else if (model_.has_covariance && model_.estimate.speed_dependence && may_be_either(motion.total_damping_ratio)) {
       row.note = "the data cannot tell whether steady sliding is stable at this speed";
+    } else if (is_far()) {
+      row.note = "more than a factor of 4 beyond the recordings";
     }
     return in_range(std::move(row));
   }
 
  private:
-  static Estimate without_interval(const Estimate& estimate) {
-    return {estimate.value, std::nullopt, std::nullopt, estimate.note};
+  [[nodiscard]] bool is_far() const {
+    const std::optional<SpeedReach>& reach = model_.estimate.reach;
+    return reach && reach->distance_to(speed_m_per_s_) > std::log(thresholds::kFarRatio);
   }
 
   [[nodiscard]] Estimate positive(const Jet& y) const {
@@ -95,10 +101,10 @@ class Predictor {
 
   /// Near its end the cycle changes with the square root of the distance: the delta method fails there. The margin is
   /// nearly linear in zeta and ln lambda, so it tells also where zeta, and with it the critical speed, is unknown.
-  [[nodiscard]] bool is_doubtful(const predict::MotionJets& motion, double speed_m_per_s) const {
+  [[nodiscard]] bool is_doubtful(const predict::MotionJets& motion) const {
     if (!model_.has_covariance) return false;
     const std::optional<Interval>& critical = critical_.speed_m_per_s.ci95;
-    if (critical && critical->low <= speed_m_per_s && speed_m_per_s <= critical->high) return true;
+    if (critical && critical->low <= speed_m_per_s_ && speed_m_per_s_ <= critical->high) return true;
     return motion.restick_margin && may_be_either(*motion.restick_margin);
   }
 
@@ -129,9 +135,11 @@ class Predictor {
   }
 
   const PredictionModel& model_;
+  std::optional<ModelEstimate> wider_;  ///< with what is not known at this speed; empty: nothing is known there
+  const predict::CriticalPoint& critical_;
+  double speed_m_per_s_;
   predict::Propagation propagation_;
   predict::ModelJets jets_;
-  predict::CriticalPoint critical_;
 };
 
 }  // namespace
@@ -147,10 +155,32 @@ PredictionModel stated_model(const Slider& slider, const Friction& friction) {
   return model;
 }
 
+PredictionModel at_load(PredictionModel model, double normal_force_N) {
+  ModelEstimate& estimate = model.estimate;
+  const double ratio = normal_force_N / estimate.normal_force_N.value();
+  estimate.friction_difference_N *= ratio;
+  if (estimate.speed_dependence) estimate.speed_dependence->slope_N_s_per_m *= ratio;
+  if (estimate.ageing) estimate.ageing->rate_N *= ratio;
+  for (const std::size_t of_force : {4U, 6U}) {  // the slope of F_k(v), the rate of ageing
+    for (std::size_t i = 0; i < kModelValues; ++i) {
+      estimate.covariance[of_force][i] *= ratio;
+      estimate.covariance[i][of_force] *= ratio;
+    }
+  }
+  estimate.normal_force_N = normal_force_N;
+  if (ratio != 1.0) model.kinetic_friction_N.reset();
+  return model;
+}
+
 Prediction predict_at(const PredictionModel& model, std::span<const double> speeds_m_per_s) {
-  const Predictor predictor(model);
-  Prediction prediction{predictor.critical_speed_m_per_s(), predictor.critical_lambda(), {}};
-  for (const double speed_m_per_s : speeds_m_per_s) prediction.rows.push_back(predictor.motion_at(speed_m_per_s));
+  predict::CriticalPoint critical = predict::critical_point(model.estimate);
+  if (!model.has_covariance) {
+    critical = {without_interval(critical.lambda), without_interval(critical.speed_m_per_s)};
+  }
+  Prediction prediction{within(critical.speed_m_per_s, kNotNegative), within(critical.lambda, kNotNegative), {}};
+  for (const double speed_m_per_s : speeds_m_per_s) {
+    prediction.rows.push_back(Predictor(model, critical, speed_m_per_s).motion());
+  }
   return prediction;
 }
 

@@ -70,6 +70,15 @@ Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole ro
   return json;
 }
 
+/// What a prediction needs to know of the recordings.
+void add_reach(Json& json, const ModelEstimate& model) {
+  if (model.ageing) json["ageing_reference_s"] = number(model.ageing->reference_stick_s);
+  if (model.normal_force_N) json["normal_force_N"] = number(model.normal_force_N);
+  if (!model.reach) return;
+  json["speeds_m_per_s"] = {number(model.reach->slowest_m_per_s), number(model.reach->fastest_m_per_s)};
+  json["trend_beyond"] = number(model.reach->trend);
+}
+
 Json repeats_json(const std::vector<Repeat>& repeats) {
   Json json = Json::object();
   for (const Repeat& repeat : repeats) {
@@ -98,9 +107,7 @@ std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sw
     add_fit(json, sweep.fit->result, ForceQuantity::Force_N);
     json["model"]["level_shared"] = sweep.fit->level_shared;
     json["model"]["static_friction_shared"] = sweep.fit->difference_shared;
-    if (const auto& model = sweep.fit->result.estimate; model && model->ageing) {
-      json["model"]["ageing_reference_s"] = number(model->ageing->reference_stick_s);
-    }
+    if (sweep.fit->result.estimate) add_reach(json["model"], *sweep.fit->result.estimate);
   }
   json["derived"] = derived_json(sweep.derived);
   return text_of(json, options.layout);

@@ -62,6 +62,7 @@ std::string to_json(const Prediction& prediction, const PredictionSource& source
                   {"version", SLIPFIT_VERSION},
                   {"source", source.name},
                   {"conditional_on", source.conditional_on},
+                  {"warnings", warnings_json(source.warnings)},
                   {"critical_speed_m_per_s", quantity_json(prediction.critical_speed_m_per_s)},
                   {"lambda_critical", quantity_json(prediction.lambda_critical)},
                   {"rows", array_of(prediction.rows, row_json)}};
@@ -140,7 +141,7 @@ std::string to_text(const Prediction& prediction, const PredictionSource& source
   return fmt::format("Predicted from {}{}\n", one_line(source.name),
                      has_bands ? ", [95 % interval of the mean cycle]" : "") +
          critical_speed_text(prediction.critical_speed_m_per_s, prediction.lambda_critical, source.speed_unit) +
-         conditions_text(source.conditional_on) + "\n" + table.text() + notes.text();
+         conditions_text(source.conditional_on) + "\n" + table.text() + notes.text() + warnings_text(source.warnings);
 }
 
 }  // namespace slipfit

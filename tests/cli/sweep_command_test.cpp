@@ -1,5 +1,6 @@
 // slipfit fit --joint: what is refused, and what text and document of a sweep say.
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -44,6 +45,28 @@ TEST_CASE("a joint fit of a Coulomb sweep says so: text, document, prediction") 
   const test::ProgramResult predicted = slipfit({"predict", example.out, "--speeds", "0.02,0.1", "--json"});
   REQUIRE(predicted.exit_code == 0);
   CHECK(json::parse(predicted.out)["critical_speed_m_per_s"]["ci95"] == critical["ci95"]);
+}
+
+TEST_CASE("predict carries the warnings of the fit, and takes a load where the recordings state theirs") {
+  const test::SweepExample example;
+  json document = example.fit({"--group", "pad"});
+  document["warnings"].push_back({{"code", "recordings_disagree"}, {"message", "they do not agree"}});
+  document["model"]["normal_force_N"] = 2.0;
+  std::ofstream(example.out) << document.dump();
+  const std::vector<std::string> predict{"predict", example.out, "--speeds", "0.02"};
+  CHECK_THAT(slipfit(predict).out, Catch::Contains("they do not agree [recordings_disagree]"));
+  const json same = json::parse(slipfit({predict[0], predict[1], predict[2], predict[3], "--json"}).out);
+  CHECK(same["warnings"].back()["code"] == "recordings_disagree");
+  const json twice =
+      json::parse(slipfit({predict[0], predict[1], predict[2], predict[3], "--json", "--normal-force", "4N"}).out);
+  CHECK(twice["rows"][0]["lambda"]["value"].get<double>() ==
+        Approx(2.0 * same["rows"][0]["lambda"]["value"].get<double>()));
+  CHECK(twice["rows"][0]["force_peak_N"]["value"].is_null());
+  document["model"].erase("normal_force_N");
+  std::ofstream(example.out) << document.dump();
+  const test::ProgramResult refused = slipfit({predict[0], predict[1], predict[2], predict[3], "--normal-force", "4N"});
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.err, Catch::Contains("state no normal force"));
 }
 
 TEST_CASE("a velocity fit hands slope and alpha on to predict") {

@@ -270,20 +270,21 @@ TEST_CASE("sweep: where alpha is hardly told, intervals follow its valley to the
 TEST_CASE("sweep: friction coefficients where the normal forces are stated, and differ") {
   const SweepScene scene;
   constexpr double kFirst_N = 4.0;
-  const auto scene_of = [&](std::size_t i) {
-    const double load = i % 2 == 0 ? 1.0 : 1.5;
+  constexpr double kMean_N = 5.0;
+  const auto scene_at = [&](double load_N) {
     SweepScene s = scene;
-    s.normal_force_N = kFirst_N * load;
-    s.static_friction_N *= load;
-    s.f0_N *= load;
-    s.f1_N *= load;
+    s.normal_force_N = load_N;
+    s.static_friction_N *= load_N / kFirst_N;
+    s.f0_N *= load_N / kFirst_N;
+    s.f1_N *= load_N / kFirst_N;
     return s;
   };
+  const auto scene_of = [&](std::size_t i) { return scene_at(i % 2 == 0 ? kFirst_N : 1.5 * kFirst_N); };
   const SweepAnalysis sweep = analyze_sweep(record_each(kSpeeds, scene_of), {});
   REQUIRE(sweep.fit);
-  CHECK(sweep.fit->result.conditional_on.back() == "normal force 4 N");
+  CHECK(sweep.fit->result.conditional_on.back() == "normal force 5 N, the mean of the recordings");
   CHECK(sweep.fit->level_shared);
-  check_recovery(sweep, scene);
+  check_recovery(sweep, scene_at(kMean_N));
   for (const auto& [name, truth] : {std::pair("mu0", scene.f0_N / kFirst_N), std::pair("mu1", scene.f1_N / kFirst_N)}) {
     const Parameter& p = parameter(sweep, name);
     INFO(name << " = " << *p.estimate.value << " +- " << *p.estimate.standard_error << ", truth " << truth);

@@ -71,7 +71,6 @@ TEST_CASE("a fit of a sweep carries slope and alpha, and where stick-slip ends")
   CHECK(estimate.covariance[5][5] > 0.0);
   const Correlation& correlation = *sweep.fit->result.correlation;
   CHECK(correlation.names.size() == 6);
-  REQUIRE(sweep.derived.critical_speed_m_per_s.ci95);
   CHECK_FALSE(sweep.derived.lambda.value);
   CHECK_FALSE(sweep.derived.lambda.note.empty());
   // V_c of the truth by bisection of the test's own integration: the spacing jumps where the first swing stops
@@ -83,8 +82,112 @@ TEST_CASE("a fit of a sweep carries slope and alpha, and where stick-slip ends")
     const double middle = 0.5 * (low + high);
     (test::slip_s(truth, middle) < 1.2 * period_of_swing ? low : high) = middle;
   }
-  CAPTURE(low, *sweep.derived.critical_speed_m_per_s.value);
-  CHECK(holds(sweep.derived.critical_speed_m_per_s, low));
+  FitResult by_law = sweep.fit->result;
+  by_law.estimate->reach.reset();
+  const Derived derived = derive_from_sweep(by_law, {});
+  CAPTURE(low, *derived.critical_speed_m_per_s.value);
+  CHECK(holds(derived.critical_speed_m_per_s, low));
+  // Beyond the recordings it rests on the law.
+  REQUIRE(low > 1.5 * 0.2);
+  CHECK_FALSE(sweep.derived.critical_speed_m_per_s.value);
+  CHECK_THAT(sweep.derived.critical_speed_m_per_s.note,
+             Catch::Contains("above 0.2 m/s") && Catch::Contains("another law"));
+}
+
+TEST_CASE("two recordings, or speeds near each other, tell no interval far from their speeds") {
+  test::SpeedSweep truth;
+  truth.f1_N = 0.0;
+  for (const std::vector<double>& speeds : {std::vector{0.01, 0.04}, std::vector{0.02, 0.022, 0.025, 0.028}}) {
+    const SweepAnalysis sweep = analyze_sweep(test::record(truth, speeds, 3), {});
+    const PredictionModel model = model_of(sweep);
+    REQUIRE(model.estimate.reach);
+    CHECK_FALSE(model.estimate.reach->trend);
+    const Prediction prediction = predict_at(model, std::vector<double>{1.4 * speeds.back(), 2.0 * speeds.back()});
+    CHECK(prediction.rows[0].periodic_displacement_m.ci95);
+    CHECK(prediction.rows[1].periodic_displacement_m.value);
+    CHECK_FALSE(prediction.rows[1].periodic_displacement_m.ci95);
+    CHECK_THAT(prediction.rows[1].note, Catch::Contains("cannot tell whether static friction ages"));
+    CHECK_FALSE(prediction.critical_speed_m_per_s.value);
+    CHECK_FALSE(sweep.derived.critical_speed_m_per_s.value);
+  }
+}
+
+TEST_CASE("bands beyond the speeds of a sweep grow with the trend of its static friction") {
+  test::SpeedSweep truth;
+  truth.f1_N = 0.0;
+  truth.ageing_N = 0.1;
+  const std::vector<double> speeds{0.01, 0.02, 0.04};
+  const SweepAnalysis sweep = analyze_sweep(test::record(truth, speeds, 5), {});
+  PredictionModel model = model_of(sweep);
+  REQUIRE(model.estimate.reach);
+  REQUIRE(model.estimate.reach->trend);
+  // F_s - F_k(0+) is about 2.5 N there, and falls by 0.1 N a factor of e.
+  CHECK(*model.estimate.reach->trend == Approx(0.04).epsilon(0.3));
+  const std::vector<double> unseen{0.03, 0.16};
+  const Prediction with_trend = predict_at(model, unseen);
+  model.estimate.reach->trend = 0.0;
+  const Prediction without = predict_at(model, unseen);
+  const auto width = [](const PredictedMotion& row) {
+    return row.periodic_displacement_m.ci95->high / row.periodic_displacement_m.ci95->low;
+  };
+  CHECK(width(with_trend.rows[0]) == width(without.rows[0]));
+  CHECK(width(with_trend.rows[1]) > width(without.rows[1]) * 1.02);
+  CHECK(holds(with_trend.rows[1].periodic_displacement_m, test::spacing_m(truth, 0.16)));
+}
+
+TEST_CASE("a prediction under another load scales friction, and F_k is then not known") {
+  PredictionModel model = stated_model(Slider::create(1000.0, 200.0, 0.1).value(), Friction::create(6.0, 4.0).value());
+  model.estimate.normal_force_N = 2.0;
+  const std::vector<double> speed{0.02};
+  const PredictedMotion twice = predict_at(at_load(model, 4.0), speed).rows[0];
+  const PredictionModel heavier =
+      stated_model(Slider::create(1000.0, 200.0, 0.1).value(), Friction::create(12.0, 8.0).value());
+  CHECK(*twice.periodic_displacement_m.value ==
+        Approx(*predict_at(heavier, speed).rows[0].periodic_displacement_m.value).epsilon(1e-12));
+  CHECK_FALSE(twice.force_peak_N.value);
+  CHECK(predict_at(at_load(model, 2.0), speed).rows[0].force_peak_N.value);
+}
+
+TEST_CASE("a sweep names the recording that is not like the others, and one that counts twice") {
+  test::SpeedSweep truth;
+  truth.f1_N = 0.0;
+  const std::vector<double> speeds{0.01, 0.02, 0.04, 0.08};
+  const auto codes = [](const Warnings& warnings) {
+    std::vector<std::string> all;
+    for (const Warning& warning : warnings) all.push_back(warning.code);
+    return all;
+  };
+  const auto message = [](const Warnings& warnings, const std::string& code) {
+    for (const Warning& warning : warnings) {
+      if (warning.code == code) return warning.message;
+    }
+    return std::string();
+  };
+  const std::vector<SweepEntry> sound = test::record(truth, speeds, 11);
+  CHECK_THAT(codes(analyze_sweep(sound, {}).warnings), !Catch::VectorContains(std::string("recording_disagrees")));
+
+  test::SpeedSweep harder = truth;
+  harder.static_friction_N = 6.6;
+  std::vector<SweepEntry> other_surface = sound;
+  other_surface[2].recording = test::record(harder, speeds[2], 12).recording;
+  CHECK_THAT(message(analyze_sweep(other_surface, {}).warnings, "recording_disagrees"),
+             Catch::Contains("'" + sound[2].id + "'") && Catch::Contains("spacing"));
+
+  std::vector<SweepEntry> wrong_speed = sound;
+  Conditions conditions = sound[1].recording.conditions();
+  conditions.speed_m_per_s *= 1.1;
+  const Recording& right = sound[1].recording;
+  wrong_speed[1].recording =
+      Recording::create({right.time_s().begin(), right.time_s().end()}, {right.force().begin(), right.force().end()},
+                        conditions, right.provenance())
+          .value();
+  CHECK_THAT(message(analyze_sweep(wrong_speed, {}).warnings, "recording_disagrees"),
+             Catch::Contains("'" + sound[1].id + "'") && Catch::Contains("stiffness"));
+
+  std::vector<SweepEntry> twice = sound;
+  twice.push_back(sound[0]);
+  twice.back().id = "again";
+  CHECK_THAT(message(analyze_sweep(twice, {}).warnings, "recording_repeated"), Catch::Contains("'again'"));
 }
 
 TEST_CASE("the spacing that the other recordings predict for one left out holds the truth") {

@@ -84,6 +84,18 @@ struct Ageing {
   double reference_stick_s = 1.0;
 };
 
+/// What a sweep tells of F_s - F_k(0+) at speeds beyond its own, where no law of friction is sure to hold.
+struct SpeedReach {
+  double slowest_m_per_s = 0.0;
+  double fastest_m_per_s = 0.0;
+  /// Half-width of the 95 % interval of d ln(F_s - F_k(0+)) / d ln V beyond them, about what the model says; empty: too
+  /// few recordings, or too near in speed, to see a trend.
+  std::optional<double> trend;
+
+  /// ln of the ratio to the nearest of its speeds; 0 among them.
+  [[nodiscard]] double distance_to(double speed_m_per_s) const;
+};
+
 /// The fitted model as one point with its covariance, for everything that is computed from it.
 struct ModelEstimate {
   double stiffness_N_per_m = 0.0;
@@ -97,6 +109,8 @@ struct ModelEstimate {
   bool damping_identified = false;                    ///< zeta is known well enough to ask for critical speeds
   std::optional<SpeedDependence> speed_dependence{};  ///< empty: Coulomb friction
   std::optional<Ageing> ageing{};                     ///< empty: the same static friction after every stick
+  std::optional<SpeedReach> reach{};                  ///< of a sweep
+  std::optional<double> normal_force_N{};             ///< that the forces belong to, where loads are known
 };
 
 struct FitResult {

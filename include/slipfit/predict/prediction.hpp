@@ -21,6 +21,10 @@ struct PredictionModel {
 /// Parameters that somebody states: no intervals.
 PredictionModel stated_model(const Slider& slider, const Friction& friction);
 
+/// The same pair under another normal force: friction is proportional to it. F_k becomes unknown, since the sensor's
+/// zero does not follow. Needs `estimate.normal_force_N`; load > 0.
+PredictionModel at_load(PredictionModel model, double normal_force_N);
+
 /// The stick-slip motion at one speed. Where the model has none, everything but lambda is empty. Intervals are those of
 /// the mean cycle, by the delta method; those of forces are upper bounds (the covariance of F_k with the rest is not
 /// known).

@@ -12,6 +12,7 @@ struct PredictionSource {
   std::string name;                         ///< the fit document's file, or "command line"
   std::vector<std::string> conditional_on;  ///< what the model takes for granted
   std::string speed_unit = {};              ///< that the speeds were given in; empty: m/s
+  Warnings warnings = {};                   ///< of the fit
 };
 
 /// One document of the schema slipfit.predict/1 (docs/predict.schema.json), without a trailing newline: valid UTF-8,

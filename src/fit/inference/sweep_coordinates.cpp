@@ -38,7 +38,7 @@ AgeingLine static_friction_line(const SweepSolution& solution, StaticFriction ki
   const VectorXd differences = shared_or_own(differences_of(solution), solution.sweep.sharing.difference);
   const Index count = differences.size();
   return {VectorXd::Constant(count, 1.0 / static_cast<double>(count)), VectorXd::Zero(count),
-          static_cast<double>(count) * variance_of_mean(differences)};
+          static_cast<double>(count) * variance_of_mean(differences), false};
 }
 
 Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
@@ -90,11 +90,14 @@ Spread spread_of(const SweepData& data, const SweepSolution& solution, StaticFri
     spread.degrees_of_freedom = static_cast<double>(solution.cycles());
   }
   spread.covariance(kLevel, kLevel) += variance_of_mean(levels_of(solution));
+  // Recordings whose cycles are those of the model, and that lie on the line within their own errors, count as the
+  // cycles do; otherwise they scatter, and they count.
+  const bool ages = kind == StaticFriction::Ages;
+  if (ages && line.explains && !correlated) return spread;
   MatrixXd scatter(line.rate_weights.size(), 2);
   scatter << line.difference_weights, line.rate_weights;
   spread.covariance.block<2, 2>(kDifference, kDifference) += line.residual_variance * scatter.transpose() * scatter;
-  // A line through few recordings counts for fewer than the cycles do.
-  if (kind == StaticFriction::Ages) {
+  if (ages) {
     const double recordings = std::max(1.0, static_cast<double>(solution.recordings.size()) - 2.0);
     spread.degrees_of_freedom = std::min(spread.degrees_of_freedom, recordings);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/fit_thresholds.hpp"
 #include "fit/inference/ageing_line.hpp"
@@ -12,6 +13,10 @@
 
 namespace slipfit::fit {
 namespace {
+
+LeftOut fit_of(const SweepData& data, const SweepSolution& solution, StaticFriction kind) {
+  return {coordinates_of(solution, kind), spread_of(data, solution, kind), reach_of(solution)};
+}
 
 std::vector<std::optional<LeftOut>> leave_out_each(const SweepData& data, const SweepSolution& solution,
                                                    StaticFriction kind) {
@@ -22,7 +27,7 @@ std::vector<std::optional<LeftOut>> leave_out_each(const SweepData& data, const 
       data.tell_step(fmt::format("fitting without recording {} of {}", recording + 1, solution.recordings.size()));
     }
     const std::optional<SweepSolution> others = leave_out(solution, recording);
-    if (others) each.back() = LeftOut{coordinates_of(*others, kind), spread_of(data, *others, kind)};
+    if (others) each.back() = fit_of(data, *others, kind);
   }
   return each;
 }
@@ -61,36 +66,67 @@ bool recordings_disagree(const SweepOutcome& outcome) {
   return false;
 }
 
+/// ln of the spacing predicted without a recording over its own; empty where there is no prediction.
+std::optional<double> left_out_difference(const SweepOutcome& outcome, std::size_t recording) {
+  const std::optional<LeftOut>& one = outcome.left_out[recording];
+  if (!one) return std::nullopt;
+  const SweepSolution& solution = outcome.solution;
+  const BlockFit& blocks = solution.recordings[recording];
+  const double speed = blocks.scales().speed_m_per_s;
+  const SlidingModel model(with_damping_cut(one->values, one->spread.covariance), solution.sweep.units);
+  const auto spacing = model.spacing(speed, solution.population(recording).load);
+  if (!spacing) return std::nullopt;
+  return std::log(spacing->a / (speed * median_period_s(blocks)));
+}
+
+/// By how much a recording at an end of the speeds is missed by the others, a factor of e beyond them: whatever the law
+/// lacks shows there first.
+double error_beyond(const SweepOutcome& outcome) {
+  double largest = 0.0;
+  for (std::size_t recording = 0; recording < outcome.left_out.size(); ++recording) {
+    const std::optional<double> difference = left_out_difference(outcome, recording);
+    if (!difference) continue;
+    const double speed = outcome.solution.recordings[recording].scales().speed_m_per_s;
+    const double distance = outcome.left_out[recording]->reach.distance_to(speed);
+    if (distance > thresholds::kBeyondDistance) largest = std::max(largest, std::abs(*difference) / distance);
+  }
+  return largest;
+}
+
 }  // namespace
 
 SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
   const StaticFriction kind = static_friction_of(solution);
-  SweepOutcome outcome{solution, kind, coordinates_of(solution, kind), spread_of(data, solution, kind),
-                       leave_out_each(data, solution, kind)};
+  LeftOut all = fit_of(data, solution, kind);
+  SweepOutcome outcome{
+      solution, kind, all.values, std::move(all.spread), all.reach, leave_out_each(data, solution, kind)};
   outcome.disagree = recordings_disagree(outcome);
   if (outcome.disagree) {
     Spread& spread = outcome.spread;
     spread.covariance += jackknife_over(outcome.left_out);
     spread.degrees_of_freedom = std::max(1.0, std::min(spread.degrees_of_freedom, count_of(outcome.left_out) - 1.0));
   }
+  if (outcome.reach.trend) outcome.reach.trend = std::hypot(*outcome.reach.trend, error_beyond(outcome));
   AlongRate along = profile_rate(solution, kind, outcome.values, outcome.spread);
   outcome.values = along.best;
   outcome.spread = std::move(along.spread);
   return outcome;
 }
 
+Spread spread_at(const LeftOut& fit, double speed_m_per_s) {
+  Spread spread = fit.spread;
+  const double half_width =
+      fit.reach.trend.value_or(0.0) * fit.reach.distance_to(speed_m_per_s) * fit.values(kDifference);
+  spread.covariance(kDifference, kDifference) += std::pow(half_width / t_quantile(spread.degrees_of_freedom), 2);
+  return spread;
+}
+
 double left_out_error(const SweepOutcome& outcome) {
   const SweepSolution& solution = outcome.solution;
   double square = 0.0;
   for (std::size_t recording = 0; recording < solution.recordings.size(); ++recording) {
-    const BlockFit& blocks = solution.recordings[recording];
-    const double speed = blocks.scales().speed_m_per_s;
-    double error = std::log(thresholds::kWidestFactor);
-    if (const auto& one = outcome.left_out[recording]) {
-      const SlidingModel model(with_damping_cut(one->values, one->spread.covariance), solution.sweep.units);
-      const auto spacing = model.spacing(speed, solution.population(recording).load);
-      if (spacing) error = std::min(error, std::abs(std::log(spacing->a / (speed * median_period_s(blocks)))));
-    }
+    const double most = std::log(thresholds::kWidestFactor);
+    const double error = std::min(most, std::abs(left_out_difference(outcome, recording).value_or(most)));
     square += error * error;
   }
   return std::sqrt(square / static_cast<double>(solution.recordings.size()));

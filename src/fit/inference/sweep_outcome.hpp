@@ -12,6 +12,7 @@ namespace slipfit::fit {
 struct LeftOut {
   Coordinates values;
   Spread spread;
+  SpeedReach reach;
 };
 
 /// A solution with its intervals.
@@ -20,12 +21,16 @@ struct SweepOutcome {
   StaticFriction static_friction = StaticFriction::Constant;
   Coordinates values;  ///< zeta may be negative
   Spread spread;
+  SpeedReach reach;
   std::vector<std::optional<LeftOut>> left_out;  ///< one for each of the solution's recordings
   bool disagree = false;  ///< the covariance is widened by what leaving out each recording changes
 };
 
 /// Fits once without each recording.
 SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution);
+
+/// With the trend of F_s - F_k at a speed beyond its own.
+Spread spread_at(const LeftOut& fit, double speed_m_per_s);
 
 /// Root mean square of ln (spacing predicted without a recording / its own); no prediction counts as a factor of 2.
 double left_out_error(const SweepOutcome& outcome);

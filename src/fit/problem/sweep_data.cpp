@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "fit/selection/damped_fit.hpp"
 #include "signal/robust.hpp"
@@ -41,6 +42,19 @@ SteadyRun steady_run(const Recording& recording, double load) {
   for (const double mean : means) square += (mean - run.mean_force) * (mean - run.mean_force);
   run.standard_error = std::sqrt(square / (count * std::max(1.0, count - 1.0)));
   return run;
+}
+
+/// Empty where it is not stated for all.
+std::optional<double> mean_load_N(std::span<const SweepRecording> recordings) {
+  std::vector<double> loads;
+  for (const SweepRecording& sweep : recordings) {
+    const std::optional<double>& load = sweep.recording.conditions().normal_force_N;
+    if (!load) return std::nullopt;
+    loads.push_back(*load);
+  }
+  const double mean = std::accumulate(loads.begin(), loads.end(), 0.0) / static_cast<double>(loads.size());
+  const auto [low, high] = std::minmax_element(loads.begin(), loads.end());
+  return std::clamp(mean, *low, *high);  // exactly the load where all are the same
 }
 
 }  // namespace
@@ -90,12 +104,9 @@ double median_period_s(const BlockFit& blocks) {
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
   SweepData data;
   data.tell_step = options.tell_step;
-  data.loads_known = std::all_of(recordings.begin(), recordings.end(), [](const SweepRecording& sweep) {
-    return sweep.recording.conditions().normal_force_N.has_value();
-  });
-  const double reference = data.loads_known ? *recordings.front().recording.conditions().normal_force_N : 1.0;
+  data.mean_load_N = mean_load_N(recordings);
   for (const SweepRecording& sweep : recordings) {
-    data.loads.push_back(data.loads_known ? *sweep.recording.conditions().normal_force_N / reference : 1.0);
+    data.loads.push_back(data.mean_load_N ? *sweep.recording.conditions().normal_force_N / *data.mean_load_N : 1.0);
     data.single.emplace_back();
     if (sweep.role == SweepRole::Cycles) {
       data.single.back() = fit_damped(sweep.recording, sweep.quality, sweep.segmentation, options.held);

@@ -23,8 +23,8 @@ struct SweepData {
   std::vector<std::optional<DampedFit>> single;  ///< in the order of the recordings
   std::vector<SteadyRun> steady;
   std::vector<std::optional<std::size_t>> steady_of;  ///< index into `steady` of each recording
-  std::vector<double> loads;                          ///< normal force over the first recording's; 1 where not known
-  bool loads_known = false;
+  std::vector<double> loads;                          ///< normal force over their mean; 1 where not known
+  std::optional<double> mean_load_N;                  ///< empty where a recording does not state it
   Units units;
   std::vector<std::size_t> fitted;                    ///< recordings with cycles
   std::function<void(const std::string&)> tell_step;  ///< FitOptions

@@ -1,0 +1,155 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "analysis/sweep_checks.hpp"
+#include "core/fit_thresholds.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit {
+namespace {
+
+/// How far a recording stands from the others.
+struct Apart {
+  std::size_t recording = 0;
+  double distance = 0.0;  ///< relative, or ln of a ratio; levels in units of F_s - F_k
+  double errors = 0.0;    ///< the same in errors, > 0
+};
+
+/// How many of the recordings have to agree: a level has no unit that all share, and zeros of their own lie anywhere.
+enum class Agreeing { Half, AllOthers };
+
+/// The one that stands furthest apart, where so many agree.
+std::optional<Apart> furthest(std::vector<Apart> recordings, Agreeing agreeing) {
+  if (recordings.size() < thresholds::kNamingRecordings) return std::nullopt;
+  std::sort(recordings.begin(), recordings.end(), [](const Apart& a, const Apart& b) { return a.errors > b.errors; });
+  const Apart& first = recordings.front();
+  const Apart& other = recordings[agreeing == Agreeing::Half ? recordings.size() / 2 : 1];
+  const bool beyond = first.errors > thresholds::kLeftOutErrors && std::abs(first.distance) > thresholds::kLeftOutShare;
+  return beyond && first.errors > thresholds::kStandsApart * other.errors ? std::optional(first) : std::nullopt;
+}
+
+/// Spacing predicted without a recording over the one that it shows.
+std::optional<Apart> by_spacing(const std::vector<Analysis>& analyses, const SweepFit& fit) {
+  std::vector<Apart> recordings;
+  for (std::size_t i = 0; i < analyses.size(); ++i) {
+    const Estimate& measured = analyses[i].derived.pattern_spacing_m;
+    const Estimate& predicted = fit.points[i].spacing_left_out_m;
+    if (!measured.standard_error || !predicted.standard_error) continue;
+    const double distance = std::log(*predicted.value / *measured.value);
+    const double error =
+        std::hypot(*measured.standard_error / *measured.value, *predicted.standard_error / *predicted.value);
+    recordings.push_back({i, distance, std::abs(distance) / error});
+  }
+  return furthest(std::move(recordings), Agreeing::Half);
+}
+
+/// A parameter of a recording's own fit.
+struct Own {
+  std::size_t recording = 0;
+  double value = 0.0;
+  double standard_error = 1.0;
+};
+
+std::vector<Own> own_values(ParameterId id, const std::vector<Analysis>& analyses, const SweepFit& fit) {
+  std::vector<Own> values;
+  for (std::size_t i = 0; i < analyses.size(); ++i) {
+    if (!analyses[i].fit || fit.points[i].cycles_used == 0) continue;
+    const Estimate own = analyses[i].fit->estimate_of(id);
+    if (!own.value || !own.standard_error || !(*own.standard_error > 0.0)) continue;
+    values.push_back({i, *own.value, *own.standard_error});
+  }
+  return values;
+}
+
+double middle_of(const std::vector<Own>& values) {
+  std::vector<double> numbers;
+  for (const Own& own : values) numbers.push_back(own.value);
+  return signal::median(numbers);
+}
+
+/// Beside the middle of all, in a unit.
+std::vector<Apart> from_middle(const std::vector<Own>& values, double unit) {
+  std::vector<Apart> apart;
+  for (const Own& own : values) {
+    const double off = own.value - middle_of(values);
+    apart.push_back({own.recording, off / unit, std::abs(off) / own.standard_error});
+  }
+  return apart;
+}
+
+std::optional<Apart> by_stiffness(const std::vector<Analysis>& analyses, const SweepFit& fit) {
+  const std::vector<Own> values = own_values(ParameterId::Stiffness, analyses, fit);
+  if (values.empty()) return std::nullopt;
+  return furthest(from_middle(values, middle_of(values)), Agreeing::Half);
+}
+
+/// In units of F_s - F_k, at the mean load where loads are known.
+std::optional<Apart> by_level(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
+                              const SweepFit& fit) {
+  const Estimate unit = fit.result.friction_difference();
+  if (fit.level_shared || !unit.value) return std::nullopt;
+  std::vector<Own> values = own_values(ParameterId::KineticFriction, analyses, fit);
+  if (values.empty()) return std::nullopt;
+  for (Own& own : values) {
+    const std::optional<double> load_N = entries[own.recording].recording.conditions().normal_force_N;
+    if (!load_N || !fit.result.estimate || !fit.result.estimate->normal_force_N) continue;
+    own.value *= *fit.result.estimate->normal_force_N / *load_N;
+    own.standard_error *= *fit.result.estimate->normal_force_N / *load_N;
+  }
+  return furthest(from_middle(values, *unit.value), Agreeing::AllOthers);
+}
+
+const char* side_of(const Apart& apart) {
+  return apart.distance > 0.0 ? "above" : "below";
+}
+
+}  // namespace
+
+Warnings check_agreement(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
+                         const SweepFit& fit) {
+  const auto warning = [&entries](std::size_t recording, const std::string& shown) {
+    return Warning{
+        "recording_disagrees",
+        fmt::format("recording '{}' disagrees with the others: {}; check its speed, its unit and its file, and "
+                    "fit without it",
+                    entries[recording].id, shown)};
+  };
+  if (const auto apart = by_stiffness(analyses, fit)) {
+    return {warning(apart->recording, fmt::format("its stiffness lies {:.2g} % {} theirs (k goes as 1 / V)",
+                                                  100.0 * std::abs(apart->distance), side_of(*apart)))};
+  }
+  if (const auto apart = by_spacing(analyses, fit)) {
+    return {
+        warning(apart->recording, fmt::format("a fit without it predicts a spacing {:.3g} times the one that it shows",
+                                              std::exp(apart->distance)))};
+  }
+  if (const auto apart = by_level(entries, analyses, fit)) {
+    return {warning(apart->recording, fmt::format("its force level lies {:.2g} times F_s - F_k {} theirs",
+                                                  std::abs(apart->distance), side_of(*apart)))};
+  }
+  return {};
+}
+
+Warnings check_duplicates(std::span<const SweepEntry> entries) {
+  Warnings warnings;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto one = entries[i].recording.force();
+      const auto other = entries[j].recording.force();
+      if (!std::equal(one.begin(), one.end(), other.begin(), other.end())) continue;
+      warnings.push_back(
+          {"recording_repeated", fmt::format("recordings '{}' and '{}' hold the same samples: one of them counts "
+                                             "twice, or stands under another's conditions",
+                                             entries[j].id, entries[i].id)});
+      break;
+    }
+  }
+  return warnings;
+}
+
+}  // namespace slipfit
