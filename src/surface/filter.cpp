@@ -56,7 +56,7 @@ std::vector<double> waviness(std::span<const double> heights, double cutoff) {
   const auto block = std::max<std::size_t>(1, static_cast<std::size_t>(cutoff / 64.0));
   const std::vector<double> coarse = gaussian_mean(block_means(heights, block), cutoff / static_cast<double>(block));
   std::vector<double> mean(heights.size());
-  const double last = static_cast<double>(coarse.size() - 1);
+  const auto last = static_cast<double>(coarse.size() - 1);
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(block) - 0.5;
     const double left = std::clamp(std::floor(place), 0.0, std::max(0.0, last - 1.0));

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -167,11 +168,11 @@ void add_ridges(const Profile& profile, const Pattern& pattern, Surface& found) 
 /// A spacing that what coded the file has by itself.
 bool is_of_the_code(const Profile& profile, const surface::MeanSpacing& spacing) {
   if (!profile.block_samples) return false;
-  for (const double blocks : {1.0, 2.0}) {
+  constexpr std::array kBlocks = {1.0, 2.0};
+  return std::any_of(kBlocks.begin(), kBlocks.end(), [&](double blocks) {
     const double apart = std::abs(spacing.value - blocks * *profile.block_samples);
-    if (apart < std::max(2.0 * spacing.standard_error, 0.01 * spacing.value)) return true;
-  }
-  return false;
+    return apart < std::max(2.0 * spacing.standard_error, 0.01 * spacing.value);
+  });
 }
 
 void conclude(const Profile& profile, const std::vector<Pattern>& patterns, Surface& found) {
