@@ -142,6 +142,30 @@ def control(rng, family):
     return {"x_um": np.arange(n) * 1.5, "z_um": z, "spacing_um": None, "family": family}
 
 
+MACHINED = ("turned", "milled")
+
+
+def machined(rng, family):
+    """Marks of a tool: feed marks of a round tip in turning, cusps of a ball end mill. The feed keeps time; the spacing is true, but not of sliding."""
+    count = float(np.exp(rng.uniform(np.log(8), np.log(150))))
+    per_mark = float(np.exp(rng.uniform(np.log(12), np.log(100))))
+    n = int(count * per_mark)
+    t = rng.uniform(0, 1) + np.arange(n) / per_mark
+    which = np.floor(t).astype(int)
+    wander = rng.normal(0, rng.uniform(0, 0.02), which.max() + 3)  # of the feed
+    u = np.clip(t - which - wander[which], 0, 1) - 0.5
+    if family == "turned":
+        z = 4 * u**2 * (1 + rng.normal(0, rng.uniform(0, 0.1), len(wander)))[which]
+    else:  # deep cusps, whose height follows the run-out of the cutter's two edges
+        z = 1 - np.sqrt(np.clip(1 - (1.6 * u) ** 2, 0, 1))
+        z = z / z.max() * (1 + rng.uniform(0, 0.15) * (which % 2))
+    z = z + rng.uniform(0.01, 0.3) * smooth_noise(rng, n, rng.uniform(0, 0.05) * per_mark)
+    s = np.linspace(-1, 1, n)
+    z = z + rng.normal(0, 2) * s**2
+    spacing_um = float(np.exp(rng.uniform(np.log(30), np.log(500))))
+    return {"x_um": np.arange(n) * spacing_um / per_mark, "z_um": 5 * z, "spacing_um": spacing_um, "family": family}
+
+
 def write(profile, file):
     with open(file, "w", encoding="utf-8") as out:
         out.write("x [um],z [um]\n")

@@ -57,6 +57,9 @@ std::vector<SummaryColumn> make_columns() {
   }
   columns.push_back({"regime", Place("/derived/regime")});
   columns.push_back({"measured_spacing_En", Place("/derived/measured_spacing_En/value")});
+  add_estimate(columns, "/derived/surface_spacing_m", "surface_spacing", "_m");
+  columns.push_back({"surface_En", Place("/derived/surface_En/value")});
+  columns.push_back({"surface_verdict", Place("/derived/surface_verdict")});
   columns.push_back({"tier", Place("/model/tier")});
   columns.push_back({"residual_rms_N", Place("/model/residual/rms_N")});
   for (const ParameterInfo& parameter : parameter_table()) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <memory>
 
+#include "core/surface_thresholds.hpp"
+
 namespace slipfit {
 namespace {
 
@@ -16,7 +18,7 @@ double reach_towards(const Estimate& from, double other) {
 
 /// A coarse pattern of every second, third, ... slip. A whole number is told only where its neighbours are not as good.
 std::string ratio_verdict(double ratio, double relative_reach) {
-  if (std::abs(ratio - 1.0) < 0.15) {
+  if (std::abs(ratio - 1.0) < thresholds::kNearlySame) {
     return fmt::format(
         "nearly the same: the spacings differ by {:.2g} %, more than their uncertainties allow; a stated "
         "speed that is off does that (--speed-uncertainty)",
@@ -26,7 +28,8 @@ std::string ratio_verdict(double ratio, double relative_reach) {
     const double times = is_coarser ? ratio : 1.0 / ratio;
     const double whole = std::round(times);
     const double reach = times * relative_reach;
-    if (whole < 2.0 || whole > 12.0 || std::abs(times - whole) > std::max(reach, 1e-9) || reach > 0.25) continue;
+    const bool is_known = reach <= thresholds::kWholeReach && std::abs(times - whole) <= std::max(reach, 1e-9);
+    if (!is_known || whole < 2.0 || whole > thresholds::kMostSlipsToRidge) continue;
     return is_coarser ? fmt::format(
                             "the pattern is {:.0f} times as coarse as the slips: several slips make one ridge, or "
                             "every pass leaves its own",

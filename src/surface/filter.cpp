@@ -9,25 +9,35 @@ namespace slipfit::surface {
 std::vector<double> gaussian_mean(std::span<const double> heights, double cutoff) {
   // exp(-pi (x / (alpha cutoff))^2) with alpha = sqrt(ln 2 / pi): ISO 16610-21, section 4.
   constexpr double scale = std::numbers::pi * std::numbers::pi / std::numbers::ln2;
-  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(cutoff));
-  std::vector<double> weight(static_cast<std::size_t>(reach) + 1);
+  const auto reach = static_cast<std::size_t>(std::ceil(cutoff));
+  std::vector<double> weight(reach + 1);
   for (std::size_t k = 0; k < weight.size(); ++k) {
     const double place = static_cast<double>(k) / cutoff;
     weight[k] = std::exp(-scale * place * place);
   }
-  const auto count = static_cast<std::ptrdiff_t>(heights.size());
-  std::vector<double> mean(heights.size());
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const std::ptrdiff_t first = std::max<std::ptrdiff_t>(0, i - reach);
-    const std::ptrdiff_t last = std::min(count - 1, i + reach);
+  const std::size_t count = heights.size();
+  const auto at_end = [&](std::size_t i) {
     double sum = 0.0;
-    double weights = 0.0;
-    for (std::ptrdiff_t j = first; j <= last; ++j) {
-      const double w = weight[static_cast<std::size_t>(std::abs(i - j))];
-      sum += w * heights[static_cast<std::size_t>(j)];
-      weights += w;
+    double used = 0.0;
+    for (std::size_t j = i - std::min(i, reach); j < std::min(count, i + reach + 1); ++j) {
+      const double w = weight[i > j ? i - j : j - i];
+      sum += w * heights[j];
+      used += w;
     }
-    mean[static_cast<std::size_t>(i)] = sum / weights;
+    return sum / used;
+  };
+  const std::size_t first = std::min(reach, count);
+  const std::size_t last = std::max(first, count - first);
+  std::vector<double> mean(count);
+  for (std::size_t i = 0; i < first; ++i) mean[i] = at_end(i);
+  for (std::size_t i = last; i < count; ++i) mean[i] = at_end(i);
+  // By weight first and place second: the inner loop has no branches.
+  double weights = weight[0];
+  for (std::size_t k = 1; k <= reach; ++k) weights += 2.0 * weight[k];
+  for (std::size_t i = first; i < last; ++i) mean[i] = weight[0] / weights * heights[i];
+  for (std::size_t k = 1; k <= reach; ++k) {
+    const double share = weight[k] / weights;
+    for (std::size_t i = first; i < last; ++i) mean[i] += share * (heights[i - k] + heights[i + k]);
   }
   return mean;
 }
@@ -46,7 +56,7 @@ std::vector<double> waviness(std::span<const double> heights, double cutoff) {
   const auto block = std::max<std::size_t>(1, static_cast<std::size_t>(cutoff / 64.0));
   const std::vector<double> coarse = gaussian_mean(block_means(heights, block), cutoff / static_cast<double>(block));
   std::vector<double> mean(heights.size());
-  const double last = static_cast<double>(coarse.size() - 1);
+  const auto last = static_cast<double>(coarse.size() - 1);
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(block) - 0.5;
     const double left = std::clamp(std::floor(place), 0.0, std::max(0.0, last - 1.0));

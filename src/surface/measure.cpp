@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "core/quantile.hpp"
+#include "core/surface_thresholds.hpp"
 #include "slipfit/core/range.hpp"
 #include "slipfit/surface/surface.hpp"
 #include "surface/filter.hpp"
@@ -16,30 +18,26 @@ namespace {
 
 using surface::Pattern;
 
-constexpr std::size_t kFewestPoints = 40;  // five ridges of eight samples
-constexpr double kMostHoles = 0.1;
-constexpr double kIrregular = 0.2;
-constexpr double kFewestRidges = 5.0;
 constexpr Range kPositive{1e-300, 1e300};
 
 Error too_few_ridges(const Profile& profile, double count) {
   return {"too_few_ridges",
           fmt::format("{}: the track holds only about {:.0f} ridges, and fewer than {:.0f} do not tell their spacing; "
                       "measure a longer track",
-                      profile.file, count, kFewestRidges)};
+                      profile.file, count, thresholds::kFewestOnTrack)};
 }
 
 std::optional<Error> refusal(const Profile& profile) {
   const std::vector<double>& z = profile.height;
   const auto holes =
       static_cast<std::size_t>(std::count_if(z.begin(), z.end(), [](double h) { return !std::isfinite(h); }));
-  if (z.size() < kFewestPoints) {
+  if (z.size() < thresholds::kFewestPoints) {
     return Error{"too_few_points",
                  fmt::format("{}: {} points are too few for a pattern (at least {}); measure a longer "
                              "track or at a smaller pitch",
-                             profile.file, z.size(), kFewestPoints)};
+                             profile.file, z.size(), thresholds::kFewestPoints)};
   }
-  if (static_cast<double>(holes) > kMostHoles * static_cast<double>(z.size())) {
+  if (static_cast<double>(holes) > thresholds::kMostHoles * static_cast<double>(z.size())) {
     return Error{
         "too_many_holes",
         fmt::format("{}: {:.0f} % of the points were not measured, at most a tenth is bridged; measure the track "
@@ -170,11 +168,11 @@ void add_ridges(const Profile& profile, const Pattern& pattern, Surface& found) 
 /// A spacing that what coded the file has by itself.
 bool is_of_the_code(const Profile& profile, const surface::MeanSpacing& spacing) {
   if (!profile.block_samples) return false;
-  for (const double blocks : {1.0, 2.0}) {
+  constexpr std::array kBlocks = {1.0, 2.0};
+  return std::any_of(kBlocks.begin(), kBlocks.end(), [&](double blocks) {
     const double apart = std::abs(spacing.value - blocks * *profile.block_samples);
-    if (apart < std::max(2.0 * spacing.standard_error, 0.01 * spacing.value)) return true;
-  }
-  return false;
+    return apart < std::max(2.0 * spacing.standard_error, 0.01 * spacing.value);
+  });
 }
 
 void conclude(const Profile& profile, const std::vector<Pattern>& patterns, Surface& found) {
@@ -195,8 +193,8 @@ void conclude(const Profile& profile, const std::vector<Pattern>& patterns, Surf
         unknown("what repeats has the length of the blocks that JPEG codes an image in; save it as PNG or TIFF");
     return;
   }
-  found.status =
-      pattern.variation < kIrregular || pattern.is_from_comb ? SurfaceStatus::Periodic : SurfaceStatus::Irregular;
+  found.status = pattern.variation < thresholds::kIrregular || pattern.is_from_comb ? SurfaceStatus::Periodic
+                                                                                    : SurfaceStatus::Irregular;
   found.method = pattern.is_from_comb ? "comb" : "ridges";
   found.spacing_m = estimate(*pattern.spacing, profile.pitch_m);
   add_ridges(profile, pattern, found);
@@ -209,7 +207,7 @@ void warn(Surface& found) {
                             "a pattern alone does not tell what left it: marks of turning, milling or grinding repeat "
                             "as well; they have the same "
                             "spacing beside the track, and a spacing of stick-slip grows with the speed of sliding"});
-  if (found.rsm_m && std::abs(*found.rsm_m / *found.spacing_m.value - 1.0) > 0.2) {
+  if (found.rsm_m && std::abs(*found.rsm_m / *found.spacing_m.value - 1.0) > thresholds::kRsmApart) {
     found.warnings.push_back({"rsm_differs",
                               "RSm differs from the spacing by more than a fifth: it counts roughness and "
                               "waves as well as ridges"});
@@ -217,7 +215,8 @@ void warn(Surface& found) {
   const auto& begin = found.begin_spacing_m;
   const auto& end = found.end_spacing_m;
   if (begin.value && end.value &&
-      std::abs(*begin.value - *end.value) > 3.0 * std::hypot(*begin.standard_error, *end.standard_error)) {
+      std::abs(*begin.value - *end.value) >
+          thresholds::kDrifts * std::hypot(*begin.standard_error, *end.standard_error)) {
     found.warnings.push_back({"spacing_drifts", "the spacing changes along the track: the mean stands for all of it"});
   }
 }
@@ -231,7 +230,7 @@ Result<Surface> measure_surface(const Profile& profile) {
   Surface found;
   if (!patterns.empty() && patterns.front().comb_spacing > 0.0) {
     const double count = static_cast<double>(heights.size()) / patterns.front().comb_spacing;
-    if (count < kFewestRidges) return too_few_ridges(profile, count);
+    if (count < thresholds::kFewestOnTrack) return too_few_ridges(profile, count);
   }
   conclude(profile, patterns, found);
   const double length_m = profile.pitch_m * static_cast<double>(heights.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/surface_thresholds.hpp"
 #include "signal/turning_points.hpp"
 #include "surface/filter.hpp"
 
@@ -63,7 +64,7 @@ Ridges find_ridges(std::span<const double> heights, double smoothed_over, double
   ridges.waves_above = waves_above;
   const Band band = band_of(heights, smoothed_over, waves_above);
   if (band.values.size() < 8) return ridges;
-  signal::TurningPoints turning(0.3 * usual_swing(band.values));
+  signal::TurningPoints turning(thresholds::kRidgeSwing * usual_swing(band.values));
   for (std::size_t i = 0; i < band.values.size(); ++i) turning.add(i, band.values[i]);
   const auto& falls = turning.falls();
   for (std::size_t j = 0; j < falls.size(); ++j) {

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
-#include "signal/student.hpp"
+#include "core/surface_thresholds.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/signal/spectrum.hpp"
 #include "surface/filter.hpp"
@@ -13,38 +14,20 @@
 namespace slipfit::surface {
 namespace {
 
-/// Scatter over mean of the distances of ridges on random surfaces (white, Gaussian, exponential, fractal, grooves at
-/// random places): 0.39 in the median at every scale, above 0.30 in 95 of 100. The smaller is taken.
-constexpr double kRandomVariation = 0.33;
-/// A profile is looked at on some 30 scales with four features each.
-constexpr double kChance = -7.0;
-constexpr double kStillRegular = -3.0;  // at a distance that the scan has shown
-constexpr double kKeptChance = 0.3;     // share of the best logarithm
-constexpr double kSureComb = 1e-4;
-constexpr double kHintOfRidges = -1.5;
-constexpr std::size_t kFewestRidges = 6;
-constexpr double kFewestSamples = 6.0;       // of a ridge
-constexpr double kFewestCombSamples = 10.0;  // of one that only the spectrum shows
-// Where distances scatter by more, short ridges hide beside long ones at every smoothing. Calibrated: of simulated
-// ridges that scatter by 0.3 to 0.4 some hundred were counted as up to an eighth fewer, with a variation of 0.25.
-constexpr double kModestVariation = 0.15;
-constexpr double kJoined = 0.3;
-constexpr double kMuchSmoothing = 0.25;
-
 /// The feature whose distances are second in regularity (the first of four is so by luck, too), and what chance has to
 /// do with it.
 Pattern pattern_of(Ridges ridges) {
   Pattern pattern;
   std::vector<std::pair<double, const std::vector<double>*>> features;
   for (const auto* places : {&ridges.peaks, &ridges.falls, &ridges.valleys, &ridges.rises}) {
-    if (places->size() >= kFewestRidges - 1) features.emplace_back(variation(distances(*places)), places);
+    if (places->size() >= thresholds::kFewestRidges - 1) features.emplace_back(variation(distances(*places)), places);
   }
   if (features.size() >= 2) {
     std::sort(features.begin(), features.end());
     pattern.variation = features[1].first;
     pattern.places = *features[1].second;
     const double freedom = static_cast<double>(pattern.places.size()) - 2.0;
-    const double ratio = std::clamp(std::pow(pattern.variation / kRandomVariation, 2.0), 1e-8, 1.0);
+    const double ratio = std::clamp(std::pow(pattern.variation / thresholds::kRandomVariation, 2.0), 1e-8, 1.0);
     // Chernoff's bound of the lower tail of chi-squared.
     pattern.log_chance = 0.5 * freedom * (1.0 - ratio + std::log(ratio));
   }
@@ -58,8 +41,8 @@ std::vector<Pattern> scan(std::span<const double> heights) {
   for (double scale = static_cast<double>(heights.size()) / 8.0; scale >= 2.0; scale /= 1.3) {
     Pattern pattern = pattern_of(find_ridges(heights, scale, 8.0 * scale));
     const double distance = mean_distance(pattern);
-    if (pattern.log_chance > kChance || distance < kFewestSamples) continue;
-    const bool is_same = !found.empty() && distance > 0.6 * mean_distance(found.back());
+    if (pattern.log_chance > thresholds::kPatternChance || distance < thresholds::kFewestRidgeSamples) continue;
+    const bool is_same = !found.empty() && distance > thresholds::kSameScale * mean_distance(found.back());
     if (!is_same) {
       found.push_back(std::move(pattern));
     } else if (pattern.log_chance < found.back().log_chance) {
@@ -95,6 +78,18 @@ struct CombSpacing {
   double value = 0.0;
   double standard_error = 0.0;
   double chance = 1.0;
+  double ridges = 0.0;
+  bool is_even = false;  ///< its phase shows no scatter of the distances
+
+  /// Scatter of the distances over their mean, as the wandering of its phase has it.
+  [[nodiscard]] double scatter() const { return standard_error / value * std::sqrt(ridges); }
+  [[nodiscard]] bool is_sure() const { return chance < thresholds::kSureComb; }
+  /// A phase that wanders by more than can be followed has lost count of the ridges.
+  [[nodiscard]] bool is_followed() const { return is_even || scatter() < thresholds::kFollowedScatter; }
+  [[nodiscard]] Clock clock() const {
+    const double miscount = is_even ? 0.0 : thresholds::kMiscount * scatter() * scatter() * value;
+    return {value, std::hypot(standard_error, miscount)};
+  }
 };
 
 class Combs {
@@ -109,8 +104,9 @@ class Combs {
     if (!found.value_Hz || !found.standard_error_Hz) return std::nullopt;
     const double spacing = 1.0 / *found.value_Hz;
     const double ridges = static_cast<double>(trace_->size()) / spacing;
-    const double error = *found.standard_error_Hz * spacing * spacing * signal::students_factor(ridges - 2.0);
-    return CombSpacing{spacing, error, found.false_alarm_probability};
+    const double error = *found.standard_error_Hz * spacing * spacing;
+    return CombSpacing{spacing, error, found.false_alarm_probability, ridges,
+                       found.regular_standard_error_Hz.has_value()};
   }
 
  private:
@@ -118,29 +114,44 @@ class Combs {
   Spectrum spectrum_;
 };
 
-MeanSpacing normal_interval(double value, double standard_error) {
-  const double half = 1.959963985 * standard_error;
-  return {value, standard_error, {value - half, value + half}};
+/// A comb that is to stand alone has to show in both halves of the profile. What their spacings differ by is an error
+/// of their mean: a phase that noise hides may wander more than it shows.
+std::optional<MeanSpacing> mean_of_halves(std::span<const double> heights, const CombSpacing& comb) {
+  const std::size_t half = heights.size() / 2;
+  std::vector<double> found;
+  for (const auto part : {heights.first(half), heights.last(half)}) {
+    const auto seen = Combs(part).find(comb.value);
+    if (!seen || std::abs(seen->value / comb.value - 1.0) > thresholds::kCombAgrees) return std::nullopt;
+    found.push_back(seen->value);
+  }
+  const auto [value, known] = comb.clock();
+  const double error = std::hypot(known, 0.5 * (found[1] - found[0]));
+  return MeanSpacing{value, error, {value - 1.959963985 * error, value + 1.959963985 * error}, 1.0};
+}
+
+/// Upper limit (97.5 %) of the squared variation of the distances: few are alike by luck. Wilson and Hilferty's
+/// approximation of chi-squared.
+double largest_square(const Pattern& pattern) {
+  const double freedom = std::max(1.0, static_cast<double>(pattern.places.size()) - 2.0);
+  const double spread = 2.0 / (9.0 * freedom);
+  return pattern.variation * pattern.variation / std::pow(1.0 - spread - 1.959963985 * std::sqrt(spread), 3.0);
 }
 
 /// Long smoothing joins short ridges, short smoothing leaves roughness between them: the shortest at which they are
 /// still regular is taken, and the distance to the one at which they are most regular counts as an error.
-Pattern choose(std::vector<Pattern> looks) {
+Pattern choose(std::vector<Pattern> looks, const std::optional<Clock>& clock) {
   const auto by_chance = [](const Pattern& a, const Pattern& b) { return a.log_chance < b.log_chance; };
   const auto best = std::min_element(looks.begin(), looks.end(), by_chance);
-  const auto first = std::find_if(looks.begin(), looks.end(),
-                                  [&](const Pattern& p) { return p.log_chance <= kKeptChance * best->log_chance; });
+  const auto first = std::find_if(looks.begin(), looks.end(), [&](const Pattern& p) {
+    return p.log_chance <= thresholds::kKeptChance * best->log_chance;
+  });
   Pattern chosen = *first;
-  chosen.spacing = mean_spacing(distances(chosen.places));
-  if (!chosen.spacing) return chosen;
-  chosen.is_clocked = chosen.spacing->standard_error < 0.6 * chosen.variation * chosen.spacing->value /
-                                                           std::sqrt(static_cast<double>(chosen.places.size()));
-  const MeanSpacing& mean = *chosen.spacing;
-  const double joined = kJoined * std::max(0.0, chosen.variation - kModestVariation) * mean.value;
-  const double apart = std::hypot(mean_distance(*best) - mean_distance(*first), joined);
-  if (apart > 0.1 * mean.standard_error) {
-    chosen.spacing = normal_interval(mean.value, std::hypot(mean.standard_error, apart));
-  }
+  const double distance = mean_distance(chosen);
+  // Anywhere between the two smoothings.
+  const double between = (mean_distance(*best) - distance) / std::numbers::sqrt3;
+  const double miscount = std::hypot(between, thresholds::kMiscount * largest_square(chosen) * distance);
+  chosen.spacing = mean_spacing(distances(chosen.places), clock, miscount);
+  chosen.is_from_comb = clock && chosen.spacing && chosen.spacing->clock_share > 0.5;
   return chosen;
 }
 
@@ -149,25 +160,30 @@ Pattern measured(std::span<const double> heights, const Combs& combs, const Patt
   const double distance = mean_distance(seen);
   std::vector<Pattern> looks = looked_at(heights, distance);
   std::erase_if(looks, [&](const Pattern& p) {
-    return p.log_chance > kStillRegular || std::abs(mean_distance(p) / distance - 1.0) > 0.3;
+    return p.log_chance > thresholds::kStillRegular ||
+           std::abs(mean_distance(p) / distance - 1.0) > thresholds::kSameRidges;
   });
   const auto comb = combs.find(distance);
-  const bool agrees = comb && comb->chance < kSureComb && std::abs(comb->value / distance - 1.0) < 0.15;
-  Pattern pattern = looks.empty() ? seen : choose(std::move(looks));
-  if (comb) pattern.comb_chance = comb->chance;
-  // Where the ridges are as regular as a clock the phases of the comb know the spacing far better than their places.
-  const bool is_sharper =
-      agrees && (!pattern.spacing || (pattern.is_clocked && comb->standard_error < pattern.spacing->standard_error));
-  if (is_sharper) {
-    pattern.spacing = normal_interval(comb->value, comb->standard_error);
-    pattern.is_from_comb = true;
+  const bool agrees = comb && comb->is_sure() && std::abs(comb->value / distance - 1.0) < thresholds::kCombAgrees;
+  std::optional<Clock> clock;
+  if (agrees && comb->is_followed()) clock = comb->clock();
+  if (looks.empty() && clock) looks = {seen};
+  Pattern pattern = looks.empty() ? seen : choose(std::move(looks), clock);
+  if (agrees && comb->is_even &&
+      comb->scatter() <
+          thresholds::kEvenScatter) {  // what the distances scatter by is roughness, in their places or their count
+    if (const auto mean = mean_of_halves(heights, *comb)) {
+      pattern.spacing = mean;
+      pattern.is_from_comb = true;
+    }
   }
-  const bool is_hidden = pattern.ridges.smoothed_over > kMuchSmoothing * mean_distance(pattern);
+  const bool is_hidden = pattern.ridges.smoothed_over > thresholds::kMuchSmoothing * mean_distance(pattern);
   if (is_hidden && !agrees) {
     pattern.spacing = std::nullopt;
     pattern.doubt = "roughness hides how many ridges there are";
+  } else if (!pattern.spacing) {
+    pattern.doubt = "the ridges are seen at one smoothing only";
   }
-  if (!pattern.spacing && pattern.doubt.empty()) pattern.doubt = "the ridges are seen at one smoothing only";
   return pattern;
 }
 
@@ -175,7 +191,7 @@ Pattern measured(std::span<const double> heights, const Combs& combs, const Patt
 Pattern most_regular(std::span<const double> heights, double distance) {
   Pattern best;
   for (Pattern& look : looked_at(heights, distance)) {
-    const bool same = std::abs(mean_distance(look) / distance - 1.0) < 0.1;
+    const bool same = std::abs(mean_distance(look) / distance - 1.0) < thresholds::kCombRidges;
     if (same && (best.places.empty() || look.log_chance < best.log_chance)) best = std::move(look);
   }
   return best;
@@ -185,18 +201,19 @@ Pattern most_regular(std::span<const double> heights, double distance) {
 /// plainly than those of twice it (of which it would be every second line).
 std::optional<Pattern> by_comb(std::span<const double> heights, const Combs& combs) {
   const auto comb = combs.find(std::nullopt);
-  if (!comb || comb->chance > kSureComb || comb->value < kFewestCombSamples) return std::nullopt;
+  if (!comb || !comb->is_sure() || comb->value < thresholds::kFewestCombSamples) return std::nullopt;
   Pattern best = most_regular(heights, comb->value);
-  const bool shows = !best.places.empty() && best.log_chance < kHintOfRidges &&
+  const bool shows = !best.places.empty() && best.log_chance < thresholds::kHintOfRidges &&
                      best.log_chance < most_regular(heights, 2.0 * comb->value).log_chance;
-  best.comb_chance = comb->chance;
-  if (!shows) {
-    best.doubt = "a line of the spectrum stands out, but no ridges are seen at its spacing";
+  if (!shows || !comb->is_followed() || comb->ridges < thresholds::kFewestCombRidges) {
+    best.doubt = shows ? "the ridges that the spectrum shows are too few or too uneven to follow"
+                       : "a line of the spectrum stands out, but no ridges are seen at its spacing";
     best.comb_spacing = comb->value;
     return best;
   }
-  best.spacing = normal_interval(comb->value, comb->standard_error);
-  best.is_from_comb = true;
+  best.spacing = mean_of_halves(heights, *comb);
+  best.is_from_comb = best.spacing.has_value();
+  if (!best.spacing) best.doubt = "the halves of the track show different lines of the spectrum";
   return best;
 }
 
@@ -208,7 +225,8 @@ double mean_height(const Pattern& pattern) {
 /// Edges of a coarser pattern have short waves of their own: a whole number of them for each of its ridges.
 bool is_overtone(const Pattern& fine, const Pattern& coarse) {
   const double ratio = mean_distance(coarse) / mean_distance(fine);
-  return ratio < 2.5 || (ratio < 12.5 && std::abs(ratio - std::round(ratio)) < 0.15);
+  return ratio < thresholds::kFinerPattern ||
+         (ratio < thresholds::kHighestOvertone && std::abs(ratio - std::round(ratio)) < thresholds::kOvertoneApart);
 }
 
 }  // namespace
@@ -223,14 +241,15 @@ std::vector<Pattern> find_patterns(std::span<const double> heights) {
   std::vector<Pattern> patterns;
   for (const Pattern& seen : scan(heights)) {
     Pattern pattern = measured(heights, combs, seen);
-    if (!patterns.empty() && is_overtone(seen, patterns.front())) {
-      // Every third of regular ridges may stand out by chance, but not as high as the ridges themselves.
-      const bool is_surer = pattern.spacing && pattern.log_chance < 2.0 * patterns.front().log_chance &&
-                            mean_height(pattern) > 1.5 * mean_height(patterns.front());
-      if (is_surer) patterns = {std::move(pattern)};
-    } else if (patterns.empty() || !patterns.front().spacing) {
+    // Every third of regular ridges may stand out by chance, and even ridges beat with even samples; but not as high as
+    // the ridges themselves.
+    const bool is_surer = !patterns.empty() && pattern.spacing &&
+                          pattern.log_chance < 2.0 * patterns.front().log_chance &&
+                          mean_height(pattern) > thresholds::kHigherRidges * mean_height(patterns.front());
+    const bool is_edge = !patterns.empty() && is_overtone(seen, patterns.front());
+    if (patterns.empty() || is_surer || (!is_edge && !patterns.front().spacing)) {
       patterns = {std::move(pattern)};
-    } else if (pattern.spacing) {
+    } else if (!is_edge && pattern.spacing) {
       patterns.push_back(std::move(pattern));
     }
   }

@@ -19,9 +19,7 @@ struct Pattern {
   /// ln of the probability that the ridges of a random surface are as regular as these.
   double log_chance = 0.0;
   std::optional<MeanSpacing> spacing;  ///< empty: the ridges do not tell it
-  bool is_clocked = false;             ///< distances of neighbours balance each other
   bool is_from_comb = false;           ///< the spacing is that of the lines of the spectrum, else of the ridges
-  double comb_chance = 1.0;            ///< that a random surface shows such a comb of lines
   double comb_spacing = 0.0;           ///< of lines without ridges
   std::string doubt;                   ///< why the spacing is not known
 };

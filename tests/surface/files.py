@@ -3,6 +3,7 @@
 digit; images of a pattern; damaged, lying and swollen files, refused in one line, soon and without much memory; and a track beside the
 force that wore it, also in a manifest."""
 
+import csv
 import io
 import json
 import math
@@ -277,6 +278,11 @@ def check_beside_the_force(folder):
     assert a["surface_En"] == same["surface_En"]
     assert "counts as exact" in a["measured_spacing_En"]["note"] and "note" not in b["measured_spacing_En"]
     assert abs(a["measured_spacing_En"]["value"]) > 1 > abs(b["measured_spacing_En"]["value"])
+    with open(folder / "batch/summary.csv", newline="", encoding="utf-8") as file:
+        summary = {row["id"]: row for row in csv.DictReader(file)}
+    worn = [a["surface_spacing_m"]["value"], *a["surface_spacing_m"]["ci95"], a["surface_En"]["value"]]
+    assert [float(summary["a"][f"surface_{k}"]) for k in ("spacing_m", "spacing_low_m", "spacing_high_m", "En")] == worn
+    assert summary["a"]["surface_verdict"] == a["surface_verdict"] and summary["b"]["surface_verdict"] == summary["c"]["surface_En"] == ""
     assert "c,file_not_found" in (folder / "batch/failures.csv").read_text()
 
 
