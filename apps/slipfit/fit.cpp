@@ -28,7 +28,7 @@ SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& co
   static const std::set<std::string> kAllowed{"--joint", "--group", "--only",   "--tier", "--fix",
                                               "--json",  "--out",   "--report", "--quiet"};
   for (const CLI::Option* const option : command.get_options()) {
-    if (option->count() == 0 || kAllowed.count(option->get_name()) > 0) continue;
+    if (option->count() == 0 || kAllowed.contains(option->get_name())) continue;
     throw Failure(ExitCode::WrongUsage,
                   option->get_name() + " does not go with --joint: the manifest says how each recording was made");
   }

@@ -153,7 +153,7 @@ std::optional<Error> set_number(ManifestEntry& entry, const ManifestColumn& colu
 
 std::optional<Error> set_window(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell,
                                 bool decimal_comma) {
-  const auto wrong = refusal("bad_window", cell, "T0:T1 with T0 < T1, on the recording's own clock");
+  auto wrong = refusal("bad_window", cell, "T0:T1 with T0 < T1, on the recording's own clock");
   const std::size_t colon = cell.find(':');
   if (colon == std::string::npos) return wrong;
   const Result<double> begin_s = number_in(cell.substr(0, colon), column, cell, decimal_comma);
@@ -198,10 +198,10 @@ Result<ManifestEntry> with_cell(ManifestEntry entry, const ManifestColumn& colum
                                 bool decimal_comma) {
   const ManifestField& field = *column.field;
   if (cell.empty() && (!field.is_needed || field.may_be_empty)) return entry;
-  const auto error = cell.empty()       ? Error{"missing_value", "the field is empty, expected a value"}
-                     : field.set_text   ? field.set_text(entry, cell)
-                     : field.set_number ? set_number(entry, column, cell, decimal_comma)
-                                        : set_window(entry, column, cell, decimal_comma);
+  const auto error = cell.empty()                  ? Error{"missing_value", "the field is empty, expected a value"}
+                     : field.set_text != nullptr   ? field.set_text(entry, cell)
+                     : field.set_number != nullptr ? set_number(entry, column, cell, decimal_comma)
+                                                   : set_window(entry, column, cell, decimal_comma);
   if (error) return Error{error->code, fmt::format("column '{}': {}", column.name, error->message)};
   return entry;
 }
