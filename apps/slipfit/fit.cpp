@@ -40,12 +40,12 @@ SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& co
 }
 
 /// The strokes or segments of one file as a joint fit.
-auto fit_together(const slipfit::FitOptions& options) {
-  return [options](const std::vector<slipfit::SweepEntry>& entries) {
+auto fit_together(const slipfit::FitOptions& options, const DocumentOptions& document) {
+  return [options, document](const std::vector<slipfit::SweepEntry>& entries) {
     for (const slipfit::SweepEntry& entry : entries) {
       if (const auto error = check_joint(entry.recording)) throw Failure(ExitCode::WrongUsage, error->message);
     }
-    return analyze_sweep(entries, options);
+    return analyze_with_progress(entries, options, document);
   };
 }
 
@@ -104,7 +104,9 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
       throw Failure(ExitCode::WrongUsage, "--group and --only choose recordings of a manifest: give it with --joint");
     }
     if (files.empty()) throw Failure(ExitCode::WrongUsage, "REC is required");
-    if (is_of_pieces(arguments->analysis)) return run_pieces(arguments->analysis, fit_together(options));
+    if (is_of_pieces(arguments->analysis)) {
+      return run_pieces(arguments->analysis, fit_together(options, arguments->analysis.document));
+    }
     if (is_of_several) return run_sweep(sweep_of_files(*arguments, *command), options);
     options.curve = arguments->analysis.curve || arguments->analysis.report || arguments->analysis.plots;
     run_analysis(arguments->analysis, [&options](const slipfit::Recording& recording) {

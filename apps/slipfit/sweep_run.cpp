@@ -39,26 +39,25 @@ std::vector<slipfit::SweepEntry> read_recordings(const std::vector<ManifestEntry
   throw Failure(manifest_asks_for_it ? ExitCode::WrongUsage : ExitCode::BadRecording, entries.error().message);
 }
 
-/// Some seconds for a dozen recordings.
-slipfit::SweepAnalysis analyzed(const std::vector<slipfit::SweepEntry>& entries, slipfit::FitOptions options,
-                                const DocumentOptions& document) {
-  ProgressLine line;
-  if (!document.quiet) options.tell_step = [&line](const std::string& step) { line.show(step); };
-  return slipfit::analyze_sweep(entries, options);
-}
-
 std::vector<OutputFile> outputs_from(const SweepDocument& document) {
   return outputs_of({{"--out", document.options.out}, {"--report", document.report}});
 }
 
 }  // namespace
 
+slipfit::SweepAnalysis analyze_with_progress(const std::vector<slipfit::SweepEntry>& entries,
+                                             slipfit::FitOptions options, const DocumentOptions& document) {
+  ProgressLine line;
+  if (!document.quiet) options.tell_step = [&line](const std::string& step) { line.show(step); };
+  return slipfit::analyze_sweep(entries, options);
+}
+
 void run_sweep(const SweepArguments& arguments, const slipfit::FitOptions& options) {
   const std::vector<OutputFile> outputs = outputs_from(arguments.document);
   check_outputs(outputs, arguments.manifest);
   for (const ManifestEntry& entry : arguments.entries) check_outputs(outputs, entry.file.string());
   const std::vector<slipfit::SweepEntry> entries = read_recordings(arguments.entries);
-  write_sweep(arguments.document, entries, analyzed(entries, options, arguments.document.options));
+  write_sweep(arguments.document, entries, analyze_with_progress(entries, options, arguments.document.options));
 }
 
 void write_sweep(const SweepDocument& document, const std::vector<slipfit::SweepEntry>& entries,

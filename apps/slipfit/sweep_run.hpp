@@ -24,6 +24,10 @@ struct SweepArguments {
   std::vector<slipfit::ManifestEntry> entries;
 };
 
+/// Shows the steps on a terminal: some seconds for a dozen recordings.
+slipfit::SweepAnalysis analyze_with_progress(const std::vector<slipfit::SweepEntry>& entries,
+                                             slipfit::FitOptions options, const DocumentOptions& document);
+
 /// Throws Failure.
 void write_sweep(const SweepDocument& document, const std::vector<slipfit::SweepEntry>& entries,
                  const slipfit::SweepAnalysis& sweep);

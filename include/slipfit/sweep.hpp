@@ -16,8 +16,8 @@ namespace slipfit {
 /// One recording of a sweep, by its name in the manifest.
 using SweepEntry = NamedRecording;
 
-/// The recordings that a manifest names, in its order; of a row with strokes each stroke. A fit of a sweep compares
-/// forces behind the spring. Errors: those of read_recording, not_a_force, view_not_spring.
+/// The recordings that a manifest names, in its order; of a row with strokes or segments each of them. A fit of a sweep
+/// compares forces behind the spring. Errors: those of read_recording, not_a_force, view_not_spring.
 Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manifest);
 
 /// Why a recording cannot be fitted together with others. Errors: not_a_force, view_not_spring.

@@ -93,8 +93,7 @@ constexpr std::array kStandards = std::to_array<Standard>(
       0.150 / 60.0, 0.030 / 60.0, 1.961, 0.049, 0.130},
      {"ISO 8295",
       "1.96 N on 40 cm^2 at 100 mm/min, after 15 s at rest; static: the first maximum; kinetic: the mean over the "
-      "first "
-      "60 mm behind it",
+      "first 60 mm behind it",
       0.100 / 60.0, 0.010 / 60.0, 1.96, 0.02, 0.060}});
 
 /// What slides: force in its own unit, and how often it slips.

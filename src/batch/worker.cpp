@@ -120,7 +120,7 @@ std::string name_of(const WorkItem& item) {
   return one_line(item.inputs.size() == 1 ? item.inputs.front().string() : item.key.id);
 }
 
-/// Of a row with strokes: a fit of all of them, as of a group.
+/// Of a row with strokes or segments: a fit of all of them, as of a group.
 Result<BatchFit> fit_pieces_of(const ManifestEntry& entry, const BatchOptions& options) {
   auto fit = group_fit(options.fit, options.report)(entry.id, {entry});
   if (!fit) return fit;

@@ -8,7 +8,7 @@
 
 namespace slipfit::chart {
 
-/// The colours of Okabe and Ito (2008), which colour-blind readers tell apart, and a grey.
+/// The colours of Okabe and Ito (2008), which colour-blind readers tell apart, the pale ones darker, and a grey.
 enum class Colour { Black, Orange, SkyBlue, Green, Yellow, Blue, Vermillion, Purple, Grey };
 enum class Stroke { Solid, Dashed, Dotted, DashDotted };
 enum class Fill { Plain, Hatched };
@@ -35,6 +35,7 @@ struct Area {
   Colour colour = Colour::Grey;
   Fill fill = Fill::Plain;
   std::vector<Point> outline;
+  double edge_px = 0.0;  ///< of the line around it: the fill alone is too faint to be told from the paper
 };
 
 struct Markers {
@@ -67,8 +68,8 @@ struct Place {
   double up = 1.0;
 };
 
-/// Inside the axes at `Panel::legend`, or in rows above them.
-enum class LegendAt { Inside, Above };
+/// Inside the axes at `Panel::legend`, in rows above them, or in the panel above, which has the same.
+enum class LegendAt { Inside, Above, None };
 
 struct Panel {
   Axis x;
@@ -99,7 +100,11 @@ struct PagePlace {
 };
 
 /// An element <svg class="chart"> of a page, without title and remarks, as wide as its surroundings. Colours, grid and
-/// letters come from the page's style sheet (classes grid, axes, legend, label, value, note).
+/// letters come from the page's style sheet (classes grid, axes, legend, entries, label, value, note).
 std::string to_page_svg(const Chart& chart, const PagePlace& place);
+
+/// What stands in rows above the axes, as an element <ul class="legend-list"> that breaks its lines: for screens that
+/// are narrower than the chart. `id`: of the chart on the page. Empty where a panel has names that the first has not.
+std::string to_page_legend(const Chart& chart, const std::string& id);
 
 }  // namespace slipfit::chart

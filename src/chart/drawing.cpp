@@ -15,15 +15,15 @@ struct ColourName {
   const char* variable;  ///< of the page's style sheet
 };
 
-// In the order of Colour, Stroke.
+// In the order of Colour, Stroke. Values as on a light page: at least 3:1 against white.
 constexpr std::array<ColourName, 9> kColours{{{"#000000", "black"},
-                                              {"#E69F00", "orange"},
-                                              {"#56B4E9", "sky"},
+                                              {"#C07F00", "orange"},
+                                              {"#2F93CF", "sky"},
                                               {"#009E73", "green"},
-                                              {"#C8BD20", "yellow"},
+                                              {"#9A9000", "yellow"},
                                               {"#0072B2", "blue"},
                                               {"#D55E00", "vermillion"},
-                                              {"#CC79A7", "purple"},
+                                              {"#C2659A", "purple"},
                                               {"#6F6F6F", "grey"}}};
 constexpr std::array kDashes{"", "8 4", "2 3", "10 3 2 3"};
 
@@ -91,7 +91,7 @@ void Drawing::marker(double x, double y, Colour colour, Shape shape) {
       path("M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z", place + fmt::format("fill=\"{}\"", name));
       break;
     case Shape::Speck:
-      path("M-2 0a2 2 0 1 0 4 0a2 2 0 1 0 -4 0z", place + fmt::format("fill=\"{}\" fill-opacity=\"0.6\"", name));
+      path("M-2 0a2 2 0 1 0 4 0a2 2 0 1 0 -4 0z", place + fmt::format("fill=\"{}\" fill-opacity=\"0.8\"", name));
       break;
     case Shape::Ring:
       path("M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z", place + ring);
@@ -118,7 +118,10 @@ std::string Drawing::stroke_style(const Line& line) const {
 
 std::string Drawing::area_style(const Area& area, const std::string& id) const {
   if (area.fill == Fill::Hatched) return fmt::format("fill=\"url(#{}hatch{})\"", id, index_of(area.colour));
-  return fmt::format("fill=\"{}\" fill-opacity=\"0.3\"", name_of(area.colour));
+  const std::string name = name_of(area.colour);
+  const std::string edge =
+      area.edge_px > 0.0 ? fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", name, area.edge_px) : std::string();
+  return fmt::format("fill=\"{}\" fill-opacity=\"0.3\"{}", name, edge);
 }
 
 std::string Drawing::hatches(const std::string& id) const {

@@ -1,6 +1,9 @@
 #include "chart/legend.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -21,6 +24,7 @@ struct Entry {
 
 std::vector<Entry> entries_of(const Panel& panel) {
   std::vector<Entry> entries;
+  if (panel.legend_at == LegendAt::None) return entries;
   for (const Line& line : panel.lines) entries.push_back({line.name, &line});
   for (const Markers& markers : panel.markers) entries.push_back({markers.name, &markers});
   for (const Area& area : panel.areas) entries.push_back({area.name, &area});
@@ -35,8 +39,7 @@ struct Spot {
 };
 
 /// `spot`: left end of the sample, middle of the row.
-void draw_entry(Drawing& drawing, const Entry& entry, Spot spot, const std::string& id) {
-  drawing.text(spot.x + kSample + 7.0, spot.y + 4.0, entry.name, "value");
+void draw_sample(Drawing& drawing, const Entry& entry, Spot spot, const std::string& id) {
   if (const auto* line = std::get_if<const Line*>(&entry.what)) {
     drawing.line(spot.x, spot.y, spot.x + kSample, spot.y, drawing.stroke_style(**line));
   } else if (const auto* markers = std::get_if<const Markers*>(&entry.what)) {
@@ -44,6 +47,11 @@ void draw_entry(Drawing& drawing, const Entry& entry, Spot spot, const std::stri
   } else if (const auto* area = std::get_if<const Area*>(&entry.what)) {
     drawing.box(spot.x, spot.y - 6.0, kSample, 12.0, drawing.area_style(**area, id));
   }
+}
+
+void draw_entry(Drawing& drawing, const Entry& entry, Spot spot, const std::string& id) {
+  drawing.text(spot.x + kSample + 7.0, spot.y + 4.0, entry.name, "value");
+  draw_sample(drawing, entry, spot, id);
 }
 
 /// Where each entry of a legend above the axes stands, from the upper left corner; further rows where one is full.
@@ -85,9 +93,30 @@ void draw_legend(Drawing& drawing, const Panel& panel, const Frame& frame, const
   if (panel.legend_at == LegendAt::Inside) return draw_box(drawing, panel, frame, entries, id);
   const double top = frame.top - legend_height_px(panel, frame.width) + 0.5 * kLineHeight_px;
   const std::vector<Spot> spots = rows_of(entries, frame.width);
+  drawing.raw("<g class=\"entries\">\n");
   for (std::size_t i = 0; i < entries.size(); ++i) {
     draw_entry(drawing, entries[i], {frame.left + spots[i].x, top + spots[i].y}, id);
   }
+  drawing.raw("</g>\n");
+}
+
+std::string to_page_legend(const Chart& chart, const std::string& id) {
+  constexpr double kHeight = 14.0;
+  std::string rows;
+  std::vector<std::string> names;
+  for (const Panel& panel : chart.panels) {
+    if (panel.legend_at != LegendAt::Above) continue;
+    for (const Entry& entry : entries_of(panel)) {
+      if (std::find(names.begin(), names.end(), entry.name) != names.end()) continue;
+      if (&panel != &chart.panels.front()) return {};
+      names.push_back(entry.name);
+      Drawing sample(Palette::Page);
+      draw_sample(sample, entry, {0.0, 0.5 * kHeight}, id + "-");
+      rows += fmt::format("<li><svg width=\"{0:.0f}\" height=\"{1:.0f}\" aria-hidden=\"true\">{2}</svg>{3}</li>\n",
+                          kSample, kHeight, sample.svg(), escaped(entry.name));
+    }
+  }
+  return rows.empty() ? rows : "<ul class=\"legend-list\">\n" + rows + "</ul>\n";
 }
 
 }  // namespace slipfit::chart

@@ -62,6 +62,7 @@ constexpr std::array kFields = std::to_array<ManifestField>({
     {.base = "rows", .set_text = set_rows, .option = "--rows"},
     {.base = "where", .set_text = set_where, .option = "--where"},
     {.base = "strokes", .set_text = set_strokes, .option = "--strokes"},
+    {.base = "segments", .set_text = set_segments, .option = "--segments"},
     {.base = "force_scale", .set_text = set_force_scale, .option = "--force-scale"},
     {.base = "time_unit", .set_text = set_unit<Dimension::Time, &ReadOptions::time_unit>, .option = "--time-unit"},
     {.base = "force_unit", .set_text = set_unit<Dimension::Force, &ReadOptions::force_unit>, .option = "--force-unit"},

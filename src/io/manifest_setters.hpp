@@ -85,10 +85,21 @@ inline std::optional<Error> set_where(ManifestEntry& entry, const std::string& c
   return entry.options.where ? std::nullopt : refusal("bad_where", cell, "COLUMN=VALUE");
 }
 
+/// Strokes or segments.
+inline std::optional<Error> set_pieces(ManifestEntry& entry, const std::string& cell, Pieces pieces) {
+  if (entry.options.pieces != Pieces::One) return refusal("conflicting_pieces", cell, "either strokes or segments");
+  entry.options.pieces = pieces;
+  return std::nullopt;
+}
+
 inline std::optional<Error> set_strokes(ManifestEntry& entry, const std::string& cell) {
   const auto strokes = parse_strokes(cell);
-  entry.options.pieces = strokes.value_or(Pieces::One);
-  return strokes ? std::nullopt : refusal("bad_strokes", cell, "both, positive or negative");
+  return strokes ? set_pieces(entry, cell, *strokes) : refusal("bad_strokes", cell, "both, positive or negative");
+}
+
+inline std::optional<Error> set_segments(ManifestEntry& entry, const std::string& cell) {
+  if (cell == "no") return std::nullopt;
+  return cell == "yes" ? set_pieces(entry, cell, Pieces::Segments) : refusal("bad_segments", cell, "yes or no");
 }
 
 inline std::optional<Error> set_force_scale(ManifestEntry& entry, const std::string& cell) {

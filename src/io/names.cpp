@@ -39,12 +39,13 @@ NameAndUnit take_brackets(std::string_view name, char open, char close) {
   return {trim(name.substr(0, begin)), inside};
 }
 
-/// "F / N", "Force, N", "Kraft in N", "force_N", "Time s".
+/// "F / N", "Force, N", "time, in s" (no inch-second), "Kraft in N", "force_N", "Time s".
 NameAndUnit take_suffix(std::string_view name) {
   for (const std::string_view separator : {"/", ",", " in ", "_", " "}) {
     const auto at = name.rfind(separator);
     if (at == std::string_view::npos || at == 0) continue;
-    const std::string_view unit = trim(name.substr(at + separator.size()));
+    std::string_view unit = trim(name.substr(at + separator.size()));
+    if (separator == "," && unit.starts_with("in ")) unit = trim(unit.substr(3));
     const UnitClass unit_class = classify_unit(unit);
     const bool is_loose = separator == "_" || separator == " ";  // "Sensor A", "Channel 1", "Load C"
     if (unit_class == UnitClass::None || unit_class == UnitClass::NotAUnit || (is_loose && may_be_a_word(unit)))

@@ -303,8 +303,15 @@ test("the sweep's page draws without script", async () => {
   slipfit("fit", "--joint", shot("manifest.csv"), "--group", "pair", "--report", shot("sweep.html"), "--quiet");
   const page = await open(shot("sweep.html"));
   assert.deepEqual(await page.locator("svg.chart").evaluateAll((all) => all.map((svg) => svg.id)),
-    ["sweep-spacing", "sweep-friction", "sweep-traces"]);
+    ["sweep-spacing", "sweep-friction", "sweep-cycles", "sweep-traces"]);
   assert.equal(await page.locator(".plain-table tbody tr").count(), 3);
+  const names = page.locator("#sweep-cycles-section .legend-list li");
+  assert.equal(await names.first().isVisible(), false, "the legend stands in the chart");
+  await page.setViewportSize({ width: 400, height: 800 });
+  for (const box of await Promise.all((await names.all()).map((name) => name.boundingBox()))) {
+    assert.ok(box.x >= 0 && box.x + box.width <= 400, "the legend is inside a narrow screen");
+  }
+  await page.setViewportSize({ width: 1280, height: 800 });
   await page.screenshot({ path: shot("sweep.png"), fullPage: true });
   assert.deepEqual(page.faults, []);
   await page.close();

@@ -76,6 +76,7 @@ INPUTS = [
     ("native export of a CETR/Bruker UMT", UMT, V, 0, "Force is column 7 'Ff', in g."),
     ("units that slipfit does not need (dB, lux, %RH)", rows(lambda i: f"{i / 100},{force(i):.4f},3,4,5", head="T,Ff,AE,light,hum\nsec,N,dB,lux,%RH"), V, 0, "Force is column 2 'Ff', in N."),
     ("time in ms", rows(lambda i: f"{10 * i},{force(i):.4f}", head="time [ms],force [mN]"), V, 0, "Time is column 1 'time [ms]', in ms."),
+    ("a name with 'in' before its unit", rows(lambda i: f"{i / 100};{force(i):.4f}", head="time, in s;force, in N"), V, 0, "Time is column 1 'time, in s', in s."),
     ("clock h:min:s,ms", rows(lambda i: f"{clock(i)};{force(i):.4f}", head="Zeit;Kraft [N]"), V, 0, "a clock (h:min:s)"),
     ("German date and time", rows(lambda i: f"12.05.2024 {clock(i)};{force(i):.4f}", head="Zeit;Kraft [N]"), V, 0, "a clock (h:min:s)"),
     ("Excel's serial dates", rows(lambda i: f"{45000 + i / 8640000:.9f},{force(i):.4f}", head="time,force [N]"), V, 0, "of the size of Excel's dates"),

@@ -24,6 +24,19 @@ double sawtooth_N(double time_s, double period_s) {
   return 10.0 + 5.0 * (phase < 1.0 - kFall ? phase / (1.0 - kFall) : (1.0 - phase) / kFall);
 }
 
+std::string segments_csv() {
+  constexpr int kSamples = 2000;
+  std::ostringstream csv;
+  csv.precision(12);
+  csv << "time [s],force [N],speed [mm/s]\n";
+  for (int i = 0; i < 3 * kSamples; ++i) {
+    const double factor = std::exp2(i / kSamples);
+    const double time_s = i / 500.0;
+    csv << time_s << ',' << sawtooth_N(time_s, 0.4 / factor) << ',' << 10.0 * factor << '\n';
+  }
+  return csv.str();
+}
+
 std::string simulated_csv(const std::string& seed) {
   return slipfit({"simulate", "--stiffness",
                   "1000",     "--natural-frequency",

@@ -1,5 +1,6 @@
 // slipfit fit --joint: what is refused, and what text and document of a sweep say.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -181,4 +182,23 @@ TEST_CASE("strokes of one recording are fitted together, alone and as a row of a
   again.emplace_back("--resume");
   REQUIRE(test::slipfit(again).exit_code == 0);
   CHECK(nlohmann::json::parse(test::content_of(folder.path("out/run.json")))["before"] == 1);
+}
+
+TEST_CASE("segments of one file are a joint fit as a row of a batch, and its page lays their cycles over each other") {
+  const test::TemporaryFolder folder;
+  static_cast<void>(folder.file("sweep.csv", test::segments_csv()));
+  const std::string manifest = folder.file("runs.csv", "id,file,speed_m_per_s,segments\nr1,sweep.csv,,yes\n");
+  const test::ProgramResult batch = slipfit({"batch", manifest, "--out", folder.path("out"), "--quiet", "--jobs", "1",
+                                             "--report", folder.path("pages/index.html")});
+  CAPTURE(batch.err);
+  REQUIRE(batch.exit_code == 0);
+  const json document = json::parse(test::content_of(folder.path("out/results.jsonl")));
+  CHECK(document["id"] == "r1");
+  REQUIRE(document["recordings"].size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(document["recordings"][i]["recording"]["speed_m_per_s"].get<double>() == Approx(0.01 * std::exp2(i)));
+    CHECK(document["recordings"][i]["frequency"]["value_Hz"].get<double>() == Approx(2.5 * std::exp2(i)).epsilon(0.01));
+  }
+  const std::string page = test::content_of(folder.path("pages/recordings/00001-r1.html"));
+  CHECK_THAT(page, Catch::Contains("cycles of 3 recordings laid over each other"));
 }

@@ -157,6 +157,9 @@ TEST_CASE("each fault of a manifest is one line with file, line, column, value a
   check_error(names + "group:x,a.csv,1\n", "bad_id", {"'group:x'"});
   check_error(names + "\"x\ty\",a.csv,1\n", "bad_id", {"x\\ty"});
   check_error(names + "a,a.csv,1\nb,b.csv,1\na,c.csv,1\n", "duplicate_id", {"runs.csv:4", "'a'", "line 2"});
+  check_error("id,file,speed_m_per_s,segments\na,a.csv,1,3\n", "bad_segments", {"'3'", "yes or no"});
+  check_error("id,file,speed_m_per_s,strokes,segments\na,a.csv,1,both,yes\n", "conflicting_pieces",
+              {"'segments'", "either strokes or segments"});
   check_error("id,file,speed_m_per_s,window_s\na,a.csv,1,3:1\n", "bad_window", {"'3:1'", "T0 < T1"});
   check_error("id,file,speed_m_per_s,window_s\na,a.csv,1,3\n", "bad_window", {"'3'", "T0:T1"});
   check_error("id,file,speed_m_per_s,force_view\na,a.csv,1,top\n", "unknown_force_view", {"'top'", "contact"});

@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "slipfit/model/simulation.hpp"
+
 namespace test {
 
 using slipfit::Estimate;
@@ -27,6 +29,24 @@ slipfit::Recording small_recording(slipfit::ForceQuantity quantity, const std::s
   provenance.warnings = {{"rows_left_out", "two rows were left out"}};
   provenance.rows_without_number = 2;
   return slipfit::Recording::create(std::move(time_s), std::move(force), conditions, std::move(provenance)).value();
+}
+
+slipfit::Recording stick_slip_recording(double speed_m_per_s) {
+  slipfit::SimulationOptions options;
+  options.duration_s = 2.0;
+  options.sample_rate_Hz = 2000.0;
+  options.noise_rms_N = 0.01;
+  options.static_friction_sd_N = 0.02;
+  const slipfit::Slider slider = slipfit::Slider::create(1000.0, 200.0, 0.05).value();
+  const slipfit::Friction friction = slipfit::Friction::create(3.0, 2.5).value();
+  slipfit::SimulatedTrace trace = simulate(slider, friction, speed_m_per_s, options);
+  slipfit::Conditions conditions;
+  conditions.speed_m_per_s = speed_m_per_s;
+  slipfit::Provenance provenance;
+  provenance.file = "run.csv";
+  return slipfit::Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions,
+                                    std::move(provenance))
+      .value();
 }
 
 namespace {

@@ -10,6 +10,10 @@ namespace test {
 slipfit::Recording small_recording(slipfit::ForceQuantity quantity = slipfit::ForceQuantity::Force_N,
                                    const std::string& file = "folder/run.csv");
 
+/// Two seconds of a simulated slider with stick-slip at 2 kHz: k 1000 N/m, w_n 200 rad/s, zeta 0.05, F_s 3 N, F_k 2.5
+/// N.
+slipfit::Recording stick_slip_recording(double speed_m_per_s);
+
 /// A stick-slip result with every kind of parameter status and numbers of its own for every key.
 slipfit::Analysis full_analysis();
 

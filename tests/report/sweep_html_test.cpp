@@ -125,3 +125,33 @@ TEST_CASE("the page of a sweep shows the spacing on the worn surface where the m
   CHECK_THAT(page, Contains("<td>stick-slip</td><td class=\"number\" data-value=\"\">-</td>") &&
                        Contains("<td>stick-slip</td><td class=\"number\" data-value=\"0.00185\">1.85"));
 }
+
+TEST_CASE("cycles of a sweep lie over each other, each recording in a colour of its own with its name") {
+  std::vector<SweepEntry> entries;
+  for (const double speed : {0.02, 0.005, 0.01}) {
+    entries.push_back({"run " + std::to_string(entries.size()), test::stick_slip_recording(speed)});
+  }
+  SweepAnalysis sweep = analyze_sweep(entries, {});
+  const std::optional<Prediction> none;
+  const html::Figure figure = html::sweep_cycles_figure({entries, sweep, none});
+  REQUIRE(figure.chart);
+  REQUIRE(figure.chart->panels.size() == 2);
+  const chart::Panel& whole = figure.chart->panels.front();
+  CHECK(whole.x.label == "path of the drive since the slip began [mm]");
+  REQUIRE(whole.lines.size() == 3);
+  CHECK(whole.lines[0].name == "run 1, 5 mm/s");
+  CHECK(whole.lines[2].name == "run 0, 20 mm/s");
+  CHECK(whole.lines[0].colour != whole.lines[1].colour);
+  // Of path a period is (F_s - F_trough) / k = 0.93 mm and what passes in the slip, 0.3 mm at 20 mm/s.
+  CHECK(whole.x.high - whole.x.low == Approx(1.1 * 1.2).epsilon(0.2));
+  CHECK(figure.chart->panels.back().x.label == "time since the slip began [ms]");
+  CHECK(figure.chart->panels.back().legend_at == chart::LegendAt::None);
+
+  const std::string page = to_html(entries, sweep, none, {"dry", {}});
+  CHECK_THAT(page, Contains("<ul class=\"legend-list\">") && Contains("</svg>run 1, 5 mm/s</li>") &&
+                       Contains("<g class=\"entries\">"));
+  sweep.recordings[0].motion = MotionClass::SteadySliding;
+  CHECK(html::sweep_cycles_figure({entries, sweep, none}).chart->panels.front().lines.size() == 2);
+  sweep.recordings[1].motion = MotionClass::SteadySliding;
+  CHECK_FALSE(html::sweep_cycles_figure({entries, sweep, none}).chart);
+}

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "fit/inference/moderated.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "signal/robust.hpp"
 
@@ -73,17 +74,18 @@ double level_of(const DampedFit& fit) {
   return blocks.scales().level + blocks.scales().force * sum / static_cast<double>(blocks.size());
 }
 
-Scales scales_in_sweep(const DampedFit& fit, double load, const Units& units, FrictionLaw law) {
+Scales scales_in_sweep(const SweepData& data, std::size_t recording, FrictionLaw law) {
+  const DampedFit& fit = *data.single[recording];
+  const double load = data.loads[recording];
   Scales scales = fit.blocks.scales();
   scales.noise = fit.uncertainty.noise;
   scales.law = law;
   Population population;
   population.load = load;
-  population.force = load * units.force;
-  population.slip_speed_m_per_s = units.slip_speed_m_per_s;
+  population.force = load * data.units.force;
+  population.slip_speed_m_per_s = data.units.slip_speed_m_per_s;
+  population.onset_sd = data.onset_sd[recording];
   const double mean = std::abs(mean_onset_force(fit));
-  // Cycles without any scatter still carry the error of their own onset force.
-  population.onset_sd = std::max(fit.uncertainty.onset_force_sd * scales.force, 1e-5 * mean);
   if (fit.blocks.level().per_cycle) {
     // A level that wanders is no independent draw in each cycle: all of them together count as one.
     population.level_sd =
@@ -100,6 +102,27 @@ double median_period_s(const BlockFit& blocks) {
   }
   return signal::median(intervals_s);
 }
+
+namespace {
+
+/// Scatter of each recording's onset force, moderated: strokes and short runs have three cycles each.
+void add_onset_scatter(SweepData& data) {
+  std::vector<SampleVariance> samples;
+  for (const std::size_t i : data.fitted) {
+    const DampedFit& fit = *data.single[i];
+    const double mean = std::abs(mean_onset_force(fit));
+    // Cycles without any scatter still carry the error of their own onset force.
+    const double sd = std::max(fit.uncertainty.onset_force_sd * fit.blocks.scales().force, 1e-5 * mean);
+    samples.push_back({std::pow(sd / data.loads[i], 2), fit.blocks.size()});
+  }
+  const std::vector<double> variances = moderated_variances(samples);
+  data.onset_sd.assign(data.single.size(), 0.0);
+  for (std::size_t f = 0; f < variances.size(); ++f) {
+    data.onset_sd[data.fitted[f]] = std::sqrt(variances[f]) * data.loads[data.fitted[f]];
+  }
+}
+
+}  // namespace
 
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
   SweepData data;
@@ -118,6 +141,7 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
     }
     if (data.single.back()) data.fitted.push_back(data.single.size() - 1);
   }
+  add_onset_scatter(data);
   std::vector<double> forces;
   std::vector<double> impedances;
   std::vector<double> sticks_s;

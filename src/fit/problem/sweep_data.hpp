@@ -23,6 +23,7 @@ struct SweepData {
   std::vector<std::optional<DampedFit>> single;  ///< in the order of the recordings
   std::vector<SteadyRun> steady;
   std::vector<std::optional<std::size_t>> steady_of;  ///< index into `steady` of each recording
+  std::vector<double> onset_sd;                       ///< spread of F_s over the cycles of each recording, N
   std::vector<double> loads;                          ///< normal force over their mean; 1 where not known
   std::optional<double> mean_load_N;                  ///< empty where a recording does not state it
   Units units;
@@ -40,6 +41,6 @@ double mean_onset_force(const DampedFit& fit);
 double level_of(const DampedFit& fit);
 
 /// How a recording enters the fit of the sweep.
-Scales scales_in_sweep(const DampedFit& fit, double load, const Units& units, FrictionLaw law);
+Scales scales_in_sweep(const SweepData& data, std::size_t recording, FrictionLaw law);
 
 }  // namespace slipfit::fit

@@ -26,7 +26,7 @@ SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, 
   solution.sweep = {sharing, data.steady, data.units};
   for (const std::size_t i : used) {
     const DampedFit& single = *data.single[i];
-    const Scales scales = scales_in_sweep(single, data.loads[i], data.units, law);
+    const Scales scales = scales_in_sweep(data, i, law);
     BlockFit recording(single.blocks.set(), scales);
     const auto& level = single.blocks.parameters.level;
     const std::ptrdiff_t skip = single.blocks.level().terms > 0 ? 1 : 0;

@@ -154,7 +154,8 @@ chart::Panel pairs_panel(const Source& source, const std::vector<Point>& pairs) 
     panel.areas.push_back({"95 % interval",
                            Colour::Blue,
                            chart::Fill::Plain,
-                           {{left, -low * left}, {right, -low * right}, {right, -high * right}, {left, -high * left}}});
+                           {{left, -low * left}, {right, -low * right}, {right, -high * right}, {left, -high * left}},
+                           kEdge_px});
   }
   panel.lines = {{fmt::format("fitted damping, slope -{:.3g}", *reflection.value), Colour::Vermillion, Stroke::Solid,
                   line_to(*reflection.value)},

@@ -41,9 +41,8 @@ chart::Panel regions(const std::vector<LimitPoint>& limit, double left, double r
   std::vector<Point> stick_slip = exact.points;
   stick_slip.push_back({right, 1.0});
   stick_slip.push_back({right, kLowestZeta});
-  panel.areas = {
-      {"", Colour::SkyBlue, chart::Fill::Plain, stick_slip},
-      {"", Colour::Grey, chart::Fill::Plain, {{left, 1.0}, {left, kHighestZeta}, {right, kHighestZeta}, {right, 1.0}}}};
+  panel.areas = {{"", Colour::SkyBlue, chart::Fill::Plain, stick_slip, kEdge_px},
+                 rectangle("", Colour::Grey, {left, 1.0}, {right, kHighestZeta})};
   panel.lines.push_back(exact);
   panel.notes = {{{left * std::pow(right / left, 0.8), 0.004}, "stick-slip", Colour::Black, 0.0, -1.0},
                  {{left * std::pow(right / left, 0.12), 0.3}, "no stick-slip", Colour::Black, 0.0, -1.0},
@@ -116,13 +115,19 @@ std::vector<double> ridge_distances_m(const Analysis& analysis, double spacing_m
   return distances;
 }
 
+/// Without an edge: the shades of a ridge lie over each other.
+chart::Area shade_between(double begin, double end) {
+  chart::Area area = rectangle("", Colour::Black, {begin, 0.0}, {end, 1.0});
+  area.edge_px = 0.0;
+  return area;
+}
+
 /// One ridge seen from above: darker towards its crest.
 void add_ridge(Panel& panel, double begin, double end) {
   const double crest = begin + kCrest * (end - begin);
   for (int shade = 1; shade <= kShades; ++shade) {
     const double part = static_cast<double>(shade) / (kShades + 1);
-    panel.areas.push_back(
-        rectangle("", Colour::Black, {begin + part * (crest - begin), 0.0}, {end - part * (end - crest), 1.0}));
+    panel.areas.push_back(shade_between(begin + part * (crest - begin), end - part * (end - crest)));
   }
 }
 
@@ -138,7 +143,7 @@ Panel fine_strip(double spacing, double length, const std::string& unit) {
   Panel panel = strip("path, fine pattern (an estimate)", unit, length);
   panel.height_px = 40.0;
   for (double at = 0.0; at < length; at += spacing) {
-    panel.areas.push_back(rectangle("", Colour::Black, {at + 0.5 * spacing, 0.0}, {at + spacing, 1.0}));
+    panel.areas.push_back(shade_between(at + 0.5 * spacing, at + spacing));
   }
   return panel;
 }

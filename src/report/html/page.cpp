@@ -104,8 +104,8 @@ std::string picture_with_data(const chart::Chart& chart, const std::string& id, 
     for (const chart::Area& area : panel.areas) data += series_json(i + 1, words(area.name), area.outline);
   }
   if (!data.empty()) data.pop_back();
-  return to_page_svg(chart, {id, label}) + R"(<script type="application/json" class="chart-data">)" +
-         script_json("[" + data + "]") + "</script>";
+  return to_page_legend(chart, id) + to_page_svg(chart, {id, label}) +
+         R"(<script type="application/json" class="chart-data">)" + script_json("[" + data + "]") + "</script>";
 }
 
 std::string title_of(const Recording& recording) {

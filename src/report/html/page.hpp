@@ -45,7 +45,7 @@ std::string parameter_table(const FitResult& fit);
 std::string coefficients_part(const Source& source);
 std::string quality_part(const Source& source);
 std::string repeat_part(const Source& source, const ReportOrigin& origin);
-/// The picture, and its points as CSV for the button that saves them.
+/// The picture, its legend for narrow screens, and its points as CSV for the button that saves them.
 std::string picture_with_data(const chart::Chart& chart, const std::string& id, const std::string& label);
 /// <section> with the chart, or with the reason why there is none.
 std::string figure_part(const Figure& figure);

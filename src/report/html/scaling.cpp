@@ -41,7 +41,7 @@ std::string quantity_of(const Estimate& estimate, const std::string& SI_unit) {
 }
 
 chart::Area rectangle(std::string name, chart::Colour colour, chart::Point low, chart::Point high) {
-  return {std::move(name), colour, chart::Fill::Plain, {low, {low.x, high.y}, high, {high.x, low.y}}};
+  return {std::move(name), colour, chart::Fill::Plain, {low, {low.x, high.y}, high, {high.x, low.y}}, kEdge_px};
 }
 
 void Span::add(double value) {

@@ -21,7 +21,10 @@ std::string label_with_unit(const std::string& name, const std::string& unit);
 /// "407.1 ± 2.2 µm", "-" where it is not known.
 std::string quantity_of(const Estimate& estimate, const std::string& SI_unit);
 
-/// A plain rectangle between two corners.
+/// A line of this width around an area of a page.
+constexpr double kEdge_px = 0.8;
+
+/// A plain rectangle between two corners, with an edge.
 chart::Area rectangle(std::string name, chart::Colour colour, chart::Point low, chart::Point high);
 
 /// Lowest and highest number seen so far.

@@ -73,7 +73,7 @@ class SpeedPanel {
       high.push_back(point(speed, series.estimates[i].ci95->high));
     }
     low.insert(low.end(), high.rbegin(), high.rend());
-    if (!low.empty()) panel_.areas.push_back({"its 95 % band", colour, chart::Fill::Plain, low});
+    if (!low.empty()) panel_.areas.push_back({"its 95 % band", colour, chart::Fill::Plain, low, kEdge_px});
     panel_.lines.push_back(std::move(line));
   }
 

@@ -24,6 +24,8 @@ Estimate spacing_on_surface(const Conditions& conditions);
 
 Figure sweep_spacing_figure(const SweepSource& source);
 Figure sweep_friction_figure(const SweepSource& source);
+/// Cycles of each over those of the others.
+Figure sweep_cycles_figure(const SweepSource& source);
 Figure sweep_traces_figure(const SweepSource& source);
 
 }  // namespace slipfit::html

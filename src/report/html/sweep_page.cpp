@@ -144,8 +144,8 @@ std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sw
       "<p class=\"reason\">" + html::formula_text(sweep.fit_reason) + "</p>\n" + html::warnings_part(sweep.warnings);
   page.main = html::parameters_of(sweep) + html::figure_part(html::sweep_spacing_figure(source)) +
               html::figure_part(html::sweep_friction_figure(source)) + html::recordings_of(source) +
-              html::repeats_of(sweep.repeats) + html::figure_part(html::sweep_traces_figure(source)) +
-              html::repeat_of(source, origin);
+              html::repeats_of(sweep.repeats) + html::figure_part(html::sweep_cycles_figure(source)) +
+              html::figure_part(html::sweep_traces_figure(source)) + html::repeat_of(source, origin);
   return html::page_from(page);
 }
 

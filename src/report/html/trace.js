@@ -91,7 +91,7 @@
   let busy = false;
   const graphs = [];
 
-  /** Bands where the body slips; ticks at the foot where bands would be thinner than a pixel. */
+  /** Where the body slips: a bar at the foot, and a pale band above it unless it were thinner than a pixel. */
   function drawSlips(context, area, graph) {
     const pixels = area.w / (shown[1] - shown[0]);
     context.fillStyle = colour("--chart-sky");
@@ -99,13 +99,13 @@
       const begin = ticksToSeconds(slips[i]);
       const end = ticksToSeconds(slips[i + 1]);
       if (end < shown[0] || begin > shown[1]) continue;
-      const wide = (end - begin) * pixels >= 1.5;
-      context.globalAlpha = wide ? 0.28 : 0.9;
       const x = graph.toDomXCoord(begin);
-      if (wide) context.fillRect(x, area.y, (end - begin) * pixels, area.h);
-      else context.fillRect(x, area.y + area.h - 7, 1, 7);
+      const width = (end - begin) * pixels;
+      context.globalAlpha = 0.28;
+      if (width >= 1.5) context.fillRect(x, area.y, width, area.h);
+      context.globalAlpha = 1;
+      context.fillRect(x, area.y + area.h - 7, Math.max(1, width), 7);
     }
-    context.globalAlpha = 1;
   }
 
   function show(range) {
