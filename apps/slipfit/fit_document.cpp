@@ -227,6 +227,14 @@ std::optional<double> normal_force_N(const JsonNode& document) {
   return document.member("model").member("normal_force_N").positive();
 }
 
+/// [speed or null, speed or null]
+slipfit::ObservedEnd observed_end(const JsonNode& document) {
+  if (!document.has("derived") || !document.member("derived").has("observed_end_m_per_s")) return {};
+  const JsonNode ends = document.member("derived").member("observed_end_m_per_s");
+  if (ends.array_size() != 2) ends.fail("[highest speed that sticks, lowest that does not]");
+  return {checked_error(ends.element(0)), checked_error(ends.element(1))};
+}
+
 slipfit::Warnings warnings(const JsonNode& document) {
   slipfit::Warnings list;
   if (!document.has("warnings")) return list;
@@ -291,6 +299,7 @@ FitDocument read_fit_document(const std::string& file) {
   result.model.kinetic_friction_N = kinetic_friction_N(parameters);
   estimate.reach = reach(document);
   estimate.normal_force_N = normal_force_N(document);
+  result.model.observed_end = observed_end(document);
   result.conditional_on = conditions(document);
   result.warnings = warnings(document);
   return result;

@@ -8,6 +8,7 @@
 
 #include "predict/delta.hpp"
 #include "predict/motion.hpp"
+#include "predict/observed_end.hpp"
 
 namespace slipfit {
 namespace {
@@ -55,25 +56,6 @@ ModelEstimate at_the_measured_speed(ModelEstimate model, double relative_speed_s
   double& variance = model.covariance[0][0];
   variance = std::max(0.0, variance - relative_speed_se * relative_speed_se);
   return model;
-}
-
-/// Where the fit does not tell the end of stick-slip, or puts it below a speed at which a run sticks: what the runs
-/// show.
-Estimate critical_speed(const Estimate& by_fit, const ObservedEnd& observed) {
-  const bool contradicted =
-      by_fit.value && by_fit.ci95 && observed.sticks_m_per_s && by_fit.ci95->high < *observed.sticks_m_per_s;
-  if ((by_fit.value && !contradicted) || !observed.sticks_m_per_s) return by_fit;
-  const std::string fit = contradicted ? "the fit puts it below a speed at which a run sticks" : by_fit.note;
-  const double sticks = *observed.sticks_m_per_s;
-  if (!observed.slides_m_per_s) {
-    return unknown(
-        fmt::format("above {:.4g} m/s, the fastest run, which sticks; the fit does not tell more: {}", sticks, fit));
-  }
-  const double slides = *observed.slides_m_per_s;
-  return {std::sqrt(sticks * slides), std::nullopt, Interval{sticks, slides},
-          fmt::format("by the runs: the fastest that sticks and the slowest that does not; the fit does not tell more: "
-                      "{}",
-                      fit)};
 }
 
 }  // namespace
@@ -129,12 +111,12 @@ Derived derive_from_sweep(const FitResult& fit, const ObservedEnd& observed) {
   }
   if (!fit.estimate) {
     derived.lambda_critical = unknown("needs k, w_n, zeta and F_s - F_k, which these recordings do not give");
-    derived.critical_speed_m_per_s = critical_speed(derived.lambda_critical, observed);
+    derived.critical_speed_m_per_s = predict::with_observed_end(derived.lambda_critical, observed);
     return derived;
   }
   predict::CriticalPoint critical = predict::critical_point(*fit.estimate);
   derived.lambda_critical = std::move(critical.lambda);
-  derived.critical_speed_m_per_s = critical_speed(critical.speed_m_per_s, observed);
+  derived.critical_speed_m_per_s = predict::with_observed_end(critical.speed_m_per_s, observed);
   return derived;
 }
 

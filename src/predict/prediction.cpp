@@ -8,6 +8,7 @@
 #include "core/fit_thresholds.hpp"
 #include "predict/delta.hpp"
 #include "predict/motion.hpp"
+#include "predict/observed_end.hpp"
 #include "slipfit/core/range.hpp"
 
 namespace slipfit {
@@ -168,12 +169,16 @@ PredictionModel at_load(PredictionModel model, double normal_force_N) {
     }
   }
   estimate.normal_force_N = normal_force_N;
-  if (ratio != 1.0) model.kinetic_friction_N.reset();
+  if (ratio != 1.0) {
+    model.kinetic_friction_N.reset();
+    model.observed_end = {};
+  }
   return model;
 }
 
 Prediction predict_at(const PredictionModel& model, std::span<const double> speeds_m_per_s) {
   predict::CriticalPoint critical = predict::critical_point(model.estimate);
+  critical.speed_m_per_s = predict::with_observed_end(critical.speed_m_per_s, model.observed_end);
   if (!model.has_covariance) {
     critical = {without_interval(critical.lambda), without_interval(critical.speed_m_per_s)};
   }

@@ -263,3 +263,30 @@ TEST_CASE("a fit that ends stick-slip below a run that sticks is not believed") 
   CHECK_FALSE(derive_from_sweep(sweep.fit->result, {faster, {}}).critical_speed_m_per_s.value);
   CHECK(derive_from_sweep(sweep.fit->result, {faster, 2.0 * faster}).critical_speed_m_per_s.ci95->low == faster);
 }
+
+TEST_CASE("the end of stick-slip by a fit lies between the runs that stick and those that do not") {
+  test::SpeedSweep truth;
+  truth.f1_N = 0.0;
+  const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.02, 0.04, 0.08, 0.16}, 9), {});
+  const Estimate by_fit = sweep.derived.critical_speed_m_per_s;
+  REQUIRE(by_fit.ci95);
+  const auto with = [&](double sticks, double slides) {
+    return derive_from_sweep(sweep.fit->result, {sticks, slides}).critical_speed_m_per_s;
+  };
+  const Estimate wide = with(0.16, 10.0);
+  CHECK(*wide.value == *by_fit.value);
+  CHECK(wide.ci95->low == by_fit.ci95->low);
+  const Estimate cut = with(*by_fit.value * 1.0001, 10.0);
+  CHECK(cut.ci95->low == *by_fit.value * 1.0001);
+  CHECK(cut.ci95->high == by_fit.ci95->high);
+  CHECK(*cut.value == cut.ci95->low);
+  // The fit puts it where a run slides: the runs hold.
+  const Estimate contradicted = with(0.16, 0.18);
+  REQUIRE(by_fit.ci95->low > 0.18);
+  CHECK(contradicted.ci95->high == 0.18);
+  CHECK_THAT(contradicted.note, Catch::Contains("above a speed at which a run slides"));
+  // A prediction tells the same.
+  PredictionModel model = model_of(sweep);
+  model.observed_end = {0.16, 0.18};
+  CHECK(predict_at(model, {}).critical_speed_m_per_s.ci95->high == 0.18);
+}

@@ -8,6 +8,7 @@
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/fit/fit.hpp"
 #include "slipfit/model/motion.hpp"
+#include "slipfit/predict/derived.hpp"
 
 namespace slipfit {
 
@@ -16,6 +17,7 @@ struct PredictionModel {
   ModelEstimate estimate;                      ///< friction_difference_N >= 0
   bool has_covariance = false;                 ///< false: `estimate.covariance` means nothing, and no interval is given
   std::optional<Estimate> kinetic_friction_N;  ///< F_k(0+); absolute forces need it
+  ObservedEnd observed_end{};                  ///< what the runs of a sweep show
 };
 
 /// Parameters that somebody states: no intervals.

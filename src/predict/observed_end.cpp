@@ -1,0 +1,44 @@
+#include "predict/observed_end.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/unknown.hpp"
+
+namespace slipfit::predict {
+namespace {
+
+/// By the runs alone. `why`: the fit does not tell.
+Estimate by_runs(const ObservedEnd& observed, const std::string& why) {
+  const double sticks = *observed.sticks_m_per_s;
+  if (!observed.slides_m_per_s) {
+    return unknown(
+        fmt::format("above {:.4g} m/s, the fastest run, which sticks; the fit does not tell more: {}", sticks, why));
+  }
+  const double slides = *observed.slides_m_per_s;
+  return {std::sqrt(sticks * slides), std::nullopt, Interval{sticks, slides},
+          fmt::format("by the runs: the fastest that sticks and the slowest that does not; the fit does not tell more: "
+                      "{}",
+                      why)};
+}
+
+}  // namespace
+
+Estimate with_observed_end(const Estimate& by_fit, const ObservedEnd& observed) {
+  if (!observed.sticks_m_per_s) return by_fit;
+  if (!by_fit.value) return by_runs(observed, by_fit.note);
+  if (!by_fit.ci95) return by_fit;
+  const double sticks = *observed.sticks_m_per_s;
+  const double slides = observed.slides_m_per_s.value_or(HUGE_VAL);
+  if (by_fit.ci95->high < sticks) return by_runs(observed, "the fit puts it below a speed at which a run sticks");
+  if (by_fit.ci95->low > slides) return by_runs(observed, "the fit puts it above a speed at which a run slides");
+  Estimate both = by_fit;
+  both.ci95 = Interval{std::max(by_fit.ci95->low, sticks), std::min(by_fit.ci95->high, slides)};
+  both.value = std::clamp(*by_fit.value, both.ci95->low, both.ci95->high);
+  return both;
+}
+
+}  // namespace slipfit::predict
