@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "document_context.hpp"
 #include "json_node.hpp"
 
 namespace {
@@ -67,12 +68,6 @@ double checked_value(const JsonNode& parameter, const Needed& needed) {
   const bool above = value && (*value > needed.low || (needed.high == 1.0 && *value == needed.low));
   if (!above || !(*value < needed.high)) node.fail(needed.expected);
   return *value;
-}
-
-std::optional<double> checked_error(const JsonNode& node) {
-  const std::optional<double> error = node.number();
-  if (error && !(*error >= 0.0)) node.fail("a number >= 0 or null");
-  return error;
 }
 
 /// Whether zeta is held by the user, or its interval lies above 0.
@@ -210,42 +205,6 @@ std::optional<slipfit::Ageing> ageing(const std::string& file, const JsonNode& d
   return slipfit::Ageing{rate_N, stick_s};
 }
 
-/// Of a sweep. Documents of earlier versions have none.
-std::optional<slipfit::SpeedReach> reach(const JsonNode& document) {
-  if (!document.has("model") || !document.member("model").has("speeds_m_per_s")) return std::nullopt;
-  const JsonNode model = document.member("model");
-  const JsonNode speeds = model.member("speeds_m_per_s");
-  if (speeds.array_size() != 2) speeds.fail("[slowest, fastest]");
-  slipfit::SpeedReach reach{speeds.element(0).positive(), speeds.element(1).positive(), std::nullopt};
-  if (reach.slowest_m_per_s > reach.fastest_m_per_s) speeds.fail("[slowest, fastest]");
-  if (model.has("trend_beyond")) reach.trend = checked_error(model.member("trend_beyond"));
-  return reach;
-}
-
-std::optional<double> normal_force_N(const JsonNode& document) {
-  if (!document.has("model") || !document.member("model").has("normal_force_N")) return std::nullopt;
-  return document.member("model").member("normal_force_N").positive();
-}
-
-/// [speed or null, speed or null]
-slipfit::ObservedEnd observed_end(const JsonNode& document) {
-  if (!document.has("derived") || !document.member("derived").has("observed_end_m_per_s")) return {};
-  const JsonNode ends = document.member("derived").member("observed_end_m_per_s");
-  if (ends.array_size() != 2) ends.fail("[highest speed that sticks, lowest that does not]");
-  return {checked_error(ends.element(0)), checked_error(ends.element(1))};
-}
-
-slipfit::Warnings warnings(const JsonNode& document) {
-  slipfit::Warnings list;
-  if (!document.has("warnings")) return list;
-  const JsonNode nodes = document.member("warnings");
-  for (std::size_t i = 0; i < nodes.array_size(); ++i) {
-    const JsonNode warning = nodes.element(i);
-    list.push_back({warning.member("code").text(), warning.member("message").text()});
-  }
-  return list;
-}
-
 std::optional<slipfit::Estimate> kinetic_friction_N(const JsonNode& parameters) {
   if (!parameters.has("kinetic_friction_N")) return std::nullopt;
   const JsonNode parameter = parameters.member("kinetic_friction_N");
@@ -262,14 +221,6 @@ double degrees_of_freedom(const JsonNode& document) {
   const std::optional<double> freedom = node.number();
   if (freedom && !(*freedom >= 1.0)) node.fail("a number >= 1 or null");
   return freedom.value_or(kNormal);
-}
-
-std::vector<std::string> conditions(const JsonNode& document) {
-  std::vector<std::string> texts;
-  if (!document.has("model") || !document.member("model").has("conditional_on")) return texts;
-  const JsonNode list = document.member("model").member("conditional_on");
-  for (std::size_t i = 0; i < list.array_size(); ++i) texts.push_back(list.element(i).text());
-  return texts;
 }
 
 }  // namespace

@@ -36,6 +36,14 @@ std::optional<Point> point_of(const Recording& recording, const Analysis& analys
   return point;
 }
 
+/// Swings of a few samples show no sticks whether there are any or not.
+bool slides(const Recording& recording, const Analysis& analysis) {
+  if (analysis.motion == MotionClass::SteadySliding) return true;
+  const std::optional<double> frequency_Hz = analysis.frequency.quoted.value;
+  return analysis.motion == MotionClass::OscillatorySlip && frequency_Hz &&
+         *frequency_Hz * recording.sample_interval_s() * thresholds::kSamplesOfSwing < 1.0;
+}
+
 /// The fit tells at least one parameter.
 bool has_values(const Analysis& analysis) {
   return analysis.fit && std::any_of(analysis.fit->parameters.begin(), analysis.fit->parameters.end(),
@@ -65,9 +73,7 @@ ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<
     end.sticks_m_per_s = std::max(speed(i), end.sticks_m_per_s.value_or(0.0));
   }
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const MotionClass motion = analyses[i].motion;
-    const bool slides = motion == MotionClass::SteadySliding || motion == MotionClass::OscillatorySlip;
-    if (!slides || !(speed(i) > end.sticks_m_per_s.value_or(0.0))) continue;
+    if (!slides(entries[i].recording, analyses[i]) || !(speed(i) > end.sticks_m_per_s.value_or(0.0))) continue;
     end.slides_m_per_s = std::min(speed(i), end.slides_m_per_s.value_or(speed(i)));
   }
   return end;

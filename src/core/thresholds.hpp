@@ -258,4 +258,7 @@ inline constexpr double kLeastSpeedRatio = 1.3;
 /// Samples of a fall, below which it is as long as the clock makes it. [count; convention]
 inline constexpr double kSamplesOfFall = 4.0;
 
+/// Samples of a swing, below which straight sticks cannot be told from it. [count; convention]
+inline constexpr double kSamplesOfSwing = 10.0;
+
 }  // namespace slipfit::thresholds

@@ -8,7 +8,6 @@
 
 #include "predict/delta.hpp"
 #include "predict/motion.hpp"
-#include "predict/observed_end.hpp"
 
 namespace slipfit {
 namespace {
@@ -111,12 +110,12 @@ Derived derive_from_sweep(const FitResult& fit, const ObservedEnd& observed) {
   }
   if (!fit.estimate) {
     derived.lambda_critical = unknown("needs k, w_n, zeta and F_s - F_k, which these recordings do not give");
-    derived.critical_speed_m_per_s = predict::with_observed_end(derived.lambda_critical, observed);
+    derived.critical_speed_m_per_s = with_observed_end(derived.lambda_critical, observed);
     return derived;
   }
   predict::CriticalPoint critical = predict::critical_point(*fit.estimate);
   derived.lambda_critical = std::move(critical.lambda);
-  derived.critical_speed_m_per_s = predict::with_observed_end(critical.speed_m_per_s, observed);
+  derived.critical_speed_m_per_s = with_observed_end(critical.speed_m_per_s, observed);
   return derived;
 }
 

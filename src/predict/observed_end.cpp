@@ -1,4 +1,4 @@
-#include "predict/observed_end.hpp"
+#include "slipfit/predict/observed_end.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/unknown.hpp"
 
-namespace slipfit::predict {
+namespace slipfit {
 namespace {
 
 /// By the runs alone. `why`: the fit does not tell.
@@ -41,4 +41,4 @@ Estimate with_observed_end(const Estimate& by_fit, const ObservedEnd& observed) 
   return both;
 }
 
-}  // namespace slipfit::predict
+}  // namespace slipfit

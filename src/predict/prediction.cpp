@@ -8,7 +8,6 @@
 #include "core/fit_thresholds.hpp"
 #include "predict/delta.hpp"
 #include "predict/motion.hpp"
-#include "predict/observed_end.hpp"
 #include "slipfit/core/range.hpp"
 
 namespace slipfit {
@@ -178,7 +177,7 @@ PredictionModel at_load(PredictionModel model, double normal_force_N) {
 
 Prediction predict_at(const PredictionModel& model, std::span<const double> speeds_m_per_s) {
   predict::CriticalPoint critical = predict::critical_point(model.estimate);
-  critical.speed_m_per_s = predict::with_observed_end(critical.speed_m_per_s, model.observed_end);
+  critical.speed_m_per_s = with_observed_end(critical.speed_m_per_s, model.observed_end);
   if (!model.has_covariance) {
     critical = {without_interval(critical.lambda), without_interval(critical.speed_m_per_s)};
   }

@@ -6,14 +6,9 @@
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/fit/fit.hpp"
+#include "slipfit/predict/observed_end.hpp"
 
 namespace slipfit {
-
-/// What the runs of a sweep show of where stick-slip ends.
-struct ObservedEnd {
-  std::optional<double> sticks_m_per_s;  ///< fastest run with stick-slip
-  std::optional<double> slides_m_per_s;  ///< slowest run without it that is faster than all with it
-};
 
 /// Quantities that follow from the fit or from V and f (docs/model.md says how).
 struct Derived {

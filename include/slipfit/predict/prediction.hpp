@@ -8,7 +8,7 @@
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/fit/fit.hpp"
 #include "slipfit/model/motion.hpp"
-#include "slipfit/predict/derived.hpp"
+#include "slipfit/predict/observed_end.hpp"
 
 namespace slipfit {
 
