@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "report/format.hpp"
+#include "report/json_sections.hpp"
 #include "report/json_values.hpp"
 #include "report/table.hpp"
 #include "report/text_sections.hpp"
