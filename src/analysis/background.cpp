@@ -91,7 +91,8 @@ std::optional<Prediction> predict_around(std::span<const SweepEntry> entries, co
   const double critical = sweep.derived.critical_speed_m_per_s.value.value_or(0.0);
   if (speeds.front() < critical && critical < speeds.back()) speeds.push_back(critical * (1.0 - 1e-9));
   std::sort(speeds.begin(), speeds.end());
-  return predict_at({*sweep.fit->result.estimate, true, std::nullopt}, speeds);
+  const ObservedEnd observed = sweep.derived.observed_end.value_or(ObservedEnd{});
+  return predict_at({*sweep.fit->result.estimate, true, std::nullopt, observed}, speeds);
 }
 
 }  // namespace slipfit

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "slipfit/background.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
 #include "speed_sweep.hpp"
@@ -267,7 +268,8 @@ TEST_CASE("a fit that ends stick-slip below a run that sticks is not believed") 
 TEST_CASE("the end of stick-slip by a fit lies between the runs that stick and those that do not") {
   test::SpeedSweep truth;
   truth.f1_N = 0.0;
-  const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.02, 0.04, 0.08, 0.16}, 9), {});
+  const std::vector<SweepEntry> entries = test::record(truth, {0.02, 0.04, 0.08, 0.16}, 9);
+  SweepAnalysis sweep = analyze_sweep(entries, {});
   const Estimate by_fit = sweep.derived.critical_speed_m_per_s;
   REQUIRE(by_fit.ci95);
   const auto with = [&](double sticks, double slides) {
@@ -285,8 +287,10 @@ TEST_CASE("the end of stick-slip by a fit lies between the runs that stick and t
   REQUIRE(by_fit.ci95->low > 0.18);
   CHECK(contradicted.ci95->high == 0.18);
   CHECK_THAT(contradicted.note, Catch::Contains("above a speed at which a run slides"));
-  // A prediction tells the same.
+  // A prediction tells the same, and so does the picture of the page.
   PredictionModel model = model_of(sweep);
   model.observed_end = {0.16, 0.18};
   CHECK(predict_at(model, {}).critical_speed_m_per_s.ci95->high == 0.18);
+  sweep.derived.observed_end = ObservedEnd{0.16, 0.18};
+  CHECK(predict_around(entries, sweep)->critical_speed_m_per_s.ci95->high == 0.18);
 }
