@@ -68,6 +68,7 @@ std::vector<Own> own_values(ParameterId id, const std::vector<Analysis>& analyse
 
 double middle_of(const std::vector<Own>& values) {
   std::vector<double> numbers;
+  numbers.reserve(values.size());
   for (const Own& own : values) numbers.push_back(own.value);
   return signal::median(numbers);
 }
