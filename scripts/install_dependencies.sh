@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# install_dependencies.sh [build|test|browser]: what the build needs on Debian 12, or also the tests (the default), or what
-# scripts/test-report.sh needs.
+# install_dependencies.sh [build|test|browser|web]: what the build needs on Debian 12, or also the tests (the default), or what
+# scripts/test-report.sh needs, or scripts/web.sh.
 # Installs only what is missing, as root or through sudo; says what it installs, and nothing when all is there.
 set -euo pipefail
 
@@ -10,6 +10,10 @@ packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3
 case "${1:-test}" in
   test) packages+=(catch2 python3 python3-jsonschema python3-openpyxl python3-scipy python3-h5py
     slurm-wlm munge locales dpkg-dev file) ;;
+  web)
+    packages+=(emscripten libfast-float-dev curl ca-certificates xz-utils bzip2 make)
+    command -v node >/dev/null 2>&1 || packages+=(nodejs)
+    ;;
   browser)
     packages=(chromium)
     command -v npm >/dev/null 2>&1 || packages+=(nodejs npm)

@@ -20,4 +20,4 @@ build=$(realpath "${1:-build/release}")
 shots="$PWD/build/report-test"
 rm -rf "$shots"
 SLIPFIT="$build/apps/slipfit" CHROMIUM=$(command -v chromium) SHOTS=$shots \
-  node --test tests/browser/
+  node --test tests/browser/report.test.mjs

@@ -46,7 +46,7 @@ slipfit::Recording read(const AnalysisArguments& arguments) {
   }
   auto recording =
       slipfit::read_recording(only_file(arguments.recording), conditions, read_options_from(arguments.recording));
-  if (!recording) throw Failure(exit_code_for(recording.error().code), recording.error().message);
+  if (!recording) throw Failure(exit_code_for(recording.error().code), recording.error());
   return std::move(recording).value();
 }
 
@@ -162,7 +162,7 @@ void run_pieces(const AnalysisArguments& arguments,
   check_outputs(outputs_from(arguments), file);
   const auto pieces =
       slipfit::read_pieces(file, conditions_from(arguments.recording), read_options_from(arguments.recording));
-  if (!pieces) throw Failure(exit_code_for(pieces.error().code), pieces.error().message);
+  if (!pieces) throw Failure(exit_code_for(pieces.error().code), pieces.error());
   write_sweep(
       {std::filesystem::path(file).stem().string(), arguments.document, arguments.report, arguments.command_line},
       pieces.value(), analysis(pieces.value()));

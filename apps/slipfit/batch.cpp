@@ -124,7 +124,7 @@ slipfit::BatchOutcome run_shown(const slipfit::BatchOptions& options, const Batc
     hooks.tell = say;
   }
   auto outcome = slipfit::run_batch(options, hooks);
-  if (!outcome) throw Failure(ExitCode::WrongUsage, outcome.error().message);
+  if (!outcome) throw Failure(ExitCode::WrongUsage, outcome.error());
   return std::move(outcome).value();
 }
 

@@ -132,7 +132,7 @@ slipfit::ComparedRecording analysed(const ManifestEntry& entry) {
   auto recording = slipfit::read_recording(entry.file, entry.conditions, entry.options);
   if (!recording) {
     const slipfit::Error error = entry.line > 0 ? slipfit::in_words_of_manifest(recording.error()) : recording.error();
-    throw Failure(ExitCode::BadRecording, error.message);
+    throw Failure(ExitCode::BadRecording, error);
   }
   slipfit::Analysis analysis = slipfit::analyze_and_fit(recording.value(), {});
   return {std::move(recording).value(), std::move(analysis)};

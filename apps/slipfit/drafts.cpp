@@ -57,7 +57,7 @@ slipfit::ManifestDraft draft_of(const std::vector<std::string>& paths, const sli
                                 const Tell& tell) {
   slipfit::ManifestDraft draft = slipfit::draft_manifest({paths.begin(), paths.end()}, options);
   for (const slipfit::Error& error : draft.skipped) {
-    if (is_named(paths, error)) throw Failure(ExitCode::BadRecording, error.message);
+    if (is_named(paths, error)) throw Failure(ExitCode::BadRecording, error);
   }
   if (draft.entries.empty()) {
     const std::string why = draft.skipped.empty()

@@ -2,6 +2,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "slipfit/core/result.hpp"
 
 /// What the shell sees; docs/formats.md lists them.
 enum class ExitCode {
@@ -17,8 +20,12 @@ enum class ExitCode {
 class Failure : public std::runtime_error {
  public:
   Failure(ExitCode exit, const std::string& message) : std::runtime_error(message), exit_(exit) {}
+  Failure(ExitCode exit, const slipfit::Error& error)
+      : std::runtime_error(error.message), exit_(exit), code_(error.code) {}
   [[nodiscard]] ExitCode exit() const { return exit_; }
+  [[nodiscard]] const std::string& code() const { return code_; }  ///< of docs/formats.md
 
  private:
   ExitCode exit_;
+  std::string code_ = "wrong_usage";
 };

@@ -43,7 +43,7 @@ SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& co
 auto fit_together(const slipfit::FitOptions& options, const DocumentOptions& document) {
   return [options, document](const std::vector<slipfit::SweepEntry>& entries) {
     for (const slipfit::SweepEntry& entry : entries) {
-      if (const auto error = check_joint(entry.recording)) throw Failure(ExitCode::WrongUsage, error->message);
+      if (const auto error = check_joint(entry.recording)) throw Failure(ExitCode::WrongUsage, *error);
     }
     return analyze_with_progress(entries, options, document);
   };

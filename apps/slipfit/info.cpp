@@ -27,7 +27,7 @@ struct Inspection {
 Inspection inspect(const RecordingArguments& arguments) {
   const slipfit::ReadOptions options = read_options_from(arguments);
   auto info = slipfit::inspect_recording(arguments.files.front(), options);
-  if (!info) throw Failure(ExitCode::BadRecording, info.error().message);
+  if (!info) throw Failure(ExitCode::BadRecording, info.error());
   Inspection inspection{std::move(info).value(), {}};
   if (const auto& recording = inspection.info.recording) {
     inspection.sliding_s.push_back(slipfit::analyze(*recording).sliding);

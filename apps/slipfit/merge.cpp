@@ -19,7 +19,7 @@ struct MergeArguments {
 
 void run(const MergeArguments& arguments) {
   const auto merged = slipfit::merge_batches({arguments.shards.begin(), arguments.shards.end()}, arguments.out);
-  if (!merged) throw Failure(ExitCode::WrongUsage, merged.error().message);
+  if (!merged) throw Failure(ExitCode::WrongUsage, merged.error());
   const slipfit::BatchProgress& progress = merged.value();
   if (progress.failed > 0) {
     throw Failure(ExitCode::RecordingsFailed,

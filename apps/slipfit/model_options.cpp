@@ -28,7 +28,7 @@ double natural_frequency_rad_per_s(const ModelArguments& arguments, double stiff
 
 template <class T>
 T value_or_refuse(slipfit::Result<T> result) {
-  if (!result) throw Failure(ExitCode::WrongUsage, result.error().message);
+  if (!result) throw Failure(ExitCode::WrongUsage, result.error());
   return std::move(result).value();
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 
 #include "failure.hpp"
@@ -59,13 +58,11 @@ double quantity_not_negative(const std::string& option, const std::string& text,
 }
 
 double plain_number(const std::string& option, const std::string& text, const std::string& unit) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data(), end, value);
-  if (status != std::errc() || stop != end || !std::isfinite(value)) {
+  const auto value = slipfit::parse_quantity(text, Dimension::Dimensionless);
+  if (!value || !slipfit::unit_in(text).empty()) {
     refuse(option, fmt::format("bad number '{}', expected a plain number ({})", text, unit));
   }
-  return value;
+  return value.value();
 }
 
 double driving_speed(const std::string& text, const std::optional<std::string>& radius) {

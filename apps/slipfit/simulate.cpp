@@ -93,7 +93,7 @@ std::string comment_for(const Model& model, double speed_m_per_s, const slipfit:
 slipfit::SimulatedTrace simulated(const Model& model, double speed_m_per_s, const slipfit::SimulationOptions& options) {
   if (!model.velocity_friction) return slipfit::simulate(model.slider, model.friction, speed_m_per_s, options);
   auto trace = slipfit::simulate(model.slider, *model.velocity_friction, speed_m_per_s, options);
-  if (!trace) throw Failure(ExitCode::WrongUsage, trace.error().message);
+  if (!trace) throw Failure(ExitCode::WrongUsage, trace.error());
   return std::move(trace).value();
 }
 

@@ -54,9 +54,9 @@ MeasuredSurface measure(const SurfaceArguments& arguments) {
   }
   if (arguments.along) options.along_rad = direction(*arguments.along);
   auto profile = slipfit::read_profile(arguments.file, options);
-  if (!profile) throw Failure(ExitCode::BadRecording, profile.error().message);
+  if (!profile) throw Failure(ExitCode::BadRecording, profile.error());
   auto surface = slipfit::measure_surface(profile.value());
-  if (!surface) throw Failure(ExitCode::BadRecording, surface.error().message);
+  if (!surface) throw Failure(ExitCode::BadRecording, surface.error());
   return {std::move(profile).value(), std::move(surface).value()};
 }
 

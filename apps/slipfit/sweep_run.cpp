@@ -16,7 +16,7 @@ using slipfit::ManifestEntry;
 std::vector<ManifestEntry> manifest_entries(const std::string& manifest, const std::optional<std::string>& group,
                                             const std::vector<std::string>& only) {
   auto entries = slipfit::read_manifest_group(manifest, group);
-  if (!entries) throw Failure(ExitCode::WrongUsage, entries.error().message);
+  if (!entries) throw Failure(ExitCode::WrongUsage, entries.error());
   std::vector<ManifestEntry> chosen;
   for (const std::string& id : only) {
     const auto entry = std::find_if(entries.value().begin(), entries.value().end(),
@@ -36,7 +36,7 @@ std::vector<slipfit::SweepEntry> read_recordings(const std::vector<ManifestEntry
   auto entries = slipfit::read_sweep(manifest);
   if (entries) return std::move(entries).value();
   const bool manifest_asks_for_it = entries.error().code == "view_not_spring";
-  throw Failure(manifest_asks_for_it ? ExitCode::WrongUsage : ExitCode::BadRecording, entries.error().message);
+  throw Failure(manifest_asks_for_it ? ExitCode::WrongUsage : ExitCode::BadRecording, entries.error());
 }
 
 std::vector<OutputFile> outputs_from(const SweepDocument& document) {

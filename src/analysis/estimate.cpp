@@ -16,6 +16,12 @@
 namespace slipfit {
 namespace {
 
+#ifdef SLIPFIT_SINGLE_PROCESS  // async would wait for ever for a thread that cannot begin
+constexpr std::launch kLaunch = std::launch::deferred;
+#else
+constexpr std::launch kLaunch = std::launch::async | std::launch::deferred;
+#endif
+
 struct TimedFrequency {
   SpectralFrequency spectral;
   double seconds = 0.0;
@@ -75,7 +81,7 @@ Estimates estimate(const Detected& detected, const FitOptions& options) {
   Estimates estimates{detected.signals, {}};
   // Named, and so copied: where there is no thread, async begins anew with what it was given.
   const auto spectrum_task = [&] { return frequency_of(recording, detected.signals); };
-  std::future<TimedFrequency> frequency = std::async(spectrum_task);
+  std::future<TimedFrequency> frequency = std::async(kLaunch, spectrum_task);
   if (recording.size() >= kLarge) frequency.wait();
   const Stopwatch stopwatch;
   estimates.fit = fit_recording(recording, estimates.signals.quality, estimates.signals.segmentation, options);

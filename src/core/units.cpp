@@ -1,11 +1,11 @@
 #include "slipfit/core/units.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <string>
 
+#include "core/number_text.hpp"
 #include "core/unit_text.hpp"
 
 namespace slipfit {
@@ -105,7 +105,7 @@ std::string_view unit_in(std::string_view text) {
   text = trim(text);
   if (text.size() > 1 && text[0] == '+') text.remove_prefix(1);
   double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() ? trim(text.substr(static_cast<std::size_t>(end - text.data()))) : std::string_view();
 }
 
@@ -116,7 +116,7 @@ Result<double> parse_quantity(std::string_view text, Dimension dimension) {
                                name_of(dimension).si_unit, ")"})};
   if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-') rest.remove_prefix(1);
   double value = 0.0;
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+  const auto [end, error] = number_from_chars(rest.data(), rest.data() + rest.size(), value);
   if (error != std::errc() || !std::isfinite(value)) return bad_number;
   rest = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
   if (rest.empty()) return value;

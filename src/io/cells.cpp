@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "core/number_text.hpp"
 #include "core/word_list.hpp"
 #include "io/dates.hpp"
 #include "io/short_decimal.hpp"
@@ -33,7 +34,7 @@ Parsed parse_point(std::string_view text) {
   const bool plus = text.size() > 1 && text[0] == '+' && (is_digit(text[1]) || text[1] == '.');
   const char* begin = text.data() + (plus ? 1 : 0);
   Parsed parsed;
-  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), parsed.value);
+  const auto [end, error] = number_from_chars(begin, text.data() + text.size(), parsed.value);
   if (error != std::errc()) return {};
   parsed.length = static_cast<std::size_t>(end - text.data());
   if (std::abs(parsed.value) > kOverload) parsed.value = kNone;

@@ -14,6 +14,7 @@ import tempfile
 # Why a line is not run here.
 ELSEWHERE = {
     "scripts/demo.sh": "builds the program again",
+    "scripts/web.sh": "builds the browser version; scripts/test-web.sh",
     "scripts/test.sh": "runs this test",
     "array=$(sbatch": "the test batch: Slurm",
     "sbatch": "the test batch: Slurm",

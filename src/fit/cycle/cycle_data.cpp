@@ -152,7 +152,8 @@ class Cutter {
 
   [[nodiscard]] std::span<const std::size_t> excluded_in(std::size_t begin, std::size_t end) const {
     const auto from = std::lower_bound(excluded_.begin(), excluded_.end(), begin);
-    return {from, std::lower_bound(from, excluded_.end(), end)};
+    const auto to = std::lower_bound(from, excluded_.end(), end);
+    return {excluded_.data() + (from - excluded_.begin()), static_cast<std::size_t>(to - from)};
   }
 
   /// On an even clock (hum is looked for on no other) the phase turns by the same angle from sample to sample, and the

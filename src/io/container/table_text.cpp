@@ -1,10 +1,11 @@
 #include "io/container/table_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 namespace slipfit::reading {
@@ -67,9 +68,7 @@ class TableText final : public ByteStream {
       pending_ += "nan";
       return;
     }
-    std::array<char, 32> digits{};
-    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-    pending_.append(digits.data(), end);
+    fmt::format_to(std::back_inserter(pending_), "{}", value);
   }
 
   NumberTable table_;

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# test-web.sh [BUILD]: the browser version of the last scripts/web.sh against the program of BUILD, in node, Chromium and
+# Firefox. Skips, saying so, what is not there, or not of these sources. Screenshots are left in build/web-test.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+skip() {
+  echo "test-web.sh: skipped, $1"
+  exit 0
+}
+
+[ -f build/web/slipfit.html ] || skip "there is no build/web; scripts/web.sh makes it"
+[ "$(scripts/web_sources.sh)" = "$(cat build/web/sources)" ] || skip "build/web is of other sources; scripts/web.sh makes it anew"
+command -v node >/dev/null 2>&1 || skip "no node"
+build=$(realpath "${1:-build/release}")
+export SLIPFIT="$build/apps/slipfit"
+node --test tests/web/
+
+(cd tests/browser && npm ci --silent --no-audit --no-fund) || skip "playwright-core cannot be had: the page"
+mkdir -p build/web-test
+export WEB_PAGE="$PWD/build/web/slipfit.html" SHOTS="$PWD/build/web-test"
+for browser in chromium firefox-esr; do
+  if ! command -v "$browser" >/dev/null 2>&1; then
+    echo "test-web.sh: skipped, no $browser"
+    continue
+  fi
+  BROWSER=$(command -v "$browser") node --test tests/browser/web.test.mjs
+done
