@@ -17,7 +17,7 @@ fs.copyFileSync(made("slipfit-core.wasm"), made("slipfit.wasm"));
 fs.writeFileSync(made("slipfit.mjs"), read(core, "words.js", "api.js", "module.js"));
 
 const parts = {
-  style: inside(read("../src/report/html/style.css", path.join(kDygraphs, "dygraph.min.css"), "page.css")),
+  style: inside(read(path.join(kDygraphs, "dygraph.min.css"), "../src/report/html/style.css", "page.css")),
   engine: inside(read(core, "words.js", "api.js", "worker.js")),
   wasm: zlib.gzipSync(fs.readFileSync(made("slipfit.wasm")), { level: 9 }).toString("base64"),
   scripts: inside(read(path.join(kDygraphs, "dygraph.min.js"), "words.js", "texts.js", "files.js", "engine.js", "options.js", "trace.js", "page.js")),

@@ -48,9 +48,9 @@ const optionsForm = (() => {
     made.addEventListener("change", () => take(made.value));
     return made;
   }
-  function store(key, part) {
+  function store(key, part, is_whole = true) {
     values[key] = { ...values[key], ...part };
-    changed(key);
+    changed(key, is_whole);
   }
   function entriesOf(field) {
     const none = ["", say("automatic", "automatic")];
@@ -76,6 +76,7 @@ const optionsForm = (() => {
       return label;
     }
     const input = element("input", { value, id: `option-${field.key}`, inputMode: field.unit ? "decimal" : "text" });
+    input.addEventListener("input", () => store(field.key, { value: input.value.trim() }, false));
     input.addEventListener("change", () => store(field.key, { value: input.value.trim() }));
     label.append(input);
     if (!field.unit) return label;

@@ -311,9 +311,13 @@
     const text = event.clipboardData.getData("text");
     if (text.trim()) open([{ name: "pasted.txt", blob: new Blob([text]) }]);
   });
-  optionsForm.onChange((key) => {
+  optionsForm.onChange((key, is_whole) => {
     showCommand();
-    if ([...kReading, "strokes", "zero"].includes(key) && files.length > 0) read();
+    if (key === "speed" && at("option-speed").classList.contains("missing")) {
+      optionsForm.markMissing("speed", false);
+      tell(null);
+    }
+    if (is_whole && [...kReading, "strokes", "zero"].includes(key) && files.length > 0) read();
   });
   for (const button of document.querySelectorAll("[data-zoom]")) button.addEventListener("click", () => trace.zoom(Number(button.dataset.zoom)));
   for (const button of document.querySelectorAll("[data-save]")) button.addEventListener("click", () => save(button.dataset.save).catch(tell));
