@@ -1,6 +1,7 @@
 #include "fit/selection/sweep_solution.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <limits>
@@ -103,7 +104,7 @@ class SweepFitter {
   /// From the medians of the recordings' own fits.
   void set_globals(SweepSolution& solution) const {
     Globals globals{};
-    for (const Coordinate i : {kLogStiffness, kLogFrequency, kDamping}) {
+    for (const std::size_t i : std::array<std::size_t, 3>{kLogStiffness, kLogFrequency, kDamping}) {
       std::vector<double> values;
       for (const std::size_t r : data_.fitted) values.push_back(data_.single[r]->blocks.parameters.globals[i]);
       globals[i] = signal::median(values);
@@ -161,7 +162,7 @@ class SweepFitter {
   }
 
   /// From a shared solution on with nothing shared.
-  [[nodiscard]] std::optional<SweepSolution> released(const SweepSolution& shared) const {
+  [[nodiscard]] static std::optional<SweepSolution> released(const SweepSolution& shared) {
     SweepSolution free = shared;
     free.sweep.sharing = {};
     return at_minimum(std::move(free), shared.held);
