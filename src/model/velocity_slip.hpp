@@ -39,8 +39,8 @@ inline double longest_slip_step(const ScaledLaw& law, const SlipAccuracy& accura
 /// respect to the four parameters. docs/model.md section 5.
 template <std::size_t N>
 struct SlipSystem {
-  ScaledSlip slip;
-  SlipAccuracy accuracy;
+  ScaledSlip slip{};
+  SlipAccuracy accuracy{};
 
   [[nodiscard]] double longest_step(const StepNode<N>& node) const {
     return longest_slip_step(slip.law, accuracy, node.x[kSpeed], node.dx[kSpeed]);
