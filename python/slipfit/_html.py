@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from html import escape
 from typing import TYPE_CHECKING, Any, List
 
@@ -52,12 +53,21 @@ def chart(recording: "Recording", fit: "Fit") -> str:
     )
 
 
+def _digits(one: "Estimate") -> int:
+    """Significant digits that show two of the interval's width."""
+    if one.ci95 is None or not one.ci95[1] > one.ci95[0]:
+        return 4
+    largest = max(abs(one.ci95[0]), abs(one.ci95[1]))
+    return min(12, max(3, 2 + math.ceil(math.log10(largest / (one.ci95[1] - one.ci95[0])))))
+
+
 def _number(one: "Estimate") -> str:
-    return "–" if one.value is None else f"{one.value:.5g}"
+    return "–" if one.value is None else f"{one.value:.{_digits(one)}g}"
 
 
 def _interval(one: "Estimate") -> str:
-    return "–" if one.ci95 is None else f"[{one.ci95[0]:.5g}, {one.ci95[1]:.5g}]"
+    digits = _digits(one)
+    return "–" if one.ci95 is None else f"[{one.ci95[0]:.{digits}g}, {one.ci95[1]:.{digits}g}]"
 
 
 def _row(words: str, one: "Estimate") -> str:
