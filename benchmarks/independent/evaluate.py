@@ -8,12 +8,11 @@ verdict: share of right kinds of motion. freq, space: of recordings that have on
 where there is none). stretch: both ends within 1.5 periods, where part of the recording slides otherwise. k ... zeta: share of
 intervals that hold the truth, of those given; wrong: `identified` and off by more than twice the interval.
 """
-import argparse
 import collections
-import concurrent.futures
 import json
-import pathlib
 import subprocess
+
+import command_line
 
 SHORT = {"stiffness_N_per_m": "k", "friction_difference_N": "dF", "natural_frequency_rad_per_s": "w_n", "damping_ratio": "zeta"}
 RIGHT = {"stick_slip": {"stick_slip"}, "reciprocating": {"stick_slip", "refused:reciprocating"},
@@ -105,17 +104,7 @@ def describe(truth, document, row):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("slipfit")
-    parser.add_argument("scenes", type=pathlib.Path)
-    parser.add_argument("--misses", action="store_true", help="name the recordings that went wrong")
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--only", default="", help="families, comma-separated")
-    arguments = parser.parse_args()
-    truths = [json.loads(text) for text in open(arguments.scenes / "truth.jsonl", encoding="utf-8")]
-    truths = [t for t in truths if not arguments.only or t["family"] in arguments.only.split(",")]
-    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        documents = list(pool.map(lambda t: analysed(arguments.slipfit, arguments.scenes, t), truths))
+    arguments, truths, documents = command_line.evaluated(__doc__, analysed)
     families = collections.defaultdict(list)
     misses = []
     for truth, document in zip(truths, documents):

@@ -10,14 +10,14 @@ those told so. fit: sweeps that could be predicted from. warned: with any warnin
 the wrong recording, of the sweeps that have one; alarm: that name one where none is wrong. se: median relative standard error of k
 and half-width of F_s - F_k.
 """
-import argparse
 import collections
-import concurrent.futures
 import json
 import pathlib
 import subprocess
 
 import numpy as np
+
+import command_line
 
 
 def run(command):
@@ -27,12 +27,10 @@ def run(command):
 
 def analysed(program, folder, truth):
     fit_file = folder / truth["id"] / f"fit-{pathlib.Path(program).name}.json"
-    manifest = folder / truth["id"] / "manifest.csv"
-    done = subprocess.run([program, "fit", "--joint", str(manifest), "--json", "--out", str(fit_file), "--quiet"], capture_output=True,
-                          text=True, check=False, timeout=300)
-    if done.returncode:
-        return {"error": done.stderr.strip()}
-    fit = json.loads(fit_file.read_text())
+    fit, error = run([program, "fit", "--joint", str(folder / truth["id"] / "manifest.csv"), "--json", "--quiet"])
+    if fit is None:
+        return {"error": error}
+    fit_file.write_text(json.dumps(fit))
     speeds = ",".join(f"{row['speed_m_per_s']:.9g}" for row in truth["rows"])
     load = ["--normal-force", str(truth["load_N"])] if truth["load_N"] else []
     prediction, error = run([program, "predict", str(fit_file), "--speeds", speeds, "--json", *load])
@@ -100,17 +98,7 @@ def line(family, rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("slipfit")
-    parser.add_argument("sweeps", type=pathlib.Path)
-    parser.add_argument("--misses", action="store_true", help="name the sweeps that went wrong")
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--only", default="", help="families, comma-separated")
-    arguments = parser.parse_args()
-    truths = [json.loads(text) for text in open(arguments.sweeps / "truth.jsonl", encoding="utf-8")]
-    truths = [t for t in truths if not arguments.only or t["family"] in arguments.only.split(",")]
-    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        results = list(pool.map(lambda t: analysed(arguments.slipfit, arguments.sweeps, t), truths))
+    arguments, truths, results = command_line.evaluated(__doc__, analysed)
     families = collections.defaultdict(list)
     misses = []
     for truth, result in zip(truths, results):

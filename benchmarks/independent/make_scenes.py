@@ -3,13 +3,12 @@
 
     make_scenes.py OUT [--count 10] [--seed 1] [--only plain,noisy]
 """
-import argparse
 import json
-import pathlib
 import zlib
 
 import numpy as np
 
+import command_line
 import families_controls
 import families_inside
 import families_outside
@@ -19,21 +18,14 @@ FAMILIES = {f.__name__: f for f in families_inside.FAMILIES + families_outside.F
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("--count", type=int, default=10)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", default=",".join(FAMILIES))
-    arguments = parser.parse_args()
-    arguments.out.mkdir(parents=True, exist_ok=True)
+    arguments, tasks = command_line.drawing(__doc__, FAMILIES, count=10)
     with open(arguments.out / "truth.jsonl", "w", encoding="utf-8") as truths:
-        for family in arguments.only.split(","):
-            for seed in range(arguments.seed, arguments.seed + arguments.count):
-                rng = np.random.default_rng([seed, zlib.crc32(family.encode())])
-                scene = FAMILIES[family](rng)
-                name = f"{family}-{seed}"
-                write_csv(arguments.out / f"{name}.csv", scene.time_s, scene.force)
-                truths.write(json.dumps({"id": name, "family": family, "file": f"{name}.csv", **scene.truth}) + "\n")
+        for family, seed in tasks:
+            rng = np.random.default_rng([seed, zlib.crc32(family.encode())])
+            scene = FAMILIES[family](rng)
+            name = f"{family}-{seed}"
+            write_csv(arguments.out / f"{name}.csv", scene.time_s, scene.force)
+            truths.write(json.dumps({"id": name, "family": family, "file": f"{name}.csv", **scene.truth}) + "\n")
 
 
 if __name__ == "__main__":

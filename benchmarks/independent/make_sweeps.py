@@ -3,14 +3,13 @@
 
     make_sweeps.py OUT [--count 25] [--seed 1] [--only coulomb5,two]
 """
-import argparse
 import concurrent.futures
 import json
-import pathlib
 import zlib
 
 import numpy as np
 
+import command_line
 import sweeps
 from simulator import write_csv
 
@@ -33,18 +32,9 @@ def make(out, family, seed):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("--count", type=int, default=25)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", default=",".join(FAMILIES))
-    parser.add_argument("--jobs", type=int, default=2)
-    arguments = parser.parse_args()
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    tasks = [(arguments.out, family, seed) for family in arguments.only.split(",")
-             for seed in range(arguments.seed, arguments.seed + arguments.count)]
+    arguments, tasks = command_line.drawing(__doc__, FAMILIES, count=25)
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool, open(arguments.out / "truth.jsonl", "w", encoding="utf-8") as truths:
-        for truth in pool.map(make, *zip(*tasks)):
+        for truth in pool.map(make, *zip(*[(arguments.out, *task) for task in tasks])):
             truths.write(json.dumps(truth, default=float) + "\n")
 
 

@@ -32,9 +32,10 @@ class Sweep:
     runs: list
     noise: float
     per_slip: float
-    load: float = 1.0  # share of the friction at the speeds predicted
     bad: int = None
     slips: tuple = (14, 25)
+    drop: float = None       # F_s - F_k at the speeds predicted; None: that of a sound recording
+    model_at: object = None  # of a speed; None: that of a sound recording
 
 
 def base_model(rng, zeta=(0.03, 0.2)):
@@ -287,20 +288,20 @@ def limit_period(model, drop, kinetic, speed):
 def truth_of(sweep):
     sound = next(r for i, r in enumerate(sweep.runs) if i != sweep.bad and (r.stated_load or 5.0) == 5.0)
     fastest = max(r.speed for r in sweep.runs)
-    model_at = getattr(sweep, "model_at", lambda v: sound.model)
-    mean_drop = getattr(sweep, "drop", sound.drop)  # of the first recording where loads differ
+    model_at = sweep.model_at or (lambda v: sound.model)
+    drop = sweep.drop or sound.drop  # of the first recording where loads differ
     rows = []
     for times in BEYOND:
         v = times * fastest
-        period = limit_period(model_at(v), mean_drop, sound.kinetic, v)
+        period = limit_period(model_at(v), drop, sound.kinetic, v)
         rows.append({"speed_m_per_s": v, "spacing_m": v * period if period else None})
     slow, fast = 0.2 * fastest, 400 * fastest
-    if limit_period(model_at(slow), mean_drop, sound.kinetic, slow) is None:
+    if limit_period(model_at(slow), drop, sound.kinetic, slow) is None:
         critical = None
     else:
         while fast > 1.005 * slow:
             middle = np.sqrt(slow * fast)
-            if limit_period(model_at(middle), mean_drop, sound.kinetic, middle):
+            if limit_period(model_at(middle), drop, sound.kinetic, middle):
                 slow = middle
             else:
                 fast = middle

@@ -17,7 +17,7 @@ namespace {
 struct Apart {
   std::size_t recording = 0;
   double distance = 0.0;  ///< relative, or ln of a ratio; levels in units of F_s - F_k
-  double errors = 0.0;    ///< the same in errors, > 0
+  double errors = 0.0;    ///< the same in errors, >= 0
 };
 
 /// How many of the recordings have to agree: a level has no unit that all share, and zeros of their own lie anywhere.
@@ -74,10 +74,10 @@ double middle_of(const std::vector<Own>& values) {
 }
 
 /// Beside the middle of all, in a unit.
-std::vector<Apart> from_middle(const std::vector<Own>& values, double unit) {
+std::vector<Apart> from_middle(const std::vector<Own>& values, double middle, double unit) {
   std::vector<Apart> apart;
   for (const Own& own : values) {
-    const double off = own.value - middle_of(values);
+    const double off = own.value - middle;
     apart.push_back({own.recording, off / unit, std::abs(off) / own.standard_error});
   }
   return apart;
@@ -86,7 +86,8 @@ std::vector<Apart> from_middle(const std::vector<Own>& values, double unit) {
 std::optional<Apart> by_stiffness(const std::vector<Analysis>& analyses, const SweepFit& fit) {
   const std::vector<Own> values = own_values(ParameterId::Stiffness, analyses, fit);
   if (values.empty()) return std::nullopt;
-  return furthest(from_middle(values, middle_of(values)), Agreeing::Half);
+  const double middle = middle_of(values);
+  return furthest(from_middle(values, middle, middle), Agreeing::Half);
 }
 
 /// In units of F_s - F_k, at the mean load where loads are known.
@@ -102,7 +103,7 @@ std::optional<Apart> by_level(std::span<const SweepEntry> entries, const std::ve
     own.value *= *fit.result.estimate->normal_force_N / *load_N;
     own.standard_error *= *fit.result.estimate->normal_force_N / *load_N;
   }
-  return furthest(from_middle(values, *unit.value), Agreeing::AllOthers);
+  return furthest(from_middle(values, middle_of(values), *unit.value), Agreeing::AllOthers);
 }
 
 const char* side_of(const Apart& apart) {

@@ -177,7 +177,7 @@ inline constexpr double kLeftOutErrors = 5.0;
 inline constexpr double kLeftOutShare = 0.02;
 
 /// By how many times it stands further apart than half of the recordings: where most do, the model lacks something, and
-/// none is wrong. [1; calibrated: as above, 17 and more where one is wrong, below 6 where none is]
+/// none is wrong. [1; calibrated: as above, four false alarms in 332 sweeps of other seeds]
 inline constexpr double kStandsApart = 8.0;
 
 /// ln of the ratio of speeds from which on an end of the sweep tells how far its law carries. [1; convention]

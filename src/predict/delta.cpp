@@ -56,14 +56,12 @@ bool Propagation::law_is_open_at(double speed_m_per_s) const {
 
 std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_per_s) {
   if (!model.reach) return model;
-  const double distance = model.reach->distance_to(speed_m_per_s);
-  if (!model.reach->trend) {
-    return distance < std::log(thresholds::kUntrendedRatio) ? std::optional(model) : std::nullopt;
-  }
+  const bool is_far = !(model.reach->distance_to(speed_m_per_s) < std::log(thresholds::kUntrendedRatio));
+  if (!model.reach->trend && is_far) return std::nullopt;
   ModelEstimate wider = model;
   constexpr std::size_t kDifference = 3;
   wider.covariance[kDifference][kDifference] +=
-      std::pow(*model.reach->trend * distance / fit::t_quantile(model.degrees_of_freedom), 2);
+      std::pow(model.reach->half_width_at(speed_m_per_s) / fit::t_quantile(model.degrees_of_freedom), 2);
   return wider;
 }
 

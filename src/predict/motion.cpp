@@ -12,7 +12,6 @@
 #include "predict/velocity.hpp"
 
 namespace slipfit::predict {
-
 namespace {
 
 CriticalPoint critical_point_by_law(const ModelEstimate& model) {
@@ -29,16 +28,15 @@ CriticalPoint critical_point(const ModelEstimate& model) {
   const std::optional<double> speed = point.speed_m_per_s.value;
   if (!speed || !(*speed > 0.0) || !model.reach) return point;
   const double distance = model.reach->distance_to(*speed);
-  const bool far = distance > std::log(thresholds::kUntrendedRatio);
-  if (far && !model.reach->trend) {
+  const std::optional<ModelEstimate> wider = beyond(model, *speed);
+  if (!wider) {
     point.speed_m_per_s = unknown(kUntrended);
-  } else if (far && (model.speed_dependence || model.ageing)) {
+  } else if ((model.speed_dependence || model.ageing) && distance > std::log(thresholds::kUntrendedRatio)) {
     point.speed_m_per_s =
         unknown(fmt::format("the law of {} friction puts it at {:.4g} m/s, a factor of {:.2g} beyond the recordings: "
-                            "another law that fits them as well "
-                            "puts it elsewhere",
+                            "another law that fits them as well puts it elsewhere",
                             model.ageing ? "static" : "kinetic", *speed, std::exp(distance)));
-  } else if (const std::optional<ModelEstimate> wider = beyond(model, *speed)) {
+  } else {
     return critical_point_by_law(*wider);
   }
   return point;

@@ -5,7 +5,6 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "core/fit_thresholds.hpp"
 #include "fit/inference/sliding_model.hpp"
@@ -44,6 +43,11 @@ VectorXd log_sticks(const SweepSolution& solution) {
     logs(i) = std::log((cycle && cycle->stick_s.a > 0.0 ? cycle->stick_s.a : ramp_s) / units.stick_s);
   }
   return logs;
+}
+
+bool can_show_trend(const VectorXd& log_speeds) {
+  return static_cast<std::size_t>(log_speeds.size()) >= thresholds::kTrendRecordings &&
+         log_speeds.maxCoeff() - log_speeds.minCoeff() > std::log(thresholds::kAgeingSpeedRatio);
 }
 
 /// Squared standard errors of the recordings' own F_s - F_k(0+), in its unit: by the scatter over their cycles.
@@ -114,10 +118,7 @@ AgeingLine ageing_line(const SweepSolution& solution) {
 StaticFriction static_friction_of(const SweepSolution& solution) {
   const VectorXd differences = differences_of(solution);
   const VectorXd speeds = log_speeds(solution);
-  if (solution.sweep.sharing.difference || solution.recordings.size() < thresholds::kTrendRecordings ||
-      !(speeds.maxCoeff() - speeds.minCoeff() > std::log(thresholds::kAgeingSpeedRatio))) {
-    return StaticFriction::Constant;
-  }
+  if (solution.sweep.sharing.difference || !can_show_trend(speeds)) return StaticFriction::Constant;
   const Line line = line_over(speeds, differences);
   if (!(line.slope < 0.0)) return StaticFriction::Constant;
   if (within_own_errors(line.residuals, own_variances(solution))) return StaticFriction::Ages;
@@ -129,10 +130,7 @@ StaticFriction static_friction_of(const SweepSolution& solution) {
 SpeedReach reach_of(const SweepSolution& solution) {
   const VectorXd speeds = log_speeds(solution);
   SpeedReach reach{std::exp(speeds.minCoeff()), std::exp(speeds.maxCoeff()), std::nullopt};
-  if (solution.recordings.size() < thresholds::kTrendRecordings ||
-      !(speeds.maxCoeff() - speeds.minCoeff() > std::log(thresholds::kAgeingSpeedRatio))) {
-    return reach;
-  }
+  if (!can_show_trend(speeds)) return reach;
   if (solution.sweep.sharing.difference) {
     const double sum = (speeds.array() - speeds.mean()).square().sum();
     const double slope_error =

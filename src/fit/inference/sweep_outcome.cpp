@@ -115,8 +115,7 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
 
 Spread spread_at(const LeftOut& fit, double speed_m_per_s) {
   Spread spread = fit.spread;
-  const double half_width =
-      fit.reach.trend.value_or(0.0) * fit.reach.distance_to(speed_m_per_s) * fit.values(kDifference);
+  const double half_width = fit.reach.half_width_at(speed_m_per_s) * fit.values(kDifference);
   spread.covariance(kDifference, kDifference) += std::pow(half_width / t_quantile(spread.degrees_of_freedom), 2);
   return spread;
 }

@@ -58,6 +58,23 @@ std::optional<double> mean_load_N(std::span<const SweepRecording> recordings) {
   return std::clamp(mean, *low, *high);  // exactly the load where all are the same
 }
 
+/// Scatter of each recording's onset force, moderated: strokes and short runs have three cycles each.
+void add_onset_scatter(SweepData& data) {
+  std::vector<SampleVariance> samples;
+  for (const std::size_t i : data.fitted) {
+    const DampedFit& fit = *data.single[i];
+    const double mean = std::abs(mean_onset_force(fit));
+    // Cycles without any scatter still carry the error of their own onset force.
+    const double sd = std::max(fit.uncertainty.onset_force_sd * fit.blocks.scales().force, 1e-5 * mean);
+    samples.push_back({std::pow(sd / data.loads[i], 2), fit.blocks.size()});
+  }
+  const std::vector<double> variances = moderated_variances(samples);
+  data.onset_sd.assign(data.single.size(), 0.0);
+  for (std::size_t f = 0; f < variances.size(); ++f) {
+    data.onset_sd[data.fitted[f]] = std::sqrt(variances[f]) * data.loads[data.fitted[f]];
+  }
+}
+
 }  // namespace
 
 double mean_onset_force(const DampedFit& fit) {
@@ -102,27 +119,6 @@ double median_period_s(const BlockFit& blocks) {
   }
   return signal::median(intervals_s);
 }
-
-namespace {
-
-/// Scatter of each recording's onset force, moderated: strokes and short runs have three cycles each.
-void add_onset_scatter(SweepData& data) {
-  std::vector<SampleVariance> samples;
-  for (const std::size_t i : data.fitted) {
-    const DampedFit& fit = *data.single[i];
-    const double mean = std::abs(mean_onset_force(fit));
-    // Cycles without any scatter still carry the error of their own onset force.
-    const double sd = std::max(fit.uncertainty.onset_force_sd * fit.blocks.scales().force, 1e-5 * mean);
-    samples.push_back({std::pow(sd / data.loads[i], 2), fit.blocks.size()});
-  }
-  const std::vector<double> variances = moderated_variances(samples);
-  data.onset_sd.assign(data.single.size(), 0.0);
-  for (std::size_t f = 0; f < variances.size(); ++f) {
-    data.onset_sd[data.fitted[f]] = std::sqrt(variances[f]) * data.loads[data.fitted[f]];
-  }
-}
-
-}  // namespace
 
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
   SweepData data;

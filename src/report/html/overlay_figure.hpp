@@ -25,8 +25,8 @@ bool has_cycles(const OverlaidSet& set);
 /// How to read what `overlay_of` draws.
 inline constexpr std::string_view kOverlayGuide =
     "Every cycle moved so that its slip begins at zero and its kinetic friction lies at zero force. Above: whole "
-    "cycles "
-    "over the path of the drive, where sticks rise by the stiffness at any speed; below, where samples resolve them: "
+    "cycles over the path of the drive, where sticks rise by the stiffness at any speed; below, where samples resolve "
+    "them: "
     "slips close up over time, whose shape shows natural frequency and damping.";
 
 /// Cycles of all sets, about as many of each. At least one of the sets has cycles.
