@@ -2,7 +2,7 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME slipfit)
 set(CPACK_PACKAGE_VENDOR "the slipfit authors")
-set(CPACK_PACKAGE_CONTACT "the slipfit authors <slipfit@localhost>")  # Debian wants an address; nobody publishes this package
+set(CPACK_PACKAGE_CONTACT "the slipfit authors <slipfit@example.org>")  # Debian wants an address; nobody publishes this package
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -11,8 +11,10 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # The library is static: who links it needs what it is made of. The tool alone does not.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
   "libceres-dev, libeigen3-dev, libfftw3-dev, libfmt-dev, zlib1g-dev, libminizip-dev, libpugixml-dev")
-set(CPACK_PACKAGE_DESCRIPTION "Finds the slips in a recording of a tribometer (force over time), fits stiffness, friction, natural
-frequency and damping of a slider on a spring, and gives each number with a 95 % interval or the reason why it cannot be told.")
+set(CPACK_PACKAGE_DESCRIPTION "Finds the slips in a recording of a tribometer (force over time),
+fits stiffness, friction, natural frequency and damping of a slider on a
+spring, and gives each number with a 95 % interval or the reason why it
+cannot be told.")
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME slipfit)
 set(CPACK_COMPONENT_UNSPECIFIED_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION}")

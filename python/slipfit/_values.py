@@ -65,7 +65,7 @@ class Estimate(NamedTuple):
 
     def __str__(self) -> str:
         if self.value is None:
-            known = "not known" if self.ci95 is None else f"between {self.ci95[0]:.5g} and {self.ci95[1]:.5g} {self.unit}"
+            known = "not known" if self.ci95 is None else f"between {self.ci95[0]:.5g} and {self.ci95[1]:.5g} {self.unit}".rstrip()
         else:
             known = f"{self.value:.5g} {self.unit}".rstrip()
             known += "" if self.ci95 is None else f" [{self.ci95[0]:.5g}, {self.ci95[1]:.5g}]"
