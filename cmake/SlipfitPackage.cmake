@@ -25,6 +25,10 @@ if(SLIPFIT_PYTHON)
   math(EXPR next_python "${Python3_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy, slipfit (= ${PROJECT_VERSION})")
+  # What Python compiles comes and goes with the package.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    "${CMAKE_CURRENT_LIST_DIR}/python3-slipfit/postinst" "${CMAKE_CURRENT_LIST_DIR}/python3-slipfit/prerm")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib")
 endif()
 include(CPack)

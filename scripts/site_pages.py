@@ -68,7 +68,7 @@ def markdown_of(docstring):
             in_list = line in ("Parameters", "Returns", "Raises", "Attributes")
             out += ["", f"**{line}**", ""]
         elif in_list and line and not line.startswith(" "):
-            out += [f"- `{line}`", ""]
+            out += ["", f"- `{line}`", ""]
         elif in_list and line:
             out.append("    " + line.strip())
         else:
@@ -131,6 +131,7 @@ def main():
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(PROJECT / "docs", folder, ignore=shutil.ignore_patterns("*.ipynb"))
     (folder / "extra.css").write_text(".md-typeset table:not([class]) { display: block; overflow-x: auto; }\n"
+                                      ".md-typeset table:not([class]) th { min-width: 0; }\n"
                                       ".md-typeset img, .md-typeset svg { max-width: 100%; height: auto; }\n")
     (folder / "reference").mkdir()
     (folder / "reference" / "commands.md").write_text(commands_page(program), encoding="utf-8")

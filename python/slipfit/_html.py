@@ -61,13 +61,16 @@ def _digits(one: "Estimate") -> int:
     return min(12, max(3, 2 + math.ceil(math.log10(largest / (one.ci95[1] - one.ci95[0])))))
 
 
+def _shown(number: float, digits: int) -> str:
+    return f"{number:#.{digits}g}".rstrip(".")
+
+
 def _number(one: "Estimate") -> str:
-    return "–" if one.value is None else f"{one.value:.{_digits(one)}g}"
+    return "–" if one.value is None else _shown(one.value, _digits(one))
 
 
 def _interval(one: "Estimate") -> str:
-    digits = _digits(one)
-    return "–" if one.ci95 is None else f"[{one.ci95[0]:.{digits}g}, {one.ci95[1]:.{digits}g}]"
+    return "–" if one.ci95 is None else f"[{_shown(one.ci95[0], _digits(one))}, {_shown(one.ci95[1], _digits(one))}]"
 
 
 def _row(words: str, one: "Estimate") -> str:

@@ -30,7 +30,7 @@ Error bad_speeds(const std::string& message) {
 }
 
 Result<double> speed_from(const std::string& text) {
-  const Result<double> speed = parse_quantity(text, Dimension::Speed);
+  Result<double> speed = parse_quantity(text, Dimension::Speed);
   if (!speed) return Error{speed.error().code, "--speeds: " + speed.error().message};
   if (speed.value() > 0.0) return speed;
   return Error{"out_of_range", fmt::format("--speeds: '{}' is not above zero", text)};

@@ -65,8 +65,9 @@ class ProgramStream final : public ByteStream {
 
 /// Of the program or the shared library that this code is part of: a program of another language may have loaded it.
 std::filesystem::path folder_of_this_code() {
+  static constexpr char kHere = '\0';
   Dl_info place{};
-  if (::dladdr(reinterpret_cast<const void*>(&folder_of_this_code), &place) == 0) return {};
+  if (::dladdr(&kHere, &place) == 0) return {};
   return std::filesystem::path(place.dli_fname).parent_path();
 }
 
