@@ -8,7 +8,7 @@ bands: spacings at 2 and 4 times the fastest recording inside their 95 % interva
 without any warning of the fit. V_c: inside its interval, of those with one; bracket: told as a bracket or a bound that holds, of
 those told so. fit: sweeps that could be predicted from. warned: with any warning. named: warnings `recording_disagrees` that name
 the wrong recording, of the sweeps that have one; alarm: that name one where none is wrong. se: median relative standard error of k
-and half-width of F_s - F_k.
+and half-width of F_s - F_k. k, w_n, zeta, dF: inside its interval, of the sweeps that call it identified.
 """
 import collections
 import json
@@ -18,6 +18,8 @@ import subprocess
 import numpy as np
 
 import command_line
+
+NAMES = ("stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio", "friction_difference_N")
 
 
 def run(command):
@@ -76,6 +78,11 @@ def scored(result, truth):
         row["bound_holds"] = int((true is None or observed[0] <= 1.01 * true) and
                                  (not observed[1] or (true is not None and true <= 1.01 * observed[1])))
     parameters = fit.get("parameters") or {}
+    for name, true in truth["parameters"].items():
+        p = parameters.get(name) or {}
+        if p.get("status") == "identified":
+            row["identified " + name] = 1
+            row["held " + name] = int(p["ci95"][0] <= true <= p["ci95"][1])
     errors = {}
     for short, name in (("k", "stiffness_N_per_m"), ("dF", "friction_difference_N")):
         p = parameters.get(name) or {}
@@ -94,7 +101,8 @@ def line(family, rows):
     return (f"{family:16} {total['fit']:3d} {total['covered']:4d}/{total['given']:<4d} {median(half, 100):>6} {total['none']:4d} "
             f"{total['wrong']:5d} {total['silent']:6d} {total['critical_covered']:4d}/{total['critical_given']:<4d} "
             f"{total['bound_holds']:4d}/{total['bound_given']:<4d} {total['warned']:6d} {total['named']:5d} {total['alarm']:5d} "
-            f"{median(errors['k'], 100):>7} {median(errors['dF'], 100):>7}")
+            f"{median(errors['k'], 100):>7} {median(errors['dF'], 100):>7}" +
+            "".join(f" {total['held ' + name]:3d}/{total['identified ' + name]:<3d}" for name in NAMES))
 
 
 def main():
@@ -108,7 +116,7 @@ def main():
         if row["wrong"] or row["alarm"] or (truth["bad"] is not None and not row["named"]) or not row["fit"]:
             codes = [w["code"] for w in (result.get("fit") or {}).get("warnings", [])]
             misses.append(f"  {truth['id']:22} wrong {row['wrong']} alarm {row['alarm']} named {row['named']} bad {truth['bad']} {codes} {result['error'][:160]}")
-    print(f"{'family':16} fit   bands    half none wrong silent     V_c   bracket warned named alarm   se k %  se dF %")
+    print(f"{'family':16} fit   bands    half none wrong silent     V_c   bracket warned named alarm   se k %  se dF %    k      w_n    zeta    dF")
     for family, rows in families.items():
         print(line(family, rows))
     print(line("all", [row for rows in families.values() for row in rows]))

@@ -306,7 +306,22 @@ def truth_of(sweep):
             else:
                 fast = middle
         critical = slow if slow < 390 * fastest else None
-    return {"rows": rows, "critical_speed_m_per_s": critical, "bad": sweep.bad, "load_N": sound.stated_load}
+    return {"rows": rows, "critical_speed_m_per_s": critical, "bad": sweep.bad, "load_N": sound.stated_load,
+            "parameters": parameters_of(sweep, sound)}
+
+
+def parameters_of(sweep, sound):
+    """What all recordings share; F_s - F_k(0+) where they do, by the manifest's mean load."""
+    model = sound.model
+    truth = {"natural_frequency_rad_per_s": model.omega, "damping_ratio": model.damping_ratio}
+    if not sweep.model_at:
+        truth["stiffness_N_per_m"] = model.stiffness
+    loads = [r.stated_load / sound.stated_load if r.stated_load else 1.0 for r in sweep.runs]
+    drops = [r.drop / load for r, load in zip(sweep.runs, loads)]
+    if model.ageing_time <= 0 and max(drops) < 1.2 * min(drops) and sweep.bad is None:
+        at_rest = model.stribeck_force if model.stribeck_speed > 0 and model.velocity_law != 1 else 0.0
+        truth["friction_difference_N"] = float(np.mean(drops) * np.mean(loads)) - at_rest
+    return truth
 
 
 FAMILIES = [coulomb5, coulomb3, exponential, age_ln3, age_ln4, age_ln6, age_cutoff, age_power, age_saturating, age_exponential, log_falling,

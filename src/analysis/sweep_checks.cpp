@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 
 namespace slipfit {
@@ -50,6 +51,18 @@ bool has_values(const Analysis& analysis) {
                                      [](const Parameter& parameter) { return parameter.estimate.value.has_value(); });
 }
 
+/// Stick-slip at one speed has one frequency, to the scatter of a surface.
+Warnings check_frequency_at_one_speed(const std::vector<Point>& points) {
+  const auto by_frequency = [](const Point& a, const Point& b) { return a.log_frequency < b.log_frequency; };
+  const auto [low, high] = std::minmax_element(points.begin(), points.end(), by_frequency);
+  const double factor = std::exp(high->log_frequency - low->log_frequency);
+  if (!(factor > thresholds::kOneSpeedFrequencies)) return {};
+  return {{"frequency_differs_at_one_speed",
+           fmt::format("the recordings are stated at about one speed, but their frequencies differ by a factor of "
+                       "{:.2g}: check the speeds",
+                       factor)}};
+}
+
 }  // namespace
 
 SweepRole role_of(const Recording& recording, const Analysis& analysis) {
@@ -61,8 +74,11 @@ SweepRole role_of(const Recording& recording, const Analysis& analysis) {
 
 std::string describe_roles(const std::vector<SweepRole>& roles) {
   const auto count = [&](SweepRole role) { return std::count(roles.begin(), roles.end(), role); };
-  return fmt::format("{} with stick-slip cycles, {} sliding steadily, {} left out", count(SweepRole::Cycles),
-                     count(SweepRole::Steady), count(SweepRole::LeftOut));
+  return fmt::format("{} with stick-slip cycles, {} sliding steadily, {} left out{}", count(SweepRole::Cycles),
+                     count(SweepRole::Steady), count(SweepRole::LeftOut),
+                     count(SweepRole::Cycles) < 2 ? "; a joint fit needs two with cycles, best at speeds a factor of 3 "
+                                                    "apart (slipfit fit FILE --speed V fits one by itself)"
+                                                  : "");
 }
 
 ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses) {
@@ -88,7 +104,7 @@ Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, cons
   const auto by_speed = [](const Point& a, const Point& b) { return a.log_speed < b.log_speed; };
   const auto [slow, fast] = std::minmax_element(points.begin(), points.end(), by_speed);
   const double span = fast->log_speed - slow->log_speed;
-  if (span < std::log(thresholds::kLeastSpeedRatio)) return {};
+  if (span < std::log(thresholds::kLeastSpeedRatio)) return check_frequency_at_one_speed(points);
   const double power = (fast->log_frequency - slow->log_frequency) / span;
   const double power_se = std::hypot(fast->log_frequency_se, slow->log_frequency_se) / span;
   // The stick time goes as 1 / V, the slip time hardly changes: f goes as V to the power of the sticking degree.

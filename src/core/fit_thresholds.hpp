@@ -149,6 +149,14 @@ inline constexpr double kColouredChance = 1e-3;
 /// Chance below which recordings do not share a level or static friction, or cycles a ramp. [1; convention]
 inline constexpr double kShareChance = 1e-3;
 
+/// Ratio of frequencies at one speed (to a ratio of 1.3) from which on the speeds are doubted: F_s - F_k and k would
+/// have to scatter as much. [1; convention]
+inline constexpr double kOneSpeedFrequencies = 2.0;
+
+/// F_s - F_k that moves by more with the law of kinetic friction below the measured speeds is not identified.
+/// [1; convention]
+inline constexpr double kOtherLawShare = 0.02;
+
 /// Chance below which friction depends on the speed. [1; convention]
 inline constexpr double kLawChance = 0.01;
 

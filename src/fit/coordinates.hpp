@@ -43,8 +43,10 @@ inline Held held_of(const HeldParameters& parameters) {
 }
 
 enum class FrictionLaw {
-  Coulomb,        ///< F_k is constant: the slip in closed form
-  SpeedDependent  ///< F_k(v), the slip integrated
+  Coulomb,      ///< F_k is constant: the slip in closed form
+  Exponential,  ///< F_k(v), the slip integrated; the same of the others
+  Hyperbolic,
+  Logarithmic
 };
 
 /// Coulomb friction has no slope and no rate.

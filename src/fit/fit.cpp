@@ -152,13 +152,8 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   if (recording.conditions().force_view == ForceView::Contact)
     return fit::fit_contact(recording, segmentation, options);
   const HeldParameters held = held_parameters(options);
-  std::optional<DampedFit> damped = fit::fit_damped(recording, quality, segmentation, held);
+  std::optional<DampedFit> damped = fit::fit_as_sensed(recording, quality, segmentation, held);
   if (!damped) return std::nullopt;
-  if (!recording.conditions().sensor_average_s) {
-    damped->rounding = fit::estimate_smoothing(damped->blocks, damped->held, recording.sample_interval_s());
-    auto averaged = fit::fit_average(recording, quality, segmentation, held, *damped);
-    if (averaged) damped = std::move(averaged);
-  }
   fit::TierFits fits{fit::fit_sawtooth(*damped), std::nullopt, std::move(*damped)};
   const fit::Resolution resolution = fit::resolution_of(recording, fits);
   const bool undamped_may_lose = resolution.damping_resolved && options.tier != Tier::Undamped;

@@ -13,6 +13,7 @@
 #include "fit/inference/sliding_model.hpp"
 #include "fit/inference/sweep_outcome.hpp"
 #include "fit/report/findings.hpp"
+#include "fit/selection/law_choice.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -23,61 +24,6 @@ using fit::StaticFriction;
 using fit::SweepData;
 using fit::SweepOutcome;
 using fit::SweepSolution;
-
-bool is_misfit(const SweepSolution& solution) {
-  return solution.chi2 > thresholds::kSweepMisfit * solution.degrees_of_freedom;
-}
-
-/// Which friction law, and the sentence that says why.
-struct LawChoice {
-  bool velocity = false;
-  std::string reason;
-};
-
-double speed_ratio(std::span<const SweepRecording> recordings) {
-  double low = HUGE_VAL;
-  double high = 0.0;
-  for (const SweepRecording& sweep : recordings) {
-    if (sweep.role == SweepRole::LeftOut) continue;
-    low = std::min(low, sweep.recording.conditions().speed_m_per_s);
-    high = std::max(high, sweep.recording.conditions().speed_m_per_s);
-  }
-  return high / low;
-}
-
-LawChoice choose_by_chance(const fit::SweepFits& fits, double speeds) {
-  if (speeds < thresholds::kLeastSpeedRatio) {
-    return {false, fmt::format("the speeds span a factor of {:.2g} only: one speed cannot tell alpha", speeds)};
-  }
-  const std::string chance = "probability of so large an improvement under Coulomb friction: " +
-                             (fits.p_value > 0.0 ? fmt::format("{:.2g}", fits.p_value) : "below 1e-300");
-  if (!fits.depends_on_speed) return {false, "Coulomb friction explains the recordings; " + chance};
-  return {true, chance};
-}
-
-/// Where residuals are larger than the noise, more parameters fit the model's error as well: the law is then chosen by
-/// how well it predicts a recording left out.
-LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
-  return {velocity_error < coulomb_error,
-          fmt::format(
-              "residuals are well above the noise; the spacing predicted for a recording left out is wrong by {:.2g} % "
-              "with F_k(v), by {:.2g} % under Coulomb friction",
-              100.0 * std::expm1(velocity_error), 100.0 * std::expm1(coulomb_error))};
-}
-
-/// Speed-dependent friction has two parameters more, its mean slope and its rate.
-std::vector<Candidate> candidates_of(const fit::SweepFits& fits, const LawChoice& choice) {
-  const double noise2 = fits.velocity.chi2 / fits.velocity.degrees_of_freedom;
-  const auto cycles = static_cast<double>(fits.velocity.cycles());
-  const auto aicc = [&](const SweepSolution& solution, double parameters) -> std::optional<double> {
-    if (!(cycles > parameters + 1.0)) return std::nullopt;
-    return solution.chi2 / noise2 + 2.0 * parameters +
-           2.0 * parameters * (parameters + 1.0) / (cycles - parameters - 1.0);
-  };
-  const std::optional<double> of_coulomb = fits.coulomb ? aicc(*fits.coulomb, 5.0) : std::nullopt;
-  return {{Tier::Damped, 5, std::nullopt, of_coulomb, !choice.velocity, choice.reason},
-          {Tier::Velocity, 7, std::nullopt, aicc(fits.velocity, 7.0), choice.velocity, choice.reason}};
-}
 
 double samples_per_slip(std::span<const SweepRecording> recordings, const SweepData& data) {
   std::vector<double> samples;
@@ -127,7 +73,7 @@ class Assembler {
         averaging_(fit::effect_of_averaging(recordings, outcome, data)),
         intervals_(spread_of(outcome, averaging_)) {}
 
-  [[nodiscard]] SweepFit assemble(const LawChoice& choice) const {
+  [[nodiscard]] SweepFit assemble(const fit::LawChoice& choice) const {
     SweepFit sweep;
     const SweepSolution& solution = outcome_.solution;
     sweep.level_shared = solution.sweep.sharing.level;
@@ -156,7 +102,7 @@ class Assembler {
   }
 
  private:
-  [[nodiscard]] fit::Findings findings(const LawChoice& choice) const {
+  [[nodiscard]] fit::Findings findings(const fit::LawChoice& choice) const {
     const SweepSolution& solution = outcome_.solution;
     fit::Findings findings{values_, data_.units, intervals_, damping(), solution.held};
     if (outcome_.values(fit::kDamping) < 0.0) findings.free_damping_ratio = outcome_.values(fit::kDamping);
@@ -169,7 +115,7 @@ class Assembler {
     if (fit::residual_over_noise(recordings_, data_, solution) > thresholds::kLargeChi2) {
       findings.slip_doubt = "residuals are larger than the noise of the recordings: the slips are not the model's";
     }
-    if (is_misfit(solution)) {
+    if (fit::is_misfit(solution)) {
       findings.slip_doubt = findings.stiffness_doubt =
           "residuals are well above the noise: the interval cannot hold what the model lacks";
     }
@@ -177,14 +123,45 @@ class Assembler {
     if (averaging_ > thresholds::kAverageShare) {
       findings.frequency_doubt = fit::averaging_doubt(averaging_);
     }
+    add_average(findings);
+    add_difference_doubt(findings);
     // Only recordings with one level and one static friction tell damping from friction that depends on the speed.
     if (!solution.sweep.sharing.level || !solution.sweep.sharing.difference) {
       findings.damping_doubt = "holds for Coulomb friction only: the recordings share no level or static friction";
     }
     findings.law = fit::LawFindings{choice.velocity, choice.reason, outcome_.static_friction == StaticFriction::Ages};
-    findings.law->at_one_speed = speed_ratio(recordings_) < thresholds::kLeastSpeedRatio;
+    findings.law->at_one_speed = fit::speed_ratio(recordings_) < thresholds::kLeastSpeedRatio;
     findings.law->reference_normal_force_N = data_.mean_load_N;
     return findings;
+  }
+
+  void add_average(fit::Findings& findings) const {
+    if (const std::optional<fit::FittedAverage>& average = outcome_.solution.average) {
+      findings.fitted_average =
+          fit::symmetric(average->seconds, average->standard_error_s, static_cast<double>(data_.fitted.size()));
+      findings.slip_doubt = fit::kFittedAverage;
+      findings.warnings.push_back(fit::averaged_warning(average->seconds));
+    } else if (data_.rounded) {
+      findings.slip_doubt = "onset and end of the slips are rounded, as an average would, on which they do not agree";
+      findings.warnings.push_back(
+          {"samples_averaged", findings.slip_doubt + ": state it with --sensor-average where it is known"});
+    }
+  }
+
+  void add_difference_doubt(fit::Findings& findings) const {
+    const bool is_mean = !outcome_.solution.sweep.sharing.difference;
+    if (is_mean && outcome_.static_friction == StaticFriction::Constant) {
+      findings.difference_doubt = "a mean: static friction differs between the recordings";
+    }
+    if (!outcome_.other_law) return;
+    const fit::OtherLaw& other = *outcome_.other_law;
+    findings.other_law = other.move;
+    const double share = std::abs(data_.units.force * other.move(fit::kDifference) / model_.difference.a);
+    if (!(share > thresholds::kOtherLawShare)) return;
+    findings.difference_doubt = fmt::format(
+        "kinetic friction that changes {} with the speed explains the recordings as well and gives {:.3g} N",
+        other.law == fit::FrictionLaw::Hyperbolic ? "hyperbolically" : "logarithmically",
+        data_.units.force * other.difference);
   }
 
   /// zeta cannot be negative: its interval is cut at 0.
@@ -238,6 +215,10 @@ class Assembler {
       point.cycles_used = outcome_.solution.recordings[run].size();
       point.rms = outcome_.solution.recordings[run].scales().noise;
       point.spacing_left_out_m = spacing_without(outcome_.left_out[run], speed, load);
+      if (const std::optional<LeftOut>& one = outcome_.left_out[run]) {
+        point.stiffness_left_out_N_per_m = std::exp(one->values(fit::kLogStiffness));
+        point.friction_difference_left_out_N = data_.units.force * one->values(fit::kDifference);
+      }
     }
     if (data_.steady_of[i]) {
       const fit::SteadyRun& steady = data_.steady[*data_.steady_of[i]];
@@ -271,19 +252,19 @@ std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, co
   if (options.tell_step) options.tell_step(fmt::format("fitting {} recordings together", data.fitted.size()));
   const std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
   if (!fits) return std::nullopt;
-  LawChoice choice = options.tier ? LawChoice{*options.tier == Tier::Velocity, "asked for by --tier"}
-                                  : choose_by_chance(*fits, speed_ratio(recordings));
+  fit::LawChoice choice = options.tier ? fit::LawChoice{*options.tier == Tier::Velocity, "asked for by --tier"}
+                                       : fit::choose_by_chance(*fits, fit::speed_ratio(recordings));
   // It fits once without each recording: not for a law that is left.
   std::optional<SweepOutcome> outcome;
   if (choice.velocity || !fits->coulomb) outcome.emplace(fit::outcome_of(data, fits->velocity));
-  if (choice.velocity && !options.tier && fits->coulomb && is_misfit(fits->velocity)) {
+  if (choice.velocity && !options.tier && fits->coulomb && fit::is_misfit(fits->velocity)) {
     SweepOutcome coulomb = fit::outcome_of(data, *fits->coulomb);
-    choice = choose_by_left_out(fit::left_out_error(*outcome), fit::left_out_error(coulomb));
+    choice = fit::choose_by_left_out(fit::left_out_error(*outcome), fit::left_out_error(coulomb));
     if (!choice.velocity) outcome.emplace(std::move(coulomb));
   }
   if (!outcome) outcome.emplace(fit::outcome_of(data, *fits->coulomb));
   SweepFit sweep = Assembler(recordings, data, *outcome).assemble(choice);
-  sweep.result.candidates = candidates_of(*fits, choice);
+  sweep.result.candidates = fit::candidates_of(*fits, choice);
   return sweep;
 }
 

@@ -121,6 +121,13 @@ Result<std::optional<ManifestColumn>> recognise(const std::string& name, std::si
                                           is_si ? std::string() : printable(text->unit)});
     }
     if (!text->in_brackets) continue;
+    if (*field.dimension == Dimension::Speed && parse_unit(text->unit, Dimension::AngularSpeed)) {
+      return Error{
+          "unknown_unit",
+          fmt::format("{}: column '{}': '{}' is a rotation, expected the speed at the contact (rotation in rad/s "
+                      "times the radius), such as speed [mm/s]",
+                      place, printable(name), printable(text->unit))};
+    }
     return Error{"unknown_unit",
                  fmt::format("{}: column '{}': {}", place, printable(name), printable(unit.error().message))};
   }

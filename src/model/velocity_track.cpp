@@ -59,11 +59,11 @@ class Quintic {
 
 }  // namespace
 
-std::optional<VelocityTrack> VelocityTrack::solve(double z0, double zeta, double slope, double rate) {
-  const bool finite = std::isfinite(z0) && std::isfinite(slope) && std::isfinite(rate);
+std::optional<VelocityTrack> VelocityTrack::solve(double z0, double zeta, const ScaledLaw& law) {
+  const bool finite = std::isfinite(z0) && std::isfinite(law.slope) && std::isfinite(law.rate);
   if (!finite || !(z0 + 2.0 * zeta > 0.0) || !(std::abs(zeta) < 1.0)) return std::nullopt;
   VelocityTrack track;
-  track.slip_ = {z0 + 2.0 * zeta, zeta, {slope, rate}};
+  track.slip_ = {z0 + 2.0 * zeta, zeta, law};
   track.nodes_.reserve(32);
   const auto keep = [&track](const SlipWalker<kSensitive>& walker) { track.nodes_.push_back(walker.from); };
   const SlipEnd<kSensitive> end = follow_slip<kSensitive>(track.slip_, kForFits, keep);

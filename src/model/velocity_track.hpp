@@ -28,14 +28,17 @@ struct TrackEnd {
 
 /// One cycle with friction that depends on the sliding speed, for fits: the slip of velocity_slip.hpp to 1e-7, with its
 /// derivatives, at any time. In z = s - 2 zeta:
-///   z'' + 2 zeta z' + z = slope (exp(rate v) - 1) / rate,  v = 1 - z',  z(0) = z0, z'(0) = 1
+///   z'' + 2 zeta z' + z = g(v) = slope (exp(rate v) - 1) / rate,  v = 1 - z',  z(0) = z0, z'(0) = 1
 /// (docs/model.md section 5): slope = b w_n / k with b the slope of F_k(v) at v = 0, rate = alpha V. At rate 0 friction
 /// is linear in the speed and adds slope / 2 to zeta. The slip ends where z' = 1 again or, where it does not stick, at
 /// its smallest sliding speed, as Slip does.
 class VelocityTrack {
  public:
   /// Empty where the slip has no start (z0 + 2 zeta <= 0), is not finite, runs away, or settles without turning back.
-  static std::optional<VelocityTrack> solve(double z0, double zeta, double slope, double rate);
+  static std::optional<VelocityTrack> solve(double z0, double zeta, double slope, double rate) {
+    return solve(z0, zeta, ScaledLaw{slope, rate});
+  }
+  static std::optional<VelocityTrack> solve(double z0, double zeta, const ScaledLaw& law);
 
   /// The whole cycle: tau < 0 is the stick before, tau > tau_end() the stick after.
   [[nodiscard]] TrackPoint at(double tau) const;

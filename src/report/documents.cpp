@@ -65,7 +65,9 @@ Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole ro
                      {"kinetic_friction_N", estimate(point->kinetic_friction_N)},
                      {"mean_steady_force_N", estimate(point->mean_steady_force_N)},
                      {"spacing_m", estimate(point->spacing_m)},
-                     {"spacing_left_out_m", estimate(point->spacing_left_out_m)}};
+                     {"spacing_left_out_m", estimate(point->spacing_left_out_m)},
+                     {"stiffness_left_out_N_per_m", number(point->stiffness_left_out_N_per_m)},
+                     {"friction_difference_left_out_N", number(point->friction_difference_left_out_N)}};
   }
   return json;
 }

@@ -84,6 +84,9 @@ std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& l
 
 std::string off_by(const Estimate& predicted, const Estimate& measured) {
   if (!predicted.value || !measured.value) return "-";
+  constexpr double kWorthAPercentage = 10.0;
+  const double factor = std::exp(std::abs(std::log(*predicted.value / *measured.value)));
+  if (!(factor < kWorthAPercentage)) return "more than a factor of 10";
   return fmt::format("{:+.1f} %", 100.0 * (*predicted.value / *measured.value - 1.0));
 }
 

@@ -2,6 +2,7 @@
 
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "model/velocity_track.hpp"
 
@@ -21,10 +22,22 @@ double scaled_onset(const SweepScene& s, double speed_m_per_s, double difference
 
 VelocityTrack slip_of(const SweepScene& s, double speed_m_per_s, double difference_N) {
   const double slope = s.f1_N * s.alpha_s_per_m * s.natural_frequency_rad_per_s / s.stiffness_N_per_m;
-  auto track = VelocityTrack::solve(scaled_onset(s, speed_m_per_s, difference_N), s.damping_ratio, slope,
-                                    s.alpha_s_per_m * speed_m_per_s);
+  auto track = VelocityTrack::solve(scaled_onset(s, speed_m_per_s, difference_N), s.damping_ratio,
+                                    {slope, s.alpha_s_per_m * speed_m_per_s, s.law});
   if (!track || !track->resticks()) throw std::runtime_error("the scene has no stick-slip");
   return *track;
+}
+
+/// Running means of so many values.
+std::vector<double> averaged(std::vector<double> values, std::size_t count) {
+  if (count == 1) return values;
+  std::vector<double> means;
+  for (std::size_t i = 0; i + count <= values.size(); ++i) {
+    double sum = 0.0;
+    for (std::size_t j = i; j < i + count; ++j) sum += values[j];
+    means.push_back(sum / static_cast<double>(count));
+  }
+  return means;
 }
 
 slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offset_N, std::uint64_t seed) {
@@ -37,6 +50,7 @@ slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offs
   const double step_s = 3.14159 / omega / s.samples_per_half_period;
   std::vector<double> time_s;
   std::vector<double> force_N;
+  std::vector<double> noise_N;
   double onset_s = 0.4 * period_s;
   double level_N = s.kinetic_friction_N();
   VelocityTrack slip = slip_of(s, speed_m_per_s, s.static_friction_N - level_N);
@@ -48,13 +62,16 @@ slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offs
       time_s.push_back(t);
       const slipfit::model::TrackPoint point = slip.at(omega * (t - onset_s));
       const double drag = s.view == slipfit::ForceView::Transmitted ? 2.0 * s.damping_ratio * point.d_tau : 0.0;
-      force_N.push_back(level_N + force_scale_N(s, speed_m_per_s) * (point.z + drag) + offset_N +
-                        s.noise_N * normal(random));
+      force_N.push_back(level_N + force_scale_N(s, speed_m_per_s) * (point.z + drag) + offset_N);
+      noise_N.push_back(s.noise_N * normal(random));
     }
     onset_s = next_s;
     level_N = s.kinetic_friction_N() + s.level_scatter_N * level_normal(level_random);
     slip = slip_of(s, speed_m_per_s, next_N - level_N);
   }
+  force_N = averaged(std::move(force_N), s.averaged);
+  time_s = averaged(std::move(time_s), s.averaged);
+  for (std::size_t i = 0; i < force_N.size(); ++i) force_N[i] += noise_N[i];
   slipfit::Conditions conditions;
   conditions.speed_m_per_s = speed_m_per_s;
   conditions.force_view = s.view;

@@ -1,23 +1,28 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "model/velocity_law.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace test {
 
-/// A made-up pair of bodies with F_k(v) = f0 + f1 exp(alpha v), and how it is recorded.
+/// A made-up pair of bodies with F_k(v) = f0 + f1 exp(alpha v), or another law that begins like it, and how it is
+/// recorded.
 struct SweepScene {
   double stiffness_N_per_m = 900.0;
   double natural_frequency_rad_per_s = 150.0;
   double damping_ratio = 0.06;
   double static_friction_N = 3.0;
   double f0_N = 1.6, f1_N = 0.4, alpha_s_per_m = -8.0;
+  slipfit::model::LawShape law = slipfit::model::LawShape::Exponential;
   double cycles = 20.0;
   double samples_per_half_period = 25.0;
+  std::size_t averaged = 1;      ///< samples: each is the mean of so many
   double scatter_N = 0.0;        ///< of F_s
   double level_scatter_N = 0.0;  ///< of F_k from cycle to cycle
   double noise_N = 0.01;

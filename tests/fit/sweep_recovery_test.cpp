@@ -147,6 +147,37 @@ TEST_CASE("sweep: Coulomb friction needs no alpha") {
   check_recovery(sweep, scene);
 }
 
+TEST_CASE("sweep: an average that nobody stated is found in all recordings, and the slips behind it") {
+  SweepScene scene;
+  scene.f1_N = 0.0;
+  scene.f0_N = 2.0;
+  scene.averaged = 12;
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  REQUIRE(sweep.fit);
+  CHECK(sweep.fit->result.tier == Tier::Damped);
+  CHECK(warns(sweep.fit->result.warnings, "samples_averaged"));
+  const double step_s = 3.14159 / scene.natural_frequency_rad_per_s / scene.samples_per_half_period;
+  CHECK(*parameter(sweep, "sensor_average_s").estimate.value == Approx(12.0 * step_s).epsilon(0.05));
+  CHECK(parameter(sweep, "natural_frequency_rad_per_s").status == ParameterStatus::Weak);
+  check_recovery(sweep, scene);
+}
+
+TEST_CASE("sweep: friction that goes on changing below the measured speeds leaves F_s - F_k(0+) open") {
+  SweepScene scene;
+  scene.law = model::LawShape::Logarithmic;
+  scene.alpha_s_per_m = 1000.0 * -0.3;  // rate of the logarithm
+  scene.f1_N = 0.1;
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  REQUIRE(sweep.fit);
+  CHECK(sweep.fit->result.tier == Tier::Velocity);
+  const Parameter& difference = parameter(sweep, "friction_difference_N");
+  const double truth = scene.static_friction_N - scene.kinetic_friction_N();
+  CHECK(difference.status == ParameterStatus::Weak);
+  CHECK_THAT(difference.estimate.note, Catch::Contains("logarithmically"));
+  CHECK(difference.estimate.ci95->low < truth);
+  CHECK(difference.estimate.ci95->high > truth);
+}
+
 TEST_CASE("sweep: one speed cannot tell alpha, and says so") {
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep({}, {0.01, 0.0105}), {});
   REQUIRE(sweep.fit);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "model/velocity_law.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/velocity.hpp"
 
@@ -51,6 +52,29 @@ bool grazes(double lambda, double zeta) {
 }
 
 }  // namespace
+
+TEST_CASE("laws of friction begin alike, bend as they say, and know their derivatives") {
+  const model::LawShape shape =
+      GENERATE(model::LawShape::Exponential, model::LawShape::Hyperbolic, model::LawShape::Logarithmic);
+  for (const double rate : {-4.0, -0.3, -1e-5}) {
+    for (const double v : {1e-3, 0.4, 3.0}) {
+      const model::ScaledLaw law{0.7, rate, shape};
+      const model::ExcessFriction g = law.at(v);
+      const double bend = shape == model::LawShape::Exponential  ? std::exp(rate * v)
+                          : shape == model::LawShape::Hyperbolic ? std::pow(1.0 - 0.5 * rate * v, -2.0)
+                                                                 : 1.0 / (1.0 - rate * v);
+      CHECK(g.d_speed == Approx(0.7 * bend).epsilon(1e-12).margin(1e-15));  // expm1 + 1 rounds
+      const double h = 1e-4 * v;
+      CHECK(g.d_speed == Approx((law.at(v + h).value - law.at(v - h).value) / (2.0 * h)).epsilon(1e-6));
+      CHECK(g.d_slope == Approx(g.value / 0.7).epsilon(1e-12));
+      const double r = 1e-4 * std::abs(rate);
+      const double above = model::ScaledLaw{0.7, rate + r, shape}.at(v).value;
+      const double below = model::ScaledLaw{0.7, rate - r, shape}.at(v).value;
+      // The difference of the two loses digits where friction hardly depends on the rate.
+      CHECK(g.d_rate == Approx((above - below) / (2.0 * r)).epsilon(1e-5).margin(1e-15 * g.value / r));
+    }
+  }
+}
 
 TEST_CASE("velocity-dependent friction without strength or without rate is Coulomb friction") {
   Dice dice(41);

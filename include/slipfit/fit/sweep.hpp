@@ -20,6 +20,9 @@ struct SweepPoint {
   Estimate mean_steady_force_N;  ///< steady sliding: as measured
   Estimate spacing_m;            ///< periodic displacement by the model at this speed
   Estimate spacing_left_out_m;   ///< the same from a fit without this recording: what proves the model
+  /// By the fit without this recording; empty: there is none.
+  std::optional<double> stiffness_left_out_N_per_m;
+  std::optional<double> friction_difference_left_out_N;
 };
 
 /// Parameters shared by a sweep. `result` holds tier (Damped or Velocity), candidates, parameters and correlation; it

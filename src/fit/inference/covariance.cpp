@@ -69,8 +69,8 @@ Normal normal_of(Linearised lines, std::vector<Index> columns) {
 /// A row for the globals and the level that all recordings share.
 Normal normal_of(const SteadyRun& run, const Problem& problem, const CommonColumns& columns) {
   const Parameters& parameters = problem.recordings.front().parameters;
-  const SteadyResidual steady =
-      steady_residual(run, problem.sweep.units, parameters.globals.data(), parameters.level.front());
+  const SteadyResidual steady = steady_residual(run, problem.sweep.units, problem.recordings.front().scales().law,
+                                                parameters.globals.data(), parameters.level.front());
   const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
   std::vector<Index> of_row(columns.of(0).begin(), columns.of(0).begin() + globals);
   of_row.push_back(columns.level(0));

@@ -59,6 +59,10 @@ class Intervals {
   [[nodiscard]] double covariance(const Jet& a, const Jet& b) const {
     return a.v.dot((spread_.covariance + spread_.scatter) * b.v);
   }
+  /// With Spread::one_sided: anything up to it is as likely, a third of its square.
+  [[nodiscard]] double whole_covariance(const Jet& a, const Jet& b) const {
+    return covariance(a, b) + a.v.dot(spread_.one_sided) * b.v.dot(spread_.one_sided) / 3.0;
+  }
   /// By the covariance.
   [[nodiscard]] double standard_error(const Jet& y) const;
   /// Of Student's t: those of fit and scatter (Satterthwaite).

@@ -13,7 +13,7 @@ SlidingModel::SlidingModel(const Coordinates& values, const Units& units) {
   stiffness = exp(jet(kLogStiffness));
   omega = exp(jet(kLogFrequency));
   zeta = jet(kDamping);
-  const SlopeRatio ratio = slope_ratio(values(kFrictionRate));
+  const SlopeRatio ratio = slope_ratio(FrictionLaw::Exponential, values(kFrictionRate));
   Jet ratio_jet(ratio.value);
   ratio_jet.v(kFrictionRate) = ratio.derivative;
   slope = 2.0 * jet(kFrictionSlope) * ratio_jet * stiffness / omega;

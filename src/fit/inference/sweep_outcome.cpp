@@ -93,6 +93,19 @@ double error_beyond(const SweepOutcome& outcome) {
   return largest;
 }
 
+/// What the error of the average that was found adds to the covariance.
+CoordinateMatrix by_average(const SweepData& data, const SweepSolution& solution, const SweepOutcome& outcome) {
+  const double average_s = solution.average->seconds + solution.average->standard_error_s;
+  const std::optional<SweepSolution> other = with_average(data, solution, average_s);
+  if (!other) return CoordinateMatrix::Zero();
+  const Coordinates move = coordinates_of(*other, outcome.static_friction) - outcome.values;
+  return move * move.transpose();
+}
+
+bool depends_on_speed(const SweepSolution& solution) {
+  return solution.recordings.front().scales().law != FrictionLaw::Coulomb;
+}
+
 }  // namespace
 
 SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
@@ -100,6 +113,8 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
   LeftOut all = fit_of(data, solution, kind);
   SweepOutcome outcome{
       solution, kind, all.values, std::move(all.spread), all.reach, leave_out_each(data, solution, kind)};
+  if (solution.average) outcome.spread.covariance += by_average(data, solution, outcome);
+  if (depends_on_speed(solution)) outcome.other_law = other_law(solution, kind);
   outcome.disagree = recordings_disagree(outcome);
   if (outcome.disagree) {
     Spread& spread = outcome.spread;
@@ -148,7 +163,7 @@ double effect_of_averaging(std::span<const SweepRecording> recordings, const Swe
   double sum = 0.0;
   for (const std::size_t i : data.fitted) {
     const Recording& recording = recordings[i].recording;
-    if (recording.conditions().sensor_average_s) continue;
+    if (recording.conditions().sensor_average_s || data.single[i]->average) continue;
     sum += kByVariance * std::pow(omega * recording.sample_interval_s(), 2) / 12.0;
   }
   return sum / static_cast<double>(data.fitted.size());

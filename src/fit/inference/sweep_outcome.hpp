@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "fit/inference/other_laws.hpp"
 #include "fit/inference/sweep_coordinates.hpp"
 
 namespace slipfit::fit {
@@ -23,6 +24,7 @@ struct SweepOutcome {
   Spread spread;
   SpeedReach reach;
   std::vector<std::optional<LeftOut>> left_out;  ///< one for each of the solution's recordings
+  std::optional<OtherLaw> other_law{};           ///< where kinetic friction depends on the speed
   bool disagree = false;  ///< the covariance is widened by what leaving out each recording changes
 };
 

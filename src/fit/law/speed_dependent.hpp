@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -10,39 +11,54 @@
 
 namespace slipfit::fit {
 
-/// b / (2 sqrt(k m)) over the coordinate kFrictionSlope: a / (exp(a) - 1), and its derivative.
+inline model::LawShape shape_of(FrictionLaw law) {
+  if (law == FrictionLaw::Hyperbolic) return model::LawShape::Hyperbolic;
+  return law == FrictionLaw::Logarithmic ? model::LawShape::Logarithmic : model::LawShape::Exponential;
+}
+
+/// b / (2 sqrt(k m)) over the coordinate kFrictionSlope, b v_c / (F_k(v_c) - F_k(0+)), and its derivative by a.
 struct SlopeRatio {
   double value = 1.0;
   double derivative = -0.5;
 };
 
-inline SlopeRatio slope_ratio(double a) {
-  if (std::abs(a) < 1e-4) return {1.0 - 0.5 * a, -0.5 + a / 6.0};  // a^2 / 12 is left out
-  const double growth = std::expm1(a);
-  return {a / growth, (growth - a * (growth + 1.0)) / (growth * growth)};
+inline SlopeRatio slope_ratio(FrictionLaw law, double a) {
+  const model::ExcessFriction mean = model::ScaledLaw{1.0, a, shape_of(law)}.at(1.0);
+  return {1.0 / mean.value, -mean.d_rate / (mean.value * mean.value)};
 }
 
 /// One cycle under friction that depends on the sliding speed, as the sensor shows it, in the units of
-/// model/velocity_track.hpp: integrated.
+/// model/velocity_track.hpp: integrated. A sensor of first order counts as one that shows the force as it is.
 class SpeedDependentCycle {
  public:
-  using Point = model::TrackPoint;
+  struct Point : model::TrackPoint {
+    double d_log_omega = 0.0;  ///< at fixed tau
+  };
 
   /// Empty where the slip has no solution.
   static std::optional<SpeedDependentCycle> solve(double z0, const double* globals, const Scales& scales) {
     const double rate_unit = scales.speed_m_per_s / scales.population->slip_speed_m_per_s;
     const double slope_unit = 2.0 * scales.population->load;
-    const SlopeRatio ratio = slope_ratio(globals[kFrictionRate]);
-    auto track = model::VelocityTrack::solve(z0, globals[kDamping], slope_unit * globals[kFrictionSlope] * ratio.value,
-                                             rate_unit * globals[kFrictionRate]);
+    const SlopeRatio ratio = slope_ratio(scales.law, globals[kFrictionRate]);
+    const model::ScaledLaw law{slope_unit * globals[kFrictionSlope] * ratio.value, rate_unit * globals[kFrictionRate],
+                               shape_of(scales.law)};
+    auto track = model::VelocityTrack::solve(z0, globals[kDamping], law);
     if (!track) return std::nullopt;
-    return SpeedDependentCycle(std::move(*track), scales.view, slope_unit * ratio.value,
-                               slope_unit * globals[kFrictionSlope] * ratio.derivative, rate_unit);
+    SpeedDependentCycle cycle(std::move(*track), scales.view);
+    cycle.half_window_ = 0.5 * std::exp(globals[kLogFrequency]) * scales.sensor_average_s;
+    cycle.by_slope_ = slope_unit * ratio.value;
+    cycle.by_rate_ = slope_unit * globals[kFrictionSlope] * ratio.derivative;
+    cycle.rate_unit_ = rate_unit;
+    return cycle;
   }
 
   /// Force above the level in units of k V / w_n, at any tau = w_n (t - onset).
   [[nodiscard]] Point at(double tau) const {
-    return view_ == ForceView::Transmitted ? track_.transmitted_at(tau) : track_.at(tau);
+    // The mean of a straight line is its middle.
+    if (half_window_ == 0.0 || tau + half_window_ <= 0.0 || tau - half_window_ >= track_.tau_end()) {
+      return Point{instant_at(tau), 0.0};
+    }
+    return mean_around(tau);
   }
   [[nodiscard]] Point before_slip(double tau) const { return at(tau); }
   [[nodiscard]] Point after_slip(double tau) const { return at(tau); }
@@ -51,7 +67,7 @@ class SpeedDependentCycle {
   [[nodiscard]] std::array<double, 3> by_law(const Point& point) const {
     return {point.d_zeta, by_slope_ * point.d_slope, rate_unit_ * point.d_rate + by_rate_ * point.d_slope};
   }
-  [[nodiscard]] static double by_log_omega(const Point& /*point*/) { return 0.0; }
+  [[nodiscard]] static double by_log_omega(const Point& point) { return point.d_log_omega; }
 
   /// The cycle at samples in ascending order.
   class Samples {
@@ -64,14 +80,56 @@ class SpeedDependentCycle {
   };
 
  private:
-  SpeedDependentCycle(model::VelocityTrack track, ForceView view, double by_slope, double by_rate, double rate_unit)
-      : track_(std::move(track)), view_(view), by_slope_(by_slope), by_rate_(by_rate), rate_unit_(rate_unit) {}
+  SpeedDependentCycle(model::VelocityTrack track, ForceView view) : track_(std::move(track)), view_(view) {}
+
+  [[nodiscard]] model::TrackPoint instant_at(double tau) const {
+    return view_ == ForceView::Transmitted ? track_.transmitted_at(tau) : track_.at(tau);
+  }
+
+  /// The mean over the window around tau, by parts: the motion bends where the slip begins and ends.
+  [[nodiscard]] Point mean_around(double tau) const {
+    const double first = tau - half_window_;
+    const double last = tau + half_window_;
+    Point mean;
+    double begin = first;
+    for (const double joint : {0.0, track_.tau_end(), last}) {
+      const double end = std::clamp(joint, begin, last);
+      add_part(begin, end, mean);
+      begin = end;
+    }
+    const double z_first = instant_at(first).z;
+    const double z_last = instant_at(last).z;
+    mean.d_tau = (z_last - z_first) / (last - first);
+    mean.d_log_omega = 0.5 * (z_first + z_last) - mean.z;  // the window is w_n W long
+    return mean;
+  }
+
+  /// Adds the part of a window between two times by Gauss's rule; over half a radian it is good to 1e-7.
+  void add_part(double begin, double end, Point& mean) const {
+    constexpr double kLongest = 0.5;
+    constexpr std::array<double, 3> kAt{-0.7745966692414834, 0.0, 0.7745966692414834};
+    constexpr std::array<double, 3> kWeight{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    const double pieces = std::ceil((end - begin) / kLongest);
+    const double length = (end - begin) / pieces;
+    for (double piece = 0.0; piece < pieces; ++piece) {
+      for (std::size_t i = 0; i < kAt.size(); ++i) {
+        const model::TrackPoint p = instant_at(begin + length * (piece + 0.5 + 0.5 * kAt[i]));
+        const double weight = kWeight[i] * length / (2.0 * half_window_);
+        mean.z += weight * p.z;
+        mean.d_z0 += weight * p.d_z0;
+        mean.d_zeta += weight * p.d_zeta;
+        mean.d_slope += weight * p.d_slope;
+        mean.d_rate += weight * p.d_rate;
+      }
+    }
+  }
 
   model::VelocityTrack track_;
   ForceView view_;
-  double by_slope_;  ///< d (scaled slope) / d kFrictionSlope
-  double by_rate_;   ///< d (scaled slope) / d kFrictionRate
-  double rate_unit_;
+  double half_window_ = 0.0;  ///< of the sensor's average, in tau
+  double by_slope_ = 0.0;     ///< d (scaled slope) / d kFrictionSlope
+  double by_rate_ = 0.0;      ///< d (scaled slope) / d kFrictionRate
+  double rate_unit_ = 1.0;
 };
 
 }  // namespace slipfit::fit

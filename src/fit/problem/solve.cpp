@@ -100,16 +100,16 @@ class RampCost : public ceres::SizedCostFunction<1, globals_of(FrictionLaw::Coul
 /// Parameter blocks: globals, level.
 class SteadyCost : public ceres::CostFunction {
  public:
-  SteadyCost(const SteadyRun& run, const Units& units, std::size_t globals) : run_(run), units_(units) {
+  SteadyCost(const SteadyRun& run, const Units& units, FrictionLaw law) : run_(run), units_(units), law_(law) {
     set_num_residuals(1);
-    *mutable_parameter_block_sizes() = {static_cast<int>(globals), 1};
+    *mutable_parameter_block_sizes() = {static_cast<int>(globals_of(law)), 1};
   }
 
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
     const auto count = static_cast<std::size_t>(parameter_block_sizes()[0]);
     Globals globals{};
     std::copy_n(parameters[0], count, globals.begin());
-    const SteadyResidual steady = steady_residual(run_, units_, globals.data(), *parameters[1]);
+    const SteadyResidual steady = steady_residual(run_, units_, law_, globals.data(), *parameters[1]);
     if (!std::isfinite(steady.value)) return false;
     residuals[0] = steady.value;
     if (jacobians == nullptr) return true;
@@ -121,6 +121,7 @@ class SteadyCost : public ceres::CostFunction {
  private:
   const SteadyRun& run_;
   const Units& units_;
+  FrictionLaw law_;
 };
 
 /// A Ceres problem of recordings. Inside a group Ceres orders blocks by their address: cycles stand in one array and
@@ -141,7 +142,7 @@ class Bundle {
     for (BlockFit& recording : recordings_) local = add(recording, local);
     for (const SteadyRun& run : sweep_.steady) {
       if (!sweep_.sharing.level) break;
-      ceres_.AddResidualBlock(new SteadyCost(run, sweep_.units, globals_of(scales().law)), nullptr, globals_.data(),
+      ceres_.AddResidualBlock(new SteadyCost(run, sweep_.units, scales().law), nullptr, globals_.data(),
                               first().level.data());
     }
     ordering_->AddElementToGroup(globals_.data(), group_);
@@ -243,7 +244,7 @@ class Bundle {
     solver.gradient_tolerance = 1e-14;
     solver.parameter_tolerance = 1e-11;
     // A step into friction that runs away: shorten it.
-    if (scales().law == FrictionLaw::SpeedDependent) solver.max_num_consecutive_invalid_steps = 20;
+    if (scales().law != FrictionLaw::Coulomb) solver.max_num_consecutive_invalid_steps = 20;
     solver.logging_type = ceres::SILENT;
     solver.num_threads = 1;
     return solver;

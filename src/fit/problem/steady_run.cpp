@@ -6,14 +6,14 @@
 
 namespace slipfit::fit {
 
-/// F_k(V) = F_k(0+) + G expm1(alpha V) / expm1(alpha v_c), G = 2 v_c sqrt(k m) times kFrictionSlope. docs/model.md
-/// section 5
-SteadyResidual steady_residual(const SteadyRun& run, const Units& units, const double* globals, double level) {
+/// F_k(V) = F_k(0+) + G g(V) / g(v_c), G = 2 v_c sqrt(k m) times kFrictionSlope. docs/model.md section 5
+SteadyResidual steady_residual(const SteadyRun& run, const Units& units, FrictionLaw law, const double* globals,
+                               double level) {
   const double a = globals[kFrictionRate];
   const double speed = run.speed_m_per_s / units.slip_speed_m_per_s;
-  const SlopeRatio whole = slope_ratio(a);
-  const SlopeRatio part = slope_ratio(a * speed);
-  const double growth = speed * whole.value / part.value;  // expm1(a speed) / expm1(a)
+  const SlopeRatio whole = slope_ratio(law, a);
+  const SlopeRatio part = slope_ratio(law, a * speed);
+  const double growth = speed * whole.value / part.value;  // g(V) / g(v_c)
   const double d_growth =
       speed * (whole.derivative / part.value - whole.value * part.derivative * speed / (part.value * part.value));
   const double weight = 1.0 / run.standard_error;

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "fit/inference/moderated.hpp"
-#include "fit/selection/damped_fit.hpp"
+#include "fit/selection/common_average.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -124,18 +125,19 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
   SweepData data;
   data.tell_step = options.tell_step;
   data.mean_load_N = mean_load_N(recordings);
-  for (const SweepRecording& sweep : recordings) {
+  OwnFits own = fit_each(recordings, options.held);
+  data.single = std::move(own.fits);
+  data.average = own.average;
+  data.rounded = own.rounded;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const SweepRecording& sweep = recordings[i];
     data.loads.push_back(data.mean_load_N ? *sweep.recording.conditions().normal_force_N / *data.mean_load_N : 1.0);
-    data.single.emplace_back();
-    if (sweep.role == SweepRole::Cycles) {
-      data.single.back() = fit_damped(sweep.recording, sweep.quality, sweep.segmentation, options.held);
-    }
     data.steady_of.emplace_back();
     if (sweep.role == SweepRole::Steady) {
       data.steady_of.back() = data.steady.size();
       data.steady.push_back(steady_run(sweep.recording, data.loads.back()));
     }
-    if (data.single.back()) data.fitted.push_back(data.single.size() - 1);
+    if (data.single[i]) data.fitted.push_back(i);
   }
   add_onset_scatter(data);
   std::vector<double> forces;

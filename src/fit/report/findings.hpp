@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fit/inference/sliding_model.hpp"
@@ -13,6 +14,19 @@ namespace slipfit::fit {
 /// The condition on a speed without a standard error, and which parameters depend on it.
 inline constexpr const char* kStatedSpeed =
     "the stated driving speed (k, m and c are in inverse proportion to it; --speed-uncertainty widens their intervals)";
+
+/// Why nothing that is read from the slip is identified where W is fitted.
+inline constexpr const char* kFittedAverage =
+    "known if the instrument averages evenly over a time, as the fit takes it to";
+/// That it is fitted.
+Warning averaged_warning(double average_s);
+
+/// Why a force level is conditional.
+inline constexpr const char* kZeroUnknown =
+    "known if the sensor reads 0 without force, which a recording cannot show: state the reading with --zero";
+/// Why F_s - F_k and zeta of one speed are conditional.
+inline constexpr const char* kOneSpeed =
+    "known if friction does not depend on the sliding speed, which one driving speed cannot show";
 
 /// Why w_n is not identified where averaging over a step of the clock would change it by so much of itself.
 std::string averaging_doubt(double change);
@@ -44,6 +58,11 @@ struct Findings {
   double sample_interval_s = 0.0;
   /// Why nothing that is read from the slip is identified; empty: no reason.
   std::string slip_doubt{};
+  /// Of a mean over recordings whose static friction differs, or where another law of kinetic friction gives another
+  /// F_s - F_k(0+): why that is not identified; empty: no reason.
+  std::string difference_doubt{};
+  /// How far that other law moves F_k(0+) and F_s - F_k(0+): lengthens their intervals.
+  Coordinates other_law = Coordinates::Zero();
   /// Why k is not identified, whatever its interval; empty: no reason.
   std::string stiffness_doubt{};
   std::string stiffness_note{};
@@ -58,6 +77,12 @@ struct Findings {
   std::optional<LawFindings> law{};
   Warnings warnings{};
 
+  /// Of F_k(0+) and F_s - F_k(0+), which depend on the law below the speeds that were measured.
+  [[nodiscard]] Intervals intervals_at_rest() const {
+    Spread spread = intervals.spread();
+    spread.one_sided += other_law;
+    return Intervals(std::move(spread));
+  }
   [[nodiscard]] bool damping_known() const { return damping.value.has_value(); }
 };
 

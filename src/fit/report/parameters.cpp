@@ -17,15 +17,13 @@ namespace {
 
 using Id = ParameterId;
 
-const char* const kZeroUnknown =
-    "known if the sensor reads 0 without force, which a recording cannot show: state the reading with --zero";
-const char* const kOneSpeed =
-    "known if friction does not depend on the sliding speed, which one driving speed cannot show";
-
 class Reporter {
  public:
   Reporter(const Findings& findings, FitResult& result)
-      : f_(findings), model_(findings.values, findings.units), result_(result) {}
+      : f_(findings),
+        of_rest_(findings.intervals_at_rest()),
+        model_(findings.values, findings.units),
+        result_(result) {}
 
   void report() {
     report_stiffness();
@@ -80,7 +78,10 @@ class Reporter {
     if (f_.samples_per_slip > thresholds::kSlipSamples) return {};
     return too_few_samples(f_.samples_per_slip, f_.sample_interval_s);
   }
-  [[nodiscard]] std::string slip_note() const { return slip_doubt().empty() ? few_cycles() : slip_doubt(); }
+  [[nodiscard]] std::string or_few_cycles(const std::string& doubt) const {
+    return doubt.empty() ? few_cycles() : doubt;
+  }
+  [[nodiscard]] std::string slip_note() const { return or_few_cycles(slip_doubt()); }
 
   void report_stiffness() {
     if (!f_.in_newtons) {
@@ -90,7 +91,7 @@ class Reporter {
     } else {
       const Estimate k = f_.intervals.interval_of_one_sign(model_.stiffness);
       std::string note = f_.stiffness_doubt.empty() ? f_.stiffness_note : f_.stiffness_doubt;
-      add(Id::Stiffness, k, graded(Id::Stiffness, k, f_.stiffness_doubt), note.empty() ? few_cycles() : note);
+      add(Id::Stiffness, k, graded(Id::Stiffness, k, f_.stiffness_doubt), or_few_cycles(note));
     }
   }
 
@@ -105,10 +106,11 @@ class Reporter {
       add(id, {0.5 * (bounds.low + bounds.high), std::nullopt, bounds, {}}, ParameterStatus::Bounded, note);
       return;
     }
-    const Estimate difference = f_.intervals.interval_of_one_sign(model_.difference);
+    const Estimate difference = of_rest_.interval_of_one_sign(model_.difference);
     const bool ages = f_.law && f_.law->ages;
-    const ParameterStatus of_difference = at_one_speed(graded(id, difference, slip_doubt()));
-    std::string note = of_difference == ParameterStatus::Conditional ? kOneSpeed : slip_note();
+    const std::string doubt = slip_doubt().empty() ? f_.difference_doubt : slip_doubt();
+    const ParameterStatus of_difference = at_one_speed(graded(id, difference, doubt));
+    std::string note = of_difference == ParameterStatus::Conditional ? kOneSpeed : or_few_cycles(doubt);
     if (ages) note += fmt::format("{}at a stick time of {:.3g} s", note.empty() ? "" : "; ", f_.units.stick_s);
     add(id, difference, of_difference, note);
     report_absolute(in_unit(Id::StaticFriction, Id::StaticFrictionCoefficient), model_.level + model_.difference);
@@ -120,7 +122,7 @@ class Reporter {
 
   /// A force level depends on the sensor's zero.
   void report_absolute(Id id, const Jet& y) {
-    const Estimate estimate = f_.intervals.interval_of(y);
+    const Estimate estimate = of_rest_.interval_of(y);
     ParameterStatus status = graded(id, estimate, slip_doubt());
     if (f_.zero_known) {
       // The peaks show F_s whatever the law.
@@ -149,8 +151,7 @@ class Reporter {
     } else {
       const Estimate omega = f_.intervals.interval_of_one_sign(model_.omega);
       const std::string doubt = frequency_doubt();
-      add(Id::NaturalFrequency, omega, graded(Id::NaturalFrequency, omega, doubt),
-          doubt.empty() ? few_cycles() : doubt);
+      add(Id::NaturalFrequency, omega, graded(Id::NaturalFrequency, omega, doubt), or_few_cycles(doubt));
     }
     if (f_.in_newtons) report_mass();
   }
@@ -270,7 +271,7 @@ class Reporter {
       used.push_back(6);
     }
     for (const std::size_t i : used) {
-      for (const std::size_t j : used) estimate.covariance[i][j] = model_covariance(all[i], all[j]);
+      for (const std::size_t j : used) estimate.covariance[i][j] = f_.intervals.whole_covariance(all[i], all[j]);
     }
     result_.correlation = correlation_of(estimate, used);
     const Spread& spread = f_.intervals.spread();
@@ -280,13 +281,8 @@ class Reporter {
     result_.estimate = estimate;
   }
 
-  /// Anything up to Spread::one_sided is as likely: a third of its square.
-  [[nodiscard]] double model_covariance(const Jet& a, const Jet& b) const {
-    const Coordinates& off = f_.intervals.spread().one_sided;
-    return f_.intervals.covariance(a, b) + a.v.dot(off) * b.v.dot(off) / 3.0;
-  }
-
   const Findings& f_;
+  Intervals of_rest_;
   SlidingModel model_;
   FitResult& result_;
 };

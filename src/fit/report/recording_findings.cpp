@@ -10,6 +10,7 @@
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/profile.hpp"
 #include "fit/inference/smoothing.hpp"
+#include "fit/selection/fitted_average.hpp"
 #include "fit/selection/ramps.hpp"
 
 namespace slipfit::fit {
@@ -80,13 +81,8 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
   AveragingFindings result;
   if (recording.conditions().sensor_average_s) return result;
   if (fit.average) {
-    result.warnings.push_back(
-        {"samples_averaged",
-         fmt::format(
-             "the slips are seen through averaging over {:.3g} ms, which is fitted together with them: state it "
-             "with --sensor-average where it is known",
-             1e3 * fit.average->seconds)});
-    result.doubt = "known if the instrument averages evenly over a time, as the fit takes it to";
+    result.warnings.push_back(averaged_warning(fit.average->seconds));
+    result.doubt = kFittedAverage;
     return result;
   }
   const double step_s = recording.sample_interval_s();
@@ -94,9 +90,7 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
       &blocks == &fit.blocks ? fit.rounding : estimate_smoothing(blocks, fit.held, step_s);
   if (!seen) return result;
   const double of_a_step = step_s * step_s / 12.0;
-  // Rounding to steps of the converter repeats its errors in every cycle: the scatter over them does not show it.
-  const bool repeats = fit.uncertainty.from_refits && !fit.misfit;
-  const bool rounded = !repeats && seen->variance_s2 - thresholds::kRoundedSigmas * seen->standard_error_s2 > of_a_step;
+  const bool rounded = is_rounded(fit, *seen, step_s);
   // The move per variance is that of little averaging: a quarter more of what is seen allows for the bend.
   const double variance = rounded ? 1.25 * seen->variance_s2 + 2.0 * seen->standard_error_s2 : of_a_step;
   result.one_sided = variance * seen->move_per_s2;
@@ -203,6 +197,13 @@ std::optional<Estimate> fitted_average_of(const DampedFit& fit) {
 }
 
 }  // namespace
+
+Warning averaged_warning(double average_s) {
+  return {"samples_averaged",
+          fmt::format("the slips are seen through averaging over {:.3g} ms, which is fitted together with them: state "
+                      "it with --sensor-average where it is known",
+                      1e3 * average_s)};
+}
 
 std::string averaging_doubt(double change) {
   return fmt::format(

@@ -22,16 +22,6 @@ constexpr std::size_t kCompareCycles = 60;  // enough to tell two kernels apart
 constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
 constexpr double kForgottenLags = 8.0;      // e^-8
 
-Recording with_average(const Recording& recording, double variance_s2) {
-  Conditions conditions = recording.conditions();
-  conditions.sensor_average_s = std::sqrt(12.0 * variance_s2);
-  const auto time_s = recording.time_s();
-  const auto force = recording.force();
-  return Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()}, conditions,
-                           recording.provenance())
-      .value();
-}
-
 /// Median time from the end of one slip to the onset of the next.
 double stick_s(const BlockFit& blocks) {
   std::vector<double> sticks_s;
@@ -153,6 +143,16 @@ DampedFit with_average_error(Trial trial) {
 
 }  // namespace
 
+Recording with_average(const Recording& recording, double variance_s2) {
+  Conditions conditions = recording.conditions();
+  conditions.sensor_average_s = std::sqrt(12.0 * variance_s2);
+  const auto time_s = recording.time_s();
+  const auto force = recording.force();
+  return Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()}, conditions,
+                           recording.provenance())
+      .value();
+}
+
 std::optional<DampedFit> fit_average(const Recording& recording, const Quality& quality,
                                      const Segmentation& segmentation, const HeldParameters& held,
                                      const DampedFit& plain) {
@@ -177,6 +177,22 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
   DampedFit fit = with_average_error(*std::move(trial));
   const bool is_taken = tells_slips(fit) && gain_of(fit, plain) > thresholds::kTierPrice;
   return is_taken ? std::optional(std::move(fit)) : std::nullopt;
+}
+
+std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality& quality,
+                                       const Segmentation& segmentation, const HeldParameters& held) {
+  std::optional<DampedFit> fit = fit_damped(recording, quality, segmentation, held);
+  if (!fit || recording.conditions().sensor_average_s) return fit;
+  fit->rounding = estimate_smoothing(fit->blocks, fit->held, recording.sample_interval_s());
+  std::optional<DampedFit> averaged = fit_average(recording, quality, segmentation, held, *fit);
+  return averaged ? averaged : fit;
+}
+
+bool is_rounded(const DampedFit& fit, const Smoothing& seen, double sample_interval_s) {
+  // Rounding to steps of the converter repeats its errors in every cycle: the scatter over them does not show it.
+  const bool repeats = fit.uncertainty.from_refits && !fit.misfit;
+  return !repeats && seen.variance_s2 - thresholds::kRoundedSigmas * seen.standard_error_s2 >
+                         sample_interval_s * sample_interval_s / 12.0;
 }
 
 }  // namespace slipfit::fit

@@ -10,6 +10,9 @@
 
 namespace slipfit::fit {
 
+/// The recording with a stated average whose impulse response has this variance.
+Recording with_average(const Recording& recording, double variance_s2);
+
 /// The fit with one parameter more, the time W over which the instrument averages its samples (docs/model.md section
 /// 7), where it is not stated and `plain`, the fit without, shows its sign: rounded slips (DampedFit::rounding).
 /// Its covariance holds that of W. Empty where W does not explain all that `plain` misses of the slips, where a sensor
@@ -17,5 +20,13 @@ namespace slipfit::fit {
 std::optional<DampedFit> fit_average(const Recording& recording, const Quality& quality,
                                      const Segmentation& segmentation, const HeldParameters& held,
                                      const DampedFit& plain);
+
+/// `fit_damped`, with the average that the slips show where the recording states none.
+std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality& quality,
+                                       const Segmentation& segmentation, const HeldParameters& held);
+
+/// The slips are rounded by more than averaging over one step of the clock, which nobody stated and the fit does not
+/// hold.
+bool is_rounded(const DampedFit& fit, const Smoothing& seen, double sample_interval_s);
 
 }  // namespace slipfit::fit

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kSweepRough = 0.1;
 constexpr double kSweepFinal = 1e-4;
+constexpr double kSlowestRate = 0.3;  // alpha v_c with which the search for another law begins
 constexpr int kSweepQuickIterations = 10;
 constexpr int kSweepMaxIterations = 50;
 
@@ -24,6 +25,7 @@ constexpr int kSweepMaxIterations = 50;
 SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, const std::vector<std::size_t>& used) {
   SweepSolution solution;
   solution.sweep = {sharing, data.steady, data.units};
+  solution.average = data.average;
   for (const std::size_t i : used) {
     const DampedFit& single = *data.single[i];
     const Scales scales = scales_in_sweep(data, i, law);
@@ -37,6 +39,12 @@ SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, 
     solution.recordings.push_back(std::move(recording));
   }
   return solution;
+}
+
+BlockFit with_scales(const BlockFit& recording, const Scales& scales) {
+  BlockFit other(recording.set(), scales);
+  other.parameters = recording.parameters;
+  return other;
 }
 
 /// Residual rows over parameters: each stick bin counts as its two rows, as it does in chi2.
@@ -73,8 +81,9 @@ class SweepFitter {
   [[nodiscard]] std::optional<SweepFits> fit() const {
     std::optional<SweepSolution> free = fit_velocity({false, false});
     if (!free) return std::nullopt;
-    SweepSolution velocity = with_shares(std::move(*free));
+    SweepSolution velocity = at_best_average(with_shares(std::move(*free)));
     std::optional<SweepSolution> coulomb = coulomb_like(velocity);
+    if (coulomb) coulomb = at_best_average(*std::move(coulomb));
     SweepFits fits{std::move(velocity), std::move(coulomb)};
     const double extra = 2.0;  // slope and rate
     fits.p_value = fits.coulomb ? chance(fits.coulomb->chi2 - fits.velocity.chi2, extra, fits.velocity) : 0.0;
@@ -121,7 +130,7 @@ class SweepFitter {
     const Held held = held_of(fixed_);
     std::optional<SweepSolution> best;
     for (const double rate : {-1.0, 1.0, -4.0}) {
-      SweepSolution start = start_of(data_, sharing, FrictionLaw::SpeedDependent, data_.fitted);
+      SweepSolution start = start_of(data_, sharing, FrictionLaw::Exponential, data_.fitted);
       set_globals(start);
       for (BlockFit& recording : start.recordings) recording.parameters.globals[kFrictionRate] = rate;
       Held quick = held;
@@ -158,6 +167,22 @@ class SweepFitter {
     return at_minimum(std::move(free), shared.held);
   }
 
+  /// At the average that explains all recordings best, where their own fits found one: by the parabola through the sums
+  /// of squares beside that. Each law has its own: none may stand for the error of the average.
+  [[nodiscard]] SweepSolution at_best_average(SweepSolution solution) const {
+    if (!solution.average) return solution;
+    const double step_s = solution.average->standard_error_s;
+    const double middle_s = solution.average->seconds;
+    const auto less = with_average(data_, solution, middle_s - step_s);
+    const auto more = with_average(data_, solution, middle_s + step_s);
+    if (!less || !more) return solution;
+    const double bend = less->chi2 - 2.0 * solution.chi2 + more->chi2;
+    if (!(bend > 0.0)) return solution;
+    const double steps = std::clamp(0.5 * (less->chi2 - more->chi2) / bend, -3.0, 3.0);
+    auto best = with_average(data_, solution, middle_s + steps * step_s);
+    return best && best->chi2 < solution.chi2 ? *std::move(best) : solution;
+  }
+
   [[nodiscard]] std::optional<SweepSolution> coulomb_like(const SweepSolution& velocity) const {
     SweepSolution start = start_of(data_, velocity.sweep.sharing, FrictionLaw::Coulomb, data_.fitted);
     set_globals(start);
@@ -186,6 +211,31 @@ std::optional<SweepSolution> with_rate(const SweepSolution& solution, double rat
   Held held = solution.held;
   held[kFrictionRate] = true;
   return at_minimum(std::move(moved), held);
+}
+
+std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw law) {
+  SweepSolution other = solution;
+  for (BlockFit& recording : other.recordings) {
+    Scales scales = recording.scales();
+    scales.law = law;
+    recording = with_scales(recording, scales);
+    // The other laws have friction that changes ever less.
+    double& rate = recording.parameters.globals[kFrictionRate];
+    rate = std::min(rate, -kSlowestRate);
+  }
+  return at_minimum(std::move(other), solution.held);
+}
+
+std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolution& solution, double average_s) {
+  SweepSolution other = solution;
+  other.average->seconds = average_s;
+  for (std::size_t f = 0; f < other.recordings.size(); ++f) {
+    if (!data.single[data.fitted[f]]->average) continue;
+    Scales scales = other.recordings[f].scales();
+    scales.sensor_average_s = average_s;
+    other.recordings[f] = with_scales(other.recordings[f], scales);
+  }
+  return at_minimum(std::move(other), solution.held);
 }
 
 std::optional<SweepSolution> leave_out(const SweepSolution& solution, std::size_t recording) {

@@ -14,6 +14,7 @@ struct SweepSolution {
   Held held{};
   double chi2 = 0.0;  ///< in units of each recording's own noise
   double degrees_of_freedom = 0.0;
+  std::optional<FittedAverage> average{};  ///< in the recordings of which none is stated (SweepData::average)
 
   [[nodiscard]] Problem problem() const { return {recordings, sweep}; }
   [[nodiscard]] std::size_t cycles() const;
@@ -34,6 +35,12 @@ std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& op
 
 /// The same fit with alpha v_c held at this rate, started from the solution.
 std::optional<SweepSolution> with_rate(const SweepSolution& solution, double rate);
+
+/// The same fit with another law of kinetic friction, started from the solution.
+std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw law);
+
+/// The same fit with another average in the recordings that have the one which was found.
+std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolution& solution, double average_s);
 
 /// The same fit without one of its recordings, started from the solution; empty where fewer than two are left.
 std::optional<SweepSolution> leave_out(const SweepSolution& solution, std::size_t recording);

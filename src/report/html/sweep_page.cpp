@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,21 +61,34 @@ bool has_surface_spacing(const SweepSource& source) {
   });
 }
 
+/// By how much k and F_s - F_k change where the recording is left out.
+std::string influence_cells(const SweepSource& source, const SweepPoint& point) {
+  const std::optional<ModelEstimate> whole = source.sweep.fit ? source.sweep.fit->result.estimate : std::nullopt;
+  if (!whole) return {};
+  const auto cell = [](const std::optional<double>& without, double with) {
+    const std::string change = without ? fmt::format("{:+.2g} %", 100.0 * (*without / with - 1.0)) : "-";
+    return "<td class=\"number\">" + change + "</td>";
+  };
+  return cell(point.stiffness_left_out_N_per_m, whole->stiffness_N_per_m) +
+         cell(point.friction_difference_left_out_N, whole->friction_difference_N);
+}
+
 std::string recording_row(const SweepSource& source, std::size_t i, const SweepUnits& units) {
   const Analysis& analysis = source.sweep.recordings[i];
   const Conditions& conditions = source.entries[i].recording.conditions();
   const Estimate on_surface = spacing_on_surface(conditions);
   const double speed = units.speed.per_SI * conditions.speed_m_per_s;
   const Estimate& measured = analysis.derived.pattern_spacing_m;
-  const Estimate predicted = source.sweep.fit ? source.sweep.fit->points[i].spacing_left_out_m : Estimate{};
+  const SweepPoint without = source.sweep.fit ? source.sweep.fit->points[i] : SweepPoint{};
+  const Estimate& predicted = without.spacing_left_out_m;
   const bool is_left_out = source.sweep.roles[i] == SweepRole::LeftOut;
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td class=\"number\">{:.4g}</td><td>{}{}</td>{}{}{}<td "
-      "class=\"number\">{}</td></tr>\n",
+      "class=\"number\">{}</td>{}</tr>\n",
       text(source.entries[i].id), speed, plain_words(name_of(analysis.motion)), is_left_out ? ", left out" : "",
       has_surface_spacing(source) ? quantity_cell(on_surface, units.spacing.per_SI) : "",
       quantity_cell(measured, units.spacing.per_SI), quantity_cell(predicted, units.spacing.per_SI),
-      text(off_by(predicted, measured)));
+      text(off_by(predicted, measured)), influence_cells(source, without));
 }
 
 std::string recordings_of(const SweepSource& source) {
@@ -83,6 +97,9 @@ std::string recordings_of(const SweepSource& source) {
   if (has_surface_spacing(source)) columns.push_back(label_with_unit("#spacing on the surface", units.spacing.unit));
   columns.insert(columns.end(), {label_with_unit("#spacing measured, V/f", units.spacing.unit),
                                  label_with_unit("#predicted without it", units.spacing.unit), "#off by"});
+  if (source.sweep.fit && source.sweep.fit->result.estimate) {
+    columns.insert(columns.end(), {"#k without it", "#F_s \u2212 F_k without it"});
+  }
   std::string rows;
   for (std::size_t i = 0; i < source.entries.size(); ++i) rows += recording_row(source, i, units);
   return section(" class=\"flows\"", "Each recording, predicted without it",

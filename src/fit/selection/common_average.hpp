@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fit/selection/solution.hpp"
+#include "slipfit/fit/parameter.hpp"
+#include "slipfit/fit/sweep_recording.hpp"
+
+namespace slipfit::fit {
+
+/// The recordings of a sweep, each on its own.
+struct OwnFits {
+  std::vector<std::optional<DampedFit>> fits;  ///< empty: not of cycles, or none that can be fitted
+  std::optional<FittedAverage> average{};      ///< in all fits of recordings that state none
+  bool rounded = false;                        ///< as averaging would, which is not in the fits
+};
+
+/// Where at least half of the recordings that state no average show one, and agree on it, all of these are fitted with
+/// the mean of it.
+OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held);
+
+}  // namespace slipfit::fit

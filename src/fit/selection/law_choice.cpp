@@ -1,0 +1,60 @@
+#include "fit/selection/law_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
+
+namespace slipfit::fit {
+
+bool is_misfit(const SweepSolution& solution) {
+  return solution.chi2 > thresholds::kSweepMisfit * solution.degrees_of_freedom;
+}
+
+double speed_ratio(std::span<const SweepRecording> recordings) {
+  double low = HUGE_VAL;
+  double high = 0.0;
+  for (const SweepRecording& sweep : recordings) {
+    if (sweep.role == SweepRole::LeftOut) continue;
+    low = std::min(low, sweep.recording.conditions().speed_m_per_s);
+    high = std::max(high, sweep.recording.conditions().speed_m_per_s);
+  }
+  return high / low;
+}
+
+LawChoice choose_by_chance(const SweepFits& fits, double speeds) {
+  if (speeds < thresholds::kLeastSpeedRatio) {
+    return {false, fmt::format("the speeds span a factor of {:.2g} only: one speed cannot tell alpha", speeds)};
+  }
+  const std::string chance = "probability of so large an improvement under Coulomb friction: " +
+                             (fits.p_value > 0.0 ? fmt::format("{:.2g}", fits.p_value) : "below 1e-300");
+  if (!fits.depends_on_speed) return {false, "Coulomb friction explains the recordings; " + chance};
+  return {true, chance};
+}
+
+LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
+  return {velocity_error < coulomb_error,
+          fmt::format(
+              "residuals are well above the noise; the spacing predicted for a recording left out is wrong by {:.2g} % "
+              "with F_k(v), by {:.2g} % under Coulomb friction",
+              100.0 * std::expm1(velocity_error), 100.0 * std::expm1(coulomb_error))};
+}
+
+std::vector<Candidate> candidates_of(const SweepFits& fits, const LawChoice& choice) {
+  const double noise2 = fits.velocity.chi2 / fits.velocity.degrees_of_freedom;
+  const auto cycles = static_cast<double>(fits.velocity.cycles());
+  const auto aicc = [&](const SweepSolution& solution, double parameters) -> std::optional<double> {
+    if (!(cycles > parameters + 1.0)) return std::nullopt;
+    return solution.chi2 / noise2 + 2.0 * parameters +
+           2.0 * parameters * (parameters + 1.0) / (cycles - parameters - 1.0);
+  };
+  const std::optional<double> of_coulomb = fits.coulomb ? aicc(*fits.coulomb, 5.0) : std::nullopt;
+  return {{Tier::Damped, 5, std::nullopt, of_coulomb, !choice.velocity, choice.reason},
+          {Tier::Velocity, 7, std::nullopt, aicc(fits.velocity, 7.0), choice.velocity, choice.reason}};
+}
+
+}  // namespace slipfit::fit
