@@ -228,16 +228,16 @@ double degrees_of_freedom(const JsonNode& document) {
 
 }  // namespace
 
-FitDocument fit_document_from(const JsonNode& document, const std::string& file) {
+FitDocument fit_document_from(const JsonNode& document, const std::string& name) {
   if (const JsonNode schema = document.member("schema"); schema.text() != "slipfit.fit/1") schema.fail("slipfit.fit/1");
   if (!document.has("parameters")) {
     throw BadDocument(Error{
         "cannot_predict",
-        "'" + file +
+        "'" + name +
             "': has no parameters: slipfit analyze fits none, and fit found no cycles; use slipfit fit on stick-slip"});
   }
   const JsonNode parameters = document.member("parameters");
-  check_known(file, parameters);
+  check_known(name, parameters);
   FitDocument result;
   ModelEstimate& estimate = result.model.estimate;
   const std::array<double*, 4> targets{&estimate.stiffness_N_per_m, &estimate.natural_frequency_rad_per_s,
@@ -245,8 +245,8 @@ FitDocument fit_document_from(const JsonNode& document, const std::string& file)
   for (std::size_t i = 0; i < kNeeded.size(); ++i) {
     *targets[i] = checked_value(parameters.member(kNeeded[i].name), kNeeded[i]);
   }
-  estimate.speed_dependence = speed_dependence(file, document);
-  estimate.ageing = ageing(file, document);
+  estimate.speed_dependence = speed_dependence(name, document);
+  estimate.ageing = ageing(name, document);
   estimate.damping_identified = damping_identified(parameters.member(kNeeded[kDamping].name));
   estimate.degrees_of_freedom = degrees_of_freedom(document);
   read_covariance(document, result.model);
