@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "drafts.hpp"
 #include "failure.hpp"
+#include "quantities.hpp"
 #include "sweep_run.hpp"
 
 namespace {
