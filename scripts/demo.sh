@@ -15,3 +15,9 @@ fi
 
 echo '$ slipfit fit testdata/demo.csv --speed 10mm/s' >&2
 build/tool/apps/slipfit fit testdata/demo.csv --speed 10mm/s
+
+cat >&2 <<'END'
+
+To call slipfit from anywhere, install it: cmake --install build/tool (as root into /usr/local), or
+cmake --install build/tool --prefix ~/.local (then ~/.local/bin has to be on the PATH).
+END

@@ -1,24 +1,30 @@
 #!/usr/bin/env bash
-# install_dependencies.sh [build|test|browser|web]: what the build needs on Debian 12, or also the tests (the default), or what
-# scripts/test-report.sh needs, or scripts/web.sh.
+# install_dependencies.sh [build|python|test|docs|browser|web]...: what the build needs on Debian 12, also the Python module, also
+# the tests (the default), or what scripts/docs.sh, scripts/test-report.sh or scripts/web.sh need.
 # Installs only what is missing, as root or through sudo; says what it installs, and nothing when all is there.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libjs-dygraphs libxxhash-dev zlib1g-dev libminizip-dev libpugixml-dev libmatio-dev
   libhdf5-dev libleptonica-dev)
-case "${1:-test}" in
-  test) packages+=(catch2 python3 python3-jsonschema python3-openpyxl python3-scipy python3-h5py
-    slurm-wlm munge locales dpkg-dev file) ;;
-  web)
-    packages+=(emscripten libfast-float-dev curl ca-certificates xz-utils bzip2 make)
-    command -v node >/dev/null 2>&1 || packages+=(nodejs)
-    ;;
-  browser)
-    packages=(chromium)
-    command -v npm >/dev/null 2>&1 || packages+=(nodejs npm)
-    ;;
-esac
+python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-pip)
+notebooks=(python3-nbconvert jupyter-nbconvert python3-ipykernel python3-pandas python3-matplotlib python3-scipy)
+for group in "${@:-test}"; do
+  case "$group" in
+    python) packages+=("${python[@]}") ;;
+    test) packages+=(catch2 python3 python3-jsonschema python3-openpyxl python3-scipy python3-h5py
+      slurm-wlm munge locales dpkg-dev file "${python[@]}" "${notebooks[@]}" python3-pytest mypy) ;;
+    docs) packages+=("${python[@]}" "${notebooks[@]}" mkdocs mkdocs-material) ;;
+    web)
+      packages+=(emscripten libfast-float-dev curl ca-certificates xz-utils bzip2 make)
+      command -v node >/dev/null 2>&1 || packages+=(nodejs)
+      ;;
+    browser)
+      packages=(chromium)
+      command -v npm >/dev/null 2>&1 || packages+=(nodejs npm)
+      ;;
+  esac
+done
 
 if ! command -v dpkg-query >/dev/null 2>&1; then
   echo "install_dependencies.sh: no Debian here; needed, by their Debian names: ${packages[*]}" >&2

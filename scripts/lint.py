@@ -114,7 +114,7 @@ def circle_breaches(project):
 
 
 def sources(project):
-    folders = ("include", "src", "apps", "tests", "benchmarks")
+    folders = ("include", "src", "apps", "python", "tests", "benchmarks")
     return sorted(file for folder in folders for file in (project / folder).rglob("*.[ch]pp"))
 
 
@@ -157,7 +157,7 @@ def functions(code):
 
 def length_breaches(project):
     for file in sources(project):
-        if file.relative_to(project).parts[0] not in ("src", "include", "apps"):
+        if file.relative_to(project).parts[0] not in ("src", "include", "apps", "python"):
             continue
         code = file.read_text(encoding="utf-8")
         lines = code.count("\n")

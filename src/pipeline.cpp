@@ -115,9 +115,10 @@ struct Member {
   Analysis analysis;
 };
 
-Member analyze_member(const Recording& recording) {
+/// `options`: of the recording's own fit.
+Member analyze_member(const Recording& recording, const FitOptions& options) {
   Member member{detect(recording), {}, {}};
-  member.estimates = estimate(member.detected, {});
+  member.estimates = estimate(member.detected, options);
   const Classification classification = classify(member.detected.recording(), member.estimates);
   member.analysis = conclude(member.detected, member.estimates, classification);
   return member;
@@ -144,12 +145,14 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   std::vector<Member> members;
   std::vector<SweepRecording> recordings;
   members.reserve(entries.size());  // the recordings of the fit refer to them
+  FitOptions own;
+  own.curve = options.curve;
   for (const SweepEntry& entry : entries) {
     if (options.tell_step) {
       options.tell_step("analysing recording " + std::to_string(members.size() + 1) + " of " +
                         std::to_string(entries.size()));
     }
-    Member& member = members.emplace_back(analyze_member(entry.recording));
+    Member& member = members.emplace_back(analyze_member(entry.recording, own));
     const Recording& used = member.detected.recording();
     const Signals& signals = member.estimates.signals;
     sweep.roles.push_back(role_of(used, member.analysis));

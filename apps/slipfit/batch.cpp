@@ -13,7 +13,6 @@
 #include "batch_folder.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
-#include "fit_options.hpp"
 #include "output.hpp"
 #include "progress_line.hpp"
 #include "quantities.hpp"
@@ -105,7 +104,7 @@ slipfit::BatchOptions options_from(const BatchArguments& arguments) {
   slipfit::BatchOptions options;
   options.manifest = arguments.manifest;
   options.folder = arguments.out;
-  options.fit = fit_options_from(arguments.tier, arguments.fixed, FitKind::Single);
+  options.fit = fit_options_from(arguments.tier, arguments.fixed, slipfit::FitKind::Single);
   options.jobs = jobs_from(arguments.jobs);
   options.timeout_s = positive_quantity("--timeout", arguments.timeout, slipfit::Dimension::Time);
   options.resume = arguments.resume;

@@ -9,7 +9,7 @@
 #include "commands.hpp"
 #include "drafts.hpp"
 #include "failure.hpp"
-#include "fit_options.hpp"
+#include "quantities.hpp"
 #include "sweep_run.hpp"
 
 namespace {
@@ -97,8 +97,8 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
   command->callback([arguments, command] {
     const std::vector<std::string>& files = arguments->analysis.recording.files;
     const bool is_of_several = arguments->sweep || files.size() > 1 || is_of_pieces(arguments->analysis);
-    const FitKind kind = is_of_several ? FitKind::Sweep : FitKind::Single;
-    slipfit::FitOptions options = fit_options_from(arguments->tier, arguments->fixed, kind);
+    slipfit::FitOptions options = fit_options_from(arguments->tier, arguments->fixed,
+                                                   is_of_several ? slipfit::FitKind::Sweep : slipfit::FitKind::Single);
     if (arguments->sweep) return run_sweep(sweep_arguments(*arguments, *command), options);
     if (arguments->group || !arguments->only.empty()) {
       throw Failure(ExitCode::WrongUsage, "--group and --only choose recordings of a manifest: give it with --joint");

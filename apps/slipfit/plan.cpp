@@ -7,10 +7,11 @@
 #include <string>
 
 #include "commands.hpp"
+#include "document_file.hpp"
 #include "failure.hpp"
-#include "fit_document.hpp"
 #include "output.hpp"
 #include "quantities.hpp"
+#include "slipfit/report/fit_document.hpp"
 #include "slipfit/report/plan.hpp"
 
 namespace {
@@ -38,24 +39,18 @@ std::optional<slipfit::PlanTarget> target_from(const PlanArguments& arguments) {
   return target;
 }
 
-slipfit::PlanBasis basis_from(const std::string& file, const FitDocument& document) {
-  if (!document.model.has_covariance) {
-    throw Failure(ExitCode::WrongUsage,
-                  fmt::format("{}: has no covariance, and without one there is nothing to narrow", file));
-  }
-  RecordedConditions recorded = read_recorded_conditions(file);
-  return {document.model.estimate, std::move(recorded.recordings), recorded.noise_rms_N, recorded.force_drop_sd_N,
-          recorded.levels};
-}
-
 void run(const PlanArguments& arguments) {
   const std::optional<slipfit::PlanTarget> target = target_from(arguments);
   const std::vector<OutputFile> outputs = outputs_of({{"--out", arguments.document.out}});
   check_outputs(outputs, arguments.file);
-  const FitDocument document = read_fit_document(arguments.file);
-  const auto plan = slipfit::plan_next(basis_from(arguments.file, document), target);
+  const std::string content = document_text(arguments.file);
+  const auto document = slipfit::read_fit_document(content, arguments.file);
+  if (!document) throw Failure(ExitCode::WrongUsage, document.error().message);
+  const auto basis = slipfit::read_plan_basis(content, arguments.file);
+  if (!basis) throw Failure(ExitCode::WrongUsage, basis.error().message);
+  const auto plan = slipfit::plan_next(basis.value(), target);
   if (!plan) throw Failure(ExitCode::WrongUsage, fmt::format("{}: {}", arguments.file, plan.error().message));
-  const slipfit::PredictionSource source{arguments.file, document.conditional_on,
+  const slipfit::PredictionSource source{arguments.file, document.value().conditional_on,
                                          arguments.speed ? std::string(slipfit::unit_in(*arguments.speed)) : ""};
   write_results(arguments.document, outputs, [&](const std::string&) {
     return arguments.document.json ? slipfit::to_json(plan.value(), source) + "\n"

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,18 +10,18 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "document_file.hpp"
 #include "failure.hpp"
-#include "fit_document.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "quantities.hpp"
+#include "slipfit/predict/speeds.hpp"
+#include "slipfit/report/fit_document.hpp"
 #include "slipfit/report/prediction.hpp"
 
 using slipfit::Dimension;
 
 namespace {
-
-constexpr std::size_t kMostSpeeds = 100'000;  // about 100 MB of JSON: more is taken for a typing error
 
 struct PredictArguments {
   std::optional<std::string> file;
@@ -46,61 +44,6 @@ void add_options(CLI::App& command, PredictArguments& arguments) {
   command.add_option("--csv", arguments.csv, "Write one row a speed: value, low and high of every quantity (CSV)");
 }
 
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::size_t start = 0;
-  for (std::size_t end = 0; end != std::string::npos; start = end + 1) {
-    end = text.find(separator, start);
-    parts.push_back(text.substr(start, end == std::string::npos ? end : end - start));
-  }
-  return parts;
-}
-
-[[noreturn]] void refuse_speeds(const std::string& message) {
-  throw Failure(ExitCode::WrongUsage, "--speeds: " + message);
-}
-
-std::size_t number_of_speeds(const std::string& text) {
-  std::size_t count = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data(), end, count);
-  if (status != std::errc() || stop != end || count < 2 || count > kMostSpeeds) {
-    refuse_speeds(fmt::format("bad number of speeds '{}', expected A:B:N with N from 2 to {}", text, kMostSpeeds));
-  }
-  return count;
-}
-
-/// N speeds from A to B in equal ratios, both ends exact.
-std::vector<double> speed_range(const std::vector<std::string>& parts) {
-  const double first = positive_quantity("--speeds", parts[0], Dimension::Speed);
-  const double last = positive_quantity("--speeds", parts[1], Dimension::Speed);
-  const std::size_t count = number_of_speeds(parts[2]);
-  if (!(first < last)) {
-    refuse_speeds(fmt::format("'{}' is not below '{}', expected A:B:N with A < B", parts[0], parts[1]));
-  }
-  std::vector<double> speeds(count, last);
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-    const double root = std::exp(0.5 * share * (std::log(last) - std::log(first)));  // its square may be no number
-    speeds[i] = first * root * root;
-  }
-  return speeds;
-}
-
-std::vector<double> speeds_from(const std::string& text) {
-  if (text.find(':') != std::string::npos) {
-    const std::vector<std::string> parts = split(text, ':');
-    if (parts.size() != 3) refuse_speeds(fmt::format("bad range '{}', expected A:B:N", text));
-    return speed_range(parts);
-  }
-  std::vector<double> speeds;
-  for (const std::string& part : split(text, ',')) {
-    speeds.push_back(positive_quantity("--speeds", part, Dimension::Speed));
-  }
-  if (speeds.size() > kMostSpeeds) refuse_speeds(fmt::format("more than {} speeds", kMostSpeeds));
-  return speeds;
-}
-
 void check_places(const PredictArguments& arguments, const std::vector<OutputFile>& outputs) {
   for (const OutputFile& output : outputs) {
     std::error_code ignored;
@@ -111,16 +54,15 @@ void check_places(const PredictArguments& arguments, const std::vector<OutputFil
   check_outputs(outputs, "");
 }
 
-void set_load(FitDocument& document, const PredictArguments& arguments) {
-  const double load_N = positive_quantity("--normal-force", *arguments.normal_force, Dimension::Force);
-  if (!document.model.estimate.normal_force_N) {
-    throw Failure(ExitCode::WrongUsage,
-                  fmt::format("--normal-force: the recordings of '{}' state no normal force; fit them again with "
-                              "--normal-force or the manifest's normal_force_N",
-                              *arguments.file));
+slipfit::FitDocument document_from(const PredictArguments& arguments) {
+  const std::string& file = *arguments.file;
+  auto document = slipfit::read_fit_document(document_text(file), file);
+  if (document && arguments.normal_force) {
+    const double load_N = positive_quantity("--normal-force", *arguments.normal_force, Dimension::Force);
+    document = slipfit::at_load(std::move(document).value(), load_N, file);
   }
-  document.model = slipfit::at_load(std::move(document.model), load_N);
-  document.conditional_on.push_back(fmt::format("friction in proportion to the normal force, here {:.6g} N", load_N));
+  if (!document) throw Failure(ExitCode::WrongUsage, document.error().message);
+  return std::move(document).value();
 }
 
 /// A model, and where it comes from.
@@ -136,8 +78,7 @@ Basis basis_from(const PredictArguments& arguments, const CLI::App& command) {
                   fmt::format("give either '{}' or the model options (--stiffness, ...), not both", *arguments.file));
   }
   if (arguments.file) {
-    FitDocument document = read_fit_document(*arguments.file);
-    if (arguments.normal_force) set_load(document, arguments);
+    slipfit::FitDocument document = document_from(arguments);
     return {std::move(document.model),
             {*arguments.file, std::move(document.conditional_on), {}, std::move(document.warnings)}};
   }
@@ -157,14 +98,14 @@ Basis basis_from(const PredictArguments& arguments, const CLI::App& command) {
 }
 
 void run(const PredictArguments& arguments, const CLI::App& command) {
-  const std::vector<double> speeds_m_per_s =
-      speeds_from(required(arguments.speeds, "--speeds", "A:B:N or a list, for example --speeds 1mm/s:1m/s:50"));
+  const auto speeds = slipfit::parse_speeds(
+      required(arguments.speeds, "--speeds", "A:B:N or a list, for example --speeds 1mm/s:1m/s:50"));
+  if (!speeds) throw Failure(ExitCode::WrongUsage, speeds.error().message);
   const std::vector<OutputFile> outputs = outputs_of({{"--out", arguments.document.out}, {"--csv", arguments.csv}});
   check_places(arguments, outputs);
   Basis basis = basis_from(arguments, command);
-  basis.source.speed_unit =
-      slipfit::unit_in(split(*arguments.speeds, arguments.speeds->find(':') != std::string::npos ? ':' : ',').front());
-  const slipfit::Prediction prediction = slipfit::predict_at(basis.model, speeds_m_per_s);
+  basis.source.speed_unit = speeds.value().unit;
+  const slipfit::Prediction prediction = slipfit::predict_at(basis.model, speeds.value().speeds_m_per_s);
   write_results(arguments.document, outputs, [&](const std::string& option) {
     if (option == "--csv") return slipfit::prediction_to_csv(prediction);
     return arguments.document.json ? slipfit::to_json(prediction, basis.source) + "\n"

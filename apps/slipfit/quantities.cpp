@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "failure.hpp"
 
@@ -110,4 +111,11 @@ slipfit::ForceView force_view(const std::string& text) {
   if (text == "transmitted") return slipfit::ForceView::Transmitted;
   if (text == "contact") return slipfit::ForceView::Contact;
   refuse("--force-view", fmt::format("unknown view '{}', expected spring, transmitted or contact", text));
+}
+
+slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed,
+                                     slipfit::FitKind kind) {
+  auto options = slipfit::parse_fit_options(tier, fixed, kind);
+  if (!options) throw Failure(ExitCode::WrongUsage, options.error().message);
+  return std::move(options).value();
 }

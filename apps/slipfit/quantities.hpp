@@ -2,9 +2,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "slipfit/core/recording.hpp"
 #include "slipfit/core/units.hpp"
+#include "slipfit/fit/options.hpp"
 #include "slipfit/io/read_options.hpp"
 
 // Text of the command line into SI numbers. Each throws Failure(WrongUsage) that names the option, the text and the
@@ -38,3 +40,7 @@ slipfit::RowRange row_range(const std::string& text);
 slipfit::ColumnValue column_value(const std::string& text);
 
 slipfit::ForceView force_view(const std::string& text);
+
+/// `--tier` and `--fix` as typed.
+slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed,
+                                     slipfit::FitKind kind);

@@ -69,6 +69,13 @@ constexpr std::array kFields = std::to_array<ManifestField>({
     {"sample_rate", "_Hz", Dimension::Frequency, Bound::AboveZero,
      [](ManifestEntry& entry, double number) { entry.options.sample_rate_Hz = number; }, nullptr, "--sample-rate"},
     {.base = "window", .suffix = "_s", .dimension = Dimension::Time, .option = "--window"},
+    {"mass", "_kg", Dimension::Mass, Bound::AboveZero, set_condition<&Conditions::mass_kg>},
+    {"radius", "_m", Dimension::Length, Bound::AboveZero,
+     [](ManifestEntry& entry, double number) { entry.options.radius_m = number; }},
+    {"sensor_bandwidth", "_Hz", Dimension::Frequency, Bound::AboveZero,
+     set_condition<&Conditions::sensor_bandwidth_Hz>},
+    {"sensor_resonance", "_Hz", Dimension::Frequency, Bound::AboveZero,
+     set_condition<&Conditions::sensor_resonance_Hz>},
     {"drive_period", "_s", Dimension::Time, Bound::AboveZero, set_condition<&Conditions::drive_period_s>},
     {"sensor_average", "_s", Dimension::Time, Bound::NotNegative, set_condition<&Conditions::sensor_average_s>},
     {"measured_spacing_se", "_m", Dimension::Length, Bound::NotNegative,
@@ -199,6 +206,11 @@ Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& na
                                                place, field.full_name(), ignored)};
   }
   return columns;
+}
+
+std::optional<ManifestColumn> column_called(const std::string& name) {
+  const auto column = recognise(name, 0, name);
+  return column ? column.value() : std::nullopt;
 }
 
 Result<ManifestEntry> with_cell(ManifestEntry entry, const ManifestColumn& column, const std::string& cell,

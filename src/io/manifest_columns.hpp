@@ -32,6 +32,9 @@ struct ManifestColumns {
 /// unknown_unit.
 Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& names, const std::string& place);
 
+/// The column of this name; empty where none is called so.
+std::optional<ManifestColumn> column_called(const std::string& name);
+
 /// The entry with what a cell says about it. Errors: missing_value, bad_id, bad_number, out_of_range, bad_window,
 /// unknown_unit, unknown_force_view; the message begins with the column.
 Result<ManifestEntry> with_cell(ManifestEntry entry, const ManifestColumn& column, const std::string& cell,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/build.hpp"
+#include "io/load_samples.hpp"
 #include "io/message.hpp"
 #include "io/opened_file.hpp"
 #include "io/part.hpp"
@@ -29,11 +30,8 @@ Result<std::vector<NamedRecording>> build_segments(const Rows& rows, const Loade
                                   "speeds nor by steps; leave out --segments"};
 }
 
-Result<std::vector<NamedRecording>> read_file(const std::filesystem::path& path, const Conditions& conditions,
-                                              const ReadOptions& options) {
-  auto loaded = load_file(path, conditions.speed_m_per_s, options);
-  if (!loaded) return loaded.error();
-  LoadedFile file = std::move(loaded).value();
+Result<std::vector<NamedRecording>> take_apart(LoadedFile file, const Conditions& conditions) {
+  const ReadOptions& options = file.options;
   if (options.pieces == Pieces::Segments && !options.step) return build_segments(file.rows, file, conditions);
   auto part = take_part(std::move(file.rows), options, file.name);
   if (!part) return part.error();
@@ -59,7 +57,21 @@ Result<Recording> read_recording(const std::filesystem::path& file, const Condit
 
 Result<std::vector<NamedRecording>> read_pieces(const std::filesystem::path& file, const Conditions& conditions,
                                                 const ReadOptions& options) {
-  return with_errors_of_reading(name_of_file(file), [&] { return read_file(file, conditions, options); });
+  return with_errors_of_reading(name_of_file(file), [&]() -> Result<std::vector<NamedRecording>> {
+    auto loaded = load_file(file, conditions.speed_m_per_s, options);
+    if (!loaded) return loaded.error();
+    return take_apart(std::move(loaded).value(), conditions);
+  });
+}
+
+Result<std::vector<NamedRecording>> read_samples(Samples samples, const Conditions& conditions,
+                                                 const ReadOptions& options) {
+  const std::string name = samples.name;
+  return with_errors_of_reading(name, [&]() -> Result<std::vector<NamedRecording>> {
+    auto loaded = load_samples(std::move(samples), options);
+    if (!loaded) return loaded.error();
+    return take_apart(std::move(loaded).value(), conditions);
+  });
 }
 
 }  // namespace slipfit

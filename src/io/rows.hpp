@@ -47,8 +47,8 @@ struct Rows {
   std::size_t text_lines = 0;
   unsigned first_text_line = 0;
   std::optional<TimeWindow> clock;  ///< where a window was asked for: what the clock covers inside and outside it
-  Digest digest;                    ///< of the whole file
-  std::uint64_t bytes = 0;
+  std::optional<Digest> digest;     ///< of the whole file; empty: of none
+  std::optional<std::uint64_t> bytes;
 
   /// Row number and line of a sample.
   [[nodiscard]] RowPlace place_of(std::size_t sample) const;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""commands.py SLIPFIT PROJECT: runs every command line of README.md and docs/*.md, and holds README's excerpt against the demo.
+"""commands.py SLIPFIT PROJECT: runs every command line of README.md, docs/*.md and docs/howto/*.md, and holds README's excerpt against the demo.
 
 A command is an indented line that begins with a program; each document's run in its order, in a folder of their own where the
 files that they name were simulated. A command that is neither run nor on the list of exceptions is a failure."""
@@ -54,6 +54,7 @@ def make_files(slipfit, folder):
     (folder / "profile.csv").write_text("x [um],z [um]\n" + "".join(f"{0.5 * i},{h:.3f}\n" for i, h in enumerate(heights)))
     (folder / "heights.txt").write_text("".join(f"{h:.3f}\n" for h in heights))
     os.symlink(slipfit, folder / "slipfit")
+    os.symlink(sys.executable, folder / "python3")  # what is checked for its modules is what runs
 
 
 def is_elsewhere(command):
@@ -92,7 +93,7 @@ def excerpt_faults(slipfit, project):
 def main():
     slipfit, project = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
     total, faults = 0, excerpt_faults(slipfit, project)
-    for document in [project / "README.md", *sorted((project / "docs").glob("*.md"))]:
+    for document in [project / "README.md", *sorted((project / "docs").glob("*.md")), *sorted((project / "docs" / "howto").glob("*.md"))]:
         if not any(not is_elsewhere(command) for _, command in commands_in(document)):
             continue
         ran, failed = run_document(slipfit, project, document)

@@ -3,7 +3,9 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "slipfit/core/result.hpp"
 #include "slipfit/fit/parameter.hpp"
 #include "slipfit/fit/result.hpp"
 
@@ -16,5 +18,12 @@ struct FitOptions {
   /// Told of each step of a fit of several recordings ("fitting without recording 3 of 13"); may be empty.
   std::function<void(const std::string&)> tell_step{};
 };
+
+/// How many recordings a fit is of.
+enum class FitKind { Single, Sweep };
+
+/// What people type: "auto" or a tier, and "NAME=VALUE" for each parameter to hold. Errors: unknown_tier, unknown_fix,
+/// bad_number, out_of_range.
+Result<FitOptions> parse_fit_options(const std::string& tier, const std::vector<std::string>& fixed, FitKind kind);
 
 }  // namespace slipfit

@@ -7,6 +7,7 @@
 #include "slipfit/core/result.hpp"
 #include "slipfit/io/named_recording.hpp"
 #include "slipfit/io/read_options.hpp"
+#include "slipfit/io/samples.hpp"
 
 namespace slipfit {
 
@@ -19,5 +20,10 @@ Result<Recording> read_recording(const std::filesystem::path& file, const Condit
 /// What `options.pieces` asks for; for Pieces::One the one recording, without a name.
 Result<std::vector<NamedRecording>> read_pieces(const std::filesystem::path& file, const Conditions& conditions,
                                                 const ReadOptions& options);
+
+/// The recording of these samples, or its strokes or segments, as a file with these two columns would be read: the same
+/// options (but for those that choose columns, or what in a container), the same errors, length_mismatch.
+Result<std::vector<NamedRecording>> read_samples(Samples samples, const Conditions& conditions,
+                                                 const ReadOptions& options = {});
 
 }  // namespace slipfit

@@ -1,3 +1,4 @@
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/mman.h>
@@ -62,13 +63,23 @@ class ProgramStream final : public ByteStream {
   bool ended_ = false;
 };
 
-/// Beside this program, where it is installed, or empty.
+/// Of the program or the shared library that this code is part of: a program of another language may have loaded it.
+std::filesystem::path folder_of_this_code() {
+  static constexpr char kHere = '\0';
+  Dl_info place{};
+  if (::dladdr(&kHere, &place) == 0) return {};
+  return std::filesystem::path(place.dli_fname).parent_path();
+}
+
+/// Beside this program or library, where it is installed, or empty.
 std::string find_helper(const std::string& name) {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto library = folder_of_this_code();
   for (const std::filesystem::path& folder :
-       {self.parent_path(), self.parent_path() / "../libexec/slipfit", self.parent_path() / "../apps",
-        std::filesystem::path(SLIPFIT_LIBEXEC_DIR)}) {
+       {self.parent_path(), self.parent_path() / "../libexec/slipfit", self.parent_path() / "../apps", library,
+        library / "../../../../libexec/slipfit", std::filesystem::path(SLIPFIT_LIBEXEC_DIR)}) {
+    if (folder.empty()) continue;
     const auto program = folder / name;
     if (::access(program.c_str(), X_OK) == 0) return program.string();
   }

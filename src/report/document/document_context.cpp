@@ -1,4 +1,6 @@
-#include "document_context.hpp"
+#include "report/document/document_context.hpp"
+
+namespace slipfit::documents {
 
 std::optional<double> checked_error(const JsonNode& node) {
   const std::optional<double> error = node.number();
@@ -6,12 +8,12 @@ std::optional<double> checked_error(const JsonNode& node) {
   return error;
 }
 
-std::optional<slipfit::SpeedReach> reach(const JsonNode& document) {
+std::optional<SpeedReach> reach(const JsonNode& document) {
   if (!document.has("model") || !document.member("model").has("speeds_m_per_s")) return std::nullopt;
   const JsonNode model = document.member("model");
   const JsonNode speeds = model.member("speeds_m_per_s");
   if (speeds.array_size() != 2) speeds.fail("[slowest, fastest]");
-  slipfit::SpeedReach reach{speeds.element(0).positive(), speeds.element(1).positive(), std::nullopt};
+  SpeedReach reach{speeds.element(0).positive(), speeds.element(1).positive(), std::nullopt};
   if (reach.slowest_m_per_s > reach.fastest_m_per_s) speeds.fail("[slowest, fastest]");
   if (model.has("trend_beyond")) reach.trend = checked_error(model.member("trend_beyond"));
   return reach;
@@ -23,15 +25,15 @@ std::optional<double> normal_force_N(const JsonNode& document) {
 }
 
 /// [speed or null, speed or null]
-slipfit::ObservedEnd observed_end(const JsonNode& document) {
+ObservedEnd observed_end(const JsonNode& document) {
   if (!document.has("derived") || !document.member("derived").has("observed_end_m_per_s")) return {};
   const JsonNode ends = document.member("derived").member("observed_end_m_per_s");
   if (ends.array_size() != 2) ends.fail("[highest speed that sticks, lowest that does not]");
   return {checked_error(ends.element(0)), checked_error(ends.element(1))};
 }
 
-slipfit::Warnings warnings(const JsonNode& document) {
-  slipfit::Warnings list;
+Warnings warnings(const JsonNode& document) {
+  Warnings list;
   if (!document.has("warnings")) return list;
   const JsonNode nodes = document.member("warnings");
   for (std::size_t i = 0; i < nodes.array_size(); ++i) {
@@ -48,3 +50,5 @@ std::vector<std::string> conditions(const JsonNode& document) {
   for (std::size_t i = 0; i < list.array_size(); ++i) texts.push_back(list.element(i).text());
   return texts;
 }
+
+}  // namespace slipfit::documents

@@ -3,15 +3,31 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
-/// Throws Failure(WrongUsage) about a document.
-[[noreturn]] void refuse_document(const std::string& file, const std::string& message);
+#include "slipfit/core/result.hpp"
 
-/// The one JSON document of a file. Throws Failure(WrongUsage).
-nlohmann::json read_json(const std::string& file);
+namespace slipfit::documents {
 
-/// A value in a document that others wrote. What is missing or of another kind throws Failure(WrongUsage) that names
+/// Ends the reading of a document; the functions of slipfit/report/fit_document.hpp return it as their error.
+class BadDocument : public std::runtime_error {
+ public:
+  explicit BadDocument(Error error) : std::runtime_error(error.message), error_(std::move(error)) {}
+  [[nodiscard]] const Error& error() const { return error_; }
+
+ private:
+  Error error_;
+};
+
+/// Throws BadDocument with the code bad_document.
+[[noreturn]] void refuse_document(const std::string& name, const std::string& message);
+
+/// The one JSON document that the text is. Throws BadDocument.
+nlohmann::json parse_document(const std::string& content, const std::string& name);
+
+/// A value in a document that others wrote. What is missing or of another kind throws BadDocument that names
 /// file, place and value: "'fit.json': parameters.damping_ratio.value is "0.1", expected ...".
 class JsonNode {
  public:
@@ -42,3 +58,5 @@ class JsonNode {
   const nlohmann::json& content_;
   std::string place_;
 };
+
+}  // namespace slipfit::documents

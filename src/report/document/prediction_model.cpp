@@ -1,4 +1,4 @@
-#include "fit_document.hpp"
+#include "report/document/prediction_model.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "document_context.hpp"
-#include "json_node.hpp"
+#include "report/document/document_context.hpp"
+#include "report/document/json_node.hpp"
 
+namespace slipfit::documents {
 namespace {
 
 struct Needed {
@@ -31,12 +32,16 @@ constexpr std::array<Needed, 4> kNeeded{{
 }};
 
 /// Ends with NUL, because the keys of the table are literals.
-const char* key_of(slipfit::ParameterId id) {
-  return slipfit::info(id).key.data();
+const char* key_of(ParameterId id) {
+  return info(id).key.data();
 }
 
 bool is_known(const std::string& status) {
   return status == "identified" || status == "weak" || status == "fixed" || status == "conditional";
+}
+
+[[noreturn]] void cannot_predict(const std::string& name, const std::string& why) {
+  throw BadDocument(Error{"cannot_predict", fmt::format("'{}': cannot predict: {}", name, why)});
 }
 
 /// Refuses a document in which a needed parameter is not known, with the note of the fit.
@@ -58,8 +63,8 @@ void check_known(const std::string& file, const JsonNode& parameters) {
     if (note.empty() && parameter.has("note")) note = parameter.member("note").text();
   }
   if (open.empty()) return;
-  refuse_document(file, fmt::format("cannot predict: {}{}; a prediction needs all four of k, w_n, zeta and F_s - F_k",
-                                    open, note.empty() ? note : " (" + note + ")"));
+  cannot_predict(file, fmt::format("{}{}; a prediction needs all four of k, w_n, zeta and F_s - F_k", open,
+                                   note.empty() ? note : " (" + note + ")"));
 }
 
 double checked_value(const JsonNode& parameter, const Needed& needed) {
@@ -82,7 +87,7 @@ bool damping_identified(const JsonNode& damping) {
 
 /// Rows of ModelEstimate::covariance that the model has: the four, of friction that depends on the speed its slope and
 /// rate, of static friction that ages its rate.
-std::vector<std::size_t> places_of(const slipfit::ModelEstimate& estimate) {
+std::vector<std::size_t> places_of(const ModelEstimate& estimate) {
   std::vector<std::size_t> places{0, 1, 2, 3};
   if (estimate.speed_dependence) places.insert(places.end(), {4, 5});
   if (estimate.ageing) places.push_back(6);
@@ -90,8 +95,7 @@ std::vector<std::size_t> places_of(const slipfit::ModelEstimate& estimate) {
 }
 
 /// Standard errors of (ln k, ln w_n, zeta, ln dF) from those of the parameters; empty where one is null.
-std::optional<std::vector<double>> parameter_errors(const JsonNode& parameters,
-                                                    const slipfit::ModelEstimate& estimate) {
+std::optional<std::vector<double>> parameter_errors(const JsonNode& parameters, const ModelEstimate& estimate) {
   const std::array<double, 4> scales{estimate.stiffness_N_per_m, estimate.natural_frequency_rad_per_s, 1.0,
                                      estimate.friction_difference_N};
   std::vector<double> errors;
@@ -114,7 +118,7 @@ std::size_t row_of(const JsonNode& names, const std::string& name) {
 std::vector<std::size_t> rows_of(const JsonNode& names, const std::vector<std::size_t>& places) {
   std::vector<std::size_t> rows;
   rows.reserve(places.size());
-  for (const std::size_t place : places) rows.push_back(row_of(names, key_of(slipfit::kModelParameters[place])));
+  for (const std::size_t place : places) rows.push_back(row_of(names, key_of(kModelParameters[place])));
   return rows;
 }
 
@@ -135,7 +139,7 @@ double correlation_between(const JsonNode& matrix, std::size_t i, std::size_t j,
 
 /// Those of the correlation, else those of the parameters; empty where one is null. (Slope and alpha may be told only
 /// together, then the parameter has none.)
-std::optional<std::vector<double>> standard_errors(const JsonNode& document, const slipfit::ModelEstimate& estimate,
+std::optional<std::vector<double>> standard_errors(const JsonNode& document, const ModelEstimate& estimate,
                                                    const std::vector<std::size_t>& rows) {
   const JsonNode correlation = document.member("correlation");
   const std::size_t size = correlation.member("names").array_size();
@@ -156,7 +160,7 @@ std::optional<std::vector<double>> standard_errors(const JsonNode& document, con
 }
 
 /// From standard errors and correlation; leaves `model` without covariance where the document has none.
-void read_covariance(const JsonNode& document, slipfit::PredictionModel& model) {
+void read_covariance(const JsonNode& document, PredictionModel& model) {
   const std::optional<JsonNode> correlation = document.known("correlation");
   if (!correlation) return;
   const JsonNode names = correlation->member("names");
@@ -180,8 +184,7 @@ void read_covariance(const JsonNode& document, slipfit::PredictionModel& model) 
 double working_value(const std::string& file, const JsonNode& document, const char* name) {
   const std::optional<JsonNode> correlation = document.known("correlation");
   if (!correlation) {
-    refuse_document(file,
-                    fmt::format("cannot predict: {} needs correlation (with its values), which is missing", name));
+    cannot_predict(file, fmt::format("{} needs correlation (with its values), which is missing", name));
   }
   const JsonNode values = correlation->member("values");
   if (values.array_size() != correlation->member("names").array_size()) values.fail("as many numbers as names");
@@ -191,26 +194,26 @@ double working_value(const std::string& file, const JsonNode& document, const ch
   return *value;
 }
 
-std::optional<slipfit::SpeedDependence> speed_dependence(const std::string& file, const JsonNode& document) {
+std::optional<SpeedDependence> speed_dependence(const std::string& file, const JsonNode& document) {
   if (!document.has("model") || document.member("model").member("tier").text() != "velocity") return std::nullopt;
-  return slipfit::SpeedDependence{working_value(file, document, key_of(slipfit::ParameterId::FrictionSlope)),
-                                  working_value(file, document, key_of(slipfit::ParameterId::Alpha))};
+  return SpeedDependence{working_value(file, document, key_of(ParameterId::FrictionSlope)),
+                         working_value(file, document, key_of(ParameterId::Alpha))};
 }
 
-std::optional<slipfit::Ageing> ageing(const std::string& file, const JsonNode& document) {
+std::optional<Ageing> ageing(const std::string& file, const JsonNode& document) {
   if (!document.has("model") || !document.member("model").has("ageing_reference_s")) return std::nullopt;
   const double stick_s = document.member("model").member("ageing_reference_s").positive();
-  const double rate_N = working_value(file, document, key_of(slipfit::ParameterId::Ageing));
-  if (!(rate_N > 0.0)) refuse_document(file, "cannot predict: ageing_N is not above 0");
-  return slipfit::Ageing{rate_N, stick_s};
+  const double rate_N = working_value(file, document, key_of(ParameterId::Ageing));
+  if (!(rate_N > 0.0)) cannot_predict(file, "ageing_N is not above 0");
+  return Ageing{rate_N, stick_s};
 }
 
-std::optional<slipfit::Estimate> kinetic_friction_N(const JsonNode& parameters) {
+std::optional<Estimate> kinetic_friction_N(const JsonNode& parameters) {
   if (!parameters.has("kinetic_friction_N")) return std::nullopt;
   const JsonNode parameter = parameters.member("kinetic_friction_N");
   const std::optional<double> value = parameter.member("value").number();
   if (!value || !is_known(parameter.member("status").text())) return std::nullopt;
-  return slipfit::Estimate{value, checked_error(parameter.member("se")), std::nullopt, {}};
+  return Estimate{value, checked_error(parameter.member("se")), std::nullopt, {}};
 }
 
 /// Student's t; without the key, or null, the normal distribution.
@@ -225,25 +228,25 @@ double degrees_of_freedom(const JsonNode& document) {
 
 }  // namespace
 
-FitDocument read_fit_document(const std::string& file) {
-  const nlohmann::json content = read_json(file);
-  const JsonNode document(file, content);
+FitDocument fit_document_from(const JsonNode& document, const std::string& name) {
   if (const JsonNode schema = document.member("schema"); schema.text() != "slipfit.fit/1") schema.fail("slipfit.fit/1");
   if (!document.has("parameters")) {
-    refuse_document(
-        file, "has no parameters: slipfit analyze fits none, and fit found no cycles; use slipfit fit on stick-slip");
+    throw BadDocument(Error{
+        "cannot_predict",
+        "'" + name +
+            "': has no parameters: slipfit analyze fits none, and fit found no cycles; use slipfit fit on stick-slip"});
   }
   const JsonNode parameters = document.member("parameters");
-  check_known(file, parameters);
+  check_known(name, parameters);
   FitDocument result;
-  slipfit::ModelEstimate& estimate = result.model.estimate;
+  ModelEstimate& estimate = result.model.estimate;
   const std::array<double*, 4> targets{&estimate.stiffness_N_per_m, &estimate.natural_frequency_rad_per_s,
                                        &estimate.damping_ratio, &estimate.friction_difference_N};
   for (std::size_t i = 0; i < kNeeded.size(); ++i) {
     *targets[i] = checked_value(parameters.member(kNeeded[i].name), kNeeded[i]);
   }
-  estimate.speed_dependence = speed_dependence(file, document);
-  estimate.ageing = ageing(file, document);
+  estimate.speed_dependence = speed_dependence(name, document);
+  estimate.ageing = ageing(name, document);
   estimate.damping_identified = damping_identified(parameters.member(kNeeded[kDamping].name));
   estimate.degrees_of_freedom = degrees_of_freedom(document);
   read_covariance(document, result.model);
@@ -255,3 +258,5 @@ FitDocument read_fit_document(const std::string& file) {
   result.warnings = warnings(document);
   return result;
 }
+
+}  // namespace slipfit::documents

@@ -1,58 +1,27 @@
-#include "json_node.hpp"
+#include "report/document/json_node.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
-
-#include "close_file.hpp"
-#include "failure.hpp"
 
 using nlohmann::json;
 
-namespace {
+namespace slipfit::documents {
 
-constexpr std::size_t kLargestDocument = std::size_t{64} << 20U;  // a thousand times a real one
-
-std::string content_of(const std::string& file) {
-  const std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(file.c_str(), "rb"));
-  const auto failed = [&file] {
-    refuse_document(file,
-                    fmt::format("cannot read: {}; expected the document that slipfit fit --json --out FIT.json writes",
-                                std::strerror(errno)));
-  };
-  if (!stream) failed();
-  std::string content;
-  std::array<char, 65536> part{};
-  while (const std::size_t count = std::fread(part.data(), 1, part.size(), stream.get())) {
-    content.append(part.data(), count);
-    if (content.size() > kLargestDocument) refuse_document(file, "is too large for a fit document (64 MiB at most)");
-  }
-  if (std::ferror(stream.get()) != 0) failed();
-  return content;
+void refuse_document(const std::string& name, const std::string& message) {
+  throw BadDocument(Error{"bad_document", fmt::format("'{}': {}", name, message)});
 }
 
-}  // namespace
-
-void refuse_document(const std::string& file, const std::string& message) {
-  throw Failure(ExitCode::WrongUsage, fmt::format("'{}': {}", file, message));
-}
-
-json read_json(const std::string& file) {
-  const std::string content = content_of(file);
+json parse_document(const std::string& content, const std::string& name) {
   try {
     return json::parse(content);
   } catch (const json::parse_error& error) {
     const std::size_t read = std::min(error.byte, content.size());
     const auto lines = std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(read), '\n');
-    refuse_document(fmt::format("{}:{}", file, lines + 1),
+    refuse_document(fmt::format("{}:{}", name, lines + 1),
                     "is not one JSON document, expected what slipfit fit --json --out FIT.json writes");
   } catch (const json::exception&) {
-    refuse_document(file, "has a number that is too large, expected what slipfit fit --json --out FIT.json writes");
+    refuse_document(name, "has a number that is too large, expected what slipfit fit --json --out FIT.json writes");
   }
 }
 
@@ -114,3 +83,5 @@ void JsonNode::fail(const std::string& expected) const {
 std::string JsonNode::place_of(const std::string& key) const {
   return place_.empty() ? key : place_ + "." + key;
 }
+
+}  // namespace slipfit::documents

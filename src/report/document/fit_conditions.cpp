@@ -1,11 +1,11 @@
+#include "report/document/fit_conditions.hpp"
+
 #include <algorithm>
 
-#include "fit_document.hpp"
-#include "json_node.hpp"
-
+namespace slipfit::documents {
 namespace {
 
-slipfit::RecordingPlan conditions_of(const JsonNode& recording) {
+RecordingPlan conditions_of(const JsonNode& recording) {
   return {recording.member("speed_m_per_s").positive(), recording.member("sample_rate_Hz").positive(),
           recording.member("duration_s").positive()};
 }
@@ -23,9 +23,7 @@ void add_scatter(const JsonNode& cycles, std::vector<double>& scatter) {
 
 }  // namespace
 
-RecordedConditions read_recorded_conditions(const std::string& file) {
-  const nlohmann::json content = read_json(file);
-  const JsonNode document(file, content);
+RecordedConditions recorded_conditions(const JsonNode& document) {
   RecordedConditions result;
   std::vector<double> scatter;
   if (!document.has("recordings")) {
@@ -36,7 +34,7 @@ RecordedConditions read_recorded_conditions(const std::string& file) {
     return result;
   }
   const std::optional<bool> shared = document.member("model").member("level_shared").flag();
-  if (shared.value_or(false)) result.levels = slipfit::LevelSharing::Shared;
+  if (shared.value_or(false)) result.levels = LevelSharing::Shared;
   const JsonNode members = document.member("recordings");
   std::vector<double> noise;
   for (std::size_t i = 0; i < members.array_size(); ++i) {
@@ -52,3 +50,5 @@ RecordedConditions read_recorded_conditions(const std::string& file) {
   result.force_drop_sd_N = median(scatter);
   return result;
 }
+
+}  // namespace slipfit::documents

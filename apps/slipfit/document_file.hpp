@@ -1,0 +1,6 @@
+#pragma once
+
+#include <string>
+
+/// What a file holds that slipfit fit --json wrote. Throws Failure(WrongUsage) where it cannot be read.
+std::string document_text(const std::string& file);

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""python_overhead.py SLIPFIT [--fits N]: what a fit costs through the module, beside the C++ call in it and beside the program as a subprocess.
+
+PYTHONPATH is the folder of the module (build/release/python). Times are medians over N fits of each recording; CSV to standard output.
+overhead_ms is what sf.fit() of a Recording spends outside of the C++ fit, in the same call; array_ms is a Recording from arrays of doubles;
+stiffness_ms the first number read from the result (the document made and parsed); threads: fits a second with one thread and with two."""
+
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import statistics
+import subprocess
+import sys
+import time
+
+import slipfit as sf
+from slipfit import _slipfit
+
+DEMO = pathlib.Path(__file__).resolve().parents[1] / "testdata" / "demo.csv"
+
+
+def timed(work):
+    begin = time.perf_counter()
+    result = work()
+    return 1e3 * (time.perf_counter() - begin), result
+
+
+def by_subprocess(program):
+    run = subprocess.run([program, "fit", str(DEMO), "--speed", "10mm/s", "--json"], capture_output=True, text=True, check=True)
+    return json.loads(run.stdout)
+
+
+def fits_per_second(recording, threads, fits):
+    with concurrent.futures.ThreadPoolExecutor(threads) as pool:
+        begin = time.perf_counter()
+        list(pool.map(lambda _: sf.fit(recording), range(fits)))
+        return fits / (time.perf_counter() - begin)
+
+
+class Inside:
+    """The extension's fit, and the milliseconds of its last call."""
+
+    def __init__(self):
+        self.fit, self.spent = _slipfit.fit, 0.0
+        _slipfit.fit = self.call
+
+    def call(self, *arguments):
+        self.spent, result = timed(lambda: self.fit(*arguments))
+        return result
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program")
+    parser.add_argument("--fits", type=int, default=60)
+    arguments = parser.parse_args()
+    recording = sf.read_recording(DEMO, speed="10 mm/s")
+    recorded = (recording.time.copy(), recording.force.copy())
+    inside = Inside()
+    columns = {name: [] for name in ("cpp_ms", "overhead_ms", "array_ms", "stiffness_ms", "curve_ms", "read_and_fit_ms", "subprocess_ms")}
+    for _ in range(arguments.fits):  # in turn, so that what else the machine does meets all alike
+        spent, fit = timed(lambda: sf.fit(recording))
+        columns["cpp_ms"].append(inside.spent)
+        columns["overhead_ms"].append(spent - inside.spent)
+        columns["array_ms"].append(timed(lambda: sf.Recording(*recorded, speed=0.01))[0])
+        columns["stiffness_ms"].append(timed(lambda: fit.stiffness)[0])
+        columns["curve_ms"].append(timed(lambda: fit.curve)[0])
+        columns["read_and_fit_ms"].append(timed(lambda: sf.fit(sf.read_recording(DEMO, speed="10 mm/s")).to_dict())[0])
+        columns["subprocess_ms"].append(timed(lambda: by_subprocess(arguments.program))[0])
+    print("quantity,median")
+    print(f"samples,{len(recording)}")
+    for name, values in columns.items():
+        print(f"{name},{statistics.median(values):.3f}")
+    for threads in (1, 2):
+        print(f"fits_per_second_{threads}_threads,{fits_per_second(recording, threads, 4 * arguments.fits):.1f}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,15 @@
+# Man pages and bash completion by --help, where there is a Python to make them.
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_Interpreter_FOUND)
+  set(manual "${PROJECT_BINARY_DIR}/manual")
+  add_custom_command(OUTPUT "${manual}/slipfit.bash"
+    COMMAND "${Python3_EXECUTABLE}" "${PROJECT_SOURCE_DIR}/scripts/manual.py" "$<TARGET_FILE:slipfit_cli>" "${manual}"
+    DEPENDS slipfit_cli "${PROJECT_SOURCE_DIR}/scripts/manual.py" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" VERBATIM)
+  add_custom_target(slipfit_manual ALL DEPENDS "${manual}/slipfit.bash")
+  # Without its target (preset tool) there is none, and nothing to install.
+  install(DIRECTORY "${manual}/man/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" OPTIONAL)
+  install(FILES "${manual}/slipfit.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME slipfit
+    OPTIONAL)
+  install(FILES "${manual}/changelog.gz" DESTINATION "${CMAKE_INSTALL_DOCDIR}" OPTIONAL)
+endif()
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright)

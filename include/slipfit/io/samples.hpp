@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace slipfit {
+
+/// Columns that a program holds, in place of a file; what is not finite is left out and counted.
+struct Samples {
+  std::string name;           ///< in results and messages
+  std::vector<double> time;   ///< in `options.time_unit`; empty: `options.sample_rate_Hz` is the clock
+  std::vector<double> force;  ///< in `options.force_unit`, 1 for a coefficient of friction
+};
+
+}  // namespace slipfit

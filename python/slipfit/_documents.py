@@ -1,0 +1,150 @@
+"""Results that are a document of the library: the same JSON as the command line writes."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union, cast
+
+from ._values import Estimate, Notice, notices_of
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+def frame_of_csv(text: str) -> "pd.DataFrame":
+    """A table of the library, digit for digit."""
+    import pandas
+
+    return pandas.read_csv(io.StringIO(text), float_precision="round_trip")
+
+
+def write_page(path: Path, page: str) -> None:
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(page)
+
+
+class Document:
+    """A JSON document of the library, and the same for people."""
+
+    def __init__(self, content: str, text: str) -> None:
+        self._content = content
+        self._text = text
+
+    def to_json(self) -> str:
+        """The document, as the command line writes it with ``--json``."""
+        return self._content
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The document as Python's own types; a new one at each call."""
+        return cast(Dict[str, Any], json.loads(self._content))
+
+    @property
+    def warnings(self) -> List[Notice]:
+        """What to know before trusting the numbers."""
+        return notices_of(self.to_dict().get("warnings", []))
+
+    def __str__(self) -> str:
+        return self._text
+
+    def __repr__(self) -> str:
+        return self._text
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return (type(self), (self._content, self._text))
+
+
+class Prediction(Document):
+    """What the fitted model says at other speeds (`Fit.predict`)."""
+
+    def __init__(self, content: str, text: str, table: str) -> None:
+        super().__init__(content, text)
+        self._table = table
+
+    @property
+    def critical_speed(self) -> Estimate:
+        """Where stick-slip ends (m/s)."""
+        return Estimate._of("critical_speed_m_per_s", self.to_dict()["critical_speed_m_per_s"])
+
+    def to_frame(self) -> "pd.DataFrame":
+        """One row a speed: value, low and high of each quantity, in SI; the columns of ``predict --csv``."""
+        return frame_of_csv(self._table)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Spacing over speed with its 95 % band; matplotlib axes in, axes out."""
+        from . import _plot
+
+        return _plot.prediction(self.to_dict(), ax)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return (Prediction, (self._content, self._text, self._table))
+
+
+class Plan(Document):
+    """Which recording to make next (`Fit.plan`)."""
+
+    def to_frame(self) -> "pd.DataFrame":
+        """One row an option, best first: speed, sampling rate, duration, and the standard error with it."""
+        import pandas
+
+        return pandas.json_normalize(self.to_dict()["options"])
+
+
+class Comparison(Document):
+    """Do two sides differ (`compare`)?"""
+
+    def __init__(self, content: str, text: str, page: Optional[Any] = None) -> None:
+        super().__init__(content, text)
+        self._page = page
+
+    def to_frame(self) -> "pd.DataFrame":
+        """One row a quantity: difference and ratio with interval, p value, adjusted for all quantities (Holm)."""
+        import pandas
+
+        rows = {}
+        for name, content in self.to_dict()["quantities"].items():
+            difference, ratio = content.get("difference") or {}, content.get("ratio") or {}
+            rows[name] = {
+                "difference": difference.get("value"),
+                "difference_low": (difference.get("ci95") or [None, None])[0],
+                "difference_high": (difference.get("ci95") or [None, None])[1],
+                "ratio": ratio.get("value"),
+                "ratio_low": (ratio.get("ci95") or [None, None])[0],
+                "ratio_high": (ratio.get("ci95") or [None, None])[1],
+                "p_value": content.get("p_value"),
+                "p_adjusted": content.get("p_adjusted"),
+            }
+        return pandas.DataFrame.from_dict(rows, orient="index")
+
+    def report(self, path: Path) -> None:
+        """Write the page of the comparison (one HTML file)."""
+        if self._page is None:
+            raise RuntimeError("an unpickled comparison has no page: compare again")
+        write_page(path, self._page())
+
+
+class Surface(Document):
+    """The pattern on a worn surface (`surface`)."""
+
+    def __init__(self, content: str, text: str, native: Optional[Any] = None) -> None:
+        super().__init__(content, text)
+        self._native = native
+
+    @property
+    def status(self) -> str:
+        """``periodic``, ``irregular``, ``none`` or ``undetermined``."""
+        return cast(str, self.to_dict()["status"])
+
+    @property
+    def spacing(self) -> Estimate:
+        """Mean distance of the ridges (m)."""
+        return Estimate._of("spacing_m", self.to_dict()["spacing_m"])
+
+    def report(self, path: Path) -> None:
+        """Write the page of the surface (one HTML file)."""
+        if self._native is None:
+            raise RuntimeError("an unpickled surface has no page: measure it again")
+        write_page(path, self._native.page("slipfit.surface(...)"))

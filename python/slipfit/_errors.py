@@ -1,0 +1,80 @@
+"""What slipfit raises."""
+
+from __future__ import annotations
+
+import re
+from typing import Tuple
+
+from ._remedies import REMEDIES
+
+# Options of the command line that are no text in Python.
+_FLAGS = {
+    "--resume": "resume=True",
+    "--joint": "several recordings",
+    "--segments": "segments=True",
+    "--strokes": "strokes=True",
+    "--tier velocity": "tier='velocity'",
+}
+_COLUMNS = {"zero_force": "zero", "speed_se": "speed_uncertainty", "measured_spacing_se": "measured_spacing_uncertainty"}
+
+
+def _in_words_of_python(message: str) -> str:
+    """The message with arguments in place of the options of the command line."""
+    message = re.sub(r"^column '(\w+)': ", lambda match: f"{_COLUMNS.get(match.group(1), match.group(1))}: ", message)
+    for flag, words in _FLAGS.items():
+        message = re.sub(rf"{flag}(?![\w-])", words, message)
+    message = re.sub(r"--([a-z][a-z-]*): ", lambda match: f"{match.group(1).replace('-', '_')}: ", message)
+    return re.sub(
+        r"--([a-z][a-z-]*)( (?=[A-Z0-9]))?",
+        lambda match: f"{match.group(1).replace('-', '_')}=",
+        message,
+    )
+
+
+_ASKS = re.compile(
+    r"(?:^|[;:,?] )((?:add|check|choose|correct|export|fill|fit|give|install|leave|look|measure|mend|name|put|run|split|state|take|use|wait|write)"
+    r"(?: |=).+)$"
+)
+
+
+def _remedy_in(code: str, message: str) -> str:
+    """What the message asks for at its end; else what the table of docs/formats.md says."""
+    last = re.split(r"(?<=;) ", message)[-1]
+    for text in (last, message):
+        match = _ASKS.search(text)
+        if match:
+            return match.group(1)
+    match = re.search(r"\b(expected .+)$", message)
+    if match:
+        return match.group(1)
+    return _in_words_of_python(REMEDIES.get(code, message))
+
+
+class Error(Exception):
+    """An input that cannot be used.
+
+    Attributes
+    ----------
+    code : str
+        Which kind of error, in snake_case: stable across versions, listed in docs/formats.md.
+    message : str
+        One line: place, offending value, what was expected.
+    remedy : str
+        What to do about it.
+    """
+
+    code: str
+    message: str
+    remedy: str
+
+    def __init__(self, code: str, message: str) -> None:
+        self.code = code
+        self.message = _in_words_of_python(message)
+        self.remedy = _remedy_in(code, self.message)
+        super().__init__(self.message)
+
+    def __str__(self) -> str:
+        return f"{self.message} [{self.code}]"
+
+    def __reduce__(self) -> Tuple[type, Tuple[str, str]]:
+        return (Error, (self.code, self.message))

@@ -1,0 +1,551 @@
+"""Results of an analysis or a fit: a view on the library's document, and arrays."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union, cast, overload
+
+import numpy as np
+
+from . import _slipfit
+from ._cells import Quantity, fixed_of, text_of
+from ._documents import Path, Plan, Prediction, frame_of_csv, write_page
+from ._errors import Error
+from ._recording import Recording
+from ._values import Estimate, Notice, Parameters, notices_of
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    import pandas as pd
+
+    Array = npt.NDArray[np.float64]
+
+Speeds = Union[str, Sequence[Quantity], "Array"]
+Fix = Optional[Mapping[str, Quantity]]
+
+_NOT_FITTED = "not in this result: analyze() fits no model, or the model that fits does not have it"
+
+
+class Curve(NamedTuple):
+    """The trace and the fit on it: arrays of shape (n,), NaN where the fit does not reach."""
+
+    time: "Array"
+    """Seconds."""
+    force: "Array"
+    """As measured, in the unit of `Recording.force_unit`."""
+    fitted: "Array"
+    residual: "Array"
+    """`force` less `fitted`."""
+
+
+class _Options(NamedTuple):
+    """How a result was made."""
+
+    kind: str  # "fit" or "analyze"
+    tier: str = "auto"
+    fixed: Tuple[str, ...] = ()
+
+
+class Fit:
+    """What one recording tells, as `fit` or `analyze` find it.
+
+    Numbers are `Estimate`: `.value`, `.se`, `.ci95`, `.status`, `.note`, in SI. What is not known is None and the note
+    says why. ``identified``: to be trusted; ``weak``: read its interval; ``bounded``: only the interval is known;
+    ``conditional``: known if what the note names holds; ``unidentified``: the recording cannot tell; ``fixed``: held.
+    """
+
+    def __init__(self, recording: Recording, options: _Options, native: Optional[_slipfit.Analysis] = None) -> None:
+        self._recording = recording
+        self._options = options
+        self._native = native
+        self._content: Optional[str] = None
+        self._parsed: Optional[Dict[str, Any]] = None
+        self._id = ""
+
+    # The document
+
+    def _result(self) -> _slipfit.Analysis:
+        """Made again after unpickling: the same input gives the same bytes."""
+        if self._native is None:
+            native = self._recording._native
+            fitted = self._options.kind == "fit"
+            self._native = (
+                _slipfit.fit(native, self._options.tier, list(self._options.fixed)) if fitted else _slipfit.analyze(native)
+            )
+        return self._native
+
+    def to_json(self) -> str:
+        """The document of the schema slipfit.fit/1, byte for byte that of ``slipfit fit --json``."""
+        if self._content is None:
+            self._content = self._result().json(self._id)
+        return self._content
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The document as Python's own types; a new one at each call."""
+        return cast(Dict[str, Any], json.loads(self.to_json()))
+
+    def _document(self) -> Dict[str, Any]:
+        if self._parsed is None:
+            self._parsed = self.to_dict()
+        return self._parsed
+
+    # Numbers
+
+    @property
+    def id(self) -> str:
+        """The name in the document."""
+        return cast(str, self._document()["id"])
+
+    @property
+    def recording(self) -> Recording:
+        """What was analysed."""
+        return self._recording
+
+    @property
+    def status(self) -> str:
+        """``stick_slip``, ``steady_sliding``, ``oscillatory_slip`` or ``undetermined``."""
+        return cast(str, self._document()["status"])
+
+    @property
+    def reason(self) -> str:
+        """Why that status, in a sentence."""
+        return cast(str, self._document().get("status_reason") or "")
+
+    @property
+    def warnings(self) -> List[Notice]:
+        """What to know before trusting the numbers."""
+        return notices_of(self._document()["warnings"])
+
+    @property
+    def parameters(self) -> Parameters:
+        """The parameters of the model by their keys: ``fit.parameters["stiffness_N_per_m"]``; empty without a fit."""
+        content = self._document().get("parameters") or {}
+        return Parameters({name: Estimate._of(name, one) for name, one in content.items()})
+
+    def _parameter(self, name: str) -> Estimate:
+        content = self._document().get("parameters") or {}
+        return Estimate._of(name, content.get(name), _NOT_FITTED)
+
+    @property
+    def stiffness(self) -> Estimate:
+        """Tangential stiffness k (N/m)."""
+        return self._parameter("stiffness_N_per_m")
+
+    @property
+    def friction_difference(self) -> Estimate:
+        """F_s - F_k at v = 0+ (N)."""
+        return self._parameter("friction_difference_N")
+
+    @property
+    def natural_frequency(self) -> Estimate:
+        """w_n = sqrt(k/m) (rad/s)."""
+        return self._parameter("natural_frequency_rad_per_s")
+
+    @property
+    def damping_ratio(self) -> Estimate:
+        """zeta = c / (2 sqrt(k m))."""
+        return self._parameter("damping_ratio")
+
+    @property
+    def frequency(self) -> Estimate:
+        """Slips a second (Hz); None in steady sliding."""
+        content = self._document().get("frequency")
+        return Estimate._of("frequency_Hz", content, "of one recording: see .recordings", "_Hz")
+
+    def _derived(self, name: str) -> Estimate:
+        return Estimate._of(name, self._document().get("derived", {}).get(name), "not in this result")
+
+    @property
+    def pattern_spacing(self) -> Estimate:
+        """Distance of the abrasion pattern's ridges, V / f (m): a measurement, no prediction."""
+        return self._derived("pattern_spacing_m")
+
+    @property
+    def periodic_displacement(self) -> Estimate:
+        """Distance of the slips by the fitted model at this speed (m)."""
+        return self._derived("periodic_displacement_m")
+
+    @property
+    def critical_speed(self) -> Estimate:
+        """Speed at which stick-slip ends, by the fitted model (m/s)."""
+        return self._derived("critical_speed_m_per_s")
+
+    # Tables and arrays
+
+    def to_frame(self) -> "pd.DataFrame":
+        """One row a quantity, by its key: value, se, low, high (95 %), unit, status, note."""
+        import pandas
+
+        shown = [*self.parameters.values(), self.frequency, self.pattern_spacing, self.periodic_displacement, self.critical_speed]
+        rows = {
+            one.name: {
+                "value": float(one),
+                "se": float("nan") if one.se is None else one.se,
+                "low": float("nan") if one.ci95 is None else one.ci95[0],
+                "high": float("nan") if one.ci95 is None else one.ci95[1],
+                "unit": one.unit,
+                "status": one.status or "",
+                "note": one.note,
+            }
+            for one in shown
+        }
+        return pandas.DataFrame.from_dict(rows, orient="index")
+
+    @property
+    def cycles(self) -> "pd.DataFrame":
+        """One row a cycle, as ``--cycles`` writes them: times (s), forces, and what the fit says of each."""
+        return frame_of_csv(self._result().cycles_csv())
+
+    @property
+    def curve(self) -> Curve:
+        """Time, force, fitted force and residual, each of shape (n,)."""
+        fitted = self._result().fitted()
+        force = self._recording.force
+        return Curve(self._recording.time, force, fitted, force - fitted)
+
+    # What follows from it
+
+    def predict(self, speeds: Speeds, *, normal_force: Optional[Quantity] = None) -> Prediction:
+        """What the fitted model says at other speeds, with 95 % bands, and where stick-slip ends.
+
+        Parameters
+        ----------
+        speeds : array of shape (n,) or sequence in m/s, sequence of texts, or text
+            ``[0.01, 0.02]``, ``["1 mm/s", "5 mm/s"]``, ``"5mm/s,10mm/s"``, or ``"A:B:N"``: N speeds from A to B in
+            equal ratios.
+        normal_force : float or str, optional
+            Predict under this load (N); needs a fit whose recordings state theirs.
+
+        Raises
+        ------
+        Error
+            ``cannot_predict`` where the fit leaves a parameter open that the motion depends on (the message names it
+            and why), ``bad_speeds``, ``out_of_range``, ``no_normal_force``.
+        """
+        load = None if normal_force is None else _slipfit.quantity(text_of(normal_force), "force")
+        if load is not None and not load > 0.0:
+            raise Error("out_of_range", f"normal_force: {normal_force!r} is not above zero, expected a load in N")
+        return Prediction(*_slipfit.predict(self.to_json(), self.id, _speeds_of(speeds), load))
+
+    def plan(self, name: Optional[str] = None, *, speed: Optional[Quantity] = None) -> Plan:
+        """Which recording to make next, so that one number becomes better known.
+
+        Parameters
+        ----------
+        name : str, optional
+            Key of a parameter, or its beginning without the unit: ``"damping_ratio"``, ``"stiffness"``; or
+            ``"periodic_displacement_m"`` with `speed`. Without it the one that is known worst.
+        speed : float or str, optional
+            Speed of the predicted spacing to narrow (m/s).
+
+        Raises
+        ------
+        Error
+            ``bad_target``, ``cannot_predict``, ``no_covariance``.
+        """
+        at = None if speed is None else _slipfit.quantity(text_of(speed), "speed")
+        if name is None and at is not None:
+            name = "periodic_displacement_m"
+        return Plan(*_slipfit.plan(self.to_json(), self.id, self._key_of(name), at))
+
+    def _key_of(self, name: Optional[str]) -> Optional[str]:
+        if name is None or name in self.parameters:
+            return name
+        meant = [key for key in (*self.parameters, "periodic_displacement_m") if key.startswith(name + "_")]
+        return meant[0] if len(meant) == 1 else name
+
+    def report(self, path: Path) -> None:
+        """Write a page to look at, to print and to send (one HTML file, no network)."""
+        write_page(path, self._result().page(f"slipfit.{self._options.kind}(...)  # Python"))
+
+    def plot(self, kind: str = "trace", ax: Any = None) -> Any:
+        """Draw with matplotlib: axes in, axes out.
+
+        Parameters
+        ----------
+        kind : str
+            ``"trace"``: force, fit and residual; ``"spectrum"``; ``"cycles"``: all cycles over each other;
+            ``"stacked"``: one above the other; ``"speed"``: spacing over speed; ``"map"``: of the regimes.
+        ax : matplotlib axes, optional
+            To draw into; else new ones.
+        """
+        from . import _plot
+
+        return _plot.fit(self, kind, ax)
+
+    # Python
+
+    def __str__(self) -> str:
+        return self._result().text()
+
+    def __repr__(self) -> str:
+        known = f", stiffness {self.stiffness}" if self.parameters else ""
+        return f"<slipfit.{type(self).__name__} {self.id!r}: {self.status.replace('_', ' ')}, {self.frequency}{known}>"
+
+    def _repr_html_(self) -> str:
+        from . import _html
+
+        return _html.of_fit(self)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return (_remade, (type(self), self._state()))
+
+    def _state(self) -> Tuple[Any, ...]:
+        return (self._recording, self._options, self.to_json(), self._id)
+
+    @classmethod
+    def _from_state(cls, recording: Any, options: _Options, content: str, name: str) -> "Fit":
+        made = cls(recording, options)
+        made._content = content
+        made._id = name
+        return made
+
+    def __copy__(self) -> "Fit":
+        return self
+
+    def __deepcopy__(self, memo: Dict[int, Any]) -> "Fit":
+        return self
+
+
+def _remade(kind: Any, state: Tuple[Any, ...]) -> Any:
+    return kind._from_state(*state)
+
+
+class Sweep(Fit):
+    """What several recordings tell together: one set of parameters, friction that depends on the speed included.
+
+    As `Fit`; `recordings` holds each on its own. Frequency, spacing, cycles and curve belong to one recording.
+    """
+
+    def __init__(
+        self, recordings: Mapping[str, Recording], name: str, options: _Options, native: Optional[_slipfit.Sweep] = None
+    ) -> None:
+        self._all = dict(recordings)
+        self._options = options
+        self._sweep = native
+        self._content = None
+        self._parsed = None
+        self._id = name
+        self._members: Optional[Dict[str, Fit]] = None
+
+    def _swept(self) -> _slipfit.Sweep:
+        if self._sweep is None:
+            named = [(name, one._native) for name, one in self._all.items()]
+            if self._options.kind == "fit":
+                self._sweep = _slipfit.fit_sweep(named, self._options.tier, list(self._options.fixed))
+            else:
+                self._sweep = _slipfit.analyze_sweep(named)
+        return self._sweep
+
+    def to_json(self) -> str:
+        """The document of the schema slipfit.fit/1 with ``recordings``, as ``slipfit fit --joint --json`` writes it."""
+        if self._content is None:
+            self._content = self._swept().json(self._id)
+        return self._content
+
+    @property
+    def recordings(self) -> Dict[str, Fit]:
+        """Each recording's own result, by its name."""
+        if self._members is None:
+            self._members = {}
+            for (name, recording), native in zip(self._all.items(), self._swept().members):
+                own = Fit(recording, self._options, native)
+                own._id = name
+                self._members[name] = own
+        return self._members
+
+    def __getitem__(self, name: str) -> Fit:
+        return self.recordings[name]
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    @property
+    def recording(self) -> Recording:
+        raise AttributeError("a sweep has several recordings: see .recordings")
+
+    @property
+    def pattern_spacing(self) -> Estimate:
+        """Of one recording: ``sweep.recordings[NAME].pattern_spacing``."""
+        return Estimate._of("pattern_spacing_m", None, "of one recording: see .recordings")
+
+    @property
+    def cycles(self) -> "pd.DataFrame":
+        """Of all recordings, with the column ``recording``."""
+        import pandas
+
+        frames = [one.cycles.assign(recording=name) for name, one in self.recordings.items()]
+        return pandas.concat(frames, ignore_index=True)
+
+    @property
+    def curve(self) -> Curve:
+        raise AttributeError("a curve is of one recording: sweep.recordings[NAME].curve")
+
+    def to_frame(self) -> "pd.DataFrame":
+        """One row a parameter, by its key: value, se, low, high (95 %), unit, status, note."""
+        return super().to_frame().drop(index=["frequency_Hz", "pattern_spacing_m", "periodic_displacement_m"])
+
+    def recordings_frame(self) -> "pd.DataFrame":
+        """One row a recording: speed, status, role, frequency, spacing as measured, predicted, and predicted by the others."""
+        import pandas
+
+        rows = {}
+        for one in self.to_dict()["recordings"]:
+            joint = one.get("joint") or {}
+            rows[one["id"]] = {
+                "speed_m_per_s": one["recording"]["speed_m_per_s"],
+                "normal_force_N": one["recording"]["normal_force_N"],
+                "status": one["status"],
+                "role": one.get("role"),
+                "frequency_Hz": one["frequency"]["value_Hz"],
+                "pattern_spacing_m": (one["derived"]["pattern_spacing_m"] or {}).get("value"),
+                "spacing_m": (joint.get("spacing_m") or {}).get("value"),
+                "spacing_left_out_m": (joint.get("spacing_left_out_m") or {}).get("value"),
+            }
+        return pandas.DataFrame.from_dict(rows, orient="index")
+
+    def report(self, path: Path) -> None:
+        """Write a page to look at, to print and to send (one HTML file, no network)."""
+        write_page(path, self._swept().page(self._id, f"slipfit.{self._options.kind}([...])  # Python"))
+
+    def plot(self, kind: str = "speed", ax: Any = None) -> Any:
+        """Draw with matplotlib: axes in, axes out.
+
+        Parameters
+        ----------
+        kind : str
+            ``"speed"``: spacing over speed, measured and predicted; ``"stacked"`` or ``"trace"``: the traces one above
+            the other; ``"cycles"``: the cycles of all recordings; ``"map"``: of the regimes; ``"spectrum"``.
+        ax : matplotlib axes, optional
+        """
+        from . import _plot
+
+        return _plot.sweep(self, kind, ax)
+
+    def __str__(self) -> str:
+        return self._swept().text(self._id)
+
+    def __repr__(self) -> str:
+        known = f", stiffness {self.stiffness}" if self.parameters else ""
+        return f"<slipfit.Sweep {self.id!r} of {len(self)}: {self.status.replace('_', ' ')}{known}>"
+
+    def _state(self) -> Tuple[Any, ...]:
+        return (self._all, self._options, self.to_json(), self._id)
+
+    @classmethod
+    def _from_state(cls, recording: Any, options: _Options, content: str, name: str) -> "Sweep":
+        made = cls(recording, name, options)
+        made._content = content
+        return made
+
+
+def _speeds_of(speeds: Speeds) -> Union[str, List[float]]:
+    if isinstance(speeds, str):
+        return speeds
+    if isinstance(speeds, (int, float)):
+        return [float(speeds)]
+    listed = list(speeds)
+    if any(isinstance(one, str) for one in listed):
+        return ",".join(text_of(one) for one in listed)
+    return [float(one) for one in listed]
+
+
+Recordings = Union[Recording, Sequence[Recording], Mapping[str, Recording]]
+
+
+def _named(recordings: Iterable[Recording]) -> Dict[str, Recording]:
+    """By their files' names without endings; what is called alike is numbered."""
+    named: Dict[str, Recording] = {}
+    for one in recordings:
+        stem = os.path.splitext(os.path.basename(one.name))[0] or "recording"
+        name, number = stem, 2
+        while name in named:
+            name, number = f"{stem} {number}", number + 1
+        named[name] = one
+    return named
+
+
+def _check(recordings: Iterable[Any]) -> None:
+    for one in recordings:
+        if not isinstance(one, Recording):
+            raise TypeError(f"expected recordings, not {type(one).__name__}: see Recording and read_recording")
+
+
+def _analysed(recordings: Recordings, name: Optional[str], options: _Options) -> Any:
+    if isinstance(recordings, Recording):
+        one = Fit(recordings, options)
+        one._id = name or ""
+        one._result()
+        return one
+    if isinstance(recordings, Mapping):
+        named = {str(key): value for key, value in recordings.items()}
+    else:
+        listed = list(recordings)
+        _check(listed)
+        named = _named(listed)
+    _check(named.values())
+    if not named:
+        raise ValueError("expected at least one recording")
+    if name is None:
+        group = {value.group for value in named.values()}
+        first = next(iter(named))
+        name = group.pop() if len(group) == 1 and "" not in group else first
+        name = name if name != first or len(named) == 1 else f"{first} and {len(named) - 1} more"
+    sweep = Sweep(named, name, options)
+    sweep._swept()
+    return sweep
+
+
+@overload
+def fit(recordings: Recording, *, tier: str = "auto", fix: Fix = None, name: Optional[str] = None) -> Fit: ...
+@overload
+def fit(
+    recordings: Union[Sequence[Recording], Mapping[str, Recording]],
+    *,
+    tier: str = "auto",
+    fix: Fix = None,
+    name: Optional[str] = None,
+) -> Sweep: ...
+def fit(recordings: Recordings, *, tier: str = "auto", fix: Fix = None, name: Optional[str] = None) -> Any:
+    """Fit the stick-slip model to a recording, or to several together.
+
+    Parameters
+    ----------
+    recordings : Recording, sequence of Recording, or mapping of str to Recording
+        One gives `Fit`. Several are a sweep of one sliding pair at several speeds: one set of parameters, `Sweep`.
+    tier : str
+        ``"auto"``, ``"sawtooth"``, ``"undamped"``, ``"damped"``; of several ``"auto"``, ``"damped"``, ``"velocity"``.
+    fix : mapping of str to float, optional
+        Parameters to hold, in SI: ``{"damping_ratio": 0.05}``; also ``stiffness_N_per_m`` and
+        ``natural_frequency_rad_per_s``.
+    name : str, optional
+        The document's id; else the file's name.
+
+    Returns
+    -------
+    Fit or Sweep
+        A recording without stick-slip is no error: `Fit.status` says what it shows.
+
+    Raises
+    ------
+    Error
+        ``unknown_tier``, ``unknown_fix``, ``bad_number``, ``out_of_range``; of several ``not_a_force``,
+        ``view_not_spring``.
+
+    Notes
+    -----
+    Other Python threads run meanwhile: a pool of threads fits on all cores.
+    """
+    return _analysed(recordings, name, _Options("fit", tier, tuple(fixed_of(fix))))
+
+
+@overload
+def analyze(recordings: Recording, *, name: Optional[str] = None) -> Fit: ...
+@overload
+def analyze(
+    recordings: Union[Sequence[Recording], Mapping[str, Recording]], *, name: Optional[str] = None
+) -> Sweep: ...
+def analyze(recordings: Recordings, *, name: Optional[str] = None) -> Any:
+    """Frequency, cycles and kind of sliding; no model is fitted. Arguments and result as of `fit`."""
+    return _analysed(recordings, name, _Options("analyze"))

@@ -1,0 +1,99 @@
+"""What a notebook shows of a result."""
+
+from __future__ import annotations
+
+import math
+from html import escape
+from typing import TYPE_CHECKING, Any, List
+
+import numpy as np
+
+from . import _slipfit
+
+if TYPE_CHECKING:
+    from ._fit import Fit
+    from ._recording import Recording
+    from ._values import Estimate
+
+_WIDTH, _HEIGHT, _COLUMNS = 560, 90, 280
+_STYLE = "font-variant-numeric:tabular-nums;margin:.5em 0"
+
+
+def _path(times: "np.ndarray[Any, Any]", values: "np.ndarray[Any, Any]", low: float, high: float) -> str:
+    """Lowest and highest value of each column of pixels."""
+    step = max(1, len(values) // _COLUMNS)
+    pieces: List[str] = []
+    span = float(times[-1] - times[0]) or 1.0
+    scale = _HEIGHT / ((high - low) or 1.0)
+    pen = "M"
+    for begin in range(0, len(values), step):
+        part = values[begin : begin + step]
+        if np.isnan(part).all():
+            pen = "M"
+            continue
+        x = _WIDTH * float(times[begin] - times[0]) / span
+        for y in (np.nanmin(part), np.nanmax(part)):
+            pieces.append(f"{pen}{x:.1f} {_HEIGHT - scale * (float(y) - low):.1f}")
+            pen = "L"
+    return "".join(pieces)
+
+
+def chart(recording: "Recording", fit: "Fit") -> str:
+    """The trace, and the fit on it, as a small picture."""
+    curve = fit.curve
+    low, high = float(np.min(curve.force)), float(np.max(curve.force))
+    lines = f'<path d="{_path(curve.time, curve.force, low, high)}" stroke="#8a8a8a" stroke-width="1"/>'
+    if not np.isnan(curve.fitted).all():
+        lines += f'<path d="{_path(curve.time, curve.fitted, low, high)}" stroke="#c0392b" stroke-width="1"/>'
+    about = f"{recording.duration:.4g} s, {low:.4g} to {high:.4g} {recording.force_unit}"
+    return (
+        f'<svg viewBox="0 -2 {_WIDTH} {_HEIGHT + 4}" style="width:100%;max-width:{_WIDTH}px" fill="none" role="img" '
+        f'aria-label="force over time, {escape(about)}">{lines}</svg>'
+        f'<div style="font-size:85%">force over {escape(about)}; fit in red</div>'
+    )
+
+
+def _digits(one: "Estimate") -> int:
+    """Significant digits that show two of the interval's width."""
+    if one.ci95 is None or not one.ci95[1] > one.ci95[0]:
+        return 4
+    largest = max(abs(one.ci95[0]), abs(one.ci95[1]))
+    return min(12, max(3, 2 + math.ceil(math.log10(largest / (one.ci95[1] - one.ci95[0])))))
+
+
+def _shown(number: float, digits: int) -> str:
+    return f"{number:#.{digits}g}".rstrip(".")
+
+
+def _number(one: "Estimate") -> str:
+    return "–" if one.value is None else _shown(one.value, _digits(one))
+
+
+def _interval(one: "Estimate") -> str:
+    return "–" if one.ci95 is None else f"[{_shown(one.ci95[0], _digits(one))}, {_shown(one.ci95[1], _digits(one))}]"
+
+
+def _row(words: str, one: "Estimate") -> str:
+    note = f' title="{escape(one.note)}"' if one.note else ""
+    cells = (_number(one), one.unit, _interval(one), one.status or "")
+    return f"<tr{note}><th style='text-align:left'>{escape(words)}</th>" + "".join(f"<td>{escape(c)}</td>" for c in cells) + "</tr>"
+
+
+def of_fit(fit: "Fit") -> str:
+    """Kind of motion, table with intervals and statuses, warnings, chart."""
+    words = _slipfit.parameter_words()
+    rows = [_row("frequency of the slips", fit.frequency)] if fit.frequency.value is not None else []
+    rows += [_row(words.get(name, (name, ""))[0], one) for name, one in fit.parameters.items()]
+    rows += [_row("pattern spacing V / f", fit.pattern_spacing)] if fit.pattern_spacing.value is not None else []
+    rows += [_row("critical speed", fit.critical_speed)] if fit.critical_speed.ci95 is not None else []
+    head = "<tr><th></th><th>value</th><th>unit</th><th>95 % interval</th><th>status</th></tr>"
+    notes = "".join(f"<li>{escape(one.message)} <code>{escape(one.code)}</code></li>" for one in fit.warnings)
+    picture = "" if hasattr(fit, "recordings") else chart(fit.recording, fit)
+    return (
+        f'<div style="{_STYLE}"><b>{escape(fit.id)}: {escape(fit.status.replace("_", " "))}</b>'
+        + (f"<div>{escape(fit.reason)}</div>" if fit.reason else "")
+        + (f"<table>{head}{''.join(rows)}</table>" if rows else "")
+        + picture
+        + (f"<div>Warnings<ul>{notes}</ul></div>" if notes else "")
+        + "</div>"
+    )

@@ -1,0 +1,87 @@
+"""Numbers with their intervals, and warnings."""
+
+from __future__ import annotations
+
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple
+
+_UNITS = (
+    ("_N_s_per_m", "N s/m"),
+    ("_N_per_m", "N/m"),
+    ("_rad_per_s", "rad/s"),
+    ("_m_per_s", "m/s"),
+    ("_s_per_m", "s/m"),
+    ("_per_m", "1/m"),
+    ("_kg", "kg"),
+    ("_Hz", "Hz"),
+    ("_N", "N"),
+    ("_m", "m"),
+    ("_s", "s"),
+)
+
+
+def unit_of(name: str) -> str:
+    """The unit in a key of a document: ``"N/m"`` of ``stiffness_N_per_m``."""
+    return next((unit for ending, unit in _UNITS if name.endswith(ending)), "")
+
+
+class Notice(NamedTuple):
+    """A warning: what was seen, what it means for the numbers, what to do. `code` is listed in docs/formats.md."""
+
+    code: str
+    message: str
+
+    def __str__(self) -> str:
+        return f"{self.message} [{self.code}]"
+
+
+class Estimate(NamedTuple):
+    """A number in SI with its standard error and 95 % interval; what is not known is None, and `note` says why."""
+
+    name: str
+    value: Optional[float]
+    se: Optional[float]
+    ci95: Optional[Tuple[float, float]]
+    status: Optional[str]
+    note: str
+    unit: str
+
+    @classmethod
+    def _of(cls, name: str, content: Optional[Mapping[str, Any]], absent: str = "", suffix: str = "") -> "Estimate":
+        if content is None:
+            return cls(name, None, None, None, None, absent, unit_of(name))
+        ends = content.get("ci95" + suffix)
+        return cls(
+            name,
+            content.get("value" + suffix),
+            content.get("se" + suffix),
+            None if ends is None else (ends[0], ends[1]),
+            content.get("status"),
+            content.get("note") or "",
+            unit_of(name),
+        )
+
+    def __float__(self) -> float:
+        return float("nan") if self.value is None else self.value
+
+    def __str__(self) -> str:
+        if self.value is None:
+            known = "not known" if self.ci95 is None else f"between {self.ci95[0]:.5g} and {self.ci95[1]:.5g} {self.unit}".rstrip()
+        else:
+            known = f"{self.value:.5g} {self.unit}".rstrip()
+            known += "" if self.ci95 is None else f" [{self.ci95[0]:.5g}, {self.ci95[1]:.5g}]"
+        return known + ("" if not self.status else f" ({self.status})")
+
+    def __repr__(self) -> str:
+        return f"<{self.name}: {self}>"
+
+
+class Parameters(Dict[str, Estimate]):
+    """The parameters of a fit by their keys in the document."""
+
+    def __missing__(self, key: str) -> Estimate:
+        known = ", ".join(self) or "none: analyze() fits no model, and fit() found no cycles"
+        raise KeyError(f"the fit has no parameter {key!r}; it has {known}")
+
+
+def notices_of(content: List[Mapping[str, str]]) -> List[Notice]:
+    return [Notice(one["code"], one["message"]) for one in content]

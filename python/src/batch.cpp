@@ -1,0 +1,92 @@
+#include "slipfit/batch/batch.hpp"
+
+#include <optional>
+
+#include "convert.hpp"
+
+namespace slipfit::python {
+namespace {
+
+/// What Python hears of a batch. An exception of a callback or of a signal stops the batch and is raised at its end.
+class Listener {
+ public:
+  Listener(py::object progress, py::object tell) : progress_(std::move(progress)), tell_(std::move(tell)) {}
+
+  [[nodiscard]] BatchHooks hooks() {
+    BatchHooks hooks;
+    hooks.should_stop = [this] {
+      const py::gil_scoped_acquire acquire;
+      if (!raised_ && PyErr_CheckSignals() != 0) raised_.emplace();
+      return raised_.has_value();
+    };
+    if (!progress_.is_none()) hooks.show_progress = [this](const BatchProgress& progress) { show(progress); };
+    if (!tell_.is_none()) {
+      hooks.tell = [this](const std::string& message) { guarded([&] { tell_(message); }); };
+    }
+    return hooks;
+  }
+
+  /// Raises what was kept.
+  void raise_kept() {
+    if (raised_) throw py::error_already_set(std::move(*raised_));
+  }
+
+ private:
+  template <class Call>
+  void guarded(const Call& call) {
+    const py::gil_scoped_acquire acquire;
+    if (raised_) return;
+    try {
+      call();
+    } catch (py::error_already_set& error) {
+      raised_.emplace(std::move(error));
+    }
+  }
+
+  void show(const BatchProgress& progress) {
+    guarded([&] { progress_(progress.total, progress.before, progress.fitted, progress.failed, progress.seconds); });
+  }
+
+  py::object progress_;
+  py::object tell_;
+  std::optional<py::error_already_set> raised_;
+};
+
+BatchOptions options_from(const py::dict& asked) {
+  BatchOptions options;
+  options.manifest = asked["manifest"].cast<std::string>();
+  options.folder = asked["out"].cast<std::string>();
+  options.fit = value_or_raise(parse_fit_options(asked["tier"].cast<std::string>(),
+                                                 asked["fixed"].cast<std::vector<std::string>>(), FitKind::Single));
+  options.jobs = asked["jobs"].cast<std::size_t>();
+  options.timeout_s = asked["timeout_s"].cast<double>();
+  options.resume = asked["resume"].cast<bool>();
+  options.shard = {asked["shard"].cast<std::size_t>(), asked["shards"].cast<std::size_t>()};
+  const auto report = asked["report"].cast<std::optional<std::string>>();
+  if (report) options.report = BatchReport{*report, asked["command"].cast<std::string>()};
+  if (asked["joint_groups"].cast<bool>()) options.fit_group = group_fit(options.fit, options.report);
+  return options;
+}
+
+py::dict run(const py::dict& asked, const py::object& progress, const py::object& tell) {
+  const BatchOptions options = options_from(asked);
+  Listener listener(progress, tell);
+  auto outcome = without_gil([&] { return run_batch(options, listener.hooks()); });
+  listener.raise_kept();
+  const BatchOutcome done = value_or_raise(std::move(outcome));
+  py::dict counts;
+  counts["total"] = done.progress.total;
+  counts["before"] = done.progress.before;
+  counts["fitted"] = done.progress.fitted;
+  counts["failed"] = done.progress.failed;
+  counts["seconds"] = done.progress.seconds;
+  return counts;
+}
+
+}  // namespace
+
+void add_batch(py::module_& module) {
+  module.def("batch", run, py::arg("options"), py::arg("progress"), py::arg("tell"));
+}
+
+}  // namespace slipfit::python

@@ -1,0 +1,106 @@
+#include "io/load_samples.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "slipfit/core/units.hpp"
+
+namespace slipfit::reading {
+namespace {
+
+std::optional<Error> check_samples(const Samples& samples, const ReadOptions& options) {
+  if (auto error = check_options(options, samples.name)) return error;
+  if (samples.time.empty() && !options.sample_rate_Hz) {
+    return Error{"no_time_column",
+                 fmt::format("{}: there is no time; give one for each sample, or --sample-rate", samples.name)};
+  }
+  if (samples.time.empty() || samples.time.size() == samples.force.size()) return std::nullopt;
+  return Error{"length_mismatch", fmt::format("{}: {} times and {} forces, expected as many of each", samples.name,
+                                              samples.time.size(), samples.force.size())};
+}
+
+Result<Channel> time_channel(const ReadOptions& options) {
+  const auto unit = parse_unit(options.time_unit.value_or("s"), Dimension::Time);
+  if (!unit) return unit.error();
+  Channel channel;
+  channel.scale = unit.value().scale;
+  return channel;
+}
+
+Result<Channel> force_channel(const ReadOptions& options) {
+  const std::string text = options.force_unit.value_or("N");
+  const auto unit = parse_unit(text, Dimension::Force);
+  const auto share = parse_unit(text, Dimension::Dimensionless);
+  if (!unit && !share) return unit.error();
+  Channel channel;
+  channel.column = 1;
+  channel.scale = unit ? unit.value().scale : share.value().scale;
+  channel.quantity = unit ? ForceQuantity::Force_N : ForceQuantity::FrictionCoefficient;
+  return channel;
+}
+
+/// The clock of samples without times.
+std::vector<double> even_clock(std::size_t count, double sample_rate_Hz) {
+  std::vector<double> time_s(count);
+  for (std::size_t i = 0; i < count; ++i) time_s[i] = static_cast<double>(i) / sample_rate_Hz;
+  return time_s;
+}
+
+void scale_by(std::vector<double>& values, double scale) {
+  if (scale == 1.0) return;
+  for (double& value : values) value *= scale;
+}
+
+/// Leaves out what is not asked for, and what is no number.
+void keep_wanted(Rows& rows, const ReadOptions& options) {
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  const bool is_whole = !options.rows && !options.window &&
+                        std::all_of(rows.time_s.begin(), rows.time_s.end(), is_finite) &&
+                        std::all_of(rows.force.begin(), rows.force.end(), is_finite);
+  if (is_whole) return;
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < rows.time_s.size(); ++i) {
+    const double time_s = rows.time_s[i];
+    if (options.rows && (i + 1 < options.rows->first || i + 1 > options.rows->last)) continue;
+    if (options.window && std::isfinite(time_s)) {
+      const TimeWindow clock = rows.clock.value_or(TimeWindow{time_s, time_s});
+      rows.clock = TimeWindow{std::min(clock.begin_s, time_s), std::max(clock.end_s, time_s)};
+      if (time_s < options.window->begin_s || time_s > options.window->end_s) continue;
+    }
+    const bool is_number = std::isfinite(time_s) && std::isfinite(rows.force[i]);
+    if (is_number) kept.push_back(i);
+    rows.without_number += is_number ? 0U : 1U;
+  }
+  if (kept.size() < rows.time_s.size()) rows.keep(kept);
+}
+
+}  // namespace
+
+Result<LoadedFile> load_samples(Samples samples, const ReadOptions& options) {
+  if (auto error = check_samples(samples, options)) return *error;
+  const auto time = time_channel(options);
+  if (!time) return time.error();
+  const auto force = force_channel(options);
+  if (!force) return force.error();
+  LoadedFile file;
+  file.name = samples.name;
+  file.options = options;
+  file.layout.columns.resize(2);
+  file.layout.columns[0].name.text = "time";
+  file.layout.columns[1].name.text = "force";
+  if (!samples.time.empty()) file.choice.time = time.value();
+  file.choice.force = force.value();
+  Rows& rows = file.rows;
+  rows.force = std::move(samples.force);
+  rows.count = rows.force.size();
+  rows.time_s = samples.time.empty() ? even_clock(rows.count, *options.sample_rate_Hz) : std::move(samples.time);
+  if (file.choice.time) scale_by(rows.time_s, time.value().scale);
+  scale_by(rows.force, force.value().scale);
+  keep_wanted(rows, options);
+  return file;
+}
+
+}  // namespace slipfit::reading
