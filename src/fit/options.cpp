@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <system_error>
 #include <utility>
+
+#include "core/number_text.hpp"
 
 namespace slipfit {
 namespace {
@@ -47,7 +48,7 @@ Result<double> held_value(ParameterId id, const std::string& text) {
   const std::string_view name = info(id).key;
   double value = 0.0;
   const char* const end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data(), end, value);
+  const auto [stop, status] = number_from_chars(text.data(), end, value);
   if (status != std::errc() || stop != end || !std::isfinite(value)) {
     return Error{"bad_number", fmt::format("--fix {}: bad number '{}', expected a plain number (SI)", name, text)};
   }
