@@ -46,12 +46,16 @@ def _fitted_trace(fit: "Fit", ax: Any) -> Any:
     return ax
 
 
-def _spectrum(fit: "Fit", ax: Any) -> Any:
-    ax = _axes(ax)
+def _spectral_line(ax: Any, fit: "Fit", **style: Any) -> None:
     background = fit._result().background()
     frequency, power = background["frequency_Hz"], background["power"]
     shown = (frequency > 0.0) & (power > 0.0)
-    ax.loglog(frequency[shown], power[shown], color=_GREY, linewidth=0.8)
+    ax.loglog(frequency[shown], power[shown], **style)
+
+
+def _spectrum(fit: "Fit", ax: Any) -> Any:
+    ax = _axes(ax)
+    _spectral_line(ax, fit, color=_GREY, linewidth=0.8)
     if fit.frequency.value is not None:
         ax.axvline(fit.frequency.value, color=_RED, linewidth=0.8, label=f"slips, {fit.frequency.value:.4g} Hz")
         ax.legend(loc="upper right")
@@ -138,22 +142,33 @@ def _speed(fit: "Fit", ax: Any) -> Any:
     return ax
 
 
-def _map(fit: "Fit", ax: Any, limit: Any = None) -> Any:
-    ax = _axes(ax)
-    one = limit or fit
-    background = one._result().background()
-    ax.loglog(background["damping_ratio"], background["lambda"], color=_BLUE, label="limit of stick-slip from rest")
-    ax.fill_between(background["damping_ratio"], background["lambda"], 1e4, color=_BLUE, alpha=0.1, linewidth=0.0)
+def _place(ax: Any, fit: "Fit", **style: Any) -> None:
+    """Where a recording stands on the map of regimes; nothing where that is not known."""
     zeta, place = fit.damping_ratio, fit._derived("lambda")
     if zeta.value and place.value:
-        ax.plot([zeta.value], [place.value], "o", color="black", markersize=5, label=fit.id)
-    ax.set(xlabel="damping ratio ζ", ylabel="λ = (F_s - F_k) w_n / (k V)", ylim=(1e-2, 1e4), title=f"{fit.id}: map of regimes")
+        ax.plot([zeta.value], [place.value], "o", markersize=5, label=fit.id, **style)
+
+
+def _regimes(fit: "Fit", title: str, ax: Any) -> Any:
+    ax = _axes(ax)
+    background = fit._result().background()
+    ax.loglog(background["damping_ratio"], background["lambda"], color=_BLUE, label="limit of stick-slip from rest")
+    ax.fill_between(background["damping_ratio"], background["lambda"], 1e4, color=_BLUE, alpha=0.1, linewidth=0.0)
+    ax.set(xlabel="damping ratio ζ", ylabel="λ = (F_s - F_k) w_n / (k V)", ylim=(1e-2, 1e4), title=f"{title}: map of regimes")
+    return ax
+
+
+def _map(fit: "Fit", ax: Any) -> Any:
+    ax = _regimes(fit, fit.id, ax)
+    _place(ax, fit, color="black")
     ax.legend(loc="upper left")
     return ax
 
 
-def _unknown(kind: str, kinds: Dict[str, Any]) -> Error:
-    return Error("unknown_plot", f"plot: unknown kind {kind!r}, expected one of {', '.join(kinds)}")
+def _drawn(charts: Dict[str, Callable[[Any, Any], Any]], result: Any, kind: str, ax: Any) -> Any:
+    if kind not in charts:
+        raise Error("unknown_plot", f"plot: unknown kind {kind!r}, expected one of {', '.join(charts)}")
+    return charts[kind](result, ax)
 
 
 _OF_ONE: Dict[str, Callable[["Fit", Any], Any]] = {
@@ -167,9 +182,7 @@ _OF_ONE: Dict[str, Callable[["Fit", Any], Any]] = {
 
 
 def fit(result: "Fit", kind: str, ax: Any) -> Any:
-    if kind not in _OF_ONE:
-        raise _unknown(kind, _OF_ONE)
-    return _OF_ONE[kind](result, ax)
+    return _drawn(_OF_ONE, result, kind, ax)
 
 
 def _swept_speed(result: "Sweep", ax: Any) -> Any:
@@ -210,10 +223,7 @@ def _swept_cycles(result: "Sweep", ax: Any) -> Any:
 def _swept_spectra(result: "Sweep", ax: Any) -> Any:
     ax = _axes(ax)
     for name, one in result.recordings.items():
-        background = one._result().background()
-        frequency, power = background["frequency_Hz"], background["power"]
-        shown = (frequency > 0.0) & (power > 0.0)
-        ax.loglog(frequency[shown], power[shown], linewidth=0.7, label=name)
+        _spectral_line(ax, one, linewidth=0.7, label=name)
     ax.set(xlabel="frequency (Hz)", ylabel="power (N²)", title=f"{result.id}: spectra")
     ax.legend(loc="upper right", fontsize="small")
     return ax
@@ -221,11 +231,10 @@ def _swept_spectra(result: "Sweep", ax: Any) -> Any:
 
 def _swept_map(result: "Sweep", ax: Any) -> Any:
     members = list(result.recordings.values())
-    ax = _map(result, ax, members[0])
+    ax = _regimes(members[0], result.id, ax)
+    _place(ax, result, color="black")
     for one in members:
-        zeta, place = one.damping_ratio, one._derived("lambda")
-        if zeta.value and place.value:
-            ax.plot([zeta.value], [place.value], "o", markersize=5, label=one.id)
+        _place(ax, one)
     ax.legend(loc="upper left", fontsize="small")
     return ax
 
@@ -241,6 +250,4 @@ _OF_SEVERAL: Dict[str, Callable[["Sweep", Any], Any]] = {
 
 
 def sweep(result: "Sweep", kind: str, ax: Any) -> Any:
-    if kind not in _OF_SEVERAL:
-        raise _unknown(kind, _OF_SEVERAL)
-    return _OF_SEVERAL[kind](result, ax)
+    return _drawn(_OF_SEVERAL, result, kind, ax)
