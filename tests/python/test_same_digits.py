@@ -149,6 +149,34 @@ def test_comparisons(demo_fit, sweep, tmp_path):
     assert sf.compare(tmp_path / "a.json", tmp_path / "b.json", names=("a", "b")).to_dict() == said
 
 
+def test_what_a_file_holds():
+    file = TESTDATA / "demo.csv"
+    ours = sf.info(file)
+    assert ours.to_json() + "\n" == said_by_program("info", file) and str(ours) == printed("info", file).stdout
+    assert list(ours.columns.quantity) == ["time", "force"] and ours.refusal is None and len(ours.steps) == 1
+    assert sf.info(file, rows=(1, 100), force_column=2).to_json() + "\n" == said_by_program("info", file, "--rows", "1:100", "--force-column", 2)
+
+
+def test_what_a_refused_file_holds(tmp_path):
+    file = tmp_path / "two.csv"
+    file.write_text("time_s,channel1,channel2\n" + "".join(f"{i / 100},{i % 7},{i % 5}\n" for i in range(200)))
+    assert "--force-column" in sf.info(file).refusal
+
+
+def test_manifests_are_drafted(manifest, tmp_path):
+    folder = manifest.parent
+    manifest.unlink()
+    (folder / "notes.txt").write_text("nothing but words\n")
+    draft = sf.manifest(folder, out=folder / "draft.csv")
+    assert (folder / "draft.csv").read_text() == printed("manifest", folder, "--out", folder / "theirs.csv", "--quiet").stdout or (
+        (folder / "draft.csv").read_text() == (folder / "theirs.csv").read_text())
+    assert list(draft.id) == ["v0.02", "v0.04", "v0.08"] and draft.speed_m_per_s.isna().all()
+    assert [notice.code for notice in draft.attrs["left_out"]]
+    draft["speed_m_per_s"] = [0.02, 0.04, 0.08]
+    draft.to_csv(folder / "runs.csv", index=False)
+    assert sf.batch(folder / "runs.csv", out=tmp_path / "out").counts["fitted"] == 3
+
+
 def test_surfaces(tmp_path):
     heights = [(i % 40) / 20 + 0.01 * (i * 7919 % 13) for i in range(2000)]
     file = tmp_path / "heights.txt"
