@@ -38,7 +38,7 @@ def trace(recording: "Recording", ax: Any) -> Any:
 def _fitted_trace(fit: "Fit", ax: Any) -> Any:
     ax = trace(fit.recording, ax)
     curve = fit.curve
-    if not np.isnan(curve.fitted).all():
+    if fit.status != "steady_sliding" and not np.isnan(curve.fitted).all():
         ax.plot(curve.time, curve.fitted, color=_RED, linewidth=0.8, label="fit")
         ax.plot(curve.time, curve.residual, color=_BLUE, linewidth=0.5, label="residual")
     ax.set_title(f"{fit.id}: {fit.status.replace('_', ' ')}")
