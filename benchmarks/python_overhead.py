@@ -3,7 +3,8 @@
 
 PYTHONPATH is the folder of the module (build/release/python). Each quantity N times in turn, wall clock and time on the processor (which other
 work on the machine does not lengthen as much): median and quartiles as CSV to standard output. overhead_ms is what sf.fit() of a Recording spends
-outside of the C++ fit, in the same call; array_ms is a Recording from arrays of doubles; beyond_ms is both together; stiffness_ms the first number
+outside of the C++ fit, in the same call; array_ms is a Recording from arrays of doubles; array_again_ms the same again and
+again, with what it needs in the caches; beyond_ms is overhead_ms and array_ms; sum_ms what numpy takes to add up the samples at the moment of array_ms; stiffness_ms the first number
 read from the result (the document made and parsed); threads: fits a second with one thread and with two."""
 
 import argparse
@@ -76,7 +77,7 @@ def main():
     recording = sf.read_recording(DEMO, speed="10 mm/s")
     recorded = (recording.time.copy(), recording.force.copy())
     inside = Inside()
-    columns = {name: [] for name in ("cpp_ms", "overhead_ms", "array_ms", "beyond_ms", "stiffness_ms", "curve_ms", "read_and_fit_ms", "subprocess_ms")}
+    columns = {name: [] for name in ("cpp_ms", "overhead_ms", "array_ms", "beyond_ms", "stiffness_ms", "curve_ms", "sum_ms", "read_and_fit_ms", "subprocess_ms", "array_again_ms")}
     for _ in range(arguments.fits):  # in turn, so that what else the machine does meets all alike
         spent, fit = timed(lambda: sf.fit(recording))
         columns["cpp_ms"].append(inside.spent)
@@ -85,8 +86,11 @@ def main():
         columns["beyond_ms"].append(columns["overhead_ms"][-1] + columns["array_ms"][-1])
         columns["stiffness_ms"].append(timed(lambda: fit.stiffness)[0])
         columns["curve_ms"].append(timed(lambda: fit.curve)[0])
+        columns["sum_ms"].append(timed(lambda: (recorded[0].sum(), recorded[1].sum()))[0])
         columns["read_and_fit_ms"].append(timed(lambda: sf.fit(sf.read_recording(DEMO, speed="10 mm/s")).to_dict())[0])
         columns["subprocess_ms"].append(timed(lambda: by_subprocess(arguments.program))[0])
+    for _ in range(50 * arguments.fits):
+        columns["array_again_ms"].append(timed(lambda: sf.Recording(*recorded, speed=0.01))[0])
     print("quantity,lower_quartile,median,upper_quartile,cpu_median")
     print(f"samples,,{len(recording)},,")
     for name, values in columns.items():
