@@ -10,8 +10,9 @@ import numpy as np
 from ._errors import Error
 
 if TYPE_CHECKING:
-    from ._fit import Fit, Sweep
+    from ._fit import Fit
     from ._recording import Recording
+    from ._sweep import Sweep
 
 _GREY, _RED, _BLUE = "#7f7f7f", "#c0392b", "#1f5fa8"
 
