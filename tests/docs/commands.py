@@ -24,9 +24,10 @@ ELSEWHERE = {
     "python3 benchmarks/": "hours; benchmarks",
     "pip install": "builds the program again; tests/packages/pip_install.sh",
     "cmake --preset": "builds the program again; every build",
+    "PYTHONPATH=": "a test or a benchmark in itself",
     "N=20": "the test batch: Slurm",
 }
-PROGRAMS = re.compile(r"^    ((?:(?:slipfit|coverage|sbatch|cmake|ctest|pip|python3) |array=\$\(sbatch|N=|scripts/).*)$")
+PROGRAMS = re.compile(r"^    ((?:(?:slipfit|coverage|sbatch|cmake|ctest|pip|python3) |array=\$\(sbatch|N=|PYTHONPATH=|scripts/).*)$")
 MODEL = ["--stiffness", "1000", "--natural-frequency", "200", "--damping-ratio", "0.05", "--static-friction", "6", "--noise", "0.01"]
 COULOMB = [*MODEL, "--kinetic-friction", "4"]
 WEAKENING = [*MODEL, "--f0", "3", "--f1", "1", "--alpha=-10"]
