@@ -57,7 +57,7 @@ def meanings():
     section = re.search(r"^## Result of `slipfit fit`.*?(?=^## )", text, re.S | re.M).group(0)
     rows = [(key, row.group(2).strip()) for row in re.finditer(r"^\| (`[^|]*) \|(.*)\|$", section, re.M) for key in re.findall(r"`(\w+)`", row.group(1))]
     keys = [key for key, _ in rows]
-    return {key: from_reference(meaning) for key, meaning in rows if keys.count(key) == 1}
+    return {key: from_reference(meaning) for key, meaning in rows if keys.count(key) == 1 and meaning != "see below"}
 
 
 def keys_page():
@@ -158,7 +158,7 @@ def main():
     (folder / "extra.css").write_text(".md-typeset table:not([class]) { display: block; overflow-x: auto; }\n"
                                       ".md-typeset table:not([class]) th { min-width: 0; }\n"
                                       ".md-typeset img, .md-typeset svg { max-width: 100%; height: auto; }\n"
-                                      ".md-typeset table code { white-space: nowrap; }\n"
+                                      ".md-typeset td:first-child code { white-space: nowrap; }\n"
                                       ".md-typeset h2, .md-typeset h3 { overflow-wrap: anywhere; }\n")
     (folder / "reference").mkdir()
     (folder / "reference" / "commands.md").write_text(commands_page(program), encoding="utf-8")
