@@ -1,9 +1,8 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,10 +15,6 @@
 
 /// What a cell of text in a manifest sets, or the error that it is.
 namespace slipfit::reading {
-
-inline std::optional<Error> refusal(const char* code, const std::string& cell, const char* expected) {
-  return Error{code, fmt::format("bad value '{}', expected {}", printable(cell), expected)};
-}
 
 inline std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell) {
   const bool has_slash = cell.find_first_of("/\\") != std::string::npos;
@@ -70,7 +65,8 @@ std::optional<Error> set_option(ManifestEntry& entry, const std::string& cell) {
 
 inline std::optional<Error> set_step(ManifestEntry& entry, const std::string& cell) {
   const double step = plain_number(cell, false);
-  if (!(step >= 0.0 && step < 1e9)) return refusal("bad_step", cell, "the number of a step, as slipfit info lists it");
+  if (!(step >= 0.0 && step < 1e9 && step == std::floor(step)))
+    return refusal("bad_step", cell, "the number of a step, as slipfit info lists it");
   entry.options.step = static_cast<std::size_t>(step);
   return std::nullopt;
 }
@@ -105,6 +101,11 @@ inline std::optional<Error> set_segments(ManifestEntry& entry, const std::string
 inline std::optional<Error> set_force_scale(ManifestEntry& entry, const std::string& cell) {
   entry.options.force_scale = cell;
   return parse_force_scale(cell) ? std::nullopt : refusal("unknown_unit", cell, "newtons for a unit, such as 5 N/V");
+}
+
+template <auto ReadOptions::*target>
+void set_read_number(ManifestEntry& entry, double number) {
+  entry.options.*target = number;
 }
 
 template <auto Conditions::*target>

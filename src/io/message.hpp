@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -28,6 +29,9 @@ std::string name_of_file(const std::filesystem::path& file);
 
 /// "1 row", "12 rows".
 std::string counted(std::size_t count, std::string_view noun);
+
+/// Of a cell of a manifest: "bad value 'x', expected a number".
+std::optional<Error> refusal(const char* code, const std::string& cell, const char* expected);
 
 /// Errors about a manifest; `file` is its name as messages show it.
 Error duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line);
