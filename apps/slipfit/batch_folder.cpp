@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <vector>
 
+#include "document_file.hpp"
 #include "failure.hpp"
 #include "output.hpp"
 
@@ -62,9 +61,7 @@ void check_speeds(const slipfit::ManifestDraft& draft, const BatchFolder& folder
 void check_same(const std::string& file, const std::string& text) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return;
-  std::ostringstream before;
-  before << std::ifstream(file, std::ios::binary).rdbuf();
-  if (before.str() == text) return;
+  if (text_of_file(file) == text) return;
   throw Failure(ExitCode::WrongUsage,
                 fmt::format("'{}' is there and differs from what would be drafted now (other files or options): choose "
                             "another --out, or go on with it as the manifest in place of the folder",

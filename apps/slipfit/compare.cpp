@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "commands.hpp"
+#include "document_file.hpp"
 #include "drafts.hpp"
 #include "failure.hpp"
 #include "output.hpp"
@@ -46,12 +47,6 @@ struct Source {
   slipfit::ComparisonSide side;
   std::vector<ManifestEntry> entries;
 };
-
-std::string text_of_file(const std::string& file) {
-  std::ostringstream content;
-  content << std::ifstream(file, std::ios::binary).rdbuf();
-  return content.str();
-}
 
 /// One document, or one a line.
 bool is_results_file(const std::string& file) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boost/locale/utf.hpp>
+#include <charconv>
 #include <iterator>
 
 namespace slipfit::reading {
@@ -47,6 +48,13 @@ std::string printable(std::string_view text) {
     }
   }
   return result;
+}
+
+std::optional<std::size_t> place_in_list(std::string_view text, std::size_t count) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  return is_number && number >= 1 && number <= count ? std::optional(number - 1) : std::nullopt;
 }
 
 std::string name_of_file(const std::filesystem::path& file) {

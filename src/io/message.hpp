@@ -24,6 +24,9 @@ std::string to_utf8(std::string_view text);
 /// One line of valid UTF-8: control characters are shown as \n, \t or \x1b.
 std::string printable(std::string_view text);
 
+/// 0-based, of a 1-based number as text; empty where the text is none, or one beyond `count`.
+std::optional<std::size_t> place_in_list(std::string_view text, std::size_t count);
+
 /// As messages and reports show it; "-" is standard input.
 std::string name_of_file(const std::filesystem::path& file);
 

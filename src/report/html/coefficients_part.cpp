@@ -20,16 +20,10 @@ std::string coefficients_part(const Source& source) {
   const auto& coefficients = source.analysis.coefficients;
   if (!coefficients) return {};
   std::string rows;
-  for (const auto& row : kCoefficients) rows += row_of(row.words, (*coefficients).*row.estimate);
-  for (const auto& row : kCoefficientThirds) rows += row_of(row.words, (*coefficients).*row.estimate);
-  for (const auto& row : kCoefficientSpreads) {
-    rows += row_of(row.words, Estimate{(*coefficients).*row.value, {}, {}, {}});
-  }
+  for (const auto& [words, estimate] : coefficient_rows(*coefficients)) rows += row_of(words, estimate);
   for (const StandardCoefficients& standard : coefficients->standards) {
-    const std::string differs = standard.differs.empty() ? std::string("as prescribed, as far as a recording shows it")
-                                                         : fmt::format("{}", fmt::join(standard.differs, "; "));
     Estimate kinetic = standard.kinetic_coefficient;
-    kinetic.note = standard.standard + " prescribes " + standard.prescribes + ". Here: " + differs;
+    kinetic.note = standard.standard + " prescribes " + standard.prescribes + ". Here: " + differences_text(standard);
     rows += row_of("static, as " + standard.standard, standard.static_coefficient);
     rows += row_of("kinetic, as " + standard.standard, kinetic);
   }

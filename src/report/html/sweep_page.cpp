@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -135,6 +136,14 @@ std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> by_speed(const SweepSource& source) {
+  std::vector<std::size_t> order(source.entries.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto speed = [&source](std::size_t i) { return source.entries[i].recording.conditions().speed_m_per_s; };
+  std::stable_sort(order.begin(), order.end(), [&speed](std::size_t a, std::size_t b) { return speed(a) < speed(b); });
+  return order;
+}
 
 Estimate spacing_on_surface(const Conditions& conditions) {
   if (conditions.worn_track) return conditions.worn_track->spacing_m;
