@@ -125,6 +125,7 @@ def main():
         cases.append((truth, (truth["spacing_um"], interval, rsm, *values)))
     print(f"{'profiles':<18}{'n':>6}{'answered':>9}{'coverage':>9}{'wrong':>7}{'half':>8}{'rms':>8}{'autoc.':>8}{'spectr.':>8}{'RSm':>8}   (percent)")
     row("all", [c for _, c in cases])
+    row("with scatter", [c for t, c in cases if t["scatter"] > 0.001])
     for key, edges in (("scatter", (0, 0.001, 0.1, 0.2, 0.3, 0.41)), ("roughness", (0, 0.001, 0.2, 0.4, 0.6, 0.81)), ("count", (5, 8, 15, 40, 100, 201)),
                        ("per_ridge", (10, 20, 40, 80, 201))):
         for low, high in zip(edges, edges[1:]):

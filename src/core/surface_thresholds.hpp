@@ -65,10 +65,9 @@ inline constexpr double kEvenScatter = 0.015;
 /// Smoothing over the distance, above which a comb has to show the ridges too. [1; calibrated: as kKeptChance]
 inline constexpr double kMuchSmoothing = 0.25;
 
-/// Standard error of the share of ridges seen double or not at all, over the squared variation of their distances (its
-/// upper limit; of a comb, the scatter that its phase tells of). [1; calibrated: benchmarks/surface, seeds 11 to 14 and
-/// 901 to 913: what the mean is off by beyond its scatter]
-inline constexpr double kMiscount = 0.5;
+/// Length of a ridge over their mean distance, below which it may be missed, and whose excess over the mean may be
+/// taken for two. [1; calibrated: benchmarks/surface, seeds 31 to 33]
+inline constexpr double kShortestSeen = 0.5;
 
 /// Distance over that of the next coarser scale, above which it is the same pattern. [1; convention]
 inline constexpr double kSameScale = 0.6;

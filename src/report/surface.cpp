@@ -66,7 +66,7 @@ std::string to_text(const Profile& profile, const Surface& surface) {
                                   : surface_row("spacing", "not known: " + surface.spacing_m.note);
   text += estimate_of("fine spacing", surface.fine_spacing_m, "m");
   if (surface.ridges > 0) text += surface_row("ridges", fmt::format("{}", surface.ridges));
-  text += length_of("scatter (sd)", surface.spacing_sd_m);
+  text += length_of("scatter as located", surface.spacing_sd_m);
   text += estimate_of("spacing at the begin", surface.begin_spacing_m, "m");
   text += estimate_of("spacing at the end", surface.end_spacing_m, "m");
   text += estimate_of("ridge height", surface.ridge_height, profile.height_in_metres ? "m" : "");

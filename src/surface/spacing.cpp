@@ -73,6 +73,12 @@ std::optional<Recording> trace_of(std::span<const double> heights) {
   return std::move(trace).value();
 }
 
+/// Share of the ridges that may be seen double or not at all: those of a normal distribution of this variation (of the
+/// distances over their mean) that are shorter than is surely seen.
+double miscounted(double variation) {
+  return 0.5 * std::erfc((1.0 - thresholds::kShortestSeen) / (std::numbers::sqrt2 * variation));
+}
+
 /// A comb of lines in the spectrum of the profile.
 struct CombSpacing {
   double value = 0.0;
@@ -87,7 +93,7 @@ struct CombSpacing {
   /// A phase that wanders by more than can be followed has lost count of the ridges.
   [[nodiscard]] bool is_followed() const { return is_even || scatter() < thresholds::kFollowedScatter; }
   [[nodiscard]] Clock clock() const {
-    const double miscount = is_even ? 0.0 : thresholds::kMiscount * scatter() * scatter() * value;
+    const double miscount = is_even ? 0.0 : miscounted(scatter()) * value;
     return {value, std::hypot(standard_error, miscount)};
   }
 };
@@ -129,12 +135,12 @@ std::optional<MeanSpacing> mean_of_halves(std::span<const double> heights, const
   return MeanSpacing{value, error, {value - 1.959963985 * error, value + 1.959963985 * error}, 1.0};
 }
 
-/// Upper limit (97.5 %) of the squared variation of the distances: few are alike by luck. Wilson and Hilferty's
-/// approximation of chi-squared.
-double largest_square(const Pattern& pattern) {
+/// Upper limit (97.5 %) of the variation of the distances: few are alike by luck. Wilson and Hilferty's approximation
+/// of chi-squared.
+double largest_variation(const Pattern& pattern) {
   const double freedom = std::max(1.0, static_cast<double>(pattern.places.size()) - 2.0);
   const double spread = 2.0 / (9.0 * freedom);
-  return pattern.variation * pattern.variation / std::pow(1.0 - spread - 1.959963985 * std::sqrt(spread), 3.0);
+  return pattern.variation * std::pow(1.0 - spread - 1.959963985 * std::sqrt(spread), -1.5);
 }
 
 /// Long smoothing joins short ridges, short smoothing leaves roughness between them: the shortest at which they are
@@ -149,7 +155,7 @@ Pattern choose(std::vector<Pattern> looks, const std::optional<Clock>& clock) {
   const double distance = mean_distance(chosen);
   // Anywhere between the two smoothings.
   const double between = (mean_distance(*best) - distance) / std::numbers::sqrt3;
-  const double miscount = std::hypot(between, thresholds::kMiscount * largest_square(chosen) * distance);
+  const double miscount = std::hypot(between, miscounted(largest_variation(chosen)) * distance);
   chosen.spacing = mean_spacing(distances(chosen.places), clock, miscount);
   chosen.is_from_comb = clock && chosen.spacing && chosen.spacing->clock_share > 0.5;
   return chosen;

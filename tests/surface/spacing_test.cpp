@@ -172,6 +172,15 @@ TEST_CASE("regular ridges have a sharp spacing, scattering ones say by how much"
   CHECK(half_width(scattering.spacing_m) < 0.05);
 }
 
+TEST_CASE("ridges that are all seen have no wider interval than their scatter asks for", "[surface]") {
+  double sum = 0.0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    sum += half_width(measured(test::ridged_profile({40.0, 0.12, 0.02, 150.0}, seed)).spacing_m);
+  }
+  CAPTURE(sum / 20.0);
+  CHECK(sum / 20.0 < 1.15 * 1.96 * 0.12 / std::sqrt(150.0));  // independent widths; it does not know that they are
+}
+
 TEST_CASE("a turned-around track has the same spacing and its inverse asymmetry", "[surface]") {
   Profile profile = test::ridged_profile({40.0, 0.05, 0.05, 50.0}, 4);
   const Surface there = measured(profile);
