@@ -116,10 +116,9 @@ std::string left_out_part(std::size_t rows, const char* file) {
 
 std::string failures_part(const std::vector<BatchPageFailure>& failures) {
   if (failures.empty()) return {};
-  std::string rows;
+  std::vector<std::vector<std::string>> rows;
   for (const BatchPageFailure& failure : std::span(failures).first(std::min(kMostRows, failures.size()))) {
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td><code>{}</code></td></tr>\n", text(failure.id),
-                        text(failure.message), text(failure.code));
+    rows.push_back({text(failure.id), text(failure.message), "<code>" + text(failure.code) + "</code>"});
   }
   return section(" class=\"flows\"", "Failures",
                  table(" id=\"failures\"", {"recording", "what is wrong", "code"}, rows) +

@@ -25,8 +25,12 @@ std::string script_json(std::string_view json);
 std::string section(std::string_view attributes, std::string_view title, std::string_view content);
 
 /// A table in a box that scrolls where it is too wide. `headings`: of the columns, as text; one that begins with '#'
-/// stands over numbers. Rows are HTML.
+/// stands over numbers, with '~' over what stays on one line. Rows are HTML.
 std::string table(std::string_view attributes, const std::vector<std::string>& headings, std::string_view rows);
+
+/// Of rows whose cells are HTML; the first names the row.
+std::string table(std::string_view attributes, const std::vector<std::string>& headings,
+                  const std::vector<std::vector<std::string>>& rows);
 
 /// <dl> of facts.
 std::string fact_list(std::string_view facts);

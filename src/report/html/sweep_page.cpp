@@ -110,11 +110,10 @@ std::string recordings_of(const SweepSource& source) {
 /// Of recordings that are all at one speed.
 std::string repeats_of(const std::vector<Repeat>& repeats) {
   if (repeats.empty()) return {};
-  std::string rows;
+  std::vector<std::vector<std::string>> rows;
   for (const Repeat& repeat : repeats) {
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"number\">{}</td></tr>\n",
-                        text(repeat.words), text(estimate_text(repeat.mean, repeat.unit)),
-                        text(quantity_text(repeat.standard_deviation, repeat.unit)), repeat.count);
+    rows.push_back({text(repeat.words), text(estimate_text(repeat.mean, repeat.unit)),
+                    text(quantity_text(repeat.standard_deviation, repeat.unit)), std::to_string(repeat.count)});
   }
   return section("", "At one speed: scatter between the recordings",
                  table(" class=\"plain-table\"",
