@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -61,18 +59,10 @@ void add_model_options(CLI::App& command, ModelArguments& arguments) {
              "See --f0 (s/m); below 0 friction falls with the speed if f1 > 0");
 }
 
-bool model_given(const CLI::App& command) {
-  constexpr std::array<const char*, 9> kOptions{"--stiffness",
-                                                "--mass",
-                                                "--natural-frequency",
-                                                "--damping-ratio",
-                                                "--static-friction",
-                                                "--kinetic-friction",
-                                                "--f0",
-                                                "--f1",
-                                                "--alpha"};
-  return std::any_of(kOptions.begin(), kOptions.end(),
-                     [&command](const char* name) { return command.count(name) > 0; });
+bool model_given(const ModelArguments& arguments) {
+  return arguments.stiffness_N_per_m || arguments.mass_kg || arguments.natural_frequency_rad_per_s ||
+         arguments.damping_ratio || arguments.static_friction_N || arguments.kinetic_friction_N || arguments.f0_N ||
+         arguments.f1_N || arguments.alpha_s_per_m;
 }
 
 Model model_from(const ModelArguments& arguments) {
@@ -84,6 +74,7 @@ Model model_from(const ModelArguments& arguments) {
       by_speed ? by_speed->onset_N()
                : required(arguments.kinetic_friction_N, "--kinetic-friction", "F_k (N), or --f0, --f1 and --alpha");
   const double omega_rad_per_s = natural_frequency_rad_per_s(arguments, stiffness_N_per_m);
-  return {value_or_refuse(slipfit::Slider::create(stiffness_N_per_m, omega_rad_per_s, arguments.damping_ratio)),
+  return {value_or_refuse(
+              slipfit::Slider::create(stiffness_N_per_m, omega_rad_per_s, arguments.damping_ratio.value_or(0.0))),
           value_or_refuse(slipfit::Friction::create(static_N, kinetic_N)), by_speed};
 }

@@ -8,10 +8,8 @@
 
 /// The model on the command line.
 struct ModelArguments {
-  std::optional<double> stiffness_N_per_m, mass_kg, natural_frequency_rad_per_s;
-  double damping_ratio = 0.0;
-  std::optional<double> static_friction_N, kinetic_friction_N;
-  std::optional<double> f0_N, f1_N, alpha_s_per_m;
+  std::optional<double> stiffness_N_per_m, mass_kg, natural_frequency_rad_per_s, damping_ratio;
+  std::optional<double> static_friction_N, kinetic_friction_N, f0_N, f1_N, alpha_s_per_m;
 };
 
 struct Model {
@@ -23,7 +21,7 @@ struct Model {
 void add_model_options(CLI::App& command, ModelArguments& arguments);
 
 /// Whether any of the options was given.
-bool model_given(const CLI::App& command);
+bool model_given(const ModelArguments& arguments);
 
 /// Throws Failure(WrongUsage).
 Model model_from(const ModelArguments& arguments);

@@ -55,8 +55,8 @@ struct Basis {
   slipfit::PredictionSource source;
 };
 
-Basis basis_from(const PredictArguments& arguments, const CLI::App& command) {
-  const bool stated = model_given(command);
+Basis basis_from(const PredictArguments& arguments) {
+  const bool stated = model_given(arguments.model);
   if (arguments.file && stated) {
     throw Failure(ExitCode::WrongUsage,
                   fmt::format("give either '{}' or the model options (--stiffness, ...), not both", *arguments.file));
@@ -81,12 +81,12 @@ Basis basis_from(const PredictArguments& arguments, const CLI::App& command) {
   return {std::move(prediction), {"command line", {}}};
 }
 
-void run(const PredictArguments& arguments, const CLI::App& command) {
+void run(const PredictArguments& arguments) {
   const auto speeds = slipfit::parse_speeds(
       required(arguments.speeds, "--speeds", "A:B:N or a list, for example --speeds 1mm/s:1m/s:50"));
   if (!speeds) throw Failure(ExitCode::WrongUsage, speeds.error().message);
   check_outputs(arguments.document.outputs, arguments.file.value_or(""), "fit document");
-  Basis basis = basis_from(arguments, command);
+  Basis basis = basis_from(arguments);
   basis.source.speed_unit = speeds.value().unit;
   const slipfit::Prediction prediction = slipfit::predict_at(basis.model, speeds.value().speeds_m_per_s);
   write_results(arguments.document, [&](const std::string& option) {
@@ -103,5 +103,5 @@ void add_predict_command(CLI::App& program) {
       program.add_subcommand("predict", "Period, frequency and spacing at other speeds; where stick-slip ends");
   const auto arguments = std::make_shared<PredictArguments>();
   add_options(*command, *arguments);
-  command->callback([arguments, command] { run(*arguments, *command); });
+  command->callback([arguments] { run(*arguments); });
 }

@@ -16,6 +16,27 @@
 /// What a cell of text in a manifest sets, or the error that it is.
 namespace slipfit::reading {
 
+inline ManifestEntry& owner_of(auto ManifestEntry::* /*member*/, ManifestEntry& entry) {
+  return entry;
+}
+inline Conditions& owner_of(auto Conditions::* /*member*/, ManifestEntry& entry) {
+  return entry.conditions;
+}
+inline ReadOptions& owner_of(auto ReadOptions::* /*member*/, ManifestEntry& entry) {
+  return entry.options;
+}
+
+template <auto member>
+void set_number_of(ManifestEntry& entry, double number) {
+  owner_of(member, entry).*member = number;
+}
+
+template <auto member>
+std::optional<Error> set_text_of(ManifestEntry& entry, const std::string& cell) {
+  owner_of(member, entry).*member = cell;
+  return std::nullopt;
+}
+
 inline std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell) {
   const bool has_slash = cell.find_first_of("/\\") != std::string::npos;
   const bool has_control =
@@ -24,12 +45,6 @@ inline std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell
     return refusal("bad_id", cell, "a name without slash or control character that does not begin with 'group:'");
   }
   entry.id = to_utf8(cell);
-  return std::nullopt;
-}
-
-template <auto ManifestEntry::*target>
-std::optional<Error> set_path(ManifestEntry& entry, const std::string& cell) {
-  entry.*target = cell;
   return std::nullopt;
 }
 
@@ -53,12 +68,6 @@ std::optional<Error> set_unit(ManifestEntry& entry, const std::string& cell) {
   const Result<UnitScale> unit = parse_unit(cell, dimension);
   const bool is_coefficient = dimension == Dimension::Force && parse_unit(cell, Dimension::Dimensionless);
   if (!unit && !is_coefficient) return Error{"unknown_unit", printable(unit.error().message)};
-  entry.options.*target = cell;
-  return std::nullopt;
-}
-
-template <auto ReadOptions::*target>
-std::optional<Error> set_option(ManifestEntry& entry, const std::string& cell) {
   entry.options.*target = cell;
   return std::nullopt;
 }
@@ -101,16 +110,6 @@ inline std::optional<Error> set_segments(ManifestEntry& entry, const std::string
 inline std::optional<Error> set_force_scale(ManifestEntry& entry, const std::string& cell) {
   entry.options.force_scale = cell;
   return parse_force_scale(cell) ? std::nullopt : refusal("unknown_unit", cell, "newtons for a unit, such as 5 N/V");
-}
-
-template <auto ReadOptions::*target>
-void set_read_number(ManifestEntry& entry, double number) {
-  entry.options.*target = number;
-}
-
-template <auto Conditions::*target>
-void set_condition(ManifestEntry& entry, double number) {
-  entry.conditions.*target = number;
 }
 
 }  // namespace slipfit::reading
