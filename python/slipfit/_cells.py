@@ -6,17 +6,12 @@ import numbers
 import os
 from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union
 
-from ._errors import Error
+from . import _slipfit
+from ._errors import COLUMNS, Error
 
 Quantity = Union[float, int, str]
 """A number in SI, or text with a unit: ``0.01``, ``"10 mm/s"``, ``"41 gf"``."""
 
-# Where the argument is called otherwise than the column of a manifest.
-_COLUMNS = {
-    "zero": "zero_force",
-    "speed_uncertainty": "speed_se",
-    "measured_spacing_uncertainty": "measured_spacing_se",
-}
 _RANGES = {"window", "rows"}
 
 
@@ -74,10 +69,18 @@ def cells_of(arguments: Mapping[str, Any]) -> List[Tuple[str, str]]:
         else:
             text = text_of(value)
         if text is not None:
-            cells.append((_COLUMNS.get(name, name), text))
+            cells.append((COLUMNS.get(name, name), text))
     return cells
 
 
 def fixed_of(fix: Optional[Mapping[str, Quantity]]) -> List[str]:
     """NAME=VALUE of each parameter to hold."""
     return [f"{name}={text_of(value)}" for name, value in (fix or {}).items()]
+
+
+def quantity_of(name: str, value: Quantity, dimension: str, *, above: Optional[float] = None) -> float:
+    """The number in SI."""
+    number = _slipfit.quantity(text_of(value), dimension)
+    if above is not None and not number > above:
+        raise Error("out_of_range", f"{name}: {value!r} is not above {above:g}, expected more")
+    return number

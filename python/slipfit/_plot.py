@@ -10,8 +10,9 @@ import numpy as np
 from ._errors import Error
 
 if TYPE_CHECKING:
-    from ._fit import Fit, Sweep
+    from ._fit import Fit
     from ._recording import Recording
+    from ._sweep import Sweep
 
 _GREY, _RED, _BLUE = "#7f7f7f", "#c0392b", "#1f5fa8"
 
@@ -38,7 +39,7 @@ def trace(recording: "Recording", ax: Any) -> Any:
 def _fitted_trace(fit: "Fit", ax: Any) -> Any:
     ax = trace(fit.recording, ax)
     curve = fit.curve
-    if not np.isnan(curve.fitted).all():
+    if fit.status != "steady_sliding" and not np.isnan(curve.fitted).all():
         ax.plot(curve.time, curve.fitted, color=_RED, linewidth=0.8, label="fit")
         ax.plot(curve.time, curve.residual, color=_BLUE, linewidth=0.5, label="residual")
     ax.set_title(f"{fit.id}: {fit.status.replace('_', ' ')}")
@@ -68,7 +69,7 @@ def _pieces(fit: "Fit") -> List["np.ndarray[Any, Any]"]:
     """Samples of each cycle, from peak to peak."""
     peaks = fit.cycles["peak_s"].to_numpy()
     if len(peaks) < 2:
-        raise Error("no_cycles", f"{fit.id}: no cycles to draw ({fit.status.replace('_', ' ')}); plot kind 'trace' shows the recording")
+        raise Error("no_cycles", f"{fit.id}: no cycles to draw ({fit.status.replace('_', ' ')}); use plot('trace') to see the recording")
     time = fit.recording.time
     ends = np.searchsorted(time, peaks)
     return [np.arange(a, b) for a, b in zip(ends[:-1], ends[1:]) if b - a > 1]
@@ -134,7 +135,7 @@ def _point(ax: Any, fit: "Fit", label: str) -> None:
 def _speed(fit: "Fit", ax: Any) -> Any:
     text = fit._result().background()["prediction"]
     if text is None:
-        raise Error("cannot_predict", f"{fit.id}: the fit gives no model to predict from; plot kind 'trace' shows the recording")
+        raise Error("cannot_predict", f"{fit.id}: the fit gives no model to predict from; use plot('trace') to see the recording, and its notes for what is missing")
     ax = _axes(ax)
     _point(ax, fit, "measured, V / f")
     ax = prediction(json.loads(text), ax)
