@@ -38,23 +38,15 @@ ExitCode exit_code_for(const std::string& error_code) {
 }
 
 slipfit::Recording read(const AnalysisArguments& arguments) {
-  slipfit::Conditions conditions = conditions_from(arguments.recording);
+  slipfit::ManifestEntry entry = entry_from(arguments.recording);
   if (!arguments.surface.file.empty()) {
     const MeasuredSurface measured = measure(arguments.surface);
-    conditions.worn_track =
+    entry.conditions.worn_track =
         std::make_shared<const slipfit::WornTrack>(slipfit::worn_track_of(measured.profile, measured.surface));
   }
-  auto recording =
-      slipfit::read_recording(only_file(arguments.recording), conditions, read_options_from(arguments.recording));
+  auto recording = slipfit::read_recording(only_file(arguments.recording), entry.conditions, entry.options);
   if (!recording) throw Failure(exit_code_for(recording.error().code), recording.error());
   return std::move(recording).value();
-}
-
-std::vector<OutputFile> outputs_from(const AnalysisArguments& arguments) {
-  return outputs_of({{"--out", arguments.document.out},
-                     {"--cycles", arguments.cycles},
-                     {"--curve", arguments.curve},
-                     {"--report", arguments.report}});
 }
 
 std::string timing_text(const slipfit::Timing& timing) {
@@ -75,8 +67,9 @@ std::string document(const AnalysisArguments& arguments, const slipfit::Recordin
 void write_all_results(const AnalysisArguments& arguments, const slipfit::Recording& recording,
                        const slipfit::Analysis& analysis) {
   slipfit::Background background;
-  if (arguments.report || arguments.plots) background = slipfit::gather_background(recording, analysis);
-  write_results(arguments.document, outputs_from(arguments), [&](const std::string& option) {
+  if (arguments.document.has("--report") || arguments.plots)
+    background = slipfit::gather_background(recording, analysis);
+  write_results(arguments.document, [&](const std::string& option) {
     if (option == "--cycles") return slipfit::cycles_to_csv(recording, analysis);
     if (option == "--curve") return slipfit::curve_to_csv(recording, analysis);
     if (option == "--report") return slipfit::to_html(recording, analysis, background, {arguments.command_line});
@@ -92,7 +85,7 @@ void write_all_results(const AnalysisArguments& arguments, const slipfit::Record
     }
     notice(fmt::format("wrote {} pictures to '{}'", pictures.size(), *arguments.plots));
   }
-  if (arguments.report && !slipfit::has_interactive_trace()) {
+  if (arguments.document.has("--report") && !slipfit::has_interactive_trace()) {
     notice("this build has no chart library: the report's trace is a picture (build with libjs-dygraphs)");
   }
 }
@@ -116,8 +109,8 @@ void keep_freed_memory([[maybe_unused]] const std::string& file) {
 
 /// What is of one recording alone.
 void refuse_for_pieces(const AnalysisArguments& arguments) {
-  for (const auto& [option, is_given] : {std::pair{"--cycles", arguments.cycles.has_value()},
-                                         {"--curve", arguments.curve.has_value()},
+  for (const auto& [option, is_given] : {std::pair{"--cycles", arguments.document.has("--cycles")},
+                                         {"--curve", arguments.document.has("--curve")},
                                          {"--plots", arguments.plots.has_value()},
                                          {"--timing", arguments.timing}}) {
     if (!is_given) continue;
@@ -131,8 +124,8 @@ void refuse_for_pieces(const AnalysisArguments& arguments) {
 void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
   add_recording_options(command, arguments.recording);
   add_document_options(command, arguments.document, "report");
-  command.add_option("--cycles", arguments.cycles, "Write a table of the cycles (CSV)");
-  command.add_option("--report", arguments.report, "Write a page to look at and to print (HTML, one file)");
+  add_output_option(command, arguments.document, "--cycles", "Write a table of the cycles (CSV)");
+  add_report_option(command, arguments.document);
   command.add_option("--plots", arguments.plots, "Write the report's charts into this folder (SVG)");
   command.add_flag("--timing", arguments.timing, "Add the seconds that each stage took");
 }
@@ -140,7 +133,7 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
 void run_analysis(const AnalysisArguments& arguments,
                   const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis) {
   keep_freed_memory(only_file(arguments.recording));
-  check_outputs(outputs_from(arguments), only_file(arguments.recording));
+  check_outputs(arguments.document.outputs, only_file(arguments.recording));
   if (arguments.plots) make_folder({"--plots", *arguments.plots});
   const Clock::time_point start = Clock::now();
   const slipfit::Recording recording = read(arguments);
@@ -152,18 +145,17 @@ void run_analysis(const AnalysisArguments& arguments,
 }
 
 bool is_of_pieces(const AnalysisArguments& arguments) {
-  return arguments.recording.strokes || arguments.recording.segments;
+  return read_options_from(arguments.recording).pieces != slipfit::Pieces::One;
 }
 
 void run_pieces(const AnalysisArguments& arguments,
                 const std::function<slipfit::SweepAnalysis(const std::vector<slipfit::SweepEntry>&)>& analysis) {
   refuse_for_pieces(arguments);
   const std::string& file = only_file(arguments.recording);
-  check_outputs(outputs_from(arguments), file);
-  const auto pieces =
-      slipfit::read_pieces(file, conditions_from(arguments.recording), read_options_from(arguments.recording));
+  check_outputs(arguments.document.outputs, file);
+  const slipfit::ManifestEntry entry = entry_from(arguments.recording);
+  const auto pieces = slipfit::read_pieces(file, entry.conditions, entry.options);
   if (!pieces) throw Failure(exit_code_for(pieces.error().code), pieces.error());
-  write_sweep(
-      {std::filesystem::path(file).stem().string(), arguments.document, arguments.report, arguments.command_line},
-      pieces.value(), analysis(pieces.value()));
+  write_sweep({std::filesystem::path(file).stem().string(), arguments.document, arguments.command_line}, pieces.value(),
+              analysis(pieces.value()));
 }

@@ -17,12 +17,9 @@ struct AnalysisArguments {
   RecordingArguments recording;
   DocumentOptions document;
   bool timing = false;
-  std::optional<std::string> cycles;
-  std::optional<std::string> curve;
-  std::optional<std::string> report;  ///< HTML file
-  std::optional<std::string> plots;   ///< folder for SVG files
-  SurfaceArguments surface;           ///< the worn track; an empty file name: none
-  std::string command_line;           ///< as typed, for the report
+  std::optional<std::string> plots;  ///< folder for SVG files
+  SurfaceArguments surface;          ///< the worn track; an empty file name: none
+  std::string command_line;          ///< as typed, for the report
 };
 
 void add_analysis_options(CLI::App& command, AnalysisArguments& arguments);

@@ -27,7 +27,7 @@ struct BatchArguments {
   RecordingArguments recording;  ///< of a folder
   std::string out;
   std::optional<std::size_t> jobs;
-  std::string timeout = "10min";
+  double timeout_s = 600.0;
   std::optional<std::string> shard;
   bool resume = false;
   bool joint_groups = false;
@@ -46,8 +46,9 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
       ->required();
   command.add_option("--out", arguments.out, "Folder of the results; made where it is missing")->required();
   command.add_option("--jobs", arguments.jobs, "Recordings at a time; without it one a core that this process may use");
-  command.add_option("--timeout", arguments.timeout, "Longest time for a recording; then it counts as failed")
-      ->capture_default_str();
+  add_quantity(command, "--timeout", arguments.timeout_s, slipfit::Dimension::Time, Limits::AboveZero,
+               "Longest time for a recording; then it counts as failed")
+      ->default_str("10min");
   command.add_flag("--resume", arguments.resume, "Go on with what the folder holds");
   command.add_option("--shard", arguments.shard, "I/N: the I-th of N parts of the manifest, I from 1");
   command.add_flag("--joint-groups", arguments.joint_groups, "Fit the recordings of each group together, too");
@@ -106,7 +107,7 @@ slipfit::BatchOptions options_from(const BatchArguments& arguments) {
   options.folder = arguments.out;
   options.fit = fit_options_from(arguments.tier, arguments.fixed, slipfit::FitKind::Single);
   options.jobs = jobs_from(arguments.jobs);
-  options.timeout_s = positive_quantity("--timeout", arguments.timeout, slipfit::Dimension::Time);
+  options.timeout_s = arguments.timeout_s;
   options.resume = arguments.resume;
   if (arguments.shard) options.shard = shard_from(*arguments.shard);
   if (arguments.report) options.report = report_from(arguments);
@@ -128,10 +129,10 @@ slipfit::BatchOutcome run_shown(const slipfit::BatchOptions& options, const Batc
 }
 
 /// A manifest goes as it is; that of a folder is drafted first.
-BatchArguments with_manifest(BatchArguments arguments, const CLI::App& command) {
+BatchArguments with_manifest(BatchArguments arguments) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(arguments.manifest, ignored)) {
-    refuse_recording_options(command);
+    refuse_recording_options(arguments.recording);
     return arguments;
   }
   if (arguments.shard) {
@@ -141,8 +142,7 @@ BatchArguments with_manifest(BatchArguments arguments, const CLI::App& command) 
   }
   DocumentOptions messages;
   messages.quiet = arguments.quiet;
-  arguments.manifest =
-      drafted_manifest({arguments.manifest, arguments.out, arguments.recording}, command, teller(messages));
+  arguments.manifest = drafted_manifest({arguments.manifest, arguments.out, arguments.recording}, teller(messages));
   return arguments;
 }
 
@@ -169,5 +169,5 @@ void add_batch_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("batch", "The fit of every recording of a manifest, into a folder");
   const auto arguments = std::make_shared<BatchArguments>();
   add_options(*command, *arguments);
-  command->callback([arguments, command] { run(with_manifest(*arguments, *command)); });
+  command->callback([arguments] { run(with_manifest(*arguments)); });
 }

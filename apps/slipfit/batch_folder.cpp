@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <vector>
 
+#include "document_file.hpp"
 #include "failure.hpp"
 #include "output.hpp"
 
@@ -16,39 +15,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Options about recordings that were given.
-std::vector<const CLI::Option*> given_options(const CLI::App& command) {
-  CLI::App all;
-  RecordingArguments ignored;
-  add_recording_options(all, ignored);
-  std::vector<const CLI::Option*> given;
-  for (const CLI::Option* const option : all.get_options()) {
-    const CLI::Option* const own = command.get_option_no_throw(option->get_name());
-    if (own != nullptr && option->get_name() != "--help" && own->count() > 0) given.push_back(own);
-  }
-  return given;
-}
-
-/// "--time-column" is the column time_column.
-std::string column_of(const std::string& option) {
-  if (option == "--zero") return "zero_force";
-  if (option == "--speed-uncertainty") return "speed_se";
-  std::string column = option.substr(2);
-  std::replace(column.begin(), column.end(), '-', '_');
-  return column;
-}
-
 /// What goes with every recording; speed and load fill cells instead.
-std::vector<slipfit::DraftColumn> columns_from(const CLI::App& command) {
-  static const std::set<std::string> kFilled{"--speed", "--radius", "--normal-force"};
-  static const std::set<std::string> kNoColumn{"--mass", "--sensor-bandwidth", "--sensor-resonance", "--step"};
+std::vector<slipfit::DraftColumn> columns_from(const RecordingArguments& options) {
+  static const std::set<std::string_view> kFilled{"speed", "radius", "normal_force"};
   std::vector<slipfit::DraftColumn> columns;
-  for (const CLI::Option* const option : given_options(command)) {
-    if (kFilled.contains(option->get_name())) continue;
-    if (kNoColumn.contains(option->get_name())) {
-      throw Failure(ExitCode::WrongUsage, option->get_name() + " belongs to one recording: use slipfit fit");
+  for (const slipfit::RecordingOption& option : given_options(options)) {
+    if (kFilled.contains(option.column)) continue;
+    if (option.column == "step") {
+      throw Failure(ExitCode::WrongUsage, "--step belongs to one recording: use slipfit fit");
     }
-    columns.push_back({column_of(option->get_name()), option->results().front()});
+    const std::string column(option.column);
+    columns.push_back({column, options.said.at(column)});
   }
   return columns;
 }
@@ -60,7 +37,7 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
 }
 
 void fill(slipfit::ManifestDraft& draft, const RecordingArguments& options) {
-  const slipfit::Conditions stated = conditions_from(options);
+  const slipfit::Conditions stated = entry_from(options).conditions;
   for (slipfit::DraftEntry& entry : draft.entries) {
     if (!entry.speed_m_per_s && stated.speed_m_per_s > 0.0) entry.speed_m_per_s = stated.speed_m_per_s;
     if (!entry.normal_force_N) entry.normal_force_N = stated.normal_force_N;
@@ -84,9 +61,7 @@ void check_speeds(const slipfit::ManifestDraft& draft, const BatchFolder& folder
 void check_same(const std::string& file, const std::string& text) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return;
-  std::ostringstream before;
-  before << std::ifstream(file, std::ios::binary).rdbuf();
-  if (before.str() == text) return;
+  if (text_of_file(file) == text) return;
   throw Failure(ExitCode::WrongUsage,
                 fmt::format("'{}' is there and differs from what would be drafted now (other files or options): choose "
                             "another --out, or go on with it as the manifest in place of the folder",
@@ -95,8 +70,8 @@ void check_same(const std::string& file, const std::string& text) {
 
 }  // namespace
 
-std::string drafted_manifest(const BatchFolder& folder, const CLI::App& command, const Tell& tell) {
-  const std::vector<slipfit::DraftColumn> columns = columns_from(command);
+std::string drafted_manifest(const BatchFolder& folder, const Tell& tell) {
+  const std::vector<slipfit::DraftColumn> columns = columns_from(folder.options);
   slipfit::ManifestDraft draft = draft_of({folder.recordings}, read_options_from(folder.options), tell);
   std::erase_if(draft.entries, [&folder](const auto& entry) { return lies_in(entry.file, folder.out); });
   if (draft.entries.empty()) throw Failure(ExitCode::BadRecording, "no recording found beside the results in --out");
@@ -111,11 +86,10 @@ std::string drafted_manifest(const BatchFolder& folder, const CLI::App& command,
   return file;
 }
 
-void refuse_recording_options(const CLI::App& command) {
-  const auto given = given_options(command);
+void refuse_recording_options(const RecordingArguments& options) {
+  const auto given = given_options(options);
   if (given.empty()) return;
-  throw Failure(
-      ExitCode::WrongUsage,
-      given.front()->get_name() +
-          " does not go with a manifest, whose columns say how each recording was made; it goes with a folder");
+  throw Failure(ExitCode::WrongUsage, fmt::format("{} does not go with a manifest, whose columns say how each "
+                                                  "recording was made; it goes with a folder",
+                                                  given.front().name()));
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "drafts.hpp"
@@ -15,7 +14,7 @@ struct BatchFolder {
 
 /// Drafts the manifest of the folder as `slipfit manifest` does, with the options in cells that are empty, into the
 /// folder of the results; returns its file. Throws Failure.
-std::string drafted_manifest(const BatchFolder& folder, const CLI::App& command, const Tell& tell);
+std::string drafted_manifest(const BatchFolder& folder, const Tell& tell);
 
 /// The columns of a manifest say what these options would. Throws Failure(WrongUsage) where one is given.
-void refuse_recording_options(const CLI::App& command);
+void refuse_recording_options(const RecordingArguments& options);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "commands.hpp"
+#include "document_file.hpp"
 #include "drafts.hpp"
 #include "failure.hpp"
 #include "output.hpp"
@@ -31,7 +32,6 @@ struct CompareArguments {
   std::vector<std::string> groups;
   RecordingArguments recording;
   DocumentOptions document;
-  std::optional<std::string> report;
   std::string command_line;
 };
 
@@ -47,12 +47,6 @@ struct Source {
   slipfit::ComparisonSide side;
   std::vector<ManifestEntry> entries;
 };
-
-std::string text_of_file(const std::string& file) {
-  std::ostringstream content;
-  content << std::ifstream(file, std::ios::binary).rdbuf();
-  return content.str();
-}
 
 /// One document, or one a line.
 bool is_results_file(const std::string& file) {
@@ -151,7 +145,7 @@ class Fitting {
       slipfit::JsonOptions options;
       options.id = entry.id;
       source.side.fits.push_back(slipfit::compared_fit(to_json(one.recording, one.analysis, options)).value());
-      if (arguments_.report) kept.push_back(std::move(one));
+      if (arguments_.document.has("--report")) kept.push_back(std::move(one));
     }
     return kept;
   }
@@ -188,10 +182,9 @@ std::pair<SideArguments, SideArguments> sides_of(const CompareArguments& argumen
 }
 
 void run(const CompareArguments& arguments) {
-  const auto outputs = outputs_of({{"--out", arguments.document.out}, {"--report", arguments.report}});
   const auto [side_a, side_b] = sides_of(arguments);
   for (const SideArguments* const side : {&side_a, &side_b}) {
-    for (const std::string& path : side->paths) check_outputs(outputs, path);
+    for (const std::string& path : side->paths) check_outputs(arguments.document.outputs, path);
   }
   const Tell tell = teller(arguments.document);
   Source a = source_of(side_a, tell);
@@ -206,7 +199,7 @@ void run(const CompareArguments& arguments) {
   a.side.name = name_of(side_a);
   b.side.name = name_of(side_b);
   const slipfit::Comparison comparison = slipfit::compare(a.side, b.side);
-  write_results(arguments.document, outputs, [&](const std::string& option) {
+  write_results(arguments.document, [&](const std::string& option) {
     if (option == "--report") return to_html(comparison, origin);
     return arguments.document.json ? to_json(comparison) + "\n" : to_text(comparison);
   });
@@ -231,6 +224,6 @@ void add_compare_command(CLI::App& program, const std::string& command_line) {
       ->expected(1, 2)
       ->allow_extra_args(false);
   add_document_options(*command, arguments->document, "text");
-  command->add_option("--report", arguments->report, "Write a page to look at and to print (HTML, one file)");
+  add_report_option(*command, arguments->document);
   command->callback([arguments] { run(*arguments); });
 }

@@ -6,10 +6,17 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "close_file.hpp"
 #include "failure.hpp"
+
+std::string text_of_file(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 std::string document_text(const std::string& file) {
   constexpr std::size_t kLargestDocument = std::size_t{64} << 20U;  // a thousand times a real one

@@ -4,3 +4,6 @@
 
 /// What a file holds that slipfit fit --json wrote. Throws Failure(WrongUsage) where it cannot be read.
 std::string document_text(const std::string& file);
+
+/// What a file holds; empty where it cannot be read.
+std::string text_of_file(const std::string& file);

@@ -31,17 +31,12 @@ std::optional<std::string> speed_for(const RecordingArguments& arguments, std::s
                                                   speeds.size(), recordings));
 }
 
-void take_drafted_speed(double speed_m_per_s, slipfit::ManifestEntry& entry, const Tell& tell) {
+void tell_of_other_speed(double stated_m_per_s, const slipfit::DraftEntry& drafted, const Tell& tell) {
   constexpr double kRounding = 0.01;
-  double& speed = entry.conditions.speed_m_per_s;
-  if (speed > 0.0 && std::abs(speed - speed_m_per_s) > kRounding * speed_m_per_s) {
-    tell(
-        fmt::format("'{}': {:.4g} m/s by its file or name; one --speed for several is for those that do not tell "
-                    "theirs",
-                    entry.file.string(), speed_m_per_s));
-  }
-  speed = speed_m_per_s;
-  entry.conditions.speed_unit.clear();
+  const double speed_m_per_s = *drafted.speed_m_per_s;
+  if (!(stated_m_per_s > 0.0) || std::abs(stated_m_per_s - speed_m_per_s) <= kRounding * speed_m_per_s) return;
+  tell(fmt::format("'{}': {:.4g} m/s by its file or name; one --speed for several is for those that do not tell theirs",
+                   drafted.file.string(), speed_m_per_s));
 }
 
 [[noreturn]] void refuse_without_speed(const slipfit::DraftEntry& entry) {
@@ -75,15 +70,14 @@ std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& dra
   const std::size_t count = draft.entries.size();
   for (std::size_t i = 0; i < count; ++i) {
     const slipfit::DraftEntry& drafted = draft.entries[i];
-    const bool is_stated = arguments.speeds.size() == count;
-    slipfit::ManifestEntry entry;
+    const std::optional<std::string> stated = speed_for(arguments, i, count);
+    const bool has_own = drafted.speed_m_per_s && arguments.speeds.size() != count;
+    if (has_own && stated) tell_of_other_speed(entry_at(arguments, stated).conditions.speed_m_per_s, drafted, tell);
+    slipfit::ManifestEntry entry = entry_at(arguments, has_own ? fmt::format("{}", *drafted.speed_m_per_s) : stated);
     entry.id = drafted.id;
     entry.file = drafted.file;
     entry.group = drafted.group;
-    entry.conditions = conditions_at(arguments, speed_for(arguments, i, count));
     entry.conditions.labels.group = drafted.group;
-    entry.options = read_options_from(arguments);
-    if (drafted.speed_m_per_s && !is_stated) take_drafted_speed(*drafted.speed_m_per_s, entry, tell);
     if (!entry.conditions.normal_force_N) entry.conditions.normal_force_N = drafted.normal_force_N;
     if (drafted.step) entry.options.step = drafted.step;
     if (!(entry.conditions.speed_m_per_s > 0.0)) refuse_without_speed(drafted);

@@ -34,7 +34,7 @@ SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& co
   }
   const AnalysisArguments& analysis = arguments.analysis;
   const std::string name = arguments.group ? *arguments.group : std::filesystem::path(*arguments.sweep).stem().string();
-  return {{name, analysis.document, analysis.report, analysis.command_line},
+  return {{name, analysis.document, analysis.command_line},
           *arguments.sweep,
           manifest_entries(*arguments.sweep, arguments.group, arguments.only)};
 }
@@ -70,7 +70,28 @@ SweepArguments sweep_of_files(const FitArguments& arguments, const CLI::App& com
   const auto draft = draft_of(analysis.recording.files, read_options_from(analysis.recording), tell);
   std::vector<slipfit::ManifestEntry> entries = entries_of(draft, analysis.recording, tell);
   const std::string name = name_of(entries);
-  return {{name, analysis.document, analysis.report, analysis.command_line}, {}, std::move(entries)};
+  return {{name, analysis.document, analysis.command_line}, {}, std::move(entries)};
+}
+
+void run(const FitArguments& arguments, const CLI::App& command) {
+  const std::vector<std::string>& files = arguments.analysis.recording.files;
+  const bool is_of_several = arguments.sweep || files.size() > 1 || is_of_pieces(arguments.analysis);
+  slipfit::FitOptions options = fit_options_from(arguments.tier, arguments.fixed,
+                                                 is_of_several ? slipfit::FitKind::Sweep : slipfit::FitKind::Single);
+  if (arguments.sweep) return run_sweep(sweep_arguments(arguments, command), options);
+  if (arguments.group || !arguments.only.empty()) {
+    throw Failure(ExitCode::WrongUsage, "--group and --only choose recordings of a manifest: give it with --joint");
+  }
+  if (files.empty()) throw Failure(ExitCode::WrongUsage, "REC is required");
+  if (is_of_pieces(arguments.analysis)) {
+    return run_pieces(arguments.analysis, fit_together(options, arguments.analysis.document));
+  }
+  if (is_of_several) return run_sweep(sweep_of_files(arguments, command), options);
+  const DocumentOptions& document = arguments.analysis.document;
+  options.curve = document.has("--curve") || document.has("--report") || arguments.analysis.plots;
+  run_analysis(arguments.analysis, [&options](const slipfit::Recording& recording) {
+    return slipfit::analyze_and_fit(recording, options);
+  });
 }
 
 }  // namespace
@@ -87,30 +108,13 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
       ->capture_default_str();
   command->add_option("--fix", arguments->fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--curve", arguments->analysis.curve, "Write time, force, fitted force and residual (CSV)");
+  add_output_option(*command, arguments->analysis.document, "--curve",
+                    "Write time, force, fitted force and residual (CSV)");
   command->add_option("--surface", arguments->analysis.surface.file,
                       "Profile or image of the worn track: is its pattern that of the slips?");
   add_profile_options(*command, arguments->analysis.surface);
   command->add_option("--joint", arguments->sweep, "Manifest (CSV): one set of parameters for its recordings");
   command->add_option("--group", arguments->group, "With --joint: this group of the manifest");
   command->add_option("--only", arguments->only, "With --joint: these recordings (ID,ID,...)")->delimiter(',');
-  command->callback([arguments, command] {
-    const std::vector<std::string>& files = arguments->analysis.recording.files;
-    const bool is_of_several = arguments->sweep || files.size() > 1 || is_of_pieces(arguments->analysis);
-    slipfit::FitOptions options = fit_options_from(arguments->tier, arguments->fixed,
-                                                   is_of_several ? slipfit::FitKind::Sweep : slipfit::FitKind::Single);
-    if (arguments->sweep) return run_sweep(sweep_arguments(*arguments, *command), options);
-    if (arguments->group || !arguments->only.empty()) {
-      throw Failure(ExitCode::WrongUsage, "--group and --only choose recordings of a manifest: give it with --joint");
-    }
-    if (files.empty()) throw Failure(ExitCode::WrongUsage, "REC is required");
-    if (is_of_pieces(arguments->analysis)) {
-      return run_pieces(arguments->analysis, fit_together(options, arguments->analysis.document));
-    }
-    if (is_of_several) return run_sweep(sweep_of_files(*arguments, *command), options);
-    options.curve = arguments->analysis.curve || arguments->analysis.report || arguments->analysis.plots;
-    run_analysis(arguments->analysis, [&options](const slipfit::Recording& recording) {
-      return slipfit::analyze_and_fit(recording, options);
-    });
-  });
+  command->callback([arguments, command] { run(*arguments, *command); });
 }

@@ -17,11 +17,10 @@ struct InfoArguments {
 
 void run(const InfoArguments& arguments) {
   const std::string& file = only_file(arguments.recording);
-  const std::vector<OutputFile> outputs = outputs_of({{"--out", arguments.document.out}});
-  check_outputs(outputs, file);
+  check_outputs(arguments.document.outputs, file);
   const auto inspection = slipfit::inspect(file, read_options_from(arguments.recording));
   if (!inspection) throw Failure(ExitCode::BadRecording, inspection.error());
-  write_results(arguments.document, outputs, [&](const std::string&) {
+  write_results(arguments.document, [&](const std::string&) {
     return arguments.document.json ? to_json(inspection.value(), file) + "\n" : to_text(inspection.value(), file);
   });
 }
@@ -33,8 +32,9 @@ void add_info_command(CLI::App& program) {
       program.add_subcommand("info", "What a file holds: columns, units, clock, steps; and what would be read of it");
   const auto arguments = std::make_shared<InfoArguments>();
   command->add_option("FILE", arguments->recording.files, "Recording")->required();
-  command->add_option("--radius", arguments->recording.radius, "Distance of the contact from the axis: 12mm");
-  add_reading_options(*command, arguments->recording.options);
+  add_options_where(*command, arguments->recording, [](const slipfit::RecordingOption& option) {
+    return option.of == slipfit::RecordingOption::Of::Reading;
+  });
   add_document_options(*command, arguments->document, "text");
   command->callback([arguments] { run(*arguments); });
 }

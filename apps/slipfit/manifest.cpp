@@ -29,8 +29,8 @@ void tell_of(const slipfit::ManifestDraft& draft) {
 }
 
 void run(const ManifestArguments& arguments) {
-  const auto outputs = outputs_of({{"--out", arguments.out}});
-  check_outputs(outputs, "");
+  const OutputFile output{"--out", arguments.out.value_or("")};
+  if (arguments.out) check_outputs({output}, "");
   const slipfit::ManifestDraft draft = slipfit::draft_manifest(arguments.paths);
   if (draft.entries.empty()) {
     const std::string why = draft.skipped.empty()
@@ -42,7 +42,7 @@ void run(const ManifestArguments& arguments) {
   const std::filesystem::path folder = std::filesystem::path(arguments.out.value_or("")).parent_path();
   const std::string text = slipfit::to_csv(draft, folder);
   if (!arguments.out) return write_standard_output(text);
-  write_file(outputs.front(), text);
+  write_file(output, text);
   if (!arguments.quiet) say(fmt::format("wrote {} recordings to '{}'", draft.entries.size(), *arguments.out));
 }
 

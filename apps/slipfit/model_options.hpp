@@ -2,22 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
-#include <string>
 
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/velocity.hpp"
 
-/// The model on the command line, as typed.
+/// The model on the command line.
 struct ModelArguments {
-  std::optional<std::string> stiffness;
-  std::optional<std::string> mass;
-  std::optional<std::string> natural_frequency;
-  std::string damping_ratio = "0";
-  std::optional<std::string> static_friction;
-  std::optional<std::string> kinetic_friction;
-  std::optional<std::string> f0;
-  std::optional<std::string> f1;
-  std::optional<std::string> alpha;
+  std::optional<double> stiffness_N_per_m, mass_kg, natural_frequency_rad_per_s, damping_ratio;
+  std::optional<double> static_friction_N, kinetic_friction_N, f0_N, f1_N, alpha_s_per_m;
 };
 
 struct Model {
@@ -29,7 +21,7 @@ struct Model {
 void add_model_options(CLI::App& command, ModelArguments& arguments);
 
 /// Whether any of the options was given.
-bool model_given(const CLI::App& command);
+bool model_given(const ModelArguments& arguments);
 
 /// Throws Failure(WrongUsage).
 Model model_from(const ModelArguments& arguments);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -59,26 +60,38 @@ void check_place(const OutputFile& output) {
 
 }  // namespace
 
+bool DocumentOptions::has(const std::string& option) const {
+  return std::any_of(outputs.begin(), outputs.end(),
+                     [&option](const OutputFile& file) { return file.option == option; });
+}
+
 void add_document_options(CLI::App& command, DocumentOptions& options, const std::string& text) {
   command.add_flag("--json", options.json, "One JSON document in place of the " + text);
-  command.add_option("--out", options.out, "Write the " + text + " or the JSON document to this file");
+  add_output_option(command, options, "--out", "Write the " + text + " or the JSON document to this file");
   command.add_flag("--quiet", options.quiet, "No messages on standard error but errors");
 }
 
-std::vector<OutputFile> outputs_of(std::initializer_list<std::pair<const char*, std::optional<std::string>>> options) {
-  std::vector<OutputFile> outputs;
-  for (const auto& [option, file] : options) {
-    if (file) outputs.push_back({option, *file});
-  }
-  return outputs;
+void add_output_option(CLI::App& command, DocumentOptions& options, const std::string& option,
+                       const std::string& help) {
+  command.add_option_function<std::string>(
+      option,
+      [&options, option](const std::string& file) {
+        options.outputs.push_back({option, file});
+      },
+      help);
 }
 
-void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input) {
+void add_report_option(CLI::App& command, DocumentOptions& options) {
+  add_output_option(command, options, "--report", "Write a page to look at and to print (HTML, one file)");
+}
+
+void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input,
+                   const std::string& words_for_input) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     check_place(outputs[i]);
     if (!input.empty() && same_file(outputs[i].file, input)) {
-      throw Failure(ExitCode::WrongUsage, fmt::format("{}: '{}' is the recording itself, choose another file",
-                                                      outputs[i].option, outputs[i].file));
+      throw Failure(ExitCode::WrongUsage, fmt::format("{}: '{}' is the {} itself, choose another file",
+                                                      outputs[i].option, outputs[i].file, words_for_input));
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (!same_file(outputs[i].file, outputs[j].file)) continue;
@@ -121,13 +134,13 @@ void write_file(const OutputFile& output, const std::string& content) {
   cannot_write(output, failed);
 }
 
-void write_results(const DocumentOptions& options, const std::vector<OutputFile>& outputs,
+void write_results(const DocumentOptions& options,
                    const std::function<std::string(const std::string& option)>& content_of) {
-  for (const OutputFile& output : outputs) {
+  for (const OutputFile& output : options.outputs) {
     write_file(output, content_of(output.option));
     if (!options.quiet) say(fmt::format("wrote '{}'", output.file));
   }
-  if (!options.out) write_standard_output(content_of("--out"));
+  if (!options.has("--out")) write_standard_output(content_of("--out"));
 }
 
 void write_standard_output(const std::string& content) {

@@ -2,10 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <initializer_list>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 /// A file that an option names, and the option for messages.
@@ -18,18 +15,24 @@ struct OutputFile {
 struct DocumentOptions {
   bool json = false;
   bool quiet = false;
-  std::optional<std::string> out;
+  std::vector<OutputFile> outputs;  ///< that were named; --out: of the document
+
+  [[nodiscard]] bool has(const std::string& option) const;
 };
 
 /// `text`: what stands in the help for the document without --json.
 void add_document_options(CLI::App& command, DocumentOptions& options, const std::string& text);
 
-/// The options that were given.
-std::vector<OutputFile> outputs_of(std::initializer_list<std::pair<const char*, std::optional<std::string>>> options);
+/// An option that names a further file.
+void add_output_option(CLI::App& command, DocumentOptions& options, const std::string& option, const std::string& help);
 
-/// Before any work: throws Failure(WrongUsage) where an output is the input, is named twice, is a folder, or has no
-/// folder.
-void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input);
+/// --report
+void add_report_option(CLI::App& command, DocumentOptions& options);
+
+/// Before any work: throws Failure(WrongUsage) where an output is the input (empty: there is none), is named twice, is
+/// a folder, or has no folder.
+void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input,
+                   const std::string& words_for_input = "recording");
 
 /// Made where it is missing, but not its parent folders: a mistyped path creates nothing. Throws Failure(WrongUsage).
 void make_folder(const OutputFile& folder);
@@ -39,7 +42,7 @@ void make_folder(const OutputFile& folder);
 void write_file(const OutputFile& output, const std::string& content);
 
 /// Writes each file and says so; the document, which is the content of --out, goes to standard output without --out.
-void write_results(const DocumentOptions& options, const std::vector<OutputFile>& outputs,
+void write_results(const DocumentOptions& options,
                    const std::function<std::string(const std::string& option)>& content_of);
 
 void write_standard_output(const std::string& content);

@@ -32,7 +32,7 @@ std::optional<slipfit::PlanTarget> target_from(const PlanArguments& arguments) {
     if (target.name != kSpacing) {
       throw Failure(ExitCode::WrongUsage, fmt::format("--at goes with --for {} only", kSpacing));
     }
-    target.speed_m_per_s = positive_quantity("--at", *arguments.speed, slipfit::Dimension::Speed);
+    target.speed_m_per_s = quantity("--at", *arguments.speed, slipfit::Dimension::Speed, Limits::AboveZero);
   } else if (target.name == kSpacing) {
     throw Failure(ExitCode::WrongUsage, fmt::format("--for {} needs a speed: give it with --at", kSpacing));
   }
@@ -41,8 +41,7 @@ std::optional<slipfit::PlanTarget> target_from(const PlanArguments& arguments) {
 
 void run(const PlanArguments& arguments) {
   const std::optional<slipfit::PlanTarget> target = target_from(arguments);
-  const std::vector<OutputFile> outputs = outputs_of({{"--out", arguments.document.out}});
-  check_outputs(outputs, arguments.file);
+  check_outputs(arguments.document.outputs, arguments.file, "fit document");
   const std::string content = document_text(arguments.file);
   const auto document = slipfit::read_fit_document(content, arguments.file);
   if (!document) throw Failure(ExitCode::WrongUsage, document.error().message);
@@ -52,7 +51,7 @@ void run(const PlanArguments& arguments) {
   if (!plan) throw Failure(ExitCode::WrongUsage, fmt::format("{}: {}", arguments.file, plan.error().message));
   const slipfit::PredictionSource source{arguments.file, document.value().conditional_on,
                                          arguments.speed ? std::string(slipfit::unit_in(*arguments.speed)) : ""};
-  write_results(arguments.document, outputs, [&](const std::string&) {
+  write_results(arguments.document, [&](const std::string&) {
     return arguments.document.json ? slipfit::to_json(plan.value(), source) + "\n"
                                    : slipfit::to_text(plan.value(), source);
   });

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "commands.hpp"
@@ -19,47 +17,33 @@
 #include "slipfit/report/fit_document.hpp"
 #include "slipfit/report/prediction.hpp"
 
-using slipfit::Dimension;
-
 namespace {
 
 struct PredictArguments {
   std::optional<std::string> file;
   std::optional<std::string> speeds;
-  std::optional<std::string> normal_force;
+  std::optional<double> normal_force_N;
   ModelArguments model;
   DocumentOptions document;
-  std::optional<std::string> csv;
 };
 
 void add_options(CLI::App& command, PredictArguments& arguments) {
   command.add_option("FIT.json", arguments.file, "Document of slipfit fit --json; or the model options in its place");
   command.add_option("--speeds", arguments.speeds,
                      "A:B:N, N speeds from A to B in equal ratios: 1mm/s:1m/s:50; or a list: 5mm/s,10mm/s");
-  command.add_option(
-      "--normal-force", arguments.normal_force,
-      "Predict under this load: 2.3, 2.3N; of a fit whose recordings state theirs (default: their mean)");
+  add_quantity(command, "--normal-force", arguments.normal_force_N, slipfit::Dimension::Force, Limits::AboveZero,
+               "Predict under this load: 2.3, 2.3N; of a fit whose recordings state theirs (default: their mean)");
   add_model_options(command, arguments.model);
   add_document_options(command, arguments.document, "table");
-  command.add_option("--csv", arguments.csv, "Write one row a speed: value, low and high of every quantity (CSV)");
-}
-
-void check_places(const PredictArguments& arguments, const std::vector<OutputFile>& outputs) {
-  for (const OutputFile& output : outputs) {
-    std::error_code ignored;
-    if (!arguments.file || !std::filesystem::equivalent(output.file, *arguments.file, ignored)) continue;
-    throw Failure(ExitCode::WrongUsage,
-                  fmt::format("{}: '{}' is the fit document itself, choose another file", output.option, output.file));
-  }
-  check_outputs(outputs, "");
+  add_output_option(command, arguments.document, "--csv",
+                    "Write one row a speed: value, low and high of every quantity (CSV)");
 }
 
 slipfit::FitDocument document_from(const PredictArguments& arguments) {
   const std::string& file = *arguments.file;
   auto document = slipfit::read_fit_document(document_text(file), file);
-  if (document && arguments.normal_force) {
-    const double load_N = positive_quantity("--normal-force", *arguments.normal_force, Dimension::Force);
-    document = slipfit::at_load(std::move(document).value(), load_N, file);
+  if (document && arguments.normal_force_N) {
+    document = slipfit::at_load(std::move(document).value(), *arguments.normal_force_N, file);
   }
   if (!document) throw Failure(ExitCode::WrongUsage, document.error().message);
   return std::move(document).value();
@@ -71,8 +55,8 @@ struct Basis {
   slipfit::PredictionSource source;
 };
 
-Basis basis_from(const PredictArguments& arguments, const CLI::App& command) {
-  const bool stated = model_given(command);
+Basis basis_from(const PredictArguments& arguments) {
+  const bool stated = model_given(arguments.model);
   if (arguments.file && stated) {
     throw Failure(ExitCode::WrongUsage,
                   fmt::format("give either '{}' or the model options (--stiffness, ...), not both", *arguments.file));
@@ -97,16 +81,15 @@ Basis basis_from(const PredictArguments& arguments, const CLI::App& command) {
   return {std::move(prediction), {"command line", {}}};
 }
 
-void run(const PredictArguments& arguments, const CLI::App& command) {
+void run(const PredictArguments& arguments) {
   const auto speeds = slipfit::parse_speeds(
       required(arguments.speeds, "--speeds", "A:B:N or a list, for example --speeds 1mm/s:1m/s:50"));
   if (!speeds) throw Failure(ExitCode::WrongUsage, speeds.error().message);
-  const std::vector<OutputFile> outputs = outputs_of({{"--out", arguments.document.out}, {"--csv", arguments.csv}});
-  check_places(arguments, outputs);
-  Basis basis = basis_from(arguments, command);
+  check_outputs(arguments.document.outputs, arguments.file.value_or(""), "fit document");
+  Basis basis = basis_from(arguments);
   basis.source.speed_unit = speeds.value().unit;
   const slipfit::Prediction prediction = slipfit::predict_at(basis.model, speeds.value().speeds_m_per_s);
-  write_results(arguments.document, outputs, [&](const std::string& option) {
+  write_results(arguments.document, [&](const std::string& option) {
     if (option == "--csv") return slipfit::prediction_to_csv(prediction);
     return arguments.document.json ? slipfit::to_json(prediction, basis.source) + "\n"
                                    : slipfit::to_text(prediction, basis.source);
@@ -120,5 +103,5 @@ void add_predict_command(CLI::App& program) {
       program.add_subcommand("predict", "Period, frequency and spacing at other speeds; where stick-slip ends");
   const auto arguments = std::make_shared<PredictArguments>();
   add_options(*command, *arguments);
-  command->callback([arguments, command] { run(*arguments, *command); });
+  command->callback([arguments] { run(*arguments); });
 }

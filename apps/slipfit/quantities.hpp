@@ -1,45 +1,57 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "slipfit/core/recording.hpp"
+#include "failure.hpp"
 #include "slipfit/core/units.hpp"
 #include "slipfit/fit/options.hpp"
-#include "slipfit/io/read_options.hpp"
 
 // Text of the command line into SI numbers. Each throws Failure(WrongUsage) that names the option, the text and the
 // remedy.
 
-/// The text, or Failure(WrongUsage) that the option is missing; `meaning` says what to give.
-const std::string& required(const std::optional<std::string>& text, const std::string& option,
-                            const std::string& meaning);
+enum class Limits { None, AboveZero, NotNegative };
 
 /// A number (SI) or a number with a unit.
-double quantity(const std::string& option, const std::string& text, slipfit::Dimension dimension);
-double positive_quantity(const std::string& option, const std::string& text, slipfit::Dimension dimension);
-double quantity_not_negative(const std::string& option, const std::string& text, slipfit::Dimension dimension);
+double quantity(const std::string& option, const std::string& text, slipfit::Dimension dimension,
+                Limits limits = Limits::None);
 
 /// A finite number without a unit; `unit` is for the message.
-double plain_number(const std::string& option, const std::string& text, const std::string& unit);
+double plain_number(const std::string& option, const std::string& text, const std::string& unit,
+                    Limits limits = Limits::None);
 
-/// The driving speed; "60rpm" needs the radius at which the sensor touches: V = omega R.
-double driving_speed(const std::string& text, const std::optional<std::string>& radius);
+/// An option of a `quantity`; the target is a double, or a std::optional of one.
+template <class Target>
+CLI::Option* add_quantity(CLI::App& command, const std::string& option, Target& target, slipfit::Dimension dimension,
+                          Limits limits, const std::string& help) {
+  return command.add_option_function<std::string>(
+      option,
+      [&target, option, dimension, limits](const std::string& text) {
+        target = quantity(option, text, dimension, limits);
+      },
+      help);
+}
 
-/// Standard error of the speed: a speed, or a percentage of it.
-double speed_standard_error(const std::string& text, double speed_m_per_s, const std::optional<std::string>& radius);
+/// An option of a `plain_number`.
+template <class Target>
+CLI::Option* add_number(CLI::App& command, const std::string& option, Target& target, const std::string& unit,
+                        Limits limits, const std::string& help) {
+  return command.add_option_function<std::string>(
+      option,
+      [&target, option, unit, limits](const std::string& text) { target = plain_number(option, text, unit, limits); },
+      help);
+}
 
-/// "T0:T1" in seconds, T0 < T1.
-slipfit::TimeWindow time_window(const std::string& text);
-
-/// "A:B" rows, 1 <= A < B.
-slipfit::RowRange row_range(const std::string& text);
-
-/// "COLUMN=VALUE"; the column may hold an equals sign, the value none.
-slipfit::ColumnValue column_value(const std::string& text);
-
-slipfit::ForceView force_view(const std::string& text);
+/// The value, or Failure(WrongUsage) that the option is missing; `meaning` says what to give.
+template <class Value>
+const Value& required(const std::optional<Value>& value, const std::string& option, const std::string& meaning) {
+  if (!value) throw Failure(ExitCode::WrongUsage, fmt::format("{} is missing: give {}", option, meaning));
+  return *value;
+}
 
 /// `--tier` and `--fix` as typed.
 slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed,

@@ -10,6 +10,7 @@
 #include "model_options.hpp"
 #include "output.hpp"
 #include "quantities.hpp"
+#include "recording_options.hpp"
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/report/csv.hpp"
 
@@ -21,56 +22,46 @@ constexpr double kMostSamples = 2e8;  // about 10 GB of text: more is taken for 
 
 struct SimulateArguments {
   ModelArguments model;
-  std::optional<std::string> speed;
-  std::optional<std::string> radius;
-  std::optional<std::string> duration;
-  std::optional<std::string> sample_rate;
-  std::string noise = "0";
-  std::string jitter = "0";
-  std::string offset = "0";
-  std::string drift = "0";
-  std::string hum = "0";
-  std::string hum_frequency = "50";
-  std::string force_view = "spring";
-  std::uint64_t seed = 1;
+  RecordingArguments recording;  ///< speed and view
+  std::optional<double> duration_s, sample_rate_Hz;
+  slipfit::SimulationOptions options;  ///< without these
   std::optional<std::string> out;
   bool quiet = false;
 };
 
 void add_options(CLI::App& command, SimulateArguments& arguments) {
+  using enum Limits;
+  slipfit::SimulationOptions& options = arguments.options;
   add_model_options(command, arguments.model);
-  command.add_option("--speed", arguments.speed, "Driving speed: 0.01 (m/s), 10mm/s; 60rpm with --radius");
-  command.add_option("--radius", arguments.radius, "Distance of the contact from the axis: 12mm");
-  command.add_option("--duration", arguments.duration, "Length of the recording (s)");
-  command.add_option("--sample-rate", arguments.sample_rate, "Samples a second (Hz)");
-  command.add_option("--noise", arguments.noise, "White noise (N rms)")->capture_default_str();
-  command.add_option("--jitter", arguments.jitter, "Standard deviation of F_s from slip to slip (N)")
-      ->capture_default_str();
-  command.add_option("--offset", arguments.offset, "Added to the force (N)")->capture_default_str();
-  command.add_option("--drift", arguments.drift, "Added to the force (N/s)")->capture_default_str();
-  command.add_option("--hum", arguments.hum, "Amplitude of mains hum (N)")->capture_default_str();
-  command.add_option("--hum-frequency", arguments.hum_frequency, "Mains frequency (Hz)")->capture_default_str();
-  command.add_option("--force-view", arguments.force_view, "spring, transmitted or contact")->capture_default_str();
-  command.add_option("--seed", arguments.seed, "Same seed, same numbers")->capture_default_str();
+  add_options_where(command, arguments.recording, [](const slipfit::RecordingOption& option) {
+    return option.column == "speed" || option.column == "radius" || option.column == "force_view";
+  });
+  add_quantity(command, "--duration", arguments.duration_s, Dimension::Time, AboveZero, "Length of the recording (s)");
+  add_quantity(command, "--sample-rate", arguments.sample_rate_Hz, Dimension::Frequency, AboveZero,
+               "Samples a second (Hz)");
+  add_quantity(command, "--noise", options.noise_rms_N, Dimension::Force, NotNegative, "White noise (N rms)")
+      ->default_str("0");
+  add_quantity(command, "--jitter", options.static_friction_sd_N, Dimension::Force, NotNegative,
+               "Standard deviation of F_s from slip to slip (N)")
+      ->default_str("0");
+  add_quantity(command, "--offset", options.offset_N, Dimension::Force, None, "Added to the force (N)")
+      ->default_str("0");
+  add_number(command, "--drift", options.drift_N_per_s, "N/s", None, "Added to the force (N/s)")->default_str("0");
+  add_quantity(command, "--hum", options.hum_N, Dimension::Force, NotNegative, "Amplitude of mains hum (N)")
+      ->default_str("0");
+  add_quantity(command, "--hum-frequency", options.hum_frequency_Hz, Dimension::Frequency, AboveZero,
+               "Mains frequency (Hz)")
+      ->default_str("50");
+  command.add_option("--seed", options.seed, "Same seed, same numbers")->capture_default_str();
   command.add_option("--out", arguments.out, "Write to this file, not to standard output");
   command.add_flag("--quiet", arguments.quiet, "No messages on standard error but errors");
 }
 
-slipfit::SimulationOptions options_from(const SimulateArguments& arguments) {
-  slipfit::SimulationOptions options;
-  options.duration_s = positive_quantity(
-      "--duration", required(arguments.duration, "--duration", "the length of the recording (s)"), Dimension::Time);
-  options.sample_rate_Hz =
-      positive_quantity("--sample-rate", required(arguments.sample_rate, "--sample-rate", "the samples a second (Hz)"),
-                        Dimension::Frequency);
-  options.force_view = force_view(arguments.force_view);
-  options.static_friction_sd_N = quantity_not_negative("--jitter", arguments.jitter, Dimension::Force);
-  options.noise_rms_N = quantity_not_negative("--noise", arguments.noise, Dimension::Force);
-  options.offset_N = quantity("--offset", arguments.offset, Dimension::Force);
-  options.drift_N_per_s = plain_number("--drift", arguments.drift, "N/s");
-  options.hum_N = quantity_not_negative("--hum", arguments.hum, Dimension::Force);
-  options.hum_frequency_Hz = positive_quantity("--hum-frequency", arguments.hum_frequency, Dimension::Frequency);
-  options.seed = arguments.seed;
+slipfit::SimulationOptions options_from(const SimulateArguments& arguments, slipfit::ForceView view) {
+  slipfit::SimulationOptions options = arguments.options;
+  options.force_view = view;
+  options.duration_s = required(arguments.duration_s, "--duration", "the length of the recording (s)");
+  options.sample_rate_Hz = required(arguments.sample_rate_Hz, "--sample-rate", "the samples a second (Hz)");
   if (options.duration_s * options.sample_rate_Hz > kMostSamples) {
     throw Failure(ExitCode::WrongUsage, fmt::format("--duration times --sample-rate is {:.3g} samples, at most {:.0e}",
                                                     options.duration_s * options.sample_rate_Hz, kMostSamples));
@@ -99,9 +90,12 @@ slipfit::SimulatedTrace simulated(const Model& model, double speed_m_per_s, cons
 
 void run(const SimulateArguments& arguments) {
   const Model model = model_from(arguments.model);
-  const double speed_m_per_s = driving_speed(
-      required(arguments.speed, "--speed", "the driving speed, for example --speed 10mm/s"), arguments.radius);
-  const slipfit::SimulationOptions options = options_from(arguments);
+  if (arguments.recording.speeds.empty()) {
+    throw Failure(ExitCode::WrongUsage, "--speed is missing: give the driving speed, for example --speed 10mm/s");
+  }
+  const slipfit::Conditions conditions = entry_from(arguments.recording).conditions;
+  const double speed_m_per_s = conditions.speed_m_per_s;
+  const slipfit::SimulationOptions options = options_from(arguments, conditions.force_view);
   if (arguments.out) check_outputs({{"--out", *arguments.out}}, "");
   const slipfit::SimulatedTrace trace = simulated(model, speed_m_per_s, options);
   const std::string csv = slipfit::trace_to_csv(trace, comment_for(model, speed_m_per_s, options));

@@ -13,16 +13,13 @@ namespace {
 struct SurfaceCommand {
   SurfaceArguments surface;
   DocumentOptions document;
-  std::optional<std::string> report;
   std::string command_line;
 };
 
 void run_surface(const SurfaceCommand& arguments) {
-  const std::vector<OutputFile> outputs =
-      outputs_of({{"--out", arguments.document.out}, {"--report", arguments.report}});
-  check_outputs(outputs, arguments.surface.file);
+  check_outputs(arguments.document.outputs, arguments.surface.file);
   const MeasuredSurface measured = measure(arguments.surface);
-  write_results(arguments.document, outputs, [&](const std::string& option) {
+  write_results(arguments.document, [&](const std::string& option) {
     if (option == "--report") return slipfit::to_html(measured.profile, measured.surface, arguments.command_line);
     return arguments.document.json ? slipfit::to_json(measured.profile, measured.surface) + "\n"
                                    : slipfit::to_text(measured.profile, measured.surface);
@@ -36,24 +33,16 @@ double direction(const std::string& text) {
   return degrees * std::numbers::pi / 180.0;
 }
 
+double length_unit_m(const std::string& text) {
+  const auto unit = slipfit::parse_unit(text, slipfit::Dimension::Length);
+  if (!unit) throw Failure(ExitCode::WrongUsage, "--unit: " + unit.error().message);
+  return unit.value().scale;
+}
+
 }  // namespace
 
 MeasuredSurface measure(const SurfaceArguments& arguments) {
-  slipfit::ProfileOptions options;
-  options.x_column = arguments.x_column;
-  options.z_column = arguments.z_column;
-  const auto length = [](const char* option, const std::optional<std::string>& text) {
-    return text ? std::optional(positive_quantity(option, *text, slipfit::Dimension::Length)) : std::nullopt;
-  };
-  options.pitch_m = length("--pitch", arguments.pitch);
-  options.pixel_m = length("--pixel", arguments.pixel);
-  if (arguments.unit) {
-    const auto unit = slipfit::parse_unit(*arguments.unit, slipfit::Dimension::Length);
-    if (!unit) throw Failure(ExitCode::WrongUsage, "--unit: " + unit.error().message);
-    options.unit_m = unit.value().scale;
-  }
-  if (arguments.along) options.along_rad = direction(*arguments.along);
-  auto profile = slipfit::read_profile(arguments.file, options);
+  auto profile = slipfit::read_profile(arguments.file, arguments.options);
   if (!profile) throw Failure(ExitCode::BadRecording, profile.error());
   auto surface = slipfit::measure_surface(profile.value());
   if (!surface) throw Failure(ExitCode::BadRecording, surface.error());
@@ -61,12 +50,19 @@ MeasuredSurface measure(const SurfaceArguments& arguments) {
 }
 
 void add_profile_options(CLI::App& command, SurfaceArguments& arguments) {
-  command.add_option("--unit", arguments.unit, "Of lengths and heights of a text that names none: um");
-  command.add_option("--pitch", arguments.pitch, "Distance of the points of a text of heights alone: 1um");
-  command.add_option("--pixel", arguments.pixel, "Size of an image's pixel on the surface: 2.1um");
-  command.add_option("--along", arguments.along, "Direction of sliding on an area: x, y, or degrees from x");
-  command.add_option("--x-column", arguments.x_column, "Places along the track: name or 1-based number");
-  command.add_option("--z-column", arguments.z_column, "Heights: name or 1-based number");
+  slipfit::ProfileOptions& options = arguments.options;
+  command.add_option_function<std::string>(
+      "--unit", [&options](const std::string& text) { options.unit_m = length_unit_m(text); },
+      "Of lengths and heights of a text that names none: um");
+  add_quantity(command, "--pitch", options.pitch_m, slipfit::Dimension::Length, Limits::AboveZero,
+               "Distance of the points of a text of heights alone: 1um");
+  add_quantity(command, "--pixel", options.pixel_m, slipfit::Dimension::Length, Limits::AboveZero,
+               "Size of an image's pixel on the surface: 2.1um");
+  command.add_option_function<std::string>(
+      "--along", [&options](const std::string& text) { options.along_rad = direction(text); },
+      "Direction of sliding on an area: x, y, or degrees from x");
+  command.add_option("--x-column", options.x_column, "Places along the track: name or 1-based number");
+  command.add_option("--z-column", options.z_column, "Heights: name or 1-based number");
 }
 
 void add_surface_command(CLI::App& program, const std::string& command_line) {
@@ -77,6 +73,6 @@ void add_surface_command(CLI::App& program, const std::string& command_line) {
       ->required();
   add_profile_options(*command, arguments->surface);
   add_document_options(*command, arguments->document, "text");
-  command->add_option("--report", arguments->report, "Write a page to look at and to print (HTML, one file)");
+  add_report_option(*command, arguments->document);
   command->callback([arguments] { run_surface(*arguments); });
 }

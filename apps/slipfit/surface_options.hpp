@@ -1,7 +1,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
 
 #include "slipfit/surface/surface.hpp"
@@ -9,7 +8,7 @@
 /// A file of a worn surface, and what the user says about it.
 struct SurfaceArguments {
   std::string file;
-  std::optional<std::string> unit, pitch, pixel, along, x_column, z_column;
+  slipfit::ProfileOptions options;
 };
 
 void add_profile_options(CLI::App& command, SurfaceArguments& arguments);

@@ -39,10 +39,6 @@ std::vector<slipfit::SweepEntry> read_recordings(const std::vector<ManifestEntry
   throw Failure(manifest_asks_for_it ? ExitCode::WrongUsage : ExitCode::BadRecording, entries.error());
 }
 
-std::vector<OutputFile> outputs_from(const SweepDocument& document) {
-  return outputs_of({{"--out", document.options.out}, {"--report", document.report}});
-}
-
 }  // namespace
 
 slipfit::SweepAnalysis analyze_with_progress(const std::vector<slipfit::SweepEntry>& entries,
@@ -53,7 +49,7 @@ slipfit::SweepAnalysis analyze_with_progress(const std::vector<slipfit::SweepEnt
 }
 
 void run_sweep(const SweepArguments& arguments, const slipfit::FitOptions& options) {
-  const std::vector<OutputFile> outputs = outputs_from(arguments.document);
+  const std::vector<OutputFile>& outputs = arguments.document.options.outputs;
   check_outputs(outputs, arguments.manifest);
   for (const ManifestEntry& entry : arguments.entries) check_outputs(outputs, entry.file.string());
   const std::vector<slipfit::SweepEntry> entries = read_recordings(arguments.entries);
@@ -64,7 +60,7 @@ void write_sweep(const SweepDocument& document, const std::vector<slipfit::Sweep
                  const slipfit::SweepAnalysis& sweep) {
   slipfit::JsonOptions layout;
   layout.id = document.name;
-  write_results(document.options, outputs_from(document), [&](const std::string& option) {
+  write_results(document.options, [&](const std::string& option) {
     if (option == "--report") {
       return to_html(entries, sweep, predict_around(entries, sweep), {layout.id, document.command_line});
     }

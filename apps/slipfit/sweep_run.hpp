@@ -13,7 +13,6 @@
 struct SweepDocument {
   std::string name;  ///< the document's id
   DocumentOptions options;
-  std::optional<std::string> report;
   std::string command_line;  ///< as typed, for the report
 };
 

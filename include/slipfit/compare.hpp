@@ -49,6 +49,10 @@ struct ComparisonSide {
   std::vector<ComparedFit> fits;
 };
 
+/// What a condition was at its least and its most; empty where no fit tells it.
+using ComparedCondition = std::optional<double> ComparedFit::*;
+std::optional<Interval> range_of(const ComparisonSide& side, ComparedCondition condition);
+
 /// Where the interval of a difference comes from (docs/accuracy.md says how each holds).
 enum class ComparisonMethod {
   StandardErrors,  ///< of one fit on each side: how repeats scatter is not known

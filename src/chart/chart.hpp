@@ -83,11 +83,12 @@ struct Panel {
   LegendAt legend_at = LegendAt::Inside;
 };
 
-/// Panels from top to bottom, about 700 px wide.
+/// Panels from top to bottom, with 90 px beside their axes.
 struct Chart {
   std::string title;
   std::vector<std::string> remarks;  ///< lines under the title
   std::vector<Panel> panels;
+  double width_px = 610.0;  ///< of the axes
 };
 
 /// A file of its own.

@@ -18,7 +18,6 @@ namespace {
 
 // Pixels.
 constexpr double kLeft = 74.0;
-constexpr double kWidth = 610.0;  // of the axes
 constexpr double kRight = 16.0;
 constexpr double kAxisRoom = 52.0;   // below the axes: values and label
 constexpr double kLeastStep = 18.0;  // between values of the axis at the left
@@ -28,9 +27,10 @@ constexpr double kBetween = 6.0;     // least gap between two values below
 /// One panel: from values to pixels.
 class PanelDrawing {
  public:
-  PanelDrawing(Drawing& drawing, const Panel& panel, double top, std::string id)
+  PanelDrawing(Drawing& drawing, const Panel& panel, double width_px, double top, std::string id)
       : drawing_(drawing),
         panel_(panel),
+        width_(width_px),
         x_(drawable(panel.x)),
         y_(drawable(panel.y)),
         top_(top),
@@ -43,7 +43,7 @@ class PanelDrawing {
     drawing_.raw(
         fmt::format("<clipPath id=\"{0}inside{1}\"><rect x=\"{2:.1f}\" y=\"{3:.1f}\" width=\"{4:.1f}\" "
                     "height=\"{5:.1f}\"/></clipPath>\n<g clip-path=\"url(#{0}inside{1})\">\n",
-                    id_, number, kLeft, top_, kWidth, panel_.height_px));
+                    id_, number, kLeft, top_, width_, panel_.height_px));
     for (const Area& area : panel_.areas) drawing_.path(path_of(area.outline), drawing_.area_style(area, id_));
     for (const Line& line : panel_.lines) drawing_.path(path_of(line.points), drawing_.stroke_style(line));
     drawing_.raw("</g>\n");
@@ -55,7 +55,7 @@ class PanelDrawing {
     for (const Note& note : panel_.notes) {
       if (has_place(note.at)) draw_note(note);
     }
-    draw_legend(drawing_, panel_, {kLeft, top_, kWidth, panel_.height_px}, id_);
+    draw_legend(drawing_, panel_, {kLeft, top_, width_, panel_.height_px}, id_);
   }
 
  private:
@@ -66,7 +66,7 @@ class PanelDrawing {
     return (value - axis.low) / (axis.high - axis.low);
   }
   /// Far outside values are held near the axes: SVG programs draw huge coordinates badly.
-  [[nodiscard]] double x_of(double x) const { return kLeft + kWidth * std::clamp(share(x_, x), -3.0, 4.0); }
+  [[nodiscard]] double x_of(double x) const { return kLeft + width_ * std::clamp(share(x_, x), -3.0, 4.0); }
   [[nodiscard]] double y_of(double y) const { return bottom_ - panel_.height_px * std::clamp(share(y_, y), -3.0, 4.0); }
 
   [[nodiscard]] bool has_place(const Point& point) const {
@@ -91,7 +91,7 @@ class PanelDrawing {
     std::vector<Tick> ticks = ticks_of(x_);
     std::size_t longest = 0;
     for (const Tick& tick : ticks) longest = std::max(longest, tick.text.size());
-    const int room = static_cast<int>(kWidth / (kDigit * static_cast<double>(longest) + kBetween));
+    const int room = static_cast<int>(width_ / (kDigit * static_cast<double>(longest) + kBetween));
     const bool is_crowded = x_.scale == Scale::Linear && static_cast<int>(ticks.size()) > room;
     return is_crowded ? ticks_of(x_, std::max(1, room - 1)) : ticks;
   }
@@ -105,11 +105,11 @@ class PanelDrawing {
     const int most_steps = std::clamp(static_cast<int>(panel_.height_px / kLeastStep), 3, 8);
     for (const Tick& tick : panel_.y.label.empty() ? std::vector<Tick>{} : ticks_of(y_, most_steps)) {
       const double y = y_of(tick.value);
-      drawing_.line(kLeft, y, kLeft + kWidth, y, "class=\"grid\"");
+      drawing_.line(kLeft, y, kLeft + width_, y, "class=\"grid\"");
       if (!tick.text.empty()) drawing_.text(kLeft - 7.0, y + 4.0, tick.text, "value", " text-anchor=\"end\"");
     }
-    drawing_.box(kLeft, top_, kWidth, panel_.height_px, "class=\"axes\"");
-    drawing_.text(kLeft + 0.5 * kWidth, bottom_ + 38.0, panel_.x.label, "label", " text-anchor=\"middle\"");
+    drawing_.box(kLeft, top_, width_, panel_.height_px, "class=\"axes\"");
+    drawing_.text(kLeft + 0.5 * width_, bottom_ + 38.0, panel_.x.label, "label", " text-anchor=\"middle\"");
     const double middle = 0.5 * (top_ + bottom_);
     drawing_.text(18.0, middle, panel_.y.label, "label",
                   fmt::format(" text-anchor=\"middle\" transform=\"rotate(-90 18 {:.1f})\"", middle));
@@ -136,6 +136,7 @@ class PanelDrawing {
 
   Drawing& drawing_;
   const Panel& panel_;
+  double width_;
   Axis x_;
   Axis y_;
   double top_;
@@ -150,16 +151,19 @@ constexpr const char* kStyle =
     ".legend{fill:#FFF;fill-opacity:0.85;stroke:#CCC;stroke-width:0.7}</style>\n";
 
 /// Panels from top to bottom; returns where they end.
-double draw_panels(Drawing& drawing, const std::vector<Panel>& panels, double top, const std::string& id) {
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    top += legend_height_px(panels[i], kWidth);
-    PanelDrawing(drawing, panels[i], top, id).draw(i);
-    top += panels[i].height_px + kAxisRoom;
+double draw_panels(Drawing& drawing, const Chart& chart, double top, const std::string& id) {
+  for (std::size_t i = 0; i < chart.panels.size(); ++i) {
+    const Panel& panel = chart.panels[i];
+    top += legend_height_px(panel, chart.width_px);
+    PanelDrawing(drawing, panel, chart.width_px, top, id).draw(i);
+    top += panel.height_px + kAxisRoom;
   }
   return top;
 }
 
-constexpr double kPictureWidth = kLeft + kWidth + kRight;
+double picture_width(const Chart& chart) {
+  return kLeft + chart.width_px + kRight;
+}
 
 }  // namespace
 
@@ -168,11 +172,11 @@ std::string to_svg(const Chart& chart) {
   double y = 24.0;
   drawing.text(kLeft, y, chart.title, "title");
   for (const std::string& remark : chart.remarks) drawing.text(kLeft, y += kLineHeight_px, remark, "remark");
-  y = draw_panels(drawing, chart.panels, y + 14.0, "");
+  y = draw_panels(drawing, chart, y + 14.0, "");
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
              "{1:.0f}\">\n",
-             kPictureWidth, y) +
+             picture_width(chart), y) +
          kStyle + drawing.hatches("") + "<rect width=\"100%\" height=\"100%\" fill=\"#FFF\"/>\n" + drawing.svg() +
          "</svg>\n";
 }
@@ -180,9 +184,9 @@ std::string to_svg(const Chart& chart) {
 std::string to_page_svg(const Chart& chart, const PagePlace& place) {
   Drawing drawing(Palette::Page);
   const std::string id = place.id + "-";
-  const double height = draw_panels(drawing, chart.panels, 8.0, id);
+  const double height = draw_panels(drawing, chart, 8.0, id);
   return fmt::format("<svg class=\"chart\" id=\"{}\" role=\"img\" aria-label=\"{}\" viewBox=\"0 0 {:.0f} {:.0f}\">\n",
-                     place.id, escaped(place.label), kPictureWidth, height) +
+                     place.id, escaped(place.label), picture_width(chart), height) +
          drawing.hatches(id) + drawing.svg() + "</svg>\n";
 }
 

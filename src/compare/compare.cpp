@@ -91,29 +91,18 @@ void adjust(std::vector<QuantityComparison>& quantities) {
   }
 }
 
-/// What a condition was at its least and its most; empty where no fit tells it.
-std::optional<Interval> range_of(const Fits& fits, std::optional<double> ComparedFit::*condition) {
-  std::optional<Interval> range;
-  for (const ComparedFit& fit : fits) {
-    const std::optional<double>& value = fit.*condition;
-    if (!value) continue;
-    range = range ? Interval{std::min(range->low, *value), std::max(range->high, *value)} : Interval{*value, *value};
-  }
-  return range;
-}
-
 /// By more than rounding of what was typed: a hundredth.
-bool differ(const Fits& a, const Fits& b, std::optional<double> ComparedFit::*condition) {
+bool differ(const Comparison& comparison, ComparedCondition condition) {
   constexpr double kSame = 1.01;
-  const auto range_a = range_of(a, condition);
-  const auto range_b = range_of(b, condition);
+  const auto range_a = range_of(comparison.a, condition);
+  const auto range_b = range_of(comparison.b, condition);
   if (!range_a || !range_b) return false;
   return std::max(range_a->high, range_b->high) > kSame * std::min(range_a->low, range_b->low);
 }
 
 /// "0.02 to 0.05 m/s"
-std::string stated(const Fits& fits, std::optional<double> ComparedFit::*condition, const char* unit) {
-  const Interval range = *range_of(fits, condition);
+std::string stated(const ComparisonSide& side, ComparedCondition condition, const char* unit) {
+  const Interval range = *range_of(side, condition);
   return range.low == range.high ? fmt::format("{:.4g} {}", range.low, unit)
                                  : fmt::format("{:.4g} to {:.4g} {}", range.low, range.high, unit);
 }
@@ -121,19 +110,19 @@ std::string stated(const Fits& fits, std::optional<double> ComparedFit::*conditi
 void warn_of_conditions(Comparison& comparison) {
   const Fits& a = comparison.a.fits;
   const Fits& b = comparison.b.fits;
-  if (differ(a, b, &ComparedFit::speed_m_per_s)) {
+  if (differ(comparison, &ComparedFit::speed_m_per_s)) {
     comparison.warnings.push_back(
-        {"speeds_differ",
-         fmt::format("driving speed of A: {}, of B: {}: whatever depends on the speed (frequency, "
-                     "spacing, friction) may differ for that reason alone",
-                     stated(a, &ComparedFit::speed_m_per_s, "m/s"), stated(b, &ComparedFit::speed_m_per_s, "m/s"))});
+        {"speeds_differ", fmt::format("driving speed of A: {}, of B: {}: whatever depends on the speed (frequency, "
+                                      "spacing, friction) may differ for that reason alone",
+                                      stated(comparison.a, &ComparedFit::speed_m_per_s, "m/s"),
+                                      stated(comparison.b, &ComparedFit::speed_m_per_s, "m/s"))});
   }
-  if (differ(a, b, &ComparedFit::normal_force_N)) {
+  if (differ(comparison, &ComparedFit::normal_force_N)) {
     comparison.warnings.push_back(
-        {"loads_differ",
-         fmt::format("normal force of A: {}, of B: {}: friction forces differ for that reason, and "
-                     "frequency and spacing with them; coefficients of friction allow for it",
-                     stated(a, &ComparedFit::normal_force_N, "N"), stated(b, &ComparedFit::normal_force_N, "N"))});
+        {"loads_differ", fmt::format("normal force of A: {}, of B: {}: friction forces differ for that reason, and "
+                                     "frequency and spacing with them; coefficients of friction allow for it",
+                                     stated(comparison.a, &ComparedFit::normal_force_N, "N"),
+                                     stated(comparison.b, &ComparedFit::normal_force_N, "N"))});
   }
   const auto differs_from_first = [&a](const ComparedFit& fit) { return fit.motion != a.front().motion; };
   if (std::any_of(a.begin(), a.end(), differs_from_first) || std::any_of(b.begin(), b.end(), differs_from_first)) {
@@ -174,6 +163,16 @@ void warn_of_repeats(Comparison& comparison) {
 }
 
 }  // namespace
+
+std::optional<Interval> range_of(const ComparisonSide& side, ComparedCondition condition) {
+  std::optional<Interval> range;
+  for (const ComparedFit& fit : side.fits) {
+    const std::optional<double>& value = fit.*condition;
+    if (!value) continue;
+    range = range ? Interval{std::min(range->low, *value), std::max(range->high, *value)} : Interval{*value, *value};
+  }
+  return range;
+}
 
 Comparison compare(const ComparisonSide& a, const ComparisonSide& b) {
   Comparison comparison{a, b, {}, {}};

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 
 #include "io/message.hpp"
 
@@ -53,10 +52,8 @@ std::string list_columns(const Layout& layout) {
 Result<std::size_t> find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
                                        const std::string& file) {
   auto found = columns_called(layout, printable(wanted));
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
-  const bool is_number = error == std::errc() && end == wanted.data() + wanted.size();
-  if (found.empty() && is_number && number >= 1 && number <= layout.columns.size()) found = {number - 1};
+  const auto place = place_in_list(wanted, layout.columns.size());
+  if (found.empty() && place) found = {*place};
   if (found.empty()) {
     return Error{"unknown_column", fmt::format("{}: no column '{}'; {}; choose one with {}", file, printable(wanted),
                                                list_columns(layout), option)};

@@ -1,6 +1,7 @@
 #include "slipfit/io/file_info.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -20,33 +21,15 @@ namespace {
 
 using namespace reading;
 
-std::string quantity_of(const ColumnName& name) {
-  switch (name.role) {
-    case Role::Time:
-      return "time";
-    case Role::TangentialForce:
-      return "force";
-    case Role::NormalForce:
-      return "normal_force";
-    case Role::FrictionCoefficient:
-      return "friction_coefficient";
-    case Role::Displacement:
-      return "displacement";
-    case Role::Speed:
-      return "speed";
-    case Role::Step:
-      return "step";
-    case Role::Unknown:
-    case Role::Other:
-      return {};
-  }
-  return {};
-}
+/// In the order of Role; empty where it cannot be told.
+constexpr std::array<const char*, 9> kQuantities{
+    "", "time", "force", "normal_force", "friction_coefficient", "displacement", "speed", "step", ""};
 
 std::vector<ColumnInfo> columns_of(const Layout& layout) {
   std::vector<ColumnInfo> columns;
   for (const Column& column : layout.columns) {
-    columns.push_back({columns.size() + 1, column.name.base, column.name.unit, quantity_of(column.name)});
+    columns.push_back({columns.size() + 1, column.name.base, column.name.unit,
+                       kQuantities.at(static_cast<std::size_t>(column.name.role))});
   }
   return columns;
 }

@@ -11,6 +11,7 @@
 #include "io/cells.hpp"
 #include "io/line_reader.hpp"
 #include "io/manifest_columns.hpp"
+#include "io/manifest_fields.hpp"
 #include "io/message.hpp"
 #include "io/text_source.hpp"
 
@@ -104,7 +105,10 @@ class ManifestReader::Implementation {
     }
     for (const ManifestColumn& column : columns_.read) {
       auto result = with_cell(std::move(entry), column, (*cells)[column.index], delimiter_ == ';');
-      if (!result) return Error{result.error().code, fmt::format("{}: {}", place(), result.error().message)};
+      if (!result) {
+        return Error{result.error().code, fmt::format("{}: column '{}': {}", place(), column.name,
+                                                      with_columns_for_options(result.error().message))};
+      }
       entry = std::move(result).value();
     }
     entry.file = folder_ / entry.file;

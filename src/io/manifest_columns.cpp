@@ -3,85 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "io/cells.hpp"
-#include "io/manifest_setters.hpp"
+#include "io/manifest_fields.hpp"
 #include "io/message.hpp"
 #include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {
 
-struct ManifestField {
-  enum class Bound { AboveZero, NotNegative, None };
-  std::string_view base;
-  std::string_view suffix{};             ///< behind the base: the SI unit of the full name
-  std::optional<Dimension> dimension{};  ///< empty: text
-  Bound bound = Bound::None;
-  void (*set_number)(ManifestEntry&, double) = nullptr;  ///< nothing and `dimension`: a window
-  std::optional<Error> (*set_text)(ManifestEntry&, const std::string&) = nullptr;
-  std::string_view option{};  ///< of the command line, that says the same
-  bool is_needed = false;
-  bool may_be_empty = false;  ///< although the column is needed
-
-  [[nodiscard]] std::string full_name() const { return std::string(base) + std::string(suffix); }
-};
-
 namespace {
-
-using Bound = ManifestField::Bound;
-
-// A name that begins like another one stands before it.
-constexpr std::array kFields = std::to_array<ManifestField>({
-    {.base = "id", .set_text = set_id, .is_needed = true},
-    {.base = "file", .set_text = set_path<&ManifestEntry::file>, .is_needed = true},
-    {"speed_se", "_m_per_s", Dimension::Speed, Bound::NotNegative,
-     set_condition<&Conditions::speed_standard_error_m_per_s>},
-    {"speed", "_m_per_s", Dimension::Speed, Bound::AboveZero, set_condition<&Conditions::speed_m_per_s>, nullptr,
-     "--speed", true, true},
-    {"normal_force", "_N", Dimension::Force, Bound::AboveZero, set_condition<&Conditions::normal_force_N>},
-    {"zero_force", "_N", Dimension::Force, Bound::None, set_condition<&Conditions::zero_force_N>},
-    {.base = "force_view", .set_text = set_force_view},
-    {.base = "group", .set_text = set_label<&Labels::group>},
-    {.base = "sample", .set_text = set_label<&Labels::sample>},
-    {.base = "material", .set_text = set_label<&Labels::material>},
-    {.base = "operator", .set_text = set_label<&Labels::operator_name>},
-    {.base = "time_column", .set_text = set_option<&ReadOptions::time_column>, .option = "--time-column"},
-    {.base = "force_column", .set_text = set_option<&ReadOptions::force_column>, .option = "--force-column"},
-    {.base = "normal_force_column",
-     .set_text = set_option<&ReadOptions::normal_force_column>,
-     .option = "--normal-force-column"},
-    {.base = "speed_column", .set_text = set_option<&ReadOptions::speed_column>, .option = "--speed-column"},
-    {.base = "surface", .set_text = set_path<&ManifestEntry::surface>, .option = "--surface"},
-    {.base = "sheet", .set_text = set_option<&ReadOptions::sheet>, .option = "--sheet"},
-    {.base = "variable", .set_text = set_option<&ReadOptions::variable>, .option = "--variable"},
-    {.base = "step", .set_text = set_step, .option = "--step"},
-    {.base = "rows", .set_text = set_rows, .option = "--rows"},
-    {.base = "where", .set_text = set_where, .option = "--where"},
-    {.base = "strokes", .set_text = set_strokes, .option = "--strokes"},
-    {.base = "segments", .set_text = set_segments, .option = "--segments"},
-    {.base = "force_scale", .set_text = set_force_scale, .option = "--force-scale"},
-    {.base = "time_unit", .set_text = set_unit<Dimension::Time, &ReadOptions::time_unit>, .option = "--time-unit"},
-    {.base = "force_unit", .set_text = set_unit<Dimension::Force, &ReadOptions::force_unit>, .option = "--force-unit"},
-    {"sample_rate", "_Hz", Dimension::Frequency, Bound::AboveZero,
-     [](ManifestEntry& entry, double number) { entry.options.sample_rate_Hz = number; }, nullptr, "--sample-rate"},
-    {.base = "window", .suffix = "_s", .dimension = Dimension::Time, .option = "--window"},
-    {"mass", "_kg", Dimension::Mass, Bound::AboveZero, set_condition<&Conditions::mass_kg>},
-    {"radius", "_m", Dimension::Length, Bound::AboveZero,
-     [](ManifestEntry& entry, double number) { entry.options.radius_m = number; }},
-    {"sensor_bandwidth", "_Hz", Dimension::Frequency, Bound::AboveZero,
-     set_condition<&Conditions::sensor_bandwidth_Hz>},
-    {"sensor_resonance", "_Hz", Dimension::Frequency, Bound::AboveZero,
-     set_condition<&Conditions::sensor_resonance_Hz>},
-    {"drive_period", "_s", Dimension::Time, Bound::AboveZero, set_condition<&Conditions::drive_period_s>},
-    {"sensor_average", "_s", Dimension::Time, Bound::NotNegative, set_condition<&Conditions::sensor_average_s>},
-    {"measured_spacing_se", "_m", Dimension::Length, Bound::NotNegative,
-     set_condition<&Conditions::measured_spacing_se_m>},
-    {"measured_spacing", "_m", Dimension::Length, Bound::AboveZero, set_condition<&Conditions::measured_spacing_m>},
-});
 
 /// "mm_per_s" is "mm/s".
 std::string spelled_out(std::string_view unit) {
@@ -109,8 +43,8 @@ std::optional<UnitText> unit_behind(std::string_view name, std::string_view base
 
 /// Nothing where the name is unknown. Error: unknown_unit, in brackets only ("speed_old" is some other column).
 Result<std::optional<ManifestColumn>> recognise(const std::string& name, std::size_t index, const std::string& place) {
-  for (const ManifestField& field : kFields) {
-    const auto text = unit_behind(name, field.base);
+  for (const ManifestField& field : manifest_fields()) {
+    const auto text = unit_behind(name, field.said.column);
     if (!text) continue;
     if (text->unit.empty()) return std::optional(ManifestColumn{&field, index, printable(name), std::nullopt, {}});
     if (!field.dimension) continue;
@@ -140,28 +74,52 @@ const ManifestColumn* find_read(const ManifestColumns& columns, const ManifestFi
   return found == columns.read.end() ? nullptr : &*found;
 }
 
+/// A speed as it is, or a rotation times the radius; of a standard error a percentage of the speed. Both come before
+/// it.
+Result<double> speed_in(const std::string& text, const ManifestField& field, const ManifestEntry& entry) {
+  const double speed_m_per_s = entry.conditions.speed_m_per_s;
+  const auto share = parse_quantity(text, Dimension::Dimensionless);
+  if (field.said.column == "speed_se" && text.ends_with('%') && share) {
+    if (speed_m_per_s > 0.0) return share.value() * speed_m_per_s;
+    return *refusal("no_speed", text, "a speed beside it (--speed), of which it is a part");
+  }
+  const auto rotation = parse_quantity(text, Dimension::AngularSpeed);
+  Result<double> speed = parse_quantity(text, Dimension::Speed);
+  if (speed || !rotation) return speed;
+  if (entry.options.radius_m) return rotation.value() * *entry.options.radius_m;
+  return Error{"out_of_range",
+               fmt::format("'{}' is a rotation: add --radius, the distance of the contact from the axis", text)};
+}
+
 /// In SI: plain where the name has a unit, else a number that may bring its own.
-Result<double> number_in(const std::string& text, const ManifestColumn& column, const std::string& cell,
+Result<double> number_in(const std::string& text, const ManifestEntry& entry, const ManifestColumn& column,
                          bool decimal_comma) {
+  const ManifestField& field = *column.field;
   if (!column.scale) {
-    Result<double> value = parse_quantity(text, *column.field->dimension);
+    Result<double> value =
+        field.dimension == Dimension::Speed ? speed_in(text, field, entry) : parse_quantity(text, *field.dimension);
     return value ? value : Result<double>(Error{value.error().code, printable(value.error().message)});
   }
   const Cell number = read_cell(text, decimal_comma && text.find(',') != std::string::npos);
   if (number.kind == CellKind::Number && number.tag.empty()) return number.value * *column.scale;
-  return *refusal("bad_number", cell, "a plain number, in the unit that the column's name gives");
+  return *refusal("bad_number", text, "a plain number, in the unit that the column's name gives");
 }
 
 std::optional<Error> set_number(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell,
                                 bool decimal_comma) {
-  const Result<double> number = number_in(cell, column, cell, decimal_comma);
+  const Result<double> number = number_in(cell, entry, column, decimal_comma);
   if (!number) return number.error();
+  using Bound = ManifestField::Bound;
   const Bound bound = column.field->bound;
   const bool is_too_low = bound == Bound::AboveZero && !(number.value() > 0.0);
-  if (is_too_low) return refusal("out_of_range", cell, "a number above zero");
-  if (bound == Bound::NotNegative && number.value() < 0.0) return refusal("out_of_range", cell, "zero or more");
+  if (is_too_low || (bound == Bound::NotNegative && number.value() < 0.0)) {
+    return Error{"out_of_range", fmt::format("'{}' is {} zero", printable(cell), is_too_low ? "not above" : "below")};
+  }
+  if (!std::isfinite(number.value())) return refusal("bad_number", cell, "a finite number");
   column.field->set_number(entry, number.value());
-  if (column.field->base == "speed") entry.conditions.speed_unit = column.scale ? column.unit : unit_in(cell);
+  if (column.field->said.column == "speed") {
+    entry.conditions.speed_unit = column.scale ? column.unit : unit_in(cell);
+  }
   return std::nullopt;
 }
 
@@ -170,13 +128,18 @@ std::optional<Error> set_window(ManifestEntry& entry, const ManifestColumn& colu
   auto wrong = refusal("bad_window", cell, "T0:T1 with T0 < T1, on the recording's own clock");
   const std::size_t colon = cell.find(':');
   if (colon == std::string::npos) return wrong;
-  const Result<double> begin_s = number_in(cell.substr(0, colon), column, cell, decimal_comma);
+  const Result<double> begin_s = number_in(cell.substr(0, colon), entry, column, decimal_comma);
   if (!begin_s) return begin_s.error();
-  const Result<double> end_s = number_in(cell.substr(colon + 1), column, cell, decimal_comma);
+  const Result<double> end_s = number_in(cell.substr(colon + 1), entry, column, decimal_comma);
   if (!end_s) return end_s.error();
   if (!(begin_s.value() < end_s.value())) return wrong;
   entry.options.window = TimeWindow{begin_s.value(), end_s.value()};
   return std::nullopt;
+}
+
+/// A speed may hang on the radius, and its standard error on the speed.
+int turn_of(std::string_view column) {
+  return column == "speed_se" ? 2 : column == "speed" ? 1 : 0;
 }
 
 }  // namespace
@@ -197,46 +160,55 @@ Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& na
     }
     columns.read.push_back(*column.value());
   }
-  for (const ManifestField& field : kFields) {
-    if (!field.is_needed || find_read(columns, &field) != nullptr) continue;
+  for (const ManifestField& field : manifest_fields()) {
+    if (field.need == ManifestField::Need::Nothing || find_read(columns, &field) != nullptr) continue;
     const std::string ignored =
         columns.ignored.empty() ? "" : fmt::format(", not understood: {}", fmt::join(columns.ignored, ", "));
     return Error{"missing_column", fmt::format("{}: there is no column '{}'{}; expected a line of names such as "
                                                "id,file,speed_m_per_s",
                                                place, field.full_name(), ignored)};
   }
+  std::stable_sort(columns.read.begin(), columns.read.end(), [](const ManifestColumn& a, const ManifestColumn& b) {
+    return turn_of(a.field->said.column) < turn_of(b.field->said.column);
+  });
   return columns;
-}
-
-std::optional<ManifestColumn> column_called(const std::string& name) {
-  const auto column = recognise(name, 0, name);
-  return column ? column.value() : std::nullopt;
 }
 
 Result<ManifestEntry> with_cell(ManifestEntry entry, const ManifestColumn& column, const std::string& cell,
                                 bool decimal_comma) {
   const ManifestField& field = *column.field;
-  if (cell.empty() && (!field.is_needed || field.may_be_empty)) return entry;
+  if (cell.empty() && field.need != ManifestField::Need::Value) return entry;
   const auto error = cell.empty()                  ? Error{"missing_value", "the field is empty, expected a value"}
                      : field.set_text != nullptr   ? field.set_text(entry, cell)
                      : field.set_number != nullptr ? set_number(entry, column, cell, decimal_comma)
                                                    : set_window(entry, column, cell, decimal_comma);
-  if (error) return Error{error->code, fmt::format("column '{}': {}", column.name, error->message)};
+  if (error) return *error;
   return entry;
 }
 
-std::string with_columns_for_options(std::string text) {
-  for (const ManifestField& field : kFields) {
-    if (field.option.empty()) continue;
-    const std::string words = "the manifest's " + field.full_name();
-    for (std::size_t at = 0; (at = text.find(field.option, at)) != std::string::npos;) {
-      const std::size_t end = at + field.option.size();
-      const bool is_longer = end < text.size() && text[end] == '-';  // "--speed" of "--speed-column"
-      if (!is_longer) text.replace(at, field.option.size(), words);
-      at += is_longer ? field.option.size() : words.size();
+}  // namespace slipfit::reading
+
+namespace slipfit {
+
+using namespace reading;
+
+Result<ManifestEntry> entry_from_cells(std::vector<NamedCell> cells) {
+  std::stable_sort(cells.begin(), cells.end(),
+                   [](const NamedCell& a, const NamedCell& b) { return turn_of(a.column) < turn_of(b.column); });
+  ManifestEntry entry;
+  for (const NamedCell& cell : cells) {
+    const auto column = recognise(cell.column, 0, cell.column);
+    if (!column || !column.value()) {
+      return Error{"unknown_option", fmt::format("there is no option '{}'", printable(cell.column))};
     }
+    auto with = with_cell(std::move(entry), *column.value(), cell.text, false);
+    if (!with) {
+      const std::string place = cell.place.empty() ? fmt::format("column '{}'", cell.column) : cell.place;
+      return Error{with.error().code, fmt::format("{}: {}", place, with.error().message)};
+    }
+    entry = std::move(with).value();
   }
-  return text;
+  return entry;
 }
 
-}  // namespace slipfit::reading
+}  // namespace slipfit

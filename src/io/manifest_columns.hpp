@@ -10,7 +10,6 @@
 
 namespace slipfit::reading {
 
-/// What a manifest can say about a recording: a row of the table in manifest_columns.cpp.
 struct ManifestField;
 
 /// A column that is read: where it stands, what it is called, and what turns its numbers into SI.
@@ -28,19 +27,13 @@ struct ManifestColumns {
   std::size_t count = 0;  ///< of all columns
 };
 
-/// From the names row. `place` ("manifest.csv:1") begins each message. Errors: missing_column, duplicate_column,
-/// unknown_unit.
+/// From the names row, in the order in which their cells are to be read. `place` ("manifest.csv:1") begins each
+/// message. Errors: missing_column, duplicate_column, unknown_unit.
 Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& names, const std::string& place);
 
-/// The column of this name; empty where none is called so.
-std::optional<ManifestColumn> column_called(const std::string& name);
-
 /// The entry with what a cell says about it. Errors: missing_value, bad_id, bad_number, out_of_range, bad_window,
-/// unknown_unit, unknown_force_view; the message begins with the column.
+/// unknown_unit, unknown_force_view, no_speed.
 Result<ManifestEntry> with_cell(ManifestEntry entry, const ManifestColumn& column, const std::string& cell,
                                 bool decimal_comma);
-
-/// The text with the manifest's columns in place of the options of the command line that say the same.
-std::string with_columns_for_options(std::string text);
 
 }  // namespace slipfit::reading

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,8 +16,25 @@
 /// What a cell of text in a manifest sets, or the error that it is.
 namespace slipfit::reading {
 
-inline std::optional<Error> refusal(const char* code, const std::string& cell, const char* expected) {
-  return Error{code, fmt::format("bad value '{}', expected {}", printable(cell), expected)};
+inline ManifestEntry& owner_of(auto ManifestEntry::* /*member*/, ManifestEntry& entry) {
+  return entry;
+}
+inline Conditions& owner_of(auto Conditions::* /*member*/, ManifestEntry& entry) {
+  return entry.conditions;
+}
+inline ReadOptions& owner_of(auto ReadOptions::* /*member*/, ManifestEntry& entry) {
+  return entry.options;
+}
+
+template <auto member>
+void set_number_of(ManifestEntry& entry, double number) {
+  owner_of(member, entry).*member = number;
+}
+
+template <auto member>
+std::optional<Error> set_text_of(ManifestEntry& entry, const std::string& cell) {
+  owner_of(member, entry).*member = cell;
+  return std::nullopt;
 }
 
 inline std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell) {
@@ -29,12 +45,6 @@ inline std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell
     return refusal("bad_id", cell, "a name without slash or control character that does not begin with 'group:'");
   }
   entry.id = to_utf8(cell);
-  return std::nullopt;
-}
-
-template <auto ManifestEntry::*target>
-std::optional<Error> set_path(ManifestEntry& entry, const std::string& cell) {
-  entry.*target = cell;
   return std::nullopt;
 }
 
@@ -62,15 +72,10 @@ std::optional<Error> set_unit(ManifestEntry& entry, const std::string& cell) {
   return std::nullopt;
 }
 
-template <auto ReadOptions::*target>
-std::optional<Error> set_option(ManifestEntry& entry, const std::string& cell) {
-  entry.options.*target = cell;
-  return std::nullopt;
-}
-
 inline std::optional<Error> set_step(ManifestEntry& entry, const std::string& cell) {
   const double step = plain_number(cell, false);
-  if (!(step >= 0.0 && step < 1e9)) return refusal("bad_step", cell, "the number of a step, as slipfit info lists it");
+  if (!(step >= 0.0 && step < 1e9 && step == std::floor(step)))
+    return refusal("bad_step", cell, "the number of a step, as slipfit info lists it");
   entry.options.step = static_cast<std::size_t>(step);
   return std::nullopt;
 }
@@ -105,11 +110,6 @@ inline std::optional<Error> set_segments(ManifestEntry& entry, const std::string
 inline std::optional<Error> set_force_scale(ManifestEntry& entry, const std::string& cell) {
   entry.options.force_scale = cell;
   return parse_force_scale(cell) ? std::nullopt : refusal("unknown_unit", cell, "newtons for a unit, such as 5 N/V");
-}
-
-template <auto Conditions::*target>
-void set_condition(ManifestEntry& entry, double number) {
-  entry.conditions.*target = number;
 }
 
 }  // namespace slipfit::reading

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boost/locale/utf.hpp>
+#include <charconv>
 #include <iterator>
 
 namespace slipfit::reading {
@@ -49,12 +50,23 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::optional<std::size_t> place_in_list(std::string_view text, std::size_t count) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  return is_number && number >= 1 && number <= count ? std::optional(number - 1) : std::nullopt;
+}
+
 std::string name_of_file(const std::filesystem::path& file) {
   return file == "-" ? "standard input" : printable(file.string());
 }
 
 std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::optional<Error> refusal(const char* code, const std::string& cell, const char* expected) {
+  return Error{code, fmt::format("bad value '{}', expected {}", printable(cell), expected)};
 }
 
 Error duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line) {

@@ -69,17 +69,13 @@ std::string note_of(const QuantityComparison& quantity) {
 }
 
 /// "10 mm/s", "10 to 50 mm/s"; empty where no recording tells it.
-std::string range_text(const ComparisonSide& side, std::optional<double> ComparedFit::*condition,
-                       const std::string& SI_unit) {
-  std::vector<double> values;
-  for (const ComparedFit& fit : side.fits) {
-    if (fit.*condition) values.push_back(*(fit.*condition));
-  }
-  if (values.empty()) return {};
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  const DisplayUnit unit = display_unit(SI_unit, *high);
-  const std::string from = *low < *high ? fmt::format("{:.4g} to ", *low * unit.per_SI) : std::string();
-  return fmt::format(", {}{:.4g} {}", from, *high * unit.per_SI, unit.unit);
+std::string range_text(const ComparisonSide& side, ComparedCondition condition, const std::string& SI_unit) {
+  const std::optional<Interval> range = range_of(side, condition);
+  if (!range) return {};
+  const DisplayUnit unit = display_unit(SI_unit, range->high);
+  const std::string from =
+      range->low < range->high ? fmt::format("{:.4g} to ", range->low * unit.per_SI) : std::string();
+  return fmt::format(", {}{:.4g} {}", from, range->high * unit.per_SI, unit.unit);
 }
 
 }  // namespace

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "slipfit/analysis.hpp"
 
@@ -55,5 +60,22 @@ struct CoefficientSpread {
 inline constexpr std::array<CoefficientSpread, 2> kCoefficientSpreads{
     {{"static_peak_sd", "scatter of the peaks (sd)", &Coefficients::static_peak_sd},
      {"kinetic_sd", "scatter of the force while sliding (sd)", &Coefficients::kinetic_sd}}};
+
+/// All of them with their words, in the order of the reports.
+inline std::vector<std::pair<std::string_view, Estimate>> coefficient_rows(const Coefficients& coefficients) {
+  std::vector<std::pair<std::string_view, Estimate>> rows;
+  for (const auto& row : kCoefficients) rows.emplace_back(row.words, coefficients.*row.estimate);
+  for (const auto& row : kCoefficientThirds) rows.emplace_back(row.words, coefficients.*row.estimate);
+  for (const auto& row : kCoefficientSpreads) {
+    rows.emplace_back(row.words, Estimate{coefficients.*row.value, {}, {}, {}});
+  }
+  return rows;
+}
+
+/// In what a recording differs from what a standard asks.
+inline std::string differences_text(const StandardCoefficients& standard) {
+  if (standard.differs.empty()) return "as prescribed, as far as a recording shows it";
+  return fmt::format("{}", fmt::join(standard.differs, "; "));
+}
 
 }  // namespace slipfit

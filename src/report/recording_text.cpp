@@ -183,22 +183,15 @@ std::string transients_text(const Transients& transients, ForceQuantity quantity
 std::string coefficients_text(const std::optional<Coefficients>& coefficients) {
   if (!coefficients) return {};
   Table table = estimate_table();
-  const auto add = [&](std::string_view words, const Estimate& estimate) {
+  for (const auto& [words, estimate] : coefficient_rows(*coefficients)) {
     if (estimate.value) add_estimate(table, words, estimate, "");
-  };
-  for (const auto& row : kCoefficients) add(row.words, (*coefficients).*row.estimate);
-  for (const auto& row : kCoefficientThirds) add(row.words, (*coefficients).*row.estimate);
-  for (const auto& row : kCoefficientSpreads) {
-    add(row.words, Estimate{(*coefficients).*row.value, {}, {}, {}});
   }
   if (table.empty()) return {};
   std::string text = "\nCoefficient of friction\n" + table.text();
   for (const StandardCoefficients& standard : coefficients->standards) {
     text += fmt::format("  as {} asks: static {}, kinetic {}\n    prescribed: {}\n    here: {}\n", standard.standard,
                         estimate_text(standard.static_coefficient, ""), estimate_text(standard.kinetic_coefficient, ""),
-                        standard.prescribes,
-                        standard.differs.empty() ? "as prescribed, as far as a recording shows it"
-                                                 : fmt::format("{}", fmt::join(standard.differs, "; ")));
+                        standard.prescribes, differences_text(standard));
   }
   return text;
 }

@@ -2,17 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <numbers>
 
 #include "report/format.hpp"
-#include "report/json_values.hpp"
+#include "report/json_sections.hpp"
 
 namespace slipfit {
 namespace {
-
-Json surface_warnings(const Warnings& warnings) {
-  return array_of(warnings, [](const Warning& w) { return Json{{"code", w.code}, {"message", w.message}}; });
-}
 
 std::string surface_row(const char* name, const std::string& value) {
   return fmt::format("  {:<22} {}\n", name, value);
@@ -29,17 +26,8 @@ std::string length_of(const char* name, const std::optional<double>& length_m) {
 }  // namespace
 
 std::string name_of(SurfaceStatus status) {
-  switch (status) {
-    case SurfaceStatus::Periodic:
-      return "periodic";
-    case SurfaceStatus::Irregular:
-      return "irregular";
-    case SurfaceStatus::None:
-      return "none";
-    case SurfaceStatus::Undetermined:
-      break;
-  }
-  return "undetermined";
+  constexpr std::array<const char*, 4> kNames{"periodic", "irregular", "none", "undetermined"};
+  return kNames.at(static_cast<std::size_t>(status));
 }
 
 std::string to_json(const Profile& profile, const Surface& surface) {
@@ -65,7 +53,7 @@ std::string to_json(const Profile& profile, const Surface& surface) {
   json["cutoff_m"] = number(surface.cutoff_m);
   json["smoothed_over_m"] = number(surface.smoothed_over_m);
   json["method"] = surface.method.empty() ? Json() : Json(surface.method);
-  json["warnings"] = surface_warnings(surface.warnings);
+  json["warnings"] = warnings_json(surface.warnings);
   json["assumed"] = profile.assumed;
   return text_of(json);
 }

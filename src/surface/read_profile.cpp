@@ -18,15 +18,9 @@ Error damaged_surface(const SurfaceFile& file, const std::string& what) {
 Result<std::string> whole_file(const SurfaceFile& file, std::size_t most) {
   auto opened = reading::open_plain(file.path);
   if (!opened) return opened.error();
-  constexpr std::size_t kPart = std::size_t{256} * 1024;
-  std::string bytes;
-  for (;;) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + kPart);
-    bytes.resize(before + opened.value().bytes->read(bytes.data() + before, kPart));
-    if (bytes.size() > most) return map_too_large(file.name);
-    if (bytes.size() < before + kPart) return bytes;
-  }
+  auto bytes = reading::read_all(*opened.value().bytes, most);
+  if (!bytes) return map_too_large(file.name);
+  return *std::move(bytes);
 }
 
 namespace {

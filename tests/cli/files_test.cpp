@@ -80,10 +80,19 @@ TEST_CASE("batch takes a folder: its manifest is drafted, and options fill what 
   again[5] = "30mm/s";
   check_refused(again, "differs from what would be drafted now");
   check_refused({"batch", runs, "--out", out, "--shard", "1/2"}, "slipfit manifest");
-  check_refused({"batch", runs, "--out", out, "--mass", "1"}, "--mass");
+  check_refused({"batch", runs, "--out", out, "--step", "1"}, "--step");
   check_refused({"batch", out + "/manifest.csv", "--out", folder.path("o"), "--speed", "1"},
                 "--speed does not go with");
   CHECK(test::content_of(out + "/results.jsonl") == results);
+}
+
+TEST_CASE("batch of a folder takes what is the same for all its recordings") {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("runs"));
+  static_cast<void>(folder.file("runs/a.csv", simulated_csv("1")));
+  const std::string out = folder.path("out");
+  REQUIRE(slipfit({"batch", folder.path("runs"), "--out", out, "--speed", "20mm/s", "--mass", "30 g"}).exit_code == 0);
+  CHECK_THAT(test::content_of(out + "/results.jsonl"), Catch::Contains("\"mass_kg\":0.03"));
 }
 
 TEST_CASE("sample, material and operator of a manifest reach results and pages, whose heading is the file's name") {

@@ -126,6 +126,13 @@ TEST_CASE("a manifest may have a byte order mark, CRLF, quotes, comments, blank 
   CHECK(entries_in("id\tfile\tgroup\tspeed [mm/s]\na\ta.csv\t\t1\n").at(0).group.empty());
 }
 
+TEST_CASE("a cell may be a rotation or a percentage, wherever radius and speed stand") {
+  const auto entry = entries_in("id,file,speed_se,speed,radius_m\na,a.csv,1 %,60 rpm,0.01\n").at(0);
+  CHECK(entry.conditions.speed_m_per_s == Approx(0.01 * 2.0 * 3.14159265358979323846).epsilon(1e-12));
+  CHECK(entry.conditions.speed_standard_error_m_per_s.value() == Approx(0.01 * entry.conditions.speed_m_per_s));
+  CHECK(entry.conditions.speed_unit == "rpm");
+}
+
 TEST_CASE("columns that mean nothing are named, not used") {
   const TempFile file("id,weather,file,speed_m_per_s,speed_old\na,fair,a.csv,1,x\n", "runs.csv");
   const auto reader = ManifestReader::open(file.path());
@@ -151,6 +158,8 @@ TEST_CASE("each fault of a manifest is one line with file, line, column, value a
   check_error(names + "a,a.csv,10mm/s\n", "bad_number", {"'10mm/s'"});
   check_error(names + "a,a.csv,nan\n", "bad_number", {"'nan'"});
   check_error(names + "a,a.csv,0\n", "out_of_range", {"'0'", "above zero"});
+  check_error("id,file,speed\na,a.csv,60 rpm\n", "out_of_range", {"'60 rpm' is a rotation", "the manifest's radius_m"});
+  check_error("id,file,speed_m_per_s,step\na,a.csv,1,2.5\n", "bad_step", {"'2.5'"});
   check_error(names + ",a.csv,1\n", "missing_value", {"'id'"});
   check_error(names + "a,,1\n", "missing_value", {"'file'"});
   check_error(names + "x/y,a.csv,1\n", "bad_id", {"'x/y'", "slash"});

@@ -107,4 +107,5 @@ TEST_CASE("cells that say nothing are refused by their column") {
   CHECK(code_of_cells({{"speed", "60 rpm"}}) == "out_of_range");
   CHECK(code_of_cells({{"mass", "0"}}) == "out_of_range");
   CHECK(code_of_cells({{"window", "2:1"}}) == "bad_window");
+  CHECK(code_of_cells({{"speed_se", "1%"}}) == "no_speed");
 }

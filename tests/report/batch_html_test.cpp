@@ -133,3 +133,11 @@ TEST_CASE("a sparkline is short and keeps the extremes") {
   CHECK(lowest == 0.0);
   CHECK(highest == 26.0);
 }
+
+TEST_CASE("the distributions of a batch are as wide as a telephone, and long names break") {
+  slipfit::BatchPage batch{"batch", {}, {}};
+  for (int i = 0; i < 6; ++i) batch.rows.push_back(row("run" + std::to_string(i)));
+  const std::string page = to_html(batch);
+  CHECK_THAT(page, Contains("id=\"frequencies\"") && Contains("viewBox=\"0 0 380 "));
+  CHECK_THAT(page, Contains("text-wrap: balance; overflow-wrap: anywhere"));
+}

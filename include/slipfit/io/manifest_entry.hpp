@@ -2,8 +2,9 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"
@@ -23,15 +24,30 @@ struct ManifestEntry {
   std::size_t line = 0;  ///< in the manifest, for messages; 0: of none
 };
 
+/// What can be said about a recording: in a column of a manifest, and by an option of the command line.
+struct RecordingOption {
+  enum class Of { Conditions, Reading, Pieces };
+  std::string_view column;    ///< without its unit: "speed"
+  std::string_view option{};  ///< "--speed", "--sensor-average,--averaging"; "--segments{yes}": a flag and what it says
+  std::string_view help{};
+  Of of = Of::Conditions;
+
+  /// "--strokes" of "--strokes{both}", the first of several spellings.
+  [[nodiscard]] constexpr std::string_view name() const { return option.substr(0, option.find_first_of(",{")); }
+};
+
+/// Those that every command takes which reads a recording.
+std::vector<RecordingOption> recording_options();
+
 /// A cell of a manifest by the name of its column.
 struct NamedCell {
   std::string column;
   std::string text;
+  std::string place = {};  ///< begins messages about it; empty: the column
 };
 
-/// What a row of these cells says, for programs that take it as text; no column is needed. Beside what a manifest
-/// understands, `speed` may be a rotation where `radius` stands beside it, and `speed_se` a percentage of the speed.
-/// Errors: unknown_option and those of the cells of a manifest; the message begins with the column.
-Result<ManifestEntry> entry_from_cells(std::span<const NamedCell> cells);
+/// What a row of these cells says, for programs that take it as text; no column is needed. Errors: unknown_option and
+/// those of the cells of a manifest.
+Result<ManifestEntry> entry_from_cells(std::vector<NamedCell> cells);
 
 }  // namespace slipfit

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "core/thrown_error.hpp"
 #include "slipfit/core/digest.hpp"
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/result.hpp"
@@ -25,14 +25,13 @@ class ByteStream {
   virtual std::size_t read(char* buffer, std::size_t size) = 0;
 };
 
-/// What a container turns out to be while it is unpacked: damaged, or far larger than a recording.
-class ContainerError : public std::runtime_error {
- public:
-  explicit ContainerError(Error error) : std::runtime_error(error.message), error_(std::move(error)) {}
-  [[nodiscard]] const Error& error() const { return error_; }
+/// All bytes; empty where there are more than `most`.
+std::optional<std::string> read_all(ByteStream& stream, std::size_t most);
 
- private:
-  Error error_;
+/// What a container turns out to be while it is unpacked: damaged, or far larger than a recording.
+class ContainerError : public ThrownError {
+ public:
+  using ThrownError::ThrownError;
 };
 
 /// What in a container is the recording.

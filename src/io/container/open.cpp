@@ -145,19 +145,23 @@ Result<TextStream> open_unpacked(const std::filesystem::path& file, const Contai
   return text;
 }
 
-Result<std::string> read_all(TextStream& packed, const std::string& name) {
-  constexpr std::size_t kMost = std::size_t{2} << 30U;
+std::optional<std::string> read_all(ByteStream& stream, std::size_t most) {
   constexpr std::size_t kPiece = std::size_t{256} * 1024;
   std::string content;
-  content.reserve(std::min(packed.size, kMost));
   for (std::size_t got = kPiece; got == kPiece;) {
-    if (content.size() > kMost) return too_large(name);
     const std::size_t before = content.size();
     content.resize(before + kPiece);
-    got = packed.bytes->read(content.data() + before, kPiece);
+    got = stream.read(content.data() + before, kPiece);
     content.resize(before + got);
+    if (content.size() > most) return std::nullopt;
   }
   return content;
+}
+
+Result<std::string> read_all(TextStream& packed, const std::string& name) {
+  auto content = read_all(*packed.bytes, std::size_t{2} << 30U);
+  if (!content) return too_large(name);
+  return *std::move(content);
 }
 
 }  // namespace slipfit::reading

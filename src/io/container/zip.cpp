@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include "io/container/formats.hpp"
@@ -154,15 +153,9 @@ Result<std::unique_ptr<ByteStream>> ZipArchive::stream(ZipArchive archive, const
 Result<std::string> ZipArchive::content(const std::string& member, std::size_t most) const {
   auto opened = stream(*this, member);
   if (!opened) return opened.error();
-  constexpr std::size_t kPart = std::size_t{256} * 1024;
-  std::string text;
-  for (;;) {
-    const std::size_t before = text.size();
-    text.resize(before + kPart);
-    text.resize(before + opened.value()->read(text.data() + before, kPart));
-    if (text.size() > most) return too_large(name_);
-    if (text.size() < before + kPart) return text;
-  }
+  auto text = read_all(*opened.value(), most);
+  if (!text) return too_large(name_);
+  return *std::move(text);
 }
 
 Result<TextStream> open_zip(TextStream packed, const std::string& name, const ContainerChoice& choice) {
@@ -206,10 +199,7 @@ Result<std::size_t> find_named(const std::vector<std::string>& names, const std:
                                const std::string& file) {
   const auto found = std::find(names.begin(), names.end(), wanted);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
-  const bool is_number = error == std::errc() && end == wanted.data() + wanted.size();
-  if (is_number && number >= 1 && number <= names.size()) return number - 1;
+  if (const auto place = place_in_list(wanted, names.size())) return *place;
   constexpr std::size_t kMostListed = 12;
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i) {

@@ -1,6 +1,8 @@
 #include "report/document/fit_conditions.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace slipfit::documents {
 namespace {
@@ -23,8 +25,9 @@ void add_scatter(const JsonNode& cycles, std::vector<double>& scatter) {
 
 }  // namespace
 
-RecordedConditions recorded_conditions(const JsonNode& document) {
-  RecordedConditions result;
+PlanBasis plan_basis_of(const JsonNode& document, ModelEstimate estimate) {
+  PlanBasis result;
+  result.estimate = std::move(estimate);
   std::vector<double> scatter;
   if (!document.has("recordings")) {
     result.recordings = {conditions_of(document.member("recording"))};

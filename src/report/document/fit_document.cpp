@@ -31,9 +31,7 @@ PlanBasis plan_basis_from(const JsonNode& document, const std::string& name) {
     throw BadDocument(
         Error{"no_covariance", fmt::format("{}: has no covariance, and without one there is nothing to narrow", name)});
   }
-  documents::RecordedConditions recorded = documents::recorded_conditions(document);
-  return {fit.model.estimate, std::move(recorded.recordings), recorded.noise_rms_N, recorded.force_drop_sd_N,
-          recorded.levels};
+  return documents::plan_basis_of(document, fit.model.estimate);
 }
 
 }  // namespace

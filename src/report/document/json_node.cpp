@@ -35,11 +35,6 @@ JsonNode JsonNode::member(const std::string& key) const {
   return {file_, *found, place_of(key)};
 }
 
-std::optional<JsonNode> JsonNode::known(const std::string& key) const {
-  const bool is_known = has(key) && !member(key).is_null();
-  return is_known ? std::optional(member(key)) : std::nullopt;
-}
-
 JsonNode JsonNode::element(std::size_t index) const {
   return {file_, content_.at(index), fmt::format("{}[{}]", place_, index)};
 }

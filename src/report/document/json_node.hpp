@@ -3,22 +3,17 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "slipfit/core/result.hpp"
+#include "core/thrown_error.hpp"
 
 namespace slipfit::documents {
 
 /// Ends the reading of a document; the functions of slipfit/report/fit_document.hpp return it as their error.
-class BadDocument : public std::runtime_error {
+class BadDocument : public ThrownError {
  public:
-  explicit BadDocument(Error error) : std::runtime_error(error.message), error_(std::move(error)) {}
-  [[nodiscard]] const Error& error() const { return error_; }
-
- private:
-  Error error_;
+  using ThrownError::ThrownError;
 };
 
 /// Throws BadDocument with the code bad_document.
@@ -37,8 +32,16 @@ class JsonNode {
   [[nodiscard]] bool is_null() const { return content_.is_null(); }
   [[nodiscard]] bool has(const std::string& key) const { return content_.contains(key); }
   [[nodiscard]] JsonNode member(const std::string& key) const;
-  /// The member, where there is one and it is not null.
-  [[nodiscard]] std::optional<JsonNode> known(const std::string& key) const;
+  /// The member, where there is one and it is not null; of further keys that of the member, and so on.
+  template <class... Keys>
+  [[nodiscard]] std::optional<JsonNode> known(const std::string& key, const Keys&... further) const {
+    if (!has(key) || member(key).is_null()) return std::nullopt;
+    if constexpr (sizeof...(further) == 0) {
+      return member(key);
+    } else {
+      return member(key).known(further...);
+    }
+  }
   [[nodiscard]] JsonNode element(std::size_t index) const;  ///< index < array_size()
   [[nodiscard]] std::size_t array_size() const;
   [[nodiscard]] std::string text() const;

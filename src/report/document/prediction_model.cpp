@@ -195,35 +195,35 @@ double working_value(const std::string& file, const JsonNode& document, const ch
 }
 
 std::optional<SpeedDependence> speed_dependence(const std::string& file, const JsonNode& document) {
-  if (!document.has("model") || document.member("model").member("tier").text() != "velocity") return std::nullopt;
+  const auto tier = document.known("model", "tier");
+  if (!tier || tier->text() != "velocity") return std::nullopt;
   return SpeedDependence{working_value(file, document, key_of(ParameterId::FrictionSlope)),
                          working_value(file, document, key_of(ParameterId::Alpha))};
 }
 
 std::optional<Ageing> ageing(const std::string& file, const JsonNode& document) {
-  if (!document.has("model") || !document.member("model").has("ageing_reference_s")) return std::nullopt;
-  const double stick_s = document.member("model").member("ageing_reference_s").positive();
+  const auto stick_s = document.known("model", "ageing_reference_s");
+  if (!stick_s) return std::nullopt;
   const double rate_N = working_value(file, document, key_of(ParameterId::Ageing));
   if (!(rate_N > 0.0)) cannot_predict(file, "ageing_N is not above 0");
-  return Ageing{rate_N, stick_s};
+  return Ageing{rate_N, stick_s->positive()};
 }
 
 std::optional<Estimate> kinetic_friction_N(const JsonNode& parameters) {
-  if (!parameters.has("kinetic_friction_N")) return std::nullopt;
-  const JsonNode parameter = parameters.member("kinetic_friction_N");
-  const std::optional<double> value = parameter.member("value").number();
-  if (!value || !is_known(parameter.member("status").text())) return std::nullopt;
-  return Estimate{value, checked_error(parameter.member("se")), std::nullopt, {}};
+  const auto parameter = parameters.known("kinetic_friction_N");
+  if (!parameter) return std::nullopt;
+  const std::optional<double> value = parameter->member("value").number();
+  if (!value || !is_known(parameter->member("status").text())) return std::nullopt;
+  return Estimate{value, checked_error(parameter->member("se")), std::nullopt, {}};
 }
 
 /// Student's t; without the key, or null, the normal distribution.
 double degrees_of_freedom(const JsonNode& document) {
-  constexpr double kNormal = std::numeric_limits<double>::infinity();
-  if (!document.has("model") || !document.member("model").has("degrees_of_freedom")) return kNormal;
-  const JsonNode node = document.member("model").member("degrees_of_freedom");
-  const std::optional<double> freedom = node.number();
-  if (freedom && !(*freedom >= 1.0)) node.fail("a number >= 1 or null");
-  return freedom.value_or(kNormal);
+  const auto freedom = document.known("model", "degrees_of_freedom");
+  if (!freedom) return std::numeric_limits<double>::infinity();
+  const double value = freedom->positive();
+  if (!(value >= 1.0)) freedom->fail("a number >= 1 or null");
+  return value;
 }
 
 }  // namespace

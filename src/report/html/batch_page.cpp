@@ -19,9 +19,10 @@ namespace html {
 namespace {
 
 constexpr std::size_t kMostRows = 10000;
-constexpr std::size_t kRowsAtOnce = 500;  // laid out; the script shows more of them on demand
-constexpr std::size_t kFewest = 5;        // values that make a distribution
-constexpr double kLeastShare = 1e-6;      // of the greatest: below it a value is as good as zero
+constexpr std::size_t kRowsAtOnce = 500;         // laid out; the script shows more of them on demand
+constexpr std::size_t kFewest = 5;               // values that make a distribution
+constexpr double kDistributionWidth_px = 290.0;  // of a distribution: with its numbers it fills a telephone
+constexpr double kLeastShare = 1e-6;             // of the greatest: below it a value is as good as zero
 
 /// From the most frequent to the rarest.
 using StatusCounts = std::vector<std::pair<std::string, std::size_t>>;
@@ -96,8 +97,8 @@ std::string distributions(const std::vector<BatchPageRow>& rows) {
     const std::string label = label_with_unit(column.heading, column.unit);
     const auto panel = histogram(std::move(values), label);
     if (!panel) continue;
-    const std::string picture =
-        picture_with_data(chart::Chart{"", {}, {*panel}}, column.id, "histogram of the " + label);
+    const std::string picture = picture_with_data(chart::Chart{"", {}, {*panel}, kDistributionWidth_px}, column.id,
+                                                  "histogram of the " + label);
     figures += "<figure>" + picture + "</figure>\n";
   }
   if (figures.empty()) return {};
@@ -115,10 +116,9 @@ std::string left_out_part(std::size_t rows, const char* file) {
 
 std::string failures_part(const std::vector<BatchPageFailure>& failures) {
   if (failures.empty()) return {};
-  std::string rows;
+  std::vector<std::vector<std::string>> rows;
   for (const BatchPageFailure& failure : std::span(failures).first(std::min(kMostRows, failures.size()))) {
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td><code>{}</code></td></tr>\n", text(failure.id),
-                        text(failure.message), text(failure.code));
+    rows.push_back({text(failure.id), text(failure.message), "<code>" + text(failure.code) + "</code>"});
   }
   return section(" class=\"flows\"", "Failures",
                  table(" id=\"failures\"", {"recording", "what is wrong", "code"}, rows) +

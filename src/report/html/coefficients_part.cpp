@@ -7,11 +7,9 @@
 namespace slipfit::html {
 namespace {
 
-std::string row_of(std::string_view words, const Estimate& estimate) {
+std::vector<std::string> row_of(std::string_view words, const Estimate& estimate) {
   const EstimateRow shown = estimate_row(estimate, std::string());
-  return fmt::format(
-      "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"interval\">{}</td><td>{}</td></tr>\n",
-      text(words), text(shown.value), text(shown.interval), formula_text(estimate.note));
+  return {text(words), text(shown.value), text(shown.interval), formula_text(estimate.note)};
 }
 
 }  // namespace
@@ -19,22 +17,16 @@ std::string row_of(std::string_view words, const Estimate& estimate) {
 std::string coefficients_part(const Source& source) {
   const auto& coefficients = source.analysis.coefficients;
   if (!coefficients) return {};
-  std::string rows;
-  for (const auto& row : kCoefficients) rows += row_of(row.words, (*coefficients).*row.estimate);
-  for (const auto& row : kCoefficientThirds) rows += row_of(row.words, (*coefficients).*row.estimate);
-  for (const auto& row : kCoefficientSpreads) {
-    rows += row_of(row.words, Estimate{(*coefficients).*row.value, {}, {}, {}});
-  }
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [words, estimate] : coefficient_rows(*coefficients)) rows.push_back(row_of(words, estimate));
   for (const StandardCoefficients& standard : coefficients->standards) {
-    const std::string differs = standard.differs.empty() ? std::string("as prescribed, as far as a recording shows it")
-                                                         : fmt::format("{}", fmt::join(standard.differs, "; "));
     Estimate kinetic = standard.kinetic_coefficient;
-    kinetic.note = standard.standard + " prescribes " + standard.prescribes + ". Here: " + differs;
-    rows += row_of("static, as " + standard.standard, standard.static_coefficient);
-    rows += row_of("kinetic, as " + standard.standard, kinetic);
+    kinetic.note = standard.standard + " prescribes " + standard.prescribes + ". Here: " + differences_text(standard);
+    rows.push_back(row_of("static, as " + standard.standard, standard.static_coefficient));
+    rows.push_back(row_of("kinetic, as " + standard.standard, kinetic));
   }
   return section(" id=\"coefficients\" class=\"flows\"", "Coefficient of friction",
-                 table(" class=\"parameters\"", {"", "#value", "95 % interval", "what it is"}, rows));
+                 table(" class=\"parameters\"", {"", "#value", "~95 % interval", "what it is"}, rows));
 }
 
 }  // namespace slipfit::html

@@ -50,6 +50,10 @@ std::string replaced(std::string_view content, const std::array<Replacement, cou
   return result;
 }
 
+const char* class_of(const std::string& heading) {
+  return heading.starts_with('#') ? " class=\"number\"" : heading.starts_with('~') ? " class=\"interval\"" : "";
+}
+
 }  // namespace
 
 std::string text(std::string_view content) {
@@ -85,12 +89,25 @@ std::string section(std::string_view attributes, std::string_view title, std::st
 std::string table(std::string_view attributes, const std::vector<std::string>& headings, std::string_view rows) {
   std::string cells;
   for (const std::string& heading : headings) {
-    const bool is_number = heading.starts_with('#');
-    cells += fmt::format("<th scope=\"col\"{}>{}</th>", is_number ? " class=\"number\"" : "",
-                         formula_text(std::string_view(heading).substr(is_number ? 1 : 0)));
+    const bool is_marked = heading.starts_with('#') || heading.starts_with('~');
+    cells += fmt::format("<th scope=\"col\"{}>{}</th>", heading.starts_with('#') ? class_of(heading) : "",
+                         formula_text(std::string_view(heading).substr(is_marked ? 1 : 0)));
   }
   return fmt::format("<div class=\"wide\"><table{}><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
                      attributes, cells, rows);
+}
+
+std::string table(std::string_view attributes, const std::vector<std::string>& headings,
+                  const std::vector<std::vector<std::string>>& rows) {
+  std::string markup;
+  for (const std::vector<std::string>& cells : rows) {
+    markup += "<tr><th scope=\"row\">" + cells.front() + "</th>";
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+      markup += fmt::format("<td{}>{}</td>", class_of(headings.at(i)), cells[i]);
+    }
+    markup += "</tr>\n";
+  }
+  return table(attributes, headings, markup);
 }
 
 std::string fact_list(std::string_view facts) {
@@ -99,6 +116,16 @@ std::string fact_list(std::string_view facts) {
 
 std::string fact(std::string_view term, std::string_view content) {
   return fmt::format("<dt>{}</dt><dd>{}</dd>\n", text(term), text(content));
+}
+
+std::string preformatted(std::string_view lines) {
+  std::string content;
+  for (std::size_t begin = 0; begin < lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', begin), lines.size());
+    content += text(lines.substr(begin, end - begin)) + "\n";
+    begin = end + 1;
+  }
+  return "<pre>" + content + "</pre>";
 }
 
 std::string list(const std::vector<std::string>& items) {

@@ -25,14 +25,21 @@ std::string script_json(std::string_view json);
 std::string section(std::string_view attributes, std::string_view title, std::string_view content);
 
 /// A table in a box that scrolls where it is too wide. `headings`: of the columns, as text; one that begins with '#'
-/// stands over numbers. Rows are HTML.
+/// stands over numbers, with '~' over what stays on one line. Rows are HTML.
 std::string table(std::string_view attributes, const std::vector<std::string>& headings, std::string_view rows);
+
+/// Of rows whose cells are HTML; the first names the row.
+std::string table(std::string_view attributes, const std::vector<std::string>& headings,
+                  const std::vector<std::vector<std::string>>& rows);
 
 /// <dl> of facts.
 std::string fact_list(std::string_view facts);
 
 /// <dt>term</dt><dd>text</dd>
 std::string fact(std::string_view term, std::string_view content);
+
+/// <pre> of text in lines.
+std::string preformatted(std::string_view lines);
 
 /// <ul> of items that are HTML already; empty text where there are none.
 std::string list(const std::vector<std::string>& items);

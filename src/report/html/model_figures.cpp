@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "report/html/figure.hpp"
@@ -154,18 +153,15 @@ Panel track_strip(const WornTrack& track, double length, const DisplayUnit& unit
   panel.height_px = 110.0;
   const double first_m = track.ridge_places_m.empty() ? 0.0 : track.ridge_places_m.front();
   chart::Line line{"", Colour::Blue, chart::Stroke::Solid, {}, 1.0};
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+  Span heights;
   for (auto i = static_cast<std::size_t>(first_m / track.pitch_m); i < track.height.size(); ++i) {
     const double at = unit.per_SI * (track.pitch_m * static_cast<double>(i) - first_m);
     if (at > length) break;
     line.points.push_back({at, track.height[i]});
-    if (!std::isfinite(track.height[i])) continue;
-    low = std::min(low, track.height[i]);
-    high = std::max(high, track.height[i]);
+    heights.add(track.height[i]);
   }
-  if (!(low < high)) return panel;
-  for (chart::Point& point : line.points) point.y = 0.05 + 0.9 * (point.y - low) / (high - low);
+  if (!(heights.range() > 0.0)) return panel;
+  for (chart::Point& point : line.points) point.y = 0.05 + 0.9 * (point.y - heights.low()) / heights.range();
   panel.lines.push_back(std::move(line));
   return panel;
 }

@@ -141,14 +141,9 @@ class OverlayPanel {
 
 /// Those with stick-slip, from the slowest to the fastest.
 std::vector<OverlaidSet> sets_of(const SweepSource& source) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < source.entries.size(); ++i) {
-    if (source.sweep.recordings[i].motion == MotionClass::StickSlip) order.push_back(i);
-  }
-  const auto speed = [&source](std::size_t i) { return source.entries[i].recording.conditions().speed_m_per_s; };
-  std::stable_sort(order.begin(), order.end(), [&speed](std::size_t a, std::size_t b) { return speed(a) < speed(b); });
   std::vector<OverlaidSet> sets;
-  for (const std::size_t i : order) {
+  for (const std::size_t i : by_speed(source)) {
+    if (source.sweep.recordings[i].motion != MotionClass::StickSlip) continue;
     const SweepEntry& entry = source.entries[i];
     OverlaidSet set{fmt::format("{}, {}", entry.id, speed_text(entry.recording.conditions())),
                     {{entry.recording, source.sweep.recordings[i]}}};

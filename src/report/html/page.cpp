@@ -47,16 +47,9 @@ std::string figures_part(const Source& source) {
 }
 
 std::string numbers_part(const Source& source) {
-  std::string numbers = to_text(source.recording, source.analysis);
-  std::string lines;
-  while (!numbers.empty()) {
-    const std::size_t end = std::min(numbers.find('\n'), numbers.size() - 1);
-    lines += text(std::string_view(numbers).substr(0, end)) + "\n";
-    numbers.erase(0, end + 1);
-  }
   return section(" class=\"flows\" id=\"numbers\"", "All numbers",
-                 "<details><summary>The text report, as printed by the command line</summary>\n<pre>" + lines +
-                     "</pre></details>\n");
+                 "<details><summary>The text report, as printed by the command line</summary>\n" +
+                     preformatted(to_text(source.recording, source.analysis)) + "</details>\n");
 }
 
 }  // namespace

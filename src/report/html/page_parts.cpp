@@ -39,11 +39,10 @@ std::vector<std::string> each(const std::vector<std::string>& sentences, std::st
 }
 
 std::string candidates_table(const FitResult& fit, ForceQuantity quantity) {
-  std::string rows;
+  std::vector<std::vector<std::string>> rows;
   for (const Candidate& candidate : fit.candidates) {
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
-                        text(name_of(candidate.tier)), candidate.chosen ? "chosen" : "not chosen",
-                        text(quantity_text(candidate.rms, force_unit(quantity))), formula_text(candidate.reason));
+    rows.push_back({text(name_of(candidate.tier)), candidate.chosen ? "chosen" : "not chosen",
+                    text(quantity_text(candidate.rms, force_unit(quantity))), formula_text(candidate.reason)});
   }
   return "<h3>Models that were tried</h3>\n" + table("", {"model", "", "#residual, rms", "why"}, rows);
 }
@@ -133,18 +132,16 @@ std::string warnings_part(const Warnings& warnings) {
 }
 
 std::string parameter_table(const FitResult& fit) {
-  std::string rows;
+  std::vector<std::vector<std::string>> rows;
   for (const ShownParameter& parameter : shown_parameters(fit)) {
-    const std::string_view status = name_of(parameter.status);
     const std::string note =
         parameter.note.empty() ? "" : "<span class=\"note\">" + formula_text(parameter.note) + "</span>";
-    rows += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"unit\">{}</td><td class=\"interval\">{}"
-        "</td><td><span class=\"status {}\">{}</span>: {}{}</td></tr>\n",
-        formula_text(parameter.words), text(parameter.numbers.value), text(parameter.numbers.unit),
-        text(parameter.numbers.interval), status, status, words_for_status(parameter.status), note);
+    rows.push_back({formula_text(parameter.words), text(parameter.numbers.value), text(parameter.numbers.unit),
+                    text(parameter.numbers.interval),
+                    fmt::format("<span class=\"status {0}\">{0}</span>: {1}{2}", name_of(parameter.status),
+                                words_for_status(parameter.status), note)});
   }
-  return table(" class=\"parameters\"", {"parameter", "#value", "unit", "95 % interval", "what the data say"}, rows);
+  return table(" class=\"parameters\"", {"parameter", "#value", "~unit", "~95 % interval", "what the data say"}, rows);
 }
 
 std::string parameters_part(const Source& source) {

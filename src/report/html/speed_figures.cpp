@@ -25,15 +25,11 @@ struct Series {
 /// From the slowest to the fastest; recordings without the quantity are left out.
 template <class Pick>
 Series series_of(const SweepSource& source, Pick pick) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < source.entries.size(); ++i) order.push_back(i);
-  const auto speed = [&source](std::size_t i) { return source.entries[i].recording.conditions().speed_m_per_s; };
-  std::sort(order.begin(), order.end(), [&speed](std::size_t a, std::size_t b) { return speed(a) < speed(b); });
   Series series;
-  for (const std::size_t i : order) {
+  for (const std::size_t i : by_speed(source)) {
     const Estimate estimate = pick(i);
     if (!estimate.value) continue;
-    series.speeds_m_per_s.push_back(speed(i));
+    series.speeds_m_per_s.push_back(source.entries[i].recording.conditions().speed_m_per_s);
     series.estimates.push_back(estimate);
   }
   return series;

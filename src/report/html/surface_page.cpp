@@ -6,6 +6,7 @@
 #include "report/html/figure.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
+#include "report/html/scaling.hpp"
 #include "slipfit/report/surface.hpp"
 
 namespace slipfit {
@@ -17,28 +18,6 @@ struct ProfileUnits {
   DisplayUnit height;
 };
 
-/// Lowest and highest of each of at most 1400 columns: as many as a line of the chart can show.
-std::vector<chart::Point> drawn_profile(const Profile& profile, const ProfileUnits& units) {
-  constexpr std::size_t kColumns = 1400;
-  const std::size_t n = profile.height.size();
-  const std::size_t width = 1 + (n - 1) / kColumns;
-  std::vector<chart::Point> points;
-  const auto add = [&](std::size_t i) {
-    points.push_back(
-        {static_cast<double>(i) * profile.pitch_m * units.along.per_SI, profile.height[i] * units.height.per_SI});
-  };
-  for (std::size_t begin = 0; begin < n; begin += width) {
-    const auto first = profile.height.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto last = profile.height.begin() + static_cast<std::ptrdiff_t>(std::min(n, begin + width));
-    const auto [low, high] = std::minmax_element(first, last);
-    const auto a = static_cast<std::size_t>(std::min(low, high) - profile.height.begin());
-    const auto b = static_cast<std::size_t>(std::max(low, high) - profile.height.begin());
-    add(a);
-    if (b != a) add(b);
-  }
-  return points;
-}
-
 /// Height of the profile at the sample next to a place.
 double height_at(const Profile& profile, double place_m) {
   const auto last = static_cast<double>(profile.height.size() - 1);
@@ -47,26 +26,22 @@ double height_at(const Profile& profile, double place_m) {
 
 chart::Panel profile_panel(const Profile& profile, const Surface& surface, const ProfileUnits& units, double begin_m,
                            double end_m) {
-  chart::Panel panel;
-  chart::Line line{"profile", chart::Colour::Blue, chart::Stroke::Solid, {}, 1.0};
-  double low = 1e300;
-  double high = -1e300;
-  Profile part = profile;
-  const auto first = static_cast<std::ptrdiff_t>(begin_m / profile.pitch_m);
-  const auto last = std::min(static_cast<std::ptrdiff_t>(profile.height.size()),
-                             static_cast<std::ptrdiff_t>(end_m / profile.pitch_m) + 1);
-  part.height.assign(profile.height.begin() + first, profile.height.begin() + last);
-  for (chart::Point point : drawn_profile(part, units)) {
-    point.x += begin_m * units.along.per_SI;
-    if (std::isfinite(point.y)) {
-      low = std::min(low, point.y);
-      high = std::max(high, point.y);
-    }
-    line.points.push_back(point);
+  constexpr std::size_t kColumns = 1400;  // as many as a line of the chart can show
+  std::vector<double> places;
+  std::vector<double> heights;
+  for (auto i = static_cast<std::size_t>(begin_m / profile.pitch_m); i < profile.height.size(); ++i) {
+    const double place_m = profile.pitch_m * static_cast<double>(i);
+    if (place_m > end_m + 0.5 * profile.pitch_m) break;
+    places.push_back(place_m * units.along.per_SI);
+    heights.push_back(profile.height[i] * units.height.per_SI);
   }
+  chart::Line line{"profile", chart::Colour::Blue, chart::Stroke::Solid, envelope(places, heights, kColumns), 1.0};
+  Span span;
+  for (const double height : heights) span.add(height);
+  chart::Panel panel;
   panel.lines.push_back(std::move(line));
   chart::Markers marks{fmt::format("{} ridges", surface.ridges), chart::Colour::Vermillion, chart::Shape::Triangle, {}};
-  const double room = std::max(1e-300, high - low);
+  const double room = std::max(1e-300, span.range());
   for (const double place : surface.ridge_places_m) {
     if (place < begin_m || place > end_m) continue;
     marks.points.push_back({place * units.along.per_SI, height_at(profile, place) * units.height.per_SI + 0.04 * room});
@@ -75,7 +50,7 @@ chart::Panel profile_panel(const Profile& profile, const Surface& surface, const
   panel.x = {"place along the track (" + units.along.unit + ")", begin_m * units.along.per_SI,
              end_m * units.along.per_SI};
   panel.y = {units.height.unit.empty() ? "height (as in the file)" : "height (" + units.height.unit + ")",
-             low - 0.05 * room, high + 0.15 * room};
+             span.low() - 0.05 * room, span.high() + 0.15 * room};
   panel.height_px = 240.0;
   panel.legend_at = chart::LegendAt::Above;
   return panel;
@@ -115,15 +90,8 @@ std::string to_html(const Profile& profile, const Surface& surface, const std::s
   page.kind = "surface";
   page.headline = html::surface_headline(surface);
   page.summary = html::warnings_part(surface.warnings);
-  std::string numbers;
-  std::string lines = to_text(profile, surface);
-  for (std::size_t begin = 0; begin < lines.size();) {
-    const std::size_t end = std::min(lines.find('\n', begin), lines.size());
-    numbers += html::text(std::string_view(lines).substr(begin, end - begin)) + "\n";
-    begin = end + 1;
-  }
   page.main = html::figure_part(html::profile_figure(profile, surface)) +
-              html::section(" id=\"numbers\"", "All numbers", "<pre>" + numbers + "</pre>\n") +
+              html::section(" id=\"numbers\"", "All numbers", html::preformatted(to_text(profile, surface)) + "\n") +
               html::section(" id=\"repeat\"", "To repeat this", html::fact_list(html::command_fact(command_line)));
   return html::page_from(page);
 }

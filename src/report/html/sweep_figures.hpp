@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "report/html/figure.hpp"
 #include "slipfit/predict/prediction.hpp"
@@ -18,6 +19,9 @@ struct SweepSource {
 
 /// The unit in which the manifest gives the speeds; empty: SI.
 const std::string& given_speed_unit(const SweepSource& source);
+
+/// Places of the recordings, from the slowest to the fastest.
+std::vector<std::size_t> by_speed(const SweepSource& source);
 
 /// Measured on the worn track: by a profile of it, else as stated.
 Estimate spacing_on_surface(const Conditions& conditions);

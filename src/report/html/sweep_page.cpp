@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -109,11 +110,10 @@ std::string recordings_of(const SweepSource& source) {
 /// Of recordings that are all at one speed.
 std::string repeats_of(const std::vector<Repeat>& repeats) {
   if (repeats.empty()) return {};
-  std::string rows;
+  std::vector<std::vector<std::string>> rows;
   for (const Repeat& repeat : repeats) {
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"number\">{}</td></tr>\n",
-                        text(repeat.words), text(estimate_text(repeat.mean, repeat.unit)),
-                        text(quantity_text(repeat.standard_deviation, repeat.unit)), repeat.count);
+    rows.push_back({text(repeat.words), text(estimate_text(repeat.mean, repeat.unit)),
+                    text(quantity_text(repeat.standard_deviation, repeat.unit)), std::to_string(repeat.count)});
   }
   return section("", "At one speed: scatter between the recordings",
                  table(" class=\"plain-table\"",
@@ -135,6 +135,14 @@ std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> by_speed(const SweepSource& source) {
+  std::vector<std::size_t> order(source.entries.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto speed = [&source](std::size_t i) { return source.entries[i].recording.conditions().speed_m_per_s; };
+  std::stable_sort(order.begin(), order.end(), [&speed](std::size_t a, std::size_t b) { return speed(a) < speed(b); });
+  return order;
+}
 
 Estimate spacing_on_surface(const Conditions& conditions) {
   if (conditions.worn_track) return conditions.worn_track->spacing_m;

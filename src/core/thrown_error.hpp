@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stdexcept>
+#include <utility>
+
+#include "slipfit/core/result.hpp"
+
+namespace slipfit {
+
+/// An error on its way out of deep calls; the public function that began them returns it.
+class ThrownError : public std::runtime_error {
+ public:
+  explicit ThrownError(Error error) : std::runtime_error(error.message), error_(std::move(error)) {}
+  [[nodiscard]] const Error& error() const { return error_; }
+
+ private:
+  Error error_;
+};
+
+}  // namespace slipfit

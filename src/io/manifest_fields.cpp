@@ -1,0 +1,136 @@
+#include "io/manifest_fields.hpp"
+
+#include <array>
+
+#include "io/manifest_setters.hpp"
+
+namespace slipfit {
+namespace reading {
+namespace {
+
+using Bound = ManifestField::Bound;
+using Need = ManifestField::Need;
+using Of = RecordingOption::Of;
+
+constexpr std::string_view kColumnHelp = "Name or 1-based number";
+
+constexpr ManifestField text_field(RecordingOption said, ManifestField::SetText* set_text, Need need = Need::Nothing) {
+  return {.said = said, .set_text = set_text, .need = need};
+}
+
+constexpr ManifestField number_field(RecordingOption said, std::string_view suffix, Dimension dimension, Bound bound,
+                                     ManifestField::SetNumber* set_number, Need need = Need::Nothing) {
+  return {said, suffix, dimension, bound, set_number, nullptr, need};
+}
+
+// In the order of the help.
+constexpr std::array kFields = std::to_array<ManifestField>({
+    text_field({"id"}, set_id, Need::Value),
+    text_field({"file"}, set_text_of<&ManifestEntry::file>, Need::Value),
+    number_field({"speed", "--speed", "Driving speed: 0.01 (m/s), 10mm/s, '600 mm/min'; 60rpm with --radius"},
+                 "_m_per_s", Dimension::Speed, Bound::AboveZero, set_number_of<&Conditions::speed_m_per_s>,
+                 Need::Column),
+    number_field({"speed_se", "--speed-uncertainty", "Standard error of the speed: 0.1mm/s, or a percentage: 1%"},
+                 "_m_per_s", Dimension::Speed, Bound::NotNegative,
+                 set_number_of<&Conditions::speed_standard_error_m_per_s>),
+    number_field({"normal_force", "--normal-force", "Normal force: 5 (N), '41 gf'"}, "_N", Dimension::Force,
+                 Bound::AboveZero, set_number_of<&Conditions::normal_force_N>),
+    number_field({"zero_force", "--zero", "Sensor reading at no force (N); absolute forces need it"}, "_N",
+                 Dimension::Force, Bound::None, set_number_of<&Conditions::zero_force_N>),
+    number_field({"mass", "--mass", "Moving mass: 0.0307 (kg), '30.7 g'; held against k / w_n^2"}, "_kg",
+                 Dimension::Mass, Bound::AboveZero, set_number_of<&Conditions::mass_kg>),
+    number_field({"sensor_bandwidth", "--sensor-bandwidth",
+                  "Bandwidth (-3 dB) of the sensor, first order: 500 (Hz), 2kHz; the fit lets its model lag by it"},
+                 "_Hz", Dimension::Frequency, Bound::AboveZero, set_number_of<&Conditions::sensor_bandwidth_Hz>),
+    number_field({"sensor_average", "--sensor-average,--averaging",
+                  "Time over which each sample is averaged: 0.002 (s), 2ms, 0 for an instant; the fit averages its "
+                  "model over it"},
+                 "_s", Dimension::Time, Bound::NotNegative, set_number_of<&Conditions::sensor_average_s>),
+    number_field({"sensor_resonance", "--sensor-resonance", "Natural frequency of the load cell: 800 (Hz), 2kHz"},
+                 "_Hz", Dimension::Frequency, Bound::AboveZero, set_number_of<&Conditions::sensor_resonance_Hz>),
+    number_field(
+        {"drive_period", "--drive-period", "Period of what may set the rhythm, a motor's step or an excitation: 20ms"},
+        "_s", Dimension::Time, Bound::AboveZero, set_number_of<&Conditions::drive_period_s>),
+    text_field(
+        {"force_view", "--force-view", "Force that the sensor sees: spring (taken without it), transmitted, contact"},
+        set_force_view),
+    text_field({"group"}, set_label<&Labels::group>),
+    text_field({"sample"}, set_label<&Labels::sample>),
+    text_field({"material"}, set_label<&Labels::material>),
+    text_field({"operator"}, set_label<&Labels::operator_name>),
+    text_field({"surface", "--surface"}, set_text_of<&ManifestEntry::surface>),
+    number_field({"measured_spacing_se"}, "_m", Dimension::Length, Bound::NotNegative,
+                 set_number_of<&Conditions::measured_spacing_se_m>),
+    number_field({"measured_spacing"}, "_m", Dimension::Length, Bound::AboveZero,
+                 set_number_of<&Conditions::measured_spacing_m>),
+    text_field({"time_column", "--time-column", kColumnHelp, Of::Reading}, set_text_of<&ReadOptions::time_column>),
+    text_field({"force_column", "--force-column", kColumnHelp, Of::Reading}, set_text_of<&ReadOptions::force_column>),
+    text_field({"normal_force_column", "--normal-force-column", kColumnHelp, Of::Reading},
+               set_text_of<&ReadOptions::normal_force_column>),
+    text_field({"speed_column", "--speed-column", "Name or 1-based number; of rpm with --radius", Of::Reading},
+               set_text_of<&ReadOptions::speed_column>),
+    number_field({"radius", "--radius", "Distance of the contact from the axis: 12mm", Of::Reading}, "_m",
+                 Dimension::Length, Bound::AboveZero, set_number_of<&ReadOptions::radius_m>),
+    text_field({"time_unit", "--time-unit", "Unit of the time column: ms, min", Of::Reading},
+               set_unit<Dimension::Time, &ReadOptions::time_unit>),
+    text_field({"force_unit", "--force-unit", "Unit of the force column: mN, gf; 1 for a coefficient", Of::Reading},
+               set_unit<Dimension::Force, &ReadOptions::force_unit>),
+    text_field(
+        {"force_scale", "--force-scale", "Force for a unit of what the force column holds: '5 N/V'", Of::Reading},
+        set_force_scale),
+    number_field({"sample_rate", "--sample-rate", "Sampling rate (Hz), for a recording without a clock", Of::Reading},
+                 "_Hz", Dimension::Frequency, Bound::AboveZero, set_number_of<&ReadOptions::sample_rate_Hz>),
+    text_field({"sheet", "--sheet", "Sheet of a workbook, file of a zip archive: name or 1-based number", Of::Reading},
+               set_text_of<&ReadOptions::sheet>),
+    text_field(
+        {"variable", "--variable", "Variable of a .mat file, dataset or group of HDF5, group of TDMS", Of::Reading},
+        set_text_of<&ReadOptions::variable>),
+    text_field({"step", "--step", "Step of a file that holds several (slipfit info lists them)", Of::Reading},
+               set_step),
+    text_field({"rows", "--rows", "A:B, rows of numbers, counted from 1", Of::Reading}, set_rows),
+    text_field(
+        {"where", "--where", "COLUMN=VALUE: rows whose cell in this column (name or number) says this", Of::Reading},
+        set_where),
+    number_field({"window", "--window", "T0:T1, seconds on the recording's own clock", Of::Reading}, "_s",
+                 Dimension::Time, Bound::None, nullptr),
+    text_field(
+        {"strokes", "--strokes{both}",
+         "Reciprocating test: each stroke is a recording; --strokes=positive, =negative for one direction", Of::Pieces},
+        set_strokes),
+    text_field(
+        {"segments", "--segments{yes}", "Each stretch of one speed is a recording: a sweep in one file", Of::Pieces},
+        set_segments),
+});
+
+}  // namespace
+
+std::span<const ManifestField> manifest_fields() {
+  return kFields;
+}
+
+std::string with_columns_for_options(std::string text) {
+  for (const ManifestField& field : kFields) {
+    const std::string_view option = field.said.name();
+    if (option.empty()) continue;
+    const std::string words = "the manifest's " + field.full_name();
+    for (std::size_t at = 0; (at = text.find(option, at)) != std::string::npos;) {
+      const std::size_t end = at + option.size();
+      const bool is_longer = end < text.size() && text[end] == '-';  // "--speed" of "--speed-column"
+      if (!is_longer) text.replace(at, option.size(), words);
+      at += is_longer ? option.size() : words.size();
+    }
+  }
+  return text;
+}
+
+}  // namespace reading
+
+std::vector<RecordingOption> recording_options() {
+  std::vector<RecordingOption> options;
+  for (const reading::ManifestField& field : reading::kFields) {
+    if (!field.said.help.empty()) options.push_back(field.said);
+  }
+  return options;
+}
+
+}  // namespace slipfit
