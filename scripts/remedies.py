@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""remedies.py [--check]: writes python/slipfit/_remedies.py from the tables of errors in docs/formats.md; --check: exit 1 where it is not so."""
+"""remedies.py [--check]: writes src/core/remedies.hpp from the tables of errors in docs/formats.md; --check: exit 1 where it is not so."""
 
 import pathlib
 import re
 import sys
 
 PROJECT = pathlib.Path(__file__).resolve().parents[1]
-TARGET = PROJECT / "python" / "slipfit" / "_remedies.py"
+TARGET = PROJECT / "src" / "core" / "remedies.hpp"
 
 
 def remedies():
@@ -21,18 +21,39 @@ def remedies():
     return found
 
 
-def module():
-    rows = "".join(f"    {code!r}: {remedy!r},\n".replace("'", '"') if "'" not in remedy and '"' not in remedy else f"    {code!r}: {remedy!r},\n"
-                   for code, remedy in sorted(remedies().items()))
-    return ('"""What to do about each error; made by scripts/remedies.py from docs/formats.md."""\n\n'
-            f"from typing import Dict\n\nREMEDIES: Dict[str, str] = {{\n{rows}}}\n")
+def quoted(text):
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def header():
+    table = sorted(remedies().items())
+    rows = "".join(f"    Remedy{{{quoted(code)}, {quoted(remedy)}}},\n" for code, remedy in table)
+    return f"""#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace slipfit {{
+
+struct Remedy {{
+  std::string_view code, remedy;
+}};
+
+// clang-format off
+/// What to do about each error; made by scripts/remedies.py from docs/formats.md.
+constexpr std::array<Remedy, {len(table)}> kRemedies{{{{
+{rows}}}}};
+// clang-format on
+
+}}  // namespace slipfit
+"""
 
 
 def main():
-    made = module()
+    made = header()
     if "--check" in sys.argv[1:]:
         if not TARGET.exists() or TARGET.read_text(encoding="utf-8") != made:
-            sys.exit("python/slipfit/_remedies.py is not what docs/formats.md says: run scripts/remedies.py")
+            sys.exit("src/core/remedies.hpp is not what docs/formats.md says: run scripts/remedies.py")
         return
     TARGET.write_text(made, encoding="utf-8")
 

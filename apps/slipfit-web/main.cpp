@@ -6,23 +6,19 @@
 
 #include "../slipfit/output.hpp"
 #include "../slipfit/program.hpp"
+#include "slipfit/core/remedy.hpp"
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a message tells to do, which stands behind its last semicolon.
-Json remedy_in(const std::string& message) {
-  const std::size_t semicolon = message.rfind("; ");
-  return semicolon == std::string::npos ? Json() : Json(message.substr(semicolon + 2));
-}
-
 Json to_json(const Outcome& outcome) {
   Json json{{"exit_code", static_cast<int>(outcome.exit)}, {"error", nullptr}};
   if (outcome.message.empty()) return json;
+  const std::string remedy = slipfit::remedy_of({outcome.code, outcome.message});
   json["error"] = {{"code", outcome.code},
                    {"message", outcome.message},
-                   {"remedy", remedy_in(outcome.message)},
+                   {"remedy", remedy.empty() ? Json() : Json(remedy)},
                    {"exit_code", json["exit_code"]}};
   return json;
 }

@@ -10,10 +10,11 @@ Numbers are in SI. What is not known is None, and the note says why. Errors are 
 pandas and matplotlib are imported only by what needs them.
 """
 
-from ._documents import Comparison, Plan, Prediction, Surface
+from ._batch import BatchResult, batch, manifest
+from ._documents import Comparison, Info, Plan, Prediction, Surface
 from ._errors import Error
 from ._fit import Curve, Fit, Sweep, analyze, fit
-from ._functions import BatchResult, batch, compare, simulate, surface
+from ._functions import compare, info, simulate, surface
 from ._recording import Recording, read_recording
 from ._slipfit import __version__
 from ._values import Estimate, Notice, Parameters
@@ -25,6 +26,7 @@ __all__ = [
     "Error",
     "Estimate",
     "Fit",
+    "Info",
     "Notice",
     "Parameters",
     "Plan",
@@ -37,6 +39,8 @@ __all__ = [
     "batch",
     "compare",
     "fit",
+    "info",
+    "manifest",
     "read_recording",
     "simulate",
     "surface",

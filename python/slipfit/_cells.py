@@ -6,6 +6,7 @@ import numbers
 import os
 from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union
 
+from . import _slipfit
 from ._errors import Error
 
 Quantity = Union[float, int, str]
@@ -81,3 +82,11 @@ def cells_of(arguments: Mapping[str, Any]) -> List[Tuple[str, str]]:
 def fixed_of(fix: Optional[Mapping[str, Quantity]]) -> List[str]:
     """NAME=VALUE of each parameter to hold."""
     return [f"{name}={text_of(value)}" for name, value in (fix or {}).items()]
+
+
+def quantity_of(name: str, value: Quantity, dimension: str, *, above: Optional[float] = None) -> float:
+    """The number in SI."""
+    number = _slipfit.quantity(text_of(value), dimension)
+    if above is not None and not number > above:
+        raise Error("out_of_range", f"{name}: {value!r} is not above {above:g}, expected more")
+    return number

@@ -126,6 +126,30 @@ class Comparison(Document):
         write_page(path, self._page())
 
 
+class Info(Document):
+    """What a file holds, and what `read_recording` would take of it (`info`)."""
+
+    @property
+    def refusal(self) -> Optional[str]:
+        """Why the file would be refused as it is; None where it is a recording."""
+        return cast(Optional[str], self.to_dict()["refusal"])
+
+    @property
+    def columns(self) -> "pd.DataFrame":
+        """One row a column: index (from 1), name, unit, quantity."""
+        return self._frame("columns")
+
+    @property
+    def steps(self) -> "pd.DataFrame":
+        """One row a step: number, rows, times (s), speed (m/s), normal force (N)."""
+        return self._frame("steps")
+
+    def _frame(self, key: str) -> "pd.DataFrame":
+        import pandas
+
+        return pandas.DataFrame(self.to_dict()[key])
+
+
 class Surface(Document):
     """The pattern on a worn surface (`surface`)."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Tuple
 
-from ._remedies import REMEDIES
+from . import _slipfit
 
 # Options of the command line that are no text in Python.
 _FLAGS = {
@@ -31,25 +31,6 @@ def _in_words_of_python(message: str) -> str:
     )
 
 
-_ASKS = re.compile(
-    r"(?:^|[;:,?] )((?:add|check|choose|correct|export|fill|fit|give|install|leave|look|measure|mend|name|put|run|split|state|take|use|wait|write)"
-    r"(?: |=).+)$"
-)
-
-
-def _remedy_in(code: str, message: str) -> str:
-    """What the message asks for at its end; else what the table of docs/formats.md says."""
-    last = re.split(r"(?<=;) ", message)[-1]
-    for text in (last, message):
-        match = _ASKS.search(text)
-        if match:
-            return match.group(1)
-    match = re.search(r"\b(expected .+)$", message)
-    if match:
-        return match.group(1)
-    return _in_words_of_python(REMEDIES.get(code, message))
-
-
 class Error(Exception):
     """An input that cannot be used.
 
@@ -70,7 +51,7 @@ class Error(Exception):
     def __init__(self, code: str, message: str) -> None:
         self.code = code
         self.message = _in_words_of_python(message)
-        self.remedy = _remedy_in(code, self.message)
+        self.remedy = _in_words_of_python(_slipfit.remedy(code, message)) or self.message
         super().__init__(self.message)
 
     def __str__(self) -> str:

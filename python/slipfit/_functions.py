@@ -1,29 +1,18 @@
-"""Simulation, comparison, worn surfaces and batches."""
+"""Simulation, comparison, worn surfaces, and what a file holds."""
 
 from __future__ import annotations
 
 import json
 import math
 import os
-import sys
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, cast
+from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union, cast
 
 from . import _slipfit
-from ._cells import Quantity, fixed_of, text_of
-from ._documents import Comparison, Path, Surface
+from ._cells import Quantity, cells_of, quantity_of, text_of
+from ._documents import Comparison, Info, Path, Surface
 from ._errors import Error
-from ._fit import Fit, Fix, Sweep, fit
+from ._fit import Fit, Sweep, fit
 from ._recording import Recording
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-
-def _si(name: str, value: Quantity, dimension: str, *, above: Optional[float] = None) -> float:
-    number = _slipfit.quantity(text_of(value), dimension)
-    if above is not None and not number > above:
-        raise Error("out_of_range", f"{name}: {value!r} is not above {above:g}, expected more")
-    return number
 
 
 def _friction(static: float, kinetic: Optional[Quantity], law: Sequence[Optional[Quantity]]) -> List[float]:
@@ -32,9 +21,9 @@ def _friction(static: float, kinetic: Optional[Quantity], law: Sequence[Optional
     if any(given) == (kinetic is not None) or any(given) != all(given):
         raise Error("unknown_option", "kinetic_friction: give either kinetic_friction, or f0, f1 and alpha")
     if kinetic is not None:
-        return [static, _si("kinetic_friction", kinetic, "force")]
+        return [static, quantity_of("kinetic_friction", kinetic, "force")]
     f0, f1, alpha = (cast(Quantity, one) for one in law)
-    return [static, _si("f0", f0, "force"), _si("f1", f1, "force"), float(alpha)]
+    return [static, quantity_of("f0", f0, "force"), quantity_of("f1", f1, "force"), float(alpha)]
 
 
 def simulate(
@@ -105,24 +94,24 @@ def simulate(
             raise Error("out_of_range", "mass: stiffness and mass are above zero, expected so")
         omega = math.sqrt(stiffness / mass)
     else:
-        omega = _si("natural_frequency", cast(Quantity, natural_frequency), "angular_speed", above=0.0)
+        omega = quantity_of("natural_frequency", cast(Quantity, natural_frequency), "angular_speed", above=0.0)
     added = [
-        _si("jitter", jitter, "force"),
-        _si("noise", noise, "force"),
-        _si("offset", offset, "force"),
+        quantity_of("jitter", jitter, "force"),
+        quantity_of("noise", noise, "force"),
+        quantity_of("offset", offset, "force"),
         float(drift),
-        _si("hum", hum, "force"),
-        _si("hum_frequency", hum_frequency, "frequency", above=0.0),
+        quantity_of("hum", hum, "force"),
+        quantity_of("hum_frequency", hum_frequency, "frequency", above=0.0),
     ]
     if min(added[0], added[1], added[4]) < 0.0:
         raise Error("out_of_range", "noise, jitter and hum: a value is below zero, expected zero or more")
-    friction = _friction(_si("static_friction", static_friction, "force"), kinetic_friction, (f0, f1, alpha))
+    friction = _friction(quantity_of("static_friction", static_friction, "force"), kinetic_friction, (f0, f1, alpha))
     time, force = _slipfit.simulate(
         [float(stiffness), omega, float(damping_ratio)],
         friction,
-        _si("speed", speed, "speed", above=0.0),
-        _si("duration", duration, "time", above=0.0),
-        _si("sample_rate", sample_rate, "frequency", above=0.0),
+        quantity_of("speed", speed, "speed", above=0.0),
+        quantity_of("duration", duration, "time", above=0.0),
+        quantity_of("sample_rate", sample_rate, "frequency", above=0.0),
         added,
         force_view,
         int(seed),
@@ -237,8 +226,8 @@ def surface(
     native = _slipfit.measure_surface(
         os.fspath(file),
         unit,
-        None if pitch is None else _si("pitch", pitch, "length", above=0.0),
-        None if pixel is None else _si("pixel", pixel, "length", above=0.0),
+        None if pitch is None else quantity_of("pitch", pitch, "length", above=0.0),
+        None if pixel is None else quantity_of("pixel", pixel, "length", above=0.0),
         radians,
         None if x_column is None else text_of(x_column),
         None if z_column is None else text_of(z_column),
@@ -246,134 +235,24 @@ def surface(
     return Surface(native.json(), native.text(), native)
 
 
-class BatchResult:
-    """What a batch wrote into its folder.
-
-    Attributes
-    ----------
-    folder : str
-    counts : dict
-        ``total``, ``before`` (done by the run that was resumed), ``fitted``, ``failed``, ``seconds``.
-    """
-
-    def __init__(self, folder: str, counts: Dict[str, Any]) -> None:
-        self.folder = folder
-        self.counts = counts
-
-    def __iter__(self) -> Iterator[Dict[str, Any]]:
-        """The documents in the manifest's order."""
-        with open(os.path.join(self.folder, "results.jsonl"), encoding="utf-8") as stream:
-            for line in stream:
-                yield json.loads(line)
-
-    def to_frame(self) -> "pd.DataFrame":
-        """summary.csv: one row a recording."""
-        return self._table("summary.csv")
-
-    @property
-    def failures(self) -> "pd.DataFrame":
-        """failures.csv: id, code and message of each recording that failed."""
-        return self._table("failures.csv")
-
-    def _table(self, name: str) -> "pd.DataFrame":
-        import pandas
-
-        return pandas.read_csv(os.path.join(self.folder, name), float_precision="round_trip")
-
-    def __repr__(self) -> str:
-        counts = self.counts
-        done = counts["before"] + counts["fitted"]
-        return f"<slipfit.BatchResult {self.folder!r}: {done} of {counts['total']} fitted, {counts['failed']} failed>"
-
-
-Progress = Union[bool, Callable[[Dict[str, Any]], None]]
-
-
-def _line(counts: Dict[str, Any]) -> None:
-    done = counts["before"] + counts["fitted"] + counts["failed"]
-    end = "\n" if done == counts["total"] else ""
-    print(f"\r{done} of {counts['total']}, {counts['failed']} failed", end=end, file=sys.stderr, flush=True)
-
-
-def batch(
-    manifest: Path,
-    *,
-    out: Path,
-    jobs: Optional[int] = None,
-    progress: Progress = False,
-    resume: bool = False,
-    tier: str = "auto",
-    fix: Fix = None,
-    joint_groups: bool = False,
-    timeout: Quantity = 600.0,
-    shard: Optional[Tuple[int, int]] = None,
-    report: Optional[Path] = None,
-) -> BatchResult:
-    """Fit every recording of a manifest into a folder, on all cores.
+def info(file: Path, **said: Any) -> Info:
+    """What a file holds: columns, units, clock, steps, strokes; and what `read_recording` would take of it.
 
     Parameters
     ----------
-    manifest : path
-        CSV: ``id,file,speed_m_per_s``, one row a recording (docs/formats.md lists the other columns).
-    out : path
-        Folder of the results; made where it is missing.
-    jobs : int, optional
-        Recordings at a time; without it one a core that this process may use.
-    progress : bool or callable
-        True: a line on standard error; a callable gets a dict of `BatchResult.counts` now and then.
-    resume : bool
-        Go on with what the folder holds: after Ctrl-C, a kill or a crash.
-    tier, fix
-        As for `fit`.
-    joint_groups : bool
-        Fit the recordings of each group together, too.
-    timeout : float or str
-        Longest time for a recording (s); then it counts as failed.
-    shard : (int, int), optional
-        (I, N): the I-th of N parts, I from 1.
-    report : path, optional
-        Page of the batch, such as ``out/index.html``.
+    file : path
+    **said
+        Which part to read, and how: `step`, `rows`, `where`, `window`, columns, units, `sheet`, `variable`, `radius`,
+        as for `read_recording`.
 
     Returns
     -------
-    BatchResult
-        A recording that fails is a row of ``BatchResult.failures``, and no exception.
+    Info
+        A file that is no recording as it is has a `refusal`.
 
     Raises
     ------
-    KeyboardInterrupt
-        Ctrl-C ends the batch within a second or two; nothing is lost, and ``resume=True`` goes on.
     Error
-        Of the manifest and the folder: ``results_present``, ``missing_column``, ...
-
-    Notes
-    -----
-    Recordings are fitted in child processes, so that one that crashes fails alone.
+        ``file_not_found``, ``binary_file``, ... where there is nothing to look at.
     """
-    def show(total: int, before: int, fitted: int, failed: int, seconds: float) -> None:
-        told = {"total": total, "before": before, "fitted": fitted, "failed": failed, "seconds": seconds}
-        (progress if callable(progress) else _line)(told)
-
-    part, parts = shard or (1, 1)
-    if not 1 <= part <= parts:
-        raise Error("out_of_range", f"shard: bad {shard!r}, expected (I, N) with I from 1 to N")
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    count = cores if jobs is None else jobs
-    if not 1 <= count <= 1024:
-        raise Error("out_of_range", f"jobs: {jobs} is out of range, expected 1 to 1024")
-    options = {
-        "manifest": os.fspath(manifest),
-        "out": os.fspath(out),
-        "tier": tier,
-        "fixed": fixed_of(fix),
-        "jobs": count,
-        "timeout_s": _si("timeout", timeout, "time", above=0.0),
-        "resume": bool(resume),
-        "shard": part,
-        "shards": parts,
-        "report": None if report is None else os.fspath(report),
-        "command": f"slipfit.batch({os.fspath(manifest)!r}, ...)  # Python",
-        "joint_groups": bool(joint_groups),
-    }
-    counts = _slipfit.batch(options, show if progress else None, None)
-    return BatchResult(os.fspath(out), counts)
+    return Info(*_slipfit.info(os.fspath(file), cells_of(said)))

@@ -68,7 +68,7 @@ def _pieces(fit: "Fit") -> List["np.ndarray[Any, Any]"]:
     """Samples of each cycle, from peak to peak."""
     peaks = fit.cycles["peak_s"].to_numpy()
     if len(peaks) < 2:
-        raise Error("no_cycles", f"{fit.id}: no cycles to draw ({fit.status.replace('_', ' ')}); plot kind 'trace' shows the recording")
+        raise Error("no_cycles", f"{fit.id}: no cycles to draw ({fit.status.replace('_', ' ')}); use plot('trace') to see the recording")
     time = fit.recording.time
     ends = np.searchsorted(time, peaks)
     return [np.arange(a, b) for a, b in zip(ends[:-1], ends[1:]) if b - a > 1]
@@ -134,7 +134,7 @@ def _point(ax: Any, fit: "Fit", label: str) -> None:
 def _speed(fit: "Fit", ax: Any) -> Any:
     text = fit._result().background()["prediction"]
     if text is None:
-        raise Error("cannot_predict", f"{fit.id}: the fit gives no model to predict from; plot kind 'trace' shows the recording")
+        raise Error("cannot_predict", f"{fit.id}: the fit gives no model to predict from; use plot('trace') to see the recording, and its notes for what is missing")
     ax = _axes(ax)
     _point(ax, fit, "measured, V / f")
     ax = prediction(json.loads(text), ax)

@@ -6,10 +6,12 @@
 #include "results.hpp"
 #include "slipfit/compare.hpp"
 #include "slipfit/core/units.hpp"
+#include "slipfit/io/manifest_draft.hpp"
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/predict/speeds.hpp"
 #include "slipfit/report/comparison.hpp"
 #include "slipfit/report/fit_document.hpp"
+#include "slipfit/report/info.hpp"
 #include "slipfit/report/plan.hpp"
 #include "slipfit/report/prediction.hpp"
 #include "slipfit/report/surface.hpp"
@@ -72,6 +74,26 @@ std::vector<ComparedRecording> shown(const std::vector<AnalysedRecording>& recor
   std::vector<ComparedRecording> all;
   for (const AnalysedRecording& one : recordings) all.push_back({*one.recording, *one.analysis});
   return all;
+}
+
+/// What a file holds, as JSON and for people.
+Texts info(const std::string& file, const Cells& cells) {
+  const auto look = [&]() -> Result<Texts> {
+    const auto entry = entry_of(cells);
+    if (!entry) return entry.error();
+    const auto inspection = inspect(file, entry.value().options);
+    if (!inspection) return inspection.error();
+    return Texts{to_json(inspection.value(), file), to_text(inspection.value(), file)};
+  };
+  return value_or_raise(without_gil(look));
+}
+
+/// The draft as a manifest that stands in `folder`; code and message of each file that holds no recording.
+py::tuple manifest(const std::vector<std::string>& paths, const std::string& folder) {
+  const ManifestDraft draft = without_gil([&] { return draft_manifest({paths.begin(), paths.end()}); });
+  std::vector<std::pair<std::string, std::string>> skipped;
+  for (const Error& error : draft.skipped) skipped.emplace_back(error.code, error.message);
+  return py::make_tuple(to_csv(draft, folder), skipped);
 }
 
 class ComparedSides {
@@ -156,6 +178,8 @@ py::tuple simulate_arrays(const std::vector<double>& slider, const FrictionNumbe
 
 void add_documents(py::module_& module) {
   module.def("predict", predict, py::arg("document"), py::arg("name"), py::arg("speeds"), py::arg("normal_force_N"));
+  module.def("info", info, py::arg("file"), py::arg("cells"));
+  module.def("manifest", manifest, py::arg("paths"), py::arg("folder"));
   module.def("plan", plan, py::arg("document"), py::arg("name"), py::arg("target"), py::arg("speed_m_per_s"));
   py::class_<ComparedSides>(module, "Comparison", "Two sides, quantity by quantity.")
       .def(py::init<const std::string&, const Texts&, const std::string&, const Texts&>(), py::arg("name_a"),

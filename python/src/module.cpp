@@ -1,4 +1,5 @@
 #include "convert.hpp"
+#include "slipfit/core/remedy.hpp"
 #include "slipfit/core/units.hpp"
 #include "slipfit/fit/parameter.hpp"
 
@@ -50,6 +51,12 @@ PYBIND11_MODULE(_slipfit, module) {
         return value_or_raise(slipfit::parse_quantity(text, dimension_called(dimension)));
       },
       "A number (SI) or a number with a unit, in SI.");
+  module.def(
+      "remedy",
+      [](const std::string& code, const std::string& message) {
+        return slipfit::remedy_of({code, message});
+      },
+      "What to do about an error.");
   module.def("parameter_words", parameter_words, "What each parameter is called, and its unit.");
   add_recordings(module);
   add_results(module);

@@ -3,16 +3,11 @@
 #include <optional>
 #include <tuple>
 
-#include "slipfit/io/manifest_entry.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/surface/comparison.hpp"
 
 namespace slipfit::python {
-namespace {
 
-using NamedRecordings = std::vector<std::pair<std::string, SharedRecording>>;
-
-/// What the cells say, with the worn track that they name.
 Result<ManifestEntry> entry_of(const Cells& cells) {
   std::vector<NamedCell> named;
   named.reserve(cells.size());
@@ -25,6 +20,10 @@ Result<ManifestEntry> entry_of(const Cells& cells) {
   known.conditions = std::move(conditions).value();
   return known;
 }
+
+namespace {
+
+using NamedRecordings = std::vector<std::pair<std::string, SharedRecording>>;
 
 NamedRecordings shared(std::vector<NamedRecording> recordings) {
   NamedRecordings result;

@@ -45,7 +45,7 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
   if (!all_readable(time_s) || !all_readable(force)) {
     return Error{"not_finite", "time or force is not finite, or beyond 9e36: what instruments write for an overload"};
   }
-  if (!std::is_sorted(time_s.begin(), time_s.end())) return Error{"time_decreases", "time runs backwards"};
+  if (order_of(time_s).backward > 0) return Error{"time_decreases", "time runs backwards"};
   if (time_s.front() == time_s.back()) return Error{"time_constant", "all samples have the same time"};
   if (!std::isfinite(conditions.speed_m_per_s) || conditions.speed_m_per_s <= 0.0) {
     return Error{"speed_not_positive", "the driving speed must be a positive number of metres a second"};

@@ -145,6 +145,21 @@ Warnings warnings_of(const DampedFit& chosen) {
   return warnings;
 }
 
+/// What several parts of the fit say under one code, in one warning.
+Warnings one_of_each_code(const Warnings& warnings) {
+  Warnings merged;
+  for (const Warning& warning : warnings) {
+    const auto same =
+        std::find_if(merged.begin(), merged.end(), [&](const Warning& w) { return w.code == warning.code; });
+    if (same == merged.end()) {
+      merged.push_back(warning);
+    } else {
+      same->message += "; " + warning.message;
+    }
+  }
+  return merged;
+}
+
 }  // namespace
 
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
@@ -173,6 +188,7 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   tabulate(recording, segmentation, chosen.blocks, result);
   const Warnings warnings = warnings_of(chosen);
   result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  result.warnings = one_of_each_code(result.warnings);
   if (options.curve) result.curve = curve_of(recording, chosen.blocks);
   return result;
 }

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/clock_step.hpp"
 #include "io/column_search.hpp"
 #include "io/message.hpp"
 #include "io/steps.hpp"
@@ -63,6 +64,10 @@ void take_window(Rows& rows, const TimeWindow& window) {
 void order_by_time(Part& part) {
   std::vector<double>& time_s = part.rows.time_s;
   part.in_window = time_s.size();
+  if (const ClockOrder order = order_of(time_s); order.backward == 0) {
+    part.repeating = order.repeating;
+    return;
+  }
   std::size_t latest = 0;
   for (std::size_t i = 1; i < time_s.size(); ++i) {
     const bool is_backward = time_s[i] < time_s[latest];
@@ -71,7 +76,6 @@ void order_by_time(Part& part) {
     if (time_s[i] == time_s[latest]) ++part.repeating;
     latest = i;
   }
-  if (part.backward == 0) return;
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     if (kept.empty() || time_s[i] >= time_s[kept.back()]) kept.push_back(i);

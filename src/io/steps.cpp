@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/clock_step.hpp"
 #include "io/levels.hpp"
 #include "io/message.hpp"
 
@@ -30,6 +31,7 @@ bool clock_restarts(const std::vector<double>& time_s, std::size_t at, double be
 
 std::vector<std::size_t> clock_begins(const std::vector<double>& time_s) {
   std::vector<std::size_t> begins;
+  if (order_of(time_s).backward == 0) return begins;
   double begin_s = time_s.front();
   double latest_s = begin_s;
   for (std::size_t i = 1; i < time_s.size(); ++i) {

@@ -29,6 +29,11 @@ def error_of(call):
 
 DEMO = TESTDATA / "demo.csv"
 
+
+def steady():
+    return sf.Recording(np.arange(2000) / 100.0, 5 + 0.01 * np.random.default_rng(1).standard_normal(2000), speed=0.01)
+
+
 REFUSALS = {
     "no_speed": lambda demo: sf.Recording(demo.time, demo.force),
     "file_not_found": lambda demo: sf.read_recording("absent.csv", speed=1),
@@ -51,6 +56,7 @@ REFUSALS = {
     "bad_target": lambda demo: sf.fit(demo).plan("colour"),
     "no_normal_force": lambda demo: sf.fit(demo).predict([0.01], normal_force=3),
     "cannot_predict": lambda demo: sf.analyze(demo).predict([0.01]),
+    "is_directory": lambda demo: sf.batch(TESTDATA, out="results"),
     "unknown_plot": lambda demo: sf.fit(demo).plot("pie"),
     "parameter_out_of_range": lambda demo: sf.simulate(**{**MODEL, "kinetic_friction": 7}, speed=1, duration=1, sample_rate=100),
     "bad_document": lambda demo: sf.compare(DEMO, DEMO),
@@ -174,8 +180,8 @@ def test_notebooks_show_results(demo_fit, sweep):
         assert expected in shown
     assert "<script" not in shown and len(shown) < 60_000
     assert "tangential stiffness" in sweep._repr_html_()
-    steady = sf.fit(sf.Recording(np.arange(2000) / 100.0, 5 + 0.01 * np.random.default_rng(1).standard_normal(2000), speed=0.01))
-    assert steady.frequency.value is None and "<svg" in steady._repr_html_()
+    still = sf.fit(steady())
+    assert still.frequency.value is None and "<svg" in still._repr_html_()
 
 
 def test_names_from_outside_stay_text(demo):
@@ -194,6 +200,12 @@ def test_plots(kind, demo_fit, sweep):
     assert demo_fit.plot(kind, ax=axes) is axes and axes.lines
     assert sweep.plot(kind).lines
     pyplot.close("all")
+
+
+@pytest.mark.parametrize("kind, code", [("speed", "cannot_predict"), ("cycles", "no_cycles"), ("stacked", "no_cycles")])
+def test_plots_of_what_is_not_there(kind, code):
+    error = error_of(lambda: sf.fit(steady()).plot(kind))
+    assert error.code == code and error.remedy.startswith("use plot('trace')")
 
 
 def test_pandas_and_matplotlib_are_imported_when_used():
@@ -311,10 +323,6 @@ def test_batches_refuse_and_report(long_manifest, tmp_path):
     bad.write_text("id,file,speed_m_per_s\na,absent.csv,0.01\n")
     result = sf.batch(bad, out=tmp_path / "bad")
     assert result.counts["failed"] == 1 and list(result.failures.id) == ["a"]
-
-
-def test_remedies_are_those_of_the_documents():
-    subprocess.run([sys.executable, PROJECT / "scripts" / "remedies.py", "--check"], check=True)
 
 
 def test_types():

@@ -1,13 +1,12 @@
 """The module says what the command line says, byte for byte."""
 
-import csv
-import itertools
 import json
 import subprocess
 
 import numpy as np
 import pytest
-from conftest import PROGRAM, SHARED, TESTDATA, WEAKENING
+from conftest import PROGRAM, TESTDATA, WEAKENING
+from recordings import Said
 
 import slipfit as sf
 
@@ -22,60 +21,8 @@ def said_by_program(*words):
     return run.stdout
 
 
-def manifests():
-    """Rows of the manifests beside the checkout; each absent one is a skipped test."""
-    found = []
-    for manifest in (SHARED / "data" / "synthetic" / "manifest.csv",):
-        if not manifest.exists():
-            found.append(pytest.param(None, id=f"skipped: {manifest} is absent", marks=pytest.mark.skip("absent")))
-            continue
-        with manifest.open() as stream:
-            for row in csv.DictReader(stream):
-                found.append(pytest.param((manifest.parent / row["file"], row), id=row["id"]))
-    return found
-
-
-OF_ROW = {"speed_m_per_s": ("speed", "--speed"), "normal_force_N": ("normal_force", "--normal-force"),
-          "force_view": ("force_view", "--force-view"), "sample_rate_Hz": ("sample_rate", "--sample-rate")}
-
-REAL = [  # file below data/real, arguments
-    ("colas/colas_k1002_v4300.csv", dict(speed="4300 um/s", normal_force=0.3012)),
-    ("colas/colas_k2254_v42.csv", dict(speed="42 um/s")),
-    ("fdm/fdm_232g_50mm_min.csv", dict(speed="50 mm/min", normal_force="232 gf")),
-    ("fdm/fdm_232g_300mm_min.csv", dict(speed="300 mm/min", normal_force="232 gf")),
-    ("clutch/clutch_free_V300_a.csv", dict(speed="0.5 mm/s", window=(0.9, 2.95))),
-    ("clutch/clutch_V100_f1000_steady.csv", dict(speed="0.5 mm/s", window="0.9:2.95")),
-]
-
-
-def options_of(arguments):
-    words = []
-    for name, value in arguments.items():
-        text = f"{value[0]}:{value[1]}" if isinstance(value, tuple) else str(value)
-        words += ["--" + name.replace("_", "-"), text]
-    return words
-
-
 def test_demo(demo_fit):
     assert demo_fit.to_json() + "\n" == said_by_program("fit", TESTDATA / "demo.csv", "--speed", "10mm/s")
-
-
-@pytest.mark.parametrize("entry", manifests())
-def test_every_simulated_recording(entry):
-    file, row = entry
-    arguments = {OF_ROW[key][0]: value for key, value in row.items() if key in OF_ROW and value}
-    words = list(itertools.chain.from_iterable((OF_ROW[key][1], value) for key, value in row.items() if key in OF_ROW and value))
-    fit = sf.fit(sf.read_recording(file, **arguments))
-    assert fit.to_json() + "\n" == said_by_program("fit", file, *words)
-
-
-@pytest.mark.parametrize("name, arguments", REAL, ids=[name for name, _ in REAL])
-def test_measured_recordings(name, arguments):
-    file = SHARED / "data" / "real" / name
-    if not file.exists():
-        pytest.skip(f"{file} is absent")
-    fit = sf.fit(sf.read_recording(file, **arguments))
-    assert fit.to_json() + "\n" == said_by_program("fit", file, *options_of(arguments))
 
 
 @pytest.mark.parametrize("options", [
@@ -89,7 +36,7 @@ def test_measured_recordings(name, arguments):
 def test_options(options):
     file = TESTDATA / "demo.csv"
     fit = sf.fit(sf.read_recording(file, speed="600 mm/min", **options))
-    assert fit.to_json() + "\n" == said_by_program("fit", file, "--speed", "600 mm/min", *options_of(options))
+    assert fit.to_json() + "\n" == said_by_program("fit", file, "--speed", "600 mm/min", *Said(file, options).words)
 
 
 def test_tier_and_fix(demo):
@@ -200,6 +147,34 @@ def test_comparisons(demo_fit, sweep, tmp_path):
     said = json.loads(said_by_program("compare", tmp_path / "a.json", tmp_path / "b.json"))
     assert sf.compare(demo_fit, sweep["v0.02"], names=("a", "b")).to_dict() == said
     assert sf.compare(tmp_path / "a.json", tmp_path / "b.json", names=("a", "b")).to_dict() == said
+
+
+def test_what_a_file_holds():
+    file = TESTDATA / "demo.csv"
+    ours = sf.info(file)
+    assert ours.to_json() + "\n" == said_by_program("info", file) and str(ours) == printed("info", file).stdout
+    assert list(ours.columns.quantity) == ["time", "force"] and ours.refusal is None and len(ours.steps) == 1
+    assert sf.info(file, rows=(1, 100), force_column=2).to_json() + "\n" == said_by_program("info", file, "--rows", "1:100", "--force-column", 2)
+
+
+def test_what_a_refused_file_holds(tmp_path):
+    file = tmp_path / "two.csv"
+    file.write_text("time_s,channel1,channel2\n" + "".join(f"{i / 100},{i % 7},{i % 5}\n" for i in range(200)))
+    assert "--force-column" in sf.info(file).refusal
+
+
+def test_manifests_are_drafted(manifest, tmp_path):
+    folder = manifest.parent
+    manifest.unlink()
+    (folder / "notes.txt").write_text("nothing but words\n")
+    draft = sf.manifest(folder, out=folder / "draft.csv")
+    assert (folder / "draft.csv").read_text() == printed("manifest", folder, "--out", folder / "theirs.csv", "--quiet").stdout or (
+        (folder / "draft.csv").read_text() == (folder / "theirs.csv").read_text())
+    assert list(draft.id) == ["v0.02", "v0.04", "v0.08"] and draft.speed_m_per_s.isna().all()
+    assert [notice.code for notice in draft.attrs["left_out"]]
+    draft["speed_m_per_s"] = [0.02, 0.04, 0.08]
+    draft.to_csv(folder / "runs.csv", index=False)
+    assert sf.batch(folder / "runs.csv", out=tmp_path / "out").counts["fitted"] == 3
 
 
 def test_surfaces(tmp_path):

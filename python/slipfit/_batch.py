@@ -1,0 +1,181 @@
+"""Batches, and the manifests that they are made of."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, Optional, Sequence, Tuple, Union
+
+from . import _slipfit
+from ._cells import Quantity, fixed_of, quantity_of
+from ._documents import Path, frame_of_csv
+from ._errors import Error
+from ._fit import Fix
+from ._values import Notice
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def manifest(paths: Union[Path, Sequence[Path]], *, out: Optional[Path] = None) -> "pd.DataFrame":
+    """Draft a manifest of files and folders, to look at, to fill in and to fit with `batch`.
+
+    Parameters
+    ----------
+    paths : path or sequence of paths
+        Folders (with what lies below) and files. Speed and load come from columns, else from the file's name.
+    out : path, optional
+        Write it to this file, too; paths in it are relative to its folder.
+
+    Returns
+    -------
+    DataFrame
+        One row a recording; what could not be told is empty. ``attrs["left_out"]`` lists the files that hold no
+        recording, and why.
+    """
+    given = [paths] if isinstance(paths, (str, os.PathLike)) else list(paths)
+    folder = "" if out is None else os.path.dirname(os.fspath(out))
+    text, left_out = _slipfit.manifest([os.fspath(path) for path in given], folder)
+    if out is not None:
+        with open(out, "w", encoding="utf-8") as file:
+            file.write(text)
+    frame = frame_of_csv(text)
+    frame.attrs["left_out"] = [Notice(*pair) for pair in left_out]
+    return frame
+
+
+class BatchResult:
+    """What a batch wrote into its folder.
+
+    Attributes
+    ----------
+    folder : str
+    counts : dict
+        ``total``, ``before`` (done by the run that was resumed), ``fitted``, ``failed``, ``seconds``.
+    """
+
+    def __init__(self, folder: str, counts: Dict[str, Any]) -> None:
+        self.folder = folder
+        self.counts = counts
+
+    def __iter__(self) -> Iterator[Dict[str, Any]]:
+        """The documents in the manifest's order."""
+        with open(os.path.join(self.folder, "results.jsonl"), encoding="utf-8") as stream:
+            for line in stream:
+                yield json.loads(line)
+
+    def to_frame(self) -> "pd.DataFrame":
+        """summary.csv: one row a recording."""
+        return self._table("summary.csv")
+
+    @property
+    def failures(self) -> "pd.DataFrame":
+        """failures.csv: id, code and message of each recording that failed."""
+        return self._table("failures.csv")
+
+    def _table(self, name: str) -> "pd.DataFrame":
+        import pandas
+
+        return pandas.read_csv(os.path.join(self.folder, name), float_precision="round_trip")
+
+    def __repr__(self) -> str:
+        counts = self.counts
+        done = counts["before"] + counts["fitted"]
+        return f"<slipfit.BatchResult {self.folder!r}: {done} of {counts['total']} fitted, {counts['failed']} failed>"
+
+
+Progress = Union[bool, Callable[[Dict[str, Any]], None]]
+
+
+def _line(counts: Dict[str, Any]) -> None:
+    done = counts["before"] + counts["fitted"] + counts["failed"]
+    end = "\n" if done == counts["total"] else ""
+    print(f"\r{done} of {counts['total']}, {counts['failed']} failed", end=end, file=sys.stderr, flush=True)
+
+
+def batch(
+    manifest: Path,
+    *,
+    out: Path,
+    jobs: Optional[int] = None,
+    progress: Progress = False,
+    resume: bool = False,
+    tier: str = "auto",
+    fix: Fix = None,
+    joint_groups: bool = False,
+    timeout: Quantity = 600.0,
+    shard: Optional[Tuple[int, int]] = None,
+    report: Optional[Path] = None,
+) -> BatchResult:
+    """Fit every recording of a manifest into a folder, on all cores.
+
+    Parameters
+    ----------
+    manifest : path
+        CSV: ``id,file,speed_m_per_s``, one row a recording (docs/formats.md lists the other columns).
+    out : path
+        Folder of the results; made where it is missing.
+    jobs : int, optional
+        Recordings at a time; without it one a core that this process may use.
+    progress : bool or callable
+        True: a line on standard error; a callable gets a dict of `BatchResult.counts` now and then.
+    resume : bool
+        Go on with what the folder holds: after Ctrl-C, a kill or a crash.
+    tier, fix
+        As for `fit`.
+    joint_groups : bool
+        Fit the recordings of each group together, too.
+    timeout : float or str
+        Longest time for a recording (s); then it counts as failed.
+    shard : (int, int), optional
+        (I, N): the I-th of N parts, I from 1.
+    report : path, optional
+        Page of the batch, such as ``out/index.html``.
+
+    Returns
+    -------
+    BatchResult
+        A recording that fails is a row of ``BatchResult.failures``, and no exception.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        Ctrl-C ends the batch within a second or two; nothing is lost, and ``resume=True`` goes on.
+    Error
+        Of the manifest and the folder: ``results_present``, ``missing_column``, ...
+
+    Notes
+    -----
+    Recordings are fitted in child processes, so that one that crashes fails alone.
+    """
+    if os.path.isdir(manifest):
+        raise Error("is_directory", f"{os.fspath(manifest)}: is a folder; write its manifest first with manifest(..., out='runs.csv')")
+
+    def show(total: int, before: int, fitted: int, failed: int, seconds: float) -> None:
+        told = {"total": total, "before": before, "fitted": fitted, "failed": failed, "seconds": seconds}
+        (progress if callable(progress) else _line)(told)
+
+    part, parts = shard or (1, 1)
+    if not 1 <= part <= parts:
+        raise Error("out_of_range", f"shard: bad {shard!r}, expected (I, N) with I from 1 to N")
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    count = cores if jobs is None else jobs
+    if not 1 <= count <= 1024:
+        raise Error("out_of_range", f"jobs: {jobs} is out of range, expected 1 to 1024")
+    options = {
+        "manifest": os.fspath(manifest),
+        "out": os.fspath(out),
+        "tier": tier,
+        "fixed": fixed_of(fix),
+        "jobs": count,
+        "timeout_s": quantity_of("timeout", timeout, "time", above=0.0),
+        "resume": bool(resume),
+        "shard": part,
+        "shards": parts,
+        "report": None if report is None else os.fspath(report),
+        "command": f"slipfit.batch({os.fspath(manifest)!r}, ...)  # Python",
+        "joint_groups": bool(joint_groups),
+    }
+    counts = _slipfit.batch(options, show if progress else None, None)
+    return BatchResult(os.fspath(out), counts)
