@@ -19,7 +19,7 @@ function makeEach(onChoose) {
   function lineOf(file, result) {
     if (result.error) return { name: file.name, status: say("refused", "not fitted"), message: result.error.message };
     const found = JSON.parse(result.outputs.document);
-    return { name: file.name, status: found.status.replaceAll("_", " "), speed: found.recording.speed_m_per_s,
+    return { name: file.name, status: kindWords(found.status), speed: found.recording.speed_m_per_s,
       frequency: found.frequency, spacing: found.derived?.pattern_spacing_m,
       parameters: found.parameters, warnings: (found.warnings ?? []).map((warning) => warning.code).join(", ") };
   }

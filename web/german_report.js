@@ -27,7 +27,7 @@ const kGermanReport = new Map(Object.entries({
   "measured cycles": "gemessene Zyklen", "fit of a typical cycle": "Anpassung eines typischen Zyklus", "no damping, slope -1": "ohne Dämpfung, Steigung -1",
   cycles: "Zyklen", "95 % interval": "95-%-Bereich", "95 % intervals": "95-%-Bereiche", "exact limit of stick-slip": "Grenze des Stick-Slip", "this recording": "diese Aufzeichnung",
   predicted: "vorhergesagt", "stick-slip ends, 95 %": "Stick-Slip endet, 95 %", "measured, 95 %": "gemessen, 95 %", "its 95 % band": "sein 95-%-Band",
-  command: "Befehl", warnings: "Warnungen", status: "Status", speed: "Geschwindigkeit", recording: "Aufzeichnung", quantity: "Größe", difference: "Unterschied", ratio: "Verhältnis",
+  "Copy table": "Tabelle kopieren", command: "Befehl", warnings: "Warnungen", status: "Status", speed: "Geschwindigkeit", recording: "Aufzeichnung", quantity: "Größe", difference: "Unterschied", ratio: "Verhältnis",
 }));
 const kGermanPatterns = [
   [/^Stick-slip at (.*): a pattern of (.*) spacing at (.*)\.$/, "Stick-Slip mit $1: ein Muster mit $2 Abstand bei $3."],

@@ -6,7 +6,7 @@ const kGerman = {
   drop: "Dateien oder einen Ordner hier ablegen: Text, CSV, Excel (.xlsx), TDMS, auch gepackt (.gz, .zip).",
   choose: "Dateien wählen", "choose-folder": "Ordner wählen", paste: "Tabelle einfügen", example: "Beispiel öffnen",
   pasted: "Spalten mit Zeit und Kraft, wie aus einer Tabelle kopiert:", take: "Diese Zeilen nehmen",
-  file: "Datei", speed: "Antriebsgeschwindigkeit", side: "Seite", remove: "entfernen",
+  file: "Datei", speed: "Antriebs\u00adgeschwindigkeit", side: "Seite", remove: "entfernen",
   together: "Was mit mehreren Dateien geschieht", "mode-single": "die gewählte anpassen",
   "mode-each": "jede für sich anpassen (Tabelle)",
   "mode-sweep": "alle gemeinsam anpassen (mehrere Geschwindigkeiten)", "mode-compare": "Seite A mit Seite B vergleichen",
@@ -34,6 +34,8 @@ const kGerman = {
   "window-is": "Abschnitt", impulses: "Ausreißer", gaps: "Lücken", clipped: "abgeschnittene Werte",
   each: "Jede Aufzeichnung für sich", "each-save": "Tabelle sichern (CSV)", refused: "nicht angepasst", status: "Status", warnings: "Warnungen",
   stiffness: "Steifigkeit", damping: "Dämpfungsgrad",
+  stick_slip: "Stick-Slip", stick_slip_bistable: "Stick-Slip (bistabil)", steady_sliding: "gleichmäßiges Gleiten",
+  oscillatory_slip: "schwingendes Rutschen", undetermined: "unbestimmt",
   period: "Periode", frequency: "Frequenz", spacing: "Abstand der Rutscher", regime: "Art des Gleitens", outside: "keine Rutscher",
   "too-old": "Dieser Browser ist zu alt: es fehlt WebAssembly mit Ausnahmen. Chrome ab 95, Firefox ab 113, Safari ab 16.4.",
   nothing: "Nichts zum Einfügen: erst Spalten in einer Tabelle kopieren.",
@@ -41,6 +43,8 @@ const kGerman = {
 function say(key, english) {
   return document.documentElement.lang === "de" ? (kGerman[key] ?? english) : english;
 }
+/** A kind of motion or a regime by its name in documents. */
+const kindWords = (name) => say(name, String(name ?? "?").replaceAll("_", " "));
 function setLanguage(language) {
   document.documentElement.lang = language;
   for (const element of document.querySelectorAll("[data-t]")) {

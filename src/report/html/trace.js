@@ -210,9 +210,12 @@
       document.getElementById("trace-residual").remove();
       return;
     }
-    graphs.push(new Dygraph(document.getElementById("trace-residual"), rowsFor(residual, whole, residualRow), {
+    setTimeout(buildResidual);  // a task of its own, so that the page answers in between
+  }
+  function buildResidual() {
+    graphs.push(new Dygraph(document.getElementById("trace-residual"), rowsFor(residual, shown, residualRow), {
       ...common, ...looks(), labels: ["time", "residual"], colors: [colour("--chart-blue")], strokeWidth: 1,
-      ylabel: packed.residual_label, xlabel: "time [s]", dateWindow: whole,
+      ylabel: packed.residual_label, xlabel: "time [s]", dateWindow: shown,
     }));
   }
   build();
