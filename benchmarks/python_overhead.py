@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """python_overhead.py SLIPFIT [--fits N]: what a fit costs through the module, beside the C++ call in it and beside the program as a subprocess.
 
-PYTHONPATH is the folder of the module (build/release/python). Times are medians over N fits of each recording; CSV to standard output.
-overhead_ms is what sf.fit() of a Recording spends outside of the C++ fit, in the same call; array_ms is a Recording from arrays of doubles;
-stiffness_ms the first number read from the result (the document made and parsed); threads: fits a second with one thread and with two."""
+PYTHONPATH is the folder of the module (build/release/python). Each quantity N times in turn, wall clock and time on the processor (which other
+work on the machine does not lengthen as much): median and quartiles as CSV to standard output. overhead_ms is what sf.fit() of a Recording spends
+outside of the C++ fit, in the same call; array_ms is a Recording from arrays of doubles; array_again_ms the same again and
+again, with what it needs in the caches; beyond_ms is overhead_ms and array_ms; sum_ms what numpy takes to add up the samples at the moment of array_ms; stiffness_ms the first number
+read from the result (the document made and parsed); threads: fits a second with one thread and with two."""
 
 import argparse
 import concurrent.futures
@@ -20,10 +22,27 @@ from slipfit import _slipfit
 DEMO = pathlib.Path(__file__).resolve().parents[1] / "testdata" / "demo.csv"
 
 
+class Spent:
+    """Milliseconds: by the clock, and on the processor by this thread."""
+
+    def __init__(self, wall=0.0, cpu=0.0):
+        self.wall, self.cpu = wall, cpu
+
+    @staticmethod
+    def now():
+        return Spent(1e3 * time.perf_counter(), 1e3 * time.thread_time())
+
+    def __add__(self, other):
+        return Spent(self.wall + other.wall, self.cpu + other.cpu)
+
+    def __sub__(self, other):
+        return Spent(self.wall - other.wall, self.cpu - other.cpu)
+
+
 def timed(work):
-    begin = time.perf_counter()
+    begin = Spent.now()
     result = work()
-    return 1e3 * (time.perf_counter() - begin), result
+    return Spent.now() - begin, result
 
 
 def by_subprocess(program):
@@ -42,7 +61,7 @@ class Inside:
     """The extension's fit, and the milliseconds of its last call."""
 
     def __init__(self):
-        self.fit, self.spent = _slipfit.fit, 0.0
+        self.fit, self.spent = _slipfit.fit, Spent()
         _slipfit.fit = self.call
 
     def call(self, *arguments):
@@ -58,22 +77,27 @@ def main():
     recording = sf.read_recording(DEMO, speed="10 mm/s")
     recorded = (recording.time.copy(), recording.force.copy())
     inside = Inside()
-    columns = {name: [] for name in ("cpp_ms", "overhead_ms", "array_ms", "stiffness_ms", "curve_ms", "read_and_fit_ms", "subprocess_ms")}
+    columns = {name: [] for name in ("cpp_ms", "overhead_ms", "array_ms", "beyond_ms", "stiffness_ms", "curve_ms", "sum_ms", "read_and_fit_ms", "subprocess_ms", "array_again_ms")}
     for _ in range(arguments.fits):  # in turn, so that what else the machine does meets all alike
         spent, fit = timed(lambda: sf.fit(recording))
         columns["cpp_ms"].append(inside.spent)
         columns["overhead_ms"].append(spent - inside.spent)
         columns["array_ms"].append(timed(lambda: sf.Recording(*recorded, speed=0.01))[0])
+        columns["beyond_ms"].append(columns["overhead_ms"][-1] + columns["array_ms"][-1])
         columns["stiffness_ms"].append(timed(lambda: fit.stiffness)[0])
         columns["curve_ms"].append(timed(lambda: fit.curve)[0])
+        columns["sum_ms"].append(timed(lambda: (recorded[0].sum(), recorded[1].sum()))[0])
         columns["read_and_fit_ms"].append(timed(lambda: sf.fit(sf.read_recording(DEMO, speed="10 mm/s")).to_dict())[0])
         columns["subprocess_ms"].append(timed(lambda: by_subprocess(arguments.program))[0])
-    print("quantity,median")
-    print(f"samples,{len(recording)}")
+    for _ in range(50 * arguments.fits):
+        columns["array_again_ms"].append(timed(lambda: sf.Recording(*recorded, speed=0.01))[0])
+    print("quantity,lower_quartile,median,upper_quartile,cpu_median")
+    print(f"samples,,{len(recording)},,")
     for name, values in columns.items():
-        print(f"{name},{statistics.median(values):.3f}")
+        quartiles = statistics.quantiles((one.wall for one in values), n=4)
+        print(name, *(f"{value:.3f}" for value in (*quartiles, statistics.median(one.cpu for one in values))), sep=",")
     for threads in (1, 2):
-        print(f"fits_per_second_{threads}_threads,{fits_per_second(recording, threads, 4 * arguments.fits):.1f}")
+        print(f"fits_per_second_{threads}_threads,,{fits_per_second(recording, threads, 4 * arguments.fits):.1f},,")
 
 
 if __name__ == "__main__":

@@ -9,4 +9,6 @@ cmake --preset release -DSLIPFIT_PYTHON=ON >/dev/null
 cmake --build --preset release --target slipfit_cli slipfit_python
 PYTHONPATH="$PWD/build/release/python" /usr/bin/python3 scripts/site_pages.py build/release/apps/slipfit build/site-source
 mkdocs build --strict --clean --quiet
+(printf 'var searchIndex = ' && cat build/site/search/search_index.json) >build/site/search/search_index.js
+scripts/site_links.py build/site
 echo "wrote build/site/index.html"

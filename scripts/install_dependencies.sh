@@ -14,7 +14,7 @@ for group in "${@:-test}"; do
     python) packages+=("${python[@]}") ;;
     test) packages+=(catch2 python3 python3-jsonschema python3-openpyxl python3-scipy python3-h5py
       slurm-wlm munge locales dpkg-dev file "${python[@]}" "${notebooks[@]}" python3-pytest mypy) ;;
-    docs) packages+=("${python[@]}" "${notebooks[@]}" mkdocs mkdocs-material) ;;
+    docs) packages+=("${python[@]}" "${notebooks[@]}" mkdocs mkdocs-material doxygen) ;;
     web)
       packages+=(emscripten libfast-float-dev curl ca-certificates xz-utils bzip2 make)
       command -v node >/dev/null 2>&1 || packages+=(nodejs)

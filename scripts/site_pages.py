@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """site_pages.py SLIPFIT FOLDER: what mkdocs makes the site of: docs/, commands by --help, keys by the schema, Python by its docstrings, and the
-executed gallery. PYTHONPATH holds the module."""
+executed gallery, the public headers by Doxygen (into build/site-source, as scripts/Doxyfile says). PYTHONPATH holds the module."""
 
 import inspect
 import json
@@ -46,10 +46,25 @@ def keys_of(schema, definitions, place=""):
             yield from keys_of(inner, definitions, f"{place}{name}.")
 
 
+def from_reference(text):
+    """Links of docs/formats.md as a page in docs/reference needs them."""
+    return re.sub(r"\]\((?=\w)(?!http)", "](../", text).replace("](#", "](../formats.md#")
+
+
+def meanings():
+    """What docs/formats.md says of each key of a fit that has one row there."""
+    text = (PROJECT / "docs" / "formats.md").read_text(encoding="utf-8")
+    section = re.search(r"^## Result of `slipfit fit`.*?(?=^## )", text, re.S | re.M).group(0)
+    rows = [(key, row.group(2).strip()) for row in re.finditer(r"^\| (`[^|]*) \|(.*)\|$", section, re.M) for key in re.findall(r"`(\w+)`", row.group(1))]
+    keys = [key for key, _ in rows]
+    return {key: from_reference(meaning) for key, meaning in rows if keys.count(key) == 1 and meaning != "see below"}
+
+
 def keys_page():
     schema = json.loads((PROJECT / "docs" / "fit.schema.json").read_text(encoding="utf-8"))
     definitions = schema.get("$defs", schema.get("definitions", {}))
-    rows = [f"| `{key}` | {kind} | {meaning} |" for key, kind, meaning in keys_of(schema, definitions)]
+    known = meanings()
+    rows = [f"| `{key}` | {kind} | {meaning or known.get(key.split('.')[-1], '')} |" for key, kind, meaning in keys_of(schema, definitions)]
     for name, part in definitions.items():
         if "properties" in part:
             rows += [f"| `{name}`: `{key}` | {kind} | {meaning} |" for key, kind, meaning in keys_of(part, definitions)]
@@ -103,11 +118,21 @@ def python_page():
     return "\n".join(page)
 
 
+def cpp_page():
+    """The example programs, which tests build and run, and the way to what Doxygen made of the headers."""
+    page = ["# The C++ library", "", "By the comments of the public headers (Doxygen): [types](cpp/annotated.html), [functions](cpp/namespaceslipfit.html),",
+            "[headers](cpp/files.html).", "", "```cmake", "find_package(slipfit REQUIRED)", "target_link_libraries(app PRIVATE slipfit::slipfit)", "```", "",
+            "`#include <slipfit/slipfit.hpp>` is the whole library. Functions that may refuse their input return a `Result`.", ""]
+    for name in ("fit_recording.cpp", "sweep_and_predict.cpp", "frequency.cpp", "recording_argument.hpp"):
+        page += [f"## examples/{name}", "", "```cpp", (PROJECT / "examples" / name).read_text(encoding="utf-8").strip(), "```", ""]
+    return "\n".join(page)
+
+
 def gallery(folder):
     environment = {name: value for name, value in os.environ.items() if name != "MPLBACKEND"}
     notebooks = sorted(map(str, (PROJECT / "docs" / "gallery").glob("*.ipynb")))
     subprocess.run([sys.executable, "-m", "nbconvert", "--to", "markdown", "--execute", "--log-level", "ERROR", "--output-dir", str(folder / "gallery"),
-                    *notebooks], env={**environment, "JUPYTER_PLATFORM_DIRS": "1"}, check=True)
+                    *notebooks], env={**environment, "JUPYTER_PLATFORM_DIRS": "1", "PYDEVD_DISABLE_FILE_VALIDATION": "1"}, check=True)
     for page in (folder / "gallery").glob("*.md"):
         # Tables of pandas come with a style that the site has of its own.
         text = re.sub(r"<style scoped>.*?</style>", "", page.read_text(encoding="utf-8"), flags=re.S)
@@ -132,11 +157,15 @@ def main():
     shutil.copytree(PROJECT / "docs", folder, ignore=shutil.ignore_patterns("*.ipynb"))
     (folder / "extra.css").write_text(".md-typeset table:not([class]) { display: block; overflow-x: auto; }\n"
                                       ".md-typeset table:not([class]) th { min-width: 0; }\n"
-                                      ".md-typeset img, .md-typeset svg { max-width: 100%; height: auto; }\n")
+                                      ".md-typeset img, .md-typeset svg { max-width: 100%; height: auto; }\n"
+                                      ".md-typeset td:first-child code { white-space: nowrap; }\n"
+                                      ".md-typeset h2, .md-typeset h3 { overflow-wrap: anywhere; }\n")
     (folder / "reference").mkdir()
     (folder / "reference" / "commands.md").write_text(commands_page(program), encoding="utf-8")
     (folder / "reference" / "keys.md").write_text(keys_page(), encoding="utf-8")
     (folder / "reference" / "python.md").write_text(python_page(), encoding="utf-8")
+    (folder / "reference" / "cpp.md").write_text(cpp_page(), encoding="utf-8")
+    subprocess.run(["doxygen", "scripts/Doxyfile"], cwd=PROJECT, check=True)
     gallery(folder)
     for page in folder.rglob("*.md"):
         without_links_out(page, folder)

@@ -153,11 +153,12 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
                         std::to_string(entries.size()));
     }
     Member& member = members.emplace_back(analyze_member(entry.recording, own));
-    const Recording& used = member.detected.recording();
-    const Signals& signals = member.estimates.signals;
-    sweep.roles.push_back(role_of(used, member.analysis));
-    recordings.push_back({used, signals.quality, signals.segmentation, sweep.roles.back()});
     sweep.recordings.push_back(std::move(member.analysis));
+  }
+  sweep.roles = roles_of(entries, sweep.recordings);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Signals& signals = members[i].estimates.signals;
+    recordings.push_back({members[i].detected.recording(), signals.quality, signals.segmentation, sweep.roles[i]});
   }
   sweep.fit = in_range(fit_sweep(recordings, options));
   sweep.derived =
@@ -166,6 +167,7 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   sweep.repeats = compare_repeats(entries, sweep.recordings);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
   append(sweep.warnings, check_duplicates(entries));
+  append(sweep.warnings, check_resolution(entries, sweep.recordings, sweep.roles));
   if (sweep.fit) {
     append(sweep.warnings, check_agreement(entries, sweep.recordings, *sweep.fit));
     append(sweep.warnings, sweep.fit->result.warnings);
@@ -175,10 +177,8 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
 
 SweepAnalysis analyze_each(std::span<const SweepEntry> entries) {
   SweepAnalysis sweep;
-  for (const SweepEntry& entry : entries) {
-    sweep.recordings.push_back(analyze(entry.recording));
-    sweep.roles.push_back(role_of(entry.recording, sweep.recordings.back()));
-  }
+  for (const SweepEntry& entry : entries) sweep.recordings.push_back(analyze(entry.recording));
+  sweep.roles = roles_of(entries, sweep.recordings);
   sweep.fit_reason = "each recording was analysed on its own; slipfit fit fits them together";
   sweep.repeats = compare_repeats(entries, sweep.recordings);
   return sweep;

@@ -23,6 +23,7 @@ class Run:
     average: int = 0     # samples
     offset: float = 0.0  # N
     source: int = None   # the trace is that of this other recording
+    per_slip: float = None  # samples; None: the sweep's
 
 
 @dataclasses.dataclass
@@ -212,6 +213,26 @@ def wrong_loads(rng):
     return sweep
 
 
+def adhesion(rng):
+    """Loads differ up to threefold, and both frictions are proportional to the load and an adhesion of 0.2 to 1 of the first."""
+    sweep = draw(rng, 5, 8)
+    offset = rng.uniform(0.2, 1.0)
+    for i, run in enumerate(sweep.runs):
+        load = 1.0 if i == 0 else rng.uniform(1, 3)
+        share = (load + offset) / (1 + offset)
+        run.drop, run.kinetic, run.stated_load = run.drop * share, run.kinetic * share, 5.0 * load
+    return sweep
+
+
+def undersampled(rng):
+    """Recordings over a factor of 1000 in speed, the slowest with as many samples as a logger keeps: 0.2 to 0.7 of a sample a slip;
+    half of them under an exponential law."""
+    sweep = draw(rng, 5, 1000, velocity(rng, 0) if rng.random() < 0.5 else None)
+    for run, per_slip in zip(sweep.runs, (rng.uniform(0.2, 0.7), rng.uniform(0.2, 0.7))):
+        run.per_slip = per_slip
+    return sweep
+
+
 def near_critical(rng):
     """The fastest recordings stand near the end of stick-slip and beyond it."""
     sweep = draw(rng, 6, rng.uniform(20, 40), zeta=(0.1, 0.3), fastest=(1.0, 2.5))
@@ -260,15 +281,17 @@ def level_only(rng):
 
 def trace(sweep, run):
     model, rng = run.model, sweep.rng
-    step = 1.1 * np.pi / model.omega / sweep.per_slip
+    per_slip = run.per_slip or sweep.per_slip
+    fine = max(1, int(np.ceil(10 / per_slip)))  # steps of the simulation a sample
+    step = 1.1 * np.pi / model.omega / per_slip
     period = 1.1 * np.pi / model.omega + stick_s(model, run.drop, run.speed)
     n = int(np.ceil(rng.integers(*sweep.slips) * period / step))
-    full = np.full(n, run.speed)
-    motion = simulate(model, step, full, run.kinetic + run.drop, run.kinetic, start_force=run.kinetic)
-    force = motion.force + run.offset
+    full = np.full(fine * n, run.speed)
+    motion = simulate(model, step / fine, full, run.kinetic + run.drop, run.kinetic, start_force=run.kinetic)
+    force = motion.force[::fine] + run.offset
     if run.average:
         force = np.convolve(np.pad(force, run.average, "edge"), np.ones(run.average) / run.average, "same")[run.average:-run.average]
-    return motion.time_s, force + sweep.noise * rng.standard_normal(n)
+    return motion.time_s[::fine], force + sweep.noise * rng.standard_normal(n)
 
 
 def limit_period(model, drop, kinetic, speed):
@@ -325,5 +348,5 @@ def parameters_of(sweep, sound):
 
 
 FAMILIES = [coulomb5, coulomb3, exponential, age_ln3, age_ln4, age_ln6, age_cutoff, age_power, age_saturating, age_exponential, log_falling,
-            log_rising, hyperbolic, two, two_coulomb, narrow, trended, averaging, drifting, zeros, wrong_loads, near_critical, bad_speed,
-            bad_unit, other_material, one_file_twice, swapped, level_only]
+            log_rising, hyperbolic, two, two_coulomb, narrow, trended, averaging, drifting, zeros, wrong_loads, adhesion, undersampled,
+            near_critical, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]

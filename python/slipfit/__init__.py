@@ -13,10 +13,11 @@ pandas and matplotlib are imported only by what needs them.
 from ._batch import BatchResult, batch, manifest
 from ._documents import Comparison, Info, Plan, Prediction, Surface
 from ._errors import Error
-from ._fit import Curve, Fit, Sweep, analyze, fit
+from ._fit import Curve, Fit
 from ._functions import compare, info, simulate, surface
 from ._recording import Recording, read_recording
 from ._slipfit import __version__
+from ._sweep import Sweep, analyze, fit
 from ._values import Estimate, Notice, Parameters
 
 __all__ = [

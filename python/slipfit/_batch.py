@@ -11,7 +11,7 @@ from . import _slipfit
 from ._cells import Quantity, fixed_of, quantity_of
 from ._documents import Path, frame_of_csv
 from ._errors import Error
-from ._fit import Fix
+from ._sweep import Fix
 from ._values import Notice
 
 if TYPE_CHECKING:

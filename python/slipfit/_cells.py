@@ -7,17 +7,11 @@ import os
 from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _slipfit
-from ._errors import Error
+from ._errors import COLUMNS, Error
 
 Quantity = Union[float, int, str]
 """A number in SI, or text with a unit: ``0.01``, ``"10 mm/s"``, ``"41 gf"``."""
 
-# Where the argument is called otherwise than the column of a manifest.
-_COLUMNS = {
-    "zero": "zero_force",
-    "speed_uncertainty": "speed_se",
-    "measured_spacing_uncertainty": "measured_spacing_se",
-}
 _RANGES = {"window", "rows"}
 
 
@@ -75,7 +69,7 @@ def cells_of(arguments: Mapping[str, Any]) -> List[Tuple[str, str]]:
         else:
             text = text_of(value)
         if text is not None:
-            cells.append((_COLUMNS.get(name, name), text))
+            cells.append((COLUMNS.get(name, name), text))
     return cells
 
 

@@ -15,12 +15,14 @@ _FLAGS = {
     "--strokes": "strokes=True",
     "--tier velocity": "tier='velocity'",
 }
-_COLUMNS = {"zero_force": "zero", "speed_se": "speed_uncertainty", "measured_spacing_se": "measured_spacing_uncertainty"}
+# Where an argument is called otherwise than the column of a manifest.
+COLUMNS = {"zero": "zero_force", "speed_uncertainty": "speed_se", "measured_spacing_uncertainty": "measured_spacing_se"}
+_ARGUMENTS = {column: argument for argument, column in COLUMNS.items()}
 
 
 def _in_words_of_python(message: str) -> str:
     """The message with arguments in place of the options of the command line."""
-    message = re.sub(r"^column '(\w+)': ", lambda match: f"{_COLUMNS.get(match.group(1), match.group(1))}: ", message)
+    message = re.sub(r"^column '(\w+)': ", lambda match: f"{_ARGUMENTS.get(match.group(1), match.group(1))}: ", message)
     for flag, words in _FLAGS.items():
         message = re.sub(rf"{flag}(?![\w-])", words, message)
     message = re.sub(r"--([a-z][a-z-]*): ", lambda match: f"{match.group(1).replace('-', '_')}: ", message)

@@ -1,15 +1,14 @@
-"""Results of an analysis or a fit: a view on the library's document, and arrays."""
+"""What one recording tells: a view on the library's document, and arrays."""
 
 from __future__ import annotations
 
 import json
-import os
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union, cast, overload
+from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union, cast
 
 import numpy as np
 
 from . import _slipfit
-from ._cells import Quantity, fixed_of, text_of
+from ._cells import Quantity, text_of
 from ._documents import Path, Plan, Prediction, frame_of_csv, write_page
 from ._errors import Error
 from ._recording import Recording
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     Array = npt.NDArray[np.float64]
 
 Speeds = Union[str, Sequence[Quantity], "Array"]
-Fix = Optional[Mapping[str, Quantity]]
 
 _NOT_FITTED = "not in this result: analyze() fits no model, or the model that fits does not have it"
 
@@ -39,7 +37,7 @@ class Curve(NamedTuple):
     """`force` less `fitted`."""
 
 
-class _Options(NamedTuple):
+class Options(NamedTuple):
     """How a result was made."""
 
     kind: str  # "fit" or "analyze"
@@ -55,7 +53,7 @@ class Fit:
     ``conditional``: known if what the note names holds; ``unidentified``: the recording cannot tell; ``fixed``: held.
     """
 
-    def __init__(self, recording: Recording, options: _Options, native: Optional[_slipfit.Analysis] = None) -> None:
+    def __init__(self, recording: Recording, options: Options, native: Optional[_slipfit.Analysis] = None) -> None:
         self._recording = recording
         self._options = options
         self._native = native
@@ -295,7 +293,7 @@ class Fit:
         return (self._recording, self._options, self.to_json(), self._id)
 
     @classmethod
-    def _from_state(cls, recording: Any, options: _Options, content: str, name: str) -> "Fit":
+    def _from_state(cls, recording: Any, options: Options, content: str, name: str) -> "Fit":
         made = cls(recording, options)
         made._content = content
         made._id = name
@@ -312,134 +310,6 @@ def _remade(kind: Any, state: Tuple[Any, ...]) -> Any:
     return kind._from_state(*state)
 
 
-class Sweep(Fit):
-    """What several recordings tell together: one set of parameters, friction that depends on the speed included.
-
-    As `Fit`; `recordings` holds each on its own. Frequency, spacing, cycles and curve belong to one recording.
-    """
-
-    def __init__(
-        self, recordings: Mapping[str, Recording], name: str, options: _Options, native: Optional[_slipfit.Sweep] = None
-    ) -> None:
-        self._all = dict(recordings)
-        self._options = options
-        self._sweep = native
-        self._content = None
-        self._parsed = None
-        self._id = name
-        self._members: Optional[Dict[str, Fit]] = None
-
-    def _swept(self) -> _slipfit.Sweep:
-        if self._sweep is None:
-            named = [(name, one._native) for name, one in self._all.items()]
-            if self._options.kind == "fit":
-                self._sweep = _slipfit.fit_sweep(named, self._options.tier, list(self._options.fixed))
-            else:
-                self._sweep = _slipfit.analyze_sweep(named)
-        return self._sweep
-
-    def to_json(self) -> str:
-        """The document of the schema slipfit.fit/1 with ``recordings``, as ``slipfit fit --joint --json`` writes it."""
-        if self._content is None:
-            self._content = self._swept().json(self._id)
-        return self._content
-
-    @property
-    def recordings(self) -> Dict[str, Fit]:
-        """Each recording's own result, by its name."""
-        if self._members is None:
-            self._members = {}
-            for (name, recording), native in zip(self._all.items(), self._swept().members):
-                own = Fit(recording, self._options, native)
-                own._id = name
-                self._members[name] = own
-        return self._members
-
-    def __getitem__(self, name: str) -> Fit:
-        return self.recordings[name]
-
-    def __len__(self) -> int:
-        return len(self._all)
-
-    @property
-    def recording(self) -> Recording:
-        raise AttributeError("a sweep has several recordings: see .recordings")
-
-    @property
-    def pattern_spacing(self) -> Estimate:
-        """Of one recording: ``sweep.recordings[NAME].pattern_spacing``."""
-        return Estimate._of("pattern_spacing_m", None, "of one recording: see .recordings")
-
-    @property
-    def cycles(self) -> "pd.DataFrame":
-        """Of all recordings, with the column ``recording``."""
-        import pandas
-
-        frames = [one.cycles.assign(recording=name) for name, one in self.recordings.items()]
-        return pandas.concat(frames, ignore_index=True)
-
-    @property
-    def curve(self) -> Curve:
-        raise AttributeError("a curve is of one recording: sweep.recordings[NAME].curve")
-
-    def to_frame(self) -> "pd.DataFrame":
-        """One row a parameter, by its key: value, se, low, high (95 %), unit, status, note."""
-        return super().to_frame().drop(index=["frequency_Hz", "pattern_spacing_m", "periodic_displacement_m"])
-
-    def recordings_frame(self) -> "pd.DataFrame":
-        """One row a recording: speed, status, role, frequency, spacing as measured, predicted, and predicted by the others."""
-        import pandas
-
-        rows = {}
-        for one in self.to_dict()["recordings"]:
-            joint = one.get("joint") or {}
-            rows[one["id"]] = {
-                "speed_m_per_s": one["recording"]["speed_m_per_s"],
-                "normal_force_N": one["recording"]["normal_force_N"],
-                "status": one["status"],
-                "role": one.get("role"),
-                "frequency_Hz": one["frequency"]["value_Hz"],
-                "pattern_spacing_m": (one["derived"]["pattern_spacing_m"] or {}).get("value"),
-                "spacing_m": (joint.get("spacing_m") or {}).get("value"),
-                "spacing_left_out_m": (joint.get("spacing_left_out_m") or {}).get("value"),
-            }
-        return pandas.DataFrame.from_dict(rows, orient="index")
-
-    def report(self, path: Path) -> None:
-        """Write a page to look at, to print and to send (one HTML file, no network)."""
-        write_page(path, self._swept().page(self._id, f"slipfit.{self._options.kind}([...])  # Python"))
-
-    def plot(self, kind: str = "speed", ax: Any = None) -> Any:
-        """Draw with matplotlib: axes in, axes out.
-
-        Parameters
-        ----------
-        kind : str
-            ``"speed"``: spacing over speed, measured and predicted; ``"stacked"`` or ``"trace"``: the traces one above
-            the other; ``"cycles"``: the cycles of all recordings; ``"map"``: of the regimes; ``"spectrum"``.
-        ax : matplotlib axes, optional
-        """
-        from . import _plot
-
-        return _plot.sweep(self, kind, ax)
-
-    def __str__(self) -> str:
-        return self._swept().text(self._id)
-
-    def __repr__(self) -> str:
-        known = f", stiffness {self.stiffness}" if self.parameters else ""
-        return f"<slipfit.Sweep {self.id!r} of {len(self)}: {self.status.replace('_', ' ')}{known}>"
-
-    def _state(self) -> Tuple[Any, ...]:
-        return (self._all, self._options, self.to_json(), self._id)
-
-    @classmethod
-    def _from_state(cls, recording: Any, options: _Options, content: str, name: str) -> "Sweep":
-        made = cls(recording, name, options)
-        made._content = content
-        return made
-
-
 def _speeds_of(speeds: Speeds) -> Union[str, List[float]]:
     if isinstance(speeds, str):
         return speeds
@@ -449,103 +319,3 @@ def _speeds_of(speeds: Speeds) -> Union[str, List[float]]:
     if any(isinstance(one, str) for one in listed):
         return ",".join(text_of(one) for one in listed)
     return [float(one) for one in listed]
-
-
-Recordings = Union[Recording, Sequence[Recording], Mapping[str, Recording]]
-
-
-def _named(recordings: Iterable[Recording]) -> Dict[str, Recording]:
-    """By their files' names without endings; what is called alike is numbered."""
-    named: Dict[str, Recording] = {}
-    for one in recordings:
-        stem = os.path.splitext(os.path.basename(one.name))[0] or "recording"
-        name, number = stem, 2
-        while name in named:
-            name, number = f"{stem} {number}", number + 1
-        named[name] = one
-    return named
-
-
-def _check(recordings: Iterable[Any]) -> None:
-    for one in recordings:
-        if not isinstance(one, Recording):
-            raise TypeError(f"expected recordings, not {type(one).__name__}: see Recording and read_recording")
-
-
-def _analysed(recordings: Recordings, name: Optional[str], options: _Options) -> Any:
-    if isinstance(recordings, Recording):
-        one = Fit(recordings, options)
-        one._id = name or ""
-        one._result()
-        return one
-    if isinstance(recordings, Mapping):
-        named = {str(key): value for key, value in recordings.items()}
-    else:
-        listed = list(recordings)
-        _check(listed)
-        named = _named(listed)
-    _check(named.values())
-    if not named:
-        raise ValueError("expected at least one recording")
-    if name is None:
-        group = {value.group for value in named.values()}
-        first = next(iter(named))
-        name = group.pop() if len(group) == 1 and "" not in group else first
-        name = name if name != first or len(named) == 1 else f"{first} and {len(named) - 1} more"
-    sweep = Sweep(named, name, options)
-    sweep._swept()
-    return sweep
-
-
-@overload
-def fit(recordings: Recording, *, tier: str = "auto", fix: Fix = None, name: Optional[str] = None) -> Fit: ...
-@overload
-def fit(
-    recordings: Union[Sequence[Recording], Mapping[str, Recording]],
-    *,
-    tier: str = "auto",
-    fix: Fix = None,
-    name: Optional[str] = None,
-) -> Sweep: ...
-def fit(recordings: Recordings, *, tier: str = "auto", fix: Fix = None, name: Optional[str] = None) -> Any:
-    """Fit the stick-slip model to a recording, or to several together.
-
-    Parameters
-    ----------
-    recordings : Recording, sequence of Recording, or mapping of str to Recording
-        One gives `Fit`. Several are a sweep of one sliding pair at several speeds: one set of parameters, `Sweep`.
-    tier : str
-        ``"auto"``, ``"sawtooth"``, ``"undamped"``, ``"damped"``; of several ``"auto"``, ``"damped"``, ``"velocity"``.
-    fix : mapping of str to float, optional
-        Parameters to hold, in SI: ``{"damping_ratio": 0.05}``; also ``stiffness_N_per_m`` and
-        ``natural_frequency_rad_per_s``.
-    name : str, optional
-        The document's id; else the file's name.
-
-    Returns
-    -------
-    Fit or Sweep
-        A recording without stick-slip is no error: `Fit.status` says what it shows.
-
-    Raises
-    ------
-    Error
-        ``unknown_tier``, ``unknown_fix``, ``bad_number``, ``out_of_range``; of several ``not_a_force``,
-        ``view_not_spring``.
-
-    Notes
-    -----
-    Other Python threads run meanwhile: a pool of threads fits on all cores.
-    """
-    return _analysed(recordings, name, _Options("fit", tier, tuple(fixed_of(fix))))
-
-
-@overload
-def analyze(recordings: Recording, *, name: Optional[str] = None) -> Fit: ...
-@overload
-def analyze(
-    recordings: Union[Sequence[Recording], Mapping[str, Recording]], *, name: Optional[str] = None
-) -> Sweep: ...
-def analyze(recordings: Recordings, *, name: Optional[str] = None) -> Any:
-    """Frequency, cycles and kind of sliding; no model is fitted. Arguments and result as of `fit`."""
-    return _analysed(recordings, name, _Options("analyze"))

@@ -11,8 +11,9 @@ from . import _slipfit
 from ._cells import Quantity, cells_of, quantity_of, text_of
 from ._documents import Comparison, Info, Path, Surface
 from ._errors import Error
-from ._fit import Fit, Sweep, fit
+from ._fit import Fit
 from ._recording import Recording
+from ._sweep import Sweep, fit
 
 
 def _friction(static: float, kinetic: Optional[Quantity], law: Sequence[Optional[Quantity]]) -> List[float]:

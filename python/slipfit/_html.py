@@ -43,13 +43,14 @@ def chart(recording: "Recording", fit: "Fit") -> str:
     curve = fit.curve
     low, high = float(np.min(curve.force)), float(np.max(curve.force))
     lines = f'<path d="{_path(curve.time, curve.force, low, high)}" stroke="#8a8a8a" stroke-width="1"/>'
-    if not np.isnan(curve.fitted).all():
+    is_fitted = fit.status != "steady_sliding" and not np.isnan(curve.fitted).all()
+    if is_fitted:
         lines += f'<path d="{_path(curve.time, curve.fitted, low, high)}" stroke="#c0392b" stroke-width="1"/>'
     about = f"{recording.duration:.4g} s, {low:.4g} to {high:.4g} {recording.force_unit}"
     return (
         f'<svg viewBox="0 -2 {_WIDTH} {_HEIGHT + 4}" style="width:100%;max-width:{_WIDTH}px" fill="none" role="img" '
         f'aria-label="force over time, {escape(about)}">{lines}</svg>'
-        f'<div style="font-size:85%">force over {escape(about)}; fit in red</div>'
+        f'<div style="font-size:85%">force over {escape(about)}{"; fit in red" if is_fitted else ""}</div>'
     )
 
 

@@ -10,8 +10,9 @@ import numpy as np
 from ._errors import Error
 
 if TYPE_CHECKING:
-    from ._fit import Fit, Sweep
+    from ._fit import Fit
     from ._recording import Recording
+    from ._sweep import Sweep
 
 _GREY, _RED, _BLUE = "#7f7f7f", "#c0392b", "#1f5fa8"
 
@@ -38,7 +39,7 @@ def trace(recording: "Recording", ax: Any) -> Any:
 def _fitted_trace(fit: "Fit", ax: Any) -> Any:
     ax = trace(fit.recording, ax)
     curve = fit.curve
-    if not np.isnan(curve.fitted).all():
+    if fit.status != "steady_sliding" and not np.isnan(curve.fitted).all():
         ax.plot(curve.time, curve.fitted, color=_RED, linewidth=0.8, label="fit")
         ax.plot(curve.time, curve.residual, color=_BLUE, linewidth=0.5, label="residual")
     ax.set_title(f"{fit.id}: {fit.status.replace('_', ' ')}")

@@ -72,6 +72,7 @@ Result<ComparisonSide> side_of(const std::string& name, const Texts& documents) 
 
 std::vector<ComparedRecording> shown(const std::vector<AnalysedRecording>& recordings) {
   std::vector<ComparedRecording> all;
+  all.reserve(recordings.size());
   for (const AnalysedRecording& one : recordings) all.push_back({*one.recording, *one.analysis});
   return all;
 }

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/statistics/linear_regression.hpp>
+#include <boost/math/statistics/univariate_statistics.hpp>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -18,23 +20,58 @@ struct Apart {
   std::size_t recording = 0;
   double distance = 0.0;  ///< relative, or ln of a ratio; levels in units of F_s - F_k
   double errors = 0.0;    ///< the same in errors, >= 0
+
+  [[nodiscard]] double standard_error() const { return errors > 0.0 ? std::abs(distance) / errors : 0.0; }
 };
 
 /// How many of the recordings have to agree: a level has no unit that all share, and zeros of their own lie anywhere.
 enum class Agreeing { Half, AllOthers };
 
+double log_speed_of(const SweepEntry& entry) {
+  return std::log(entry.recording.conditions().speed_m_per_s);
+}
+
+/// Whether a line over ln V through the others misses it too: what changes with the speed is no fault of the slowest or
+/// the fastest recording.
+bool is_off_line(std::span<const SweepEntry> entries, const std::vector<Apart>& recordings, const Apart& one) {
+  std::vector<double> places;
+  std::vector<double> distances;
+  double variance = 0.0;  // of the others by their own errors
+  for (const Apart& other : recordings) {
+    if (other.recording == one.recording) continue;
+    places.push_back(log_speed_of(entries[other.recording]));
+    distances.push_back(other.distance);
+    variance += std::pow(other.standard_error(), 2);
+  }
+  const auto count = static_cast<double>(places.size());
+  const auto [mean_place, spread] = boost::math::statistics::mean_and_sample_variance(places);
+  const double place = log_speed_of(entries[one.recording]);
+  const auto [slowest, fastest] = std::minmax_element(places.begin(), places.end());
+  if (!(spread > 0.0) || (*slowest < place && place < *fastest)) return true;
+  const auto [start, slope] = boost::math::statistics::simple_ordinary_least_squares(places, distances);
+  double rest = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) rest += std::pow(distances[i] - start - slope * places[i], 2);
+  const double leverage = 1.0 / count + std::pow(place - mean_place, 2) / (spread * (count - 1.0));
+  const double line_variance = leverage * std::max(variance / count, rest / (count - 2.0));
+  const double off = std::abs(one.distance - start - slope * place);
+  return off > thresholds::kLeftOutShare &&
+         off > thresholds::kLeftOutErrors * std::sqrt(std::pow(one.standard_error(), 2) + line_variance);
+}
+
 /// The one that stands furthest apart, where so many agree.
-std::optional<Apart> furthest(std::vector<Apart> recordings, Agreeing agreeing) {
+std::optional<Apart> furthest(std::span<const SweepEntry> entries, std::vector<Apart> recordings, Agreeing agreeing) {
   if (recordings.size() < thresholds::kNamingRecordings) return std::nullopt;
   std::sort(recordings.begin(), recordings.end(), [](const Apart& a, const Apart& b) { return a.errors > b.errors; });
   const Apart& first = recordings.front();
   const Apart& other = recordings[agreeing == Agreeing::Half ? recordings.size() / 2 : 1];
   const bool beyond = first.errors > thresholds::kLeftOutErrors && std::abs(first.distance) > thresholds::kLeftOutShare;
-  return beyond && first.errors > thresholds::kStandsApart * other.errors ? std::optional(first) : std::nullopt;
+  const bool stands_apart = beyond && first.errors > thresholds::kStandsApart * other.errors;
+  return stands_apart && is_off_line(entries, recordings, first) ? std::optional(first) : std::nullopt;
 }
 
 /// Spacing predicted without a recording over the one that it shows.
-std::optional<Apart> by_spacing(const std::vector<Analysis>& analyses, const SweepFit& fit) {
+std::optional<Apart> by_spacing(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
+                                const SweepFit& fit) {
   std::vector<Apart> recordings;
   for (std::size_t i = 0; i < analyses.size(); ++i) {
     const Estimate& measured = analyses[i].derived.pattern_spacing_m;
@@ -45,7 +82,7 @@ std::optional<Apart> by_spacing(const std::vector<Analysis>& analyses, const Swe
         std::hypot(*measured.standard_error / *measured.value, *predicted.standard_error / *predicted.value);
     recordings.push_back({i, distance, std::abs(distance) / error});
   }
-  return furthest(std::move(recordings), Agreeing::Half);
+  return furthest(entries, std::move(recordings), Agreeing::Half);
 }
 
 /// A parameter of a recording's own fit.
@@ -83,11 +120,12 @@ std::vector<Apart> from_middle(const std::vector<Own>& values, double middle, do
   return apart;
 }
 
-std::optional<Apart> by_stiffness(const std::vector<Analysis>& analyses, const SweepFit& fit) {
+std::optional<Apart> by_stiffness(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
+                                  const SweepFit& fit) {
   const std::vector<Own> values = own_values(ParameterId::Stiffness, analyses, fit);
   if (values.empty()) return std::nullopt;
   const double middle = middle_of(values);
-  return furthest(from_middle(values, middle, middle), Agreeing::Half);
+  return furthest(entries, from_middle(values, middle, middle), Agreeing::Half);
 }
 
 /// In units of F_s - F_k, at the mean load where loads are known.
@@ -103,7 +141,7 @@ std::optional<Apart> by_level(std::span<const SweepEntry> entries, const std::ve
     own.value *= *fit.result.estimate->normal_force_N / *load_N;
     own.standard_error *= *fit.result.estimate->normal_force_N / *load_N;
   }
-  return furthest(from_middle(values, middle_of(values), *unit.value), Agreeing::AllOthers);
+  return furthest(entries, from_middle(values, middle_of(values), *unit.value), Agreeing::AllOthers);
 }
 
 const char* side_of(const Apart& apart) {
@@ -121,11 +159,11 @@ Warnings check_agreement(std::span<const SweepEntry> entries, const std::vector<
                     "fit without it",
                     entries[recording].id, shown)};
   };
-  if (const auto apart = by_stiffness(analyses, fit)) {
+  if (const auto apart = by_stiffness(entries, analyses, fit)) {
     return {warning(apart->recording, fmt::format("its stiffness lies {:.2g} % {} theirs (k goes as 1 / V)",
                                                   100.0 * std::abs(apart->distance), side_of(*apart)))};
   }
-  if (const auto apart = by_spacing(analyses, fit)) {
+  if (const auto apart = by_spacing(entries, analyses, fit)) {
     return {
         warning(apart->recording, fmt::format("a fit without it predicts a spacing {:.3g} times the one that it shows",
                                               std::exp(apart->distance)))};

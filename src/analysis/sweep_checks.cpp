@@ -1,6 +1,7 @@
 #include "analysis/sweep_checks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,13 +64,49 @@ Warnings check_frequency_at_one_speed(const std::vector<Point>& points) {
                        factor)}};
 }
 
-}  // namespace
-
 SweepRole role_of(const Recording& recording, const Analysis& analysis) {
   // At the contact the sensor sees F_k(v) itself in a slip, and jumps: no force to fit together with the others.
   if (recording.conditions().force_view == ForceView::Contact) return SweepRole::LeftOut;
   if (analysis.motion == MotionClass::StickSlip) return has_values(analysis) ? SweepRole::Cycles : SweepRole::LeftOut;
   return analysis.motion == MotionClass::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
+}
+
+/// Neither the shape of a slip nor the scatter of many tells it.
+bool is_unresolved(const Analysis& analysis) {
+  return analysis.fit && analysis.fit->tier == Tier::Sawtooth && analysis.fit->diagnostics.samples_per_slip > 0.0 &&
+         analysis.fit->diagnostics.samples_per_slip < thresholds::kResolvedSamples;
+}
+
+}  // namespace
+
+std::vector<SweepRole> roles_of(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses) {
+  std::vector<SweepRole> roles;
+  for (std::size_t i = 0; i < entries.size(); ++i) roles.push_back(role_of(entries[i].recording, analyses[i]));
+  std::vector<SweepRole> resolved = roles;
+  std::vector<double> speeds;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (roles[i] != SweepRole::Cycles) continue;
+    if (is_unresolved(analyses[i])) {
+      resolved[i] = SweepRole::LeftOut;
+    } else {
+      speeds.push_back(entries[i].recording.conditions().speed_m_per_s);
+    }
+  }
+  if (speeds.empty()) return roles;
+  const auto [slow, fast] = std::minmax_element(speeds.begin(), speeds.end());
+  return *fast > thresholds::kLeastSpeedRatio * *slow ? resolved : roles;
+}
+
+Warnings check_resolution(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
+                          const std::vector<SweepRole>& roles) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (roles[i] == SweepRole::LeftOut && is_unresolved(analyses[i])) names.push_back("'" + entries[i].id + "'");
+  }
+  if (names.empty()) return {};
+  return {{"slips_not_resolved",
+           fmt::format("left out of the joint fit, since a slip has less than {:.1f} samples: {}; sample faster",
+                       thresholds::kResolvedSamples, fmt::join(names, ", "))}};
 }
 
 std::string describe_roles(const std::vector<SweepRole>& roles) {

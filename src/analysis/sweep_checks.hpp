@@ -4,9 +4,14 @@
 
 namespace slipfit {
 
-/// What a recording is used for in a fit of a sweep. Slips that no model comes close to are none of a fit of a sweep's
-/// either.
-SweepRole role_of(const Recording& recording, const Analysis& analysis);
+/// What each recording is used for in a fit of a sweep. Slips that no model comes close to are none of a fit of a
+/// sweep's either. A slip within a sample or two fits the model of the others at many places of its onset: such
+/// recordings are left out where the others suffice.
+std::vector<SweepRole> roles_of(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
+
+/// Names the recordings that are left out because the sampling does not resolve their slips.
+Warnings check_resolution(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
+                          const std::vector<SweepRole>& roles);
 
 /// "4 with stick-slip cycles, 1 sliding steadily, 1 left out".
 std::string describe_roles(const std::vector<SweepRole>& roles);

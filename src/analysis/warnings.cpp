@@ -78,7 +78,7 @@ Warnings collect_warnings(const Detected& detected, const Segmentation& slips, c
   append(warn_of_sensor(recording.conditions(), analysis.cycles));
   append(warn_of_clock(recording.conditions(), analysis.cycles));
   append(warn_of(analysis.tests));
-  if (analysis.fit) append(analysis.fit->warnings);
+  if (analysis.fit && analysis.motion != MotionClass::SteadySliding) append(analysis.fit->warnings);
   if (analysis.motion == MotionClass::StickSlip) append(warn_of_changes(recording, slips));
   return warnings;
 }

@@ -201,7 +201,11 @@ inline constexpr std::size_t kNamingRecordings = 4;
 /// tells intervals. [1; convention]
 inline constexpr double kUntrendedRatio = 1.5;
 
-/// The same, beyond which a prediction is said to be far. [1; convention]
+/// Share of the span of a sweep's speeds, in ln V, at which a trend beyond them begins before their ends. [1; derived:
+/// half the distance of neighbours of four recordings]
+inline constexpr double kTrendBegins = 1.0 / 6.0;
+
+/// Ratio to the nearest speed of a sweep, beyond which a prediction is said to be far. [1; convention]
 inline constexpr double kFarRatio = 4.0;
 
 /// Reach of alpha V, above which linear propagation does not hold. [1; calibrated: up to it bands hold 93 % or more of

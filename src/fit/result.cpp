@@ -3,10 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fit_thresholds.hpp"
+
 namespace slipfit {
 
 double SpeedReach::distance_to(double speed_m_per_s) const {
   return std::max({0.0, std::log(speed_m_per_s / fastest_m_per_s), std::log(slowest_m_per_s / speed_m_per_s)});
+}
+
+double SpeedReach::half_width_at(double speed_m_per_s) const {
+  if (!trend) return 0.0;
+  const double inwards = thresholds::kTrendBegins * std::log(fastest_m_per_s / slowest_m_per_s);
+  const double from_end =
+      std::max(std::log(speed_m_per_s / fastest_m_per_s), std::log(slowest_m_per_s / speed_m_per_s));
+  return *trend * std::max(0.0, from_end + inwards);
 }
 
 const Parameter* FitResult::find(ParameterId id) const {

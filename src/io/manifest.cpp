@@ -165,6 +165,9 @@ Result<std::vector<ManifestEntry>> read_manifest_group(const std::filesystem::pa
   }
   if (!entries.empty()) return entries;
   if (!group) return empty_manifest(name);
+  if (groups.empty()) {
+    return Error{"unknown_group", name + ": no recording names a group; add a column 'group', or leave out --group"};
+  }
   return Error{"unknown_group", fmt::format("{}: no recording of group '{}', expected one of: {}", name,
                                             printable(*group), fmt::join(groups, ", "))};
 }

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""commands.py SLIPFIT PROJECT: runs every command line of README.md, docs/*.md and docs/howto/*.md, and holds README's excerpt against the demo.
+"""commands.py SLIPFIT PROJECT: runs every command line of README.md, docs/*.md and docs/howto/*.md, holds README's excerpt against the demo,
+and compiles README's C++.
 
 A command is an indented line that begins with a program; each document's run in its order, in a folder of their own where the
 files that they name were simulated. A command that is neither run nor on the list of exceptions is a failure."""
@@ -7,11 +8,12 @@ files that they name were simulated. A command that is neither run nor on the li
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
-# Why a line is not run here.
+# Why a line that begins so is not run here.
 ELSEWHERE = {
     "scripts/demo.sh": "builds the program again",
     "scripts/web.sh": "builds the browser version; scripts/test-web.sh",
@@ -19,8 +21,13 @@ ELSEWHERE = {
     "array=$(sbatch": "the test batch: Slurm",
     "sbatch": "the test batch: Slurm",
     "coverage": "an hour; benchmarks",
+    "python3 benchmarks/": "hours; benchmarks",
+    "pip install": "builds the program again; tests/packages/pip_install.sh",
+    "cmake --preset": "builds the program again; every build",
+    "PYTHONPATH=": "a test or a benchmark in itself",
+    "N=20": "the test batch: Slurm",
 }
-PROGRAMS = re.compile(r"^    ((?:(?:slipfit|coverage|sbatch|cmake|ctest) |array=\$\(sbatch|scripts/).*)$")
+PROGRAMS = re.compile(r"^    ((?:(?:slipfit|coverage|sbatch|cmake|ctest|pip|python3) |array=\$\(sbatch|N=|PYTHONPATH=|scripts/).*)$")
 MODEL = ["--stiffness", "1000", "--natural-frequency", "200", "--damping-ratio", "0.05", "--static-friction", "6", "--noise", "0.01"]
 COULOMB = [*MODEL, "--kinetic-friction", "4"]
 WEAKENING = [*MODEL, "--f0", "3", "--f1", "1", "--alpha=-10"]
@@ -61,7 +68,7 @@ def is_elsewhere(command):
     word = command.split()[0]
     if word == "scripts/plot_fit.py":
         return subprocess.run([sys.executable, "-c", "import matplotlib"], capture_output=True, check=False).returncode != 0
-    return word in ELSEWHERE
+    return command.startswith(tuple(ELSEWHERE))
 
 
 def run_document(slipfit, project, document):
@@ -90,9 +97,22 @@ def excerpt_faults(slipfit, project):
     return [f"README.md: the demo does not print: {line}" for line in excerpt.splitlines() if line != "..." and line not in printed]
 
 
+def compile_faults(project):
+    """What the compiler says of the C++ in README, as the body of a function."""
+    snippet = re.search(r"^(    #include <slipfit/slipfit.hpp>)\n\n(.*?)^(?=\S)", (project / "README.md").read_text(), re.S | re.M)
+    compiler = shutil.which(os.environ.get("CXX", "c++"))
+    if compiler is None:
+        print("skipped: no C++ compiler for README")
+        return []
+    source = f"{snippet.group(1)}\nint complain(const std::string&);\nint run() {{\n{snippet.group(2)}return analysis.fit ? 0 : 1; }}\n"
+    command = [compiler, "-std=c++20", "-fsyntax-only", f"-I{project / 'include'}", "-xc++", "-"]
+    run = subprocess.run(command, input=source, capture_output=True, text=True, check=False)
+    return [] if run.returncode == 0 else [f"README.md, the C++: {run.stderr}"]
+
+
 def main():
     slipfit, project = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
-    total, faults = 0, excerpt_faults(slipfit, project)
+    total, faults = 0, excerpt_faults(slipfit, project) + compile_faults(project)
     for document in [project / "README.md", *sorted((project / "docs").glob("*.md")), *sorted((project / "docs" / "howto").glob("*.md"))]:
         if not any(not is_elsewhere(command) for _, command in commands_in(document)):
             continue

@@ -186,6 +186,9 @@ TEST_CASE("the recordings of one group of a manifest") {
   REQUIRE_FALSE(unknown.ok());
   CHECK(unknown.error().code == "unknown_group");
   CHECK_THAT(unknown.error().message, Catch::Contains("'x'") && Catch::Contains("g, h"));
+  const TempFile without("id,file,speed_m_per_s\na,a.csv,1\n", "without.csv");
+  CHECK_THAT(slipfit::read_manifest_group(without.path(), "x").error().message,
+             Catch::Contains("add a column 'group'"));
 }
 
 TEST_CASE("an error in one row of a manifest leaves the next rows readable") {

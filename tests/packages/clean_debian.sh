@@ -21,7 +21,7 @@ mount -t proc proc "$root/proc" 2>/dev/null || true
 inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"; }
 inside apt-get update -qq
 inside sh -c 'apt-get install -y -qq --no-install-recommends /tmp/*.deb >/tmp/install.log 2>&1 || { cat /tmp/install.log; exit 1; }'
-inside slipfit fit /tmp/demo.csv --speed 10mm/s | head -3
+inside sh -c 'slipfit fit /tmp/demo.csv --speed 10mm/s >/tmp/fit.txt && head -3 /tmp/fit.txt'  # a pipe to head would end it early
 inside test -f /usr/share/man/man1/slipfit-fit.1.gz
 inside test -f /usr/share/bash-completion/completions/slipfit
 inside python3 -c "

@@ -124,7 +124,7 @@ TEST_CASE("bands beyond the speeds of a sweep grow with the trend of its static 
   REQUIRE(model.estimate.reach->trend);
   // F_s - F_k(0+) is about 2.5 N there, and falls by 0.1 N a factor of e.
   CHECK(*model.estimate.reach->trend == Approx(0.04).epsilon(0.3));
-  const std::vector<double> unseen{0.03, 0.16};
+  const std::vector<double> unseen{0.03, 0.16, 0.04};
   const Prediction with_trend = predict_at(model, unseen);
   model.estimate.reach->trend = 0.0;
   const Prediction without = predict_at(model, unseen);
@@ -133,6 +133,7 @@ TEST_CASE("bands beyond the speeds of a sweep grow with the trend of its static 
   };
   CHECK(width(with_trend.rows[0]) == width(without.rows[0]));
   CHECK(width(with_trend.rows[1]) > width(without.rows[1]) * 1.02);
+  CHECK(width(with_trend.rows[2]) > width(without.rows[2]) * 1.002);  // the fastest: a line misses there what bends
   CHECK(holds(with_trend.rows[1].periodic_displacement_m, test::spacing_m(truth, 0.16)));
 }
 
@@ -189,6 +190,45 @@ TEST_CASE("a sweep names the recording that is not like the others, and one that
   twice.push_back(sound[0]);
   twice.back().id = "again";
   CHECK_THAT(message(analyze_sweep(twice, {}).warnings, "recording_repeated"), Catch::Contains("'again'"));
+}
+
+TEST_CASE("a stiffness that goes with the speed is the fault of no recording") {
+  test::SpeedSweep truth;
+  truth.f1_N = 0.0;
+  std::vector<SweepEntry> entries;
+  for (const double speed : {0.01, 0.02, 0.04, 0.08}) {
+    test::SpeedSweep at_speed = truth;
+    at_speed.stiffness_N_per_m *= std::pow(speed / 0.01, 0.05);  // 11 % over the sweep
+    entries.push_back(test::record(at_speed, speed, 20 + entries.size()));
+  }
+  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  for (const Warning& warning : sweep.warnings) CHECK(warning.code != "recording_disagrees");
+}
+
+TEST_CASE("recordings whose slips lie within a sample are left out where others suffice, and said") {
+  test::SpeedSweep truth;
+  truth.f1_N = 0.0;
+  truth.static_friction_sd_N = 0.002;  // where slips begin over many places of the clock, many of them tell its shape
+  std::vector<SweepEntry> entries = test::record(truth, {0.001, 0.02, 0.04, 0.08}, 31);
+  const Recording& slow = entries[0].recording;
+  const auto every = static_cast<std::size_t>(1.3 * test::slip_s(truth, 0.001) / slow.sample_interval_s());
+  std::vector<double> time_s;
+  std::vector<double> force;
+  for (std::size_t i = 0; i < slow.size(); i += every) {
+    time_s.push_back(slow.time_s()[i]);
+    force.push_back(slow.force()[i]);
+  }
+  entries[0].recording = Recording::create(time_s, force, slow.conditions(), slow.provenance()).value();
+  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  CHECK(sweep.roles[0] == SweepRole::LeftOut);
+  CHECK(std::any_of(sweep.warnings.begin(), sweep.warnings.end(), [&](const Warning& warning) {
+    return warning.code == "slips_not_resolved" && warning.message.find(entries[0].id) != std::string::npos;
+  }));
+  CHECK(parameter(sweep, "natural_frequency_rad_per_s").status == ParameterStatus::Identified);
+  CHECK(holds(parameter(sweep, "natural_frequency_rad_per_s").estimate, truth.omega_rad_per_s));
+  // The only ones with a speed of their own have to do.
+  const std::vector<SweepEntry> two(entries.begin(), entries.begin() + 2);
+  CHECK(analyze_sweep(two, {}).roles[0] == SweepRole::Cycles);
 }
 
 TEST_CASE("the spacing that the other recordings predict for one left out holds the truth") {

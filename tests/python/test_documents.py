@@ -28,7 +28,7 @@ def files(tmp_path_factory):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(PROJECT)))
-def test_snippets(page, files, tmp_path, monkeypatch):
+def test_snippets(page, files, tmp_path, monkeypatch, capsys):
     import matplotlib
 
     matplotlib.use("Agg")
@@ -38,9 +38,12 @@ def test_snippets(page, files, tmp_path, monkeypatch):
         sf.batch("runs.csv", out="results")
     names = {"__name__": page.stem}
     text = page.read_text(encoding="utf-8")
-    for match in re.finditer(r"^```python\n(.*?)^```", text, re.S | re.M):
+    for match in re.finditer(r"^```python\n(.*?)^```(?:\n\nIt prints\n\n```\n(.*?)^```)?", text, re.S | re.M):
         line = text.count("\n", 0, match.start()) + 1
+        capsys.readouterr()
         exec(compile("\n" * line + match.group(1), str(page), "exec"), names)
+        if match.group(2):
+            assert capsys.readouterr().out == match.group(2)
 
 
 def test_pages_with_snippets_are_found():

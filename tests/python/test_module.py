@@ -184,6 +184,14 @@ def test_notebooks_show_results(demo_fit, sweep):
     assert still.frequency.value is None and "<svg" in still._repr_html_()
 
 
+def test_what_a_fit_says_of_slips_is_not_said_of_steady_sliding():
+    time_s = np.arange(20_000) / 1000
+    force = 4 + 0.05 * np.sin(2 * np.pi * 50 * time_s) + 0.03 * np.random.default_rng(3).standard_normal(time_s.size)
+    hum = sf.fit(sf.Recording(time_s, force, speed="10 mm/s"))
+    assert hum.status == "steady_sliding" and [notice.code for notice in hum.warnings] == ["suspicious_line"]
+    assert "fit in red" not in hum._repr_html_()
+
+
 def test_names_from_outside_stay_text(demo):
     shown = sf.fit(sf.Recording(demo.time, demo.force, speed=0.01, name="<script>alert(1)</script>"))._repr_html_()
     assert "<script" not in shown

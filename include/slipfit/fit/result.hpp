@@ -94,10 +94,9 @@ struct SpeedReach {
 
   /// ln of the ratio to the nearest of its speeds; 0 among them.
   [[nodiscard]] double distance_to(double speed_m_per_s) const;
-  /// Of the 95 % interval of ln(F_s - F_k(0+)) there, as far as the trend makes it; 0 without one.
-  [[nodiscard]] double half_width_at(double speed_m_per_s) const {
-    return trend.value_or(0.0) * distance_to(speed_m_per_s);
-  }
+  /// Of the 95 % interval of ln(F_s - F_k(0+)) there, as far as the trend makes it; 0 without one, and among the speeds
+  /// but near their ends: a line through the recordings misses what bends there before it leaves them.
+  [[nodiscard]] double half_width_at(double speed_m_per_s) const;
 };
 
 /// The fitted model as one point with its covariance, for everything that is computed from it.
