@@ -13,7 +13,7 @@ function(slipfit_unity_by_folder target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${SLIPFIT_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# slipfit_writes_text(TARGET): its code takes no time worth a third longer compilation.
+# slipfit_writes_text(TARGET): its code takes no time worth a third longer compilation, or a larger page.
 function(slipfit_writes_text target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:$<IF:$<PLATFORM_ID:Emscripten>,-Oz,-O1>>)
 endfunction()

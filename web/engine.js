@@ -1,29 +1,33 @@
 // The program in a worker: one request at a time; stopping ends the worker and begins another.
 const engine = (() => {
   "use strict";
-  const text = document.getElementById("engine-text").textContent;
-  let compiled = null;
+  const textOf = (id) => document.getElementById(id).textContent;
+  let wasm = null; // compiled by the first worker, for those after it
   let worker = null;
   let waiting = null;
   let next = 0;
   let queue = Promise.resolve();
+  let told = {};
+  const ready = new Promise((done, fail) => { told = { done, fail }; });
 
-  async function compile() {
-    const packed = bytesOfBase64(document.getElementById("engine-wasm").textContent);
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return WebAssembly.compile(await new Response(stream).arrayBuffer());
-  }
-  async function begin() {
-    compiled ??= compile();
-    const wasm = await compiled;
-    const address = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
+  function begin() {
+    const address = URL.createObjectURL(new Blob([textOf("engine-text")], { type: "text/javascript" }));
     worker = new Worker(address);
-    worker.onmessage = ({ data }) => waiting?.id === data.id && waiting.done(data.result);
+    worker.onmessage = ({ data }) => {
+      if (data.wasm) {
+        wasm = data.wasm;
+        told.done();
+      } else if (data.broken) {
+        told.fail(new Error(data.broken));
+      } else if (waiting?.id === data.id) {
+        waiting.done(data.result);
+      }
+    };
     worker.onerror = (event) => waiting?.fail(new Error(event.message));
-    worker.postMessage({ wasm });
+    worker.postMessage(wasm ? { wasm } : { packed: textOf("engine-wasm") });
   }
-  async function ask(request) {
-    if (!worker) await begin();
+  function ask(request) {
+    if (!worker) begin();
     return new Promise((done, fail) => {
       waiting = { id: ++next, done, fail };
       worker.postMessage({ id: next, request });
@@ -41,6 +45,10 @@ const engine = (() => {
       worker = null;
       waiting?.fail(new Error("stopped"));
     },
-    ready: () => (compiled ??= compile()),
+    /** Rejects where this browser cannot run the program. */
+    ready() {
+      if (!worker) begin();
+      return ready;
+    },
   };
 })();

@@ -48,15 +48,3 @@ function numbers(pairs) {
 function withDecimalComma(csv) {
   return csv.replace(/"[^"]*"|[.,]/g, (part) => ({ ".": ",", ",": ";" })[part] ?? part);
 }
-
-function base64Of(bytes) {
-  let text = "";
-  for (let i = 0; i < bytes.length; i += 32768) text += String.fromCharCode(...bytes.subarray(i, i + 32768));
-  return btoa(text);
-}
-function bytesOfBase64(text) {
-  const decoded = atob(text);
-  const bytes = new Uint8Array(decoded.length);
-  for (let i = 0; i < decoded.length; ++i) bytes[i] = decoded.charCodeAt(i);
-  return bytes;
-}

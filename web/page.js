@@ -19,6 +19,7 @@
 
   const short = (number) => String(Number(number.toPrecision(5)));
   const current = () => files[chosen];
+  const each = makeEach((i) => choose(i));
   const mode = () => (files.length > 1 ? document.querySelector("input[name=mode]:checked").value : "single");
   const show = (id, is_shown) => { at(id).hidden = !is_shown; };
   function tell(error) {
@@ -39,6 +40,11 @@
     listFiles();
     await read();
   }
+  /** Several at once: a table of all is what is wanted first. */
+  async function openFolder(blobs) {
+    document.querySelector("input[name=mode][value=each]").checked = blobs.length > 1;
+    await open(blobs);
+  }
   async function openProject(blob) {
     let project;
     try {
@@ -57,32 +63,17 @@
     return true;
   }
   function listFiles() {
-    show("many", files.length > 1);
-    at("files").tBodies[0].replaceChildren(...files.map((file, i) => {
-      const row = document.createElement("tr");
-      row.innerHTML = '<th scope="row"><button type="button"></button></th><td><input inputmode="decimal"> mm/s</td>' +
-        '<td><select><option>A</option><option>B</option></select></td><td><button type="button"></button></td>';
-      const [name, remove] = row.querySelectorAll("button");
-      const [speed, side] = [row.querySelector("input"), row.querySelector("select")];
-      row.setAttribute("aria-selected", i === chosen);
-      name.textContent = file.name;
-      name.addEventListener("click", () => { chosen = i; listFiles(); read(); });
-      speed.value = file.speed;
-      speed.setAttribute("aria-label", `${say("speed", "Driving speed")}: ${file.name}`);
-      speed.addEventListener("change", () => { file.speed = speed.value.trim(); showCommand(); });
-      side.value = file.side;
-      side.setAttribute("aria-label", `${say("side", "Side")}: ${file.name}`);
-      side.addEventListener("change", () => { file.side = side.value; showCommand(); });
-      remove.textContent = say("remove", "remove");
-      remove.setAttribute("aria-label", `${say("remove", "remove")}: ${file.name}`);
-      remove.addEventListener("click", () => {
-        files.splice(i, 1);
-        chosen = Math.max(0, Math.min(chosen, files.length - 1));
-        listFiles();
-        if (files.length > 0) read();
-      });
-      return row;
-    }));
+    drawFileList(files, chosen, { choose, change: showCommand, remove(i) {
+      files.splice(i, 1);
+      chosen = Math.max(0, Math.min(chosen, files.length - 1));
+      listFiles();
+      if (files.length > 0) read();
+    } });
+  }
+  function choose(i) {
+    chosen = i;
+    listFiles();
+    read();
   }
 
   // ---- reading ----
@@ -124,14 +115,16 @@
     if (options.strokes || options.segments) delete options.strokes, delete options.segments;
     const seen = await ask({ command: "analyze", files: [source(file)], options, outputs: ["document", "report"] }, say("reading", "reading"));
     if (mine !== turn) return;
-    const packed = seen.outputs.report?.match(/<script type="application\/json" id="trace-data">(.*?)<\/script>/s);
+    const packed = traceDataIn(seen.outputs.report);
     show("trace-part", Boolean(packed));
     if (packed) {
       const found = JSON.parse(seen.outputs.document);
       const kept = range;
-      const slips = trace.open(JSON.parse(packed[1]), [found.recording.sliding_s].filter(Boolean));
+      const slips = trace.open(packed, [found.recording.sliding_s].filter(Boolean));
       trace.setRange(kept);
       showFacts(found, slips);
+      show("key-gaps", found.recording.quality.gaps > 0);
+      show("key-outliers", found.recording.quality.impulses > 0);
     }
     const is_divided = optionsForm.has("strokes");
     if (seen.error && !is_divided) tell(info.refusal ? { message: info.refusal } : seen.error);
@@ -162,8 +155,8 @@
   // ---- fitting ----
   function request(outputs) {
     const options = optionsForm.options();
-    if (mode() === "single") {
-      if (range) options.window = range.map((time) => String(Number(time.toPrecision(9)))).join(":");
+    if (mode() === "single" || mode() === "each") {
+      if (range && mode() === "single") options.window = range.map((time) => String(Number(time.toPrecision(9)))).join(":");
       const surface = at("surface-file")?.files[0];
       return { command: "fit", files: [source(current())], options, outputs, surface: surface && { name: surface.name, blob: surface } };
     }
@@ -177,10 +170,16 @@
     if (files.some((file) => file.speed)) options.speed = sides.map((side) => stated(side[0] ?? current()));
     return { command: "compare", files: sides.flat().map(source), sides: sides[0].length, options, outputs };
   }
+  /** Of one of several recordings, fitted by itself; the window is of the chosen one alone. */
+  function requestOf(file) {
+    const options = { ...optionsForm.options(), ...(file.speed && { speed: optionsForm.quantity(file.speed, "mm/s") }) };
+    return { command: "fit", files: [source(file)], options, outputs: ["document"] };
+  }
   const commandWord = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `"${word.replaceAll('"', '\\"')}"`);
   /** As it would be typed; both Windows and others take double quotes. */
   function showCommand() {
     if (files.length === 0) return;
+    at("command").parentElement.hidden = mode() === "each"; // one a file
     const asked = request([]);
     const words = commandWords(asked, asked.files.map((file) => file.name));
     at("command").textContent = words.map(commandWord).join(" ");
@@ -202,6 +201,7 @@
     at("fit").disabled = true;
     const begin = performance.now();
     try {
+      if (mode() === "each") return await each.run(files, files.map(requestOf), ask);
       const result = await ask(asked, say("computing", "computing"));
       if (result.error) return tell(result.error);
       fitted = { request: asked, outputs: result.outputs };
@@ -222,72 +222,27 @@
       page.onload = done;
       page.srcdoc = fitted.outputs.report;
     });
+    if (document.documentElement.lang === "de") translateReport(page.contentDocument);
     fitHeight();
     new ResizeObserver(fitHeight).observe(page.contentDocument.body);
     for (const kind of ["cycles", "curve"]) document.querySelector(`[data-save=${kind}]`).hidden = mode() !== "single";
-    const document_ = JSON.parse(fitted.outputs.document);
-    fitted.speed = document_.recording?.speed_m_per_s ?? document_.recordings?.[0]?.speed_m_per_s;
-    const is_predicted = Boolean(fitted.speed && document_.parameters);
-    show("elsewhere", is_predicted);
-    at("speed-slider").value = 0;
-    if (is_predicted) await predict();
+    await prediction.show(fitted.outputs.document);
     at("result").scrollIntoView({ behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth" });
   }
-  let asking = false;
-  async function predict() {
-    const speed = fitted.speed * 10 ** (Number(at("speed-slider").value) / 50);
-    at("speed-words").textContent = `${short(1000 * speed)} mm/s`;
-    if (asking) return;
-    asking = true;
-    const fit_json = { name: "fit.json", blob: new Blob([fitted.outputs.document]) };
-    const result = await engine.call({ command: "predict", files: [fit_json], options: { speeds: String(speed) } }).catch(() => null);
-    asking = false;
-    show("elsewhere", Boolean(result && !result.error));
-    if (!result || result.error) return;
-    const row = JSON.parse(result.outputs.document).rows[0];
-    const shown = (quantity, factor, unit) => {
-      if (quantity?.value == null) return say("outside", "no slips");
-      const ends = quantity.ci95 ? ` (${quantity.ci95.map((end) => (end === null ? "?" : short(factor * end))).join(" ... ")})` : "";
-      return `${short(factor * quantity.value)} ${unit}${ends}`;
-    };
-    const lines = [[say("regime", "kind of sliding"), String(row.regime ?? "?").replaceAll("_", " ")],
-      [say("frequency", "frequency"), shown(row.frequency_Hz, 1, "Hz")], [say("period", "period"), shown(row.period_s, 1000, "ms")],
-      [say("spacing", "spacing of the slips"), shown(row.periodic_displacement_m, 1000, "mm")]];
-    at("predicted").replaceChildren(...lines.flatMap(([name, text]) => [
-      Object.assign(document.createElement("dt"), { textContent: name }), Object.assign(document.createElement("dd"), { textContent: text })]));
-    if (speed !== fitted.speed * 10 ** (Number(at("speed-slider").value) / 50)) await predict();
-  }
-
   // ---- saving ----
-  const stem = () => current().name.replace(/\.[^.]*$/, "");
-  const inChosenDecimals = (csv) => (at("comma").checked ? withDecimalComma(csv) : csv);
-  async function output(kind) {
-    if (fitted.outputs[kind] === undefined) {
-      const result = await ask({ ...fitted.request, outputs: [kind] }, say("computing", "computing"));
-      if (result.error) throw new Error(result.error.message);
-      Object.assign(fitted.outputs, result.outputs);
-    }
-    return kind === "cycles" || kind === "curve" ? inChosenDecimals(fitted.outputs[kind]) : fitted.outputs[kind];
-  }
-  async function save(kind) {
-    const endings = { report: ".html", document: ".json", cycles: "-cycles.csv", curve: "-curve.csv" };
-    if (kind === "project") return download(`${stem()}.slipfit.json`, await project());
-    if (kind !== "zip") return download(stem() + endings[kind], await output(kind));
-    const kinds = fitted.request.command === "fit" && fitted.request.files.length === 1 ? Object.keys(endings) : ["report", "document"];
-    const parts = [];
-    for (const one of kinds) parts.push({ name: stem() + endings[one], text: await output(one) });
-    return download(`${stem()}.zip`, zipOf(parts));
-  }
   async function project() {
     const kept = await Promise.all(files.map(async ({ name, blob, side, speed }) =>
       ({ name, side, speed, base64: base64Of(new Uint8Array(await blob.arrayBuffer())) })));
     return JSON.stringify({ schema: kProject, files: kept, chosen, mode: mode(), options: optionsForm.state(), window: range });
   }
+  const save = makeSaving({ fitted: () => fitted, stem: () => current().name.replace(/\.[^.]*$/, ""), ask, project });
 
   // ---- what a person does ----
   const opened = (list) => open(Array.from(list, (file) => ({ name: file.name, blob: file })));
   at("choose").addEventListener("click", () => at("file").click());
   at("file").addEventListener("change", () => { opened(at("file").files); at("file").value = ""; });
+  at("choose-folder").addEventListener("click", () => at("folder").click());
+  at("folder").addEventListener("change", () => { openFolder(chosenFiles(at("folder").files)); at("folder").value = ""; });
   at("example").addEventListener("click", async () => {
     const made = await ask({ command: "simulate", options: kExample, outputs: ["text"] }, say("computing", "computing"));
     optionsForm.set({ speed: { value: "10", unit: "mm/s" } });
@@ -303,7 +258,7 @@
     document.addEventListener(kind, (event) => {
       event.preventDefault();
       at("drop").classList.toggle("over", kind === "dragover");
-      if (kind === "drop" && event.dataTransfer.files.length > 0) opened(event.dataTransfer.files);
+      if (kind === "drop") droppedFiles(event.dataTransfer).then((found) => (found.length > 1 ? openFolder(found) : open(found)));
     });
   }
   document.addEventListener("paste", (event) => {
@@ -326,12 +281,14 @@
   at("window-all").addEventListener("click", () => trace.setRange(null));
   at("fit").addEventListener("click", fit);
   at("stop").addEventListener("click", () => engine.stop());
-  at("speed-slider").addEventListener("input", () => predict());
   at("language").addEventListener("change", () => {
     setLanguage(at("language").value);
     optionsForm.draw();
     listFiles();
+    each.draw();
+    prediction.again();
     if (info) showFacts(null);
+    if (fitted) present();
   });
   const language = (navigator.language ?? "en").startsWith("de") ? "de" : "en";
   at("language").value = language;

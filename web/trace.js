@@ -1,10 +1,17 @@
 // The trace of the open recording, drawn by dygraphs, and the window of the fit above it.
+/** What a report's page holds for its own trace, or null. */
+function traceDataIn(report = "") {
+  const opening = '<script type="application/json" id="trace-data">';
+  const begin = report.indexOf(opening) + opening.length;
+  return begin < opening.length ? null : JSON.parse(report.slice(begin, report.indexOf("</script>", begin)));
+}
+
 function makeTrace(onWindow) {
   "use strict";
   const kColumns = 900; // of what is in sight: two points each
   const box = document.getElementById("trace");
   const handles = [document.getElementById("window-begin"), document.getElementById("window-end")];
-  let data = null; // { time, force, slips, label, sliding }
+  let data = null; // { time, force, slips, gaps, outliers, label, sliding }
   let graph = null;
   let shown = [0, 1];
   let range = null; // of the window, or none
@@ -15,20 +22,16 @@ function makeTrace(onWindow) {
 
   /** What the report's page packs: force in 65534 levels, times where the clock is uneven. */
   function unpack(packed) {
-    const bytes = (base64) => {
-      const text = atob(base64);
-      const result = new Uint8Array(text.length);
-      for (let i = 0; i < text.length; ++i) result[i] = text.charCodeAt(i);
-      return result.buffer;
-    };
+    const bytes = (base64) => bytesOfBase64(base64).buffer;
     const levels = new Uint16Array(bytes(packed.force_levels));
     const ticks = packed.ticks ? new Uint32Array(bytes(packed.ticks)) : null;
     const duration = packed.last_s - packed.first_s;
     const atTick = (tick) => packed.first_s + (tick / 4294967295) * duration;
+    const timesOf = (base64) => Array.from(new Uint32Array(bytes(base64)), atTick);
     const scale = (packed.force_high - packed.force_low) / 65534;
     return {
       count: levels.length, levels, label: packed.label, step: duration / Math.max(1, levels.length - 1),
-      slips: Array.from(new Uint32Array(bytes(packed.slips)), atTick),
+      slips: timesOf(packed.slips), gaps: timesOf(packed.gaps), outliers: timesOf(packed.outliers),
       force: (i) => (levels[i] === 65535 ? null : packed.force_low + scale * levels[i]),
       time: ticks ? (i) => atTick(ticks[i]) : (i) => packed.first_s + (i * duration) / Math.max(1, levels.length - 1),
     };
@@ -80,12 +83,34 @@ function makeTrace(onWindow) {
       if (end > shown[0] && begin < shown[1]) context.fillRect(x(begin), y, Math.max(1, x(end) - x(begin)), height);
     };
     for (let i = 0; i + 1 < data.slips.length; i += 2) bar(data.slips[i], data.slips[i + 1], area.y + area.h - 7, 7, "--chart-sky");
+    context.globalAlpha = 0.3;
+    for (let i = 0; i + 1 < data.gaps.length; i += 2) bar(data.gaps[i], data.gaps[i + 1], area.y, area.h, "--chart-orange");
+    context.globalAlpha = 1;
+    drawOutliers(context, drawn);
     for (const [begin, end] of data.sliding) bar(begin, end, area.y, 4, "--chart-green");
     if (!range) return;
     context.globalAlpha = 0.14;
     bar(shown[0], range[0], area.y, area.h, "--chart-axes");
     bar(range[1], shown[1], area.y, area.h, "--chart-axes");
     context.globalAlpha = 1;
+  }
+  /** A ring around each, of as many as can be told apart. */
+  function drawOutliers(context, drawn) {
+    context.strokeStyle = colour("--chart-vermillion");
+    context.lineWidth = 1.5;
+    const inSight = data.outliers.filter((time) => time >= shown[0] && time <= shown[1]).slice(0, 500);
+    for (const time of inSight) {
+      const [x, y] = drawn.toDomCoords(time, outlierForce(time));
+      context.beginPath();
+      context.arc(x, y, 5, 0, 2 * Math.PI);
+      context.stroke();
+    }
+  }
+  /** Of the sample nearest to the time, which is rounded. */
+  function outlierForce(time) {
+    const next = Math.min(sampleAt(time), data.count - 1);
+    const isBefore = next > 0 && time - data.time(next - 1) < data.time(next) - time;
+    return data.force(isBefore ? next - 1 : next);
   }
   function placeHandles() {
     const ends = range ?? whole();

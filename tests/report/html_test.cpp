@@ -173,6 +173,24 @@ TEST_CASE("an uneven clock travels with the trace") {
   }
 }
 
+TEST_CASE("gaps of the clock and outliers travel with the trace") {
+  if (!slipfit::has_interactive_trace()) return;
+  std::vector<double> time_s;
+  std::vector<double> force_N;
+  for (int i = 0; i < 100; ++i) {
+    time_s.push_back(i < 60 ? 0.01 * i : 0.01 * i + 0.25);
+    force_N.push_back(1.0 + 0.01 * ((i * 7) % 5));
+  }
+  force_N[30] = 9.0;
+  const slipfit::Recording recording = slipfit::Recording::create(time_s, force_N, sawtooth().conditions()).value();
+  const nlohmann::json data = trace_data_in(page_of(recording, analyze(recording)));
+  CHECK(decoded(data["gaps"]).size() == 2 * 4);
+  const std::vector<unsigned char> outliers = decoded(data["outliers"]);
+  REQUIRE(outliers.size() == 4);
+  const double part = (outliers[3] + outliers[2] / 256.0) / 256.0;
+  CHECK(part * recording.duration_s() == Approx(time_s[30]).margin(1e-3));
+}
+
 TEST_CASE("recordings that show nothing still give a page, without a number that is none") {
   const slipfit::Conditions conditions = sawtooth().conditions();
   const slipfit::Recording two = slipfit::Recording::create({0.0, 1.0}, {1.0, 1.0}, conditions).value();

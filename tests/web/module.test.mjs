@@ -1,6 +1,8 @@
 // build/web/slipfit.mjs in node against the program: SLIPFIT=build/release/apps/slipfit node --test tests/web/module.test.mjs
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import fs from "node:fs";
+import os from "node:os";
 import path from "node:path";
 import { test } from "node:test";
 import load, * as slipfit from "../../build/web/slipfit.mjs";
@@ -89,6 +91,10 @@ test("compressed recordings and workbooks are read as by the program", async () 
   const plain = JSON.parse(slipfit.fit(demo, "demo.csv", text({ speed: "10 mm/s" })));
   const packed = JSON.parse(slipfit.fit(gzipSync(demo), "demo.csv.gz", text({ speed: "10 mm/s" })));
   assert.deepEqual(packed.parameters, plain.parameters);
+  const book = path.join(fs.mkdtempSync(path.join(os.tmpdir(), "slipfit-")), "demo.xlsx");
+  execFileSync("python3", ["tests/web/workbook.py", "testdata/demo.csv", book]);
+  const sheet = JSON.parse(slipfit.fit(fs.readFileSync(book), "demo.xlsx", text({ speed: "10 mm/s" })));
+  assert.deepEqual(sheet.parameters, plain.parameters);
 });
 
 test("100 fits take no more memory than a few", () => {

@@ -54,35 +54,54 @@ export async function native(command, file, options) {
   }
 }
 
-/** Probabilities this small are nothing in other words; the far tails amplify every rounding. */
-const kNothing = 1e-6;
 const relative = (a, b) => Math.abs(a - b) / Math.max(Math.abs(a), Math.abs(b), Number.MIN_VALUE);
-const isTail = (place, a, b) => /(_p|probability|p_value)$/.test(place) && Math.abs(a) < kNothing && Math.abs(b) < kNothing;
+/** Correlations near 0 are differences of numbers of size 1: compared as such. */
+const isCorrelation = (place) => /^correlation\./.test(place);
+/** A tail exp(-x) changes by x times what x does; x is 700 at most: compared by x, its logarithm. */
+const kTail = 1e-6;
+const isTail = (place, a, b) => /(_p|probability|p_value)$/.test(place) && a > 0 && b > 0 && a < kTail && b < kTail;
+function distance(a, b, place) {
+  if (a === b) return 0;
+  if (isCorrelation(place)) return Math.abs(a - b);
+  return isTail(place, a, b) ? relative(Math.log(a), Math.log(b)) : relative(a, b);
+}
 
-/** The worst relative difference of two numbers, and where; anything else that differs is a fault. */
+/**
+ * The worst relative difference of two numbers, and where; sentences with other numbers (misquoted); anything else that
+ * differs is a fault.
+ */
 export function difference(a, b, place = "") {
-  if (typeof a === "number" && typeof b === "number") {
-    return { worst: a === b || isTail(place, a, b) ? 0 : relative(a, b), place, faults: [] };
-  }
+  if (typeof a === "number" && typeof b === "number") return { worst: distance(a, b, place), place, faults: [], misquoted: [] };
   if (a === null || b === null || typeof a !== "object" || typeof b !== "object") {
-    return { worst: 0, place, faults: verdict(a, place) === verdict(b, place) ? [] : [`${place}: ${JSON.stringify(a)} and ${JSON.stringify(b)}`] };
+    return { worst: 0, place, faults: [], misquoted: [], ...faultOf(a, b, place) };
   }
   return worstOf(Object.keys({ ...a, ...b }).map((key) => difference(a[key] ?? null, b[key] ?? null, place ? `${place}.${key}` : key)));
 }
 const worstOf = (parts) => parts.reduce((found, part) =>
-  ({ ...(part.worst > found.worst ? part : found), faults: [...found.faults, ...part.faults] }), { worst: 0, place: "", faults: [] });
+  ({ ...(part.worst > found.worst ? part : found), faults: [...found.faults, ...part.faults],
+    misquoted: [...found.misquoted, ...part.misquoted] }), { worst: 0, place: "", faults: [], misquoted: [] });
 
-/** A sentence without its numbers, which are rounded, and stand in the document beside it where they matter; else what it is. */
-function verdict(value, place) {
-  const is_sentence = typeof value === "string" && /(message|reason|finding|note|assumed|conditional_on)(\.\d+)?$/.test(place);
-  return is_sentence ? value.replace(/[-+]?\d[\d.e+-]*/g, "#") : value;
+const isSentence = (value, place) => typeof value === "string" && /(message|reason|finding|note|assumed|conditional_on)(\.\d+)?$/.test(place);
+const kNumber = /[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?/g;
+/** By how many units of its last digit a number in a sentence may differ: what is rounded may fall to either side. */
+function inUnitsOfLastDigit(a, b) {
+  const unit = (text) => 10 ** (Number(/e([-+]?\d+)/.exec(text)?.[1] ?? 0) - (/\.(\d+)/.exec(text)?.[1].length ?? 0));
+  return Math.abs(Number(a) - Number(b)) / Math.max(unit(a), unit(b));
+}
+/** Where two values that are no numbers say different things: sentences with the same words may differ in a last digit. */
+function faultOf(a, b, place) {
+  if (a === b) return {};
+  const told = [`${place}: ${JSON.stringify(a)} and ${JSON.stringify(b)}`];
+  if (!isSentence(a, place) || !isSentence(b, place) || a.replace(kNumber, "#") !== b.replace(kNumber, "#")) return { faults: told };
+  const others = b.match(kNumber);
+  return a.match(kNumber).every((number, i) => inUnitsOfLastDigit(number, others[i]) < 1.5) ? {} : { misquoted: told };
 }
 
 /** The worst difference of an estimate, in standard errors, and of the standard errors. */
 export function differenceInErrors(a, b, place = "") {
-  if (a === null || b === null || typeof a !== "object" || typeof b !== "object") return { worst: 0, place, faults: [] };
+  if (a === null || b === null || typeof a !== "object" || typeof b !== "object") return { worst: 0, place, faults: [], misquoted: [] };
   if (typeof a.value === "number" && typeof b.value === "number" && a.se > 0 && b.se > 0) {
-    return { worst: Math.max(Math.abs(a.value - b.value) / Math.max(a.se, b.se), relative(a.se, b.se)), place, faults: [] };
+    return { worst: Math.max(Math.abs(a.value - b.value) / Math.max(a.se, b.se), relative(a.se, b.se)), place, faults: [], misquoted: [] };
   }
   return worstOf(Object.keys(a).map((key) => differenceInErrors(a[key], b[key] ?? null, `${place}.${key}`)));
 }
@@ -96,7 +115,8 @@ async function isTouchy(command, file, options, expected) {
   for (const nudge of [1 + kNudge, 1 - kNudge, 1 + 3 * kNudge, 1 - 3 * kNudge]) {
     const speed = String(options.speed ?? "1").replace(/^[\d.e-]+/, (number) => String(Number(number) * nudge));
     const other = await native(command, file, { ...options, speed });
-    if (!other.document || difference(other.document, expected).worst > kExact) return true;
+    const moved = other.document && difference(other.document, expected);
+    if (!moved || moved.worst > kExact || moved.misquoted.length > 0) return true;
   }
   return false;
 }
@@ -109,11 +129,11 @@ export async function against(got, command, file, options) {
     return { faults: is_same ? [] : [`${got.error?.message} and ${expected.message}`], worst: 0, refused: true };
   }
   const exact = difference(got, expected.document);
-  if (exact.faults.length === 0 && exact.worst <= kExact) return exact;
+  if (exact.faults.length === 0 && exact.misquoted.length === 0 && exact.worst <= kExact) return exact;
   const faults = [...exact.faults];
   const errors = differenceInErrors(got, expected.document);
   if (errors.worst > kBuilds) faults.push(`${errors.place} differs by ${errors.worst} standard errors`);
-  if (!(await isTouchy(command, file, options, expected.document))) faults.push(`${exact.place} differs by ${exact.worst}`);
+  if (!(await isTouchy(command, file, options, expected.document))) faults.push(`${exact.place} differs by ${exact.worst}`, ...exact.misquoted);
   return { ...errors, faults, touchy: true };
 }
 

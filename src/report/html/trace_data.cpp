@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/thresholds.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/scaling.hpp"
 #include "report/json_values.hpp"
@@ -126,6 +127,28 @@ std::vector<std::uint32_t> slip_ticks(const Analysis& analysis, const Clock& clo
   return ticks;
 }
 
+/// Begin and end of each gap of the clock.
+std::vector<std::uint32_t> gap_ticks(const Recording& recording, const Clock& clock) {
+  const std::span<const double> time_s = recording.time_s();
+  const double shortest_s = thresholds::kGapSteps * recording.sample_interval_s();
+  std::vector<std::uint32_t> ticks;
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    if (time_s[i] - time_s[i - 1] <= shortest_s) continue;
+    ticks.push_back(clock.tick(time_s[i - 1]));
+    ticks.push_back(clock.tick(time_s[i]));
+  }
+  return ticks;
+}
+
+std::vector<std::uint32_t> outlier_ticks(const Source& source, const Clock& clock) {
+  std::vector<std::uint32_t> ticks;
+  const std::vector<bool>& outliers = source.analysis.quality.impulse_mask;
+  for (std::size_t i = 0; i < outliers.size(); ++i) {
+    if (outliers[i]) ticks.push_back(clock.tick(source.recording.time_s()[i]));
+  }
+  return ticks;
+}
+
 }  // namespace
 
 std::string trace_data(const Source& source) {
@@ -144,7 +167,9 @@ std::string trace_data(const Source& source) {
                    {"last_s", recording.time_s().back()}};
   std::string json = script_json(text_of(names, JsonLayout::OneLine));
   json.pop_back();
-  json += series_members("force", force) + packed_member("slips", packed(slip_ticks(source.analysis, clock)));
+  json += series_members("force", force) + packed_member("slips", packed(slip_ticks(source.analysis, clock))) +
+          packed_member("gaps", packed(gap_ticks(recording, clock))) +
+          packed_member("outliers", packed(outlier_ticks(source, clock)));
   if (!is_even(recording.time_s())) {
     std::vector<std::uint32_t> ticks;
     ticks.reserve(chosen.size());

@@ -1,0 +1,58 @@
+// The report in the page in German: its headings, names, statuses and buttons by a table, its first sentence by patterns.
+// Notes, warnings and explanations stay English, as does the report that is saved.
+const kGermanReport = new Map(Object.entries({
+  "Parameters of the model": "Parameter des Modells", "The recording and the fit": "Aufzeichnung und Anpassung",
+  Frequency: "Frequenz", "Cycles laid over each other": "Zyklen übereinandergelegt",
+  "Damping from peaks and troughs": "Dämpfung aus Spitzen und Tälern", "Where this recording lies": "Wo diese Aufzeichnung liegt",
+  "Spacing and frequency at other speeds": "Abstand und Frequenz bei anderen Geschwindigkeiten",
+  "The abrasion pattern as it would look": "Das Abriebmuster, wie es aussähe", "Data quality": "Güte der Daten", "All numbers": "Alle Zahlen",
+  "Models that were tried": "Geprüfte Modelle", "Before trusting the numbers": "Bevor man den Zahlen traut", "Assumed in the fit:": "Bei der Anpassung angenommen:",
+  "In brackets: 95 % intervals.": "In Klammern: 95-%-Bereiche.", "The text report, as printed by the command line": "Der Bericht als Text, wie auf der Befehlszeile (englisch)",
+  parameter: "Größe", value: "Wert", unit: "Einheit", "95 % interval": "95-%-Bereich", "what the data say": "was die Daten sagen",
+  model: "Modell", "residual, rms": "Residuum, rms", why: "Begründung", chosen: "gewählt", "not chosen": "nicht gewählt", "not known": "nicht bekannt",
+  frequency: "Frequenz", "pattern spacing V/f": "Musterabstand V/f", stiffness: "Steifigkeit", "damping ratio": "Dämpfungsgrad", "critical speed": "Grenzgeschwindigkeit",
+  "tangential stiffness k": "Tangentialsteifigkeit k", "static minus kinetic friction": "Haft- minus Gleitreibung", "static friction F": "Haftreibung F",
+  "kinetic friction F": "Gleitreibung F", "natural frequency ω": "Eigenkreisfrequenz ω", "effective mass m": "wirksame Masse m", "damping ratio ζ": "Dämpfungsgrad ζ",
+  "damping coefficient c": "Dämpfungskonstante c",
+  identified: "bestimmt", conditional: "bedingt", bounded: "begrenzt", unidentified: "unbestimmt", fixed: "vorgegeben",
+  ": the data determine it": ": die Daten bestimmen es", ": the data cannot tell it": ": die Daten sagen es nicht",
+  ": only its interval is known": ": nur der Bereich ist bekannt", ": held at the value that was given": ": auf dem vorgegebenen Wert gehalten",
+  ": well known if what the note says holds, which a recording cannot show": ": genau bekannt, wenn gilt, was die Anmerkung sagt; eine Aufzeichnung zeigt es nicht",
+  samples: "Messwerte", "sampling rate": "Abtastrate", duration: "Dauer", "noise, rms": "Rauschen, rms", "clock jitter": "Schwankung des Takts",
+  "residual of the fit, rms": "Residuum der Anpassung, rms", "residual over noise (1: only noise is left)": "Residuum durch Rauschen (1: nur Rauschen bleibt)",
+  "less than 0.01 % of a step": "weniger als 0,01 % eines Schritts",
+  "No gaps, no clipping, no impulses, no rows left out.": "Keine Lücken, nichts abgeschnitten, keine Ausreißer, keine Zeilen ausgelassen.",
+  "Zoom in": "Vergrößern", "Zoom out": "Verkleinern", "Previous slip": "Voriger Rutscher", "Next slip": "Nächster Rutscher", "Whole recording": "Ganze Aufzeichnung",
+  measured: "gemessen", fit: "Anpassung", slips: "Rutscher", "spectrum of the force": "Spektrum der Kraft", "harmonics found": "gefundene Oberschwingungen",
+  "measured cycles": "gemessene Zyklen", "fit of a typical cycle": "Anpassung eines typischen Zyklus", "no damping, slope -1": "ohne Dämpfung, Steigung -1",
+  cycles: "Zyklen", "95 % interval": "95-%-Bereich", "95 % intervals": "95-%-Bereiche", "exact limit of stick-slip": "Grenze des Stick-Slip", "this recording": "diese Aufzeichnung",
+  predicted: "vorhergesagt", "stick-slip ends, 95 %": "Stick-Slip endet, 95 %", "measured, 95 %": "gemessen, 95 %", "its 95 % band": "sein 95-%-Band",
+  "Copy table": "Tabelle kopieren", command: "Befehl", warnings: "Warnungen", status: "Status", speed: "Geschwindigkeit", recording: "Aufzeichnung", quantity: "Größe", difference: "Unterschied", ratio: "Verhältnis",
+}));
+const kGermanPatterns = [
+  [/^Stick-slip at (.*): a pattern of (.*) spacing at (.*)\.$/, "Stick-Slip mit $1: ein Muster mit $2 Abstand bei $3."],
+  [/^Stick-slip at (.*): at (.*)\.$/, "Stick-Slip mit $1 bei $2."],
+  [/^Stick-slip, but no frequency can be told\.$/, "Stick-Slip, aber ohne bestimmbare Frequenz."],
+  [/^Steady sliding at (.*): no stick-slip, no pattern\.$/, "Gleichmäßiges Gleiten bei $1: kein Stick-Slip, kein Muster."],
+  [/^Oscillatory slip(?: at (.*))?: the body hardly sticks\.$/, "Schwingendes Rutschen $1: der Körper haftet kaum."],
+  [/^It cannot be told whether this is stick-slip\.$/, "Ob dies Stick-Slip ist, lässt sich nicht sagen."],
+  [/^(\d+) cycles of straight sticks and quick slips, residual (.*) % of the friction drop$/, "$1 Zyklen aus geradem Haften und schnellem Rutschen, Residuum $2 % des Kraftabfalls"],
+  [/^chosen frequency, (.*)$/, "gewählte Frequenz, $1"], [/^fitted damping, slope (.*)$/, "angepasste Dämpfung, Steigung $1"],
+];
+
+function germanOf(text) {
+  const told = kGermanReport.get(text);
+  if (told) return told;
+  const match = kGermanPatterns.find(([pattern]) => pattern.test(text));
+  return match ? text.replace(match[0], match[1]) : null;
+}
+function translateReport(page) {
+  page.documentElement.lang = "de";
+  const walker = page.createTreeWalker(page.body, NodeFilter.SHOW_TEXT,
+    (node) => (node.parentElement.closest("script, style, pre, code, .file, h1") ? NodeFilter.FILTER_REJECT : NodeFilter.FILTER_ACCEPT));
+  while (walker.nextNode()) {
+    const node = walker.currentNode;
+    const german = germanOf(node.data.trim());
+    if (german) node.data = node.data.replace(node.data.trim(), () => german);
+  }
+}
