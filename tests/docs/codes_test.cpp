@@ -57,7 +57,7 @@ const std::vector<Form> kForms{
     {R"form(Error(?: \w+)?\{\s*"(\w+)")form", "unknown_column", "## Errors"},
     // Short tests and what they are called are made so too.
     {R"form(return (?:\{\s*)+"([a-z0-9]+_[a-z0-9_]+)",)form", "parameter_out_of_range", "# Formats"},
-    {R"form(refusal\(\s*"(\w+)")form", "out_of_range", "## Errors"},
+    {R"form(refusal\(\s*"(\w+)")form", "bad_rows", "## Errors"},
     {R"form(Warning\{\s*"(\w+)")form", "speed_differs_from_displacement", "## Warnings"},
     {R"form(warnings\.push_back\(\s*\{\s*"(\w+)")form", "hum_fitted", "## Warnings"},
     {R"form(warn\(\s*"(\w+)")form", "uneven_clock", "## Warnings"},
