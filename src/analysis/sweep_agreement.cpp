@@ -5,6 +5,7 @@
 #include <boost/math/statistics/univariate_statistics.hpp>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,42 +21,22 @@ struct Apart {
   std::size_t recording = 0;
   double distance = 0.0;  ///< relative, or ln of a ratio; levels in units of F_s - F_k
   double errors = 0.0;    ///< the same in errors, >= 0
-
-  [[nodiscard]] double standard_error() const { return errors > 0.0 ? std::abs(distance) / errors : 0.0; }
 };
 
 /// How many of the recordings have to agree: a level has no unit that all share, and zeros of their own lie anywhere.
 enum class Agreeing { Half, AllOthers };
 
-double log_speed_of(const SweepEntry& entry) {
-  return std::log(entry.recording.conditions().speed_m_per_s);
-}
-
-/// Whether a line over ln V through the others misses it too: what changes with the speed is no fault of the slowest or
-/// the fastest recording.
-bool is_off_line(std::span<const SweepEntry> entries, const std::vector<Apart>& recordings, const Apart& one) {
+/// Whether a line over ln V holds nearly all of what they differ by: what goes with the speed is no recording's fault.
+bool go_with_speed(std::span<const SweepEntry> entries, const std::vector<Apart>& recordings) {
   std::vector<double> places;
   std::vector<double> distances;
-  double variance = 0.0;  // of the others by their own errors
-  for (const Apart& other : recordings) {
-    if (other.recording == one.recording) continue;
-    places.push_back(log_speed_of(entries[other.recording]));
-    distances.push_back(other.distance);
-    variance += std::pow(other.standard_error(), 2);
+  for (const Apart& one : recordings) {
+    places.push_back(std::log(entries[one.recording].recording.conditions().speed_m_per_s));
+    distances.push_back(one.distance);
   }
-  const auto count = static_cast<double>(places.size());
-  const auto [mean_place, spread] = boost::math::statistics::mean_and_sample_variance(places);
-  const double place = log_speed_of(entries[one.recording]);
-  const auto [slowest, fastest] = std::minmax_element(places.begin(), places.end());
-  if (!(spread > 0.0) || (*slowest < place && place < *fastest)) return true;
-  const auto [start, slope] = boost::math::statistics::simple_ordinary_least_squares(places, distances);
-  double rest = 0.0;
-  for (std::size_t i = 0; i < places.size(); ++i) rest += std::pow(distances[i] - start - slope * places[i], 2);
-  const double leverage = 1.0 / count + std::pow(place - mean_place, 2) / (spread * (count - 1.0));
-  const double line_variance = leverage * std::max(variance / count, rest / (count - 2.0));
-  const double off = std::abs(one.distance - start - slope * place);
-  return off > thresholds::kLeftOutShare &&
-         off > thresholds::kLeftOutErrors * std::sqrt(std::pow(one.standard_error(), 2) + line_variance);
+  if (!(boost::math::statistics::variance(places) > 0.0)) return false;
+  const auto line = boost::math::statistics::simple_ordinary_least_squares_with_R_squared(places, distances);
+  return std::get<2>(line) > thresholds::kGoesWithSpeed;
 }
 
 /// The one that stands furthest apart, where so many agree.
@@ -66,7 +47,7 @@ std::optional<Apart> furthest(std::span<const SweepEntry> entries, std::vector<A
   const Apart& other = recordings[agreeing == Agreeing::Half ? recordings.size() / 2 : 1];
   const bool beyond = first.errors > thresholds::kLeftOutErrors && std::abs(first.distance) > thresholds::kLeftOutShare;
   const bool stands_apart = beyond && first.errors > thresholds::kStandsApart * other.errors;
-  return stands_apart && is_off_line(entries, recordings, first) ? std::optional(first) : std::nullopt;
+  return stands_apart && !go_with_speed(entries, recordings) ? std::optional(first) : std::nullopt;
 }
 
 /// Spacing predicted without a recording over the one that it shows.

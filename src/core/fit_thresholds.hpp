@@ -188,6 +188,10 @@ inline constexpr double kLeftOutShare = 0.02;
 /// none is wrong. [1; calibrated: as above, four false alarms in 332 sweeps of other seeds]
 inline constexpr double kStandsApart = 8.0;
 
+/// Share of the squared distances of the recordings that a line over ln V holds, above which none is named. [1;
+/// derived: one recording apart at an end of four leaves it 0.6]
+inline constexpr double kGoesWithSpeed = 0.9;
+
 /// ln of the ratio of speeds from which on an end of the sweep tells how far its law carries. [1; convention]
 inline constexpr double kBeyondDistance = 0.1;
 
