@@ -26,8 +26,8 @@ struct Apart {
 /// How many of the recordings have to agree: a level has no unit that all share, and zeros of their own lie anywhere.
 enum class Agreeing { Half, AllOthers };
 
-/// Whether a line over ln V holds nearly all of what they differ by: what goes with the speed is no recording's fault.
-bool go_with_speed(std::span<const SweepEntry> entries, const std::vector<Apart>& recordings) {
+/// Whether a line over ln V holds nearly all of what they differ by.
+bool go_with_speed(std::span<const SweepEntry> entries, std::span<const Apart> recordings) {
   std::vector<double> places;
   std::vector<double> distances;
   for (const Apart& one : recordings) {
@@ -47,7 +47,10 @@ std::optional<Apart> furthest(std::span<const SweepEntry> entries, std::vector<A
   const Apart& other = recordings[agreeing == Agreeing::Half ? recordings.size() / 2 : 1];
   const bool beyond = first.errors > thresholds::kLeftOutErrors && std::abs(first.distance) > thresholds::kLeftOutShare;
   const bool stands_apart = beyond && first.errors > thresholds::kStandsApart * other.errors;
-  return stands_apart && !go_with_speed(entries, recordings) ? std::optional(first) : std::nullopt;
+  // What goes with the speed, without it too, is no fault of one recording.
+  const auto others = std::span(recordings).subspan(1);
+  const bool is_trend = go_with_speed(entries, recordings) && go_with_speed(entries, others);
+  return stands_apart && !is_trend ? std::optional(first) : std::nullopt;
 }
 
 /// Spacing predicted without a recording over the one that it shows.
