@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fftw3.h>
+#include <pthread.h>
 
 #include <complex>
 #include <cstddef>
@@ -10,6 +11,33 @@
 #include <utility>
 
 namespace slipfit::signal {
+
+/// What plans stand behind. A process that forks while another thread holds one of them, as a batch beside other
+/// threads does, would leave it locked for ever in its child: a fork takes both first.
+struct PlanLocks {
+  std::mutex kept;  ///< the plans that are kept; taken before `planner`
+  std::mutex planner;
+
+  static PlanLocks& get() {
+    static PlanLocks locks;
+    return locks;
+  }
+
+ private:
+  PlanLocks() {
+#ifndef __EMSCRIPTEN__  // no processes
+    const auto take = [] {
+      get().kept.lock();
+      get().planner.lock();
+    };
+    const auto release = [] {
+      get().planner.unlock();
+      get().kept.unlock();
+    };
+    pthread_atfork(take, release, release);
+#endif
+  }
+};
 
 /// Complex FFTW transform of one length, planned once. The planner is not thread safe, so it stands behind one lock;
 /// the arrays belong to the caller, so that any number of transforms, in any thread, share a plan.
@@ -30,11 +58,11 @@ class ComplexTransform {
     const Buffer in = allocate(length);
     const Buffer out = is_in_place() ? Buffer() : allocate(length);
     (void)allocate(length / 2 + kPlanned);  // freed at once: the planner, which ends the program too, finds that much
-    const std::lock_guard lock(planner());
+    const std::lock_guard lock(PlanLocks::get().planner);
     plan_ = fftw_plan_dft_1d(static_cast<int>(length), raw(in), raw(out ? out : in), FFTW_FORWARD, FFTW_ESTIMATE);
   }
   ~ComplexTransform() {
-    const std::lock_guard lock(planner());
+    const std::lock_guard lock(PlanLocks::get().planner);
     fftw_destroy_plan(plan_);
   }
   ComplexTransform(const ComplexTransform&) = delete;
@@ -59,10 +87,6 @@ class ComplexTransform {
   static constexpr std::size_t kPlanned = std::size_t{1} << 14U;
   static constexpr std::size_t kLargeLength = std::size_t{1} << 20U;
 
-  static std::mutex& planner() {
-    static std::mutex lock;
-    return lock;
-  }
   static fftw_complex* raw(const Buffer& buffer) {
     return static_cast<fftw_complex*>(static_cast<void*>(buffer.get()));
   }

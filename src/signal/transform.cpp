@@ -89,9 +89,8 @@ ComplexTransform::Buffer windowed(std::span<const double> values, std::size_t pa
 /// The plan for this length. The latest ones are kept for all threads: a recording is transformed several times, and a
 /// batch meets the same lengths again.
 std::shared_ptr<const ComplexTransform> transform_of(std::size_t length) {
-  static std::mutex lock;
   static std::array<std::shared_ptr<const ComplexTransform>, 4> latest;
-  const std::lock_guard guard(lock);
+  const std::lock_guard guard(PlanLocks::get().kept);
   const auto known =
       std::find_if(latest.begin(), latest.end(), [&](const auto& plan) { return plan && plan->length() == length; });
   const bool is_new = known == latest.end();
