@@ -71,9 +71,10 @@ SweepRole role_of(const Recording& recording, const Analysis& analysis) {
   return analysis.motion == MotionClass::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
 }
 
-/// Neither the shape of a slip nor the scatter of many tells it.
-bool is_unresolved(const Analysis& analysis) {
-  return analysis.fit && analysis.fit->tier == Tier::Sawtooth && analysis.fit->diagnostics.samples_per_slip > 0.0 &&
+/// Stick-slip of which neither the shape of a slip nor the scatter of many tells that shape.
+bool is_unresolved(const Recording& recording, const Analysis& analysis) {
+  return role_of(recording, analysis) == SweepRole::Cycles && analysis.fit->tier == Tier::Sawtooth &&
+         analysis.fit->diagnostics.samples_per_slip > 0.0 &&
          analysis.fit->diagnostics.samples_per_slip < thresholds::kResolvedSamples;
 }
 
@@ -81,27 +82,27 @@ bool is_unresolved(const Analysis& analysis) {
 
 std::vector<SweepRole> roles_of(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses) {
   std::vector<SweepRole> roles;
-  for (std::size_t i = 0; i < entries.size(); ++i) roles.push_back(role_of(entries[i].recording, analyses[i]));
-  std::vector<SweepRole> resolved = roles;
-  std::vector<double> speeds;
+  std::vector<double> resolved_speeds;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (roles[i] != SweepRole::Cycles) continue;
-    if (is_unresolved(analyses[i])) {
-      resolved[i] = SweepRole::LeftOut;
-    } else {
-      speeds.push_back(entries[i].recording.conditions().speed_m_per_s);
-    }
+    const Recording& recording = entries[i].recording;
+    roles.push_back(role_of(recording, analyses[i]));
+    if (roles[i] != SweepRole::Cycles || is_unresolved(recording, analyses[i])) continue;
+    resolved_speeds.push_back(recording.conditions().speed_m_per_s);
   }
-  if (speeds.empty()) return roles;
-  const auto [slow, fast] = std::minmax_element(speeds.begin(), speeds.end());
-  return *fast > thresholds::kLeastSpeedRatio * *slow ? resolved : roles;
+  const auto [slow, fast] = std::minmax_element(resolved_speeds.begin(), resolved_speeds.end());
+  if (resolved_speeds.empty() || !(*fast > thresholds::kLeastSpeedRatio * *slow)) return roles;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (is_unresolved(entries[i].recording, analyses[i])) roles[i] = SweepRole::LeftOut;
+  }
+  return roles;
 }
 
 Warnings check_resolution(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
                           const std::vector<SweepRole>& roles) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (roles[i] == SweepRole::LeftOut && is_unresolved(analyses[i])) names.push_back("'" + entries[i].id + "'");
+    const bool is_left_out = roles[i] == SweepRole::LeftOut && is_unresolved(entries[i].recording, analyses[i]);
+    if (is_left_out) names.push_back("'" + entries[i].id + "'");
   }
   if (names.empty()) return {};
   return {{"slips_not_resolved",

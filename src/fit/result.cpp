@@ -7,16 +7,22 @@
 
 namespace slipfit {
 
+namespace {
+
+/// ln of the ratio to the nearer end of the speeds; below 0 among them.
+double from_end(const SpeedReach& reach, double speed_m_per_s) {
+  return std::max(std::log(speed_m_per_s / reach.fastest_m_per_s), std::log(reach.slowest_m_per_s / speed_m_per_s));
+}
+
+}  // namespace
+
 double SpeedReach::distance_to(double speed_m_per_s) const {
-  return std::max({0.0, std::log(speed_m_per_s / fastest_m_per_s), std::log(slowest_m_per_s / speed_m_per_s)});
+  return std::max(0.0, from_end(*this, speed_m_per_s));
 }
 
 double SpeedReach::half_width_at(double speed_m_per_s) const {
-  if (!trend) return 0.0;
   const double inwards = thresholds::kTrendBegins * std::log(fastest_m_per_s / slowest_m_per_s);
-  const double from_end =
-      std::max(std::log(speed_m_per_s / fastest_m_per_s), std::log(slowest_m_per_s / speed_m_per_s));
-  return *trend * std::max(0.0, from_end + inwards);
+  return trend.value_or(0.0) * std::max(0.0, from_end(*this, speed_m_per_s) + inwards);
 }
 
 const Parameter* FitResult::find(ParameterId id) const {

@@ -21,8 +21,8 @@ FitResult without_parameters(FitResult fit) {
   fit.correlation.reset();
   fit.estimate.reset();
   for (Warning& warning : fit.warnings) {  // how far off it is says nothing where it is another motion
-    if (warning.code == "model_misfit")
-      warning.message = "the slips do not follow the model: none of its parameters is known";
+    if (warning.code != "model_misfit") continue;
+    warning.message = "the slips do not follow the model: none of its parameters is known";
   }
   return fit;
 }
