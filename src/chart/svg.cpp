@@ -100,7 +100,10 @@ class PanelDrawing {
     for (const Tick& tick : panel_.x.label.empty() ? std::vector<Tick>{} : ticks_below()) {
       const double x = x_of(tick.value);
       drawing_.line(x, top_, x, bottom_, "class=\"grid\"");
-      if (!tick.text.empty()) drawing_.text(x, bottom_ + 17.0, tick.text, "value", " text-anchor=\"middle\"");
+      if (tick.text.empty()) continue;
+      const double half = 0.5 * kDigit * letters_in(tick.text);
+      const double inside = std::min(x, kLeft + width_ + kRight - half);  // of the picture, at the end of the axis
+      drawing_.text(inside, bottom_ + 17.0, tick.text, "value", " text-anchor=\"middle\"");
     }
     const int most_steps = std::clamp(static_cast<int>(panel_.height_px / kLeastStep), 3, 8);
     for (const Tick& tick : panel_.y.label.empty() ? std::vector<Tick>{} : ticks_of(y_, most_steps)) {

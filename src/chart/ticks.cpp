@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -51,17 +52,29 @@ bool carries_value(const Axis& axis, int part) {
   return part == 1 || decades < 0.7 || (decades < 2.0 && (part == 2 || part == 5));
 }
 
+/// 10 to the power of `decade`, times `part` unless that is 1.
+std::string power_of_ten(int part, int decade) {
+  constexpr std::array kRaised{"\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074",
+                               "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  std::string text = part == 1 ? "10" : fmt::format("{}\u00D710", part);
+  for (const char c : std::to_string(decade))
+    text += c == '-' ? "\u207B" : kRaised.at(static_cast<std::size_t>(c - '0'));
+  return text;
+}
+
 std::vector<Tick> logarithmic_ticks(const Axis& axis) {
   constexpr int kMostDecades = 24;  // beyond them some decades stand for all
   const int first = static_cast<int>(std::floor(std::log10(axis.low) + kSlack));
   const int last = static_cast<int>(std::floor(std::log10(axis.high) + kSlack));
   const int stride = 1 + (last - first) / kMostDecades;
+  const bool is_plain = first >= -4 && last <= 5;  // no exponent in any of them
   std::vector<Tick> ticks;
   for (int decade = first; decade <= last; decade += stride) {
     for (int part = 1; part < (stride == 1 ? 10 : 2); ++part) {
       const double value = part * std::pow(10.0, decade);
       if (value < axis.low * (1.0 - kSlack) || value > axis.high * (1.0 + kSlack)) continue;
-      ticks.push_back({value, carries_value(axis, part) ? fmt::format("{:.6g}", value) : std::string()});
+      const std::string text = is_plain ? fmt::format("{:.6g}", value) : power_of_ten(part, decade);
+      ticks.push_back({value, carries_value(axis, part) ? text : std::string()});
     }
   }
   return ticks;

@@ -81,6 +81,22 @@ TEST_CASE("ticks are round numbers inside the axis") {
   CHECK(texts({"", 0.5, 60.0, chart::Scale::Logarithmic}) == "..... 1........ 10.....");
   CHECK(texts({"", 0.5, 30.0, chart::Scale::Logarithmic}) == " 0.5.... 1 2.. 5.... 10 20.");
   CHECK(texts({"", 3.0, 8.0, chart::Scale::Logarithmic}) == " 3 4 5 6 7 8");
+  CHECK(texts({"", 1e-5, 1e-3, chart::Scale::Logarithmic}) ==
+        " 10\u207B\u2075........ 10\u207B\u2074........ 10\u207B\u00B3");
+  CHECK(texts({"", 1e6, 4e6, chart::Scale::Logarithmic}) ==
+        " 10\u2076 2\u00D710\u2076 3\u00D710\u2076 4\u00D710\u2076");
+}
+
+TEST_CASE("the value at the right end of an axis stands inside the picture") {
+  chart::Panel panel;
+  panel.x = {"x", 1e-3, 1e7, chart::Scale::Logarithmic};
+  const std::string svg = chart::to_svg({"", {}, {panel}});
+  std::smatch last;
+  const std::string value = R"re(x="([0-9.]+)" y="[0-9.]+" class="value" text-anchor="middle">)re";
+  REQUIRE(std::regex_search(svg, last, std::regex(value + "10\u2077<")));
+  std::smatch width;
+  REQUIRE(std::regex_search(svg, width, std::regex(R"re(width="([0-9]+)")re")));
+  CHECK(std::stod(last[1]) + 0.5 * 6.6 * 3.0 <= std::stod(width[1]));
 }
 
 TEST_CASE("axes of every width are drawn: finite, with a bounded number of different ticks") {
