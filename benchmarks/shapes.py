@@ -2,10 +2,11 @@
 """What a file costs by the shape of its trace: `slipfit fit` on recordings of the same number of rows, in processor time
 and memory over those of an ordinary recording (first row).
 
-shapes.py SLIPFIT [--rows 1000000] [--limit 120] [--only NAME,...]
+shapes.py SLIPFIT [--rows 1000000] [--limit 120] [--only NAME,...] [--instructions]
 
 Prints a line a shape: name, processor seconds, ratio to the ordinary one, greatest memory in MB, ratio, kind of motion.
-Needs numpy. No recording costs more than three times the ordinary one: exit 1 where one does.
+With --instructions these are counted by valgrind in place of the seconds, in 10^9, and the memory is valgrind's: what
+the check_shapes target does, which does not depend on who else uses the machine. Needs numpy. No recording costs more than three times the ordinary one: exit 1 where one does.
 """
 
 import argparse
@@ -13,6 +14,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import resource
 import subprocess
 import sys
@@ -23,6 +25,7 @@ import numpy
 RATE_HZ = 10000.0
 SPEED = "10mm/s"
 MOST = 3.0
+COUNTING = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
 
 
 def saw(n, cycle, fall, noise, random, drop_sd=0.0):
@@ -128,17 +131,19 @@ def write(made, file):
             out.write("".join(f"{time:.5f},{value:.7f}\n" for time, value in rows))
 
 
-def measure(slipfit, file, limit_s):
-    """Processor seconds, MB, kind of motion."""
-    run = subprocess.Popen([slipfit, "fit", str(file), "--speed", SPEED, "--json", "--quiet"], stdout=subprocess.PIPE,
+def measure(command, file, limit_s):
+    """Processor seconds or instructions in 10^9, MB, kind of motion."""
+    run = subprocess.Popen([*command, "fit", str(file), "--speed", SPEED, "--json", "--quiet"], stdout=subprocess.PIPE,
                            stderr=subprocess.PIPE,
                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit_s, limit_s)))
     out = run.stdout.read()
     error = run.stderr.read().decode().strip()
     _, status, usage = os.wait4(run.pid, 0)
     run.returncode = status
-    motion = json.loads(out)["status"] if out else error[-60:] or "not ended"
-    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0, motion
+    motion = json.loads(out)["status"] if out else "refused" if error else "not ended"
+    counted = re.search(r"I +refs: +([0-9,]+)", error)
+    cost = 1e-9 * int(counted[1].replace(",", "")) if counted else usage.ru_utime + usage.ru_stime
+    return cost, usage.ru_maxrss / 1024.0, motion
 
 
 def main():
@@ -146,18 +151,20 @@ def main():
     parser.add_argument("slipfit")
     parser.add_argument("--rows", type=int, default=1000000)
     parser.add_argument("--limit", type=int, default=120, help="processor seconds")
+    parser.add_argument("--instructions", action="store_true")
     parser.add_argument("--only", help="names, separated by commas")
     arguments = parser.parse_args()
     made = shapes(arguments.rows)
+    command, runs = ([*COUNTING, arguments.slipfit], 1) if arguments.instructions else ([arguments.slipfit], 3)
     names = list(made) if not arguments.only else ["ordinary", *arguments.only.split(",")]
     usual = None
     worst = 0.0
-    print("shape,processor_s,time_ratio,memory_MB,memory_ratio,motion", flush=True)
+    print(f"shape,{'giga_instructions' if arguments.instructions else 'processor_s'},ratio,memory_MB,memory_ratio,motion", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         for name in names:
             file = pathlib.Path(folder) / "recording.csv"
             write(made[name](numpy.random.default_rng(7)), file)
-            measured = min((measure(arguments.slipfit, file, arguments.limit) for _ in range(2)), key=lambda m: m[0])
+            measured = min((measure(command, file, arguments.limit) for _ in range(runs)), key=lambda m: m[0])
             usual = usual or measured
             ratios = measured[0] / usual[0], measured[1] / usual[1]
             worst = max(worst, *ratios)

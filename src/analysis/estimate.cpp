@@ -11,16 +11,11 @@
 #include "analysis/slip_intervals.hpp"
 #include "analysis/slip_shape.hpp"
 #include "analysis/stopwatch.hpp"
+#include "core/parallel.hpp"
 #include "core/thresholds.hpp"
 
 namespace slipfit {
 namespace {
-
-#ifdef SLIPFIT_SINGLE_PROCESS  // async would wait for ever for a thread that cannot begin
-constexpr std::launch kLaunch = std::launch::deferred;
-#else
-constexpr std::launch kLaunch = std::launch::async | std::launch::deferred;
-#endif
 
 struct TimedFrequency {
   SpectralFrequency spectral;

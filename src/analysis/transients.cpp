@@ -49,13 +49,14 @@ std::optional<RunUp> first_large_rise(const Trace& trace, double drop) {
   const double swing = std::max(drop > 0.0 ? 0.25 * drop : 0.1 * range, 8.0 * trace.noise);
   const double least = std::max(thresholds::kRunUp * drop, thresholds::kNoiseDrop * trace.noise);
   signal::TurningPoints turns(swing);
-  std::size_t lowest = 0;
+  std::size_t lowest = 0;  // of those before `looked`
+  std::size_t looked = 0;
   std::size_t seen = 0;
   for (std::size_t i = 0; i < trace.force.size(); ++i) {
     turns.add(i, trace.force[i]);
     if (turns.falls().size() == seen) continue;
     const std::size_t peak = turns.falls()[seen++].peak;
-    for (std::size_t j = lowest; j < peak; ++j) lowest = trace.force[j] < trace.force[lowest] ? j : lowest;
+    for (; looked < peak; ++looked) lowest = trace.force[looked] < trace.force[lowest] ? looked : lowest;
     const double rise = trace.force[peak] - trace.force[lowest];
     if (rise > std::max(least, drop > 0.0 ? 0.0 : 0.5 * range)) return RunUp{lowest, peak, rise};
   }

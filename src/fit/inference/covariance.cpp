@@ -12,73 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-CommonColumns::CommonColumns(const Problem& problem) {
-  const std::size_t count = problem.recordings.size();
-  const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
-  size_ = globals;
-  const auto add = [&](std::vector<Index>& columns, auto&& width_of, bool shared) {
-    for (std::size_t r = 0; r < count; ++r) {
-      const Index width = width_of(problem.recordings[r]);
-      const bool again = shared && r > 0;
-      columns.push_back(again ? columns.front() : size_);
-      if (!again) size_ += width;
-    }
-  };
-  const auto constants = [](const BlockFit& r) { return Index{r.model(0).has_constant()}; };
-  const auto populations = [](const BlockFit& r) { return Index{r.scales().population.has_value()}; };
-  const auto drifts = [](const BlockFit& r) { return static_cast<Index>(r.model(0).drift_parameters()); };
-  add(levels_, constants, problem.sweep.sharing.level);
-  add(differences_, populations, problem.sweep.sharing.difference);
-  add(drifts_, drifts, false);
-  for (std::size_t r = 0; r < count; ++r) {
-    const BlockFit& recording = problem.recordings[r];
-    of_.emplace_back();
-    for (Index i = 0; i < globals; ++i) of_.back().push_back(i);
-    if (populations(recording) > 0) of_.back().push_back(differences_[r]);
-    if (constants(recording) > 0) of_.back().push_back(levels_[r]);
-    for (Index i = 0; i < drifts(recording); ++i) of_.back().push_back(drifts_[r] + i);
-  }
-}
-
-Linearised linearise(const BlockFit& fit, std::size_t cycle) {
-  const CycleModel& model = fit.model(cycle);
-  const auto rows = static_cast<Index>(model.residuals());
-  Linearised result;
-  result.residuals.resize(rows);
-  MatrixXd jacobian(rows, static_cast<Index>(model.columns()));
-  model.evaluate(fit.values(cycle), result.residuals.data(), jacobian.data());
-  result.common = jacobian.leftCols(static_cast<Index>(model.common_parameters()));
-  result.local = jacobian.rightCols(static_cast<Index>(model.local_parameters()));
-  return result;
-}
-
 namespace {
-
-Normal normal_of(Linearised lines, std::vector<Index> columns) {
-  Normal normal;
-  normal.columns = std::move(columns);
-  normal.common = lines.common.transpose() * lines.common;
-  normal.cross = lines.common.transpose() * lines.local;
-  normal.local = lines.local.transpose() * lines.local;
-  normal.score = lines.common.transpose() * lines.residuals;
-  normal.local_score = lines.local.transpose() * lines.residuals;
-  normal.residuals = std::move(lines.residuals);
-  return normal;
-}
-
-/// A row for the globals and the level that all recordings share.
-Normal normal_of(const SteadyRun& run, const Problem& problem, const CommonColumns& columns) {
-  const Parameters& parameters = problem.recordings.front().parameters;
-  const SteadyResidual steady = steady_residual(run, problem.sweep.units, problem.recordings.front().scales().law,
-                                                parameters.globals.data(), parameters.level.front());
-  const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
-  std::vector<Index> of_row(columns.of(0).begin(), columns.of(0).begin() + globals);
-  of_row.push_back(columns.level(0));
-  Linearised lines{VectorXd::Constant(1, steady.value), MatrixXd(1, globals + 1), MatrixXd(1, 0)};
-  for (Index i = 0; i < globals; ++i) lines.common(0, i) = steady.by_global[static_cast<std::size_t>(i)];
-  lines.common(0, globals) = steady.by_level;
-  return normal_of(std::move(lines), std::move(of_row));
-}
 
 void add_scattered(const MatrixXd& part, const std::vector<Index>& columns, MatrixXd& sum) {
   for (Index i = 0; i < part.rows(); ++i) {
@@ -121,7 +55,12 @@ class SparseNormal {
     }
   }
 
-  [[nodiscard]] CoordinateMatrix inverse_through(const Selection& selection, double cycles) const {
+  /// Derivatives of the coordinates with respect to all parameters, S, and H^-1 S.
+  struct Seen {
+    MatrixXd through;
+    MatrixXd solved;  ///< not a number where H is singular
+  };
+  [[nodiscard]] Seen solve_for(const Selection& selection, double cycles) const {
     const Index size = first_common_ + common_.rows();
     Eigen::SparseMatrix<double> hessian(size, size);
     hessian.setFromTriplets(entries_.begin(), entries_.end());
@@ -135,8 +74,8 @@ class SparseNormal {
     }
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(hessian);
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    if (factor.info() != Eigen::Success) return CoordinateMatrix::Constant(kNone);
-    return columns.transpose() * factor.solve(columns);
+    if (factor.info() != Eigen::Success) return {columns, MatrixXd::Constant(size, kCoordinates, kNone)};
+    return {columns, factor.solve(columns)};
   }
 
  private:
@@ -171,21 +110,6 @@ Held held_in(const Problem& problem, Held held) {
 
 }  // namespace
 
-std::vector<Normal> normals_of(const Problem& problem) {
-  const CommonColumns columns(problem);
-  std::vector<Normal> normals;
-  for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
-    const BlockFit& recording = problem.recordings[r];
-    for (std::size_t c = 0; c < recording.size(); ++c) {
-      normals.push_back(normal_of(linearise(recording, c), columns.of(r)));
-    }
-  }
-  for (std::size_t i = 0; problem.sweep.sharing.level && i < problem.sweep.steady.size(); ++i) {
-    normals.push_back(normal_of(problem.sweep.steady[i], problem, columns));
-  }
-  return normals;
-}
-
 void hold_rows(MatrixXd& matrix, const Held& held) {
   for (std::size_t i = 0; i < held.size(); ++i) {
     if (!held[i]) continue;
@@ -196,8 +120,10 @@ void hold_rows(MatrixXd& matrix, const Held& held) {
   }
 }
 
-CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Normal>& normals,
-                                  const Selection& selection, const SolveOptions& solved) {
+namespace {
+
+SparseNormal::Seen solve_normal(const Problem& problem, const std::vector<Normal>& normals, const Selection& selection,
+                                const SolveOptions& solved) {
   SparseNormal sum(problem, normals, held_in(problem, solved.held));
   const BlockFit& first = problem.recordings.front();
   for (std::size_t cycle = 0; solved.continuous && cycle + 1 < first.size(); ++cycle) {
@@ -205,7 +131,29 @@ CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Norm
   }
   double cycles = 0.0;
   for (const BlockFit& recording : problem.recordings) cycles += static_cast<double>(recording.size());
-  return sum.inverse_through(selection, cycles);
+  return sum.solve_for(selection, cycles);
+}
+
+}  // namespace
+
+CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Normal>& normals,
+                                  const Selection& selection, const SolveOptions& solved) {
+  const SparseNormal::Seen seen = solve_normal(problem, normals, selection, solved);
+  return seen.through.transpose() * seen.solved;
+}
+
+std::vector<MatrixXd> influences_of(const BlockFit& fit, const Selection& selection, const SolveOptions& solved) {
+  const Problem problem{{&fit, 1}};
+  const MatrixXd moves = solve_normal(problem, normals_of(problem), selection, solved).solved;
+  const auto local = static_cast<Index>(fit.model(0).local_parameters());
+  const MatrixXd common = moves.bottomRows(moves.rows() - local * static_cast<Index>(fit.size()));
+  std::vector<MatrixXd> influences;
+  for (std::size_t cycle = 0; cycle < fit.size(); ++cycle) {
+    const Linearised lines = linearise(fit, cycle);
+    const auto own = moves.middleRows(local * static_cast<Index>(cycle), local);
+    influences.emplace_back(-lines.common * common - lines.local * own);
+  }
+  return influences;
 }
 
 namespace {
@@ -232,6 +180,29 @@ Unit eliminate(const Normal& n, Index common, Index local, const Held& held) {
 }
 
 }  // namespace
+
+NewtonStep newton_step(const Problem& problem, const std::vector<Normal>& normals, const Held& all_held) {
+  const Held held = held_in(problem, all_held);
+  const Index common = CommonColumns(problem).size();
+  MatrixXd hessian = MatrixXd::Zero(common, common);
+  VectorXd gradient = VectorXd::Zero(common);
+  NewtonStep result;
+  for (const Normal& normal : normals) {
+    const Unit unit = eliminate(normal, common, 0, held);
+    const double bound = huber_bound(static_cast<std::size_t>(normal.residuals.size()));
+    const double root = normal.residuals.norm();
+    const bool is_far = normal.local.rows() > 0 && root > bound;
+    const double weight = is_far ? bound / root : 1.0;
+    add_scattered(weight * unit.hessian, normal.columns, hessian);
+    gradient += weight * unit.score;
+    result.sum_of_squares += is_far ? 2.0 * bound * root - bound * bound : root * root;
+  }
+  hold_rows(hessian, held);
+  result.step = -hessian.ldlt().solve(gradient);
+  result.gain = -gradient.dot(result.step);
+  result.sum_of_squares -= result.gain;
+  return result;
+}
 
 CoordinateMatrix jackknife_covariance(const Problem& problem, const std::vector<Normal>& normals,
                                       const Selection& selection, const Held& all_held) {

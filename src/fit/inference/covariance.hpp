@@ -1,50 +1,12 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cstddef>
 #include <vector>
 
 #include "fit/coordinates.hpp"
-#include "fit/problem/solve.hpp"
+#include "fit/inference/normals.hpp"
 
 namespace slipfit::fit {
-
-/// Columns of what the cycles of a problem have in common: globals, then levels, differences and drifts of the
-/// recordings, those that there are; shared ones once.
-class CommonColumns {
- public:
-  explicit CommonColumns(const Problem& problem);
-
-  [[nodiscard]] Eigen::Index size() const { return size_; }
-  [[nodiscard]] Eigen::Index level(std::size_t recording) const { return levels_[recording]; }
-  [[nodiscard]] Eigen::Index difference(std::size_t recording) const { return differences_[recording]; }
-  [[nodiscard]] Eigen::Index drift(std::size_t recording) const { return drifts_[recording]; }
-  /// Of the Jacobian of a recording's cycles, in its order.
-  [[nodiscard]] const std::vector<Eigen::Index>& of(std::size_t recording) const { return of_[recording]; }
-
- private:
-  Eigen::Index size_ = 0;
-  std::vector<Eigen::Index> levels_, differences_, drifts_;
-  std::vector<std::vector<Eigen::Index>> of_;
-};
-
-/// One cycle's residuals r and their derivatives J at the solution; the samples around the slip come first.
-struct Linearised {
-  Eigen::VectorXd residuals;
-  Eigen::MatrixXd common;
-  Eigen::MatrixXd local;
-};
-
-/// One cycle's (or steady recording's, without own parameters) part of the normal equations.
-struct Normal {
-  std::vector<Eigen::Index> columns;  ///< of `common` among the problem's
-  Eigen::MatrixXd common;             ///< common x common
-  Eigen::MatrixXd cross;              ///< common x own
-  Eigen::MatrixXd local;              ///< own x own
-  Eigen::VectorXd score;              ///< J' r for common
-  Eigen::VectorXd local_score;
-  Eigen::VectorXd residuals;
-};
 
 /// Derivatives of the coordinates with respect to the common parameters and to the mean of the cycles' own ones.
 struct Selection {
@@ -52,8 +14,14 @@ struct Selection {
   Eigen::MatrixXd local;   ///< own x coordinates; empty where all are 0
 };
 
-Linearised linearise(const BlockFit& fit, std::size_t cycle);
-std::vector<Normal> normals_of(const Problem& problem);
+/// A step of the common parameters to the least sum of squares, the cycles' own parameters following; cycles far worse
+/// than the others count linearly (SolveOptions::robust).
+struct NewtonStep {
+  Eigen::VectorXd step;
+  double sum_of_squares = 0.0;  ///< after the step
+  double gain = 0.0;            ///< of the step
+};
+NewtonStep newton_step(const Problem& problem, const std::vector<Normal>& normals, const Held& held);
 
 /// Held globals: their rows and columns of a normal matrix become those of exactly known ones.
 void hold_rows(Eigen::MatrixXd& matrix, const Held& held);
@@ -62,6 +30,10 @@ void hold_rows(Eigen::MatrixXd& matrix, const Held& held);
 /// continuous. Not a number where H is singular.
 CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Normal>& normals,
                                   const Selection& selection, const SolveOptions& solved);
+
+/// What the residuals of each cycle of a recording move the coordinates by, to first order: residuals x coordinates.
+/// Not a number where H is singular.
+std::vector<Eigen::MatrixXd> influences_of(const BlockFit& fit, const Selection& selection, const SolveOptions& solved);
 
 /// Delete-one-cycle jackknife of the coordinates, one Newton step each: CR3.
 CoordinateMatrix jackknife_covariance(const Problem& problem, const std::vector<Normal>& normals,

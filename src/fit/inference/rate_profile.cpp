@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
+#include "core/parallel.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/intervals.hpp"
 
@@ -96,7 +97,9 @@ AlongRate profile_rate(const SweepSolution& solution, StaticFriction kind, const
   const double quantile = t_quantile(spread.degrees_of_freedom);
   Sides sides;
   if (!solution.held[kFrictionRate] && std::sqrt(variance) >= thresholds::kKnownRate * std::abs(best(kFrictionRate))) {
-    sides = {points_on(solution, kind, best, quantile, -1.0), points_on(solution, kind, best, quantile, 1.0)};
+    const auto side_of = [&](std::size_t i) { return points_on(solution, kind, best, quantile, i == 0 ? -1.0 : 1.0); };
+    std::vector<std::vector<Point>> both = in_parallel(2, side_of);
+    sides = {std::move(both[0]), std::move(both[1])};
     avoid_negative_damping(result.best, sides);
   }
   Profile profile{given(spread.covariance, kFrictionRate), {}, false};

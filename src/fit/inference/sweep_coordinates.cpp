@@ -73,9 +73,9 @@ Coordinates coordinates_of(const SweepSolution& solution, StaticFriction kind) {
   return values;
 }
 
-Spread spread_of(const SweepData& data, const SweepSolution& solution, StaticFriction kind) {
+Spread spread_of(const SweepData& data, const SweepSolution& solution, const std::vector<Normal>& normals,
+                 StaticFriction kind) {
   const Problem problem = solution.problem();
-  const std::vector<Normal> normals = normals_of(problem);
   const AgeingLine line = static_friction_line(solution, kind);
   const Selection selection = selection_of(solution, line);
   const bool correlated = std::any_of(data.fitted.begin(), data.fitted.end(),

@@ -12,7 +12,8 @@ Coordinates coordinates_of(const SweepSolution& solution, StaticFriction kind);
 
 /// White noise, or the jackknife over cycles where residuals of a recording correlate; scatter of the recordings' own
 /// levels and differences included.
-Spread spread_of(const SweepData& data, const SweepSolution& solution, StaticFriction kind);
+Spread spread_of(const SweepData& data, const SweepSolution& solution, const std::vector<Normal>& normals,
+                 StaticFriction kind);
 
 /// zeta cannot be negative: where its best value is, the best values given zeta = 0 (by the covariance, to second
 /// order).

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "core/parallel.hpp"
 #include "fit/inference/ageing_line.hpp"
 #include "fit/inference/rate_profile.hpp"
 #include "fit/inference/sliding_model.hpp"
@@ -14,22 +16,22 @@
 namespace slipfit::fit {
 namespace {
 
-LeftOut fit_of(const SweepData& data, const SweepSolution& solution, StaticFriction kind) {
-  return {coordinates_of(solution, kind), spread_of(data, solution, kind), reach_of(solution)};
+LeftOut fit_of(const SweepData& data, const NormalSolution& fit, StaticFriction kind) {
+  return {coordinates_of(fit.solution, kind), spread_of(data, fit.solution, fit.normals, kind), reach_of(fit.solution)};
 }
 
-std::vector<std::optional<LeftOut>> leave_out_each(const SweepData& data, const SweepSolution& solution,
+std::vector<std::optional<LeftOut>> leave_out_each(const SweepData& data, const NormalSolution& all,
                                                    StaticFriction kind) {
-  std::vector<std::optional<LeftOut>> each;
-  for (std::size_t recording = 0; recording < solution.recordings.size(); ++recording) {
-    each.emplace_back();
+  const std::size_t count = all.solution.recordings.size();
+  std::mutex telling;
+  return in_parallel(count, [&](std::size_t recording) -> std::optional<LeftOut> {
     if (data.tell_step) {
-      data.tell_step(fmt::format("fitting without recording {} of {}", recording + 1, solution.recordings.size()));
+      const std::lock_guard lock(telling);
+      data.tell_step(fmt::format("fitting without recording {} of {}", recording + 1, count));
     }
-    const std::optional<SweepSolution> others = leave_out(solution, recording);
-    if (others) each.back() = fit_of(data, *others, kind);
-  }
-  return each;
+    const std::optional<NormalSolution> others = leave_out(all, recording);
+    return others ? std::optional(fit_of(data, *others, kind)) : std::nullopt;
+  });
 }
 
 double count_of(const std::vector<std::optional<LeftOut>>& each) {
@@ -110,9 +112,10 @@ bool depends_on_speed(const SweepSolution& solution) {
 
 SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
   const StaticFriction kind = static_friction_of(solution);
-  LeftOut all = fit_of(data, solution, kind);
+  const NormalSolution normal{solution, normals_of(solution.problem())};
+  LeftOut all = fit_of(data, normal, kind);
   SweepOutcome outcome{
-      solution, kind, all.values, std::move(all.spread), all.reach, leave_out_each(data, solution, kind)};
+      solution, kind, all.values, std::move(all.spread), all.reach, leave_out_each(data, normal, kind)};
   if (solution.average) outcome.spread.covariance += by_average(data, solution, outcome);
   if (depends_on_speed(solution)) outcome.other_law = other_law(solution, kind);
   outcome.disagree = recordings_disagree(outcome);

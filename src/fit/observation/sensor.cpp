@@ -1,52 +1,66 @@
 #include "fit/observation/sensor.hpp"
 
+#include <cmath>
+
 namespace slipfit::fit {
 
 SensedSlip::SensedSlip(const Sensor& sensor, const model::Slip& slip)
     : sensor_(sensor),
       z0_(slip.z0, 0),
       zeta_(slip.zeta, 1),
+      b_(sqrt(1.0 - zeta_ * zeta_)),
       end_tau_(model::slip_end(slip, z0_, zeta_)),
-      kappa_(sensor.lag_tau > 0.0 ? 1.0 / sensor.lag_tau : 0.0),
       half_(0.5 * sensor.average_tau),
-      end_(model::slip_point(z0_, zeta_, end_tau_)) {
-  kappa_.v[3] = -kappa_.a;  // kappa = 1 / (w_n T)
+      z_sine_((1.0 + zeta_ * z0_) / b_),
+      slope_sine_((z0_ + zeta_) / b_),
+      end_(in_slip(phase_at(end_tau_))) {
   half_.v[3] = half_.a;
+  if (!(sensor.lag_tau > 0.0)) return;
+  kappa_.a = 1.0 / sensor.lag_tau;  // kappa = 1 / (w_n T)
+  kappa_.v[3] = -kappa_.a;
+  // The same kind of oscillation solves the sensor's equation; an exponential joins it to the lagging ramp before.
+  const Jet rest = kappa_ - zeta_;
+  const Jet scale = kappa_ / (rest * rest + b_ * b_);
+  lag_cosine_ = scale * (rest * z0_ - b_ * z_sine_);
+  lag_sine_ = scale * (rest * z_sine_ + b_ * z0_);
+  lag_rest_ = z0_ - 1.0 / kappa_ - lag_cosine_;
+  lag_end_ = lagged_in_slip(end_tau_);
+}
+
+SensedSlip::Phase SensedSlip::phase_at(const Jet& tau) const {
+  const Jet decay = -zeta_ * tau;
+  const Jet turn = b_ * tau;
+  const double size = std::exp(decay.a);
+  Phase phase{Jet(size * std::cos(turn.a)), Jet(size * std::sin(turn.a))};
+  phase.c.v = decay.v * phase.c.a - turn.v * phase.s.a;
+  phase.s.v = decay.v * phase.s.a + turn.v * phase.c.a;
+  return phase;
 }
 
 /// z'' + 2 zeta z' + z = 0 gives the integral of z over the slip: 1 + 2 zeta z0 - z' - 2 zeta z.
-SensedSlip::Force SensedSlip::force_at(const Jet& tau) const {
-  if (tau.a <= 0.0) return {z0_ + tau, Jet(1.0), tau * (z0_ + 0.5 * tau)};
-  const Jet begin = 1.0 + 2.0 * zeta_ * z0_;
-  if (tau.a <= end_tau_.a) {
-    const model::SlipPoint<Jet> p = model::slip_point(z0_, zeta_, tau);
-    return {p.z, p.dz, begin - p.dz - 2.0 * zeta_ * p.z};
-  }
-  const Jet since = tau - end_tau_;
-  return {end_.z + since, Jet(1.0), begin - end_.dz - 2.0 * zeta_ * end_.z + since * (end_.z + 0.5 * since)};
+SensedSlip::Force SensedSlip::in_slip(const Phase& phase) const {
+  const Jet z = z0_ * phase.c + z_sine_ * phase.s;
+  const Jet slope = phase.c - slope_sine_ * phase.s;
+  return {z, slope, 1.0 + 2.0 * zeta_ * (z0_ - z) - slope};
 }
 
-/// In the slip z = exp(-zeta tau) (P cos b tau + Q sin b tau). The same kind of oscillation solves the sensor's
-/// equation; an exponential joins it to the lagging ramp before.
+SensedSlip::Force SensedSlip::force_at(const Jet& tau) const {
+  if (tau.a <= 0.0) return {z0_ + tau, Jet(1.0), tau * (z0_ + 0.5 * tau)};
+  if (tau.a <= end_tau_.a) return in_slip(phase_at(tau));
+  const Jet since = tau - end_tau_;
+  return {end_.z + since, Jet(1.0), end_.integral + since * (end_.z + 0.5 * since)};
+}
+
 SensedSlip::Jet SensedSlip::lagged_in_slip(const Jet& tau) const {
-  const Jet b = sqrt(1.0 - zeta_ * zeta_);
-  const Jet& p = z0_;
-  const Jet q = (1.0 + zeta_ * z0_) / b;
-  const Jet rest = kappa_ - zeta_;
-  const Jet scale = kappa_ / (rest * rest + b * b);
-  const Jet r = scale * (rest * p - b * q);
-  const Jet s = scale * (rest * q + b * p);
-  const Jet c = exp(-zeta_ * tau) * cos(b * tau);
-  const Jet d = exp(-zeta_ * tau) * sin(b * tau);
-  return r * c + s * d + (z0_ - 1.0 / kappa_ - r) * exp(-kappa_ * tau);
+  const Phase phase = phase_at(tau);
+  return lag_cosine_ * phase.c + lag_sine_ * phase.s + lag_rest_ * exp(-kappa_ * tau);
 }
 
 SensedSlip::Jet SensedSlip::lagged_at(const Jet& tau) const {
   if (tau.a <= 0.0) return z0_ + tau - 1.0 / kappa_;
   if (tau.a <= end_tau_.a) return lagged_in_slip(tau);
-  const Jet end = lagged_in_slip(end_tau_);
   const Jet since = tau - end_tau_;
-  return end_.z + since - 1.0 / kappa_ + (end - end_.z + 1.0 / kappa_) * exp(-kappa_ * since);
+  return end_.z + since - 1.0 / kappa_ + (lag_end_ - end_.z + 1.0 / kappa_) * exp(-kappa_ * since);
 }
 
 /// As the sensor shows it before it is averaged, and (but for a constant) the integral of that: y' = kappa (z - y)

@@ -35,14 +35,23 @@ class SensedSlip {
     Jet z, slope, integral;
   };
 
+  /// exp(-zeta tau) cos b tau and exp(-zeta tau) sin b tau.
+  struct Phase {
+    Jet c, s;
+  };
+
+  [[nodiscard]] Phase phase_at(const Jet& tau) const;
+  [[nodiscard]] Force in_slip(const Phase& phase) const;
   [[nodiscard]] Force force_at(const Jet& tau) const;
   [[nodiscard]] Jet lagged_in_slip(const Jet& tau) const;
   [[nodiscard]] Jet lagged_at(const Jet& tau) const;
   [[nodiscard]] Force shown_at(const Jet& tau) const;
 
   Sensor sensor_;
-  Jet z0_, zeta_, end_tau_, kappa_, half_;
-  model::SlipPoint<Jet> end_;
+  Jet z0_, zeta_, b_, end_tau_, half_;
+  Jet z_sine_, slope_sine_;  ///< of z = z0 c + z_sine s, z' = c - slope_sine s
+  Force end_;
+  Jet kappa_, lag_cosine_, lag_sine_, lag_rest_, lag_end_;  ///< of the lagging sensor, where there is one
 };
 
 }  // namespace slipfit::fit

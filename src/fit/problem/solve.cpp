@@ -221,11 +221,11 @@ class Bundle {
     }
   }
 
-  /// What a fit can explain settles in some ten steps however large it is. What it cannot may creep along a valley: not
-  /// for longer than the rest of the program takes.
+  /// What a fit can explain settles in some five steps from a solution of fewer cycles, however large it is. What it
+  /// cannot may creep along a valley: not for longer than the rest of the program takes.
   [[nodiscard]] int most_iterations() const {
-    constexpr double kMostEvaluations = 3e6;  // of a sample
-    constexpr double kFewest = 20.0;
+    constexpr double kMostEvaluations = 1.2e6;  // of a sample
+    constexpr double kFewest = 6.0;
     const double most = std::max(kFewest, kMostEvaluations / static_cast<double>(residuals_));
     return recordings_.size() > 1 ? options_.max_iterations
                                   : static_cast<int>(std::min<double>(options_.max_iterations, most));

@@ -22,6 +22,8 @@ namespace {
 
 /// Enough cycles to find the shared parameters' neighbourhood; the full fit starts from there.
 constexpr std::size_t kProbeCycles = 12;
+/// Enough to know the shared parameters to an error or two: all cycles then need few steps, however many they are.
+constexpr std::size_t kMiddleCycles = 64;
 
 constexpr int kQuickIterations = 8;
 constexpr int kCleanPasses = 4;
@@ -33,8 +35,8 @@ constexpr double kFinal = 1e-3;
 class Fitter {
  public:
   Fitter(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-         const HeldParameters& held)
-      : recording_(recording), quality_(quality), segmentation_(segmentation), held_values_(held) {
+         const HeldParameters& held, const Near& near)
+      : recording_(recording), quality_(quality), segmentation_(segmentation), held_values_(held), near_(near) {
     held_ = held_of(held);
     excluded_ = initial_exclusions(recording, quality);
     scales_ = scales_of(recording, quality, segmentation);
@@ -43,26 +45,33 @@ class Fitter {
   std::optional<DampedFit> fit() {
     start_stiffness_ = held_values_.stiffness_N_per_m.value_or(stiffness_of(recording_, segmentation_));
     if (!(start_stiffness_ > 0.0)) return std::nullopt;
-    cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), excluded_);
+    const std::vector<std::size_t> first_excluded = united(excluded_, near_.excluded);
+    cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), first_excluded);
     if (cycles_.size() < thresholds::kFewestFitted) return std::nullopt;
     scales_.time_begin_s = cycles_.front().window_begin_s;
     scales_.time_end_s = cycles_.back().window_end_s;
     if (!segmentation_.mains_Hz.empty()) {
       const HumLines hum{segmentation_.mains_Hz, scales_.time_begin_s};
-      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), excluded_, hum);
+      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), first_excluded, hum);
     }
 
     const LevelModel level = first_level();
     const std::vector<CycleData> probe = spread_subset(cycles_, std::max<std::size_t>(kProbeCycles, 3 * level.terms));
     std::optional<BlockFit> start = fit_probe(probe, level);
     if (!start) return std::nullopt;
+    if (cycles_.size() > 4 * kMiddleCycles) {
+      auto middle = fit_from(spread_subset(cycles_, kMiddleCycles), start->level(), start->parameters.globals,
+                             kMaxIterations, kRough);
+      if (middle) start = std::move(middle);
+    }
     std::optional<BlockFit> fit =
         fit_from(std::move(cycles_), start->level(), start->parameters.globals, kMaxIterations, kRough);
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
     if (quality_.clock_jitter > thresholds::kWeighedClock) fit = with_clock_weights(std::move(*fit));
     refuse_negative_damping(*fit, kFinal);
-    return finish(std::move(*fit));
+    return with_uncertainty({std::move(*fit), false, held_, refused_damping_, half_width_s(), excluded_, {}, {}},
+                            tolerated_misfit(quality_));
   }
 
  private:
@@ -124,24 +133,34 @@ class Fitter {
     return (poor.chi2 - rich.chi2) / extra > thresholds::kWanderingRatio * noise2;
   }
 
-  /// Short runs with zeta held, from several frequencies where the fall is hardly sampled or drawn out.
-  [[nodiscard]] std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles,
-                                                        const LevelModel& level) const {
-    BlockFit fit(cycles, middles_s(cycles), scales_, level);
+  /// Where the search begins: several frequencies where the fall is hardly sampled or drawn out.
+  [[nodiscard]] std::vector<Globals> starts() const {
+    if (near_.globals) return {*near_.globals};
     std::vector<double> stretches{1.0};
     if (scales_.half_period_s < 6.0 * recording_.sample_interval_s()) stretches = {1.0, 1.6, 1.0 / 0.6};
     // Lag and averaging draw the fall out.
     const double smoothed_s = std::max(scales_.sensor_lag_s, 0.3 * scales_.sensor_average_s);
     if (smoothed_s > 0.05 * scales_.half_period_s) stretches = {1.0, 1.4, 2.0};
     const double zeta = held_values_.damping_ratio.value_or(0.05);
+    std::vector<Globals> globals;
+    for (const double stretch : stretches) {
+      const double omega = held_values_.natural_frequency_rad_per_s.value_or(
+          stretch * std::numbers::pi / (scales_.half_period_s * std::sqrt(1.0 - zeta * zeta)));
+      globals.push_back({std::log(start_stiffness_), std::log(omega), zeta});
+    }
+    return globals;
+  }
+
+  /// Short runs with zeta held, the best of them.
+  [[nodiscard]] std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles,
+                                                        const LevelModel& level) const {
+    BlockFit fit(cycles, middles_s(cycles), scales_, level);
     SolveOptions quick{held_, false, true, kQuickIterations, kRough};
     quick.held[kDamping] = true;
     double best_cost = std::numeric_limits<double>::infinity();
     Parameters best;
-    for (const double stretch : stretches) {
-      const double omega = held_values_.natural_frequency_rad_per_s.value_or(
-          stretch * std::numbers::pi / (scales_.half_period_s * std::sqrt(1.0 - zeta * zeta)));
-      set_start(fit, segmentation_, {std::log(start_stiffness_), std::log(omega), zeta});
+    for (const Globals& start : starts()) {
+      set_start(fit, segmentation_, start);
       const double cost = solve(fit, quick);
       if (cost >= best_cost) continue;
       best_cost = cost;
@@ -186,7 +205,8 @@ class Fitter {
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
       const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals.value), outliers);
-      if (outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty()) {
+      const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty();
+      if (is_clean && (pass > 0 || near_.excluded.empty())) {
         if (pass == 0) solve(fit, {held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
         return fit;
       }
@@ -246,15 +266,11 @@ class Fitter {
     return refit;
   }
 
-  [[nodiscard]] std::optional<DampedFit> finish(BlockFit fit) const {
-    return finish_fit(recording_, quality_, segmentation_, half_width_s(),
-                      {std::move(fit), false, held_, refused_damping_, excluded_, {}, {}});
-  }
-
   const Recording& recording_;
   const Quality& quality_;
   const Segmentation& segmentation_;
   HeldParameters held_values_;
+  const Near& near_;
   Held held_;
   double start_stiffness_ = 0.0;
   Globals start_{};
@@ -266,10 +282,16 @@ class Fitter {
 
 }  // namespace
 
+std::optional<DampedFit> draft_damped(const Recording& recording, const Quality& quality,
+                                      const Segmentation& segmentation, const HeldParameters& held, const Near& near) {
+  if (segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
+  return Fitter(recording, quality, segmentation, held, near).fit();
+}
+
 std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& quality,
                                     const Segmentation& segmentation, const HeldParameters& held) {
-  if (segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
-  return Fitter(recording, quality, segmentation, held).fit();
+  std::optional<DampedFit> draft = draft_damped(recording, quality, segmentation, held);
+  return draft ? finish_fit(recording, quality, segmentation, *std::move(draft)) : std::nullopt;
 }
 
 }  // namespace slipfit::fit

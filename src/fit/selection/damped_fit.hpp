@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "fit/selection/solution.hpp"
 #include "slipfit/core/recording.hpp"
@@ -9,6 +11,17 @@
 #include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
+
+/// Where a fit begins: beside another one of the same recording, first without the samples that this left out.
+struct Near {
+  std::optional<Globals> globals{};  ///< empty: where the features of the slips lead
+  std::vector<std::size_t> excluded{};
+};
+
+/// `fit_damped` without what finish_fit adds to the uncertainty: all that a comparison of fits needs.
+std::optional<DampedFit> draft_damped(const Recording& recording, const Quality& quality,
+                                      const Segmentation& segmentation, const HeldParameters& held,
+                                      const Near& near = {});
 
 /// The per-cycle block fit with all that makes it stand real recordings: several starts in zeta, a level that may
 /// drift or wander, outliers left out, ramps joined where the data allow it. Empty: fewer than 3 cycles to fit, or no

@@ -16,119 +16,125 @@
 namespace slipfit::fit {
 namespace {
 
-constexpr int kFewIterations = 12;  // from the solution to one beside it
 constexpr int kMostIterations = 60;
 constexpr double kFinishTolerance = 1e-3;  // SolveOptions::tolerance
 
-std::vector<double> references_of(const BlockFit& fit) {
-  std::vector<double> references_s;
-  for (std::size_t i = 0; i < fit.size(); ++i) references_s.push_back(fit.reference_s(i));
-  return references_s;
+bool is_regular(const Uncertainty& uncertainty, const Held& held) {
+  const CoordinateMatrix& c = uncertainty.covariance;
+  const auto is_known = [&](Coordinate i) { return held[static_cast<std::size_t>(i)] || c(i, i) > 0.0; };
+  return c.allFinite() && is_known(kLogStiffness) && is_known(kLogFrequency) && is_known(kDamping);
 }
 
-class Finisher {
- public:
-  Finisher(const Recording& recording, const Quality& quality, const Segmentation& segmentation, double half_width_s)
-      : recording_(recording), quality_(quality), segmentation_(segmentation), half_width_s_(half_width_s) {}
+double joined_ramps(const BlockFit& fit) {
+  double ramps = 0.0;
+  for (std::size_t i = 0; i + 1 < fit.size(); ++i) ramps += fit.data(i).continuous_with_next ? 1.0 : 0.0;
+  return ramps;
+}
 
-  /// Empty where the normal equations are singular: the cycles do not tell the shared parameters apart.
-  [[nodiscard]] std::optional<DampedFit> finish(DampedFit result) const {
-    result.uncertainty = estimate_uncertainty(result.blocks, {result.held, false});
-    if (!is_regular(result.uncertainty, result.held)) return std::nullopt;
-    if (!result.blocks.level().per_cycle && !result.uncertainty.from_cycles) join_ramps(result);
-    // Noise of a step and more spreads the rounding evenly: it is white then.
-    if (quality_.quantisation_step && result.uncertainty.noise < *quality_.quantisation_step) {
-      const Moves moves = moves_by_rounding(result);
-      if (moves.rows() < kRoundedCopies / 2) return std::nullopt;
-      result.uncertainty = with_rounding(result.uncertainty, moves);
+/// Joined ramps halve the error of k where the data agree: F test, one degree of freedom a ramp.
+DampedFit with_joined_ramps(DampedFit loose) {
+  const double ramps = joined_ramps(loose.blocks);
+  if (ramps < 1.0) return loose;
+  DampedFit joined = loose;
+  if (!std::isfinite(solve(joined.blocks, {joined.held, true, true, kMostIterations, kFinishTolerance}))) return loose;
+  joined.continuous = true;
+  joined.uncertainty = estimate_uncertainty(joined.blocks, {joined.held, true});
+  if (!is_regular(joined.uncertainty, joined.held)) return loose;
+  const double freedom = std::max(1.0, loose.uncertainty.degrees_of_freedom);
+  const double ratio = (joined.uncertainty.chi2 - loose.uncertainty.chi2) / ramps / (loose.uncertainty.chi2 / freedom);
+  const boost::math::fisher_f_distribution<double> chance(ramps, freedom);
+  const bool agrees =
+      ratio <= 0.0 || boost::math::cdf(boost::math::complement(chance, ratio)) > thresholds::kShareChance;
+  return agrees ? joined : loose;
+}
+
+/// The residuals of a cycle cut from what its samples differ from the model by, as CycleModel::evaluate orders them.
+Eigen::VectorXd residuals_of(const CycleData& cycle, double noise) {
+  Eigen::VectorXd residuals(static_cast<Eigen::Index>(cycle.residuals()));
+  double* next = residuals.data();
+  for (std::size_t i = 0; i < cycle.force.size(); ++i) {
+    *next++ = (cycle.weight.empty() ? 1.0 : cycle.weight[i]) * cycle.force[i] / noise;
+  }
+  for (const auto* bins : {&cycle.bins_before, &cycle.bins_after}) {
+    for (const StickBin& bin : *bins) {
+      *next++ = std::sqrt(bin.count) * bin.force / noise;
+      *next++ = std::sqrt(bin.time_spread) * bin.slope / noise;
     }
-    if ((result.misfit = find_misfit(result.blocks, 0.5 * quality_.quantisation_step.value_or(0.0)))) {
-      result.uncertainty = with_misfit(result.uncertainty, influence_of_segments(result.blocks, result.held));
+  }
+  return residuals;
+}
+
+/// What rounded copies of the model move the quantities by.
+class RoundingMoves {
+ public:
+  RoundingMoves(const Recording& recording, const Segmentation& segmentation, const DampedFit& result)
+      : recording_(recording),
+        segmentation_(segmentation),
+        result_(result),
+        influences_(influences_of(result.blocks, select(result.blocks), {result.held, result.continuous})) {}
+
+  [[nodiscard]] Moves moves(double step) const {
+    const Residuals residuals = residuals_of(recording_, result_.blocks, {});
+    std::vector<double> model(recording_.force().begin(), recording_.force().end());
+    for (std::size_t i = 0; i < model.size(); ++i) model[i] -= residuals.value[i];
+    const RoundedCopies copies(model, step, result_.uncertainty.noise);
+    Moves moves(kRoundedCopies, kCoordinates);
+    for (unsigned copy = 0; copy < kRoundedCopies; ++copy) {
+      std::vector<double> errors = copies.draw(copy);
+      for (std::size_t i = 0; i < model.size(); ++i) errors[i] -= model[i];
+      moves.row(copy) = move_by(std::move(errors));
     }
-    return result;
+    return moves;
   }
 
  private:
-  /// What refits to rounded copies of the model move the quantities by.
-  [[nodiscard]] Moves moves_by_rounding(const DampedFit& result) const {
-    const Residuals residuals = residuals_of(recording_, result.blocks, {});
-    std::vector<double> model(recording_.force().begin(), recording_.force().end());
-    for (std::size_t i = 0; i < model.size(); ++i) model[i] -= residuals.value[i];
-    const RoundedCopies copies(std::move(model), *quality_.quantisation_step, result.uncertainty.noise);
-    Moves moves(kRoundedCopies, kCoordinates);
-    Eigen::Index fitted = 0;
-    for (unsigned copy = 0; copy < kRoundedCopies; ++copy) {
-      const auto time_s = recording_.time_s();
-      const auto rounded =
-          Recording::create({time_s.begin(), time_s.end()}, copies.draw(copy), recording_.conditions());
-      BlockFit refit = same_cycles(rounded.value(), result);
-      if (!std::isfinite(solve(refit, {result.held, result.continuous, true, kFewIterations, kFinishTolerance})))
-        continue;
-      moves.row(fitted++) = (coordinates_of(refit) - coordinates_of(result.blocks)).transpose();
-    }
-    return moves.topRows(fitted);
-  }
-
-  /// The cycles of a fit cut from another recording with the same clock.
-  [[nodiscard]] BlockFit same_cycles(const Recording& recording, const DampedFit& result) const {
-    const BlockFit& fit = result.blocks;
-    std::vector<CycleData> kept;
-    const HumLines hum{fit.level().lines_Hz, fit.scales().time_begin_s};
+  /// `errors`: of every sample.
+  [[nodiscard]] Eigen::RowVectorXd move_by(std::vector<double> errors) const {
+    const BlockFit& fit = result_.blocks;
+    const auto time_s = recording_.time_s();
+    const auto recording =
+        Recording::create({time_s.begin(), time_s.end()}, std::move(errors), recording_.conditions());
+    Eigen::RowVectorXd move = Eigen::RowVectorXd::Zero(kCoordinates);
     std::size_t next = 0;
-    for (CycleData& cycle : cut_cycles(recording, segmentation_, half_width_s_, result.excluded, hum)) {
+    for (CycleData& cycle : cut_cycles(recording.value(), segmentation_, result_.half_width_s, result_.excluded)) {
       if (next == fit.size() || cycle.slip != fit.data(next).slip) continue;
-      cycle.continuous_with_next = fit.data(next).continuous_with_next;
-      kept.push_back(std::move(cycle));
+      cycle.weight = fit.data(next).weight;
+      move += residuals_of(cycle, fit.scales().noise).transpose() * influences_[next];
       ++next;
     }
-    BlockFit same(std::move(kept), references_of(fit), fit.scales(), fit.level());
-    same.parameters = fit.parameters;
-    return same;
-  }
-
-  static bool is_regular(const Uncertainty& uncertainty, const Held& held) {
-    const CoordinateMatrix& c = uncertainty.covariance;
-    const auto is_known = [&](Coordinate i) { return held[static_cast<std::size_t>(i)] || c(i, i) > 0.0; };
-    return c.allFinite() && is_known(kLogStiffness) && is_known(kLogFrequency) && is_known(kDamping);
-  }
-
-  /// Joined ramps halve the error of k where the data agree: F test, one degree of freedom a ramp.
-  static void join_ramps(DampedFit& result) {
-    double ramps = 0.0;
-    for (std::size_t i = 0; i + 1 < result.blocks.size(); ++i) {
-      ramps += result.blocks.data(i).continuous_with_next ? 1.0 : 0.0;
-    }
-    if (ramps < 1.0) return;
-    const Parameters before = result.blocks.parameters;
-    if (std::isfinite(solve(result.blocks, {result.held, true, true, kMostIterations, kFinishTolerance}))) {
-      const Uncertainty joined = estimate_uncertainty(result.blocks, {result.held, true});
-      const double freedom = std::max(1.0, result.uncertainty.degrees_of_freedom);
-      const double ratio = (joined.chi2 - result.uncertainty.chi2) / ramps / (result.uncertainty.chi2 / freedom);
-      const boost::math::fisher_f_distribution<double> chance(ramps, freedom);
-      if (!is_regular(joined, result.held)) {
-        result.blocks.parameters = before;
-        return;
-      }
-      if (ratio <= 0.0 || boost::math::cdf(boost::math::complement(chance, ratio)) > thresholds::kShareChance) {
-        result.continuous = true;
-        result.uncertainty = joined;
-        return;
-      }
-    }
-    result.blocks.parameters = before;
+    return move;
   }
 
   const Recording& recording_;
-  const Quality& quality_;
   const Segmentation& segmentation_;
-  double half_width_s_;
+  const DampedFit& result_;
+  std::vector<Eigen::MatrixXd> influences_;
 };
 
 }  // namespace
 
+double tolerated_misfit(const Quality& quality) {
+  return 0.5 * quality.quantisation_step.value_or(0.0);
+}
+
+std::optional<DampedFit> with_uncertainty(DampedFit draft, double tolerated_misfit) {
+  draft.uncertainty = estimate_uncertainty(draft.blocks, {draft.held, false});
+  if (!is_regular(draft.uncertainty, draft.held)) return std::nullopt;
+  if (!draft.blocks.level().per_cycle && !draft.uncertainty.from_cycles) draft = with_joined_ramps(std::move(draft));
+  draft.misfit = find_misfit(draft.blocks, tolerated_misfit);
+  return draft;
+}
+
 std::optional<DampedFit> finish_fit(const Recording& recording, const Quality& quality,
-                                    const Segmentation& segmentation, double half_width_s, DampedFit draft) {
-  return Finisher(recording, quality, segmentation, half_width_s).finish(std::move(draft));
+                                    const Segmentation& segmentation, DampedFit fit) {
+  // Noise of a step and more spreads the rounding evenly: it is white then.
+  if (quality.quantisation_step && fit.uncertainty.noise < *quality.quantisation_step) {
+    const Moves moves = RoundingMoves(recording, segmentation, fit).moves(*quality.quantisation_step);
+    if (!moves.allFinite()) return std::nullopt;
+    fit.uncertainty = with_rounding(fit.uncertainty, moves);
+  }
+  if (fit.misfit) fit.uncertainty = with_misfit(fit.uncertainty, influence_of_segments(fit.blocks, fit.held));
+  return fit;
 }
 
 }  // namespace slipfit::fit

@@ -9,10 +9,16 @@
 
 namespace slipfit::fit {
 
-/// From solved blocks to a fit with its uncertainty: joined ramps where the data agree, rounding and misshapen slips
-/// allowed for. `half_width_s` as the cycles were cut with. Empty where the normal equations are singular: the cycles
-/// do not tell the shared parameters apart.
+/// Of the mean shape of the slips, unit of the force: what rounding to steps of the converter may do to it.
+double tolerated_misfit(const Quality& quality);
+
+/// From solved blocks to a fit with its uncertainty: joined ramps where the data agree. `tolerated_misfit`: of the mean
+/// shape of the slips, unit of the force. Empty where the normal equations are singular: the cycles do not tell the
+/// shared parameters apart.
+std::optional<DampedFit> with_uncertainty(DampedFit draft, double tolerated_misfit);
+
+/// With what rounding and misshapen slips, which repeat from cycle to cycle, add to the uncertainty.
 std::optional<DampedFit> finish_fit(const Recording& recording, const Quality& quality,
-                                    const Segmentation& segmentation, double half_width_s, DampedFit draft);
+                                    const Segmentation& segmentation, DampedFit fit);
 
 }  // namespace slipfit::fit

@@ -9,7 +9,9 @@
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/smoothing.hpp"
+#include "fit/problem/solve.hpp"
 #include "fit/selection/damped_fit.hpp"
+#include "fit/selection/finish.hpp"
 #include "fit/selection/kernel_search.hpp"
 #include "fit/selection/tiers.hpp"
 #include "signal/robust.hpp"
@@ -18,7 +20,7 @@ namespace slipfit::fit {
 namespace {
 
 constexpr std::size_t kSearchCycles = 10;   // enough to begin with
-constexpr std::size_t kCompareCycles = 60;  // enough to tell two kernels apart
+constexpr std::size_t kCompareCycles = 40;  // enough to tell two kernels apart
 constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
 constexpr double kForgottenLags = 8.0;      // e^-8
 
@@ -61,34 +63,47 @@ struct Trial {
 class Trials {
  public:
   Trials(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-         const HeldParameters& held, double plain_noise)
-      : recording_(recording), quality_(quality), segmentation_(segmentation), held_(held), plain_noise_(plain_noise) {}
+         const HeldParameters& held, const DampedFit& plain)
+      : recording_(recording), quality_(quality), segmentation_(segmentation), held_(held), plain_(plain) {}
 
-  /// Newton's steps in sigma^2; where outliers come and go with it they do not settle, and the nearest is taken.
-  [[nodiscard]] std::optional<Trial> fit(double variance_s2) const {
+  /// Newton's steps in sigma^2, the nearest of them.
+  [[nodiscard]] std::optional<Trial> fit(double variance_s2, const Globals& near) const {
     constexpr int kMostFits = 3;
     std::optional<Trial> best;
-    for (int fits = 0; fits < kMostFits && variance_s2 > 0.0; ++fits) {
-      auto fit = fit_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_);
-      if (!fit) break;
+    std::optional<DampedFit> fit =
+        draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_, {near, plain_.excluded});
+    for (int fits = 1; fit; ++fits) {
       const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
       if (!beyond) break;
-      Trial trial{std::move(*fit), *beyond, variance_s2};
+      Trial trial{*std::move(fit), *beyond, variance_s2};
       if (!best || trial.off() < best->off()) best = std::move(trial);
       const bool is_hopeless =
-          best->fit.misfit || best->fit.refused_damping || best->fit.uncertainty.noise > plain_noise_;
-      if (is_hopeless || best->off() < thresholds::kSettledAverage) break;
+          best->fit.misfit || best->fit.refused_damping || best->fit.uncertainty.noise > plain_.uncertainty.noise;
+      if (fits == kMostFits || is_hopeless || best->off() < thresholds::kSettledAverage) break;
       variance_s2 += beyond->variance_s2;
+      if (!(variance_s2 > 0.0)) break;
+      fit = beside(best->fit, variance_s2);
     }
     return best;
   }
 
  private:
+  /// The same cycles and samples with another average.
+  [[nodiscard]] std::optional<DampedFit> beside(const DampedFit& other, double variance_s2) const {
+    Scales scales = other.blocks.scales();
+    scales.sensor_average_s = std::sqrt(12.0 * variance_s2);
+    BlockFit blocks(other.blocks.set(), scales);
+    blocks.parameters = other.blocks.parameters;
+    if (!std::isfinite(solve(blocks, {other.held, false, true}))) return std::nullopt;
+    return with_uncertainty({std::move(blocks), false, other.held, {}, other.half_width_s, other.excluded, {}, {}},
+                            tolerated_misfit(quality_));
+  }
+
   const Recording& recording_;
   const Quality& quality_;
   const Segmentation& segmentation_;
   const HeldParameters& held_;
-  double plain_noise_;  // of the fit without an average
+  const DampedFit& plain_;  // without an average
 };
 
 double resting_share(const BlockFit& blocks) {
@@ -102,32 +117,36 @@ double gain_of(const DampedFit& fit, const DampedFit& other) {
   return 2.0 * effective_samples(other) * std::log(other.uncertainty.noise / fit.uncertainty.noise);
 }
 
-/// Slips and W can be told apart, and the slips that are left behind W are those of the model.
-bool tells_slips(const DampedFit& fit) {
-  const double damping_error = std::sqrt(std::max(0.0, fit.uncertainty.covariance(kDamping, kDamping)));
-  return !fit.misfit && !fit.refused_damping && damping_error < thresholds::kTellingDamping &&
-         fit.average->seconds > thresholds::kSureTerm * fit.average->standard_error_s &&
-         fit.average->seconds < stick_s(fit.blocks) && resting_share(fit.blocks) >= thresholds::kRestickShare;
+/// The slips that are left behind W are those of the model.
+bool follows_slips(const DampedFit& fit) {
+  return !fit.misfit && !fit.refused_damping && resting_share(fit.blocks) >= thresholds::kRestickShare;
 }
 
-/// The variance of the average that explains some of the samples of some cycles best; empty where a sensor of first
-/// order is not ten times less likely. A long tail rounds the slip less than its variance says: the search for it
-/// begins on both sides. `plain` tells how far samples are independent.
-std::optional<double> best_average(const std::vector<double>& variances_s2, const KernelSearch& search,
-                                   const DampedFit& plain) {
-  double best_s2 = 0.0;
-  double least = std::numeric_limits<double>::infinity();
+/// Slips and W can be told apart.
+bool tells_slips(const DampedFit& fit) {
+  const double damping_error = std::sqrt(std::max(0.0, fit.uncertainty.covariance(kDamping, kDamping)));
+  return damping_error < thresholds::kTellingDamping &&
+         fit.average->seconds > thresholds::kSureTerm * fit.average->standard_error_s &&
+         fit.average->seconds < stick_s(fit.blocks);
+}
+
+/// The average that explains some of the samples of some cycles best; empty where a sensor of first order is not ten
+/// times less likely. A long tail rounds the slip less than its variance says: the search for it begins on both sides.
+/// `plain` tells how far samples are independent.
+std::optional<KernelSearch::Least> best_average(const std::vector<double>& variances_s2, const KernelSearch& search,
+                                                const DampedFit& plain) {
+  KernelSearch::Least best;
   for (const double variance_s2 : variances_s2) {
-    const double sum = search.least_squares(Kernel::MovingAverage, variance_s2);
-    if (sum >= least) continue;
-    least = sum;
-    best_s2 = variance_s2;
+    KernelSearch::Least least = search.least_squares(Kernel::MovingAverage, variance_s2);
+    least.variance_s2 = variance_s2;
+    if (least.sum < best.sum) best = least;
   }
-  const double lag = std::min(search.least_squares(Kernel::FirstOrder, best_s2),
-                              search.least_squares(Kernel::FirstOrder, kLongTail * best_s2));
   const double independent = search.residuals() * effective_samples(plain) / plain.uncertainty.samples;
-  if (!(independent * std::log(lag / least) > thresholds::kEvidence)) return std::nullopt;
-  return best_s2;
+  for (const double tail : {1.0, kLongTail}) {
+    const double lag = search.least_squares(Kernel::FirstOrder, tail * best.variance_s2).sum;
+    if (!(independent * std::log(lag / best.sum) > thresholds::kEvidence)) return std::nullopt;
+  }
+  return best;
 }
 
 /// With what W is not known by in the covariance.
@@ -169,23 +188,29 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
   const double longest_lag_s = std::sqrt(kLongTail * *std::max_element(variances_s2.begin(), variances_s2.end()));
   const KernelSearch comparison(recording, segmentation, held, plain, width_s + kForgottenLags * longest_lag_s,
                                 kCompareCycles);
-  const std::optional<double> variance_s2 = best_average(variances_s2, comparison, plain);
-  if (!variance_s2) return std::nullopt;
+  const std::optional<KernelSearch::Least> best = best_average(variances_s2, comparison, plain);
+  if (!best) return std::nullopt;
   std::optional<Trial> trial =
-      Trials(recording, quality, segmentation, held, plain.uncertainty.noise).fit(*variance_s2);
-  if (!trial) return std::nullopt;
+      Trials(recording, quality, segmentation, held, plain).fit(best->variance_s2, best->globals);
+  const bool is_better = trial && follows_slips(trial->fit) && gain_of(trial->fit, plain) > thresholds::kTierPrice;
+  if (!is_better) return std::nullopt;
+  std::optional<DampedFit> finished =
+      finish_fit(with_average(recording, trial->variance_s2), quality, segmentation, std::move(trial->fit));
+  if (!finished) return std::nullopt;
+  trial->fit = *std::move(finished);
   DampedFit fit = with_average_error(*std::move(trial));
-  const bool is_taken = tells_slips(fit) && gain_of(fit, plain) > thresholds::kTierPrice;
-  return is_taken ? std::optional(std::move(fit)) : std::nullopt;
+  return tells_slips(fit) ? std::optional(std::move(fit)) : std::nullopt;
 }
 
 std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality& quality,
                                        const Segmentation& segmentation, const HeldParameters& held) {
-  std::optional<DampedFit> fit = fit_damped(recording, quality, segmentation, held);
-  if (!fit || recording.conditions().sensor_average_s) return fit;
-  fit->rounding = estimate_smoothing(fit->blocks, fit->held, recording.sample_interval_s());
-  std::optional<DampedFit> averaged = fit_average(recording, quality, segmentation, held, *fit);
-  return averaged ? averaged : fit;
+  std::optional<DampedFit> fit = draft_damped(recording, quality, segmentation, held);
+  if (!fit) return fit;
+  if (!recording.conditions().sensor_average_s) {
+    fit->rounding = estimate_smoothing(fit->blocks, fit->held, recording.sample_interval_s());
+    if (auto averaged = fit_average(recording, quality, segmentation, held, *fit)) return averaged;
+  }
+  return finish_fit(recording, quality, segmentation, *std::move(fit));
 }
 
 bool is_rounded(const DampedFit& fit, const Smoothing& seen, double sample_interval_s) {

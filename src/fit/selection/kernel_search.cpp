@@ -21,11 +21,18 @@ constexpr double kShrinking = 0.8;
 constexpr double kWorthMoreSteps = 0.75;  // misfit over that of the plain fit
 constexpr double kWorthAllCycles = 0.5;
 
-/// Every so many samples around the slip; sticks as they are.
-CycleData thinned(CycleData cycle, std::size_t stride) {
+/// Every so many samples of the slip, fewer beyond `reach_s` of its middle, where the curve is smooth; sticks as they
+/// are.
+CycleData thinned(CycleData cycle, std::size_t stride, double middle_s, double reach_s) {
+  constexpr std::size_t kSmooth = 4;
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < cycle.time_s.size(); i += stride) {
+    if (std::abs(cycle.time_s[i] - middle_s) <= reach_s || i % (kSmooth * stride) == 0) kept.push_back(i);
+  }
   const auto thin = [&](auto& values) {
-    for (std::size_t i = 0; i * stride < values.size(); ++i) values[i] = values[i * stride];
-    values.resize((values.size() + stride - 1) / stride);
+    if (values.empty()) return;
+    for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
+    values.resize(kept.size());
   };
   thin(cycle.samples);
   thin(cycle.time_s);
@@ -57,6 +64,7 @@ KernelSearch::KernelSearch(const Recording& recording, const Segmentation& segme
       plain_(plain.blocks),
       plain_misfit_(plain.misfit) {
   constexpr double kSamples = 20.0;  // of a half period: enough for its shape
+  constexpr double kReach = 2.0;     // half periods
   const Scales& scales = plain_.scales();
   const HumLines hum{plain_.level().lines_Hz, scales.time_begin_s};
   std::vector<CycleData> cycles =
@@ -64,8 +72,8 @@ KernelSearch::KernelSearch(const Recording& recording, const Segmentation& segme
   const auto stride = static_cast<std::size_t>(std::max(1.0, scales.half_period_s / step_s_ / kSamples));
   std::vector<double> middles_s;
   for (CycleData& cycle : cycles) {
-    cycle = thinned(std::move(cycle), stride);
     middles_s.push_back(segmentation.slips[cycle.slip].middle_s);
+    cycle = thinned(std::move(cycle), stride, middles_s.back(), kReach * scales.half_period_s);
   }
   cycles_ = std::make_shared<CycleSet>(std::move(cycles), std::move(middles_s), plain_.level(), scales);
 }
@@ -94,16 +102,16 @@ std::optional<double> KernelSearch::converge(double average_s) const {
   return std::nullopt;
 }
 
-double KernelSearch::least_squares(Kernel kernel, double variance_s2) const {
+KernelSearch::Least KernelSearch::least_squares(Kernel kernel, double variance_s2) const {
   constexpr int kMostSteps = 3;
-  double least = std::numeric_limits<double>::infinity();
+  Least least;
   BlockFit fit = started(kernel, variance_s2);
   for (int step = 0; step < kMostSteps; ++step) {
     const std::optional<Held> held = solve_with_damping(fit);
     if (!held) break;
     double sum = 0.0;
     for (std::size_t i = 0; i < fit.size(); ++i) sum += fit.cycle_sum_of_squares(i);
-    least = std::min(least, sum);
+    if (sum < least.sum) least = {sum, variance_s2, fit.parameters.globals};
     const std::optional<Smoothing> beyond = estimate_smoothing(fit, *held, step_s_);
     if (!beyond) break;
     const double next_s2 = next_variance_s2(variance_s2, *beyond);
@@ -141,8 +149,12 @@ BlockFit KernelSearch::started(Kernel kernel, double variance_s2) const {
   const double half_s = plain_.scales().half_period_s;
   const double own = std::max(kLeast, 1.0 - 12.0 * variance_s2 / (half_s * half_s));
   BlockFit fit(cycles_, plain_.scales());
-  set_start(fit, segmentation_,
-            {plain_.parameters.globals[kLogStiffness], std::log(std::numbers::pi / (half_s * std::sqrt(own))), 0.1});
+  Globals globals{plain_.parameters.globals[kLogStiffness], std::log(std::numbers::pi / (half_s * std::sqrt(own))),
+                  0.1};
+  for (std::size_t i = 0; i < globals.size(); ++i) {
+    if (held_[i]) globals[i] = plain_.parameters.globals[i];
+  }
+  set_start(fit, segmentation_, globals);
   fit.parameters.level = plain_.parameters.level;
   return with_kernel(fit, kernel, variance_s2);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -30,8 +31,14 @@ class KernelSearch {
   /// error; empty where they do not get smaller, or where the slips are not explained much better than by `plain`.
   [[nodiscard]] std::optional<double> converge(double average_s) const;
 
-  /// Least sum of squares, in units of the noise, over a few of Newton's steps; infinity without a solution.
-  [[nodiscard]] double least_squares(Kernel kernel, double variance_s2) const;
+  /// A sum of squares, in units of the noise, and where it is.
+  struct Least {
+    double sum = std::numeric_limits<double>::infinity();
+    double variance_s2 = 0.0;
+    Globals globals{};
+  };
+  /// The least over a few of Newton's steps; infinity without a solution.
+  [[nodiscard]] Least least_squares(Kernel kernel, double variance_s2) const;
 
   /// In the sum of squares.
   [[nodiscard]] double residuals() const;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "core/parallel.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/problem/block_fit.hpp"
 #include "fit/problem/solve.hpp"
@@ -75,6 +76,24 @@ std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held
   return solution;
 }
 
+SweepSolution moved_by(SweepSolution solution, const NewtonStep& step) {
+  const CommonColumns columns(solution.problem());
+  for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
+    BlockFit& recording = solution.recordings[r];
+    Parameters& parameters = recording.parameters;
+    const CycleModel& any = recording.model(0);
+    for (std::size_t i = 0; i < any.globals(); ++i) parameters.globals[i] += step.step(static_cast<Eigen::Index>(i));
+    parameters.difference += step.step(columns.difference(r));
+    parameters.level[0] += step.step(columns.level(r));
+    for (std::size_t i = 0; i < any.drift_parameters(); ++i) {
+      parameters.level[1 + i] += step.step(columns.drift(r) + static_cast<Eigen::Index>(i));
+    }
+  }
+  solution.chi2 = step.sum_of_squares;
+  solution.degrees_of_freedom = residual_freedom(solution);
+  return solution;
+}
+
 class SweepFitter {
  public:
   SweepFitter(const SweepData& data, const FitOptions& options) : data_(data), fixed_(options.held) {}
@@ -129,14 +148,18 @@ class SweepFitter {
   /// Several rates: a wrong sign of alpha is a minimum of its own.
   [[nodiscard]] std::optional<SweepSolution> fit_velocity(Sharing sharing) const {
     const Held held = held_of(fixed_);
-    std::optional<SweepSolution> best;
-    for (const double rate : {-1.0, 1.0, -4.0}) {
+    constexpr std::array kStartRates{-1.0, 1.0, -4.0};
+    std::vector<SweepSolution> starts = in_parallel(kStartRates.size(), [&](std::size_t i) {
       SweepSolution start = start_of(data_, sharing, FrictionLaw::Exponential, data_.fitted);
       set_globals(start);
-      for (BlockFit& recording : start.recordings) recording.parameters.globals[kFrictionRate] = rate;
+      for (BlockFit& recording : start.recordings) recording.parameters.globals[kFrictionRate] = kStartRates[i];
       Held quick = held;
       quick[kFrictionRate] = true;
       start.chi2 = solve(start, quick, kSweepQuickIterations, kSweepRough);
+      return start;
+    });
+    std::optional<SweepSolution> best;
+    for (SweepSolution& start : starts) {
       if (std::isfinite(start.chi2) && (!best || start.chi2 < best->chi2)) best = std::move(start);
     }
     return best ? at_minimum(std::move(*best), held) : std::nullopt;
@@ -239,11 +262,24 @@ std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolu
   return at_minimum(std::move(other), solution.held);
 }
 
-std::optional<SweepSolution> leave_out(const SweepSolution& solution, std::size_t recording) {
+std::optional<NormalSolution> leave_out(const NormalSolution& all, std::size_t recording) {
+  constexpr double kSmallGain = 1.0;  // in variances of the residuals: a step within the error of all is good
+  const SweepSolution& solution = all.solution;
   if (solution.recordings.size() < 3) return std::nullopt;
-  SweepSolution others = solution;
-  others.recordings.erase(others.recordings.begin() + static_cast<std::ptrdiff_t>(recording));
-  return at_minimum(std::move(others), solution.held);
+  NormalSolution others{solution, {}};
+  others.solution.recordings.erase(others.solution.recordings.begin() + static_cast<std::ptrdiff_t>(recording));
+  others.normals = normals_without(solution.problem(), recording, all.normals, others.solution.problem());
+  const NewtonStep step = newton_step(others.solution.problem(), others.normals, solution.held);
+  const double variance = std::max(1.0, solution.chi2 / solution.degrees_of_freedom);
+  if (step.step.allFinite() && step.gain < kSmallGain * variance) {
+    others.solution = moved_by(std::move(others.solution), step);
+    return others;
+  }
+  std::optional<SweepSolution> refitted = at_minimum(std::move(others.solution), solution.held);
+  if (!refitted) return std::nullopt;
+  others.solution = *std::move(refitted);
+  others.normals = normals_of(others.solution.problem());
+  return others;
 }
 
 }  // namespace slipfit::fit

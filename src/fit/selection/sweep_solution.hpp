@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "fit/inference/covariance.hpp"
 #include "fit/problem/sweep_data.hpp"
 
 namespace slipfit::fit {
@@ -42,7 +43,15 @@ std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw
 /// The same fit with another average in the recordings that have the one which was found.
 std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolution& solution, double average_s);
 
-/// The same fit without one of its recordings, started from the solution; empty where fewer than two are left.
-std::optional<SweepSolution> leave_out(const SweepSolution& solution, std::size_t recording);
+/// A solution with its normal equations.
+struct NormalSolution {
+  SweepSolution solution;
+  std::vector<Normal> normals;
+};
+
+/// The same fit without one of its recordings; empty where fewer than two are left. One step by the normal equations of
+/// `all` where that is small, so that leaving out each of many recordings takes no longer than a fit of all; a fit
+/// otherwise.
+std::optional<NormalSolution> leave_out(const NormalSolution& all, std::size_t recording);
 
 }  // namespace slipfit::fit

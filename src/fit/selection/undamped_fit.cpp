@@ -33,7 +33,8 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
   const bool lost = may_lose && is_lost(loose_chi2, damped);
   const bool joined = damped.continuous && !lost;
   if (!lost && !std::isfinite(solve(blocks, {held, joined, true}))) return std::nullopt;
-  DampedFit result{std::move(blocks), joined, held, damped.refused_damping, damped.excluded, {}, damped.misfit};
+  DampedFit result{std::move(blocks),   joined,          held, damped.refused_damping,
+                   damped.half_width_s, damped.excluded, {},   damped.misfit};
   result.uncertainty = estimate_uncertainty(result.blocks, {held, joined});
   // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.
   const bool is_false = from.parameters.globals[2] < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;

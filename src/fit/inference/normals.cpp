@@ -1,0 +1,112 @@
+#include "fit/inference/normals.hpp"
+
+#include <utility>
+
+namespace slipfit::fit {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+CommonColumns::CommonColumns(const Problem& problem) {
+  const std::size_t count = problem.recordings.size();
+  const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
+  size_ = globals;
+  const auto add = [&](std::vector<Index>& columns, auto&& width_of, bool shared) {
+    for (std::size_t r = 0; r < count; ++r) {
+      const Index width = width_of(problem.recordings[r]);
+      const bool again = shared && r > 0;
+      columns.push_back(again ? columns.front() : size_);
+      if (!again) size_ += width;
+    }
+  };
+  const auto constants = [](const BlockFit& r) { return Index{r.model(0).has_constant()}; };
+  const auto populations = [](const BlockFit& r) { return Index{r.scales().population.has_value()}; };
+  const auto drifts = [](const BlockFit& r) { return static_cast<Index>(r.model(0).drift_parameters()); };
+  add(levels_, constants, problem.sweep.sharing.level);
+  add(differences_, populations, problem.sweep.sharing.difference);
+  add(drifts_, drifts, false);
+  for (std::size_t r = 0; r < count; ++r) {
+    const BlockFit& recording = problem.recordings[r];
+    of_.emplace_back();
+    for (Index i = 0; i < globals; ++i) of_.back().push_back(i);
+    if (populations(recording) > 0) of_.back().push_back(differences_[r]);
+    if (constants(recording) > 0) of_.back().push_back(levels_[r]);
+    for (Index i = 0; i < drifts(recording); ++i) of_.back().push_back(drifts_[r] + i);
+  }
+}
+
+Linearised linearise(const BlockFit& fit, std::size_t cycle) {
+  const CycleModel& model = fit.model(cycle);
+  const auto rows = static_cast<Index>(model.residuals());
+  Linearised result;
+  result.residuals.resize(rows);
+  MatrixXd jacobian(rows, static_cast<Index>(model.columns()));
+  model.evaluate(fit.values(cycle), result.residuals.data(), jacobian.data());
+  result.common = jacobian.leftCols(static_cast<Index>(model.common_parameters()));
+  result.local = jacobian.rightCols(static_cast<Index>(model.local_parameters()));
+  return result;
+}
+
+namespace {
+
+Normal normal_of(Linearised lines, std::vector<Index> columns) {
+  Normal normal;
+  normal.columns = std::move(columns);
+  normal.common = lines.common.transpose() * lines.common;
+  normal.cross = lines.common.transpose() * lines.local;
+  normal.local = lines.local.transpose() * lines.local;
+  normal.score = lines.common.transpose() * lines.residuals;
+  normal.local_score = lines.local.transpose() * lines.residuals;
+  normal.residuals = std::move(lines.residuals);
+  return normal;
+}
+
+/// A row for the globals and the level that all recordings share.
+Normal normal_of(const SteadyRun& run, const Problem& problem, const CommonColumns& columns) {
+  const Parameters& parameters = problem.recordings.front().parameters;
+  const SteadyResidual steady = steady_residual(run, problem.sweep.units, problem.recordings.front().scales().law,
+                                                parameters.globals.data(), parameters.level.front());
+  const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
+  std::vector<Index> of_row(columns.of(0).begin(), columns.of(0).begin() + globals);
+  of_row.push_back(columns.level(0));
+  Linearised lines{VectorXd::Constant(1, steady.value), MatrixXd(1, globals + 1), MatrixXd(1, 0)};
+  for (Index i = 0; i < globals; ++i) lines.common(0, i) = steady.by_global[static_cast<std::size_t>(i)];
+  lines.common(0, globals) = steady.by_level;
+  return normal_of(std::move(lines), std::move(of_row));
+}
+
+}  // namespace
+
+std::vector<Normal> normals_of(const Problem& problem) {
+  const CommonColumns columns(problem);
+  std::vector<Normal> normals;
+  for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
+    const BlockFit& recording = problem.recordings[r];
+    for (std::size_t c = 0; c < recording.size(); ++c) {
+      normals.push_back(normal_of(linearise(recording, c), columns.of(r)));
+    }
+  }
+  for (std::size_t i = 0; problem.sweep.sharing.level && i < problem.sweep.steady.size(); ++i) {
+    normals.push_back(normal_of(problem.sweep.steady[i], problem, columns));
+  }
+  return normals;
+}
+
+std::vector<Normal> normals_without(const Problem& all, std::size_t recording, const std::vector<Normal>& normals,
+                                    const Problem& others) {
+  const CommonColumns columns(others);
+  std::vector<Normal> kept;
+  auto next = normals.begin();
+  for (std::size_t r = 0; r < all.recordings.size(); ++r) {
+    for (std::size_t cycle = 0; cycle < all.recordings[r].size(); ++cycle, ++next) {
+      if (r == recording) continue;
+      kept.push_back(*next);
+      kept.back().columns = columns.of(r < recording ? r : r - 1);
+    }
+  }
+  kept.insert(kept.end(), next, normals.end());  // steady ones have the first columns alone, which stay
+  return kept;
+}
+
+}  // namespace slipfit::fit
