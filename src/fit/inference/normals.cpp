@@ -20,8 +20,8 @@ CommonColumns::CommonColumns(const Problem& problem) {
       if (!again) size_ += width;
     }
   };
-  const auto constants = [](const BlockFit& r) { return Index{r.model(0).has_constant()}; };
-  const auto populations = [](const BlockFit& r) { return Index{r.scales().population.has_value()}; };
+  const auto constants = [](const BlockFit& r) { return r.model(0).has_constant() ? Index{1} : Index{0}; };
+  const auto populations = [](const BlockFit& r) { return r.scales().population ? Index{1} : Index{0}; };
   const auto drifts = [](const BlockFit& r) { return static_cast<Index>(r.model(0).drift_parameters()); };
   add(levels_, constants, problem.sweep.sharing.level);
   add(differences_, populations, problem.sweep.sharing.difference);
