@@ -133,6 +133,7 @@ std::optional<DampedFit> finish_fit(const Recording& recording, const Quality& q
     if (!moves.allFinite()) return std::nullopt;
     fit.uncertainty = with_rounding(fit.uncertainty, moves);
   }
+  fit.ripple = find_stick_ripple(recording, fit.blocks, tolerated_misfit(quality));
   if (fit.misfit) fit.uncertainty = with_misfit(fit.uncertainty, influence_of_segments(fit.blocks, fit.held));
   return fit;
 }
