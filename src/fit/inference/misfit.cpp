@@ -45,7 +45,32 @@ Means means_of(const BlockFit& fit, std::size_t cycle) {
   return means;
 }
 
+/// The means of all cycles, and the mean onset force.
+struct StackedCycles {
+  std::array<Stack, kSegments> stacks;
+  double onset_force = 0.0;
+};
+
+StackedCycles stacked(const BlockFit& fit) {
+  StackedCycles result;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    result.onset_force += fit.state(i).onset_force / static_cast<double>(fit.size());
+    const Means means = means_of(fit, i);
+    for (std::size_t p = 0; p < kSegments; ++p) {
+      if (means[p]) result.stacks[p].add(*means[p]);
+    }
+  }
+  return result;
+}
+
 }  // namespace
+
+double stacked_residual(const BlockFit& fit) {
+  const auto [stacks, onset_force] = stacked(fit);
+  double square = 0.0;
+  for (const Stack& stack : stacks) square += stack.mean * stack.mean / kSegments;
+  return std::sqrt(square) / std::abs(onset_force);
+}
 
 std::optional<std::size_t> segment_of(const CycleState& state, double time_s) {
   const double share = (time_s - state.onset_s) / state.slip_s();
@@ -54,15 +79,7 @@ std::optional<std::size_t> segment_of(const CycleState& state, double time_s) {
 }
 
 std::optional<SegmentMisfit> find_misfit(const BlockFit& fit, double tolerated) {
-  std::array<Stack, kSegments> stacks;
-  double onset_force = 0.0;
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    onset_force += fit.state(i).onset_force / static_cast<double>(fit.size());
-    const Means means = means_of(fit, i);
-    for (std::size_t p = 0; p < kSegments; ++p) {
-      if (means[p]) stacks[p].add(*means[p]);
-    }
-  }
+  const auto [stacks, onset_force] = stacked(fit);
   std::optional<SegmentMisfit> worst;
   for (std::size_t p = 0; p < kSegments; ++p) {
     const Stack& stack = stacks[p];

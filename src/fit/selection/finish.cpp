@@ -35,7 +35,8 @@ class Finisher {
   [[nodiscard]] std::optional<DampedFit> finish(DampedFit result) const {
     result.uncertainty = estimate_uncertainty(result.blocks, {result.held, false});
     if (!is_regular(result.uncertainty, result.held)) return std::nullopt;
-    if (!result.blocks.level().per_cycle && !result.uncertainty.from_cycles) join_ramps(result);
+    const bool is_coulomb = result.blocks.scales().law == FrictionLaw::Coulomb;  // RampResidual
+    if (is_coulomb && !result.blocks.level().per_cycle && !result.uncertainty.from_cycles) join_ramps(result);
     // Noise of a step and more spreads the rounding evenly: it is white then.
     if (quality_.quantisation_step && result.uncertainty.noise < *quality_.quantisation_step) {
       const Moves moves = moves_by_rounding(result);
