@@ -14,7 +14,9 @@
 #include "fit/cycle/start.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
+#include "fit/selection/clipping.hpp"
 #include "fit/selection/finish.hpp"
+#include "fit/selection/outliers.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -41,7 +43,11 @@ double damping_error(const DampedFit& fit) {
 class WeakeningFitter {
  public:
   WeakeningFitter(const FitInput& input, const DampedFit& coulomb)
-      : input_(input), coulomb_(coulomb), scales_(coulomb.blocks.scales()), held_(held_of(input.held)) {
+      : input_(input),
+        coulomb_(coulomb),
+        scales_(coulomb.blocks.scales()),
+        held_(held_of(input.held)),
+        excluded_(coulomb.excluded) {
     scales_.sensor_average_s = input.recording.conditions().sensor_average_s.value_or(0.0);
     // A slow onset begins before the slip of the Coulomb fit.
     half_width_s_ = 1.1 * median_slip_time_s(coulomb.blocks) + 0.5 * scales_.sensor_average_s;
@@ -50,14 +56,17 @@ class WeakeningFitter {
   }
 
   /// Empty where no start converges or the cycles do not tell the shared parameters apart.
-  [[nodiscard]] std::optional<DampedFit> fit() const {
+  [[nodiscard]] std::optional<DampedFit> fit() {
     const std::vector<CycleData> cycles = same_cycles();
     if (cycles.size() < thresholds::kFewestFitted) return std::nullopt;
     const std::optional<Globals> start = best_start(spread_subset(cycles, kTrialCycles));
     if (!start) return std::nullopt;
-    BlockFit blocks = blocks_of(cycles);
-    if (!std::isfinite(solve_from(blocks, *start, {held_, false, true, kFullIterations}))) return std::nullopt;
-    std::optional<DampedFit> fit = finish({std::move(blocks), false, held_, std::nullopt, coulomb_.excluded, {}, {}});
+    std::optional<BlockFit> blocks = solved(cycles, *start);
+    if (!blocks) return std::nullopt;
+    exclude_outliers_of(*blocks);
+    blocks = solved(same_cycles(), blocks->parameters.globals);
+    if (!blocks) return std::nullopt;
+    std::optional<DampedFit> fit = finish({*std::move(blocks), false, held_, std::nullopt, excluded_, {}, {}});
     if (fit && is_negative(*fit)) fit = without_damping(*std::move(fit));
     if (fit && !input_.recording.conditions().sensor_average_s) {
       fit->rounding = estimate_smoothing(fit->blocks, fit->held, input_.recording.sample_interval_s());
@@ -68,6 +77,21 @@ class WeakeningFitter {
  private:
   [[nodiscard]] std::optional<DampedFit> finish(DampedFit draft) const {
     return finish_fit(input_.recording, input_.quality, input_.segmentation, half_width_s_, std::move(draft));
+  }
+
+  /// Outliers of the Coulomb fit may be what that law misses.
+  void exclude_outliers_of(const BlockFit& blocks) {
+    excluded_ = initial_exclusions(input_.recording, input_.quality);
+    const Residuals residuals = residuals_of(input_.recording, blocks, excluded_);
+    const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
+    const std::vector<std::size_t> censored = beyond_clip(input_.recording, input_.quality, residuals, scales_.noise);
+    excluded_ = united(excluded_, united(outliers, censored));
+  }
+
+  [[nodiscard]] std::optional<BlockFit> solved(const std::vector<CycleData>& cycles, const Globals& start) const {
+    BlockFit blocks = blocks_of(cycles);
+    const bool is_solved = std::isfinite(solve_from(blocks, start, {held_, false, true, kFullIterations}));
+    return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
   }
 
   /// The best zeta is below 0 clearly, or it is not told.
@@ -93,7 +117,7 @@ class WeakeningFitter {
     const HumLines hum{before.level().lines_Hz, scales_.time_begin_s};
     std::vector<CycleData> same;
     std::size_t next = 0;
-    for (CycleData& cycle : cut_cycles(input_.recording, input_.segmentation, half_width_s_, coulomb_.excluded, hum)) {
+    for (CycleData& cycle : cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded_, hum)) {
       while (next < before.size() && before.data(next).slip < cycle.slip) ++next;
       if (next == before.size() || before.data(next).slip != cycle.slip) continue;
       cycle.continuous_with_next = before.data(next).continuous_with_next;
@@ -142,6 +166,7 @@ class WeakeningFitter {
   const DampedFit& coulomb_;
   Scales scales_;
   Held held_;
+  std::vector<std::size_t> excluded_;  // in ascending order
   double half_width_s_ = 0.0;
 };
 
