@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "fit/problem/last_point.hpp"
 #include "fit/problem/ramp_residual.hpp"
 #include "fit/problem/reduced_rows.hpp"
 #include "fit/problem/solver_log.hpp"
@@ -151,7 +152,9 @@ class Bundle {
 
   double solve() {
     ceres::Solver::Summary summary;
+    last_.watch(ceres_);
     ceres::Solve(solver_options(), &ceres_, &summary);
+    if (summary.termination_type == ceres::CONVERGENCE) last_.restore();
     const Parameters& shared = first();
     std::size_t next = 0;
     for (BlockFit& recording : recordings_) {
@@ -165,8 +168,9 @@ class Bundle {
   }
 
  private:
-  static ceres::Problem::Options make_options() {
+  ceres::Problem::Options make_options() {
     ceres::Problem::Options options;
+    options.evaluation_callback = &last_;
     options.enable_fast_removal = false;
     return options;
   }
@@ -255,6 +259,7 @@ class Bundle {
   const SolveOptions& options_;
   Globals globals_;
   std::vector<Local> owns_;
+  LastPoint last_;
   ceres::Problem ceres_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
   int group_ = 1;
