@@ -40,6 +40,13 @@ double damping_error(const DampedFit& fit) {
   return std::sqrt(std::max(0.0, fit.uncertainty.covariance(kDamping, kDamping)));
 }
 
+/// Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them an error off.
+SolveOptions final_options(const Held& held) {
+  SolveOptions options{held, false, true, kFullIterations};
+  options.tolerance = 1e-7;
+  return options;
+}
+
 class WeakeningFitter {
  public:
   WeakeningFitter(const FitInput& input, const DampedFit& coulomb)
@@ -90,7 +97,7 @@ class WeakeningFitter {
 
   [[nodiscard]] std::optional<BlockFit> solved(const std::vector<CycleData>& cycles, const Globals& start) const {
     BlockFit blocks = blocks_of(cycles);
-    const bool is_solved = std::isfinite(solve_from(blocks, start, {held_, false, true, kFullIterations}));
+    const bool is_solved = std::isfinite(solve_from(blocks, start, final_options(held_)));
     return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
   }
 
@@ -107,7 +114,7 @@ class WeakeningFitter {
     fit.refused_damping = fit.blocks.parameters.globals[kDamping];
     fit.held[kDamping] = true;
     fit.blocks.parameters.globals[kDamping] = 0.0;
-    if (!std::isfinite(solve(fit.blocks, {fit.held, false, true, kFullIterations}))) return std::nullopt;
+    if (!std::isfinite(solve(fit.blocks, final_options(fit.held)))) return std::nullopt;
     return finish(std::move(fit));
   }
 
@@ -191,8 +198,8 @@ std::string hindrance(const FitInput& input, const DampedFit& coulomb) {
 /// Sets what the fit says for and against it.
 Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& coulomb, double gain) {
   const double sigmas = sigmas_of_distance(fit);
-  const double before = stacked_residual(coulomb.blocks);
-  const double after = stacked_residual(fit.blocks);
+  const double before = stacked_residual(coulomb.blocks, coulomb.blocks);
+  const double after = stacked_residual(fit.blocks, coulomb.blocks);
   candidate.reason = fmt::format(
       "AICc {:.1f} {} than under Coulomb friction, D_c {:.1f} of its standard errors, mean residual over the phase of "
       "the slip {:.2g} % of the onset force in place of {:.2g} %",
