@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "fit/cycle/cycle_data.hpp"
 #include "model/weakening.hpp"
@@ -69,7 +70,7 @@ class WeakeningCycle {
   };
 
  private:
-  explicit WeakeningCycle(const model::WeakeningSlip& slip) : slip_(slip) {}
+  explicit WeakeningCycle(model::WeakeningSlip slip) : slip_(std::move(slip)) {}
 
   model::WeakeningSlip slip_;
   double distance_ = 0.0;  ///< D_c w_n / V

@@ -32,12 +32,21 @@ constexpr std::array kStarts{0.05, 0.2, 0.45, 0.75};
 
 double median_slip_time_s(const BlockFit& blocks) {
   std::vector<double> times_s;
+  times_s.reserve(blocks.size());
   for (std::size_t i = 0; i < blocks.size(); ++i) times_s.push_back(blocks.state(i).slip_s());
   return signal::median(std::move(times_s));
 }
 
 double damping_error(const DampedFit& fit) {
   return std::sqrt(std::max(0.0, fit.uncertainty.covariance(kDamping, kDamping)));
+}
+
+/// Every cycle has one: a search that ran to the longest slip distance may end beyond it.
+bool has_slips(const BlockFit& fit) {
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    if (!std::isfinite(fit.cycle_sum_of_squares(i))) return false;
+  }
+  return true;
 }
 
 /// Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them an error off.
@@ -97,7 +106,7 @@ class WeakeningFitter {
 
   [[nodiscard]] std::optional<BlockFit> solved(const std::vector<CycleData>& cycles, const Globals& start) const {
     BlockFit blocks = blocks_of(cycles);
-    const bool is_solved = std::isfinite(solve_from(blocks, start, final_options(held_)));
+    const bool is_solved = std::isfinite(solve_from(blocks, start, final_options(held_))) && has_slips(blocks);
     return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
   }
 
@@ -114,7 +123,7 @@ class WeakeningFitter {
     fit.refused_damping = fit.blocks.parameters.globals[kDamping];
     fit.held[kDamping] = true;
     fit.blocks.parameters.globals[kDamping] = 0.0;
-    if (!std::isfinite(solve(fit.blocks, final_options(fit.held)))) return std::nullopt;
+    if (!std::isfinite(solve(fit.blocks, final_options(fit.held))) || !has_slips(fit.blocks)) return std::nullopt;
     return finish(std::move(fit));
   }
 
@@ -135,6 +144,7 @@ class WeakeningFitter {
 
   [[nodiscard]] BlockFit blocks_of(const std::vector<CycleData>& cycles) const {
     std::vector<double> middles_s;
+    middles_s.reserve(cycles.size());
     for (const CycleData& cycle : cycles) middles_s.push_back(input_.segmentation.slips[cycle.slip].middle_s);
     return {cycles, std::move(middles_s), scales_, coulomb_.blocks.level()};
   }
