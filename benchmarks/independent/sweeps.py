@@ -322,13 +322,13 @@ def truth_of(sweep):
     if limit_period(model_at(slow), drop, sound.kinetic, slow) is None:
         critical = None
     else:
-        while fast > 1.005 * slow:
+        while fast > 1.0005 * slow:
             middle = np.sqrt(slow * fast)
             if limit_period(model_at(middle), drop, sound.kinetic, middle):
                 slow = middle
             else:
                 fast = middle
-        critical = slow if slow < 390 * fastest else None
+        critical = middle if slow < 390 * fastest else None
     return {"rows": rows, "critical_speed_m_per_s": critical, "bad": sweep.bad, "load_N": sound.stated_load,
             "parameters": parameters_of(sweep, sound)}
 

@@ -193,7 +193,7 @@ class Fit:
     @property
     def cycles(self) -> "pd.DataFrame":
         """One row a cycle, as ``--cycles`` writes them: times (s), forces, and what the fit says of each."""
-        return frame_of_csv(self._result().cycles_csv())
+        return frame_of_csv(self._result().cycles_csv()).astype({"used": bool})
 
     @property
     def curve(self) -> Curve:

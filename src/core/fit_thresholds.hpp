@@ -109,6 +109,12 @@ inline constexpr double kShapeSamples = 6.0;
 /// Standard errors between the slopes of early and late sticks, beyond which sticks bend. [1; derived: 0.3 % by chance]
 inline constexpr double kBendSigmas = 3.0;
 
+/// Chance at which a line in the sticks is none. [1; convention]
+inline constexpr double kRippleChance = 1e-6;
+
+/// Share of the speed by which a drive swings, above which slips are told to begin at other speeds. [1; convention]
+inline constexpr double kRippleShare = 0.02;
+
 /// Factor either way, beyond which the band of a predicted spacing says nothing. [1; convention]
 inline constexpr double kWidestFactor = 2.0;
 

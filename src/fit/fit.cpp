@@ -140,8 +140,11 @@ Warnings warnings_of(const DampedFit& chosen) {
   }
   const std::vector<double>& hum_Hz = chosen.blocks.level().lines_Hz;
   if (!hum_Hz.empty()) {
-    warnings.push_back({"hum_fitted", fmt::format("hum of the mains at {:.4g} Hz is fitted together with the cycles",
-                                                  fmt::join(hum_Hz, ", "))});
+    warnings.push_back(
+        {"hum_fitted",
+         fmt::format(
+             "a line at {:.4g} Hz is fitted together with the cycles: hum of the mains or pick-up or an uneven drive",
+             fmt::join(hum_Hz, ", "))});
   }
   return warnings;
 }

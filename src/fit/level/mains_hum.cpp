@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "fit/level/stick_ripple.hpp"
 #include "signal/mains.hpp"
 #include "signal/transform.hpp"
 
@@ -131,7 +132,7 @@ double hum_amplitude(const BlockFit& fit) {
 }
 
 std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
-                             const std::vector<std::size_t>& outliers) {
+                             const std::vector<std::size_t>& outliers, double least_force) {
   if (!recording.clock_is_even()) return {};
   const std::vector<double> values = with_hum(recording, fit, std::move(residuals), outliers);
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
@@ -145,6 +146,12 @@ std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, st
   for (const double known_Hz : fit.level().lines_Hz) {
     frequencies_Hz.push_back(refine(values, step_s, known_Hz, resolution_Hz));
   }
+  const auto is_new = [&](double f_Hz) {
+    const auto is_near = [&](double f) { return std::abs(f - f_Hz) < 2.0 * resolution_Hz; };
+    return std::none_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near) && !is_in_step(fit, f_Hz);
+  };
+  const std::optional<StickRipple> ripple = find_stick_ripple(recording, fit, least_force);
+  if (ripple && is_new(ripple->frequency_Hz)) frequencies_Hz.push_back(ripple->frequency_Hz);
   const std::vector<signal::MainsLine> lines = signal::find_mains(power, bin_Hz, resolution_Hz);
   if (lines.empty()) return frequencies_Hz;
   // find_mains compares a line with its surroundings, which are too low where the fitted cycles have removed noise near
@@ -152,8 +159,7 @@ std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, st
   const Prominence prominence(values);
   for (const signal::MainsLine& line : lines) {
     const double f_Hz = line.frequency_Hz;
-    const auto is_near = [&](double f) { return std::abs(f - f_Hz) < 2.0 * resolution_Hz; };
-    if (std::any_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near) || is_in_step(fit, f_Hz)) continue;
+    if (!is_new(f_Hz)) continue;
     if (prominence.of(power_in_spectrum(power, bin_Hz, values.size(), f_Hz)) > 2.0 * thresholds::kSureHum ||
         prominence.of(power_of(fit_term(values, step_s, f_Hz))) > thresholds::kSureHum) {
       frequencies_Hz.push_back(f_Hz);

@@ -10,6 +10,7 @@
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/profile.hpp"
 #include "fit/inference/smoothing.hpp"
+#include "fit/level/stick_ripple.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/ramps.hpp"
 
@@ -21,6 +22,10 @@ bool is_at_bound(const TierFits& fits) {
   return fits.damped.blocks.parameters.globals[kDamping] < 0.0 && !fits.damping_held() && fits.undamped.has_value();
 }
 
+const BlockFit& reported(const TierFits& fits) {
+  return is_at_bound(fits) ? fits.undamped->blocks : fits.damped.blocks;
+}
+
 /// What makes k uncertain beside the fit.
 struct StiffnessFindings {
   double variance = 0.0;  ///< of ln k
@@ -28,8 +33,15 @@ struct StiffnessFindings {
   Warnings warnings;
 };
 
-StiffnessFindings stiffness_of(const Recording& recording, const BlockFit& blocks, const Spread& spread) {
+/// A line beside the cycles: left in the sticks because it is in step with the slips, or in the fit.
+std::optional<StickRipple> ripple_of(const DampedFit& fit) {
+  return fit.ripple && fit.ripple->speed_share > thresholds::kRippleShare ? fit.ripple : fitted_ripple(fit.blocks);
+}
+
+StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits, const Spread& spread) {
   StiffnessFindings result;
+  if (fits.damped.held[kLogStiffness]) return result;
+  const BlockFit& blocks = reported(fits);
   const double log_k_error = std::sqrt(spread.covariance(kLogStiffness, kLogStiffness));
   const Conditions& conditions = recording.conditions();
   const double stiffness = std::exp(blocks.parameters.globals[kLogStiffness]);
@@ -42,6 +54,14 @@ StiffnessFindings stiffness_of(const Recording& recording, const BlockFit& block
         "the force in stick rises {:.1f} % {} steeply at first than at last: the interval of k allows for it",
         100.0 * std::abs(bend->log_ratio), bend->log_ratio > 0.0 ? "more" : "less");
     result.warnings.push_back({"model_misfit", result.note});
+  }
+  if (const std::optional<StickRipple> ripple = ripple_of(fits.damped)) {
+    result.variance += std::pow(ripple->log_stiffness, 2);
+    result.note = fmt::format(
+        "the force in stick swings at {:.4g} Hz, as where the drive's speed swings by {:.2g} %: slips then begin at "
+        "other speeds than the mean",
+        ripple->frequency_Hz, 100.0 * ripple->speed_share);
+    result.warnings.push_back({"drive_ripple", result.note});
   }
   const double drift = std::abs(level_trend(blocks) / (stiffness * conditions.speed_m_per_s));
   if (drift > std::hypot(log_k_error, std::sqrt(result.variance))) {
@@ -234,7 +254,7 @@ std::vector<std::string> conditions_of(const Recording& recording, Tier tier) {
 
 Findings findings_of(const Recording& recording, const TierFits& fits, const Resolution& resolution,
                      const Residual& residual) {
-  const BlockFit& blocks = is_at_bound(fits) ? fits.undamped->blocks : fits.damped.blocks;
+  const BlockFit& blocks = reported(fits);
   Spread spread = spread_of(fits.damped);
   AveragingFindings averaging = averaging_of(recording, fits.damped, blocks);
   spread.one_sided = averaging.one_sided;
@@ -243,7 +263,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   spread.profile = std::move(damping.profile);
   Held held = fits.damped.held;
   held[kDamping] = fits.damping_held();
-  StiffnessFindings stiffness = held[kLogStiffness] ? StiffnessFindings{} : stiffness_of(recording, blocks, spread);
+  StiffnessFindings stiffness = stiffness_of(recording, fits, spread);
   spread.covariance(kLogStiffness, kLogStiffness) += stiffness.variance;
   if (spread.profile) spread.profile->held(kLogStiffness, kLogStiffness) += stiffness.variance;
 

@@ -43,7 +43,9 @@ class Finisher {
       if (moves.rows() < kRoundedCopies / 2) return std::nullopt;
       result.uncertainty = with_rounding(result.uncertainty, moves);
     }
-    if ((result.misfit = find_misfit(result.blocks, 0.5 * quality_.quantisation_step.value_or(0.0)))) {
+    const double least_force = 0.5 * quality_.quantisation_step.value_or(0.0);
+    result.ripple = find_stick_ripple(recording_, result.blocks, least_force);
+    if ((result.misfit = find_misfit(result.blocks, least_force))) {
       result.uncertainty = with_misfit(result.uncertainty, influence_of_segments(result.blocks, result.held));
     }
     return result;

@@ -8,6 +8,7 @@
 #include "fit/inference/misfit.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/inference/uncertainty.hpp"
+#include "fit/level/stick_ripple.hpp"
 #include "fit/problem/block_fit.hpp"
 
 namespace slipfit::fit {
@@ -29,6 +30,7 @@ struct DampedFit {
   Uncertainty uncertainty;
   std::optional<SegmentMisfit> misfit;     ///< slips are not shaped like the model's; the covariances allow for it
   std::optional<Smoothing> rounding{};     ///< of the slips beyond what is stated of the sensor; empty: not told
+  std::optional<StickRipple> ripple{};     ///< left in the sticks
   std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none
   std::string law_doubt{};                 ///< why the friction law was not the data's choice; empty: it was
 };

@@ -1,0 +1,55 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "scene.hpp"
+
+namespace slipfit {
+namespace {
+
+constexpr double kSpeedShare = 0.15;
+
+/// What a drive shows whose speed is V (1 + kSpeedShare cos w t): the same force, at the time at which an even drive
+/// has come as far. That is exact in stick; slips, which are short, last a little longer or shorter.
+Recording on_uneven_drive(const Recording& even, double frequency_Hz) {
+  const double omega = 2.0 * std::numbers::pi * frequency_Hz;
+  std::vector<double> force;
+  for (const double t_s : even.time_s()) {
+    const double even_s = t_s + kSpeedShare / omega * std::sin(omega * t_s);
+    const double place = std::clamp(even_s / even.sample_interval_s(), 0.0, static_cast<double>(even.size()) - 1.001);
+    const auto below = static_cast<std::size_t>(place);
+    const double share = place - static_cast<double>(below);
+    force.push_back((1.0 - share) * even.force()[below] + share * even.force()[below + 1]);
+  }
+  return Recording::create({even.time_s().begin(), even.time_s().end()}, std::move(force), even.conditions()).value();
+}
+
+Scene scene() {
+  Scene s;
+  s.noise = 0.005;
+  s.samples_per_slip = 40.0;
+  s.speed = 0.003;
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("a drive that runs unevenly is said, and its line is fitted with the cycles") {
+  const Recording even = record(scene());
+  const Analysis plain = analyze_and_fit(even, {});
+  CHECK_FALSE(has_warning(plain, "drive_ripple"));
+  const double slips_Hz = *plain.frequency.quoted.value;
+  const double ratio = GENERATE(4.37, 5.0);  // the second is in step: no line of its own
+  const Analysis analysis = analyze_and_fit(on_uneven_drive(even, ratio * slips_Hz), {});
+  INFO(ratio);
+  CHECK(has_warning(analysis, "drive_ripple"));
+  CHECK(has_warning(analysis, "hum_fitted") == (ratio != 5.0));
+  const Parameter& stiffness = parameter(analysis, "stiffness_N_per_m");
+  REQUIRE(stiffness.estimate.ci95);
+  CHECK(stiffness.estimate.ci95->low < scene().stiffness);
+  CHECK(stiffness.estimate.ci95->high > scene().stiffness);
+  CHECK(parameter(analysis, "natural_frequency_rad_per_s").status != ParameterStatus::Identified);
+}
+
+}  // namespace slipfit
