@@ -52,7 +52,8 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
   command.add_flag("--resume", arguments.resume, "Go on with what the folder holds");
   command.add_option("--shard", arguments.shard, "I/N: the I-th of N parts of the manifest, I from 1");
   command.add_flag("--joint-groups", arguments.joint_groups, "Fit the recordings of each group together, too");
-  command.add_option("--tier", arguments.tier, "Model: auto, sawtooth, undamped, damped")->capture_default_str();
+  command.add_option("--tier", arguments.tier, "Model: auto, sawtooth, undamped, damped, weakening")
+      ->capture_default_str();
   command.add_option("--fix", arguments.fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
       ->allow_extra_args(false);
   command.add_option("--report", arguments.report,

@@ -104,7 +104,7 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
   add_analysis_options(*command, arguments->analysis);
   command->get_option("REC")->required(false)->description(
       "Recording; several are fitted together, each at its own speed");
-  command->add_option("--tier", arguments->tier, "Model: auto, sawtooth, undamped, damped, velocity (joint)")
+  command->add_option("--tier", arguments->tier, "Model: auto, sawtooth, undamped, damped, weakening, velocity (joint)")
       ->capture_default_str();
   command->add_option("--fix", arguments->fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
       ->allow_extra_args(false);

@@ -2,7 +2,7 @@
 import math
 
 from families_inside import K_ONLY, NONE
-from scenes import Motion, SLIP, draw_rig, lines, np, scene, simulate, simulate_lugre
+from scenes import PARAMETERS, SLIP, Motion, draw_rig, lines, np, scene, simulate, simulate_lugre
 
 SHARED = ("stiffness_N_per_m", "natural_frequency_rad_per_s")
 
@@ -165,7 +165,9 @@ def ageing(rng):
 
 
 def weakening(rng):
-    return _friction(rng, K_ONLY, weakening_length=lambda r: r.drop / r.model.stiffness * rng.uniform(0.1, 0.5))
+    """Friction falls over a slip distance of 0.02 to 0.6 of (F_s - F_k) / k."""
+    share = math.exp(rng.uniform(math.log(0.02), math.log(0.6)))
+    return _friction(rng, PARAMETERS, weakening_length=lambda r: share * r.drop / r.model.stiffness)
 
 
 def lugre(rng):

@@ -76,6 +76,8 @@ def truth_of(rig, slips, stretch, known=PARAMETERS):
     onset = inside["onset_s"][1:] if len(inside) > 3 else inside["onset_s"]
     frequency = (len(onset) - 1) / (onset[-1] - onset[0]) if len(onset) > 2 else None
     values = dict(zip(PARAMETERS, (rig.model.stiffness, rig.drop, rig.model.omega, rig.model.damping_ratio)))
+    if rig.model.weakening_length > 0:
+        values["slip_distance_m"], known = rig.model.weakening_length, (*known, "slip_distance_m")
     return {"kind": "stick_slip", "speed_m_per_s": rig.speed, "frequency_Hz": frequency, "stretch_s": [float(s) for s in stretch],
             "spacing_m": rig.speed / frequency if frequency else None,
             "parameters": {name: values[name] for name in known}, "slips_s": [float(t) for t in onset]}

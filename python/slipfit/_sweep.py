@@ -210,7 +210,7 @@ def fit(recordings: Recordings, *, tier: str = "auto", fix: Fix = None, name: Op
     recordings : Recording, sequence of Recording, or mapping of str to Recording
         One gives `Fit`. Several are a sweep of one sliding pair at several speeds: one set of parameters, `Sweep`.
     tier : str
-        ``"auto"``, ``"sawtooth"``, ``"undamped"``, ``"damped"``; of several ``"auto"``, ``"damped"``, ``"velocity"``.
+        ``"auto"``, ``"sawtooth"``, ``"undamped"``, ``"damped"``, ``"weakening"``; of several ``"auto"``, ``"damped"``, ``"velocity"``.
     fix : mapping of str to float, optional
         Parameters to hold, in SI: ``{"damping_ratio": 0.05}``; also ``stiffness_N_per_m`` and
         ``natural_frequency_rad_per_s``.

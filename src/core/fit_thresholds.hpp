@@ -99,6 +99,13 @@ inline constexpr double kMisfitSigmas = 4.5;
 /// The same residual over the onset force, above which it matters. [1; convention]
 inline constexpr double kMisfitShare = 0.01;
 
+/// Stacked residual of the slips under friction that weakens over a slip distance over that under Coulomb friction, at
+/// most. [1; convention: what is left is smaller than what is explained]
+inline constexpr double kHalvedStack = 0.5;
+
+/// Fewest samples of a slip that tell how its friction weakens. [count; derived: onset, fall and end are two each]
+inline constexpr double kShapeSamples = 6.0;
+
 /// Standard errors between the slopes of early and late sticks, beyond which sticks bend. [1; derived: 0.3 % by chance]
 inline constexpr double kBendSigmas = 3.0;
 

@@ -24,9 +24,11 @@ enum Coordinate : Eigen::Index {
   kLevel = kGlobals,  ///< F_k(0+) / Units::force, from Units::level
   kDifference,        ///< (F_s - F_k(0+)) / Units::force
   kAgeing,            ///< rate of ageing / Units::force
+  kSlipDistance,      ///< sqrt(D_c / Units::slip_distance_m): the limit of Coulomb friction is reached as it goes to 0
   kCoordinates
 };
 
+/// In the order of Coordinate; under friction that weakens the first behind zeta is kSlipDistance.
 using Globals = std::array<double, kGlobals>;
 /// Which of the globals stand still.
 using Held = std::array<bool, kGlobals>;
@@ -46,12 +48,20 @@ enum class FrictionLaw {
   Coulomb,      ///< F_k is constant: the slip in closed form
   Exponential,  ///< F_k(v), the slip integrated; the same of the others
   Hyperbolic,
-  Logarithmic
+  Logarithmic,
+  Weakening  ///< over a slip distance: in closed form
 };
 
-/// Coulomb friction has no slope and no rate.
+/// Coulomb friction has no slope and no rate, friction that weakens a slip distance in their place.
 constexpr std::size_t globals_of(FrictionLaw law) {
+  if (law == FrictionLaw::Weakening) return kFrictionSlope + 1;
   return law == FrictionLaw::Coulomb ? kFrictionSlope : kGlobals;
+}
+
+/// What a global stands for.
+constexpr Coordinate coordinate_of(FrictionLaw law, std::size_t global) {
+  const bool is_distance = law == FrictionLaw::Weakening && global == kFrictionSlope;
+  return is_distance ? kSlipDistance : static_cast<Coordinate>(global);
 }
 
 /// What the coordinates count in.
@@ -60,6 +70,7 @@ struct Units {
   double level = 0.0;               ///< force at which the level counts 0
   double slip_speed_m_per_s = 1.0;  ///< typical fastest sliding, (F_s - F_k) w_n / k
   double stick_s = 1.0;             ///< typical stick time: static friction that ages is stated for it
+  double slip_distance_m = 1.0;     ///< typical half drop over k
 };
 
 }  // namespace slipfit::fit

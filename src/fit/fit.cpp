@@ -14,6 +14,7 @@
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/tiers.hpp"
+#include "fit/selection/weakening_fit.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -46,7 +47,7 @@ FitDiagnostics diagnostics_of(const Recording& recording, const DampedFit& dampe
     const CycleState state = blocks.state(i);
     onset_forces.push_back(state.onset_force);
     mean += state.onset_force / count;
-    restick += (state.motion.slip.resticks ? 1.0 : 0.0) / count;
+    restick += (state.resticks() ? 1.0 : 0.0) / count;
   }
   const auto half = static_cast<std::ptrdiff_t>(onset_forces.size() / 2);
   FitDiagnostics diagnostics;
@@ -90,7 +91,7 @@ void tabulate(const Recording& recording, const Segmentation& segmentation, cons
     row.end_s = state.onset_s + state.slip_s();
     row.level_force = blocks.model(c).level_at(state.onset_s, blocks.level_data(), local);
     row.onset_force = *row.level_force + state.onset_force;
-    row.recovery_s = (state.z0() - state.motion.after.intercept) / state.omega_rad_per_s;
+    row.recovery_s = (state.z0() - state.intercept()) / state.omega_rad_per_s;
     row.residual_rms = blocks.scales().noise *
                        std::sqrt(blocks.cycle_sum_of_squares(c) / static_cast<double>(blocks.data(c).residuals()));
   }
@@ -163,6 +164,52 @@ Warnings one_of_each_code(const Warnings& warnings) {
   return merged;
 }
 
+/// The fits of one recording, and what was chosen of them.
+struct Chosen {
+  fit::TierFits fits;
+  fit::Resolution resolution;
+  std::vector<Candidate> candidates;
+  Warnings warnings{};
+};
+
+/// Friction that weakens over a slip distance in place of Coulomb friction where the data, or the user, want it.
+Chosen with_weakening(Chosen chosen, const fit::FitInput& input, std::optional<Tier> forced) {
+  const bool is_asked = forced == Tier::Weakening;
+  if (!is_asked && (forced || !fit::may_weaken(chosen.fits.damped))) return chosen;
+  fit::WeakeningTrial trial = fit::try_weakening(input, chosen.fits.damped);
+  Candidate& candidate = trial.candidate;
+  const std::string doubt = candidate.chosen ? "" : candidate.reason;
+  if (is_asked) candidate = fit::requested(std::move(candidate));
+  if (candidate.chosen) {
+    for (Candidate& other : chosen.candidates) other.chosen = false;
+    if (trial.fit) {
+      trial.fit->law_doubt = doubt;
+      chosen.fits = {fit::fit_sawtooth(*trial.fit), std::nullopt, *std::move(trial.fit)};
+      chosen.resolution = fit::resolution_of(input.recording, chosen.fits);
+      const bool is_negative = chosen.fits.damped.blocks.parameters.globals[fit::kDamping] < 0.0;
+      if (is_negative && !chosen.fits.damped.held[fit::kDamping])
+        chosen.fits.undamped = fit::fit_undamped(chosen.fits.damped, false);
+    } else {
+      chosen.fits.damped.law_doubt = doubt;
+      chosen.resolution.slip_resolved = chosen.resolution.damping_resolved = false;
+      chosen.resolution.reason = doubt;
+    }
+  }
+  chosen.candidates.push_back(std::move(candidate));
+  if (trial.warning) chosen.warnings.push_back(*std::move(trial.warning));
+  return chosen;
+}
+
+Chosen choose(const fit::FitInput& input, DampedFit damped, std::optional<Tier> forced) {
+  fit::TierFits fits{fit::fit_sawtooth(damped), std::nullopt, std::move(damped)};
+  const fit::Resolution resolution = fit::resolution_of(input.recording, fits);
+  const bool undamped_may_lose = resolution.damping_resolved && forced != Tier::Undamped;
+  if (!fits.damped.held[fit::kDamping]) fits.undamped = fit::fit_undamped(fits.damped, undamped_may_lose);
+  const std::optional<Tier> of_coulomb = forced == Tier::Weakening ? std::nullopt : forced;
+  std::vector<Candidate> candidates = fit::choose_tier(fits, resolution, of_coulomb);
+  return with_weakening({std::move(fits), resolution, std::move(candidates)}, input, forced);
+}
+
 }  // namespace
 
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
@@ -172,25 +219,24 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   const HeldParameters held = held_parameters(options);
   std::optional<DampedFit> damped = fit::fit_as_sensed(recording, quality, segmentation, held);
   if (!damped) return std::nullopt;
-  fit::TierFits fits{fit::fit_sawtooth(*damped), std::nullopt, std::move(*damped)};
-  const fit::Resolution resolution = fit::resolution_of(recording, fits);
-  const bool undamped_may_lose = resolution.damping_resolved && options.tier != Tier::Undamped;
-  if (!fits.damped.held[fit::kDamping]) fits.undamped = fit::fit_undamped(fits.damped, undamped_may_lose);
+  const auto [fits, resolution, candidates, of_choice] =
+      choose({recording, quality, segmentation, held}, *std::move(damped), options.tier);
 
   FitResult result;
-  result.candidates = fit::choose_tier(fits, resolution, options.tier);
+  result.candidates = candidates;
   for (const Candidate& candidate : result.candidates) {
     if (candidate.chosen) result.tier = candidate.tier;
   }
   const DampedFit* undamped_fit = fits.without_damping();
   const DampedFit& chosen = result.tier == Tier::Undamped && undamped_fit != nullptr ? *undamped_fit : fits.damped;
   result.diagnostics = diagnostics_of(recording, fits.damped, resolution);
-  result.conditional_on = fit::conditions_of(recording);
+  result.conditional_on = fit::conditions_of(recording, result.tier);
   result.residual = residual_of(chosen, quality);
   fit::report_parameters(fit::findings_of(recording, fits, resolution, result.residual), result);
   tabulate(recording, segmentation, chosen.blocks, result);
-  const Warnings warnings = warnings_of(chosen);
-  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  for (const Warnings& warnings : {warnings_of(chosen), of_choice}) {
+    result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  }
   result.warnings = one_of_each_code(result.warnings);
   if (options.curve) result.curve = curve_of(recording, chosen.blocks);
   return result;

@@ -30,13 +30,14 @@ Result<std::optional<Tier>> tier_from(const std::string& text, FitKind kind) {
   }
   if (text == "sawtooth") return std::optional(Tier::Sawtooth);
   if (text == "undamped") return std::optional(Tier::Undamped);
+  if (text == "weakening") return std::optional(Tier::Weakening);
   if (text == "velocity") {
     return Error{"unknown_tier",
                  "--tier velocity needs a speed sweep (--joint): one speed cannot tell velocity dependence from "
-                 "damping, choose auto, sawtooth, undamped or damped"};
+                 "damping, choose auto, sawtooth, undamped, damped or weakening"};
   }
   return Error{"unknown_tier",
-               fmt::format("--tier: unknown tier '{}', expected auto, sawtooth, undamped or damped", text)};
+               fmt::format("--tier: unknown tier '{}', expected auto, sawtooth, undamped, damped or weakening", text)};
 }
 
 std::optional<double>& place_of(ParameterId id, HeldParameters& held) {

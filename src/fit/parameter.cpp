@@ -37,7 +37,9 @@ constexpr std::array kTable{
     ParameterInfo{Id::Mu0, "mu0", "friction coefficient mu0", "", kAnyNumber, 0.25},
     ParameterInfo{Id::Mu1, "mu1", "friction coefficient mu1", "", kAnyNumber, 0.25},
     ParameterInfo{Id::SensorAverage, "sensor_average_s", "time over which samples are averaged", "s", kNotNegative,
-                  0.25}};
+                  0.25},
+    ParameterInfo{Id::SlipDistance, "slip_distance_m", "slip distance D_c over which friction weakens", "m",
+                  kNotNegative, 0.25}};
 
 }  // namespace
 

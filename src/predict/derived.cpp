@@ -57,13 +57,18 @@ ModelEstimate at_the_measured_speed(ModelEstimate model, double relative_speed_s
   return model;
 }
 
+Estimate why_no_model(const FitResult& fit) {
+  return unknown(fit.tier == Tier::Weakening ? "not derived for friction that weakens over a slip distance"
+                                             : "needs k, w_n, zeta and F_s - F_k, which this recording does not give");
+}
+
 }  // namespace
 
 Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   Derived derived;
   derived.gamma = force_ratio(fit, conditions);
   if (!fit.estimate) {
-    const Estimate reason = unknown("needs k, w_n, zeta and F_s - F_k, which this recording does not give");
+    const Estimate reason = why_no_model(fit);
     derived.lambda = derived.lambda_critical = derived.critical_speed_m_per_s = reason;
     derived.periodic_displacement_m = derived.micro_vibration_spacing_m = reason;
     if (conditions.measured_spacing_m) derived.measured_spacing_En = reason;

@@ -17,7 +17,7 @@ std::string_view name_in(Names names, Choice choice) {
 }  // namespace
 
 std::string_view name_of(Tier tier) {
-  return name_in({"sawtooth", "undamped", "damped", "velocity"}, tier);
+  return name_in({"sawtooth", "undamped", "damped", "velocity", "weakening"}, tier);
 }
 
 std::string_view name_of(ForceView view) {

@@ -65,7 +65,7 @@ TEST_CASE("options of the fit that make no sense are refused") {
     check_refused(arguments, part);
   };
   refused("--tier", "velocity", "speed sweep");
-  refused("--tier", "cubic", "sawtooth, undamped or damped");
+  refused("--tier", "cubic", "sawtooth, undamped, damped or weakening");
   refused("--fix", "damping_ratio", "NAME=VALUE");
   refused("--fix", "colour=3", "damping_ratio");
   refused("--fix", "damping_ratio=1", "below 1");

@@ -70,8 +70,11 @@ void check_derivatives(const Scales& scales, const LevelModel& level, double ste
   const std::size_t rows = model.residuals();
   for (int trial = 0; trial < 20; ++trial) {
     std::vector<double> x{std::log(60.0), std::log(9.0), 0.1};
-    if (model.globals() > 3)
+    if (scales.law == FrictionLaw::Weakening) {
+      x.push_back(0.4);
+    } else if (model.globals() > 3) {
       x.insert(x.end(), {0.05, trial % 2 == 0 || scales.law != FrictionLaw::Exponential ? -1.5 : 0.4});
+    }
     if (sweep) x.push_back(0.9);
     x.resize(model.columns(), 0.1);
     x[model.common_parameters()] = 0.0;
@@ -149,6 +152,15 @@ TEST_CASE("residual derivatives of friction that depends on the speed agree with
     // the slip's end crosses a sample: h times that.
     check_derivatives(scales, level, 1e-4, 1e-3, 0.1);
   }
+}
+
+TEST_CASE("residual derivatives of friction that weakens over a slip distance agree with central differences") {
+  Scales scales = example_scales(GENERATE(ForceView::Spring, ForceView::Transmitted));
+  scales.law = FrictionLaw::Weakening;
+  scales.sensor_average_s = GENERATE(0.0, 0.015);
+  scales.slip_distance_m = scales.force / 60.0;
+  // As under Coulomb friction.
+  for (const LevelModel& level : {kPolynomial, kPerCycle}) check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);
 }
 
 TEST_CASE("friction that depends on the speed with slope 0 gives the residuals of Coulomb friction") {

@@ -77,6 +77,9 @@ TEST_CASE("paper on paper, slow: stick-slip with the published stiffness") {
   CHECK(*analysis->frequency.counted.value > 0.5);
   CHECK(*analysis->frequency.counted.value < 0.7);
   CHECK(analysis->cycles.used >= 40);
+  // The slips start slowly and end abruptly: friction weakens over some 10 um.
+  REQUIRE(find(*analysis, "slip_distance_m"));
+  CHECK(*find(*analysis, "slip_distance_m")->estimate.value == Approx(12e-6).epsilon(0.4));
 }
 
 TEST_CASE("paper on paper, fast and stiff: an oscillation of 35 Hz without straight sticks") {

@@ -31,7 +31,8 @@ enum class ParameterId : std::size_t {
   F1,
   Mu0,
   Mu1,
-  SensorAverage
+  SensorAverage,
+  SlipDistance
 };
 
 struct ParameterInfo {

@@ -12,7 +12,7 @@
 namespace slipfit {
 
 /// Models from the poorest to the richest; each adds one idea to the one before.
-enum class Tier { Sawtooth, Undamped, Damped, Velocity };
+enum class Tier { Sawtooth, Undamped, Damped, Velocity, Weakening };
 
 /// One cycle of the table `--cycles`: as detected, and as fitted where the fit uses it. Forces in the unit of the
 /// column.

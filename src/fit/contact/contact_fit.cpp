@@ -138,7 +138,7 @@ std::optional<FitResult> fit_contact(const Recording& recording, const Segmentat
   result.tier = Tier::Damped;
   result.candidates = {{Tier::Damped, 3, found->noise, std::nullopt, true,
                         "a sensor at the contact: slope of the ramps, both jumps and the slip time give all of it"}};
-  result.conditional_on = conditions_of(recording);
+  result.conditional_on = conditions_of(recording, Tier::Damped);
   result.cycles = detected_cycles(recording, segmentation);
   result.diagnostics = diagnostics_of(recording, *found, moments, std::exp(solution->value(3)));
   result.residual.rms = found->noise;

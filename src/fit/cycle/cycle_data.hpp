@@ -35,6 +35,7 @@ struct Scales {
   double sensor_average_s = 0.0;  ///< each sample is the mean over this time around its time stamp
   double half_period_s = 1.0;     ///< from the largest to the smallest force of a slip, pi / (w_n b)
   FrictionLaw law = FrictionLaw::Coulomb;
+  double slip_distance_m = 1.0;            ///< Units::slip_distance_m
   std::optional<Population> population{};  ///< of a sweep
 
   /// Force at which the level's constant counts 0, and its unit.

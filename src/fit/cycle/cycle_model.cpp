@@ -96,10 +96,15 @@ CycleFrame CycleModel::frame(const double* globals, const double* local) const {
 
 std::optional<CycleState> CycleModel::state(const double* globals, const double* local) const {
   const CycleFrame f = frame(globals, local);
+  if (scales_.law == FrictionLaw::Weakening) {
+    auto motion = WeakeningCycle::solve(f.z0(), f.omega_rad_per_s, globals, scales_);
+    return motion ? std::optional(CycleState{f, *std::move(motion)}) : std::nullopt;
+  }
   if (!(f.z0() + 2.0 * f.zeta > 0.0) || !(std::abs(f.zeta) < 1.0) || !std::isfinite(f.z0())) return std::nullopt;
   const double w = f.omega_rad_per_s;
   const bool transmitted = scales_.view == ForceView::Transmitted;
-  return CycleState{f, {f.z0(), f.zeta, {w * scales_.sensor_lag_s, w * scales_.sensor_average_s, transmitted}}};
+  const Sensor sensor{w * scales_.sensor_lag_s, w * scales_.sensor_average_s, transmitted};
+  return CycleState{f, CoulombCycle(f.z0(), f.zeta, sensor)};
 }
 
 /// Writes residual rows one after the other, and their derivatives column after column.
@@ -239,10 +244,10 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, Rows& rows) const
 
 bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* jacobian) const {
   Rows rows(*this, values, residuals, jacobian);
-  if (scales_.law == FrictionLaw::Coulomb) {
-    const std::optional<CycleState> coulomb = state(values.globals, values.local);
-    if (coulomb) fill(coulomb->motion, *coulomb, rows);
-    return coulomb.has_value();
+  if (scales_.law == FrictionLaw::Coulomb || scales_.law == FrictionLaw::Weakening) {
+    const std::optional<CycleState> now = state(values.globals, values.local);
+    if (now) std::visit([&](const auto& law) { fill(law, *now, rows); }, now->motion);
+    return now.has_value();
   }
   const CycleFrame f = frame(values.globals, values.local);
   const auto motion = SpeedDependentCycle::solve(f.z0(), values.globals, scales_);

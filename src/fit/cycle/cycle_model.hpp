@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "fit/cycle/cycle_data.hpp"
 #include "fit/law/coulomb.hpp"
+#include "fit/law/slip_weakening.hpp"
 
 namespace slipfit::fit {
 
@@ -67,13 +69,32 @@ struct CycleFrame {
   [[nodiscard]] double tau_at(double time_s) const { return omega_rad_per_s * (time_s - onset_s); }
 };
 
-/// One cycle under Coulomb friction.
+/// One cycle by a law in closed form.
 struct CycleState : CycleFrame {
-  CoulombCycle motion;
+  std::variant<CoulombCycle, WeakeningCycle> motion;
 
-  [[nodiscard]] double slip_s() const { return motion.slip.tau_end / omega_rad_per_s; }
+  [[nodiscard]] double slip_s() const {
+    return std::visit([](const auto& law) { return law.tau_end(); }, motion) / omega_rad_per_s;
+  }
+  [[nodiscard]] bool resticks() const {
+    return std::visit([](const auto& law) { return law.resticks(); }, motion);
+  }
+  /// Spring force above the level of the stick after the slip, continued to the onset, over force_scale.
+  [[nodiscard]] double intercept() const {
+    return std::visit([](const auto& law) { return law.intercept(); }, motion);
+  }
   /// Above the level, as the sensor shows it.
-  [[nodiscard]] double force_at(double time_s) const { return force_scale * motion.at(tau_at(time_s)).z; }
+  [[nodiscard]] double force_at(double time_s) const {
+    const double tau = tau_at(time_s);
+    return force_scale * std::visit([tau](const auto& law) { return double{law.at(tau).z}; }, motion);
+  }
+  /// The same of the sticks before and after the slip, continued to the onset.
+  [[nodiscard]] double stick_before() const {
+    return force_scale * std::visit([](const auto& law) { return law.shown_before(); }, motion);
+  }
+  [[nodiscard]] double stick_after() const {
+    return force_scale * std::visit([](const auto& law) { return law.shown_after(); }, motion);
+  }
 };
 
 /// The residuals of one cycle: (data - model) / noise for every sample around the slip, and two for each stick bin (its

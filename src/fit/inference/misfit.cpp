@@ -25,16 +25,15 @@ struct Stack {
 
 using Means = std::array<std::optional<double>, kSegments>;
 
-/// Mean residual of one cycle in every stretch, unit of force.
-Means means_of(const BlockFit& fit, std::size_t cycle) {
+/// Mean residual of one cycle in every stretch of a slip, unit of force.
+Means means_of(const BlockFit& fit, std::size_t cycle, const CycleState& slip) {
   const CycleModel& model = fit.model(cycle);
   std::vector<double> residuals(model.residuals());
   model.evaluate(fit.values(cycle), residuals.data(), nullptr);
   std::array<Stack, kSegments> stacks;
-  const CycleState state = fit.state(cycle);
   const CycleData& data = fit.data(cycle);
   for (std::size_t j = 0; j < data.time_s.size(); ++j) {
-    const std::optional<std::size_t> segment = segment_of(state, data.time_s[j]);
+    const std::optional<std::size_t> segment = segment_of(slip, data.time_s[j]);
     const double weight = data.weight.empty() ? 1.0 : data.weight[j];
     if (segment && weight > 0.0) stacks[*segment].add(residuals[j] * fit.scales().noise / weight);
   }
@@ -45,7 +44,37 @@ Means means_of(const BlockFit& fit, std::size_t cycle) {
   return means;
 }
 
+/// The means of all cycles, and the mean onset force of their slips.
+struct StackedCycles {
+  std::array<Stack, kSegments> stacks;
+  double onset_force = 0.0;
+};
+
+/// Over the slips of `phases`, a fit of the same recording.
+StackedCycles stacked(const BlockFit& fit, const BlockFit& phases) {
+  StackedCycles result;
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    while (same < phases.size() && phases.data(same).slip < fit.data(i).slip) ++same;
+    if (same == phases.size() || phases.data(same).slip != fit.data(i).slip) continue;
+    const CycleState slip = phases.state(same);
+    result.onset_force += slip.onset_force / static_cast<double>(fit.size());
+    const Means means = means_of(fit, i, slip);
+    for (std::size_t p = 0; p < kSegments; ++p) {
+      if (means[p]) result.stacks[p].add(*means[p]);
+    }
+  }
+  return result;
+}
+
 }  // namespace
+
+double stacked_residual(const BlockFit& fit, const BlockFit& phases) {
+  const auto [stacks, onset_force] = stacked(fit, phases);
+  double square = 0.0;
+  for (const Stack& stack : stacks) square += stack.mean * stack.mean / kSegments;
+  return std::sqrt(square) / std::abs(onset_force);
+}
 
 std::optional<std::size_t> segment_of(const CycleState& state, double time_s) {
   const double share = (time_s - state.onset_s) / state.slip_s();
@@ -54,15 +83,7 @@ std::optional<std::size_t> segment_of(const CycleState& state, double time_s) {
 }
 
 std::optional<SegmentMisfit> find_misfit(const BlockFit& fit, double tolerated) {
-  std::array<Stack, kSegments> stacks;
-  double onset_force = 0.0;
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    onset_force += fit.state(i).onset_force / static_cast<double>(fit.size());
-    const Means means = means_of(fit, i);
-    for (std::size_t p = 0; p < kSegments; ++p) {
-      if (means[p]) stacks[p].add(*means[p]);
-    }
-  }
+  const auto [stacks, onset_force] = stacked(fit, fit);
   std::optional<SegmentMisfit> worst;
   for (std::size_t p = 0; p < kSegments; ++p) {
     const Stack& stack = stacks[p];

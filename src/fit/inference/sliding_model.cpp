@@ -21,6 +21,7 @@ SlidingModel::SlidingModel(const Coordinates& values, const Units& units) {
   level = units.level + units.force * jet(kLevel);
   difference = units.force * jet(kDifference);
   ageing = units.force * jet(kAgeing);
+  slip_distance = units.slip_distance_m * jet(kSlipDistance) * jet(kSlipDistance);
   reference_stick_s_ = units.stick_s;
 }
 

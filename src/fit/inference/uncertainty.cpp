@@ -117,7 +117,9 @@ Coordinates coordinates_of(const BlockFit& fit) {
   const auto cycles = static_cast<double>(fit.size());
   const double force = fit.scales().force;
   Coordinates coordinates = Coordinates::Zero();
-  for (std::size_t i = 0; i < p.globals.size(); ++i) coordinates(static_cast<Index>(i)) = p.globals[i];
+  for (std::size_t i = 0; i < fit.model(0).globals(); ++i) {
+    coordinates(coordinate_of(fit.scales().law, i)) = p.globals[i];
+  }
   for (std::size_t i = 0; i < fit.size(); ++i) {
     const double level = fit.model(i).level_at(fit.reference_s(i), fit.level_data(), p.cycles[i].data());
     coordinates(kLevel) += (level - fit.scales().level) / force / cycles;
@@ -132,7 +134,9 @@ Selection select(const BlockFit& fit) {
   const CommonColumns columns(Problem{{&fit, 1}});
   const auto local = static_cast<Index>(fit.model(0).local_parameters());
   Selection selection{MatrixXd::Zero(columns.size(), kCoordinates), MatrixXd::Zero(local, kCoordinates)};
-  for (Index i = 0; i < static_cast<Index>(fit.model(0).globals()); ++i) selection.common(i, i) = 1.0;
+  for (std::size_t i = 0; i < fit.model(0).globals(); ++i) {
+    selection.common(static_cast<Index>(i), coordinate_of(fit.scales().law, i)) = 1.0;
+  }
   const double drag_unit = 2.0 * force_scale(fit) / fit.scales().force;
   const double drag = drag_unit * fit.parameters.globals[kDamping];
   selection.common(kLogStiffness, kDifference) = drag;

@@ -25,6 +25,14 @@ class CoulombCycle {
   model::Slip slip;
   model::StickLine after;
 
+  [[nodiscard]] double tau_end() const { return slip.tau_end; }
+  [[nodiscard]] bool resticks() const { return slip.resticks; }
+  /// Spring force above the level at tau = 0 of the stick after the slip.
+  [[nodiscard]] double intercept() const { return after.intercept; }
+  /// As the sensor shows the sticks before and after it, continued to tau = 0.
+  [[nodiscard]] double shown_before() const { return before_slip(0.0).z; }
+  [[nodiscard]] double shown_after() const { return after_slip(0.0).z; }
+
   /// Force above the level in units of k V / w_n, at any tau = w_n (t - onset).
   [[nodiscard]] Point at(double tau) const {
     const double reach = 0.5 * sensor_.average_tau;

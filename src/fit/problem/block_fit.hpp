@@ -37,7 +37,7 @@ class BlockFit {
   [[nodiscard]] double reference_s(std::size_t cycle) const { return set_->reference_s[cycle]; }
   [[nodiscard]] const double* level_data() const { return parameters.level.data(); }
   [[nodiscard]] CycleValues values(std::size_t cycle) const;
-  /// Under Coulomb friction, at a solution.
+  /// By a law in closed form, at a solution; under friction that depends on the speed as if it did not.
   [[nodiscard]] CycleState state(std::size_t cycle) const;
 
   Parameters parameters;

@@ -32,7 +32,7 @@ inline constexpr const char* kOneSpeed =
 std::string averaging_doubt(double change);
 
 /// What the numbers of one recording take for granted.
-std::vector<std::string> conditions_of(const Recording& recording);
+std::vector<std::string> conditions_of(const Recording& recording, Tier tier);
 
 /// What is known of friction that depends on the speed; of a sweep only.
 struct LawFindings {
@@ -75,6 +75,8 @@ struct Findings {
   std::string slip_unresolved{};                ///< why w_n and F_s - F_k cannot be read from the slip; empty: they can
   std::optional<Interval> difference_bounds{};  ///< all that is known of F_s - F_k
   std::optional<LawFindings> law{};
+  bool weakens = false;                 ///< friction falls over a slip distance, in the model
+  std::string slip_distance_unknown{};  ///< why D_c was asked for in vain; empty: it was not
   Warnings warnings{};
 
   /// Of F_k(0+) and F_s - F_k(0+), which depend on the law below the speeds that were measured.

@@ -30,11 +30,9 @@ class Reporter {
     report_friction();
     report_dynamics();
     if (f_.law) report_law();
+    report_slip_distance();
     if (f_.sensor_average_s) add_held(Id::SensorAverage, *f_.sensor_average_s);
-    if (f_.fitted_average) {
-      add(Id::SensorAverage, *f_.fitted_average, graded(Id::SensorAverage, *f_.fitted_average, slip_doubt()),
-          slip_note());
-    }
+    if (f_.fitted_average) add_graded(Id::SensorAverage, *f_.fitted_average, slip_doubt(), slip_note());
     report_model();
     result_.warnings.insert(result_.warnings.end(), f_.warnings.begin(), f_.warnings.end());
     std::sort(result_.parameters.begin(), result_.parameters.end(),
@@ -60,6 +58,9 @@ class Reporter {
   void add(Id id, Estimate estimate, ParameterStatus status, std::string note) {
     estimate.note = std::move(note);
     add(id, std::move(estimate), status);
+  }
+  void add_graded(Id id, const Estimate& estimate, const std::string& doubt, std::string note) {
+    add(id, estimate, graded(id, estimate, doubt), std::move(note));
   }
   void add_held(Id id, double value) { add(id, {value, 0.0, Interval{value, value}, {}}, ParameterStatus::Fixed); }
   void add_unknown(Id id, const std::string& why) {
@@ -91,7 +92,7 @@ class Reporter {
     } else {
       const Estimate k = f_.intervals.interval_of_one_sign(model_.stiffness);
       std::string note = f_.stiffness_doubt.empty() ? f_.stiffness_note : f_.stiffness_doubt;
-      add(Id::Stiffness, k, graded(Id::Stiffness, k, f_.stiffness_doubt), or_few_cycles(note));
+      add_graded(Id::Stiffness, k, f_.stiffness_doubt, or_few_cycles(note));
     }
   }
 
@@ -115,9 +116,7 @@ class Reporter {
     add(id, difference, of_difference, note);
     report_absolute(in_unit(Id::StaticFriction, Id::StaticFrictionCoefficient), model_.level + model_.difference);
     report_absolute(in_unit(Id::KineticFriction, Id::KineticFrictionCoefficient), model_.level);
-    if (!ages) return;
-    const Estimate ageing = f_.intervals.interval_of(model_.ageing);
-    add(Id::Ageing, ageing, graded(Id::Ageing, ageing, slip_doubt()), slip_note());
+    if (ages) add_graded(Id::Ageing, f_.intervals.interval_of(model_.ageing), slip_doubt(), slip_note());
   }
 
   /// A force level depends on the sensor's zero.
@@ -146,13 +145,10 @@ class Reporter {
       add_unknown(Id::NaturalFrequency, f_.frequency_unknown);
       return f_.in_newtons ? add_unknown(Id::Mass, f_.frequency_unknown) : void();
     }
-    if (f_.held[kLogFrequency]) {
-      add_held(Id::NaturalFrequency, model_.omega.a);
-    } else {
-      const Estimate omega = f_.intervals.interval_of_one_sign(model_.omega);
-      const std::string doubt = frequency_doubt();
-      add(Id::NaturalFrequency, omega, graded(Id::NaturalFrequency, omega, doubt), or_few_cycles(doubt));
-    }
+    const Estimate omega = f_.intervals.interval_of_one_sign(model_.omega);
+    f_.held[kLogFrequency]
+        ? add_held(Id::NaturalFrequency, model_.omega.a)
+        : add_graded(Id::NaturalFrequency, omega, frequency_doubt(), or_few_cycles(frequency_doubt()));
     if (f_.in_newtons) report_mass();
   }
 
@@ -168,9 +164,8 @@ class Reporter {
   void report_mass() {
     const Jet m = model_.stiffness / (model_.omega * model_.omega);
     if (f_.held[kLogStiffness] && f_.held[kLogFrequency]) return add_held(Id::Mass, m.a);
-    const Estimate mass = f_.intervals.interval_of_one_sign(m);
     const std::string doubt = frequency_doubt().empty() ? f_.stiffness_doubt : frequency_doubt();
-    add(Id::Mass, mass, graded(Id::Mass, mass, doubt), "effective: k / w_n^2");
+    add_graded(Id::Mass, f_.intervals.interval_of_one_sign(m), doubt, "effective: k / w_n^2");
   }
 
   void report_damping() {
@@ -193,6 +188,16 @@ class Reporter {
     add(Id::DampingCoefficient, c, status, status == ParameterStatus::Conditional ? kOneSpeed : "");
   }
 
+  void report_slip_distance() {
+    if (!f_.slip_distance_unknown.empty()) return add_unknown(Id::SlipDistance, f_.slip_distance_unknown);
+    if (!f_.weakens || !f_.slip_unresolved.empty()) return;
+    const Estimate distance = f_.intervals.interval_of_one_sign(model_.slip_distance);
+    const bool tells = relative_error(distance) < thresholds::kTellingError;
+    if (!tells) return add_unknown(Id::SlipDistance, "it cannot be distinguished from 0, Coulomb friction");
+    const ParameterStatus status = at_one_speed(graded(Id::SlipDistance, distance, slip_doubt()));
+    add(Id::SlipDistance, distance, status, status == ParameterStatus::Conditional ? kOneSpeed : slip_note());
+  }
+
   /// Errors fall with the root of the cycles; identified from a quarter on.
   [[nodiscard]] std::string weak_damping() const {
     if (!few_cycles().empty()) return few_cycles();
@@ -205,7 +210,7 @@ class Reporter {
   void report_law() {
     if (!f_.law->depends_on_speed) return withhold_law("not needed or not told: " + f_.law->reason);
     const Estimate slope = along([](const SlidingModel& model) { return model.slope; });
-    add(Id::FrictionSlope, slope, graded(Id::FrictionSlope, slope, slip_doubt()), slip_doubt());
+    add_graded(Id::FrictionSlope, slope, slip_doubt(), slip_doubt());
     const Estimate alpha = f_.intervals.interval_of_one_sign(model_.alpha);
     // Nearer to 0 than 3 standard errors: those that come out so large by chance would be reported, the others not.
     const double relative = relative_error(f_.intervals.interval_of(model_.alpha));
@@ -254,7 +259,7 @@ class Reporter {
   /// For everything that is computed from the fit. Needs all four of k, w_n, zeta and F_s above F_k.
   void report_model() {
     const bool damping_known = f_.held[kDamping] || f_.damping_known();
-    const bool resolved = f_.slip_unresolved.empty() && !f_.difference_bounds && f_.in_newtons;
+    const bool resolved = !f_.weakens && f_.slip_unresolved.empty() && !f_.difference_bounds && f_.in_newtons;
     if (!resolved || !damping_known || !(model_.difference.a > 0.0)) return;
     // In the order of kModelParameters; of the positive ones the logarithm.
     const std::array<Jet, kModelValues> all{log(model_.stiffness),  log(model_.omega), model_.zeta,
@@ -274,9 +279,8 @@ class Reporter {
       for (const std::size_t j : used) estimate.covariance[i][j] = f_.intervals.whole_covariance(all[i], all[j]);
     }
     result_.correlation = correlation_of(estimate, used);
-    const Spread& spread = f_.intervals.spread();
     estimate.degrees_of_freedom =
-        std::min(f_.intervals.degrees_of_freedom(model_.difference), spread.degrees_of_freedom);
+        std::min(f_.intervals.degrees_of_freedom(model_.difference), f_.intervals.spread().degrees_of_freedom);
     estimate.damping_identified = f_.held[kDamping] || f_.damping.ci95->low > 0.0;
     result_.estimate = estimate;
   }

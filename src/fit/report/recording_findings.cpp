@@ -177,6 +177,18 @@ Interval bounds_by_drop(const SawtoothFit& sawtooth, double cycles) {
   return {std::max(0.0, 0.485 * (sawtooth.drop - spread)), sawtooth.drop + spread};
 }
 
+void state_conditions(const Recording& recording, Findings& findings) {
+  findings.in_newtons = recording.conditions().quantity == ForceQuantity::Force_N;
+  findings.zero_known = recording.conditions().zero_force_N.has_value();
+  findings.sample_interval_s = recording.sample_interval_s();
+  findings.sensor_average_s = recording.conditions().sensor_average_s;
+}
+
+void state_law(const DampedFit& fit, Findings& findings) {
+  findings.weakens = fit.blocks.scales().law == FrictionLaw::Weakening;
+  if (!fit.law_doubt.empty()) (findings.weakens ? findings.slip_doubt : findings.slip_distance_unknown) = fit.law_doubt;
+}
+
 /// Why what is read from the slip cannot be told, or not surely.
 void state_doubts(const TierFits& fits, const Resolution& resolution, const Residual& residual, Findings& findings) {
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
@@ -232,9 +244,10 @@ std::string averaging_doubt(double change) {
       100.0 * change);
 }
 
-std::vector<std::string> conditions_of(const Recording& recording) {
+std::vector<std::string> conditions_of(const Recording& recording, Tier tier) {
+  const char* const law = tier == Tier::Weakening ? "friction that weakens over a slip distance" : "Coulomb friction";
   std::vector<std::string> conditions{
-      "Coulomb friction (one speed cannot tell zeta and F_s - F_k from friction that depends on speed)"};
+      fmt::format("{} (one speed cannot tell zeta and F_s - F_k from friction that depends on speed)", law)};
   if (!recording.conditions().speed_standard_error_m_per_s) conditions.emplace_back(kStatedSpeed);
   return conditions;
 }
@@ -257,19 +270,18 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   Coordinates values = coordinates_of(blocks);
   values(kDamping) = std::max(0.0, values(kDamping));
   Findings findings{values,
-                    {blocks.scales().force, blocks.scales().level},
+                    {.force = blocks.scales().force,
+                     .level = blocks.scales().level,
+                     .slip_distance_m = blocks.scales().slip_distance_m},
                     Intervals(std::move(spread)),
                     std::move(damping.estimate),
                     held};
-  findings.in_newtons = recording.conditions().quantity == ForceQuantity::Force_N;
-  findings.zero_known = recording.conditions().zero_force_N.has_value();
+  state_conditions(recording, findings);
   findings.cycles = blocks.size();
   findings.samples_per_slip = resolution.samples_per_slip;
-  findings.sample_interval_s = recording.sample_interval_s();
   findings.stiffness_doubt = std::move(stiffness.doubt);
   findings.stiffness_note = std::move(stiffness.note);
   findings.warnings = std::move(stiffness.warnings);
-  findings.sensor_average_s = recording.conditions().sensor_average_s;
   findings.fitted_average = fitted_average_of(fits.damped);
   findings.frequency_doubt = std::move(averaging.small_doubt);
   // Bent sticks begin and end in other slips than the model's.
@@ -277,6 +289,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
                         : findings.warnings.empty() ? ""
                                                     : findings.stiffness_note;
   findings.warnings.insert(findings.warnings.end(), averaging.warnings.begin(), averaging.warnings.end());
+  state_law(fits.damped, findings);
   state_doubts(fits, resolution, residual, findings);
   return findings;
 }

@@ -120,7 +120,10 @@ double tolerated_misfit(const Quality& quality) {
 std::optional<DampedFit> with_uncertainty(DampedFit draft, double tolerated_misfit) {
   draft.uncertainty = estimate_uncertainty(draft.blocks, {draft.held, false});
   if (!is_regular(draft.uncertainty, draft.held)) return std::nullopt;
-  if (!draft.blocks.level().per_cycle && !draft.uncertainty.from_cycles) draft = with_joined_ramps(std::move(draft));
+  const bool is_coulomb = draft.blocks.scales().law == FrictionLaw::Coulomb;  // RampResidual
+  if (is_coulomb && !draft.blocks.level().per_cycle && !draft.uncertainty.from_cycles) {
+    draft = with_joined_ramps(std::move(draft));
+  }
   draft.misfit = find_misfit(draft.blocks, tolerated_misfit);
   return draft;
 }

@@ -108,7 +108,7 @@ class Trials {
 
 double resting_share(const BlockFit& blocks) {
   double resting = 0.0;
-  for (std::size_t i = 0; i < blocks.size(); ++i) resting += blocks.state(i).motion.slip.resticks ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) resting += blocks.state(i).resticks() ? 1.0 : 0.0;
   return resting / static_cast<double>(blocks.size());
 }
 

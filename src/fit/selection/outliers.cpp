@@ -53,11 +53,11 @@ class ResidualsOfCycles {
     const auto stick = [&state, rate](double above) {
       return [&state, rate, above](double t_s) { return above + rate * (t_s - state.onset_s); };
     };
-    fill(cycle, begin, slip_begin, CyclePart::Stick, stick(state.force_scale * state.motion.before_slip(0.0).z));
+    fill(cycle, begin, slip_begin, CyclePart::Stick, stick(state.stick_before()));
     fill(cycle, slip_begin, slip_end, CyclePart::Slip, slip);
     fit_.scales().sensor_lag_s > 0.0  // the sensor still shows the slip
         ? fill(cycle, slip_end, end, CyclePart::Stick, slip)
-        : fill(cycle, slip_end, end, CyclePart::Stick, stick(state.force_scale * state.motion.after_slip(0.0).z));
+        : fill(cycle, slip_end, end, CyclePart::Stick, stick(state.stick_after()));
   }
 
   template <class Force>

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fit/inference/misfit.hpp"
@@ -32,6 +33,7 @@ struct DampedFit {
   std::optional<Smoothing> rounding{};     ///< of the slips beyond what is stated of the sensor; empty: not told
   std::optional<StickRipple> ripple{};     ///< left in the sticks
   std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none
+  std::string law_doubt{};                 ///< why the friction law was not the data's choice; empty: it was
 };
 
 }  // namespace slipfit::fit

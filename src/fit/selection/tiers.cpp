@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/fit_thresholds.hpp"
 #include "signal/robust.hpp"
@@ -30,10 +31,6 @@ std::string against(const Candidate& candidate, const Candidate& other) {
       thresholds::kTierPrice);
 }
 
-std::string requested(const std::string& reason) {
-  return "requested by --tier" + (reason.empty() ? "" : "; the data alone: " + reason);
-}
-
 double median_slip_s(const BlockFit& blocks) {
   std::vector<double> durations;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -50,6 +47,11 @@ double effective_samples(const DampedFit& fit) {
   return std::max(fit.uncertainty.samples * (1.0 - rho) / (1.0 + rho), static_cast<double>(fit.blocks.size()));
 }
 
+Candidate candidate_of(const DampedFit& fit, Tier tier, std::size_t parameters, double effective) {
+  const double rms = rms_of(fit);
+  return {tier, parameters, rms, aicc(rms, effective, static_cast<double>(parameters)), false, {}};
+}
+
 SawtoothFit fit_sawtooth(const DampedFit& damped) {
   const BlockFit& blocks = damped.blocks;
   SawtoothFit result;
@@ -60,12 +62,12 @@ SawtoothFit fit_sawtooth(const DampedFit& damped) {
     const CycleData& data = blocks.data(i);
     const CycleState state = blocks.state(i);
     // Lines of the fit before and after, continued to the middle of the slip.
-    const double jump = state.force_scale * (state.z0() - state.motion.after.intercept);
+    const double jump = state.force_scale * (state.z0() - state.intercept());
     drops.push_back(jump);
     const double middle_s = blocks.reference_s(i);
     const double* local = blocks.parameters.cycles[i].data();
     for (std::size_t j = 0; j < data.time_s.size(); ++j) {
-      const double line = data.time_s[j] < middle_s ? state.z0() : state.motion.after.intercept;
+      const double line = data.time_s[j] < middle_s ? state.z0() : state.intercept();
       const double z = line + state.tau_at(data.time_s[j] - blocks.scales().sensor_lag_s);
       const double level = blocks.model(i).level_at(data.time_s[j], blocks.level_data(), local);
       const double residual = data.force[j] - level - state.force_scale * z;
@@ -90,6 +92,12 @@ std::string too_few_samples(double samples_per_slip, double sample_interval_s) {
   const double rate_Hz = std::ceil(6.0 / samples_per_slip) / sample_interval_s;
   return fmt::format("the slip has {:.1f} samples; sample at {} or more", samples_per_slip,
                      rate_Hz < 1000.0 ? fmt::format("{:.3g} Hz", rate_Hz) : fmt::format("{:.3g} kHz", 1e-3 * rate_Hz));
+}
+
+Candidate requested(Candidate candidate) {
+  candidate.chosen = true;
+  candidate.reason = "requested by --tier" + (candidate.reason.empty() ? "" : "; the data alone: " + candidate.reason);
+  return candidate;
 }
 
 Resolution resolution_of(const Recording& recording, const TierFits& fits) {
@@ -125,15 +133,9 @@ std::vector<Candidate> choose_tier(const TierFits& fits, const Resolution& resol
   Candidate sawtooth{Tier::Sawtooth, 1, fits.sawtooth.rms, std::nullopt, false, {}};
   sawtooth.aicc = aicc(fits.sawtooth.rms, effective, 1.0);
   Candidate damped{Tier::Damped, 3, std::nullopt, std::nullopt, false, {}};
-  if (!fits.damped.refused_damping) {
-    damped.rms = rms_of(fits.damped);
-    damped.aicc = aicc(*damped.rms, effective, 3.0);
-  }
+  if (!fits.damped.refused_damping) damped = candidate_of(fits.damped, Tier::Damped, 3, effective);
   Candidate undamped{Tier::Undamped, 2, std::nullopt, std::nullopt, false, {}};
-  if (const DampedFit* fit = fits.without_damping()) {
-    undamped.rms = rms_of(*fit);
-    undamped.aicc = aicc(*undamped.rms, effective, 2.0);
-  }
+  if (const DampedFit* fit = fits.without_damping()) undamped = candidate_of(*fit, Tier::Undamped, 2, effective);
 
   Tier chosen = Tier::Sawtooth;
   if (!resolution.slip_resolved) {
@@ -155,7 +157,7 @@ std::vector<Candidate> choose_tier(const TierFits& fits, const Resolution& resol
   std::vector<Candidate> candidates{sawtooth, undamped, damped};
   for (Candidate& candidate : candidates) {
     candidate.chosen = candidate.tier == chosen;
-    if (candidate.chosen && forced) candidate.reason = requested(candidate.reason);
+    if (candidate.chosen && forced) candidate = requested(std::move(candidate));
   }
   return candidates;
 }

@@ -18,6 +18,9 @@ struct SawtoothFit {
 
 SawtoothFit fit_sawtooth(const DampedFit& damped);
 
+/// With rms and AICc on so many independent samples.
+Candidate candidate_of(const DampedFit& fit, Tier tier, std::size_t parameters, double effective);
+
 /// What the choice of a tier rests on. Where the free damping ratio was refused (DampedFit::refused_damping), `damped`
 /// is the fit with zeta = 0 and there is no other undamped one.
 struct TierFits {
@@ -49,6 +52,9 @@ double effective_samples(const DampedFit& fit);
 std::string too_few_samples(double samples_per_slip, double sample_interval_s);
 
 Resolution resolution_of(const Recording& recording, const TierFits& fits);
+
+/// Chosen by the user whatever the data say.
+Candidate requested(Candidate candidate);
 
 /// The poorest tier that explains the recording, with the reason for each; `forced` takes the place of the choice.
 std::vector<Candidate> choose_tier(const TierFits& fits, const Resolution& resolution, std::optional<Tier> forced);

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "fit/cycle/cycle_data.hpp"
+#include "model/weakening.hpp"
+
+namespace slipfit::fit {
+
+/// One cycle under friction that weakens over a slip distance as the sensor shows it, in the units of model/slip.hpp:
+/// closed form. A sensor of first order counts as one that shows the force as it is.
+class WeakeningCycle {
+ public:
+  using Point = model::WeakeningPoint;
+
+  /// Empty where D_c is far beyond (F_s - F_k) / k, from which on friction that weakens makes no stick-slip: a weak
+  /// slip may lie above that limit, but not all.
+  static std::optional<WeakeningCycle> solve(double z0, double omega_rad_per_s, const double* globals,
+                                             const Scales& scales) {
+    const double root = globals[kFrictionSlope];
+    const double unit = scales.slip_distance_m * omega_rad_per_s / scales.speed_m_per_s;
+    const double zeta = globals[kDamping];
+    const double lambda = z0 + 2.0 * zeta;
+    constexpr double kShortest = 1e-9;  // of lambda: Coulomb friction
+    constexpr double kLongest = 1.5;    // of half the typical drop over k
+    const double distance = std::max(unit * root * root, kShortest * lambda);
+    if (!(lambda > 0.0) || !(std::abs(zeta) < 1.0) || !std::isfinite(z0) || !(root * root < kLongest)) {
+      return std::nullopt;
+    }
+    WeakeningCycle cycle({z0, zeta, distance, scales.view});
+    cycle.distance_ = distance;
+    cycle.by_root_ = 2.0 * unit * root;
+    cycle.average_ = omega_rad_per_s * scales.sensor_average_s;
+    return cycle;
+  }
+
+  [[nodiscard]] double tau_end() const { return slip_.tau_end(); }
+  [[nodiscard]] bool resticks() const { return slip_.resticks(); }
+  /// Spring force above the level at tau = 0 of the stick after the slip.
+  [[nodiscard]] double intercept() const { return slip_.intercept(); }
+  /// As the sensor shows the sticks before and after it, continued to tau = 0.
+  [[nodiscard]] double shown_before() const { return slip_.at(0.0).z; }
+  [[nodiscard]] double shown_after() const { return slip_.at(2.0 * tau_end()).z - 2.0 * tau_end(); }
+
+  /// Force above the level in units of k V / w_n, at any tau = w_n (t - onset).
+  [[nodiscard]] Point at(double tau) const { return average_ > 0.0 ? slip_.mean_at(tau, average_) : slip_.at(tau); }
+  [[nodiscard]] Point before_slip(double tau) const { return at(tau); }
+  [[nodiscard]] Point after_slip(double tau) const { return at(tau); }
+
+  /// Derivatives of the force with respect to the law's coordinates, of the point's.
+  [[nodiscard]] std::array<double, 2> by_law(const Point& point) const {
+    return {point.d_zeta, by_root_ * point.d_distance};
+  }
+  [[nodiscard]] double by_log_omega(const Point& point) const {
+    return point.d_log_omega + distance_ * point.d_distance;
+  }
+
+  /// The cycle at samples in ascending order.
+  class Samples {
+   public:
+    Samples(const WeakeningCycle& cycle, double /*step_tau*/) : cycle_(cycle) {}
+    [[nodiscard]] Point at(double tau) const { return cycle_.at(tau); }
+
+   private:
+    const WeakeningCycle& cycle_;
+  };
+
+ private:
+  explicit WeakeningCycle(model::WeakeningSlip slip) : slip_(std::move(slip)) {}
+
+  model::WeakeningSlip slip_;
+  double distance_ = 0.0;  ///< D_c w_n / V
+  double by_root_ = 0.0;   ///< d distance_ / d kSlipDistance
+  double average_ = 0.0;   ///< of the sensor, w_n W
+};
+
+}  // namespace slipfit::fit

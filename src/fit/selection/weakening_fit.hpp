@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "fit/selection/tiers.hpp"
+#include "slipfit/fit/parameter.hpp"
+
+namespace slipfit::fit {
+
+/// A recording as fits see it.
+struct FitInput {
+  const Recording& recording;
+  const Quality& quality;
+  const Segmentation& segmentation;
+  const HeldParameters& held;
+};
+
+/// The fit with friction that weakens over a slip distance (docs/model.md section 9), one parameter more, and whether
+/// the data pay for it: Candidate::chosen, with the reason.
+struct WeakeningTrial {
+  std::optional<DampedFit> fit;  ///< empty: there is none
+  Candidate candidate;
+  std::optional<Warning> warning;  ///< an average of the sensor explains the slips as well
+};
+
+/// `coulomb`: the fit of the same recording under Coulomb friction.
+WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb);
+
+/// The Coulomb fit shows a sign of it: slips that are not shaped like the model's.
+bool may_weaken(const DampedFit& coulomb);
+
+}  // namespace slipfit::fit

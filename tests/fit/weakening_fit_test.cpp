@@ -1,0 +1,126 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "fit/scene.hpp"
+#include "model/weakening.hpp"
+
+namespace slipfit {
+namespace {
+
+/// The scene with friction that weakens over a share of (F_s - F_k) / k; F_s scatters by `jitter` of F_s - F_k.
+Recording weakening_recording(const Scene& s, double share) {
+  std::mt19937_64 random(s.seed);
+  std::normal_distribution<double> normal;
+  const double unit_N = s.stiffness * s.speed / s.omega;
+  const double lambda = (s.static_N - s.kinetic_N) / unit_N;
+  const auto next_slip = [&] {
+    const double z0 = lambda * (1.0 + s.jitter * normal(random)) - 2.0 * s.zeta;
+    return std::pair{z0, model::WeakeningSlip(z0, s.zeta, share * lambda)};
+  };
+  auto [z0, slip] = next_slip();
+  const double step = slip.tau_end() / s.samples_per_slip;
+  double onset = lambda;
+  std::vector<double> time_s, force;
+  for (double cycles = 0.0; cycles < s.cycles; ++cycles) {
+    auto [next_z0, next] = next_slip();
+    const double next_onset = onset + next_z0 - slip.intercept();
+    for (double tau = step * static_cast<double>(time_s.size()); tau < next_onset;
+         tau = step * static_cast<double>(time_s.size())) {
+      time_s.push_back(tau / s.omega);
+      const double noise_N = s.noise * (s.static_N - s.kinetic_N) * normal(random);
+      force.push_back(s.kinetic_N + unit_N * slip.at(tau - onset).z + noise_N);
+    }
+    onset = next_onset;
+    slip = next;
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = s.speed;
+  conditions.zero_force_N = 0.0;
+  return Recording::create(std::move(time_s), std::move(force), conditions).value();
+}
+
+Scene soft_contact() {
+  Scene s;
+  s.noise = 0.01;
+  s.jitter = 0.03;
+  s.cycles = 40.0;
+  return s;
+}
+
+const Candidate* weakening_candidate(const Analysis& analysis) {
+  for (const Candidate& candidate : analysis.fit->candidates) {
+    if (candidate.tier == Tier::Weakening) return &candidate;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("a slip distance is found with the other parameters where slips start slowly and end abruptly") {
+  const double share = GENERATE(0.15, 0.4);
+  Scene s = soft_contact();
+  s.seed = GENERATE(range(1, 4));
+  CAPTURE(share, s.seed);
+  const Analysis analysis = analyze_and_fit(weakening_recording(s, share), {});
+  REQUIRE(analysis.fit);
+  REQUIRE(analysis.fit->tier == Tier::Weakening);
+  const double difference_N = s.static_N - s.kinetic_N;
+  for (const auto& [name, truth] :
+       {std::pair{"slip_distance_m", share * difference_N / s.stiffness}, std::pair{"stiffness_N_per_m", s.stiffness},
+        std::pair{"natural_frequency_rad_per_s", s.omega}, std::pair{"damping_ratio", s.zeta},
+        std::pair{"friction_difference_N", difference_N}}) {
+    INFO(name);
+    const Estimate& estimate = parameter(analysis, name).estimate;
+    REQUIRE(estimate.standard_error);
+    // Thirty numbers: one in four hundred lies outside three standard errors.
+    CHECK(std::abs(*estimate.value - truth) < 3.5 * *estimate.standard_error);
+    CHECK(*estimate.value == Approx(truth).epsilon(0.2));
+  }
+  CHECK(weakening_candidate(analysis)->chosen);
+  // What Coulomb friction would say of other speeds does not hold.
+  CHECK_FALSE(analysis.fit->estimate);
+  CHECK_FALSE(analysis.derived.critical_speed_m_per_s.value);
+}
+
+TEST_CASE("Coulomb friction gets no slip distance, and is not asked for one") {
+  Scene s = soft_contact();
+  s.seed = GENERATE(range(1, 9));
+  CAPTURE(s.seed);
+  const Analysis analysis = analyze_and_fit(record(s), {});
+  REQUIRE(analysis.fit);
+  CHECK(analysis.fit->tier != Tier::Weakening);
+  CHECK(weakening_candidate(analysis) == nullptr);
+}
+
+TEST_CASE("a slip distance that is asked for in vain is unknown with the reason") {
+  FitOptions options;
+  options.tier = Tier::Weakening;
+  Scene s = soft_contact();
+  SECTION("few samples in a slip") {
+    s.samples_per_slip = 4.0;
+    const Analysis analysis = analyze_and_fit(record(s), options);
+    REQUIRE(analysis.fit);
+    CHECK(analysis.fit->tier == Tier::Weakening);
+    for (const char* const name : {"slip_distance_m", "natural_frequency_rad_per_s"}) {
+      INFO(name);
+      CHECK(parameter(analysis, name).status == ParameterStatus::Unidentified);
+      CHECK_FALSE(parameter(analysis, name).estimate.note.empty());
+    }
+  }
+  SECTION("Coulomb friction") {
+    const Analysis analysis = analyze_and_fit(record(s), options);
+    REQUIRE(analysis.fit);
+    CHECK(analysis.fit->tier == Tier::Weakening);
+    for (const Parameter& p : analysis.fit->parameters) {
+      INFO(p.name());
+      if (p.id == ParameterId::SlipDistance) CHECK_FALSE(p.estimate.note.empty());
+      const bool is_of_sticks = p.id == ParameterId::Stiffness || p.id == ParameterId::StaticFriction;
+      if (!is_of_sticks) CHECK(p.status != ParameterStatus::Identified);
+    }
+  }
+}
+
+}  // namespace slipfit
