@@ -59,7 +59,7 @@ FitDiagnostics diagnostics_of(const Recording& recording, const DampedFit& dampe
                       signal::median({onset_forces.begin() + half, onset_forces.end()});
   diagnostics.span_share = (blocks.scales().time_end_s - blocks.scales().time_begin_s) / recording.duration_s();
   diagnostics.samples_per_slip = resolution.samples_per_slip;
-  diagnostics.hum_share = hum_amplitude(blocks) / std::abs(mean);
+  diagnostics.hum_share = mains_amplitude(blocks) / std::abs(mean);
   return diagnostics;
 }
 

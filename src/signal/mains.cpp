@@ -100,10 +100,10 @@ std::optional<double> mains_in_step(double frequency_Hz, int harmonics, double d
   return std::nullopt;
 }
 
-bool is_of_mains(double frequency_Hz) {
-  return std::any_of(kMains_Hz.begin(), kMains_Hz.end(), [frequency_Hz](double mains_Hz) {
+bool is_of_mains(double frequency_Hz, double resolution_Hz) {
+  return std::any_of(kMains_Hz.begin(), kMains_Hz.end(), [&](double mains_Hz) {
     const double order = std::max(1.0, std::round(frequency_Hz / mains_Hz));
-    return std::abs(frequency_Hz - order * mains_Hz) < 2e-3 * frequency_Hz;
+    return std::abs(frequency_Hz - order * mains_Hz) < std::max(resolution_Hz, 2e-3 * frequency_Hz);
   });
 }
 

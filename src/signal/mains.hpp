@@ -21,8 +21,8 @@ std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, 
 /// "mains 50 Hz", "3rd harmonic of 50 Hz mains".
 std::string describe(const MainsLine& line);
 
-/// Whether it is a multiple of 50 or 60 Hz as exactly as the mains keeps them (0.2 %).
-bool is_of_mains(double frequency_Hz);
+/// Whether it is a multiple of 50 or 60 Hz as exactly as the mains keeps them (0.2 %) and a recording tells.
+bool is_of_mains(double frequency_Hz, double resolution_Hz);
 
 /// The spectrum with the line replaced by the level beside it.
 void flatten(std::vector<double>& power, double bin_Hz, double resolution_Hz, const MainsLine& line);

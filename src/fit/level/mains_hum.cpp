@@ -121,14 +121,49 @@ bool is_in_step(const BlockFit& fit, double frequency_Hz) {
   return std::abs(sum) > thresholds::kInStep * static_cast<double>(fit.size());
 }
 
+struct FittedLine {
+  double frequency_Hz = 0.0;
+  double force = 0.0;  ///< amplitude
+  bool is_of_mains = false;
+};
+
+std::vector<FittedLine> fitted_lines(const BlockFit& fit) {
+  const double resolution_Hz = 1.0 / (fit.scales().time_end_s - fit.scales().time_begin_s);
+  std::vector<FittedLine> lines;
+  const double* wave = fit.parameters.level.data() + fit.level().terms;
+  for (const double frequency_Hz : fit.level().lines_Hz) {
+    const double force = fit.scales().force * std::hypot(wave[0], wave[1]);
+    lines.push_back({frequency_Hz, force, signal::is_of_mains(frequency_Hz, resolution_Hz)});
+    wave += 2;
+  }
+  return lines;
+}
+
 }  // namespace
 
 double hum_amplitude(const BlockFit& fit) {
   double amplitude = 0.0;
-  for (std::size_t i = fit.level().terms; i < fit.level().columns(); ++i) {
-    amplitude = std::hypot(amplitude, fit.scales().force * fit.parameters.level[i]);
+  for (const FittedLine& line : fitted_lines(fit)) amplitude = std::hypot(amplitude, line.force);
+  return amplitude;
+}
+
+double mains_amplitude(const BlockFit& fit) {
+  double amplitude = 0.0;
+  for (const FittedLine& line : fitted_lines(fit)) {
+    if (line.is_of_mains) amplitude = std::hypot(amplitude, line.force);
   }
   return amplitude;
+}
+
+std::optional<StickRipple> fitted_ripple(const BlockFit& fit) {
+  std::optional<StickRipple> largest;
+  for (const FittedLine& line : fitted_lines(fit)) {
+    const double share = speed_share(fit, line.frequency_Hz, line.force);
+    const bool may_be_of_drive = !line.is_of_mains && share > thresholds::kRippleShare && share < 1.0;
+    if (!may_be_of_drive || (largest && share < largest->speed_share)) continue;
+    largest = StickRipple{line.frequency_Hz, line.force, share, 0.0};
+  }
+  return largest;
 }
 
 std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "fit/level/stick_ripple.hpp"
 #include "fit/problem/block_fit.hpp"
 
 namespace slipfit::fit {
@@ -16,5 +18,11 @@ std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, st
 
 /// Of all fitted lines together, unit of the force; 0 without.
 double hum_amplitude(const BlockFit& fit);
+/// Of those of the mains.
+double mains_amplitude(const BlockFit& fit);
+
+/// The largest fitted line that a drive may make: its speed changes by more than thresholds::kRippleShare and never
+/// turns back; not of the mains.
+std::optional<StickRipple> fitted_ripple(const BlockFit& fit);
 
 }  // namespace slipfit::fit

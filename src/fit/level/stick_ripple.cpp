@@ -9,7 +9,6 @@
 
 #include "core/fit_thresholds.hpp"
 #include "fit/selection/outliers.hpp"
-#include "signal/mains.hpp"
 #include "signal/robust.hpp"
 #include "signal/transform.hpp"
 
@@ -46,15 +45,6 @@ Eigen::MatrixXd waves_at(const Eigen::VectorXd& time_s, double frequency_Hz) {
 /// k V.
 double stick_slope(const BlockFit& fit) {
   return std::exp(fit.parameters.globals[kLogStiffness]) * fit.scales().speed_m_per_s;
-}
-
-double speed_share(const BlockFit& fit, double frequency_Hz, double force) {
-  return 2.0 * std::numbers::pi * frequency_Hz * force / stick_slope(fit);
-}
-
-bool may_be_of_drive(const StickRipple& ripple) {
-  return ripple.speed_share > thresholds::kRippleShare && ripple.speed_share < 1.0 &&
-         !signal::is_of_mains(ripple.frequency_Hz);
 }
 
 class Sticks {
@@ -200,21 +190,13 @@ class Sticks {
 
 }  // namespace
 
+double speed_share(const BlockFit& fit, double frequency_Hz, double force) {
+  return 2.0 * std::numbers::pi * frequency_Hz * force / stick_slope(fit);
+}
+
 std::optional<StickRipple> find_stick_ripple(const Recording& recording, const BlockFit& fit, double least_force) {
   const std::optional<StickRipple> line = Sticks(recording, fit).largest_line();
   return line && line->force > least_force && line->speed_share > kLeastShare ? line : std::nullopt;
-}
-
-std::optional<StickRipple> fitted_ripple(const BlockFit& fit) {
-  std::optional<StickRipple> largest;
-  const LevelModel& level = fit.level();
-  for (std::size_t i = 0; i < level.lines_Hz.size(); ++i) {
-    const double* wave = &fit.parameters.level[level.terms + 2 * i];
-    const double force = fit.scales().force * std::hypot(wave[0], wave[1]);
-    const StickRipple ripple{level.lines_Hz[i], force, speed_share(fit, level.lines_Hz[i], force), 0.0};
-    if (may_be_of_drive(ripple) && (!largest || ripple.speed_share > largest->speed_share)) largest = ripple;
-  }
-  return largest;
 }
 
 }  // namespace slipfit::fit

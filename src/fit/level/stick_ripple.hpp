@@ -20,8 +20,7 @@ struct StickRipple {
 /// below `least_force`: steps of the converter make lines of half their height in straight ramps.
 std::optional<StickRipple> find_stick_ripple(const Recording& recording, const BlockFit& fit, double least_force);
 
-/// Of the lines that a fit has beside the cycles: the largest that a drive may make, since its speed changes by more
-/// than thresholds::kRippleShare and never turns back, and that is not of the mains.
-std::optional<StickRipple> fitted_ripple(const BlockFit& fit);
+/// Amplitude of the drive's speed that makes a line of this amplitude in stick, over the driving speed.
+double speed_share(const BlockFit& fit, double frequency_Hz, double force);
 
 }  // namespace slipfit::fit

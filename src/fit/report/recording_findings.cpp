@@ -10,7 +10,7 @@
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/profile.hpp"
 #include "fit/inference/smoothing.hpp"
-#include "fit/level/stick_ripple.hpp"
+#include "fit/level/mains_hum.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/ramps.hpp"
 
