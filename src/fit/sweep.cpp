@@ -120,7 +120,7 @@ class Assembler {
           "residuals are well above the noise: the interval cannot hold what the model lacks";
     }
     if (!findings.damping.value) findings.frequency_unknown = findings.damping.note;
-    if (averaging_ > thresholds::kAverageShare) {
+    if (averaging_ > thresholds::kAverageShare && !data_.rounding_s2) {
       findings.frequency_doubt = fit::averaging_doubt(averaging_);
     }
     add_average(findings);
@@ -141,8 +141,8 @@ class Assembler {
           fit::symmetric(average->seconds, average->standard_error_s, static_cast<double>(data_.fitted.size()));
       findings.slip_doubt = fit::kFittedAverage;
       findings.warnings.push_back(fit::averaged_warning(average->seconds));
-    } else if (data_.rounded) {
-      findings.slip_doubt = "onset and end of the slips are rounded, as an average would, on which they do not agree";
+    } else if (data_.rounding_s2) {
+      findings.slip_doubt = "onset and end of the slips are rounded, as an average would that cannot be told";
       findings.warnings.push_back(
           {"samples_averaged", findings.slip_doubt + ": state it with --sensor-average where it is known"});
     }

@@ -69,7 +69,7 @@ TEST_CASE("slips seen through an average that nobody stated: its time and the ma
 TEST_CASE("samples of an instant get no average") {
   Scene s = printed_plastic();
   s.noise = 0.01;
-  s.seed = GENERATE(range(1, 13));
+  s.seed = GENERATE(range<std::uint64_t>(1, 13));
   const Analysis analysis = analyze_and_fit(record(s), {});
   for (const Parameter& p : analysis.fit->parameters) CHECK(p.name() != "sensor_average_s");
 }

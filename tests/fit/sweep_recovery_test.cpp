@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "slipfit/pipeline.hpp"
 #include "slipfit/sweep.hpp"
 #include "sweep_recordings.hpp"
 
@@ -160,6 +161,24 @@ TEST_CASE("sweep: an average that nobody stated is found in all recordings, and 
   CHECK(*parameter(sweep, "sensor_average_s").estimate.value == Approx(12.0 * step_s).epsilon(0.05));
   CHECK(parameter(sweep, "natural_frequency_rad_per_s").status == ParameterStatus::Weak);
   check_recovery(sweep, scene);
+}
+
+TEST_CASE("sweep: averages that no recording alone can tell are told by all of them together") {
+  SweepScene scene;
+  scene.f1_N = 0.0;
+  scene.f0_N = 2.0;
+  scene.averaged = 4;
+  scene.noise_N = 0.02;
+  const std::vector<SweepEntry> entries = test::record_sweep(scene, kSpeeds);
+  for (const SweepEntry& entry : entries)
+    CHECK_FALSE(warns(analyze_and_fit(entry.recording, {}).warnings, "samples_averaged"));
+  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  REQUIRE(sweep.fit);
+  CHECK(warns(sweep.fit->result.warnings, "samples_averaged"));
+  const Parameter& frequency = parameter(sweep, "natural_frequency_rad_per_s");
+  CHECK(frequency.status == ParameterStatus::Weak);
+  CHECK(frequency.estimate.ci95->low <= scene.natural_frequency_rad_per_s);
+  CHECK(frequency.estimate.ci95->high >= scene.natural_frequency_rad_per_s);
 }
 
 TEST_CASE("sweep: friction that goes on changing below the measured speeds leaves F_s - F_k(0+) open") {

@@ -62,7 +62,7 @@ const Candidate* weakening_candidate(const Analysis& analysis) {
 TEST_CASE("a slip distance is found with the other parameters where slips start slowly and end abruptly") {
   const double share = GENERATE(0.15, 0.4);
   Scene s = soft_contact();
-  s.seed = GENERATE(range(1, 4));
+  s.seed = GENERATE(range<std::uint64_t>(1, 4));
   CAPTURE(share, s.seed);
   const Analysis analysis = analyze_and_fit(weakening_recording(s, share), {});
   REQUIRE(analysis.fit);
@@ -87,7 +87,7 @@ TEST_CASE("a slip distance is found with the other parameters where slips start 
 
 TEST_CASE("Coulomb friction gets no slip distance, and is not asked for one") {
   Scene s = soft_contact();
-  s.seed = GENERATE(range(1, 9));
+  s.seed = GENERATE(range<std::uint64_t>(1, 9));
   CAPTURE(s.seed);
   const Analysis analysis = analyze_and_fit(record(s), {});
   REQUIRE(analysis.fit);

@@ -163,13 +163,14 @@ double effect_of_averaging(std::span<const SweepRecording> recordings, const Swe
                            const SweepData& data) {
   constexpr double kByVariance = 0.62;  // d ln w_n / d (w_n sigma)^2 of damped slips, sigma^2 that of the average
   const double omega = std::exp(outcome.values(kLogFrequency));
-  double sum = 0.0;
+  double variance_s2 = 0.0;
   for (const std::size_t i : data.fitted) {
     const Recording& recording = recordings[i].recording;
     if (recording.conditions().sensor_average_s || data.single[i]->average) continue;
-    sum += kByVariance * std::pow(omega * recording.sample_interval_s(), 2) / 12.0;
+    const double step_s = recording.sample_interval_s();
+    variance_s2 += data.rounding_s2.value_or(step_s * step_s / 12.0) / static_cast<double>(data.fitted.size());
   }
-  return sum / static_cast<double>(data.fitted.size());
+  return kByVariance * omega * omega * variance_s2;
 }
 
 }  // namespace slipfit::fit

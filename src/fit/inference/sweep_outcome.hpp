@@ -42,7 +42,8 @@ double left_out_error(const SweepOutcome& outcome);
 double residual_over_noise(std::span<const SweepRecording> recordings, const SweepData& data,
                            const SweepSolution& solution);
 
-/// By how much averaging of the samples over a step of the clock, where none is stated, would make w_n too small.
+/// By how much averaging of the samples, where none is stated, may make w_n too small: over a step of the clock, or
+/// what the slips of all recordings show together.
 double effect_of_averaging(std::span<const SweepRecording> recordings, const SweepOutcome& outcome,
                            const SweepData& data);
 

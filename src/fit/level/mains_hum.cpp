@@ -167,7 +167,7 @@ std::optional<StickRipple> fitted_ripple(const BlockFit& fit) {
 }
 
 std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
-                             const std::vector<std::size_t>& outliers, double least_force) {
+                             const std::vector<std::size_t>& outliers, const std::optional<StickRipple>& in_sticks) {
   if (!recording.clock_is_even()) return {};
   const std::vector<double> values = with_hum(recording, fit, std::move(residuals), outliers);
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
@@ -185,8 +185,7 @@ std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, st
     const auto is_near = [&](double f) { return std::abs(f - f_Hz) < 2.0 * resolution_Hz; };
     return std::none_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near) && !is_in_step(fit, f_Hz);
   };
-  const std::optional<StickRipple> ripple = find_stick_ripple(recording, fit, least_force);
-  if (ripple && is_new(ripple->frequency_Hz)) frequencies_Hz.push_back(ripple->frequency_Hz);
+  if (in_sticks && is_new(in_sticks->frequency_Hz)) frequencies_Hz.push_back(in_sticks->frequency_Hz);
   const std::vector<signal::MainsLine> lines = signal::find_mains(power, bin_Hz, resolution_Hz);
   if (lines.empty()) return frequencies_Hz;
   // find_mains compares a line with its surroundings, which are too low where the fitted cycles have removed noise near

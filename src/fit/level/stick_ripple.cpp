@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
-#include "fit/selection/outliers.hpp"
 #include "signal/robust.hpp"
 #include "signal/transform.hpp"
 
@@ -49,8 +48,8 @@ double stick_slope(const BlockFit& fit) {
 
 class Sticks {
  public:
-  Sticks(const Recording& recording, const BlockFit& fit)
-      : recording_(recording), fit_(fit), residuals_(residuals_of(recording, fit, {})) {
+  Sticks(const Recording& recording, const BlockFit& fit, const Residuals& residuals)
+      : recording_(recording), fit_(fit), residuals_(residuals) {
     std::vector<double> periods_s;
     for (std::size_t i = 0; i + 1 < fit.size(); ++i) {
       if (fit.data(i).continuous_with_next) periods_s.push_back(fit.reference_s(i + 1) - fit.reference_s(i));
@@ -181,7 +180,7 @@ class Sticks {
 
   const Recording& recording_;
   const BlockFit& fit_;
-  Residuals residuals_;
+  const Residuals& residuals_;
   double period_s_ = 0.0;
   double step_s_ = 0.0;
   std::size_t block_ = 1;
@@ -194,8 +193,9 @@ double speed_share(const BlockFit& fit, double frequency_Hz, double force) {
   return 2.0 * std::numbers::pi * frequency_Hz * force / stick_slope(fit);
 }
 
-std::optional<StickRipple> find_stick_ripple(const Recording& recording, const BlockFit& fit, double least_force) {
-  const std::optional<StickRipple> line = Sticks(recording, fit).largest_line();
+std::optional<StickRipple> find_stick_ripple(const Recording& recording, const BlockFit& fit,
+                                             const Residuals& residuals, double least_force) {
+  const std::optional<StickRipple> line = Sticks(recording, fit, residuals).largest_line();
   return line && line->force > least_force && line->speed_share > kLeastShare ? line : std::nullopt;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "fit/problem/block_fit.hpp"
+#include "fit/selection/outliers.hpp"
 #include "slipfit/core/recording.hpp"
 
 namespace slipfit::fit {
@@ -18,7 +19,9 @@ struct StickRipple {
 /// The largest line in what a fit leaves of the sticks, between 2.5 and 30 times the slips' frequency. Empty where the
 /// periodogram's largest value is chance (thresholds::kRippleChance), where the line does not last all the stick, or
 /// below `least_force`: steps of the converter make lines of half their height in straight ramps.
-std::optional<StickRipple> find_stick_ripple(const Recording& recording, const BlockFit& fit, double least_force);
+/// `residuals`: of all samples of the recording.
+std::optional<StickRipple> find_stick_ripple(const Recording& recording, const BlockFit& fit,
+                                             const Residuals& residuals, double least_force);
 
 /// Amplitude of the drive's speed that makes a line of this amplitude in stick, over the driving speed.
 double speed_share(const BlockFit& fit, double frequency_Hz, double force);

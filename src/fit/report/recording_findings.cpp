@@ -57,11 +57,8 @@ StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits,
   }
   if (const std::optional<StickRipple> ripple = ripple_of(fits.damped)) {
     result.variance += std::pow(ripple->log_stiffness, 2);
-    result.note = fmt::format(
-        "the force in stick swings at {:.4g} Hz, as where the drive's speed swings by {:.2g} %: slips then begin at "
-        "other speeds than the mean",
-        ripple->frequency_Hz, 100.0 * ripple->speed_share);
-    result.warnings.push_back({"drive_ripple", result.note});
+    result.warnings.push_back(ripple_warning(*ripple));
+    result.note = result.warnings.back().message;
   }
   const double drift = std::abs(level_trend(blocks) / (stiffness * conditions.speed_m_per_s));
   if (drift > std::hypot(log_k_error, std::sqrt(result.variance))) {
@@ -109,11 +106,8 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
   const std::optional<Smoothing> seen =
       &blocks == &fit.blocks ? fit.rounding : estimate_smoothing(blocks, fit.held, step_s);
   if (!seen) return result;
-  const double of_a_step = step_s * step_s / 12.0;
-  const bool rounded = is_rounded(fit, *seen, step_s);
-  // The move per variance is that of little averaging: a quarter more of what is seen allows for the bend.
-  const double variance = rounded ? 1.25 * seen->variance_s2 + 2.0 * seen->standard_error_s2 : of_a_step;
-  result.one_sided = variance * seen->move_per_s2;
+  const bool rounded = !repeats_rounding(fit) && is_rounding(*seen, step_s);
+  result.one_sided = (rounded ? largest_variance_s2(*seen) : step_s * step_s / 12.0) * seen->move_per_s2;
   const double change = std::abs(result.one_sided(kLogFrequency));
   if (rounded) {
     const double average_s = std::sqrt(12.0 * seen->variance_s2);
@@ -229,20 +223,6 @@ std::optional<Estimate> fitted_average_of(const DampedFit& fit) {
 }
 
 }  // namespace
-
-Warning averaged_warning(double average_s) {
-  return {"samples_averaged",
-          fmt::format("the slips are seen through averaging over {:.3g} ms, which is fitted together with them: state "
-                      "it with --sensor-average where it is known",
-                      1e3 * average_s)};
-}
-
-std::string averaging_doubt(double change) {
-  return fmt::format(
-      "averaging over one step of the clock, of which nothing is stated, would change w_n by {:.1f} %; state it with "
-      "--sensor-average (0: an instant), or sample faster",
-      100.0 * change);
-}
 
 std::vector<std::string> conditions_of(const Recording& recording, Tier tier) {
   const char* const law = tier == Tier::Weakening ? "friction that weakens over a slip distance" : "Coulomb friction";

@@ -1,5 +1,6 @@
 #include "fit/selection/common_average.hpp"
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstddef>
@@ -33,8 +34,32 @@ std::optional<FittedAverage> mean_of(const std::vector<FittedAverage>& averages)
   return FittedAverage{mean_s, error_s};
 }
 
-bool shows_rounding(const DampedFit& fit, const Recording& recording) {
-  return !fit.average && fit.rounding && is_rounded(fit, *fit.rounding, recording.sample_interval_s());
+/// What one recording shows of averaging that nobody stated; empty where it cannot tell.
+std::optional<Smoothing> rounding_of(const SweepRecording& sweep, const DampedFit& fit) {
+  if (sweep.recording.conditions().sensor_average_s) return std::nullopt;
+  if (fit.average) {
+    const double average_s = fit.average->seconds;
+    return Smoothing{average_s * average_s / 12.0, average_s * fit.average->standard_error_s / 6.0};
+  }
+  return repeats_rounding(fit) ? std::nullopt : fit.rounding;
+}
+
+/// All recordings of a machine average over the same time: what each alone cannot tell they may tell together.
+std::optional<double> common_rounding_s2(std::span<const SweepRecording> recordings, const OwnFits& own) {
+  double weights = 0.0;
+  double sum = 0.0;
+  double longest_step_s = 0.0;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const std::optional<Smoothing> seen = own.fits[i] ? rounding_of(recordings[i], *own.fits[i]) : std::nullopt;
+    if (!seen || !(seen->standard_error_s2 > 0.0)) continue;
+    const double weight = std::pow(seen->standard_error_s2, -2);
+    weights += weight;
+    sum += weight * seen->variance_s2;
+    longest_step_s = std::max(longest_step_s, recordings[i].recording.sample_interval_s());
+  }
+  if (!(weights > 0.0)) return std::nullopt;
+  const Smoothing together{sum / weights, 1.0 / std::sqrt(weights)};
+  return is_rounding(together, longest_step_s) ? std::optional(largest_variance_s2(together)) : std::nullopt;
 }
 
 }  // namespace
@@ -44,7 +69,6 @@ OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameter
   std::vector<FittedAverage> averages;
   std::size_t stated = 0;
   std::size_t fitted = 0;
-  std::size_t rounded = 0;
   for (const SweepRecording& sweep : recordings) {
     std::optional<DampedFit>& fit = own.fits.emplace_back();
     if (sweep.role != SweepRole::Cycles) continue;
@@ -53,12 +77,13 @@ OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameter
     ++fitted;
     if (sweep.recording.conditions().sensor_average_s) ++stated;
     if (fit->average) averages.push_back(*fit->average);
-    if (shows_rounding(*fit, sweep.recording)) ++rounded;
   }
   const std::size_t open = fitted - stated;
   if (2 * averages.size() >= open && !averages.empty()) own.average = mean_of(averages);
-  own.rounded = !own.average && 2 * (averages.size() + rounded) >= open && averages.size() + rounded > 0;
-  if (!own.average) return own;
+  if (!own.average) {
+    own.rounding_s2 = common_rounding_s2(recordings, own);
+    return own;
+  }
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     const SweepRecording& sweep = recordings[i];
     if (!own.fits[i] || sweep.recording.conditions().sensor_average_s) continue;

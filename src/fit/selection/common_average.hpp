@@ -14,11 +14,12 @@ namespace slipfit::fit {
 struct OwnFits {
   std::vector<std::optional<DampedFit>> fits;  ///< empty: not of cycles, or none that can be fitted
   std::optional<FittedAverage> average{};      ///< in all fits of recordings that state none
-  bool rounded = false;                        ///< as averaging would, which is not in the fits
+  /// sigma^2 up to which averaging that is not in the fits rounds their slips; empty: no sign of more than a step's
+  std::optional<double> rounding_s2{};
 };
 
 /// Where at least half of the recordings that state no average show one, and agree on it, all of these are fitted with
-/// the mean of it.
+/// the mean of it. Otherwise what all of them show together is told.
 OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held);
 
 }  // namespace slipfit::fit

@@ -200,12 +200,14 @@ class Fitter {
   /// Where there was much hum, again: the next residuals show its frequency and the outliers more clearly.
   std::optional<BlockFit> with_clean_data(BlockFit fit) {
     for (int pass = 0; pass < kCleanPasses; ++pass) {
-      Residuals residuals = residuals_of(recording_, fit, excluded_);
+      Residuals residuals = residuals_of(recording_, fit);
+      const std::optional<StickRipple> ripple =
+          find_stick_ripple(recording_, fit, residuals, tolerated_misfit(quality_));
+      residuals = without(std::move(residuals), excluded_);
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
-      const std::vector<double> lines_Hz =
-          find_hum(recording_, fit, std::move(residuals.value), outliers, tolerated_misfit(quality_));
+      const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals.value), outliers, ripple);
       const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty();
       if (is_clean && (pass > 0 || near_.excluded.empty())) {
         if (pass == 0) solve(fit, {held_, false, true, kMaxIterations, kFinal});  // it was only rough so far

@@ -74,7 +74,7 @@ class RoundingMoves {
         influences_(influences_of(result.blocks, select(result.blocks), {result.held, result.continuous})) {}
 
   [[nodiscard]] Moves moves(double step) const {
-    const Residuals residuals = residuals_of(recording_, result_.blocks, {});
+    const Residuals residuals = residuals_of(recording_, result_.blocks);
     std::vector<double> model(recording_.force().begin(), recording_.force().end());
     for (std::size_t i = 0; i < model.size(); ++i) model[i] -= residuals.value[i];
     const RoundedCopies copies(model, step, result_.uncertainty.noise);
@@ -136,7 +136,7 @@ std::optional<DampedFit> finish_fit(const Recording& recording, const Quality& q
     if (!moves.allFinite()) return std::nullopt;
     fit.uncertainty = with_rounding(fit.uncertainty, moves);
   }
-  fit.ripple = find_stick_ripple(recording, fit.blocks, tolerated_misfit(quality));
+  fit.ripple = find_stick_ripple(recording, fit.blocks, residuals_of(recording, fit.blocks), tolerated_misfit(quality));
   if (fit.misfit) fit.uncertainty = with_misfit(fit.uncertainty, influence_of_segments(fit.blocks, fit.held));
   return fit;
 }

@@ -39,12 +39,9 @@ double stick_s(const BlockFit& blocks) {
 /// much averaging, where the time of the fall is W's, and one of little with slips that are too slow.
 std::vector<double> guesses_s(const Recording& recording, const DampedFit& plain) {
   const BlockFit& blocks = plain.blocks;
-  const double step_s = recording.sample_interval_s();
   const double of_fall_s = 0.7 * blocks.scales().half_period_s;
   const std::optional<Smoothing>& seen = plain.rounding;
-  if (!seen) return {};
-  const double surely_s2 = seen->variance_s2 - thresholds::kRoundedSigmas * seen->standard_error_s2;
-  if (!(surely_s2 > step_s * step_s / 12.0)) return {};
+  if (!seen || !is_rounding(*seen, recording.sample_interval_s())) return {};
   if (plain.refused_damping) return {of_fall_s};
   return {std::sqrt(12.0 * seen->variance_s2), of_fall_s};
 }
@@ -213,11 +210,17 @@ std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality
   return finish_fit(recording, quality, segmentation, *std::move(fit));
 }
 
-bool is_rounded(const DampedFit& fit, const Smoothing& seen, double sample_interval_s) {
-  // Rounding to steps of the converter repeats its errors in every cycle: the scatter over them does not show it.
-  const bool repeats = fit.uncertainty.from_refits && !fit.misfit;
-  return !repeats && seen.variance_s2 - thresholds::kRoundedSigmas * seen.standard_error_s2 >
-                         sample_interval_s * sample_interval_s / 12.0;
+bool repeats_rounding(const DampedFit& fit) {
+  return fit.uncertainty.from_refits && !fit.misfit;
+}
+
+bool is_rounding(const Smoothing& seen, double sample_interval_s) {
+  return seen.variance_s2 - thresholds::kRoundedSigmas * seen.standard_error_s2 >
+         sample_interval_s * sample_interval_s / 12.0;
+}
+
+double largest_variance_s2(const Smoothing& seen) {
+  return 1.25 * seen.variance_s2 + 2.0 * seen.standard_error_s2;
 }
 
 }  // namespace slipfit::fit

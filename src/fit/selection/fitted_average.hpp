@@ -25,8 +25,15 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
 std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality& quality,
                                        const Segmentation& segmentation, const HeldParameters& held);
 
-/// The slips are rounded by more than averaging over one step of the clock, which nobody stated and the fit does not
-/// hold.
-bool is_rounded(const DampedFit& fit, const Smoothing& seen, double sample_interval_s);
+/// Rounding to steps of the converter repeats its errors in every cycle: their scatter does not show how well averaging
+/// is known.
+bool repeats_rounding(const DampedFit& fit);
+
+/// Beyond what averaging over one step of the clock explains.
+bool is_rounding(const Smoothing& seen, double sample_interval_s);
+
+/// sigma^2 that what is seen allows for. The move per sigma^2 is that of little averaging: a quarter more of what is
+/// seen allows for the bend.
+double largest_variance_s2(const Smoothing& seen);
 
 }  // namespace slipfit::fit

@@ -81,8 +81,11 @@ class ResidualsOfCycles {
 
 }  // namespace
 
-Residuals residuals_of(const Recording& recording, const BlockFit& fit, const std::vector<std::size_t>& excluded) {
-  Residuals residuals = ResidualsOfCycles(recording, fit).take();
+Residuals residuals_of(const Recording& recording, const BlockFit& fit) {
+  return ResidualsOfCycles(recording, fit).take();
+}
+
+Residuals without(Residuals residuals, const std::vector<std::size_t>& excluded) {
   for (const std::size_t sample : excluded) {
     residuals.value[sample] = 0.0;
     residuals.part[sample] = CyclePart::None;

@@ -16,7 +16,10 @@ struct Residuals {
   std::vector<CyclePart> part;
 };
 
-Residuals residuals_of(const Recording& recording, const BlockFit& fit, const std::vector<std::size_t>& excluded);
+Residuals residuals_of(const Recording& recording, const BlockFit& fit);
+
+/// With these samples as if they were outside the fitted cycles.
+Residuals without(Residuals residuals, const std::vector<std::size_t>& excluded);
 
 /// Samples farther from the fit than 4.5 robust standard deviations, `noise` at least. Sticks and slips have a scale
 /// each: a slip that the model follows less well is not cut away sample by sample.

@@ -100,7 +100,7 @@ class WeakeningFitter {
   /// Outliers of the Coulomb fit may be what that law misses.
   void exclude_outliers_of(const BlockFit& blocks) {
     excluded_ = initial_exclusions(input_.recording, input_.quality);
-    const Residuals residuals = residuals_of(input_.recording, blocks, excluded_);
+    const Residuals residuals = without(residuals_of(input_.recording, blocks), excluded_);
     const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
     const std::vector<std::size_t> censored = beyond_clip(input_.recording, input_.quality, residuals, scales_.noise);
     excluded_ = united(excluded_, united(outliers, censored));
