@@ -250,13 +250,16 @@ std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, co
   const SweepData data = fit::prepare_sweep(recordings, options);
   if (data.fitted.size() < 2) return std::nullopt;
   if (options.tell_step) options.tell_step(fmt::format("fitting {} recordings together", data.fitted.size()));
-  const std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
+  std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
   if (!fits) return std::nullopt;
   fit::LawChoice choice = options.tier ? fit::LawChoice{*options.tier == Tier::Velocity, "asked for by --tier"}
                                        : fit::choose_by_chance(*fits, fit::speed_ratio(recordings));
   // It fits once without each recording: not for a law that is left.
   std::optional<SweepOutcome> outcome;
-  if (choice.velocity || !fits->coulomb) outcome.emplace(fit::outcome_of(data, fits->velocity));
+  if (choice.velocity || !fits->coulomb) {
+    fits->velocity = fit::settled(fits->velocity);
+    outcome.emplace(fit::outcome_of(data, fits->velocity));
+  }
   if (choice.velocity && !options.tier && fits->coulomb && fit::is_misfit(fits->velocity)) {
     SweepOutcome coulomb = fit::outcome_of(data, *fits->coulomb);
     choice = fit::choose_by_left_out(fit::left_out_error(*outcome), fit::left_out_error(coulomb));

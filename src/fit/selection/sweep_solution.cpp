@@ -18,6 +18,7 @@ namespace slipfit::fit {
 namespace {
 
 constexpr double kSweepRough = 0.1;
+constexpr double kSweepCompared = 1e-2;  // sums of squares to a hundredth of what a parameter gains by chance
 constexpr double kSweepFinal = 1e-4;
 constexpr double kSlowestRate = 0.3;  // alpha v_c with which the search for another law begins
 constexpr int kSweepQuickIterations = 10;
@@ -68,9 +69,9 @@ double solve(SweepSolution& solution, const Held& held, int max_iterations, doub
   return solve_together(solution.recordings, solution.sweep, {held, false, true, max_iterations, tolerance});
 }
 
-std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held) {
+std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held, double tolerance = kSweepFinal) {
   solution.held = held;
-  solution.chi2 = solve(solution, held, kSweepMaxIterations, kSweepFinal);
+  solution.chi2 = solve(solution, held, kSweepMaxIterations, tolerance);
   if (!std::isfinite(solution.chi2)) return std::nullopt;
   solution.degrees_of_freedom = residual_freedom(solution);
   return solution;
@@ -162,7 +163,7 @@ class SweepFitter {
     for (SweepSolution& start : starts) {
       if (std::isfinite(start.chi2) && (!best || start.chi2 < best->chi2)) best = std::move(start);
     }
-    return best ? at_minimum(std::move(*best), held) : std::nullopt;
+    return best ? at_minimum(std::move(*best), held, kSweepCompared) : std::nullopt;
   }
 
   /// Sharing as much as the data agree with: both, then one of the two, else nothing.
@@ -188,7 +189,7 @@ class SweepFitter {
   [[nodiscard]] static std::optional<SweepSolution> released(const SweepSolution& shared) {
     SweepSolution free = shared;
     free.sweep.sharing = {};
-    return at_minimum(std::move(free), shared.held);
+    return at_minimum(std::move(free), shared.held, kSweepCompared);
   }
 
   /// At the average that explains all recordings best, where their own fits found one: by the parabola through the sums
@@ -227,6 +228,11 @@ std::size_t SweepSolution::cycles() const {
 
 std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options) {
   return SweepFitter(data, options).fit();
+}
+
+SweepSolution settled(const SweepSolution& solution) {
+  std::optional<SweepSolution> lower = at_minimum(solution, solution.held);
+  return lower && lower->chi2 <= solution.chi2 ? *std::move(lower) : solution;
 }
 
 std::optional<SweepSolution> with_rate(const SweepSolution& solution, double rate) {

@@ -25,7 +25,7 @@ struct SweepSolution {
 };
 
 struct SweepFits {
-  SweepSolution velocity;
+  SweepSolution velocity;                ///< near enough to its minimum to compare sums of squares: see settled
   std::optional<SweepSolution> coulomb;  ///< with the same shares; empty: it has no minimum
   bool depends_on_speed = false;         ///< velocity explains more than chance would
   double p_value = 1.0;                  ///< that Coulomb friction gives such a difference by chance
@@ -33,6 +33,9 @@ struct SweepFits {
 
 /// Both laws, with everything shared between the recordings that the data agree with. Empty where no start converges.
 std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options);
+
+/// At its minimum to a thousandth of a standard error.
+SweepSolution settled(const SweepSolution& solution);
 
 /// The same fit with alpha v_c held at this rate, started from the solution.
 std::optional<SweepSolution> with_rate(const SweepSolution& solution, double rate);
