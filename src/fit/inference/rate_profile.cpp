@@ -19,9 +19,6 @@ namespace {
 /// alpha v_c; friction that falls by more than exp(-10) over a slip, or grows by more than exp(2), is another law.
 constexpr std::array kRates{-10.0, -7.0, -5.0, -3.5, -2.5, -1.8, -1.3, -0.9, -0.6, -0.3, 0.01, 0.3, 0.6, 1.0, 1.5, 2.0};
 
-/// Multiple of the quantile from which on no further rate is tried: the sum of squares does not come back from there.
-constexpr double kFarAbove = 3.0;
-
 /// Where the coordinates are with alpha held.
 struct Point {
   Coordinates move;   ///< from the best ones
@@ -58,7 +55,6 @@ std::vector<Point> points_on(const SweepSolution& solution, StaticFriction kind,
     }
     before = {move, root};
     if (root <= quantile) points.push_back(before);
-    if (root > kFarAbove * quantile) break;
     held = std::move(next);
     from = &*held;
   }
