@@ -3,7 +3,7 @@ const kGerman = {
   language: "Sprache",
   promise: "Passt ein Stick-Slip-Modell an Kraftaufzeichnungen von Gleitversuchen an. Alles wird in dieser Seite gerechnet; keine Datei verlässt diesen Rechner.",
   open: "1. Aufzeichnungen öffnen",
-  drop: "Dateien oder einen Ordner hier ablegen: Text, CSV, Excel (.xlsx), TDMS, auch gepackt (.gz, .zip).",
+  drop: "Dateien oder einen Ordner hier ablegen: Text, CSV, Excel (.xlsx), MATLAB (.mat), HDF5, TDMS, auch gepackt (.gz, .zip).",
   choose: "Dateien wählen", "choose-folder": "Ordner wählen", paste: "Tabelle einfügen", example: "Beispiel öffnen",
   pasted: "Spalten mit Zeit und Kraft, wie aus einer Tabelle kopiert:", take: "Diese Zeilen nehmen",
   file: "Datei", speed: "Antriebs\u00adgeschwindigkeit", side: "Seite", remove: "entfernen",
