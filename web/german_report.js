@@ -1,5 +1,5 @@
 // The report in the page in German: its headings, names, statuses and buttons by a table, its first sentence by patterns.
-// Notes, warnings and explanations stay English, as does the report that is saved.
+// Notes and explanations stay English, as does the report that is saved; warnings: german_warnings.js.
 const kGermanReport = new Map(Object.entries({
   "Parameters of the model": "Parameter des Modells", "The recording and the fit": "Aufzeichnung und Anpassung",
   Frequency: "Frequenz", "Cycles laid over each other": "Zyklen übereinandergelegt",
@@ -55,4 +55,5 @@ function translateReport(page) {
     const german = germanOf(node.data.trim());
     if (german) node.data = node.data.replace(node.data.trim(), () => german);
   }
+  translateWarnings(page);
 }
