@@ -61,6 +61,7 @@ function translateWarnings(page) {
     if (!meaning) continue;
     const english = page.createElement("span");
     english.lang = "en";
+    english.style.color = "var(--soft)";
     while (code.previousSibling) english.prepend(code.previousSibling);
     code.before(meaning, page.createElement("br"), english);
   }

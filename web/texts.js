@@ -6,7 +6,7 @@ const kGerman = {
   drop: "Dateien oder einen Ordner hier ablegen: Text, CSV, Excel (.xlsx), MATLAB (.mat), HDF5, TDMS, auch gepackt (.gz, .zip).",
   choose: "Dateien wählen", "choose-folder": "Ordner wählen", paste: "Tabelle einfügen", example: "Beispiel öffnen",
   pasted: "Spalten mit Zeit und Kraft, wie aus einer Tabelle kopiert:", take: "Diese Zeilen nehmen",
-  file: "Datei", speed: "Antriebs\u00adgeschwindigkeit", side: "Seite", remove: "entfernen",
+  file: "Datei", speed: "Antriebs\u00adgeschwin\u00addigkeit", side: "Seite", remove: "entfernen",
   together: "Was mit mehreren Dateien geschieht", "mode-single": "die gewählte anpassen",
   "mode-each": "jede für sich anpassen (Tabelle)",
   "mode-sweep": "alle gemeinsam anpassen (mehrere Geschwindigkeiten)", "mode-compare": "Seite A mit Seite B vergleichen",

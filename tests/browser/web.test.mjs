@@ -332,12 +332,14 @@ test("narrow, dark and German", { skip }, async () => {
   await openDemo(page);
   await page.fill("#option-speed", "10");
   await page.keyboard.press("Tab");
+  assert.equal(await page.locator("#trace .dygraph-ylabel").textContent(), "Reibkraft [N]");
   await page.screenshot({ path: shot("400-dark-german"), fullPage: true });
   await fit(page);
   const overflow = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
   assert.ok(overflow <= 0, `wider than the screen by ${overflow} px`);
   assert.match(await reportOf(page).locator(".headline").textContent(), /^Stick-Slip mit 24\.57.* ein Muster mit/);
   assert.equal(await reportOf(page).locator("#parameters h2").textContent(), "Parameter des Modells");
+  assert.ok((await reportOf(page).locator("svg.chart text").filter({ hasText: /^Frequenz \[Hz\]$/ }).count()) >= 1);
   await page.screenshot({ path: shot("400-dark-result"), fullPage: true });
   await openDemo(page, withGap());
   await fit(page);
