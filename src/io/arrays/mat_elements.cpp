@@ -94,13 +94,17 @@ std::string inflated(std::string_view packed) {
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
   const std::unique_ptr<z_stream, EndInflate> owner(&stream);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));  // which zlib does not write to
+  // zlib does not write to its input.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast,cppcoreguidelines-pro-type-reinterpret-cast)
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
   stream.avail_in = static_cast<uInt>(packed.size());
   std::string bytes;
   for (int status = Z_OK; status != Z_STREAM_END;) {
     const std::size_t before = bytes.size();
     bytes.resize(before + kPiece);
-    stream.next_out = reinterpret_cast<Bytef*>(bytes.data() + before);
+    char* const end = bytes.data() + before;
+    stream.next_out =
+        reinterpret_cast<Bytef*>(end);  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast): zlib's bytes
     stream.avail_out = static_cast<uInt>(kPiece);
     status = inflate(&stream, Z_NO_FLUSH);
     bytes.resize(before + kPiece - stream.avail_out);

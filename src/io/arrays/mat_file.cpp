@@ -109,6 +109,7 @@ std::string full_name(const MatArray& array, const std::string& group) {
 
 }  // namespace
 
+// Of one type with read_hdf5, which gives the bytes away. NOLINTNEXTLINE(performance-unnecessary-value-param)
 NumberTable read_mat(std::string file, const std::optional<std::string>& variable, std::string& chosen) {
   std::vector<ArrayShape> arrays;
   visit_arrays(file, [&](const MatArray& array, const std::string& group) {
