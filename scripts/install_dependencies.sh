@@ -5,7 +5,7 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
-  nlohmann-json3-dev libfmt-dev libjs-dygraphs libxxhash-dev zlib1g-dev libminizip-dev libpugixml-dev libmatio-dev
+  nlohmann-json3-dev libfmt-dev libjs-dygraphs libxxhash-dev zlib1g-dev libminizip-dev libpugixml-dev
   libhdf5-dev libleptonica-dev)
 python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-pip)
 notebooks=(python3-nbconvert jupyter-nbconvert python3-ipykernel python3-pandas python3-matplotlib python3-scipy)

@@ -1,5 +1,5 @@
 // The report in the page in German: its headings, names, statuses and buttons by a table, its first sentence by patterns.
-// Notes, warnings and explanations stay English, as does the report that is saved.
+// Notes and explanations stay English, as does the report that is saved; warnings: german_warnings.js.
 const kGermanReport = new Map(Object.entries({
   "Parameters of the model": "Parameter des Modells", "The recording and the fit": "Aufzeichnung und Anpassung",
   Frequency: "Frequenz", "Cycles laid over each other": "Zyklen übereinandergelegt",
@@ -27,6 +27,11 @@ const kGermanReport = new Map(Object.entries({
   "measured cycles": "gemessene Zyklen", "fit of a typical cycle": "Anpassung eines typischen Zyklus", "no damping, slope -1": "ohne Dämpfung, Steigung -1",
   cycles: "Zyklen", "95 % interval": "95-%-Bereich", "95 % intervals": "95-%-Bereiche", "exact limit of stick-slip": "Grenze des Stick-Slip", "this recording": "diese Aufzeichnung",
   predicted: "vorhergesagt", "stick-slip ends, 95 %": "Stick-Slip endet, 95 %", "measured, 95 %": "gemessen, 95 %", "its 95 % band": "sein 95-%-Band",
+  time: "Zeit", "time since the slip began": "Zeit seit Beginn des Rutschers", "friction force": "Reibkraft", residual: "Residuum",
+  "friction force above kinetic level": "Reibkraft über der Gleitreibung", "rms per bin": "rms je Linie", "driving speed": "Antriebsgeschwindigkeit",
+  "pattern spacing": "Musterabstand", "peak above kinetic friction": "Spitze über der Gleitreibung", "trough above kinetic friction": "Tal über der Gleitreibung",
+  "path, coarse pattern (stick-slip)": "Weg, grobes Muster (Stick-Slip)", "path, fine pattern (an estimate)": "Weg, feines Muster (Schätzung)",
+  "stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)": "Stick-Slip-Parameter λ = ωₙ (Fₛ − Fₖ) / (k V)",
   "Copy table": "Tabelle kopieren", command: "Befehl", warnings: "Warnungen", status: "Status", speed: "Geschwindigkeit", recording: "Aufzeichnung", quantity: "Größe", difference: "Unterschied", ratio: "Verhältnis",
 }));
 const kGermanPatterns = [
@@ -43,6 +48,8 @@ const kGermanPatterns = [
 function germanOf(text) {
   const told = kGermanReport.get(text);
   if (told) return told;
+  const [, name, unit] = /^(.*\S)( +\[.*\])$/.exec(text) ?? [];
+  if (kGermanReport.has(name)) return kGermanReport.get(name) + unit;
   const match = kGermanPatterns.find(([pattern]) => pattern.test(text));
   return match ? text.replace(match[0], match[1]) : null;
 }
@@ -55,4 +62,5 @@ function translateReport(page) {
     const german = germanOf(node.data.trim());
     if (german) node.data = node.data.replace(node.data.trim(), () => german);
   }
+  translateWarnings(page);
 }

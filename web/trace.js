@@ -175,6 +175,8 @@ function makeTrace(onWindow) {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => graph?.updateOptions(looks()));
   const looks = () => ({ axisLineColor: colour("--chart-axes"), gridLineColor: colour("--chart-grid"), colors: [colour("--chart-grey")] });
 
+  const axisWords = (english) => (document.documentElement.lang === "de" ? germanOf(english) : null) ?? english;
+
   return {
     /** packed: of a report's page; sliding: [[begin, end], ..] in seconds. */
     open(packed, sliding) {
@@ -182,7 +184,7 @@ function makeTrace(onWindow) {
       graph?.destroy();
       shown = whole();
       range = null;
-      graph = new Dygraph(box, rowsInSight(), { ...looks(), labels: ["time", "force"], ylabel: data.label, xlabel: "time [s]",
+      graph = new Dygraph(box, rowsInSight(), { ...looks(), labels: ["time", "force"], ylabel: axisWords(data.label), xlabel: axisWords("time [s]"),
         legend: "never", drawCallback: onDraw, underlayCallback: drawBehind, labelsKMB: false, strokeWidth: 1.2,
         dateWindow: shown, axes: { y: { axisLabelWidth: 62, pixelsPerLabel: 24 } }, interactionModel: Dygraph.defaultInteractionModel });
       placeHandles();

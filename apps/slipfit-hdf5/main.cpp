@@ -5,11 +5,15 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <new>
 #include <string_view>
+#include <utility>
 
 #include "../helper_limits.hpp"
-#include "tables.hpp"
+#include "io/arrays/tables.hpp"
+
+using namespace slipfit::reading;
 
 namespace {
 
@@ -25,9 +29,9 @@ int refuse(const std::string& line) {
   return 1;
 }
 
-int copy(slipfit::reading::NumberTable table, const std::string& chosen) {
+int copy(NumberTable table, const std::string& chosen) {
   bool written = write("=" + chosen + "\n");
-  const auto text = slipfit::reading::text_of(std::move(table));
+  const auto text = text_of(std::move(table));
   std::vector<char> part(std::size_t{64} * 1024);
   while (written) {
     const std::size_t count = text->read(part.data(), part.size());
@@ -37,10 +41,13 @@ int copy(slipfit::reading::NumberTable table, const std::string& chosen) {
   return written && std::fflush(stdout) == 0 ? 0 : 1;
 }
 
-int run(std::string_view kind, const std::string& file, const std::optional<std::string>& variable) {
-  const auto size = std::filesystem::file_size(file);
+int run(std::string_view kind, const std::string& name, const std::optional<std::string>& variable) {
+  std::ifstream opened(name, std::ios::binary);
+  std::string file(std::filesystem::file_size(name), '\0');
+  opened.read(file.data(), static_cast<std::streamsize>(file.size()));
   std::string chosen;
-  auto table = kind == "mat" ? read_mat(file, size, variable, chosen) : read_hdf5(file, size, variable, chosen);
+  auto* const read = kind == "mat" ? read_mat : read_hdf5;
+  auto table = read(std::move(file), variable, chosen);
   return copy(std::move(table), chosen);
 }
 
@@ -52,7 +59,7 @@ int main(int argc, char** argv) {
   try {
     return run(argv[1], argv[2], argc > 3 ? std::optional<std::string>(argv[3]) : std::nullopt);
   } catch (const Refusal& refusal) {
-    return refuse(refusal.what());
+    return refuse(refusal.error().code + " " + refusal.error().message);
   } catch (const std::bad_alloc&) {
     return refuse("container_too_large it needs more memory than there is; export a part of it as CSV");
   } catch (const std::exception& error) {

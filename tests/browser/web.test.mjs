@@ -247,14 +247,19 @@ test("a folder becomes a table, a line a recording", { skip }, async () => {
   await page.close();
 });
 
-test("gaps and outliers show on the trace", { skip }, async () => {
+/** The demo with an outlier and without 300 rows. */
+function withGap() {
   const lines = fs.readFileSync(demo, "utf8").split("\n");
   const [time] = lines[5000].split(",");
   lines[5000] = `${time},20`;
   const file = path.join(SHOTS, "gaps.csv");
   fs.writeFileSync(file, [...lines.slice(0, 7000), ...lines.slice(7300)].join("\n"));
+  return file;
+}
+
+test("gaps and outliers show on the trace", { skip }, async () => {
   const page = await open();
-  await openDemo(page, file);
+  await openDemo(page, withGap());
   assert.equal(await page.locator("#key-gaps").isVisible(), true);
   assert.equal(await page.locator("#key-outliers").isVisible(), true);
   assert.match(await page.locator("#facts").textContent(), /1 outliers; 1 gaps/);
@@ -266,15 +271,17 @@ test("gaps and outliers show on the trace", { skip }, async () => {
   await page.close();
 });
 
-test("a workbook is read, and its sheet is chosen", { skip }, async () => {
-  const file = path.join(SHOTS, "book.xlsx");
-  execFileSync("python3", ["tests/web/workbook.py", demo, file]);
+test("a workbook and a file of MATLAB are read", { skip }, async () => {
   const page = await open();
-  await openDemo(page, file);
-  await page.fill("#option-speed", "10");
-  await page.keyboard.press("Tab");
-  await fit(page);
-  assert.match(await reportOf(page).locator(".headline").textContent(), /Stick-slip at 24\.57/);
+  for (const [script, name] of [["workbook.py", "book.xlsx"], ["matlab.py", "run.mat"]]) {
+    const file = path.join(SHOTS, name);
+    execFileSync("python3", [`tests/web/${script}`, demo, file]);
+    await openDemo(page, file);
+    await page.fill("#option-speed", "10");
+    await page.keyboard.press("Tab");
+    await fit(page);
+    assert.match(await reportOf(page).locator(".headline").textContent(), /Stick-slip at 24\.57/);
+  }
   assert.deepEqual(page.faults, []);
   await page.close();
 });
@@ -325,13 +332,19 @@ test("narrow, dark and German", { skip }, async () => {
   await openDemo(page);
   await page.fill("#option-speed", "10");
   await page.keyboard.press("Tab");
+  assert.equal(await page.locator("#trace .dygraph-ylabel").textContent(), "Reibkraft [N]");
   await page.screenshot({ path: shot("400-dark-german"), fullPage: true });
   await fit(page);
   const overflow = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
   assert.ok(overflow <= 0, `wider than the screen by ${overflow} px`);
   assert.match(await reportOf(page).locator(".headline").textContent(), /^Stick-Slip mit 24\.57.* ein Muster mit/);
   assert.equal(await reportOf(page).locator("#parameters h2").textContent(), "Parameter des Modells");
+  assert.ok((await reportOf(page).locator("svg.chart text").filter({ hasText: /^Frequenz \[Hz\]$/ }).count()) >= 1);
   await page.screenshot({ path: shot("400-dark-result"), fullPage: true });
+  await openDemo(page, withGap());
+  await fit(page);
+  const warning = reportOf(page).locator(".warnings li").filter({ hasText: "zeitliche Lücken" });
+  assert.match(await warning.innerText(), /^Die Aufzeichnung hat zeitliche Lücken\.\n.*gaps$/);
   const dark = await open(undefined, { colorScheme: "dark" });
   await openDemo(dark);
   await dark.fill("#option-speed", "10");
@@ -342,7 +355,7 @@ test("narrow, dark and German", { skip }, async () => {
   await dark.close();
 });
 
-test("every recording in Chromium, from a static server", { skip }, async (context) => {
+test("every recording, from a static server", { skip }, async (context) => {
   const page = await open(`http://127.0.0.1:${server.address().port}/slipfit.html`);
   await page.setInputFiles("#file", demo);
   const found = tally();

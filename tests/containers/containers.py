@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""containers.py SLIPFIT: one recording as CSV and in every container, read to the same numbers to the last digit; and damaged, lying
-and swollen containers, refused in one line, soon and without much memory.
+"""containers.py SLIPFIT [FOLDER]: one recording as CSV and in every container, read to the same numbers to the last digit; and damaged, lying
+and swollen containers, refused in one line, soon and without much memory. With FOLDER the containers are left there and nothing else is
+done but to print them: a JSON list of [file, option...].
 
 The containers are made by other people's programs: Python's gzip, zipfile, openpyxl, scipy, h5py. TDMS is written by hand from its
 description. Exit 77 where a module is missing and nothing else failed."""
@@ -89,13 +90,26 @@ def workbooks(folder, times, forces):
     return ["run.xlsx", ("run.xlsx", "--sheet", "Specimen 1"), ("run.xlsx", "--sheet", "2")]
 
 
+def mat_by_hand(variables, order):
+    """Of MATLAB 5, uncompressed: {name: (kind of the bytes, format of struct, values)}, each said to be of class double."""
+    def element(kind, content):
+        return struct.pack(order + "II", kind, len(content)) + content + bytes(-len(content) % 8)
+    file = b"MATLAB 5.0 MAT-file, by hand".ljust(124) + struct.pack(order + "HH", 0x0100, 0x4D49)
+    for name, (kind, letter, values) in variables.items():
+        parts = [(6, struct.pack(order + "II", 6, 0)), (5, struct.pack(order + "ii", len(values), 1)), (1, name.encode()),
+                 (kind, struct.pack(f"{order}{len(values)}{letter}", *values))]
+        file += element(14, b"".join(element(*part) for part in parts))
+    return file
+
+
 def mat_files(folder, times, forces):
     import numpy
     import scipy.io
+    (folder / "big.mat").write_bytes(mat_by_hand({"time_s": (9, "d", times), "force_N": (9, "d", forces)}, ">"))
     scipy.io.savemat(folder / "v5.mat", {"time_s": times, "force_N": forces, "gain": 2.0})
     scipy.io.savemat(folder / "v7.mat", {"run": {"time_s": times, "force_N": forces}}, do_compression=True)
     scipy.io.savemat(folder / "matrix.mat", {"data": numpy.column_stack([times, forces])})
-    return ["v5.mat", "v7.mat", ("v7.mat", "--variable", "run"), ("matrix.mat", "--variable", "data")]
+    return ["big.mat", "v5.mat", "v7.mat", ("v7.mat", "--variable", "run"), ("matrix.mat", "--variable", "data")]
 
 
 def hdf5_files(folder, times, forces):
@@ -117,6 +131,19 @@ def hdf5_files(folder, times, forces):
     with open(folder / "v73.mat", "r+b") as file:
         file.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(116) + bytes(8) + struct.pack("<HH", 0x0200, 0x4D49))
     return ["group.h5", ("group.h5", "--variable", "/runs/first"), "table.h5", ("table.h5", "--variable", "array"), "v73.mat"]
+
+
+def check_kinds(folder):
+    """Numbers of each kind, as the reader beside slipfit prints them; MATLAB stores small doubles as small integers."""
+    kinds = {1: "b", 2: "B", 3: "h", 4: "H", 5: "i", 6: "I", 7: "f", 9: "d", 12: "q", 13: "Q"}
+    lowest = {letter: 0 if letter.isupper() else -100 for letter in kinds.values()}
+    for order in "<>":
+        variables = {f"kind_{kind}": (kind, letter, range(lowest[letter], 100)) for kind, letter in kinds.items()}
+        (folder / "kinds.mat").write_bytes(mat_by_hand(variables, order))
+        for name, (_, _, values) in variables.items():
+            printed = subprocess.run([pathlib.Path(SLIPFIT).with_name("slipfit-hdf5"), "mat", folder / "kinds.mat", name],
+                                     capture_output=True, text=True, timeout=LONGEST_S).stdout
+            assert printed.splitlines() == [f"={name}", name, *map(str, values)], f"{name} of order {order}: {printed[:200]}"
 
 
 def bombs(folder):
@@ -176,26 +203,44 @@ def with_modules():
             os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
 
 
+def make_containers(folder):
+    """Writes the recording and its containers; returns those as file or (file, option...), and the modules that were missing."""
+    rows = [line.split(",") for line in run("simulate", *MODEL).stdout.splitlines() if line[0].isdigit()]
+    times, forces = [float(r[0]) for r in rows], [round(float(r[1]), 9) for r in rows]  # openpyxl writes 16 digits
+    text = "".join(["time_s,force_N\n", *(f"{t!r},{f!r}\n" for t, f in zip(times, forces))])
+    (folder / "run.csv").write_text(text)
+    missing = []
+    made = plain_containers(folder, text.encode(), times, forces)
+    for make in (workbooks, mat_files, hdf5_files):
+        try:
+            made += make(folder, times, forces)
+        except ImportError as error:
+            missing.append(error.name)
+    return made, missing
+
+
+def leave_in(folder):
+    made, _ = make_containers(folder)
+    for file, what, content in damaged(folder, [entry for entry in made if isinstance(entry, str)]):
+        name = f"{what.replace(' ', '-')}-{file}"
+        (folder / name).write_bytes(content)
+        made.append(name)
+    print(json.dumps([[entry] if isinstance(entry, str) else entry for entry in made + bombs(folder)]))
+
+
 def main():
     with_modules()
-    missing = []
+    if len(sys.argv) > 2:
+        return leave_in(pathlib.Path(sys.argv[2]))
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        rows = [line.split(",") for line in run("simulate", *MODEL).stdout.splitlines() if line[0].isdigit()]
-        times, forces = [float(r[0]) for r in rows], [round(float(r[1]), 9) for r in rows]  # openpyxl writes 16 digits
-        text = "".join(["time_s,force_N\n", *(f"{t!r},{f!r}\n" for t, f in zip(times, forces))])
-        (folder / "run.csv").write_text(text)
+        made, missing = make_containers(folder)
         wanted = numbers(folder / "run.csv")
-        made = plain_containers(folder, text.encode(), times, forces)
-        for make in (workbooks, mat_files, hdf5_files):
-            try:
-                made += make(folder, times, forces)
-            except ImportError as error:
-                missing.append(error.name)
         for entry in made:
             file, *options = (entry,) if isinstance(entry, str) else entry
             found = numbers(folder / file, *options)
             assert found == wanted, f"{entry}: other numbers than the CSV's"
+        check_kinds(folder)
         for file in bombs(folder):
             print(check_refused(folder / file, file))
         once = dict.fromkeys(e for e in made if isinstance(e, str))

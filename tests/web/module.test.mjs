@@ -28,7 +28,6 @@ test("damaged files end in the program's own errors", async (context) => {
   const found = tally();
   for (const file of files) {
     const got = JSON.parse(slipfit.fit(fs.readFileSync(file), path.basename(file), text({ speed: "10 mm/s" })));
-    if (got.error?.code === "not_built_in") continue;
     const one = await against(got, "fit", file, { speed: "10 mm/s" });
     assert.deepEqual(one.faults, [], file);
     found.add(one);
@@ -95,6 +94,22 @@ test("compressed recordings and workbooks are read as by the program", async () 
   execFileSync("python3", ["tests/web/workbook.py", "testdata/demo.csv", book]);
   const sheet = JSON.parse(slipfit.fit(fs.readFileSync(book), "demo.xlsx", text({ speed: "10 mm/s" })));
   assert.deepEqual(sheet.parameters, plain.parameters);
+});
+
+test("containers, whole and damaged, are read as by the program", async (context) => {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), "slipfit-"));
+  const made = execFileSync("python3", ["tests/containers/containers.py", path.resolve(process.env.SLIPFIT), folder], { maxBuffer: 1 << 26 });
+  const found = tally();
+  for (const [file, option, value] of JSON.parse(made)) {
+    const options = { speed: "0.01", ...(option && { [option.slice(2)]: value }) };
+    const place = path.join(folder, file);
+    const one = await against(JSON.parse(slipfit.fit(fs.readFileSync(place), file, text(options))), "fit", place, options);
+    assert.deepEqual(one.faults, [], `${file} ${option ?? ""}`);
+    found.add(one);
+  }
+  context.diagnostic(found.text());
+  assert.ok(found.sum.compared >= 7);
+  fs.rmSync(folder, { recursive: true });
 });
 
 test("100 fits take no more memory than a few", () => {

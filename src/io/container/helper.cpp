@@ -146,11 +146,7 @@ Result<TextStream> open_with_reader(const char* kind, TextStream packed, const s
                                     const ContainerChoice& choice) {
   const OpenFile file(::memfd_create("slipfit", MFD_CLOEXEC));
   if (file.descriptor() < 0 || !copy(packed, file.descriptor())) return too_large(name);
-  Helper helper{"slipfit-hdf5",
-                {kind, kFileOfHelper},
-                "a MATLAB or HDF5 file",
-                "libhdf5-dev and libmatio-dev",
-                file.descriptor()};
+  Helper helper{"slipfit-hdf5", {kind, kFileOfHelper}, "a MATLAB or HDF5 file", "libhdf5-dev", file.descriptor()};
   if (choice.variable) helper.arguments.push_back(*choice.variable);
   auto output = run_helper(helper, name);
   if (!output) return output.error();

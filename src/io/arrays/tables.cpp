@@ -1,8 +1,9 @@
-#include "tables.hpp"
+#include "io/arrays/tables.hpp"
 
 #include <algorithm>
 #include <utility>
 
+namespace slipfit::reading {
 namespace {
 
 constexpr std::uint64_t kMostNumbers = std::uint64_t{1} << 28U;
@@ -67,8 +68,8 @@ TableShape wanted_table(const std::vector<ArrayShape>& arrays, const std::string
     const std::string& group = table.arrays.front().group;
     if (!group.empty() && is_called(group, variable)) return table;
   }
-  throw Refusal("unknown_variable the file holds no numbers in '" + variable + "' but in " + listed(arrays) +
-                "; choose one with --variable");
+  throw Refusal({"unknown_variable", "the file holds no numbers in '" + variable + "' but in " + listed(arrays) +
+                                         "; choose one with --variable"});
 }
 
 }  // namespace
@@ -76,9 +77,9 @@ TableShape wanted_table(const std::vector<ArrayShape>& arrays, const std::string
 TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::optional<std::string>& variable,
                         std::uint64_t file_size) {
   if (arrays.empty()) {
-    throw Refusal(
-        "unknown_variable the file holds no array of numbers (tables and other objects of MATLAB are none); "
-        "export it as a matrix or CSV");
+    throw Refusal({"unknown_variable",
+                   "the file holds no array of numbers (tables and other objects of MATLAB are none); "
+                   "export it as a matrix or CSV"});
   }
   TableShape chosen;
   if (variable) {
@@ -88,15 +89,15 @@ TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::option
     chosen = *std::min_element(tables.begin(), tables.end(), is_better);
   }
   const std::uint64_t numbers = numbers_in(chosen);
-  if (numbers > kMostNumbers || columns_of(chosen) > kMostColumns ||
-      slipfit::reading::is_bomb(8 * numbers, file_size)) {
-    throw Refusal("container_too_large '" + chosen.name +
-                  "' is said to hold far more than the file, or than a recording; export a part of it as CSV");
+  if (numbers > kMostNumbers || columns_of(chosen) > kMostColumns || is_bomb(8 * numbers, file_size)) {
+    throw Refusal({"container_too_large",
+                   "'" + chosen.name +
+                       "' is said to hold far more than the file, or than a recording; export a part of it as CSV"});
   }
   return chosen;
 }
 
-void add_columns(slipfit::reading::NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,
+void add_columns(NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,
                  const std::string& name) {
   const auto length = static_cast<std::size_t>(shape.length());
   const auto width = static_cast<std::size_t>(shape.width());
@@ -108,3 +109,5 @@ void add_columns(slipfit::reading::NumberTable& table, const ArrayShape& shape, 
     table.columns.push_back(std::move(column));
   }
 }
+
+}  // namespace slipfit::reading

@@ -1,20 +1,19 @@
 #include <hdf5.h>
 
 #include <array>
-#include <fstream>
 #include <limits>
+#include <utility>
 
-#include "tables.hpp"
+#include "io/arrays/tables.hpp"
 
-using slipfit::reading::NumberTable;
-
+namespace slipfit::reading {
 namespace {
 
 /// A handle of HDF5 and what closes it.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id_ < 0) throw Refusal("damaged_container the HDF5 file is damaged; copy or export it again");
+    if (id_ < 0) throw Refusal({"damaged_container", "the HDF5 file is damaged; copy or export it again"});
   }
   ~Handle() { close_(id_); }
   Handle(const Handle&) = delete;
@@ -63,7 +62,7 @@ void add_dataset(hid_t file, const std::string& path, std::vector<ArrayShape>& a
   std::array<hsize_t, 2> extents{1, 1};
   H5Sget_simple_extent_dims(space, extents.data(), nullptr);
   ArrayShape shape{path, path.substr(0, path.rfind('/')), extents[0], extents[1], {}};
-  if (shape.group.empty()) shape.group = "/";
+  if (shape.group.empty()) shape.group += '/';
   const bool is_table = H5Tget_class(type) == H5T_COMPOUND && rank == 1;
   if (is_table) shape.fields = number_fields(type);
   constexpr hsize_t kMost = hsize_t{1} << 40U;  // lest products overflow
@@ -106,9 +105,9 @@ std::string unit_of(hid_t dataset) {
 std::vector<double> read_as(hid_t dataset, hid_t type, std::uint64_t count) {
   std::vector<double> values(static_cast<std::size_t>(count), std::numeric_limits<double>::quiet_NaN());
   if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-    throw Refusal(
-        "damaged_container the numbers in the HDF5 file are damaged, or packed by a filter that is not "
-        "installed; export it again");
+    throw Refusal({"damaged_container",
+                   "the numbers in the HDF5 file are damaged, or packed by a filter that is not "
+                   "installed; export it again"});
   }
   return values;
 }
@@ -130,22 +129,20 @@ void add_array(hid_t file, const ArrayShape& shape, NumberTable& table) {
 }
 
 /// The library resolves links in the path of a file that it opens itself; slipfit's has no path.
-hid_t open_in_memory(const std::string& file, std::uint64_t size) {
+hid_t open_in_memory(std::string file) {
   constexpr std::size_t kIncrement = std::size_t{1} << 20U;
-  std::vector<char> content(static_cast<std::size_t>(size));
-  std::ifstream(file, std::ios::binary).read(content.data(), static_cast<std::streamsize>(size));
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access, kIncrement, false);
-  H5Pset_file_image(access, content.data(), content.size());
+  H5Pset_file_image(access, file.data(), file.size());
   return H5Fopen("recording", H5F_ACC_RDONLY, access);
 }
 
 }  // namespace
 
-NumberTable read_hdf5(const std::string& file, std::uint64_t size, const std::optional<std::string>& variable,
-                      std::string& chosen) {
+NumberTable read_hdf5(std::string file, const std::optional<std::string>& variable, std::string& chosen) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const Handle opened(open_in_memory(file, size), H5Fclose);
+  const std::uint64_t size = file.size();
+  const Handle opened(open_in_memory(std::move(file)), H5Fclose);
   Visit visit;
   H5Ovisit2(opened, H5_INDEX_NAME, H5_ITER_NATIVE, note_dataset, &visit, H5O_INFO_BASIC);
   std::vector<ArrayShape> arrays;
@@ -156,3 +153,5 @@ NumberTable read_hdf5(const std::string& file, std::uint64_t size, const std::op
   for (const ArrayShape& array : shape.arrays) add_array(opened, array, table);
   return table;
 }
+
+}  // namespace slipfit::reading

@@ -4,16 +4,18 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "core/thrown_error.hpp"
 #include "io/container/table_text.hpp"
 
-/// What ends the program: "code message".
-class Refusal : public std::runtime_error {
+namespace slipfit::reading {
+
+/// What is wrong with a file; the message does not name it.
+class Refusal : public ThrownError {
  public:
-  using std::runtime_error::runtime_error;
+  using ThrownError::ThrownError;
 };
 
 /// An array of numbers in a file, by its extents: one of them is 1 for a vector.
@@ -44,15 +46,12 @@ TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::option
 
 /// The columns of an array that stands in memory row by row, or column by column; the longer extent is that of the
 /// rows.
-void add_columns(slipfit::reading::NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,
+void add_columns(NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,
                  const std::string& name);
 
-/// Walks through a file of MATLAB 5 to 7: its parts must end with it, and packed ones unpack to what their checksums
-/// say (matio leaves numbers of damaged ones as they happen to be). Throws Refusal.
-void check_mat(const std::string& name, std::uint64_t size);
+/// The table in the bytes of a file: of MATLAB 5 to 7; of HDF5, which MATLAB 7.3 writes, too. `chosen`: what of it was
+/// read. Throw Refusal.
+NumberTable read_mat(std::string file, const std::optional<std::string>& variable, std::string& chosen);
+NumberTable read_hdf5(std::string file, const std::optional<std::string>& variable, std::string& chosen);
 
-/// Of a file of MATLAB 5 to 7; of HDF5, which MATLAB 7.3 writes, too. Throw Refusal.
-slipfit::reading::NumberTable read_mat(const std::string& file, std::uint64_t size,
-                                       const std::optional<std::string>& variable, std::string& chosen);
-slipfit::reading::NumberTable read_hdf5(const std::string& file, std::uint64_t size,
-                                        const std::optional<std::string>& variable, std::string& chosen);
+}  // namespace slipfit::reading
