@@ -143,25 +143,57 @@ bool is_excluded(double gain, double freedom) {
   return gain > least * least;
 }
 
+/// Cut-offs whose shares have evenly spaced roots, with chi2 of their lines.
+struct CutoffGrid {
+  AgeingCutoff::Grid roots, values, chi2;
+  double step = 0.0;
+
+  CutoffGrid(const LinesOverSticks& lines, double lowest_root, double highest_root)
+      : step((highest_root - lowest_root) / static_cast<double>(AgeingCutoff::kPoints)) {
+    for (Index i = 0; i < AgeingCutoff::kPoints; ++i) {
+      roots(i) = lowest_root + step * (static_cast<double>(i) + 0.5);
+      values(i) = roots(i) * roots(i) / (1.0 - roots(i) * roots(i));
+      chi2(i) = lines.with(values(i)).chi2;
+    }
+  }
+  [[nodiscard]] AgeingCutoff::Grid weights(double variance) const {
+    const AgeingCutoff::Grid all = (-0.5 * (chi2 - chi2.minCoeff()) / variance).exp();
+    return all / all.sum();
+  }
+};
+
+/// Over the part of the range that has weight, so that its points resolve what is known.
+CutoffGrid resolved_grid(const LinesOverSticks& lines, double freedom) {
+  constexpr int kRefinements = 3;
+  constexpr double kNothing = 1e-6;
+  const double longest = lines.longest_stick();
+  CutoffGrid grid(lines, 0.0, std::sqrt(longest / (1.0 + longest)));
+  for (int i = 0; i < kRefinements; ++i) {
+    const AgeingCutoff::Grid weights = grid.weights(std::max(1.0, grid.chi2.minCoeff() / freedom));
+    Index first = 0;
+    Index last = AgeingCutoff::kPoints - 1;
+    while (weights(first) < kNothing) ++first;
+    while (weights(last) < kNothing) --last;
+    const double lowest = grid.roots(0) - 0.5 * grid.step;
+    const double highest = grid.roots(AgeingCutoff::kPoints - 1) + 0.5 * grid.step;
+    grid = CutoffGrid(lines, std::max(lowest, grid.roots(first) - 1.5 * grid.step),
+                      std::min(highest, grid.roots(last) + 1.5 * grid.step));
+  }
+  return grid;
+}
+
 AgeingCutoff cutoff_of(const LinesOverSticks& lines) {
+  const double freedom = std::max(1.0, static_cast<double>(lines.count()) - 3.0);
+  const CutoffGrid grid = resolved_grid(lines, freedom);
+  const double variance = std::max(1.0, grid.chi2.minCoeff() / freedom);
   AgeingCutoff cutoff;
   cutoff.longest = lines.longest_stick();
   cutoff.ratio = lines.longest_stick() / lines.shortest_stick();
-  const double most = std::sqrt(cutoff.longest / (1.0 + cutoff.longest));
-  AgeingCutoff::Grid shares;
-  AgeingCutoff::Grid chi2;
-  for (Index i = 0; i < AgeingCutoff::kPoints; ++i) {
-    shares(i) = std::pow(most * (static_cast<double>(i) + 0.5) / static_cast<double>(AgeingCutoff::kPoints), 2);
-    cutoff.values(i) = shares(i) / (1.0 - shares(i));
-    chi2(i) = lines.with(cutoff.values(i)).chi2;
-  }
-  const double freedom = std::max(1.0, static_cast<double>(lines.count()) - 3.0);
-  const double variance = std::max(1.0, chi2.minCoeff() / freedom);
-  cutoff.weights = (-0.5 * (chi2 - chi2.minCoeff()) / variance).exp();
-  cutoff.weights /= cutoff.weights.sum();
-  const double share = (cutoff.weights * shares).sum();
+  cutoff.values = grid.values;
+  cutoff.weights = grid.weights(variance);
+  const double share = (cutoff.weights * grid.roots.square()).sum();
   cutoff.value = share / (1.0 - share);
-  const double gain = (lines.with(0.0).chi2 - chi2.minCoeff()) / variance;
+  const double gain = (lines.with(0.0).chi2 - grid.chi2.minCoeff()) / variance;
   const bool above_0 = is_excluded(gain, freedom);
   cutoff.held = {above_0 ? quantile_of(cutoff, 0.025) : 0.0, quantile_of(cutoff, 0.975)};
   cutoff.told = above_0 && cutoff.ratio > thresholds::kCutoffStickRatio;
