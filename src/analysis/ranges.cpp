@@ -32,9 +32,9 @@ Parameter within(Parameter parameter, const Range& range) {
 
 bool all_finite(const ModelEstimate& model) {
   const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
+  const Ageing ageing = model.ageing.value_or(Ageing{});
   double sum = model.stiffness_N_per_m + model.natural_frequency_rad_per_s + model.damping_ratio +
-               model.friction_difference_N + law.slope_N_s_per_m + law.alpha_s_per_m +
-               model.ageing.value_or(Ageing{}).rate_N;
+               model.friction_difference_N + law.slope_N_s_per_m + law.alpha_s_per_m + ageing.rate_N + ageing.cutoff_s;
   for (const auto& row : model.covariance) {
     for (const double cell : row) sum += std::abs(cell);
   }

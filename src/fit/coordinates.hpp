@@ -24,6 +24,7 @@ enum Coordinate : Eigen::Index {
   kLevel = kGlobals,  ///< F_k(0+) / Units::force, from Units::level
   kDifference,        ///< (F_s - F_k(0+)) / Units::force
   kAgeing,            ///< rate of ageing / Units::force
+  kAgeingTime,        ///< cut-off of ageing / Units::stick_s
   kSlipDistance,      ///< sqrt(D_c / Units::slip_distance_m): the limit of Coulomb friction is reached as it goes to 0
   kCoordinates
 };

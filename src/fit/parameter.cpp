@@ -17,6 +17,8 @@ constexpr std::array kTable{
     ParameterInfo{Id::FrictionCoefficientDifference, "friction_coefficient_difference",
                   "static minus kinetic coefficient", "", kNotNegative, 0.1},
     ParameterInfo{Id::Ageing, "ageing_N", "static friction's growth with ln stick time", "N", kAnyNumber, 0.25},
+    ParameterInfo{Id::AgeingTime, "ageing_time_s", "cut-off t_c of that growth, ln(1 + t / t_c)", "s", kNotNegative,
+                  0.25},
     ParameterInfo{Id::StaticFriction, "static_friction_N", "static friction F_s", "N", kAnyNumber, 0.1, false, true},
     ParameterInfo{Id::StaticFrictionCoefficient, "static_friction_coefficient", "static friction coefficient", "",
                   kAnyNumber, 0.1, false, true},

@@ -20,7 +20,6 @@ namespace slipfit {
 namespace {
 
 using fit::LeftOut;
-using fit::StaticFriction;
 using fit::SweepData;
 using fit::SweepOutcome;
 using fit::SweepSolution;
@@ -129,7 +128,8 @@ class Assembler {
     if (!solution.sweep.sharing.level || !solution.sweep.sharing.difference) {
       findings.damping_doubt = "holds for Coulomb friction only: the recordings share no level or static friction";
     }
-    findings.law = fit::LawFindings{choice.velocity, choice.reason, outcome_.static_friction == StaticFriction::Ages};
+    findings.law = fit::LawFindings{choice.velocity, choice.reason};
+    findings.law->ageing = outcome_.static_friction;
     findings.law->at_one_speed = fit::speed_ratio(recordings_) < thresholds::kLeastSpeedRatio;
     findings.law->reference_normal_force_N = data_.mean_load_N;
     return findings;
@@ -150,7 +150,7 @@ class Assembler {
 
   void add_difference_doubt(fit::Findings& findings) const {
     const bool is_mean = !outcome_.solution.sweep.sharing.difference;
-    if (is_mean && outcome_.static_friction == StaticFriction::Constant) {
+    if (is_mean && !outcome_.static_friction) {
       findings.difference_doubt = "a mean: static friction differs between the recordings";
     }
     if (!outcome_.other_law) return;
@@ -184,7 +184,7 @@ class Assembler {
            "the recordings of the sweep do not agree on one set of parameters: intervals are widened to hold what "
            "leaving out each recording changes"});
     }
-    if (outcome_.static_friction == StaticFriction::Ages) {
+    if (outcome_.static_friction) {
       sweep.result.warnings.push_back(
           {"static_friction_ages",
            "static friction is larger after longer sticks: predictions take it to grow with "

@@ -4,9 +4,9 @@
 
 namespace slipfit::model {
 
-// The stick time is nearly proportional to F_s - F_k, so that h(D) = D_ref + rate ln(t(D) / ref) - D is concave: Newton
-// from above its larger root comes down to it from one side, and finds h rising before it finds a root where there is
-// none.
+// The stick time is nearly proportional to F_s - F_k, so that h(D), the static friction after t(D) less D, is concave:
+// Newton from above its larger root comes down to it from one side, and finds h rising before it finds a root where
+// there is none.
 std::optional<double> aged_difference_N(const AgeingLaw& law, const StickTimeOf& stick_time) {
   constexpr int kMaxSteps = 200;
   constexpr double kSharp = 1e-10;
@@ -16,8 +16,8 @@ std::optional<double> aged_difference_N(const AgeingLaw& law, const StickTimeOf&
   const auto excess_at = [&](double difference_N) -> std::optional<Excess> {
     const std::optional<StickTime> stick = stick_time(difference_N);
     if (!stick || !(stick->seconds > 0.0)) return std::nullopt;
-    return Excess{law.difference_N + law.rate_N * std::log(stick->seconds / law.reference_s) - difference_N,
-                  law.rate_N * stick->by_difference_s_per_N / stick->seconds - 1.0};
+    return Excess{law.after(stick->seconds) - difference_N,
+                  law.rate_N * stick->by_difference_s_per_N / (stick->seconds + law.cutoff_s) - 1.0};
   };
   double difference_N = std::max(law.difference_N, law.rate_N);
   std::optional<Excess> excess = excess_at(difference_N);
@@ -27,8 +27,8 @@ std::optional<double> aged_difference_N(const AgeingLaw& law, const StickTimeOf&
   }
   for (int i = 0; i < kMaxSteps && excess && excess->slope < 0.0; ++i) {
     const double step_N = excess->value_N / excess->slope;
-    if (std::abs(step_N) <= kSharp * difference_N) return difference_N;
     difference_N -= step_N;
+    if (std::abs(step_N) <= kSharp * difference_N) return difference_N;
     if (!(difference_N > 0.0)) break;
     excess = excess_at(difference_N);
   }

@@ -6,12 +6,21 @@
 
 namespace slipfit::model {
 
-/// F_s - F_k(0+) = difference_N + rate_N ln(stick / reference_s). docs/model.md (18)
-struct AgeingLaw {
-  double difference_N = 0.0;
-  double rate_N = 0.0;  ///< > 0
-  double reference_s = 1.0;
+/// F_s - F_k(0+) = difference_N + rate_N ln((stick + cutoff_s) / (reference_s + cutoff_s)). docs/model.md (18)
+/// Numbers, or jets of them.
+template <class Number>
+struct AgeingLawOf {
+  Number difference_N;
+  Number rate_N;  ///< > 0
+  double reference_s;
+  Number cutoff_s;  ///< >= 0
+
+  [[nodiscard]] Number after(const Number& stick_s) const {
+    using std::log;
+    return difference_N + rate_N * log((stick_s + cutoff_s) / (reference_s + cutoff_s));
+  }
 };
+using AgeingLaw = AgeingLawOf<double>;
 
 /// Stick time of the limit cycle whose slips start from F_s - F_k(0+), and its derivative.
 struct StickTime {
@@ -26,11 +35,10 @@ std::optional<double> aged_difference_N(const AgeingLaw& law, const StickTimeOf&
 
 /// The same with derivatives (Jet as in Ceres), one Newton step from the solution: `stick_s` at F_s - F_k held there.
 template <class Jet>
-Jet aged_difference_N(double solution_N, const Jet& difference_N, const Jet& rate_N, const Jet& stick_s,
-                      double stick_by_difference_s_per_N, double reference_s) {
-  using std::log;
-  const Jet excess_N = difference_N + rate_N * log(stick_s / reference_s) - solution_N;
-  return solution_N + excess_N / (1.0 - rate_N.a / stick_s.a * stick_by_difference_s_per_N);
+Jet aged_difference_N(double solution_N, const AgeingLawOf<Jet>& law, const Jet& stick_s,
+                      double stick_by_difference_s_per_N) {
+  const double gain = law.rate_N.a / (stick_s.a + law.cutoff_s.a) * stick_by_difference_s_per_N;
+  return solution_N + (law.after(stick_s) - solution_N) / (1.0 - gain);
 }
 
 }  // namespace slipfit::model

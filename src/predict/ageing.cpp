@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "core/fit_thresholds.hpp"
 #include "model/ageing.hpp"
@@ -14,6 +15,8 @@ namespace {
 
 /// The row of ModelEstimate's values that holds ln (F_s - F_k(0+)).
 constexpr Eigen::Index kDifference = 3;
+/// That of alpha.
+constexpr Eigen::Index kRate = 5;
 
 /// The same bodies, with static friction that does not age.
 ModelEstimate held_at(const ModelEstimate& model, double difference_N) {
@@ -32,26 +35,36 @@ double take_derivative_by_difference(Jet& y, double difference_N) {
   return std::exchange(y.v(kDifference), 0.0) / difference_N;
 }
 
-/// F_s - F_k(0+) of the limit cycle and its derivatives.
-Jet aged_jet(const ModelEstimate& model, double difference_N, Jet stick_s) {
+model::AgeingLawOf<Jet> law_of(const ModelEstimate& model) {
   const ModelJets p = jets_of(model);
-  const double by_difference = take_derivative_by_difference(stick_s, difference_N);
-  return model::aged_difference_N(difference_N, p.difference_N, p.ageing_N, stick_s, by_difference,
-                                  model.ageing->reference_stick_s);
+  return {p.difference_N, p.ageing_N, model.ageing->reference_stick_s, p.ageing_cutoff_s};
 }
 
-/// How much the static friction after a stick exceeds the one that made it so long, at F_s - F_k(0+) held.
-Jet excess_N(const ModelEstimate& model, double difference_N, double speed_m_per_s) {
+/// F_s - F_k(0+) of the limit cycle and its derivatives.
+Jet aged_jet(const ModelEstimate& model, double difference_N, Jet stick_s) {
+  const double by_difference = take_derivative_by_difference(stick_s, difference_N);
+  return model::aged_difference_N(difference_N, law_of(model), stick_s, by_difference);
+}
+
+/// The speed at which stick-slip ends, with its derivatives: the static friction after a stick only just reaches the
+/// F_s - F_k(0+) that made it so long, and changes with it as fast, so that only the move at F_s - F_k(0+) held counts.
+Jet end_speed(const ModelEstimate& model, double difference_N, double speed_m_per_s) {
   Jet stick_s = held_motion_at(held_at(model, difference_N), speed_m_per_s).cycle->stick_s;
+  // w_n times the stick time is a function of lambda, which is as D / V, of alpha V, and of what has no speed in it.
+  const double by_log_speed = -stick_s.v(kDifference) + jets_of(model).alpha_s_per_m.a * stick_s.v(kRate);
   take_derivative_by_difference(stick_s, difference_N);
-  const ModelJets p = jets_of(model);
-  return p.difference_N + p.ageing_N * log(stick_s / model.ageing->reference_stick_s) - difference_N;
+  const Jet excess_N = law_of(model).after(stick_s) - difference_N;
+  const double rate_N_per_s = model.ageing->rate_N / (stick_s.a + model.ageing->cutoff_s);
+  Jet speed(speed_m_per_s);
+  speed.v = -speed_m_per_s * excess_N.v / (rate_N_per_s * by_log_speed);
+  return speed;
 }
 
 }  // namespace
 
 std::optional<double> aged_difference_N(const ModelEstimate& model, double speed_m_per_s) {
-  const model::AgeingLaw law{model.friction_difference_N, model.ageing->rate_N, model.ageing->reference_stick_s};
+  const auto [rate_N, reference_s, cutoff_s] = *model.ageing;
+  const model::AgeingLaw law{model.friction_difference_N, rate_N, reference_s, cutoff_s};
   return model::aged_difference_N(law, [&](double difference_N) -> std::optional<model::StickTime> {
     const MotionJets motion = held_motion_at(held_at(model, difference_N), speed_m_per_s);
     if (!motion.cycle) return std::nullopt;
@@ -76,20 +89,21 @@ MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s) {
   MotionJets motion = held_motion_at(held_at(model, *difference_N), speed_m_per_s);
   const Jet aged_N = aged_jet(model, *difference_N, motion.cycle->stick_s);
   CycleJets& cycle = *motion.cycle;
-  for (Jet* const y : {&cycle.slip_s, &cycle.stick_s, &cycle.period_s, &cycle.periodic_displacement_m,
-                       &cycle.force_peak_N, &cycle.force_trough_N}) {
+  std::vector<Jet*> all{&cycle.slip_s,       &cycle.stick_s,       &cycle.period_s, &cycle.periodic_displacement_m,
+                        &cycle.force_peak_N, &cycle.force_trough_N};
+  if (motion.restick_margin) all.push_back(&*motion.restick_margin);  // needed, not enough: the cycle ends sooner
+  for (Jet* const y : all) {
     const double by_difference = take_derivative_by_difference(*y, *difference_N);
     y->v += by_difference * aged_N.v;
   }
   motion.aged_difference_N = aged_N;
-  motion.restick_margin.reset();  // the cycle ends sooner, where its stick becomes too short
   return motion;
 }
 
 CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagation& propagation) {
   constexpr double kSlowest = 1e-6;
   constexpr double kFastest = 300.0;
-  constexpr double kSharp = 1e-9;
+  constexpr double kSharp = 1e-14;
   // The speed goes as exp(-(F_s - F_k) / rate): its logarithm is nearly linear in the parameters.
   const ModelJets p = jets_of(model);
   const double unit = (p.omega_rad_per_s * p.difference_N / p.stiffness_N_per_m).a;
@@ -102,13 +116,8 @@ CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagatio
     const double middle = std::sqrt(sticks * slides);
     (aged_difference_N(model, middle) ? sticks : slides) = middle;
   }
-  // There the excess only just reaches 0 over F_s - F_k, so that its derivative by that vanishes.
   const double difference_N = *aged_difference_N(model, sticks);
-  const Jet excess = excess_N(model, difference_N, sticks);
-  constexpr double kStep = 1e-4;
-  const double by_speed = (excess_N(model, difference_N, sticks * (1.0 - kStep)).a - excess.a) / (-kStep * sticks);
-  Jet speed(sticks);
-  speed.v = -excess.v / by_speed;
+  const Jet speed = end_speed(model, difference_N, sticks);
   if (propagation.quantile() * propagation.standard_error(speed) > thresholds::kWidestAgeing * sticks) {
     return both("ageing and damping are not known well enough to tell where stick-slip ends");
   }

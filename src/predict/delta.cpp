@@ -22,13 +22,15 @@ Jet positive_parameter(double value, int i) {
 
 ModelJets jets_of(const ModelEstimate& model) {
   const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
+  const Ageing ageing = model.ageing.value_or(Ageing{});
   return {positive_parameter(model.stiffness_N_per_m, 0),
           positive_parameter(model.natural_frequency_rad_per_s, 1),
           Jet(model.damping_ratio, 2),
           positive_parameter(model.friction_difference_N, 3),
           Jet(law.slope_N_s_per_m, 4),
           Jet(law.alpha_s_per_m, 5),
-          Jet(model.ageing.value_or(Ageing{}).rate_N, 6)};
+          Jet(ageing.rate_N, 6),
+          Jet(ageing.cutoff_s, 7)};
 }
 
 Propagation::Propagation(ModelEstimate model)

@@ -14,11 +14,13 @@
 
 namespace slipfit::predict {
 
-/// Numbers that know their derivatives with respect to (ln k, ln w_n, zeta, ln dF, b, alpha, rate of ageing).
+/// Numbers that know their derivatives with respect to (ln k, ln w_n, zeta, ln dF, b, alpha, rate and
+/// cut-off of ageing).
 using Jet = ceres::Jet<double, static_cast<int>(kModelValues)>;
 
 struct ModelJets {
-  Jet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N, slope_N_s_per_m, alpha_s_per_m, ageing_N;
+  Jet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N, slope_N_s_per_m, alpha_s_per_m, ageing_N,
+      ageing_cutoff_s;
 };
 
 ModelJets jets_of(const ModelEstimate& model);

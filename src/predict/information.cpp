@@ -31,8 +31,10 @@ class Cycle {
     if (model.ageing) {
       // After the sticks of this speed; that these follow F_s - F_k is a small part of what they tell of the rate.
       const double aged_N = aged_difference_N(model, speed_m_per_s).value_or(0.0);
-      const double log_stick = (aged_N - model.friction_difference_N) / model.ageing->rate_N;
-      difference_ += CycleJet(model.ageing->rate_N, 6) * log_stick;
+      const auto [rate_N, reference_s, cutoff_s] = *model.ageing;
+      const double log_stick = (aged_N - model.friction_difference_N) / rate_N;
+      const double by_cutoff = (std::exp(-log_stick) - 1.0) / (reference_s + cutoff_s);
+      difference_ += CycleJet(rate_N, 6) * log_stick + rate_N * by_cutoff * CycleJet(0.0, 7);
     }
     const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
     slope_ = CycleJet(law.slope_N_s_per_m, 4) * omega_ / stiffness_;

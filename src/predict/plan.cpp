@@ -34,7 +34,10 @@ std::vector<NamedJet> parameters_of(const ModelEstimate& model) {
     all.push_back({"friction_slope_N_s_per_m", p.slope_N_s_per_m});
     all.push_back({"alpha_s_per_m", p.alpha_s_per_m});
   }
-  if (model.ageing) all.push_back({"ageing_N", p.ageing_N});
+  if (model.ageing) {
+    all.push_back({"ageing_N", p.ageing_N});
+    all.push_back({"ageing_time_s", p.ageing_cutoff_s});
+  }
   return all;
 }
 

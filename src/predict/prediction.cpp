@@ -39,7 +39,9 @@ class Predictor {
     row.regime = predict::name_of(motion.regime);
     row.bistable = motion.regime == Regime::StickSlipBistable;
     if (motion.cycle) add_cycle(*motion.cycle, row);
-    if (is_doubtful(motion)) {
+    if (motion.cycle && is_beyond_observed_end()) {
+      withdraw_intervals(row, "a recording of the sweep that is no faster does not stick");
+    } else if (is_doubtful(motion)) {
       withdraw_intervals(row,
                          "within the uncertainty of the critical speed: the data cannot tell whether there is "
                          "stick-slip at this speed");
@@ -56,6 +58,11 @@ class Predictor {
   }
 
  private:
+  [[nodiscard]] bool is_beyond_observed_end() const {
+    const std::optional<double>& slides = model_.observed_end.slides_m_per_s;
+    return slides && speed_m_per_s_ >= *slides;
+  }
+
   [[nodiscard]] bool is_far() const {
     const std::optional<SpeedReach>& reach = model_.estimate.reach;
     return reach && reach->distance_to(speed_m_per_s_) > std::log(thresholds::kFarRatio);

@@ -18,22 +18,28 @@ inline slipfit::PredictionModel moved(slipfit::PredictionModel model, std::size_
   if (i == 4 && e.speed_dependence) e.speed_dependence->slope_N_s_per_m += step;
   if (i == 5 && e.speed_dependence) e.speed_dependence->alpha_s_per_m += step;
   if (i == 6 && e.ageing) e.ageing->rate_N += step;
+  if (i == 7 && e.ageing) e.ageing->cutoff_s += step;
   return model;
 }
 
-/// Of quantity(model), by central differences. Steps are relative to the size of each value.
+/// Of quantity(model), by central differences of two steps, whose errors go as the fourth power of the step
+/// (Richardson). Steps are relative to the size of each value.
 template <class Function>
 double standard_error_by_differences(const slipfit::PredictionModel& model, double relative_step,
                                      const Function& quantity) {
   const slipfit::ModelEstimate& e = model.estimate;
-  std::array<double, slipfit::kModelValues> sizes{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+  std::array<double, slipfit::kModelValues> sizes{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
   if (e.speed_dependence) sizes[4] = std::abs(e.speed_dependence->slope_N_s_per_m);
   if (e.speed_dependence) sizes[5] = std::abs(e.speed_dependence->alpha_s_per_m);
   if (e.ageing) sizes[6] = e.ageing->rate_N;
+  if (e.ageing && e.ageing->cutoff_s > 0.0) sizes[7] = e.ageing->cutoff_s;
   std::array<double, slipfit::kModelValues> gradient{};
   for (std::size_t i = 0; i < gradient.size(); ++i) {
+    const auto slope = [&](double step) {
+      return (quantity(moved(model, i, step)) - quantity(moved(model, i, -step))) / (2.0 * step);
+    };
     const double step = relative_step * sizes[i];
-    gradient[i] = (quantity(moved(model, i, step)) - quantity(moved(model, i, -step))) / (2.0 * step);
+    gradient[i] = (4.0 * slope(0.5 * step) - slope(step)) / 3.0;
   }
   double variance = 0.0;
   for (std::size_t i = 0; i < gradient.size(); ++i) {

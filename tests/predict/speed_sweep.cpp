@@ -78,7 +78,8 @@ SlipEnd slide(const SpeedSweep& model, double speed_m_per_s, double extension_m)
 /// F_s after a stick, never below F_k.
 double aged_N(const SpeedSweep& model, double static_friction_N, double stick_s) {
   if (model.ageing_N == 0.0) return static_friction_N;
-  return std::max(static_friction_N + model.ageing_N * std::log(stick_s), model.f0_N + model.f1_N);
+  return std::max(static_friction_N + model.ageing_N * std::log(stick_s + model.ageing_cutoff_s),
+                  model.f0_N + model.f1_N);
 }
 
 /// The spring is stretched until F_s - cV pulls.

@@ -12,8 +12,9 @@ struct SpeedSweep {
   double stiffness_N_per_m = 1000.0;
   double omega_rad_per_s = 200.0;
   double damping_ratio = 0.08;
-  double static_friction_N = 6.0;  ///< after 1 s of stick
-  double ageing_N = 0.0;           ///< what ln (stick time / 1 s) adds to it
+  double static_friction_N = 6.0;  ///< after 1 s of stick, less the cut-off
+  double ageing_N = 0.0;           ///< what ln ((stick time + cut-off) / 1 s) adds to it
+  double ageing_cutoff_s = 0.0;
   double f0_N = 3.5;
   double f1_N = 0.5;
   double alpha_s_per_m = -8.0;

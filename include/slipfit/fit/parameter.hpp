@@ -17,6 +17,7 @@ enum class ParameterId : std::size_t {
   FrictionDifference,
   FrictionCoefficientDifference,
   Ageing,
+  AgeingTime,
   StaticFriction,
   StaticFrictionCoefficient,
   KineticFriction,
@@ -73,7 +74,7 @@ struct HeldParameters {
 inline constexpr std::array kModelParameters{ParameterId::Stiffness,     ParameterId::NaturalFrequency,
                                              ParameterId::DampingRatio,  ParameterId::FrictionDifference,
                                              ParameterId::FrictionSlope, ParameterId::Alpha,
-                                             ParameterId::Ageing};
+                                             ParameterId::Ageing,        ParameterId::AgeingTime};
 inline constexpr std::size_t kModelValues = kModelParameters.size();
 
 }  // namespace slipfit

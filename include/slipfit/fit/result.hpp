@@ -77,11 +77,12 @@ struct SpeedDependence {
   double alpha_s_per_m = 0.0;
 };
 
-/// Static friction that grows with the stick time before the slip (contact ageing): F_s - F_k(0+) = D + rate
-/// ln(stick / reference), D being ModelEstimate::friction_difference_N. docs/model.md (18)
+/// Static friction that grows with the stick time t before the slip (contact ageing): F_s - F_k(0+) = D + rate
+/// ln((t + cut-off) / (reference + cut-off)), D being ModelEstimate::friction_difference_N. docs/model.md (18)
 struct Ageing {
   double rate_N = 0.0;
   double reference_stick_s = 1.0;
+  double cutoff_s = 0.0;  ///< >= 0; sticks far shorter than it add nothing to static friction
 };
 
 /// What a sweep tells of F_s - F_k(0+) at speeds beyond its own, where no law of friction is sure to hold.
@@ -105,8 +106,8 @@ struct ModelEstimate {
   double natural_frequency_rad_per_s = 0.0;
   double damping_ratio = 0.0;          ///< >= 0
   double friction_difference_N = 0.0;  ///< F_s - F_k(0+)
-  /// Of kModelParameters, (ln k, ln w_n, zeta, ln (F_s - F_k(0+)), b, alpha, rate of ageing), scatter of the cycles
-  /// included; b and alpha are exactly 0 under Coulomb friction, the last without ageing.
+  /// Of kModelParameters, (ln k, ln w_n, zeta, ln (F_s - F_k(0+)), b, alpha, rate and cut-off of ageing), scatter of
+  /// the cycles included; b and alpha are exactly 0 under Coulomb friction, the last two without ageing.
   std::array<std::array<double, kModelValues>, kModelValues> covariance{};
   double degrees_of_freedom = 1.0;                    ///< of Student's t
   bool damping_identified = false;                    ///< zeta is known well enough to ask for critical speeds

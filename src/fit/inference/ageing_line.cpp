@@ -51,7 +51,7 @@ bool can_show_trend(const VectorXd& log_speeds) {
 }
 
 /// Squared standard errors of the recordings' own F_s - F_k(0+), in its unit: by the scatter over their cycles.
-VectorXd own_variances(const SweepSolution& solution) {
+VectorXd variances_of(const SweepSolution& solution) {
   VectorXd variances(static_cast<Index>(solution.recordings.size()));
   for (Index i = 0; i < variances.size(); ++i) {
     const auto recording = static_cast<std::size_t>(i);
@@ -89,6 +89,117 @@ Line line_over(VectorXd log_speeds, const VectorXd& values) {
   return line;
 }
 
+/// Lines through the recordings' own F_s - F_k(0+), one for each cut-off.
+class LinesOverSticks {
+ public:
+  explicit LinesOverSticks(const SweepSolution& solution)
+      : differences_(differences_of(solution)),
+        variances_(variances_of(solution)),
+        sticks_(log_sticks(solution).array().exp()),
+        instrument_(log_speeds(solution)) {
+    instrument_.array() -= instrument_.mean();
+  }
+
+  struct Line {
+    VectorXd difference_weights, rate_weights, residuals;
+    double difference = 0.0;
+    double rate = 0.0;
+    double chi2 = 0.0;  ///< by the recordings' own errors
+  };
+  [[nodiscard]] Line with(double cutoff) const {
+    const VectorXd logs = ((sticks_.array() + cutoff) / (1.0 + cutoff)).log();
+    Line line;
+    line.rate_weights = instrument_ / instrument_.dot(logs);
+    line.difference_weights = VectorXd::Constant(logs.size(), 1.0 / static_cast<double>(logs.size()));
+    line.difference_weights -= logs.mean() * line.rate_weights;
+    line.difference = line.difference_weights.dot(differences_);
+    line.rate = line.rate_weights.dot(differences_);
+    line.residuals = differences_.array() - line.difference - line.rate * logs.array();
+    line.chi2 = (line.residuals.array().square() / variances_.array()).sum();
+    return line;
+  }
+  [[nodiscard]] const VectorXd& own_variances() const { return variances_; }
+  [[nodiscard]] double longest_stick() const { return sticks_.maxCoeff(); }
+  [[nodiscard]] double shortest_stick() const { return sticks_.minCoeff(); }
+  [[nodiscard]] Index count() const { return sticks_.size(); }
+
+ private:
+  VectorXd differences_, variances_, sticks_, instrument_;
+};
+
+/// The cut-off below which this part of them lies.
+double quantile_of(const AgeingCutoff& cutoff, double part) {
+  double below = 0.0;
+  Index i = 0;
+  while (i + 1 < AgeingCutoff::kPoints && below + cutoff.weights(i) < part) below += cutoff.weights(i++);
+  return cutoff.values(i);
+}
+
+/// Ageing without a cut-off is left behind by more than chance: by Student's t with the recordings' own degrees of
+/// freedom even where they lie on the line within their errors, since few may do so by chance.
+bool is_excluded(double gain, double freedom) {
+  const boost::math::students_t_distribution<double> by_chance(freedom);
+  const double least = boost::math::quantile(by_chance, 1.0 - thresholds::kCutoffChance);
+  return gain > least * least;
+}
+
+/// Cut-offs whose shares have evenly spaced roots, with chi2 of their lines.
+struct CutoffGrid {
+  AgeingCutoff::Grid roots, values, chi2;
+  double step = 0.0;
+
+  CutoffGrid(const LinesOverSticks& lines, double lowest_root, double highest_root)
+      : step((highest_root - lowest_root) / static_cast<double>(AgeingCutoff::kPoints)) {
+    for (Index i = 0; i < AgeingCutoff::kPoints; ++i) {
+      roots(i) = lowest_root + step * (static_cast<double>(i) + 0.5);
+      values(i) = roots(i) * roots(i) / (1.0 - roots(i) * roots(i));
+      chi2(i) = lines.with(values(i)).chi2;
+    }
+  }
+  [[nodiscard]] AgeingCutoff::Grid weights(double variance) const {
+    const AgeingCutoff::Grid all = (-0.5 * (chi2 - chi2.minCoeff()) / variance).exp();
+    return all / all.sum();
+  }
+};
+
+/// Over the part of the range that has weight, so that its points resolve what is known.
+CutoffGrid resolved_grid(const LinesOverSticks& lines, double freedom) {
+  constexpr int kRefinements = 3;
+  constexpr double kNothing = 1e-6;
+  const double longest = lines.longest_stick();
+  CutoffGrid grid(lines, 0.0, std::sqrt(longest / (1.0 + longest)));
+  for (int i = 0; i < kRefinements; ++i) {
+    const AgeingCutoff::Grid weights = grid.weights(std::max(1.0, grid.chi2.minCoeff() / freedom));
+    Index first = 0;
+    Index last = AgeingCutoff::kPoints - 1;
+    while (weights(first) < kNothing) ++first;
+    while (weights(last) < kNothing) --last;
+    const double lowest = grid.roots(0) - 0.5 * grid.step;
+    const double highest = grid.roots(AgeingCutoff::kPoints - 1) + 0.5 * grid.step;
+    grid = CutoffGrid(lines, std::max(lowest, grid.roots(first) - 1.5 * grid.step),
+                      std::min(highest, grid.roots(last) + 1.5 * grid.step));
+  }
+  return grid;
+}
+
+AgeingCutoff cutoff_of(const LinesOverSticks& lines) {
+  const double freedom = std::max(1.0, static_cast<double>(lines.count()) - 3.0);
+  const CutoffGrid grid = resolved_grid(lines, freedom);
+  const double variance = std::max(1.0, grid.chi2.minCoeff() / freedom);
+  AgeingCutoff cutoff;
+  cutoff.longest = lines.longest_stick();
+  cutoff.ratio = lines.longest_stick() / lines.shortest_stick();
+  cutoff.values = grid.values;
+  cutoff.weights = grid.weights(variance);
+  const double share = (cutoff.weights * grid.roots.square()).sum();
+  cutoff.value = share / (1.0 - share);
+  const double gain = (lines.with(0.0).chi2 - grid.chi2.minCoeff()) / variance;
+  const bool above_0 = is_excluded(gain, freedom);
+  cutoff.held = {above_0 ? quantile_of(cutoff, 0.025) : 0.0, quantile_of(cutoff, 0.975)};
+  cutoff.told = above_0 && cutoff.ratio > thresholds::kCutoffStickRatio;
+  return cutoff;
+}
+
 }  // namespace
 
 VectorXd differences_of(const SweepSolution& solution) {
@@ -99,42 +210,43 @@ VectorXd differences_of(const SweepSolution& solution) {
   return differences;
 }
 
-AgeingLine ageing_line(const SweepSolution& solution) {
-  const VectorXd differences = differences_of(solution);
-  const VectorXd sticks = log_sticks(solution);
-  VectorXd instrument = log_speeds(solution);
-  instrument.array() -= instrument.mean();
-  const auto count = static_cast<double>(differences.size());
-  AgeingLine line;
-  line.rate_weights = instrument / instrument.dot(sticks);
-  line.difference_weights = VectorXd::Constant(differences.size(), 1.0 / count) - sticks.mean() * line.rate_weights;
-  const VectorXd residuals = differences.array() - line.difference_weights.dot(differences) -
-                             line.rate_weights.dot(differences) * sticks.array();
-  line.explains = within_own_errors(residuals, own_variances(solution));
-  line.residual_variance = residuals.squaredNorm() / std::max(1.0, count - 2.0);
+AgeingLine ageing_line(const SweepSolution& solution, const AgeingCutoff& cutoff) {
+  const LinesOverSticks lines(solution);
+  const LinesOverSticks::Line best = lines.with(cutoff.value);
+  AgeingLine line{best.difference_weights, best.rate_weights};
+  line.explains = within_own_errors(best.residuals, lines.own_variances());
+  const auto count = static_cast<double>(best.residuals.size());
+  line.residual_variance = best.residuals.squaredNorm() / std::max(1.0, count - 2.0);
+  for (Index i = 0; i < AgeingCutoff::kPoints; ++i) {
+    const LinesOverSticks::Line other = lines.with(cutoff.values(i));
+    const Eigen::Vector3d move(other.difference - best.difference, other.rate - best.rate,
+                               cutoff.values(i) - cutoff.value);
+    line.by_cutoff += cutoff.weights(i) * move * move.transpose();
+  }
   return line;
 }
 
 StaticFriction static_friction_of(const SweepSolution& solution) {
   const VectorXd differences = differences_of(solution);
   const VectorXd speeds = log_speeds(solution);
-  if (solution.sweep.sharing.difference || !can_show_trend(speeds)) return StaticFriction::Constant;
+  if (solution.sweep.sharing.difference || !can_show_trend(speeds)) return std::nullopt;
   const Line line = line_over(speeds, differences);
-  if (!(line.slope < 0.0)) return StaticFriction::Constant;
-  if (within_own_errors(line.residuals, own_variances(solution))) return StaticFriction::Ages;
+  if (!(line.slope < 0.0)) return std::nullopt;
+  if (within_own_errors(line.residuals, variances_of(solution))) return cutoff_of(LinesOverSticks(solution));
   const boost::math::students_t_distribution<double> by_chance(static_cast<double>(differences.size()) - 2.0);
   const double least = boost::math::quantile(by_chance, 1.0 - thresholds::kAgeingChance) * line.slope_error;
-  return -line.slope > least ? StaticFriction::Ages : StaticFriction::Constant;
+  if (!(-line.slope > least)) return std::nullopt;
+  return cutoff_of(LinesOverSticks(solution));
 }
 
-SpeedReach reach_of(const SweepSolution& solution) {
+SpeedReach reach_of(const SweepSolution& solution, const StaticFriction& kind) {
   const VectorXd speeds = log_speeds(solution);
   SpeedReach reach{std::exp(speeds.minCoeff()), std::exp(speeds.maxCoeff()), std::nullopt};
   if (!can_show_trend(speeds)) return reach;
   if (solution.sweep.sharing.difference) {
     const double sum = (speeds.array() - speeds.mean()).square().sum();
     const double slope_error =
-        std::sqrt(own_variances(solution).mean() / sum) / std::abs(differences_of(solution).mean());
+        std::sqrt(variances_of(solution).mean() / sum) / std::abs(differences_of(solution).mean());
     const double chance = 1.0 / (1.0 + std::sqrt(static_cast<double>(solution.cycles())));
     constexpr double kNormal = 1.959963985;
     // The slope that would be seen by chance, and its own error, are of the same size.
@@ -143,7 +255,8 @@ SpeedReach reach_of(const SweepSolution& solution) {
   }
   const VectorXd differences = differences_of(solution);
   const Line line = line_over(speeds, differences);
-  reach.trend = std::hypot(line.slope, 2.0 * line.slope_error) / std::abs(differences.mean());
+  const double share = kind ? thresholds::kAgeingTrendShare : 1.0;
+  reach.trend = share * std::hypot(line.slope, 2.0 * line.slope_error) / std::abs(differences.mean());
   return reach;
 }
 

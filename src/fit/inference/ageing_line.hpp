@@ -1,37 +1,56 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 
 #include "fit/selection/sweep_solution.hpp"
+#include "slipfit/core/estimate.hpp"
 #include "slipfit/fit/result.hpp"
 
 namespace slipfit::fit {
 
-/// Of a sweep: static friction is constant, or ages as its recordings say.
-enum class StaticFriction { Constant, Ages };
+/// What the recordings of a sweep tell of the cut-off t_c of ageing, in Units::stick_s. Beforehand t_c lies between 0
+/// and the longest stick, where every root of the share t_c / (t_c + Units::stick_s) is as likely; each then weighs as
+/// the line with it leaves the recordings.
+struct AgeingCutoff {
+  static constexpr Eigen::Index kPoints = 64;
+  using Grid = Eigen::Array<double, kPoints, 1>;
+
+  double value = 0.0;    ///< by the mean share; lines are drawn with it
+  Interval held{};       ///< 95 % lie in it
+  double longest = 0.0;  ///< stick, the end of the range
+  double ratio = 1.0;    ///< of the longest stick to the shortest
+  bool told = false;     ///< by the sticks and the recordings; otherwise it is held over its range
+  Grid values, weights;  ///< over the range; the weights add up to 1
+};
+
+/// Of a sweep: static friction ages with a cut-off; empty: it is constant.
+using StaticFriction = std::optional<AgeingCutoff>;
 
 /// F_s - F_k(0+) / Units::force of each recording.
 Eigen::VectorXd differences_of(const SweepSolution& solution);
 
-/// F_s - F_k(0+) = D + rate ln(stick / Units::stick_s) through the recordings' own values. At one speed a larger
-/// F_s - F_k makes a longer stick, ageing or not: what moves the stick time here is the driving speed (instrumental
-/// variable ln V).
+/// F_s - F_k(0+) = D + rate ln((stick + t_c) / (Units::stick_s + t_c)) through the recordings' own values. At one speed
+/// a larger F_s - F_k makes a longer stick, ageing or not: what moves the stick time here is the driving speed
+/// (instrumental variable ln V).
 struct AgeingLine {
   Eigen::VectorXd difference_weights, rate_weights;  ///< of the recordings' own F_s - F_k(0+)
   double residual_variance = 0.0;                    ///< of one recording around the line
   bool explains = false;                             ///< what is left is within the recordings' own errors
+  /// Of D, rate and cut-off: how the line moves as the cut-off goes through its values.
+  Eigen::Matrix3d by_cutoff = Eigen::Matrix3d::Zero();
 };
 
 /// Needs two recordings or more with each its own F_s - F_k(0+), and at different speeds.
-AgeingLine ageing_line(const SweepSolution& solution);
+AgeingLine ageing_line(const SweepSolution& solution, const AgeingCutoff& cutoff);
 
 /// Ages where recordings have each their own static friction and it falls with ln V: along a line within their own
 /// errors, or by more than chance (fewer than one sweep of 100 without ageing is taken for one that ages).
 StaticFriction static_friction_of(const SweepSolution& solution);
 
 /// What the sweep tells of static friction beyond its speeds. Where the recordings differ, the trend of
-/// ln(F_s - F_k(0+)) over ln V may end or double. Where they share one, the trend that they could hide, by the evidence
-/// that there is none (Schwarz's criterion).
-SpeedReach reach_of(const SweepSolution& solution);
+/// ln(F_s - F_k(0+)) over ln V may end or double; half of that where it is that of ageing with a cut-off. Where they
+/// share one, the trend that they could hide, by the evidence that there is none (Schwarz's criterion).
+SpeedReach reach_of(const SweepSolution& solution, const StaticFriction& kind);
 
 }  // namespace slipfit::fit

@@ -47,7 +47,7 @@ std::vector<SweepSolution> other_solutions(const SweepSolution& exponential, dou
 
 }  // namespace
 
-std::optional<OtherLaw> other_law(const SweepSolution& exponential, StaticFriction kind) {
+std::optional<OtherLaw> other_law(const SweepSolution& exponential, const StaticFriction& kind) {
   const double variance = std::max(1.0, exponential.chi2 / exponential.degrees_of_freedom);
   const Coordinates values = coordinates_of(exponential, kind);
   std::optional<OtherLaw> furthest;

@@ -18,6 +18,6 @@ struct OtherLaw {
 
 /// Of the hyperbolic and the logarithmic laws that the recordings do not exclude the one with the largest move. Empty
 /// where they exclude all.
-std::optional<OtherLaw> other_law(const SweepSolution& exponential, StaticFriction kind);
+std::optional<OtherLaw> other_law(const SweepSolution& exponential, const StaticFriction& kind);
 
 }  // namespace slipfit::fit

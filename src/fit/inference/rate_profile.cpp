@@ -37,7 +37,7 @@ std::vector<double> rates_beside(double best, double side) {
 
 /// How far the values move on one side, as long as the sum of squares has risen by less than the square of the
 /// quantile, and where it passes that.
-std::vector<Point> points_on(const SweepSolution& solution, StaticFriction kind, const Coordinates& best,
+std::vector<Point> points_on(const SweepSolution& solution, const StaticFriction& kind, const Coordinates& best,
                              double quantile, double side) {
   const double variance = std::max(1.0, solution.chi2 / solution.degrees_of_freedom);
   std::vector<Point> points;
@@ -89,7 +89,7 @@ void avoid_negative_damping(Coordinates& best, Sides& sides) {
 
 }  // namespace
 
-AlongRate profile_rate(const SweepSolution& solution, StaticFriction kind, const Coordinates& best,
+AlongRate profile_rate(const SweepSolution& solution, const StaticFriction& kind, const Coordinates& best,
                        const Spread& spread) {
   AlongRate result{best, spread};
   const double variance = spread.covariance(kFrictionRate, kFrictionRate);

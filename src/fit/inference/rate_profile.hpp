@@ -13,7 +13,7 @@ struct AlongRate {
   Coordinates best;
   Spread spread;
 };
-AlongRate profile_rate(const SweepSolution& solution, StaticFriction kind, const Coordinates& best,
+AlongRate profile_rate(const SweepSolution& solution, const StaticFriction& kind, const Coordinates& best,
                        const Spread& spread);
 
 }  // namespace slipfit::fit

@@ -21,6 +21,7 @@ SlidingModel::SlidingModel(const Coordinates& values, const Units& units) {
   level = units.level + units.force * jet(kLevel);
   difference = units.force * jet(kDifference);
   ageing = units.force * jet(kAgeing);
+  ageing_time = units.stick_s * jet(kAgeingTime);
   slip_distance = units.slip_distance_m * jet(kSlipDistance) * jet(kSlipDistance);
   reference_stick_s_ = units.stick_s;
 }
@@ -67,7 +68,7 @@ std::optional<Jet> SlidingModel::aged_difference_N(double speed_m_per_s, double 
     const std::optional<Cycle> limit = cycle(speed_m_per_s, load, held_N);
     return limit ? std::optional(limit->stick_s) : std::nullopt;
   };
-  const model::AgeingLaw law{difference.a, ageing.a, reference_stick_s_};
+  const model::AgeingLaw law{difference.a, ageing.a, reference_stick_s_, ageing_time.a};
   const std::optional<double> solution_N =
       model::aged_difference_N(law, [&](double difference_N) -> std::optional<model::StickTime> {
         const std::optional<Jet> stick_s = stick_of(difference_N);
@@ -77,7 +78,9 @@ std::optional<Jet> SlidingModel::aged_difference_N(double speed_m_per_s, double 
   if (!solution_N) return std::nullopt;
   Jet stick_s = *stick_of(*solution_N);
   const double by_difference = std::exchange(stick_s.v(kDifference), 0.0);
-  return model::aged_difference_N(*solution_N, difference, ageing, stick_s, by_difference, reference_stick_s_);
+  return model::aged_difference_N(*solution_N,
+                                  model::AgeingLawOf<Jet>{difference, ageing, reference_stick_s_, ageing_time}, stick_s,
+                                  by_difference);
 }
 
 }  // namespace slipfit::fit

@@ -8,7 +8,7 @@ namespace slipfit::fit {
 
 /// The coordinates in SI with their derivatives. Forces at the reference load.
 struct SlidingModel {
-  Jet stiffness, omega, zeta, slope, alpha, level, difference, ageing, slip_distance;
+  Jet stiffness, omega, zeta, slope, alpha, level, difference, ageing, ageing_time, slip_distance;
 
   SlidingModel(const Coordinates& values, const Units& units);
 

@@ -1,6 +1,7 @@
 #include "fit/inference/sweep_coordinates.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "fit/inference/covariance.hpp"
@@ -33,8 +34,8 @@ double variance_of_mean(const VectorXd& values) {
 }
 
 /// Without ageing a level line: the mean.
-AgeingLine static_friction_line(const SweepSolution& solution, StaticFriction kind) {
-  if (kind == StaticFriction::Ages) return ageing_line(solution);
+AgeingLine static_friction_line(const SweepSolution& solution, const StaticFriction& kind) {
+  if (kind) return ageing_line(solution, *kind);
   const VectorXd differences = shared_or_own(differences_of(solution), solution.sweep.sharing.difference);
   const Index count = differences.size();
   return {VectorXd::Constant(count, 1.0 / static_cast<double>(count)), VectorXd::Zero(count),
@@ -59,9 +60,19 @@ Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
   return selection;
 }
 
+/// Of the recordings around their line; they count then, and not their cycles.
+void add_scatter(Spread& spread, const SweepSolution& solution, const AgeingLine& line, const StaticFriction& kind) {
+  MatrixXd scatter(line.rate_weights.size(), 2);
+  scatter << line.difference_weights, line.rate_weights;
+  spread.covariance.block<2, 2>(kDifference, kDifference) += line.residual_variance * scatter.transpose() * scatter;
+  if (!kind) return;
+  const double recordings = std::max(1.0, static_cast<double>(solution.recordings.size()) - 2.0);
+  spread.degrees_of_freedom = std::min(spread.degrees_of_freedom, recordings);
+}
+
 }  // namespace
 
-Coordinates coordinates_of(const SweepSolution& solution, StaticFriction kind) {
+Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& kind) {
   const AgeingLine line = static_friction_line(solution, kind);
   const VectorXd differences = shared_or_own(differences_of(solution), solution.sweep.sharing.difference);
   Coordinates values;
@@ -70,11 +81,12 @@ Coordinates coordinates_of(const SweepSolution& solution, StaticFriction kind) {
   values(kLevel) = levels_of(solution).mean();
   values(kDifference) = line.difference_weights.dot(differences);
   values(kAgeing) = line.rate_weights.dot(differences);
+  values(kAgeingTime) = kind ? kind->value : 0.0;
   return values;
 }
 
 Spread spread_of(const SweepData& data, const SweepSolution& solution, const std::vector<Normal>& normals,
-                 StaticFriction kind) {
+                 const StaticFriction& kind) {
   const Problem problem = solution.problem();
   const AgeingLine line = static_friction_line(solution, kind);
   const Selection selection = selection_of(solution, line);
@@ -92,16 +104,16 @@ Spread spread_of(const SweepData& data, const SweepSolution& solution, const std
   spread.covariance(kLevel, kLevel) += variance_of_mean(levels_of(solution));
   // Recordings whose cycles are those of the model, and that lie on the line within their own errors, count as the
   // cycles do; otherwise they scatter, and they count.
-  const bool ages = kind == StaticFriction::Ages;
-  if (ages && line.explains && !correlated) return spread;
-  MatrixXd scatter(line.rate_weights.size(), 2);
-  scatter << line.difference_weights, line.rate_weights;
-  spread.covariance.block<2, 2>(kDifference, kDifference) += line.residual_variance * scatter.transpose() * scatter;
-  if (ages) {
-    const double recordings = std::max(1.0, static_cast<double>(solution.recordings.size()) - 2.0);
-    spread.degrees_of_freedom = std::min(spread.degrees_of_freedom, recordings);
-  }
+  if (!(kind && line.explains && !correlated)) add_scatter(spread, solution, line, kind);
   return spread;
+}
+
+void add_cutoff(const SweepSolution& solution, const StaticFriction& kind, Spread& spread) {
+  if (!kind) return;
+  const double quantile = t_quantile(spread.degrees_of_freedom) / t_quantile(std::numeric_limits<double>::infinity());
+  spread.scatter.block<3, 3>(kDifference, kDifference) +=
+      ageing_line(solution, *kind).by_cutoff / (quantile * quantile);
+  spread.scatter_degrees_of_freedom = spread.degrees_of_freedom;
 }
 
 Coordinates with_damping_cut(const Coordinates& values, const CoordinateMatrix& covariance) {

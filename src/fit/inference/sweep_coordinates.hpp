@@ -8,12 +8,16 @@ namespace slipfit::fit {
 
 /// The coordinates of a sweep at its solution: levels and differences of their own are means over the recordings, or a
 /// line through them where static friction ages.
-Coordinates coordinates_of(const SweepSolution& solution, StaticFriction kind);
+Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& kind);
 
 /// White noise, or the jackknife over cycles where residuals of a recording correlate; scatter of the recordings' own
 /// levels and differences included.
 Spread spread_of(const SweepData& data, const SweepSolution& solution, const std::vector<Normal>& normals,
-                 StaticFriction kind);
+                 const StaticFriction& kind);
+
+/// What is not known of the cut-off of ageing: its distribution holds it by itself, so that Student's t of the spread,
+/// with its final degrees of freedom, is taken off.
+void add_cutoff(const SweepSolution& solution, const StaticFriction& kind, Spread& spread);
 
 /// zeta cannot be negative: where its best value is, the best values given zeta = 0 (by the covariance, to second
 /// order).

@@ -16,12 +16,13 @@
 namespace slipfit::fit {
 namespace {
 
-LeftOut fit_of(const SweepData& data, const NormalSolution& fit, StaticFriction kind) {
-  return {coordinates_of(fit.solution, kind), spread_of(data, fit.solution, fit.normals, kind), reach_of(fit.solution)};
+LeftOut fit_of(const SweepData& data, const NormalSolution& fit, const StaticFriction& kind) {
+  return {coordinates_of(fit.solution, kind), spread_of(data, fit.solution, fit.normals, kind),
+          reach_of(fit.solution, kind)};
 }
 
 std::vector<std::optional<LeftOut>> leave_out_each(const SweepData& data, const NormalSolution& all,
-                                                   StaticFriction kind) {
+                                                   const StaticFriction& kind) {
   const std::size_t count = all.solution.recordings.size();
   std::mutex telling;
   return in_parallel(count, [&](std::size_t recording) -> std::optional<LeftOut> {
@@ -30,7 +31,10 @@ std::vector<std::optional<LeftOut>> leave_out_each(const SweepData& data, const 
       data.tell_step(fmt::format("fitting without recording {} of {}", recording + 1, count));
     }
     const std::optional<NormalSolution> others = leave_out(all, recording);
-    return others ? std::optional(fit_of(data, *others, kind)) : std::nullopt;
+    if (!others) return std::nullopt;
+    LeftOut one = fit_of(data, *others, kind);
+    add_cutoff(others->solution, kind, one.spread);
+    return one;
   });
 }
 
@@ -125,6 +129,7 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
     spread.degrees_of_freedom = std::max(1.0, std::min(spread.degrees_of_freedom, count_of(outcome.left_out) - 1.0));
   }
   if (outcome.reach.trend) outcome.reach.trend = std::hypot(*outcome.reach.trend, error_beyond(outcome));
+  add_cutoff(solution, kind, outcome.spread);
   AlongRate along = profile_rate(solution, kind, outcome.values, outcome.spread);
   outcome.values = along.best;
   outcome.spread = std::move(along.spread);

@@ -19,7 +19,7 @@ struct LeftOut {
 /// A solution with its intervals.
 struct SweepOutcome {
   const SweepSolution& solution;
-  StaticFriction static_friction = StaticFriction::Constant;
+  StaticFriction static_friction{};
   Coordinates values;  ///< zeta may be negative
   Spread spread;
   SpeedReach reach;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "fit/inference/ageing_line.hpp"
 #include "fit/inference/sliding_model.hpp"
 #include "fit/report/sentences.hpp"
 #include "slipfit/core/recording.hpp"
@@ -19,7 +20,7 @@ std::vector<std::string> conditions_of(const Recording& recording, Tier tier);
 struct LawFindings {
   bool depends_on_speed = false;
   std::string reason;                                ///< why it does, or not
-  bool ages = false;                                 ///< static friction grows with the stick time
+  std::optional<AgeingCutoff> ageing{};              ///< where static friction grows with the stick time
   std::optional<double> reference_normal_force_N{};  ///< known for all recordings
   bool at_one_speed = false;                         ///< then no more is told of it than by one recording
 };

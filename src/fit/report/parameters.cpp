@@ -10,6 +10,7 @@
 #include "core/fit_thresholds.hpp"
 #include "fit/report/correlation.hpp"
 #include "fit/report/findings.hpp"
+#include "fit/report/notes.hpp"
 #include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {
@@ -108,7 +109,7 @@ class Reporter {
       return;
     }
     const Estimate difference = of_rest_.interval_of_one_sign(model_.difference);
-    const bool ages = f_.law && f_.law->ages;
+    const bool ages = f_.law && f_.law->ageing;
     const std::string doubt = slip_doubt().empty() ? f_.difference_doubt : slip_doubt();
     const ParameterStatus of_difference = at_one_speed(graded(id, difference, doubt));
     std::string note = of_difference == ParameterStatus::Conditional ? kOneSpeed : or_few_cycles(doubt);
@@ -116,7 +117,14 @@ class Reporter {
     add(id, difference, of_difference, note);
     report_absolute(in_unit(Id::StaticFriction, Id::StaticFrictionCoefficient), model_.level + model_.difference);
     report_absolute(in_unit(Id::KineticFriction, Id::KineticFrictionCoefficient), model_.level);
-    if (ages) add_graded(Id::Ageing, f_.intervals.interval_of(model_.ageing), slip_doubt(), slip_note());
+    if (ages) report_ageing();
+  }
+
+  void report_ageing() {
+    add_graded(Id::Ageing, f_.intervals.interval_of(model_.ageing), slip_doubt(), slip_note());
+    const AgeingCutoff& cutoff = *f_.law->ageing;
+    if (!cutoff.told) return result_.parameters.push_back(held_cutoff(cutoff, f_.units.stick_s));
+    add_graded(Id::AgeingTime, f_.intervals.interval_of_one_sign(model_.ageing_time), slip_doubt(), slip_note());
   }
 
   /// A force level depends on the sensor's zero.
@@ -173,8 +181,9 @@ class Reporter {
     if (!f_.damping_known()) return add_unknown(Id::DampingRatio, f_.damping.note);
     const std::string doubt = slip_doubt().empty() ? f_.damping_doubt : slip_doubt();
     const ParameterStatus status = at_one_speed(graded(Id::DampingRatio, f_.damping, doubt));
+    const std::string why = or_few_cycles(doubt);
     add(Id::DampingRatio, f_.damping, status,
-        status == ParameterStatus::Weak          ? (doubt.empty() ? weak_damping() : doubt)
+        status == ParameterStatus::Weak          ? (why.empty() ? weak_damping(f_.damping) : why)
         : status == ParameterStatus::Conditional ? kOneSpeed
                                                  : "");
     if (!f_.in_newtons) return;
@@ -196,15 +205,6 @@ class Reporter {
     if (!tells) return add_unknown(Id::SlipDistance, "it cannot be distinguished from 0, Coulomb friction");
     const ParameterStatus status = at_one_speed(graded(Id::SlipDistance, distance, slip_doubt()));
     add(Id::SlipDistance, distance, status, status == ParameterStatus::Conditional ? kOneSpeed : slip_note());
-  }
-
-  /// Errors fall with the root of the cycles; identified from a quarter on.
-  [[nodiscard]] std::string weak_damping() const {
-    if (!few_cycles().empty()) return few_cycles();
-    const double times = std::pow(4.0 * *f_.damping.standard_error / *f_.damping.value, 2);
-    const std::string known = fmt::format("its standard error is {:.2g}", *f_.damping.standard_error);
-    return times < 100.0 ? fmt::format("{}: it takes {:.2g} times the cycles, or less noise", known, times)
-                         : known + ": it cannot be distinguished from 0";
   }
 
   void report_law() {
@@ -264,16 +264,16 @@ class Reporter {
     // In the order of kModelParameters; of the positive ones the logarithm.
     const std::array<Jet, kModelValues> all{log(model_.stiffness),  log(model_.omega), model_.zeta,
                                             log(model_.difference), model_.slope,      model_.alpha,
-                                            model_.ageing};
+                                            model_.ageing,          model_.ageing_time};
     ModelEstimate estimate{model_.stiffness.a, model_.omega.a, model_.zeta.a, model_.difference.a};
     std::vector<std::size_t> used{0, 1, 2, 3};
     if (f_.law && f_.law->depends_on_speed) {
       estimate.speed_dependence = SpeedDependence{model_.slope.a, model_.alpha.a};
       used.insert(used.end(), {4, 5});
     }
-    if (f_.law && f_.law->ages) {
-      estimate.ageing = Ageing{model_.ageing.a, f_.units.stick_s};
-      used.push_back(6);
+    if (f_.law && f_.law->ageing) {
+      estimate.ageing = Ageing{model_.ageing.a, f_.units.stick_s, model_.ageing_time.a};
+      used.insert(used.end(), {6, 7});
     }
     for (const std::size_t i : used) {
       for (const std::size_t j : used) estimate.covariance[i][j] = f_.intervals.whole_covariance(all[i], all[j]);

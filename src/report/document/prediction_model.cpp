@@ -85,12 +85,20 @@ bool damping_identified(const JsonNode& damping) {
   return low && *low > 0.0;
 }
 
+std::optional<std::size_t> find_row(const JsonNode& names, const std::string& name) {
+  for (std::size_t row = 0; row < names.array_size(); ++row) {
+    if (names.element(row).text() == name) return row;
+  }
+  return std::nullopt;
+}
+
 /// Rows of ModelEstimate::covariance that the model has: the four, of friction that depends on the speed its slope and
-/// rate, of static friction that ages its rate.
-std::vector<std::size_t> places_of(const ModelEstimate& estimate) {
+/// rate, of static friction that ages its rate and, where `names` has it, its cut-off.
+std::vector<std::size_t> places_of(const ModelEstimate& estimate, const JsonNode& names) {
   std::vector<std::size_t> places{0, 1, 2, 3};
   if (estimate.speed_dependence) places.insert(places.end(), {4, 5});
   if (estimate.ageing) places.push_back(6);
+  if (estimate.ageing && find_row(names, key_of(ParameterId::AgeingTime))) places.push_back(7);
   return places;
 }
 
@@ -108,10 +116,9 @@ std::optional<std::vector<double>> parameter_errors(const JsonNode& parameters, 
 }
 
 std::size_t row_of(const JsonNode& names, const std::string& name) {
-  std::size_t row = 0;
-  while (row < names.array_size() && names.element(row).text() != name) ++row;
-  if (row == names.array_size()) names.fail("a list with " + name);
-  return row;
+  const std::optional<std::size_t> row = find_row(names, name);
+  if (!row) names.fail("a list with " + name);
+  return *row;
 }
 
 /// Rows in the correlation's matrix.
@@ -164,7 +171,7 @@ void read_covariance(const JsonNode& document, PredictionModel& model) {
   const std::optional<JsonNode> correlation = document.known("correlation");
   if (!correlation) return;
   const JsonNode names = correlation->member("names");
-  const std::vector<std::size_t> places = places_of(model.estimate);
+  const std::vector<std::size_t> places = places_of(model.estimate, names);
   const std::vector<std::size_t> rows = rows_of(names, places);
   const JsonNode matrix = correlation->member("matrix");
   const std::size_t size = names.array_size();
@@ -206,7 +213,11 @@ std::optional<Ageing> ageing(const std::string& file, const JsonNode& document) 
   if (!stick_s) return std::nullopt;
   const double rate_N = working_value(file, document, key_of(ParameterId::Ageing));
   if (!(rate_N > 0.0)) cannot_predict(file, "ageing_N is not above 0");
-  return Ageing{rate_N, stick_s->positive()};
+  const bool has_cutoff =
+      find_row(document.member("correlation").member("names"), key_of(ParameterId::AgeingTime)).has_value();
+  const double cutoff_s = has_cutoff ? working_value(file, document, key_of(ParameterId::AgeingTime)) : 0.0;
+  if (!(cutoff_s >= 0.0)) cannot_predict(file, "ageing_time_s is below 0");
+  return Ageing{rate_N, stick_s->positive(), cutoff_s};
 }
 
 std::optional<Estimate> kinetic_friction_N(const JsonNode& parameters) {
