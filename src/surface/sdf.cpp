@@ -7,6 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/word_list.hpp"
 #include "io/cells.hpp"
 #include "surface/readers.hpp"
 
@@ -61,7 +62,7 @@ SdfHeader text_header(std::string_view bytes, std::string_view& rest) {
     }
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos) continue;
-    fields[reading::lower(reading::trim(line.substr(0, equals)))] =
+    fields[lower(reading::trim(line.substr(0, equals)))] =
         reading::plain_number(reading::trim(line.substr(equals + 1)), false);
   }
   const auto value = [&](const char* name) { return fields.count(name) > 0 ? fields.at(name) : kHole; };
