@@ -36,7 +36,7 @@ class ProgramStream final : public ByteStream {
       count += static_cast<std::size_t>(got);
       if (got > 0) continue;
       ended_ = true;
-      if (wait() != 0) throw ContainerError(damaged(name_, "the file is damaged, or asks for too much memory or time"));
+      if (wait() != 0) throw ThrownError(damaged(name_, "the file is damaged, or asks for too much memory or time"));
     }
     return count;
   }
