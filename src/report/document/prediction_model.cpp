@@ -6,34 +6,27 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "report/document/document_context.hpp"
 #include "report/document/json_node.hpp"
 
 namespace slipfit::documents {
 namespace {
 
-struct Needed {
-  const char* name;
-  const char* expected;
-  double low;  ///< exclusive, but for the damping ratio
-  double high;
-};
+/// A number >= 0, or null.
+std::optional<double> checked_error(const JsonNode& node) {
+  const std::optional<double> error = node.number();
+  if (error && !(*error >= 0.0)) node.fail("a number >= 0 or null");
+  return error;
+}
 
-// The order of ModelEstimate::covariance.
-constexpr std::size_t kDamping = 2;
-constexpr std::array<Needed, 4> kNeeded{{
-    {"stiffness_N_per_m", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
-    {"natural_frequency_rad_per_s", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
-    {"damping_ratio", "a number in [0, 1)", 0.0, 1.0},
-    {"friction_difference_N", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
-}};
+/// Without these there is no prediction: the first of ModelEstimate::covariance.
+constexpr std::span kNeeded = std::span(kModelParameters).first<4>();
 
-/// Ends with NUL, because the keys of the table are literals.
-const char* key_of(ParameterId id) {
-  return info(id).key.data();
+std::string key_of(ParameterId id) {
+  return std::string(info(id).key);
 }
 
 bool is_known(const std::string& status) {
@@ -41,37 +34,40 @@ bool is_known(const std::string& status) {
 }
 
 [[noreturn]] void cannot_predict(const std::string& name, const std::string& why) {
-  throw BadDocument(Error{"cannot_predict", fmt::format("'{}': cannot predict: {}", name, why)});
+  throw ThrownError(Error{"cannot_predict", fmt::format("'{}': cannot predict: {}", name, why)});
 }
 
 /// Refuses a document in which a needed parameter is not known, with the note of the fit.
 void check_known(const std::string& file, const JsonNode& parameters) {
-  std::string open;
+  std::vector<std::string> open;
   std::string note;
-  for (const Needed& needed : kNeeded) {
-    if (!parameters.has(needed.name)) {
-      open += fmt::format("{}{} is absent", open.empty() ? "" : ", ", needed.name);
+  for (const ParameterId id : kNeeded) {
+    const std::string name = key_of(id);
+    if (!parameters.has(name)) {
+      open.push_back(name + " is absent");
       continue;
     }
-    const JsonNode parameter = parameters.member(needed.name);
+    const JsonNode parameter = parameters.member(name);
     const std::string status = parameter.member("status").text();
     if (is_known(status)) continue;
     if (status != "bounded" && status != "unidentified") {
       parameter.member("status").fail("identified, weak, bounded, unidentified, fixed or conditional");
     }
-    open += fmt::format("{}{} is {}", open.empty() ? "" : ", ", needed.name, status);
+    open.push_back(fmt::format("{} is {}", name, status));
     if (note.empty() && parameter.has("note")) note = parameter.member("note").text();
   }
   if (open.empty()) return;
-  cannot_predict(file, fmt::format("{}{}; a prediction needs all four of k, w_n, zeta and F_s - F_k", open,
-                                   note.empty() ? note : " (" + note + ")"));
+  cannot_predict(file, fmt::format("{}{}; a prediction needs all four of k, w_n, zeta and F_s - F_k",
+                                   fmt::join(open, ", "), note.empty() ? note : " (" + note + ")"));
 }
 
-double checked_value(const JsonNode& parameter, const Needed& needed) {
+double checked_value(const JsonNode& parameter, ParameterId id) {
+  const bool is_damping = id == ParameterId::DampingRatio;
+  const std::string expected = is_damping ? "a number in [0, 1)" : "a number > 0";
   const JsonNode node = parameter.member("value");
-  const std::optional<double> value = node.number(needed.expected);
-  const bool above = value && (*value > needed.low || (needed.high == 1.0 && *value == needed.low));
-  if (!above || !(*value < needed.high)) node.fail(needed.expected);
+  const std::optional<double> value = node.number(expected);
+  const bool is_inside = value && (is_damping ? *value >= 0.0 && *value < 1.0 : *value > 0.0);
+  if (!is_inside) node.fail(expected);
   return *value;
 }
 
@@ -100,7 +96,7 @@ std::optional<std::vector<double>> parameter_errors(const JsonNode& parameters, 
                                      estimate.friction_difference_N};
   std::vector<double> errors;
   for (std::size_t i = 0; i < kNeeded.size(); ++i) {
-    const std::optional<double> error = checked_error(parameters.member(kNeeded[i].name).member("se"));
+    const std::optional<double> error = checked_error(parameters.member(key_of(kNeeded[i])).member("se"));
     if (!error) return std::nullopt;
     errors.push_back(*error / scales[i]);
   }
@@ -181,7 +177,7 @@ void read_covariance(const JsonNode& document, PredictionModel& model) {
 }
 
 /// From the correlation: there it has a value also where the data tell it only together with others.
-double working_value(const std::string& file, const JsonNode& document, const char* name) {
+double working_value(const std::string& file, const JsonNode& document, const std::string& name) {
   const std::optional<JsonNode> correlation = document.known("correlation");
   if (!correlation) {
     cannot_predict(file, fmt::format("{} needs correlation (with its values), which is missing", name));
@@ -226,15 +222,57 @@ double degrees_of_freedom(const JsonNode& document) {
   return value;
 }
 
+// What stands around the parameters. Documents of earlier versions lack parts of it.
+
+/// Of a sweep.
+std::optional<SpeedReach> reach(const JsonNode& document) {
+  const auto speeds = document.known("model", "speeds_m_per_s");
+  if (!speeds) return std::nullopt;
+  if (speeds->array_size() != 2) speeds->fail("[slowest, fastest]");
+  SpeedReach reach{speeds->element(0).positive(), speeds->element(1).positive(), std::nullopt};
+  if (reach.slowest_m_per_s > reach.fastest_m_per_s) speeds->fail("[slowest, fastest]");
+  if (const auto trend = document.known("model", "trend_beyond")) reach.trend = checked_error(*trend);
+  return reach;
+}
+
+std::optional<double> normal_force_N(const JsonNode& document) {
+  const auto load = document.known("model", "normal_force_N");
+  return load ? std::optional(load->positive()) : std::nullopt;
+}
+
+/// [speed or null, speed or null]
+ObservedEnd observed_end(const JsonNode& document) {
+  const auto ends = document.known("derived", "observed_end_m_per_s");
+  if (!ends) return {};
+  if (ends->array_size() != 2) ends->fail("[highest speed that sticks, lowest that does not]");
+  return {checked_error(ends->element(0)), checked_error(ends->element(1))};
+}
+
+Warnings warnings(const JsonNode& document) {
+  Warnings list;
+  const auto nodes = document.known("warnings");
+  for (std::size_t i = 0; nodes && i < nodes->array_size(); ++i) {
+    const JsonNode warning = nodes->element(i);
+    list.push_back({warning.member("code").text(), warning.member("message").text()});
+  }
+  return list;
+}
+
+std::vector<std::string> conditions(const JsonNode& document) {
+  std::vector<std::string> texts;
+  const auto list = document.known("model", "conditional_on");
+  for (std::size_t i = 0; list && i < list->array_size(); ++i) texts.push_back(list->element(i).text());
+  return texts;
+}
+
 }  // namespace
 
 FitDocument fit_document_from(const JsonNode& document, const std::string& name) {
   if (const JsonNode schema = document.member("schema"); schema.text() != "slipfit.fit/1") schema.fail("slipfit.fit/1");
   if (!document.has("parameters")) {
-    throw BadDocument(Error{
-        "cannot_predict",
-        "'" + name +
-            "': has no parameters: slipfit analyze fits none, and fit found no cycles; use slipfit fit on stick-slip"});
+    throw ThrownError(Error{"cannot_predict", fmt::format("'{}': has no parameters: slipfit analyze fits none, and fit "
+                                                          "found no cycles; use slipfit fit on stick-slip",
+                                                          name)});
   }
   const JsonNode parameters = document.member("parameters");
   check_known(name, parameters);
@@ -243,11 +281,11 @@ FitDocument fit_document_from(const JsonNode& document, const std::string& name)
   const std::array<double*, 4> targets{&estimate.stiffness_N_per_m, &estimate.natural_frequency_rad_per_s,
                                        &estimate.damping_ratio, &estimate.friction_difference_N};
   for (std::size_t i = 0; i < kNeeded.size(); ++i) {
-    *targets[i] = checked_value(parameters.member(kNeeded[i].name), kNeeded[i]);
+    *targets[i] = checked_value(parameters.member(key_of(kNeeded[i])), kNeeded[i]);
   }
   estimate.speed_dependence = speed_dependence(name, document);
   estimate.ageing = ageing(name, document);
-  estimate.damping_identified = damping_identified(parameters.member(kNeeded[kDamping].name));
+  estimate.damping_identified = damping_identified(parameters.member(key_of(ParameterId::DampingRatio)));
   estimate.degrees_of_freedom = degrees_of_freedom(document);
   read_covariance(document, result.model);
   result.model.kinetic_friction_N = kinetic_friction_N(parameters);
