@@ -47,10 +47,6 @@ Error cannot_write(const fs::path& file, int error_number) {
       fmt::format("cannot be written ({}); mend that, then go on with --resume", std::strerror(error_number)));
 }
 
-FileHandle::~FileHandle() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 CheckedFile::CheckedFile(fs::path file, int descriptor) : name(std::move(file)), handle(descriptor) {
   check(descriptor >= 0);
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/file_handle.hpp"
 #include "slipfit/core/digest.hpp"
 #include "slipfit/core/result.hpp"
 
@@ -28,27 +29,6 @@ constexpr const char* kLock = "lock";
 /// An error about a file, on one line.
 Error file_error(std::string code, const std::filesystem::path& file, std::string_view message);
 Error cannot_write(const std::filesystem::path& file, int error_number);
-
-/// A POSIX file descriptor that closes itself.
-class FileHandle {
- public:
-  FileHandle() = default;
-  explicit FileHandle(int descriptor) : descriptor_(descriptor) {}
-  ~FileHandle();
-  FileHandle(FileHandle&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  FileHandle& operator=(FileHandle&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    return *this;
-  }
-  FileHandle(const FileHandle&) = delete;
-  FileHandle& operator=(const FileHandle&) = delete;
-
-  [[nodiscard]] int get() const { return descriptor_; }
-  explicit operator bool() const { return descriptor_ >= 0; }
-
- private:
-  int descriptor_ = -1;
-};
 
 /// An open file that keeps the first error of what is done with it.
 struct CheckedFile {

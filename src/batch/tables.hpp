@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "report/batch_html.hpp"
 #include "slipfit/core/result.hpp"

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <string_view>
 
 namespace slipfit::chart {
 namespace {
@@ -35,24 +36,12 @@ std::size_t index_of(Choice choice) {
 }  // namespace
 
 std::string escaped(const std::string& text) {
+  constexpr std::string_view kSpecial = "&<>\"";
+  constexpr std::array kEscapes{"&amp;", "&lt;", "&gt;", "&quot;"};
   std::string result;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
+    const std::size_t special = kSpecial.find(c);
+    result += special == std::string_view::npos ? std::string(1, c) : kEscapes.at(special);
   }
   return result;
 }

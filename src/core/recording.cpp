@@ -53,16 +53,13 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
   if (conditions.normal_force_N && !(*conditions.normal_force_N > 0.0 && std::isfinite(*conditions.normal_force_N))) {
     return Error{"normal_force_not_positive", "the normal force must be a positive number of newtons"};
   }
-  Recording recording;
   flush_to_zero(force);
-  recording.sample_interval_s_ = median_positive_step(time_s);
+  Recording empty;
+  empty.conditions_ = std::move(conditions);
+  empty.provenance_ = std::move(provenance);
+  Recording recording = empty.with_samples(std::move(time_s), std::move(force));
   if (!(recording.sample_interval_s_ >= kSmallest))
     return Error{"time_constant", "the clock steps by less than 1e-36 s"};
-  recording.clock_is_even_ = is_even(time_s);
-  recording.time_s_ = std::move(time_s);
-  recording.force_ = std::move(force);
-  recording.conditions_ = conditions;
-  recording.provenance_ = std::move(provenance);
   return recording;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "core/word_list.hpp"
@@ -38,21 +39,14 @@ constexpr std::array kReplacements = std::to_array<Replacement>({
     {" per ", "/"},
 });
 
-std::string_view from_Latin1(char byte) {
-  switch (byte) {
-    case '\xB5':
-      return "u";
-    case '\xB7':
-      return ".";
-    case '\xB0':
-      return "\xC2\xB0";
-    case '\xB2':
-      return "2";
-    case '\xB3':
-      return "3";
-    default:
-      return {};
-  }
+// The same of single bytes in Latin-1.
+constexpr std::array kLatin1 =
+    std::to_array<Replacement>({{"\xB5", "u"}, {"\xB7", "."}, {"\xB0", "\xC2\xB0"}, {"\xB2", "2"}, {"\xB3", "3"}});
+
+const Replacement* replacement_in(std::span<const Replacement> table, std::string_view rest) {
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const Replacement& r) { return rest.starts_with(r.from); });
+  return found == table.end() ? nullptr : &*found;
 }
 
 /// Typeset and Latin-1 spellings become those of the table; a final dot ("mm/min.") goes.
@@ -60,28 +54,15 @@ std::string normalise(std::string_view unit) {
   std::string text;
   for (std::size_t i = 0; i < unit.size();) {
     const auto rest = unit.substr(i);
-    const auto* const found = std::find_if(kReplacements.begin(), kReplacements.end(),
-                                           [&](const Replacement& r) { return rest.starts_with(r.from); });
-    if (found != kReplacements.end()) {
-      text += found->to;
-      i += found->from.size();
-    } else if (static_cast<unsigned char>(rest[0]) >= 0xC2 && rest.size() > 1 && (rest[1] & 0xC0) == 0x80) {
-      text += rest.substr(0, 2);  // another UTF-8 letter
-      i += 2;
-    } else {
-      const std::string_view replaced = from_Latin1(rest[0]);
-      text += replaced.empty() ? rest.substr(0, 1) : replaced;
-      ++i;
-    }
+    const bool is_letter = static_cast<unsigned char>(rest[0]) >= 0xC2 && rest.size() > 1 && (rest[1] & 0xC0) == 0x80;
+    const Replacement* found = replacement_in(kReplacements, rest);
+    if (found == nullptr && !is_letter) found = replacement_in(kLatin1, rest);
+    const std::size_t taken = found != nullptr ? found->from.size() : is_letter ? 2 : 1;  // 2: of another UTF-8 letter
+    text += found != nullptr ? found->to : rest.substr(0, taken);
+    i += taken;
   }
   while (text.size() > 1 && text.back() == '.') text.pop_back();
   return text;
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
 }
 
 bool matches(std::string_view text, const Unit& unit, const Prefix& prefix) {

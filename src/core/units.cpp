@@ -1,6 +1,8 @@
 #include "slipfit/core/units.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -11,32 +13,29 @@
 namespace slipfit {
 namespace {
 
-struct DimensionName {
+struct DimensionInfo {
   std::string_view quantity;
   std::string_view si_unit;
   std::string_view examples;
+  Powers powers;
+  Powers other{};             ///< a second kind of unit that is read for it
+  double other_factor = 0.0;  ///< from that kind to the SI unit; 0: there is none
 };
 
-DimensionName name_of(Dimension dimension) {
-  switch (dimension) {
-    case Dimension::Time:
-      return {"time", "s", "s, ms, min"};
-    case Dimension::Length:
-      return {"length", "m", "m, mm, um"};
-    case Dimension::Speed:
-      return {"speed", "m/s", "m/s, mm/s, mm/min"};
-    case Dimension::Force:
-      return {"force", "N", "N, mN, gf"};
-    case Dimension::Frequency:
-      return {"frequency", "Hz", "Hz, kHz, 1/s"};
-    case Dimension::Mass:
-      return {"mass", "kg", "kg, g, mg"};
-    case Dimension::AngularSpeed:
-      return {"angular speed", "rad/s", "rad/s, rpm"};
-    case Dimension::Dimensionless:
-      return {"pure number", "1", "1, %"};
-  }
-  return {"quantity", "1", "1"};
+/// In the order of Dimension. Scales and load cells show masses where a force is meant ("g", "lb"), and turns are
+/// counted as frequencies ("rpm").
+constexpr std::array<DimensionInfo, 8> kDimensions{
+    {{"time", "s", "s, ms, min", kSecond},
+     {"length", "m", "m, mm, um", kMetre},
+     {"speed", "m/s", "m/s, mm/s, mm/min", kSpeed},
+     {"force", "N", "N, mN, gf", kNewton, kKilogram, kStandardGravity_m_per_s2},
+     {"frequency", "Hz", "Hz, kHz, 1/s", kPerSecond, kTurnsPerSecond, 1.0},
+     {"mass", "kg", "kg, g, mg", kKilogram},
+     {"angular speed", "rad/s", "rad/s, rpm", kRadiansPerSecond, kTurnsPerSecond, kTurn_rad},
+     {"pure number", "1", "1, %", kPureNumber}}};
+
+const DimensionInfo& info_of(Dimension dimension) {
+  return kDimensions.at(static_cast<std::size_t>(dimension));
 }
 
 std::string_view trim(std::string_view text) {
@@ -52,32 +51,13 @@ std::string join(std::initializer_list<std::string_view> parts) {
   return text;
 }
 
-/// The factor to the SI unit of a dimension. Scales and load cells show masses where a force is meant ("g", "lb"), and
-/// turns are counted as frequencies ("rpm"). A quotient of equal units ("mV/V") is no friction coefficient.
+/// The factor to the SI unit of a dimension. A quotient of equal units ("mV/V") is no friction coefficient.
 std::optional<double> factor_in(const ParsedUnit& unit, std::string_view text, Dimension dimension) {
-  const auto is = [&unit](const Powers& powers) { return unit.powers == powers; };
-  const auto given_if = [&unit](bool fits) { return fits ? std::optional(unit.factor) : std::nullopt; };
-  switch (dimension) {
-    case Dimension::Time:
-      return given_if(is(kSecond));
-    case Dimension::Length:
-      return given_if(is(kMetre));
-    case Dimension::Speed:
-      return given_if(is(kSpeed));
-    case Dimension::Force:
-      if (is(kKilogram)) return unit.factor * kStandardGravity_m_per_s2;
-      return given_if(is(kNewton));
-    case Dimension::Frequency:
-      return given_if(is(kPerSecond) || is(kTurnsPerSecond));
-    case Dimension::Mass:
-      return given_if(is(kKilogram));
-    case Dimension::AngularSpeed:
-      if (is(kTurnsPerSecond)) return unit.factor * kTurn_rad;
-      return given_if(is(kRadiansPerSecond));
-    case Dimension::Dimensionless:
-      return given_if(is(kPureNumber) && text.find('/') == std::string_view::npos);
-  }
-  return std::nullopt;
+  const DimensionInfo& info = info_of(dimension);
+  if (dimension == Dimension::Dimensionless && text.find('/') != std::string_view::npos) return std::nullopt;
+  if (unit.powers == info.powers) return unit.factor;
+  const bool is_other = info.other_factor > 0.0 && unit.powers == info.other;
+  return is_other ? std::optional(unit.factor * info.other_factor) : std::nullopt;
 }
 
 /// On one line, whatever was given: a message is.
@@ -96,9 +76,9 @@ Result<UnitScale> parse_unit(std::string_view unit, Dimension dimension) {
   const auto parsed = read_unit(text);
   const auto scale = parsed ? factor_in(*parsed, text, dimension) : std::nullopt;
   if (scale) return UnitScale{*scale};
-  const DimensionName name = name_of(dimension);
-  return Error{"unknown_unit", join({"'", shown(unit), "' is not a unit of ", name.quantity, "; expected one such as ",
-                                     name.examples})};
+  const DimensionInfo& info = info_of(dimension);
+  return Error{"unknown_unit", join({"'", shown(unit), "' is not a unit of ", info.quantity, "; expected one such as ",
+                                     info.examples})};
 }
 
 std::string_view unit_in(std::string_view text) {
@@ -113,7 +93,7 @@ Result<double> parse_quantity(std::string_view text, Dimension dimension) {
   std::string_view rest = trim(text);
   const Error bad_number{"bad_number",
                          join({"'", shown(text), "' is not a finite number, or one with a unit (such as 10 ",
-                               name_of(dimension).si_unit, ")"})};
+                               info_of(dimension).si_unit, ")"})};
   if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-') rest.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = number_from_chars(rest.data(), rest.data() + rest.size(), value);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
+#include <string>
 #include <string_view>
 
 namespace slipfit {
@@ -13,6 +15,13 @@ inline bool is_in(std::string_view list, std::string_view word, char separator =
     if (end == list.size()) return false;
     list.remove_prefix(end + 1);
   }
+}
+
+/// ASCII letters only.
+inline std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
 }
 
 }  // namespace slipfit

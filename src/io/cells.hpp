@@ -60,8 +60,6 @@ inline const char* end_of_cell(const char* cell, const char* line_end, char deli
 std::optional<std::vector<std::string>> csv_fields(std::string_view line, char delimiter);
 
 std::string_view trim(std::string_view text);
-/// ASCII letters only.
-std::string lower(std::string_view text);
 std::string_view unquote(std::string_view text);
 
 }  // namespace slipfit::reading

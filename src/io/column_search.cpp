@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "core/word_list.hpp"
 #include "io/message.hpp"
 
 namespace slipfit::reading {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/unit_text.hpp"
+#include "core/word_list.hpp"
 #include "io/column_search.hpp"
 #include "io/message.hpp"
 #include "io/side_columns.hpp"

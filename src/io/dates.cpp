@@ -1,6 +1,5 @@
 #include "io/dates.hpp"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>

@@ -1,11 +1,10 @@
-#include "io/load_samples.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "io/opened_file.hpp"
 #include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {

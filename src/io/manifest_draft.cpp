@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "core/csv_line.hpp"
-#include "io/cells.hpp"
+#include "core/word_list.hpp"
 #include "io/file_name.hpp"
 #include "io/message.hpp"
 #include "slipfit/io/file_info.hpp"
@@ -22,7 +22,7 @@ constexpr std::size_t kMostSteps = 50;
 bool has_usual_ending(const fs::path& file) {
   static const std::set<std::string> kEndings{".csv", ".txt",  ".tsv", ".dat", ".asc",  ".lvm", ".gz",
                                               ".zip", ".xlsx", ".mat", ".h5",  ".hdf5", ".tdms"};
-  return kEndings.contains(reading::lower(file.extension().string()));
+  return kEndings.contains(lower(file.extension().string()));
 }
 
 /// In the order of their names, lest the draft depend on the disk.
@@ -40,7 +40,7 @@ std::vector<fs::path> files_below(const fs::path& path) {
 
 std::string stem_of(const fs::path& file) {
   fs::path stem = file.stem();
-  if (reading::lower(file.extension().string()) == ".gz") stem = stem.stem();
+  if (lower(file.extension().string()) == ".gz") stem = stem.stem();
   return stem.string();
 }
 

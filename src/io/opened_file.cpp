@@ -136,7 +136,7 @@ Error error_of_reading(const std::string& file) {
   } catch (const ::io::error::line_length_limit_exceeded& e) {
     return {"line_too_long", fmt::format("{}:{}: the line is longer than 16 MB; is this a text file with a row a line?",
                                          file, e.file_line)};
-  } catch (const ContainerError& e) {
+  } catch (const ThrownError& e) {
     return e.error();
   } catch (const std::bad_alloc&) {
     return {"out_of_memory", file + ": not enough memory; read a part with --window"};

@@ -11,6 +11,7 @@
 #include "io/text_source.hpp"
 #include "slipfit/core/result.hpp"
 #include "slipfit/io/read_options.hpp"
+#include "slipfit/io/samples.hpp"
 
 namespace slipfit::reading {
 
@@ -40,6 +41,10 @@ LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options)
 /// The same of the columns that the options and names tell. Errors: those of open_file, check_options and
 /// choose_columns.
 Result<LoadedFile> load_file(const std::filesystem::path& path, double speed_m_per_s, const ReadOptions& options);
+
+/// The samples as a file of two columns whose rows are read. Errors: length_mismatch, unknown_unit, no_time_column,
+/// conflicting_options, those of check_options.
+Result<LoadedFile> load_samples(Samples samples, const ReadOptions& options);
 
 /// The rows of --rows and --window that cannot be. Errors: bad_window, bad_rows, bad_sample_rate.
 std::optional<Error> check_options(const ReadOptions& options, const std::string& file);

@@ -68,17 +68,14 @@ void order_by_time(Part& part) {
     part.repeating = order.repeating;
     return;
   }
-  std::size_t latest = 0;
+  std::vector<std::size_t> kept{0};
   for (std::size_t i = 1; i < time_s.size(); ++i) {
-    const bool is_backward = time_s[i] < time_s[latest];
+    const double latest_s = time_s[kept.back()];
+    const bool is_backward = time_s[i] < latest_s;
     if (is_backward && part.backward++ == 0) part.first_backward_line = part.rows.place_of(i).line;
     if (is_backward) continue;
-    if (time_s[i] == time_s[latest]) ++part.repeating;
-    latest = i;
-  }
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < time_s.size(); ++i) {
-    if (kept.empty() || time_s[i] >= time_s[kept.back()]) kept.push_back(i);
+    if (time_s[i] == latest_s) ++part.repeating;
+    kept.push_back(i);
   }
   part.rows.keep(kept);
 }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "io/build.hpp"
-#include "io/load_samples.hpp"
 #include "io/message.hpp"
 #include "io/opened_file.hpp"
 #include "io/part.hpp"

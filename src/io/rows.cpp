@@ -31,14 +31,16 @@ struct Reading {
 struct WantedColumn {
   std::size_t column = 0;
   Slot slot = kTime;
+  double scale = 1.0;  ///< to SI
 };
 
 /// In the order of the columns.
 std::vector<WantedColumn> wanted_columns(const Choice& choice) {
-  std::vector<WantedColumn> wanted{{choice.force.column, kForce}};
+  std::vector<WantedColumn> wanted;
   const auto add = [&](const std::optional<Channel>& channel, Slot slot) {
-    if (channel) wanted.push_back({channel->column, slot});
+    if (channel) wanted.push_back({channel->column, slot, channel->scale});
   };
+  add(choice.force, kForce);
   add(choice.time, kTime);
   add(choice.displacement, kWay);
   add(choice.normal_force, kNormalForce);
@@ -50,27 +52,12 @@ std::vector<WantedColumn> wanted_columns(const Choice& choice) {
   return wanted;
 }
 
-std::array<double, kSlots> scales_of(const Choice& choice) {
-  std::array<double, kSlots> scales{};
-  scales.fill(1.0);
-  const auto set = [&](const std::optional<Channel>& channel, Slot slot) {
-    if (channel) scales.at(slot) = channel->scale;
-  };
-  set(choice.time, kTime);
-  set(choice.force, kForce);
-  set(choice.displacement, kWay);
-  set(choice.normal_force, kNormalForce);
-  set(choice.speed, kVelocity);
-  return scales;
-}
-
 class RowReader {
  public:
   explicit RowReader(const RowPlan& plan)
       : plan_(plan),
         dialect_(plan.layout.dialect),
         wanted_(wanted_columns(plan.choice)),
-        scales_(scales_of(plan.choice)),
         is_clock_(plan.choice.time && plan.choice.time->is_clock) {
     rows_.time_s.reserve(plan.expected_rows);
     rows_.force.reserve(plan.expected_rows);
@@ -111,7 +98,6 @@ class RowReader {
   const RowPlan& plan_;
   Dialect dialect_;
   std::vector<WantedColumn> wanted_;
-  std::array<double, kSlots> scales_;
   bool is_clock_;  ///< h:min:s, which begins again at midnight
   double midnights_s_ = 0.0;
   double last_clock_s_ = -std::numeric_limits<double>::infinity();
@@ -189,7 +175,7 @@ void RowReader::count_text_line(std::string_view line, unsigned number) {
 }
 
 Reading RowReader::in_SI(Reading reading) {
-  for (std::size_t slot = 0; slot < kSlots; ++slot) reading.values[slot] *= scales_[slot];
+  for (const WantedColumn& wanted : wanted_) reading.values[wanted.slot] *= wanted.scale;
   double& time_s = reading.values[kTime];
   if (!has_clock()) {
     time_s = static_cast<double>(counted_++) / *plan_.sample_rate_Hz;

@@ -49,6 +49,15 @@ std::optional<Channel> choose_displacement(const Layout& layout, const Choice& c
   return std::nullopt;
 }
 
+/// As far as names tell; empty where none or several may be it.
+std::optional<std::size_t> find_normal_force(const Layout& layout, std::optional<std::size_t> force) {
+  return only_one(best_columns(layout, [&](const Column& column, std::size_t c) {
+    if (!column.is_numeric() || (force && *force == c)) return 0;
+    if (column.name.role == Role::NormalForce) return column.name.rank + 1;
+    return column.name.role == Role::TangentialForce && column.name.rank == 1 && is_load(column.name) ? 1 : 0;
+  }));
+}
+
 Error side_unit_error(const Layout& layout, std::size_t column, const std::string& file, const std::string& expected) {
   const std::string& unit = layout.columns[column].name.unit;
   return {"unknown_unit", fmt::format("{}: the unit of {}: '{}' is not {}; leave the option out", file,
@@ -103,14 +112,6 @@ std::optional<std::size_t> find_steps(const Layout& layout) {
 }
 
 }  // namespace
-
-std::optional<std::size_t> find_normal_force(const Layout& layout, std::optional<std::size_t> force) {
-  return only_one(best_columns(layout, [&](const Column& column, std::size_t c) {
-    if (!column.is_numeric() || (force && *force == c)) return 0;
-    if (column.name.role == Role::NormalForce) return column.name.rank + 1;
-    return column.name.role == Role::TangentialForce && column.name.rank == 1 && is_load(column.name) ? 1 : 0;
-  }));
-}
 
 std::vector<std::size_t> those_of_coefficient(const Layout& layout, std::vector<std::size_t> candidates) {
   constexpr double kTolerance = 0.02;  // filters and printed decimals

@@ -16,9 +16,6 @@ namespace slipfit::reading {
 Result<Choice> with_side_columns(Choice choice, const Layout& layout, const ReadOptions& options,
                                  const std::string& file);
 
-/// The normal force as far as names tell. Empty where none or several may be it.
-std::optional<std::size_t> find_normal_force(const Layout& layout, std::optional<std::size_t> force);
-
 /// Of several columns that may be the tangential force, those whose quotient with the normal force is the column of
 /// friction coefficients; all of them where that does not tell.
 std::vector<std::size_t> those_of_coefficient(const Layout& layout, std::vector<std::size_t> candidates);

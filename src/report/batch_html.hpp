@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,16 +11,20 @@
 
 namespace slipfit {
 
+struct BatchPageQuantity {
+  Estimate estimate;   ///< in SI; of a bounded parameter the interval alone
+  std::string status;  ///< of a parameter: identified, conditional, ...; empty: not fitted
+};
+
 /// What the page of a batch shows of one recording or group.
 struct BatchPageRow {
   std::string id;
-  std::string status;                   ///< as in the document: stick_slip, ...
-  std::optional<double> speed_m_per_s;  ///< empty for a group
-  Estimate frequency_Hz, spacing_m, stiffness_N_per_m, friction_difference_N, damping_ratio;
-  std::string stiffness_status, difference_status, damping_status;  ///< identified, conditional, ...; empty: not fitted
-  std::vector<std::string> warnings;                                ///< their codes, each once
-  std::string report_file;  ///< of its own page, relative to the batch's; empty: none
-  std::string sparkline;    ///< of `sparkline_of`; empty: none
+  std::string status;                           ///< as in the document: stick_slip, ...
+  std::optional<double> speed_m_per_s;          ///< empty for a group
+  std::array<BatchPageQuantity, 5> quantities;  ///< frequency, spacing, stiffness, F_s - F_k, damping ratio
+  std::vector<std::string> warnings;            ///< their codes, each once
+  std::string report_file;                      ///< of its own page, relative to the batch's; empty: none
+  std::string sparkline;                        ///< of `sparkline_of`; empty: none
 };
 
 /// From a document of schema slipfit.fit/1, one line of results.jsonl; without page and sparkline. What the document

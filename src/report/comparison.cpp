@@ -169,11 +169,9 @@ std::string to_text(const Comparison& comparison) {
   Table table({Align::Left, Align::Right, Align::Right, Align::Right, Align::Left, Align::Right, Align::Left,
                Align::Right, Align::Right, Align::Left});
   table.add({"", "A", "B", "B - A", "", "B / A", "", "p", "p (Holm)", ""});
-  const auto shown = [](const std::string& interval) { return interval == "-" ? std::string() : interval; };
   for (const ComparisonRow& row : comparison_rows(comparison)) {
-    table.add({row.words, row.a.value, row.b.value, row.difference.value, shown(row.difference.interval),
-               row.ratio.value, shown(row.ratio.interval), row.p_value, row.p_adjusted + (row.differs ? " *" : "  "),
-               row.note});
+    table.add({row.words, row.a.value, row.b.value, row.difference.value, row.difference.interval, row.ratio.value,
+               row.ratio.interval, row.p_value, row.p_adjusted + (row.differs ? " *" : "  "), row.note});
   }
   text += table.text();
   const std::vector<NotCompared> left = not_compared(comparison);

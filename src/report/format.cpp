@@ -127,7 +127,7 @@ EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit) {
 std::string estimate_text(const Estimate& estimate, const DisplayUnit& unit) {
   if (!estimate.value || !std::isfinite(*estimate.value)) return "-";
   const EstimateRow row = estimate_row(estimate, unit);
-  return row.value + (row.unit.empty() ? "" : " " + row.unit) + (row.interval == "-" ? "" : " " + row.interval);
+  return row.value + (row.unit.empty() ? "" : " " + row.unit) + (row.interval.empty() ? "" : " " + row.interval);
 }
 
 std::string estimate_text(const Estimate& estimate, const std::string& SI_unit) {
@@ -137,7 +137,7 @@ std::string estimate_text(const Estimate& estimate, const std::string& SI_unit) 
 EstimateRow estimate_row(const Estimate& SI, const DisplayUnit& unit) {
   const Estimate estimate = scaled(SI, unit.per_SI);
   const std::optional<double> uncertainty = uncertainty_of(estimate);
-  EstimateRow row{"-", "-", unit.unit};
+  EstimateRow row{"-", {}, unit.unit};
   if (estimate.value) row.value = rounded(*estimate.value, uncertainty);
   if (estimate.ci95 && std::isfinite(estimate.ci95->low) && std::isfinite(estimate.ci95->high)) {
     row.interval =

@@ -33,7 +33,7 @@ Estimate scaled(const Estimate& estimate, double factor);
 /// An estimate as people write it: rounded to two significant digits of its standard error, the interval alike.
 struct EstimateRow {
   std::string value;     ///< "-" where it is not known
-  std::string interval;  ///< "[low, high]", or "-"
+  std::string interval;  ///< "[low, high]"; empty where it is not known
   std::string unit;
 };
 EstimateRow estimate_row(const Estimate& estimate, const DisplayUnit& unit);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "report/json_values.hpp"
+#include "report/text_sections.hpp"
 
 namespace slipfit {
 namespace {
@@ -19,7 +20,14 @@ Json text_or_null(const std::string& text) {
   return text.empty() ? Json() : Json(text);
 }
 
-Json json_of(const StepInfo& step) {
+Json column_json(const ColumnInfo& column) {
+  return {{"index", column.index},
+          {"name", text_or_null(column.name)},
+          {"unit", text_or_null(column.unit)},
+          {"quantity", text_or_null(column.quantity)}};
+}
+
+Json step_json(const StepInfo& step) {
   return {{"step", step.step},
           {"rows", {step.rows.first, step.rows.last}},
           {"time_s", step.time_s ? Json{step.time_s->begin_s, step.time_s->end_s} : Json()},
@@ -64,28 +72,24 @@ std::string info_taken_text(const Inspection& inspection) {
 
 std::string to_json(const Inspection& inspection, const std::string& file) {
   const FileInfo& info = inspection.info;
-  Json json{{"schema", "slipfit.info/1"}, {"version", SLIPFIT_VERSION}, {"file", file}};
-  json["columns"] = Json::array();
-  for (const ColumnInfo& column : info.columns) {
-    json["columns"].push_back({{"index", column.index},
-                               {"name", text_or_null(column.name)},
-                               {"unit", text_or_null(column.unit)},
-                               {"quantity", text_or_null(column.quantity)}});
-  }
-  json["rows"] = info.rows;
-  json["sample_rate_Hz"] = known_or_null(info.sample_rate_Hz);
-  json["steps"] = Json::array();
-  for (const StepInfo& step : info.steps) json["steps"].push_back(json_of(step));
-  json["strokes"] = info.strokes;
-  json["sliding_s"] = Json::array();
-  if (const auto& span = inspection.sliding) json["sliding_s"].push_back({span->begin_s, span->end_s});
-  json["taken"] = {{"time_column", known_or_null(info.taken.time_column)},
-                   {"force_column", known_or_null(info.taken.force_column)},
-                   {"normal_force_column", known_or_null(info.taken.normal_force_column)},
-                   {"speed_m_per_s", known_or_null(info.taken.speed_m_per_s)}};
-  json["assumed"] = info.assumed;
-  json["refusal"] = info.refusal ? Json(info.refusal->message) : Json();
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  Json sliding = Json::array();
+  if (const auto& span = inspection.sliding) sliding.push_back({span->begin_s, span->end_s});
+  return text_of(Json{{"schema", "slipfit.info/1"},
+                      {"version", SLIPFIT_VERSION},
+                      {"file", file},
+                      {"columns", array_of(info.columns, column_json)},
+                      {"rows", info.rows},
+                      {"sample_rate_Hz", known_or_null(info.sample_rate_Hz)},
+                      {"steps", array_of(info.steps, step_json)},
+                      {"strokes", info.strokes},
+                      {"sliding_s", sliding},
+                      {"taken",
+                       {{"time_column", known_or_null(info.taken.time_column)},
+                        {"force_column", known_or_null(info.taken.force_column)},
+                        {"normal_force_column", known_or_null(info.taken.normal_force_column)},
+                        {"speed_m_per_s", known_or_null(info.taken.speed_m_per_s)}}},
+                      {"assumed", info.assumed},
+                      {"refusal", info.refusal ? Json(info.refusal->message) : Json()}});
 }
 
 std::string to_text(const Inspection& inspection, const std::string& file) {
@@ -95,8 +99,7 @@ std::string to_text(const Inspection& inspection, const std::string& file) {
     text += fmt::format("  {:<4} {:<24} {:<8} {}\n", column.index, column.name, column.unit, column.quantity);
   }
   text += info_steps_text(info.steps) + info_taken_text(inspection);
-  if (!info.assumed.empty()) text += "\nAssumed while reading\n";
-  for (const std::string& sentence : info.assumed) text += "  - " + sentence + "\n";
+  text += assumed_text(info.assumed);
   if (info.refusal) text += "\nNot read as it is: " + info.refusal->message + "\n";
   return text;
 }

@@ -32,6 +32,12 @@ std::string_view name_of(MotionClass motion) {
   return name_in({"stick_slip", "steady_sliding", "oscillatory_slip", "undetermined"}, motion);
 }
 
+std::string_view words_for_motion(MotionClass motion) {
+  return name_in({"stick-slip", "steady sliding, no stick-slip", "oscillatory slip (the body hardly sticks)",
+                  "cannot tell whether this is stick-slip"},
+                 motion);
+}
+
 std::string_view name_of(ParameterStatus status) {
   return name_in({"identified", "weak", "bounded", "unidentified", "fixed", "conditional"}, status);
 }

@@ -16,6 +16,9 @@ std::string_view name_of(ParameterStatus status);
 std::string_view name_of(SweepRole role);
 std::string_view name_of(Regularity regularity);
 
+/// What a recording shows, for people.
+std::string_view words_for_motion(MotionClass motion);
+
 /// What a status means to who has not read the documentation.
 std::string_view words_for_status(ParameterStatus status);
 

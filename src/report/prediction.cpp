@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -56,22 +55,6 @@ Json row_json(const PredictedMotion& row) {
   return json;
 }
 
-}  // namespace
-
-std::string to_json(const Prediction& prediction, const PredictionSource& source) {
-  const Json json{{"schema", "slipfit.predict/1"},
-                  {"version", SLIPFIT_VERSION},
-                  {"source", source.name},
-                  {"conditional_on", source.conditional_on},
-                  {"warnings", warnings_json(source.warnings)},
-                  {"critical_speed_m_per_s", quantity_json(prediction.critical_speed_m_per_s)},
-                  {"lambda_critical", quantity_json(prediction.lambda_critical)},
-                  {"rows", array_of(prediction.rows, row_json)}};
-  return text_of(json);
-}
-
-namespace {
-
 std::string header() {
   std::string text = "speed_m_per_s,regime,bistable";
   for (const PredictedQuantity& quantity : kPredictedQuantities) {
@@ -79,25 +62,6 @@ std::string header() {
   }
   return text + "\n";
 }
-
-}  // namespace
-
-std::string prediction_to_csv(const Prediction& prediction) {
-  std::string csv = header();
-  for (const PredictedMotion& row : prediction.rows) {
-    fmt::format_to(std::back_inserter(csv), "{},{},{}", cell(row.speed_m_per_s), row.regime, row.bistable ? 1 : 0);
-    for (const PredictedQuantity& quantity : kPredictedQuantities) {
-      const Estimate& estimate = row.*quantity.estimate;
-      const auto low = estimate.ci95 ? std::optional(estimate.ci95->low) : std::nullopt;
-      const auto high = estimate.ci95 ? std::optional(estimate.ci95->high) : std::nullopt;
-      fmt::format_to(std::back_inserter(csv), ",{},{},{}", cell(estimate.value), cell(low), cell(high));
-    }
-    csv += "\n";
-  }
-  return csv;
-}
-
-namespace {
 
 std::string regime_words(const PredictedMotion& row, const std::string& mark) {
   return (row.regime == "stick_slip_bistable" ? "stick-slip, bistable" : plain_words(row.regime)) + mark;
@@ -126,6 +90,33 @@ class Footnotes {
 };
 
 }  // namespace
+
+std::string to_json(const Prediction& prediction, const PredictionSource& source) {
+  const Json json{{"schema", "slipfit.predict/1"},
+                  {"version", SLIPFIT_VERSION},
+                  {"source", source.name},
+                  {"conditional_on", source.conditional_on},
+                  {"warnings", warnings_json(source.warnings)},
+                  {"critical_speed_m_per_s", quantity_json(prediction.critical_speed_m_per_s)},
+                  {"lambda_critical", quantity_json(prediction.lambda_critical)},
+                  {"rows", array_of(prediction.rows, row_json)}};
+  return text_of(json);
+}
+
+std::string prediction_to_csv(const Prediction& prediction) {
+  std::string csv = header();
+  for (const PredictedMotion& row : prediction.rows) {
+    fmt::format_to(std::back_inserter(csv), "{},{},{}", cell(row.speed_m_per_s), row.regime, row.bistable ? 1 : 0);
+    for (const PredictedQuantity& quantity : kPredictedQuantities) {
+      const Estimate& estimate = row.*quantity.estimate;
+      const auto low = estimate.ci95 ? std::optional(estimate.ci95->low) : std::nullopt;
+      const auto high = estimate.ci95 ? std::optional(estimate.ci95->high) : std::nullopt;
+      fmt::format_to(std::back_inserter(csv), ",{},{},{}", cell(estimate.value), cell(low), cell(high));
+    }
+    csv += "\n";
+  }
+  return csv;
+}
 
 std::string to_text(const Prediction& prediction, const PredictionSource& source) {
   Table table({Align::Right, Align::Left, Align::Left, Align::Left, Align::Left, Align::Left});

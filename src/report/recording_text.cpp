@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "report/format.hpp"
 #include "report/names.hpp"
@@ -13,27 +12,6 @@
 namespace slipfit {
 namespace {
 
-std::string plain_motion(MotionClass motion) {
-  switch (motion) {
-    case MotionClass::StickSlip:
-      return "stick-slip";
-    case MotionClass::SteadySliding:
-      return "steady sliding, no stick-slip";
-    case MotionClass::OscillatorySlip:
-      return "oscillatory slip (the body hardly sticks)";
-    case MotionClass::Undetermined:
-      return "cannot tell whether this is stick-slip";
-  }
-  return "cannot tell whether this is stick-slip";
-}
-
-std::string assumed_text(const std::vector<std::string>& assumed) {
-  if (assumed.empty()) return {};
-  std::string text = "\nAssumed while reading\n";
-  for (const std::string& sentence : assumed) text += fmt::format("  - {}\n", one_line(sentence));
-  return text;
-}
-
 std::string tests_text(const std::vector<ShortTest>& tests) {
   if (tests.empty()) return {};
   std::string text = "\nTests\n";
@@ -43,7 +21,8 @@ std::string tests_text(const std::vector<ShortTest>& tests) {
 
 std::string judgement_text(const Recording& recording, const Analysis& analysis) {
   const std::string& file = recording.provenance().file;
-  std::string text = fmt::format("{}: {}", file.empty() ? "recording" : one_line(file), plain_motion(analysis.motion));
+  std::string text =
+      fmt::format("{}: {}", file.empty() ? "recording" : one_line(file), words_for_motion(analysis.motion));
   if (analysis.frequency.quoted.value) {
     text += fmt::format(", {} Hz", with_error(analysis.frequency.quoted));
     if (analysis.cycles.count > 0) text += fmt::format(", {} slips", analysis.cycles.count);
@@ -52,38 +31,6 @@ std::string judgement_text(const Recording& recording, const Analysis& analysis)
   if (!analysis.motion_reason.empty()) text += fmt::format("  {}\n", one_line(analysis.motion_reason));
   return text;
 }
-
-}  // namespace
-
-std::string warnings_text(const Warnings& warnings) {
-  if (warnings.empty()) return {};
-  std::string text = "\nWarnings\n";
-  for (const Warning& warning : warnings) {
-    text += fmt::format("  ! {} [{}]\n", one_line(warning.message), one_line(warning.code));
-  }
-  return text;
-}
-
-std::string to_text(const Recording& recording, const Analysis& analysis) {
-  std::string text = judgement_text(recording, analysis);
-  text += parameters_text(recording, analysis);
-  text += frequency_text(analysis.frequency);
-  text += cycles_text(analysis.cycles, recording.conditions().quantity);
-  text += transients_text(analysis.transients, recording.conditions().quantity);
-  text += coefficients_text(analysis.coefficients);
-  text += spacing_text(recording, analysis.derived);
-  text += surface_text(analysis.derived);
-  const bool moves_like_model =
-      analysis.motion == MotionClass::StickSlip || analysis.motion == MotionClass::OscillatorySlip;
-  if (moves_like_model) text += predicted_text(recording, analysis.derived);
-  text += tests_text(analysis.tests);
-  text += recording_text(recording, analysis);
-  text += warnings_text(analysis.warnings);
-  text += assumed_text(recording.provenance().assumed);
-  return text;
-}
-
-namespace {
 
 std::string spectral_text(const SpectralFrequency& spectral) {
   if (!spectral.value_Hz) return "no repetition stands out of the spectrum";
@@ -120,8 +67,7 @@ template <class Unit>
 void add_estimate(Table& table, std::string_view words, const Estimate& estimate, Unit unit) {
   if (!estimate.value && !estimate.ci95 && estimate.note.empty()) return;
   const EstimateRow row = estimate_row(estimate, unit);
-  table.add({std::string(words), row.value, row.unit, row.interval == "-" ? std::string() : row.interval,
-             one_line(estimate.note)});
+  table.add({std::string(words), row.value, row.unit, row.interval, one_line(estimate.note)});
 }
 
 std::string regime_text(const Derived& derived) {
@@ -132,15 +78,14 @@ std::string regime_text(const Derived& derived) {
                      derived.bistable.value_or(false) ? "; steady sliding, once reached, persists too (bistable)" : "");
 }
 
-}  // namespace
-
 std::string frequency_text(const FrequencyReport& frequency) {
   Table table({Align::Left, Align::Left});
   table.add({"by FFT", spectral_text(frequency.spectral)});
   table.add({"by counting slips", frequency.counted.value ? with_error(frequency.counted) + " Hz" : "too few slips"});
   if (frequency.quoted.value) {
     const std::string interval = estimate_row(frequency.quoted, "Hz").interval;
-    table.add({"result", with_error(frequency.quoted) + " Hz" + (interval == "-" ? "" : ", 95 % interval " + interval) +
+    table.add({"result", with_error(frequency.quoted) + " Hz" +
+                             (interval.empty() ? "" : ", 95 % interval " + interval) +
                              fmt::format(" (method: {})", plain_words(frequency.method))});
   } else {
     const std::string& note = frequency.quoted.note;
@@ -235,22 +180,6 @@ std::string predicted_text(const Recording& recording, const Derived& derived) {
   return title + table.text() + (derived.regime ? regime_text(derived) : std::string());
 }
 
-std::vector<std::string> defects_of(const Recording& recording, const Quality& quality) {
-  const Provenance& provenance = recording.provenance();
-  std::vector<std::string> found;
-  const auto add = [&found](std::size_t count, const char* what) {
-    if (count > 0) found.push_back(fmt::format("{} {}", count, what));
-  };
-  add(quality.clipped_samples, "samples at the end of the sensor's range");
-  add(quality.impulses, "isolated impulses, left out");
-  add(quality.gaps, "gaps");
-  if (quality.gaps > 0) found.back() += ", the longest " + quantity_text(quality.longest_gap_s, "s");
-  add(provenance.rows_without_number, "rows without a number, left out");
-  add(provenance.rows_backward_in_time, "rows backward in time, left out");
-  add(provenance.rows_repeating_time, "repeated time stamps, kept");
-  return found;
-}
-
 std::string recording_text(const Recording& recording, const Analysis& analysis) {
   const Quality& quality = analysis.quality;
   const Conditions& conditions = recording.conditions();
@@ -268,6 +197,59 @@ std::string recording_text(const Recording& recording, const Analysis& analysis)
         sliding.begin_s, sliding.end_s);
   }
   return text + "\n";
+}
+
+}  // namespace
+
+std::string warnings_text(const Warnings& warnings) {
+  if (warnings.empty()) return {};
+  std::string text = "\nWarnings\n";
+  for (const Warning& warning : warnings) {
+    text += fmt::format("  ! {} [{}]\n", one_line(warning.message), one_line(warning.code));
+  }
+  return text;
+}
+
+std::string assumed_text(const std::vector<std::string>& assumed) {
+  if (assumed.empty()) return {};
+  std::string text = "\nAssumed while reading\n";
+  for (const std::string& sentence : assumed) text += fmt::format("  - {}\n", one_line(sentence));
+  return text;
+}
+
+std::vector<std::string> defects_of(const Recording& recording, const Quality& quality) {
+  const Provenance& provenance = recording.provenance();
+  std::vector<std::string> found;
+  const auto add = [&found](std::size_t count, const char* what) {
+    if (count > 0) found.push_back(fmt::format("{} {}", count, what));
+  };
+  add(quality.clipped_samples, "samples at the end of the sensor's range");
+  add(quality.impulses, "isolated impulses, left out");
+  add(quality.gaps, "gaps");
+  if (quality.gaps > 0) found.back() += ", the longest " + quantity_text(quality.longest_gap_s, "s");
+  add(provenance.rows_without_number, "rows without a number, left out");
+  add(provenance.rows_backward_in_time, "rows backward in time, left out");
+  add(provenance.rows_repeating_time, "repeated time stamps, kept");
+  return found;
+}
+
+std::string to_text(const Recording& recording, const Analysis& analysis) {
+  std::string text = judgement_text(recording, analysis);
+  text += parameters_text(recording, analysis);
+  text += frequency_text(analysis.frequency);
+  text += cycles_text(analysis.cycles, recording.conditions().quantity);
+  text += transients_text(analysis.transients, recording.conditions().quantity);
+  text += coefficients_text(analysis.coefficients);
+  text += spacing_text(recording, analysis.derived);
+  text += surface_text(analysis.derived);
+  const bool moves_like_model =
+      analysis.motion == MotionClass::StickSlip || analysis.motion == MotionClass::OscillatorySlip;
+  if (moves_like_model) text += predicted_text(recording, analysis.derived);
+  text += tests_text(analysis.tests);
+  text += recording_text(recording, analysis);
+  text += warnings_text(analysis.warnings);
+  text += assumed_text(recording.provenance().assumed);
+  return text;
 }
 
 }  // namespace slipfit

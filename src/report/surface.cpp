@@ -7,6 +7,7 @@
 
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
+#include "report/text_sections.hpp"
 
 namespace slipfit {
 namespace {
@@ -76,9 +77,7 @@ std::string to_text(const Profile& profile, const Surface& surface) {
   text += length_of("ridges smoothed over", surface.smoothed_over_m);
   if (!surface.warnings.empty()) text += "\nWarnings\n";
   for (const Warning& warning : surface.warnings) text += fmt::format("  - {}: {}\n", warning.code, warning.message);
-  if (!profile.assumed.empty()) text += "\nAssumed while reading\n";
-  for (const std::string& sentence : profile.assumed) text += "  - " + sentence + "\n";
-  return text;
+  return text + assumed_text(profile.assumed);
 }
 
 }  // namespace slipfit

@@ -107,6 +107,7 @@ std::vector<ShownParameter> shown_parameters(const FitResult& fit) {
     const bool has_value =
         parameter.status != ParameterStatus::Bounded && parameter.status != ParameterStatus::Unidentified;
     if (!has_value) row.value = "-";
+    if (row.interval.empty()) row.interval = "-";
     shown.push_back({one_line(name.words), row, parameter.status, one_line(parameter.estimate.note)});
   }
   return shown;

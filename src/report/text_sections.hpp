@@ -22,15 +22,8 @@ std::string off_by(const Estimate& predicted, const Estimate& measured);
 /// What is wrong with the samples: "4 gaps, the longest 120 ms", ...
 std::vector<std::string> defects_of(const Recording& recording, const Quality& quality);
 std::string warnings_text(const Warnings& warnings);
-std::string frequency_text(const FrequencyReport& frequency);
-std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity);
-std::string spacing_text(const Recording& recording, const Derived& derived);
-/// What the worn track shows beside it; empty where none was given.
-std::string surface_text(const Derived& derived);
-std::string transients_text(const Transients& transients, ForceQuantity quantity);
-std::string coefficients_text(const std::optional<Coefficients>& coefficients);
-std::string predicted_text(const Recording& recording, const Derived& derived);
-std::string recording_text(const Recording& recording, const Analysis& analysis);
+/// What was assumed while reading a file.
+std::string assumed_text(const std::vector<std::string>& assumed);
 
 /// A parameter as people see it: a bounded one's middle is no estimate, they see the interval alone.
 struct ShownParameter {

@@ -22,16 +22,12 @@ Result<HeightMap> read_image(const SurfaceFile& file, const ProfileOptions& opti
   const std::size_t count = map.columns * map.rows;
   map.values.reserve(count);
   std::array<char, 65536> part{};
-  try {
-    while (map.values.size() < count) {
-      const std::size_t got = output.bytes->read(part.data(), part.size());
-      if (got == 0) return damaged_surface(file, "the image is damaged");
-      for (std::size_t i = 0; i + 1 < got && map.values.size() < count; i += 2) {
-        map.values.push_back(static_cast<unsigned char>(part[i]) + 256.0 * static_cast<unsigned char>(part[i + 1]));
-      }
+  while (map.values.size() < count) {
+    const std::size_t got = output.bytes->read(part.data(), part.size());
+    if (got == 0) return damaged_surface(file, "the image is damaged");
+    for (std::size_t i = 0; i + 1 < got && map.values.size() < count; i += 2) {
+      map.values.push_back(static_cast<unsigned char>(part[i]) + 256.0 * static_cast<unsigned char>(part[i + 1]));
     }
-  } catch (const reading::ContainerError& error) {
-    return error.error();
   }
   return map;
 }

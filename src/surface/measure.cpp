@@ -5,8 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/quantile.hpp"
 #include "core/surface_thresholds.hpp"
+#include "core/unknown.hpp"
+#include "signal/robust.hpp"
 #include "slipfit/core/range.hpp"
 #include "slipfit/surface/surface.hpp"
 #include "surface/filter.hpp"
@@ -77,10 +78,6 @@ Estimate estimate(const surface::MeanSpacing& mean, double scale) {
       kPositive);
 }
 
-Estimate unknown(std::string note) {
-  return {std::nullopt, std::nullopt, std::nullopt, std::move(note)};
-}
-
 Estimate normal(double value, double standard_error) {
   const double half = 1.959963985 * standard_error;
   return {value, standard_error, Interval{value - half, value + half}, {}};
@@ -128,13 +125,8 @@ std::optional<double> asymmetry_of(const surface::Ridges& ridges) {
     if (i > 0) rises.push_back(ridges.peaks[i] - ridges.valleys[i - 1]);
   }
   if (rises.empty()) return std::nullopt;
-  const auto median = [](std::vector<double> values) {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-  };
-  const double fall = median(falls);
-  return fall > 0.0 ? std::optional(median(rises) / fall) : std::nullopt;
+  const double fall = signal::median(falls);
+  return fall > 0.0 ? std::optional(signal::median(rises) / fall) : std::nullopt;
 }
 
 /// RSm of the profile about the mean line of a standard cut-off; of the profile's own length where that is shorter.

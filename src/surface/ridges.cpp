@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/quantile.hpp"
 #include "core/surface_thresholds.hpp"
 #include "signal/turning_points.hpp"
 #include "surface/filter.hpp"
@@ -29,13 +30,8 @@ Band band_of(std::span<const double> heights, double short_cutoff, double long_c
 }
 
 /// Half of the range that holds the middle four fifths of the values, as a swing: a scratch does not count.
-double usual_swing(std::vector<double> values) {
-  const auto at = [&values](double share) {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-  };
-  return at(0.9) - at(0.1);
+double usual_swing(const std::vector<double>& values) {
+  return quantile_of(values, 0.9) - quantile_of(values, 0.1);
 }
 
 /// Where the values pass the middle of two turning points.

@@ -1,4 +1,4 @@
-#include <charconv>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -7,6 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/word_list.hpp"
 #include "io/cells.hpp"
 #include "surface/readers.hpp"
 
@@ -61,10 +62,10 @@ SdfHeader text_header(std::string_view bytes, std::string_view& rest) {
     }
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos) continue;
-    fields[reading::lower(reading::trim(line.substr(0, equals)))] =
+    fields[lower(reading::trim(line.substr(0, equals)))] =
         reading::plain_number(reading::trim(line.substr(equals + 1)), false);
   }
-  const auto value = [&](const char* name) { return fields.count(name) > 0 ? fields.at(name) : kHole; };
+  const auto value = [&](const char* name) { return fields.contains(name) ? fields.at(name) : kHole; };
   return {value("numpoints"), value("numprofiles"), value("xscale"),  value("yscale"),
           value("zscale"),    value("compression"), value("datatype")};
 }
@@ -99,32 +100,27 @@ std::vector<double> heights_of(std::string_view bytes, std::size_t count, double
   return heights;
 }
 
+struct HeightType {
+  std::size_t bytes = 0;
+  std::vector<double> (*read)(std::string_view bytes, std::size_t count, double scale) = nullptr;
+};
+
+template <class Number>
+constexpr HeightType kHeightType{sizeof(Number), heights_of<Number>};
+
+/// By the number of the data type.
+constexpr std::array kHeightTypes{kHeightType<std::uint8_t>, kHeightType<std::uint16_t>, kHeightType<std::uint32_t>,
+                                  kHeightType<float>,        kHeightType<std::int8_t>,   kHeightType<std::int16_t>,
+                                  kHeightType<std::int32_t>, kHeightType<double>};
+
 Result<std::vector<double>> binary_heights(const SurfaceFile& file, std::string_view bytes, std::size_t count,
                                            const SdfHeader& header) {
-  constexpr std::size_t kSizes[] = {1, 2, 4, 4, 1, 2, 4, 8};
   if (!(header.type >= 0.0 && header.type <= 7.0))
     return damaged_surface(file, "its data type is none of the standard's");
-  const auto type = static_cast<std::size_t>(header.type);
-  if (bytes.size() / kSizes[type] < count)
+  const HeightType& type = kHeightTypes.at(static_cast<std::size_t>(header.type));
+  if (bytes.size() / type.bytes < count)
     return damaged_surface(file, "it ends before the heights that its header announces");
-  switch (type) {
-    case 0:
-      return heights_of<std::uint8_t>(bytes, count, header.z_scale_m);
-    case 1:
-      return heights_of<std::uint16_t>(bytes, count, header.z_scale_m);
-    case 2:
-      return heights_of<std::uint32_t>(bytes, count, header.z_scale_m);
-    case 3:
-      return heights_of<float>(bytes, count, header.z_scale_m);
-    case 4:
-      return heights_of<std::int8_t>(bytes, count, header.z_scale_m);
-    case 5:
-      return heights_of<std::int16_t>(bytes, count, header.z_scale_m);
-    case 6:
-      return heights_of<std::int32_t>(bytes, count, header.z_scale_m);
-    default:
-      return heights_of<double>(bytes, count, header.z_scale_m);
-  }
+  return type.read(bytes, count, header.z_scale_m);
 }
 
 /// Numbers parted by blanks or line ends; a word ("BAD") where nothing was measured.

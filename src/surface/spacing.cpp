@@ -1,7 +1,6 @@
 #include "surface/spacing.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -9,7 +8,6 @@
 #include "core/surface_thresholds.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/signal/spectrum.hpp"
-#include "surface/filter.hpp"
 
 namespace slipfit::surface {
 namespace {

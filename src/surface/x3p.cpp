@@ -1,4 +1,3 @@
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -182,32 +181,27 @@ Result<ZipArchive> open_archive(const SurfaceFile& file) {
 }  // namespace
 
 Result<HeightMap> read_x3p(const SurfaceFile& file) {
-  try {
-    auto opened = open_archive(file);
-    if (!opened) return opened.error();
-    const ZipArchive archive = std::move(opened).value();
-    if (archive.find("main.xml") == nullptr) {
-      return Error{
-          "not_a_surface",
-          file.name + ": a zip archive without main.xml, which is no X3P file; give X3P, SDF, text or an image"};
-    }
-    auto xml = archive.content("main.xml", kMostXml);
-    if (!xml) return xml.error();
-    X3p x3p{file, archive, {}, {}, {}, {}, {}, 0, 1, {}};
-    if (!x3p.document.load_buffer(xml.value().data(), xml.value().size(), pugi::parse_minimal | pugi::parse_escapes)) {
-      return damaged_surface(file, "its main.xml is no XML");
-    }
-    const pugi::xml_node root = x3p.document.document_element();
-    const pugi::xml_node axes = root.child("Record1").child("Axes");
-    x3p.record3 = root.child("Record3");
-    x3p.x = axis_of(axes, "CX");
-    x3p.y = axis_of(axes, "CY");
-    x3p.z = axis_of(axes, "CZ");
-    if (auto error = read_sizes(x3p)) return *error;
-    return map_of(x3p);
-  } catch (const reading::ContainerError& error) {
-    return error.error();
+  auto opened = open_archive(file);
+  if (!opened) return opened.error();
+  const ZipArchive archive = std::move(opened).value();
+  if (archive.find("main.xml") == nullptr) {
+    return Error{"not_a_surface",
+                 file.name + ": a zip archive without main.xml, which is no X3P file; give X3P, SDF, text or an image"};
   }
+  auto xml = archive.content("main.xml", kMostXml);
+  if (!xml) return xml.error();
+  X3p x3p{file, archive, {}, {}, {}, {}, {}, 0, 1, {}};
+  if (!x3p.document.load_buffer(xml.value().data(), xml.value().size(), pugi::parse_minimal | pugi::parse_escapes)) {
+    return damaged_surface(file, "its main.xml is no XML");
+  }
+  const pugi::xml_node root = x3p.document.document_element();
+  const pugi::xml_node axes = root.child("Record1").child("Axes");
+  x3p.record3 = root.child("Record3");
+  x3p.x = axis_of(axes, "CX");
+  x3p.y = axis_of(axes, "CY");
+  x3p.z = axis_of(axes, "CZ");
+  if (auto error = read_sizes(x3p)) return *error;
+  return map_of(x3p);
 }
 
 #else

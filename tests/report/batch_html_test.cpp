@@ -11,6 +11,10 @@ using Catch::Contains;
 
 namespace {
 
+// Places in BatchPageRow::quantities.
+constexpr std::size_t kForceDifference = 3;
+constexpr std::size_t kDampingRatio = 4;
+
 slipfit::BatchPageRow row(const std::string& id) {
   slipfit::JsonOptions options;
   options.id = id;
@@ -40,8 +44,8 @@ TEST_CASE("a batch's page has a row a recording, sortable by value, with a link 
 
 TEST_CASE("a batch's page says of F_s - F_k and of the damping ratio what they are") {
   slipfit::BatchPageRow shown = row("run");
-  shown.friction_difference_N = {1.25, 1e-9, slipfit::Interval{1.249999998, 1.250000002}, {}};
-  shown.difference_status = "conditional";
+  shown.quantities[kForceDifference].estimate = {1.25, 1e-9, slipfit::Interval{1.249999998, 1.250000002}, {}};
+  shown.quantities[kForceDifference].status = "conditional";
   const std::string page = to_html(slipfit::BatchPage{"batch", {shown}, {}});
   CHECK_THAT(page, Contains("F_s - F_k [N]"));
   CHECK_THAT(page, Contains("1.2500<small>[1.2500, 1.2500]</small><small><span class=\"status conditional\">"));
@@ -82,10 +86,10 @@ TEST_CASE("a group is counted on its own and stays out of the distributions") {
 
 TEST_CASE("a distribution says what a logarithmic axis cannot show") {
   slipfit::BatchPage batch{"batch", {7, row("run")}, {}};
-  for (slipfit::BatchPageRow& each : batch.rows) each.damping_ratio.value = 0.05;
+  for (slipfit::BatchPageRow& each : batch.rows) each.quantities[kDampingRatio].estimate.value = 0.05;
   CHECK_THAT(to_html(batch), Contains(">damping ratio [-]<"));
-  batch.rows[2].damping_ratio.value = 0.0;
-  batch.rows[3].damping_ratio.value = 1e-12;
+  batch.rows[2].quantities[kDampingRatio].estimate.value = 0.0;
+  batch.rows[3].quantities[kDampingRatio].estimate.value = 1e-12;
   CHECK_THAT(to_html(batch), Contains(">damping ratio [-], 2 at zero not drawn<"));
 }
 

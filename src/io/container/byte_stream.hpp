@@ -21,18 +21,13 @@ class ByteStream {
   virtual ~ByteStream() = default;
   ByteStream(const ByteStream&) = delete;
   ByteStream& operator=(const ByteStream&) = delete;
-  /// Fewer than `size` at the end only. Throws std::system_error where the disk fails, ContainerError.
+  /// Fewer than `size` at the end only. Throws std::system_error where the disk fails, ThrownError
+  /// where a container turns out to be damaged, or far larger than a recording.
   virtual std::size_t read(char* buffer, std::size_t size) = 0;
 };
 
 /// All bytes; empty where there are more than `most`.
 std::optional<std::string> read_all(ByteStream& stream, std::size_t most);
-
-/// What a container turns out to be while it is unpacked: damaged, or far larger than a recording.
-class ContainerError : public ThrownError {
- public:
-  using ThrownError::ThrownError;
-};
 
 /// What in a container is the recording.
 struct ContainerChoice {

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/file_handle.hpp"
 #include "io/container/formats.hpp"
 #include "io/message.hpp"
 
@@ -19,9 +20,10 @@ namespace {
 /// What a program writes to its standard output; the program ends with it.
 class ProgramStream final : public ByteStream {
  public:
-  ProgramStream(::pid_t process, int pipe, std::string name) : process_(process), pipe_(pipe), name_(std::move(name)) {}
+  ProgramStream(::pid_t process, FileHandle pipe, std::string name)
+      : process_(process), pipe_(std::move(pipe)), name_(std::move(name)) {}
   ~ProgramStream() override {
-    ::close(pipe_);
+    pipe_ = {};  // the program notices, and ends
     if (!ended_) (void)wait();
   }
   ProgramStream(const ProgramStream&) = delete;
@@ -30,13 +32,13 @@ class ProgramStream final : public ByteStream {
   std::size_t read(char* buffer, std::size_t size) override {
     std::size_t count = 0;
     while (count < size && !ended_) {
-      const ::ssize_t got = ::read(pipe_, buffer + count, size - count);
+      const ::ssize_t got = ::read(pipe_.get(), buffer + count, size - count);
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) throw std::system_error(errno, std::generic_category(), "reading failed");
       count += static_cast<std::size_t>(got);
       if (got > 0) continue;
       ended_ = true;
-      if (wait() != 0) throw ContainerError(damaged(name_, "the file is damaged, or asks for too much memory or time"));
+      if (wait() != 0) throw ThrownError(damaged(name_, "the file is damaged, or asks for too much memory or time"));
     }
     return count;
   }
@@ -58,7 +60,7 @@ class ProgramStream final : public ByteStream {
   }
 
   ::pid_t process_;
-  int pipe_;
+  FileHandle pipe_;
   std::string name_;
   bool ended_ = false;
 };
@@ -86,20 +88,6 @@ std::string find_helper(const std::string& name) {
   return {};
 }
 
-class OpenFile {
- public:
-  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
-  ~OpenFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  [[nodiscard]] int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
 /// The libraries want a file in which they can go to and fro: one in memory, so that the bytes are read once, and may
 /// come through a pipe. Whether all went in.
 bool copy(TextStream& packed, int descriptor) {
@@ -122,6 +110,8 @@ Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const H
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     return Error{"not_readable", name + ": no pipe can be made; close programs"};
+  FileHandle read_end(ends[0]);
+  const FileHandle write_end(ends[1]);
   std::vector<std::string> texts{program};
   texts.insert(texts.end(), helper.arguments.begin(), helper.arguments.end());
   std::vector<char*> words;
@@ -130,23 +120,21 @@ Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const H
   words.push_back(nullptr);
   posix_spawn_file_actions_t actions{};
   ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, write_end.get(), STDOUT_FILENO);
   if (helper.file >= 0) ::posix_spawn_file_actions_adddup2(&actions, helper.file, kDescriptorOfHelper);
   ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   ::pid_t process = 0;
   const int failed = ::posix_spawn(&process, program.c_str(), &actions, nullptr, words.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
-  ::close(ends[1]);
-  if (failed == 0) return std::make_unique<ProgramStream>(process, ends[0], name);
-  ::close(ends[0]);
+  if (failed == 0) return std::make_unique<ProgramStream>(process, std::move(read_end), name);
   return Error{"not_readable", name + ": " + helper.program + " cannot be started; check its permissions"};
 }
 
 Result<TextStream> open_with_reader(const char* kind, TextStream packed, const std::string& name,
                                     const ContainerChoice& choice) {
-  const OpenFile file(::memfd_create("slipfit", MFD_CLOEXEC));
-  if (file.descriptor() < 0 || !copy(packed, file.descriptor())) return too_large(name);
-  Helper helper{"slipfit-hdf5", {kind, kFileOfHelper}, "a MATLAB or HDF5 file", "libhdf5-dev", file.descriptor()};
+  const FileHandle file(::memfd_create("slipfit", MFD_CLOEXEC));
+  if (!file || !copy(packed, file.get())) return too_large(name);
+  Helper helper{"slipfit-hdf5", {kind, kFileOfHelper}, "a MATLAB or HDF5 file", "libhdf5-dev", file.get()};
   if (choice.variable) helper.arguments.push_back(*choice.variable);
   auto output = run_helper(helper, name);
   if (!output) return output.error();

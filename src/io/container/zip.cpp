@@ -83,14 +83,14 @@ class MemberStream final : public ByteStream {
     std::size_t count = 0;
     while (count < size && !ended_) {
       const int got = unzReadCurrentFile(file_, buffer + count, static_cast<unsigned>(size - count));
-      if (got < 0) throw ContainerError(damaged(name_, "the zip archive is damaged"));
+      if (got < 0) throw ThrownError(damaged(name_, "the zip archive is damaged"));
       count += static_cast<std::size_t>(got);
       ended_ = got == 0;
     }
     unpacked_ += count;
-    if (is_bomb(unpacked_, stored_)) throw ContainerError(too_large(name_));
+    if (is_bomb(unpacked_, stored_)) throw ThrownError(too_large(name_));
     if (ended_ && !checked_ && unzCloseCurrentFile(file_) == UNZ_CRCERROR) {
-      throw ContainerError(damaged(name_, "the zip archive is damaged (checksum)"));
+      throw ThrownError(damaged(name_, "the zip archive is damaged (checksum)"));
     }
     checked_ = ended_;
     return count;

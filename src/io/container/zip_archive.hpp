@@ -25,7 +25,7 @@ class ZipArchive {
 
   [[nodiscard]] const std::vector<ZipMember>& members() const { return members_; }
   [[nodiscard]] const ZipMember* find(const std::string& member) const;
-  /// One at a time; the archive goes into it. Throws ContainerError while it is read.
+  /// One at a time; the archive goes into it. Throws ThrownError while it is read.
   static Result<std::unique_ptr<ByteStream>> stream(ZipArchive archive, const std::string& member);
   /// The whole of a member of at most `most` bytes. Errors: damaged_container, container_too_large.
   [[nodiscard]] Result<std::string> content(const std::string& member, std::size_t most) const;

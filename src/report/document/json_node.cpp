@@ -8,9 +8,13 @@ using nlohmann::json;
 
 namespace slipfit::documents {
 
-void refuse_document(const std::string& name, const std::string& message) {
-  throw BadDocument(Error{"bad_document", fmt::format("'{}': {}", name, message)});
+namespace {
+
+[[noreturn]] void refuse_document(const std::string& name, const std::string& message) {
+  throw ThrownError(Error{"bad_document", fmt::format("'{}': {}", name, message)});
 }
+
+}  // namespace
 
 json parse_document(const std::string& content, const std::string& name) {
   try {
@@ -33,6 +37,15 @@ JsonNode JsonNode::member(const std::string& key) const {
                     fmt::format("{} is missing: write the document again with slipfit fit --json", place_of(key)));
   }
   return {file_, *found, place_of(key)};
+}
+
+std::optional<JsonNode> JsonNode::known(const std::string& key) const {
+  return has(key) && !member(key).is_null() ? std::optional(member(key)) : std::nullopt;
+}
+
+std::optional<JsonNode> JsonNode::known(const std::string& key, const std::string& further) const {
+  const std::optional<JsonNode> found = known(key);
+  return found ? found->known(further) : std::nullopt;
 }
 
 JsonNode JsonNode::element(std::size_t index) const {

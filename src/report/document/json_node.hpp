@@ -10,19 +10,11 @@
 
 namespace slipfit::documents {
 
-/// Ends the reading of a document; the functions of slipfit/report/fit_document.hpp return it as their error.
-class BadDocument : public ThrownError {
- public:
-  using ThrownError::ThrownError;
-};
-
-/// Throws BadDocument with the code bad_document.
-[[noreturn]] void refuse_document(const std::string& name, const std::string& message);
-
-/// The one JSON document that the text is. Throws BadDocument.
+/// The one JSON document that the text is. Throws ThrownError with the code bad_document, which the functions of
+/// slipfit/report/fit_document.hpp return as their error.
 nlohmann::json parse_document(const std::string& content, const std::string& name);
 
-/// A value in a document that others wrote. What is missing or of another kind throws BadDocument that names
+/// A value in a document that others wrote. What is missing or of another kind throws ThrownError that names
 /// file, place and value: "'fit.json': parameters.damping_ratio.value is "0.1", expected ...".
 class JsonNode {
  public:
@@ -32,16 +24,10 @@ class JsonNode {
   [[nodiscard]] bool is_null() const { return content_.is_null(); }
   [[nodiscard]] bool has(const std::string& key) const { return content_.contains(key); }
   [[nodiscard]] JsonNode member(const std::string& key) const;
-  /// The member, where there is one and it is not null; of further keys that of the member, and so on.
-  template <class... Keys>
-  [[nodiscard]] std::optional<JsonNode> known(const std::string& key, const Keys&... further) const {
-    if (!has(key) || member(key).is_null()) return std::nullopt;
-    if constexpr (sizeof...(further) == 0) {
-      return member(key);
-    } else {
-      return member(key).known(further...);
-    }
-  }
+  /// The member, where there is one and it is not null.
+  [[nodiscard]] std::optional<JsonNode> known(const std::string& key) const;
+  /// The same of a member of that member.
+  [[nodiscard]] std::optional<JsonNode> known(const std::string& key, const std::string& further) const;
   [[nodiscard]] JsonNode element(std::size_t index) const;  ///< index < array_size()
   [[nodiscard]] std::size_t array_size() const;
   [[nodiscard]] std::string text() const;

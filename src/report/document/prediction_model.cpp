@@ -9,69 +9,51 @@
 #include <string>
 #include <vector>
 
-#include "report/document/document_context.hpp"
+#include "report/document/covariance.hpp"
 #include "report/document/json_node.hpp"
 
 namespace slipfit::documents {
 namespace {
-
-struct Needed {
-  const char* name;
-  const char* expected;
-  double low;  ///< exclusive, but for the damping ratio
-  double high;
-};
-
-// The order of ModelEstimate::covariance.
-constexpr std::size_t kDamping = 2;
-constexpr std::array<Needed, 4> kNeeded{{
-    {"stiffness_N_per_m", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
-    {"natural_frequency_rad_per_s", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
-    {"damping_ratio", "a number in [0, 1)", 0.0, 1.0},
-    {"friction_difference_N", "a number > 0", 0.0, std::numeric_limits<double>::infinity()},
-}};
-
-/// Ends with NUL, because the keys of the table are literals.
-const char* key_of(ParameterId id) {
-  return info(id).key.data();
-}
 
 bool is_known(const std::string& status) {
   return status == "identified" || status == "weak" || status == "fixed" || status == "conditional";
 }
 
 [[noreturn]] void cannot_predict(const std::string& name, const std::string& why) {
-  throw BadDocument(Error{"cannot_predict", fmt::format("'{}': cannot predict: {}", name, why)});
+  throw ThrownError(Error{"cannot_predict", fmt::format("'{}': cannot predict: {}", name, why)});
 }
 
 /// Refuses a document in which a needed parameter is not known, with the note of the fit.
 void check_known(const std::string& file, const JsonNode& parameters) {
-  std::string open;
+  std::vector<std::string> open;
   std::string note;
-  for (const Needed& needed : kNeeded) {
-    if (!parameters.has(needed.name)) {
-      open += fmt::format("{}{} is absent", open.empty() ? "" : ", ", needed.name);
+  for (const ParameterId id : kNeeded) {
+    const std::string name = key_of(id);
+    if (!parameters.has(name)) {
+      open.push_back(name + " is absent");
       continue;
     }
-    const JsonNode parameter = parameters.member(needed.name);
+    const JsonNode parameter = parameters.member(name);
     const std::string status = parameter.member("status").text();
     if (is_known(status)) continue;
     if (status != "bounded" && status != "unidentified") {
       parameter.member("status").fail("identified, weak, bounded, unidentified, fixed or conditional");
     }
-    open += fmt::format("{}{} is {}", open.empty() ? "" : ", ", needed.name, status);
+    open.push_back(fmt::format("{} is {}", name, status));
     if (note.empty() && parameter.has("note")) note = parameter.member("note").text();
   }
   if (open.empty()) return;
-  cannot_predict(file, fmt::format("{}{}; a prediction needs all four of k, w_n, zeta and F_s - F_k", open,
-                                   note.empty() ? note : " (" + note + ")"));
+  cannot_predict(file, fmt::format("{}{}; a prediction needs all four of k, w_n, zeta and F_s - F_k",
+                                   fmt::join(open, ", "), note.empty() ? note : " (" + note + ")"));
 }
 
-double checked_value(const JsonNode& parameter, const Needed& needed) {
+double checked_value(const JsonNode& parameter, ParameterId id) {
+  const bool is_damping = id == ParameterId::DampingRatio;
+  const std::string expected = is_damping ? "a number in [0, 1)" : "a number > 0";
   const JsonNode node = parameter.member("value");
-  const std::optional<double> value = node.number(needed.expected);
-  const bool above = value && (*value > needed.low || (needed.high == 1.0 && *value == needed.low));
-  if (!above || !(*value < needed.high)) node.fail(needed.expected);
+  const std::optional<double> value = node.number(expected);
+  const bool is_inside = value && (is_damping ? *value >= 0.0 && *value < 1.0 : *value > 0.0);
+  if (!is_inside) node.fail(expected);
   return *value;
 }
 
@@ -85,110 +67,8 @@ bool damping_identified(const JsonNode& damping) {
   return low && *low > 0.0;
 }
 
-std::optional<std::size_t> find_row(const JsonNode& names, const std::string& name) {
-  for (std::size_t row = 0; row < names.array_size(); ++row) {
-    if (names.element(row).text() == name) return row;
-  }
-  return std::nullopt;
-}
-
-/// Rows of ModelEstimate::covariance that the model has: the four, of friction that depends on the speed its slope and
-/// rate, of static friction that ages its rate and, where `names` has it, its cut-off.
-std::vector<std::size_t> places_of(const ModelEstimate& estimate, const JsonNode& names) {
-  std::vector<std::size_t> places{0, 1, 2, 3};
-  if (estimate.speed_dependence) places.insert(places.end(), {4, 5});
-  if (estimate.ageing) places.push_back(6);
-  if (estimate.ageing && find_row(names, key_of(ParameterId::AgeingTime))) places.push_back(7);
-  return places;
-}
-
-/// Standard errors of (ln k, ln w_n, zeta, ln dF) from those of the parameters; empty where one is null.
-std::optional<std::vector<double>> parameter_errors(const JsonNode& parameters, const ModelEstimate& estimate) {
-  const std::array<double, 4> scales{estimate.stiffness_N_per_m, estimate.natural_frequency_rad_per_s, 1.0,
-                                     estimate.friction_difference_N};
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < kNeeded.size(); ++i) {
-    const std::optional<double> error = checked_error(parameters.member(kNeeded[i].name).member("se"));
-    if (!error) return std::nullopt;
-    errors.push_back(*error / scales[i]);
-  }
-  return errors;
-}
-
-std::size_t row_of(const JsonNode& names, const std::string& name) {
-  const std::optional<std::size_t> row = find_row(names, name);
-  if (!row) names.fail("a list with " + name);
-  return *row;
-}
-
-/// Rows in the correlation's matrix.
-std::vector<std::size_t> rows_of(const JsonNode& names, const std::vector<std::size_t>& places) {
-  std::vector<std::size_t> rows;
-  rows.reserve(places.size());
-  for (const std::size_t place : places) rows.push_back(row_of(names, key_of(kModelParameters[place])));
-  return rows;
-}
-
-double correlation_between(const JsonNode& matrix, std::size_t i, std::size_t j, std::size_t size) {
-  const auto cell = [&](std::size_t row, std::size_t column) {
-    const JsonNode cells = matrix.element(row);
-    if (cells.array_size() != size) cells.fail(fmt::format("a row of {} numbers", size));
-    const JsonNode node = cells.element(column);
-    const std::optional<double> value = node.number("a number from -1 to 1");
-    constexpr double kRounding = 1e-9;
-    if (!value || std::abs(*value) > 1.0 + kRounding) node.fail("a number from -1 to 1");
-    return *value;
-  };
-  constexpr double kAsymmetry = 1e-6;
-  if (std::abs(cell(i, j) - cell(j, i)) > kAsymmetry) matrix.fail("a symmetric matrix");
-  return i == j ? 1.0 : cell(i, j);
-}
-
-/// Those of the correlation, else those of the parameters; empty where one is null. (Slope and alpha may be told only
-/// together, then the parameter has none.)
-std::optional<std::vector<double>> standard_errors(const JsonNode& document, const ModelEstimate& estimate,
-                                                   const std::vector<std::size_t>& rows) {
-  const JsonNode correlation = document.member("correlation");
-  const std::size_t size = correlation.member("names").array_size();
-  const bool scaled = correlation.has("scaled_se") && correlation.member("scaled_se").array_size() == size;
-  if (!estimate.speed_dependence && !estimate.ageing) {
-    std::optional<std::vector<double>> errors = parameter_errors(document.member("parameters"), estimate);
-    if (!errors || !scaled) return errors;
-  }
-  const JsonNode list = correlation.member("scaled_se");
-  if (list.array_size() != size) list.fail(fmt::format("a list of {} numbers", size));
-  std::vector<double> errors;
-  for (const std::size_t row : rows) {
-    const std::optional<double> error = checked_error(list.element(row));
-    if (!error) return std::nullopt;
-    errors.push_back(*error);
-  }
-  return errors;
-}
-
-/// From standard errors and correlation; leaves `model` without covariance where the document has none.
-void read_covariance(const JsonNode& document, PredictionModel& model) {
-  const std::optional<JsonNode> correlation = document.known("correlation");
-  if (!correlation) return;
-  const JsonNode names = correlation->member("names");
-  const std::vector<std::size_t> places = places_of(model.estimate, names);
-  const std::vector<std::size_t> rows = rows_of(names, places);
-  const JsonNode matrix = correlation->member("matrix");
-  const std::size_t size = names.array_size();
-  if (matrix.array_size() != size) matrix.fail(fmt::format("{} rows", size));
-  const std::optional<std::vector<double>> errors = standard_errors(document, model.estimate, rows);
-  if (!errors) return;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t j = 0; j < rows.size(); ++j) {
-      model.estimate.covariance[places[i]][places[j]] =
-          (*errors)[i] * (*errors)[j] * correlation_between(matrix, rows[i], rows[j], size);
-    }
-  }
-  model.has_covariance = true;
-}
-
 /// From the correlation: there it has a value also where the data tell it only together with others.
-double working_value(const std::string& file, const JsonNode& document, const char* name) {
+double working_value(const std::string& file, const JsonNode& document, const std::string& name) {
   const std::optional<JsonNode> correlation = document.known("correlation");
   if (!correlation) {
     cannot_predict(file, fmt::format("{} needs correlation (with its values), which is missing", name));
@@ -237,15 +117,57 @@ double degrees_of_freedom(const JsonNode& document) {
   return value;
 }
 
+// What stands around the parameters. Documents of earlier versions lack parts of it.
+
+/// Of a sweep.
+std::optional<SpeedReach> reach(const JsonNode& document) {
+  const auto speeds = document.known("model", "speeds_m_per_s");
+  if (!speeds) return std::nullopt;
+  if (speeds->array_size() != 2) speeds->fail("[slowest, fastest]");
+  SpeedReach reach{speeds->element(0).positive(), speeds->element(1).positive(), std::nullopt};
+  if (reach.slowest_m_per_s > reach.fastest_m_per_s) speeds->fail("[slowest, fastest]");
+  if (const auto trend = document.known("model", "trend_beyond")) reach.trend = checked_error(*trend);
+  return reach;
+}
+
+std::optional<double> normal_force_N(const JsonNode& document) {
+  const auto load = document.known("model", "normal_force_N");
+  return load ? std::optional(load->positive()) : std::nullopt;
+}
+
+/// [speed or null, speed or null]
+ObservedEnd observed_end(const JsonNode& document) {
+  const auto ends = document.known("derived", "observed_end_m_per_s");
+  if (!ends) return {};
+  if (ends->array_size() != 2) ends->fail("[highest speed that sticks, lowest that does not]");
+  return {checked_error(ends->element(0)), checked_error(ends->element(1))};
+}
+
+Warnings warnings(const JsonNode& document) {
+  Warnings list;
+  const auto nodes = document.known("warnings");
+  for (std::size_t i = 0; nodes && i < nodes->array_size(); ++i) {
+    const JsonNode warning = nodes->element(i);
+    list.push_back({warning.member("code").text(), warning.member("message").text()});
+  }
+  return list;
+}
+
+std::vector<std::string> conditions(const JsonNode& document) {
+  std::vector<std::string> texts;
+  const auto list = document.known("model", "conditional_on");
+  for (std::size_t i = 0; list && i < list->array_size(); ++i) texts.push_back(list->element(i).text());
+  return texts;
+}
+
 }  // namespace
 
 FitDocument fit_document_from(const JsonNode& document, const std::string& name) {
   if (const JsonNode schema = document.member("schema"); schema.text() != "slipfit.fit/1") schema.fail("slipfit.fit/1");
   if (!document.has("parameters")) {
-    throw BadDocument(Error{
-        "cannot_predict",
-        "'" + name +
-            "': has no parameters: slipfit analyze fits none, and fit found no cycles; use slipfit fit on stick-slip"});
+    throw ThrownError(Error{"cannot_predict", fmt::format("'{}': has no parameters: slipfit analyze fits none, and fit "
+                                                          "found no cycles; use slipfit fit on stick-slip",
+                                                          name)});
   }
   const JsonNode parameters = document.member("parameters");
   check_known(name, parameters);
@@ -254,11 +176,11 @@ FitDocument fit_document_from(const JsonNode& document, const std::string& name)
   const std::array<double*, 4> targets{&estimate.stiffness_N_per_m, &estimate.natural_frequency_rad_per_s,
                                        &estimate.damping_ratio, &estimate.friction_difference_N};
   for (std::size_t i = 0; i < kNeeded.size(); ++i) {
-    *targets[i] = checked_value(parameters.member(kNeeded[i].name), kNeeded[i]);
+    *targets[i] = checked_value(parameters.member(key_of(kNeeded[i])), kNeeded[i]);
   }
   estimate.speed_dependence = speed_dependence(name, document);
   estimate.ageing = ageing(name, document);
-  estimate.damping_identified = damping_identified(parameters.member(kNeeded[kDamping].name));
+  estimate.damping_identified = damping_identified(parameters.member(key_of(ParameterId::DampingRatio)));
   estimate.degrees_of_freedom = degrees_of_freedom(document);
   read_covariance(document, result.model);
   result.model.kinetic_friction_N = kinetic_friction_N(parameters);

@@ -7,7 +7,7 @@
 
 namespace slipfit::documents {
 
-/// `name`: of the document in messages. Throws BadDocument.
+/// `name`: of the document in messages. Throws ThrownError.
 FitDocument fit_document_from(const JsonNode& document, const std::string& name);
 
 }  // namespace slipfit::documents

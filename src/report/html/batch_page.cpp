@@ -1,22 +1,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <span>
 
 #include "chart/chart.hpp"
+#include "io/message.hpp"
 #include "report/batch_html.hpp"
 #include "report/html/assets.hpp"
-#include "report/html/batch_row.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
-#include "report/text_sections.hpp"
+#include "report/json_values.hpp"
 
 namespace slipfit {
 namespace html {
 namespace {
+
+/// A quantity of the table, in one unit so that rows compare by eye, and its distribution.
+struct BatchColumn {
+  const char* heading = nullptr;
+  const char* unit = nullptr;
+  double per_SI = 1.0;
+  const char* place = nullptr;   ///< in the document
+  const char* suffix = nullptr;  ///< of the keys there
+  const char* id = nullptr;      ///< of the distribution
+};
+
+constexpr std::array<BatchColumn, 5> kColumns{
+    {{"frequency", "Hz", 1.0, "/frequency", "_Hz", "frequencies"},
+     {"pattern spacing V/f", "mm", 1e3, "/derived/pattern_spacing_m", "", "spacings"},
+     {"stiffness", "N/m", 1.0, "/parameters/stiffness_N_per_m", "", "stiffnesses"},
+     {"F_s - F_k", "N", 1.0, "/parameters/friction_difference_N", "", "differences"},
+     {"damping ratio", "-", 1.0, "/parameters/damping_ratio", "", "damping-ratios"}}};
 
 constexpr std::size_t kMostRows = 10000;
 constexpr std::size_t kRowsAtOnce = 500;         // laid out; the script shows more of them on demand
@@ -39,20 +58,16 @@ StatusCounts statuses_of(const std::vector<BatchPageRow>& rows) {
   return sorted;
 }
 
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 std::string summary_of(const BatchPage& page, const StatusCounts& counts) {
   const auto groups = static_cast<std::size_t>(std::count_if(page.rows.begin(), page.rows.end(), is_group));
-  std::string sentence = counted(page.rows.size() - groups, "recording");
+  std::string sentence = reading::counted(page.rows.size() - groups, "recording");
   const char* separator = ": ";
   for (const auto& [status, count] : counts) {
     if (count == 0) continue;
     sentence += fmt::format("{}{} {}", separator, count, plain_words(status));
     separator = ", ";
   }
-  if (groups > 0) sentence += "; " + counted(groups, "group");
+  if (groups > 0) sentence += "; " + reading::counted(groups, "group");
   if (!page.failures.empty()) sentence += fmt::format("; {} failed", page.failures.size());
   return text(sentence + ".");
 }
@@ -88,10 +103,11 @@ std::optional<chart::Panel> histogram(std::vector<double> values, std::string la
 
 std::string distributions(const std::vector<BatchPageRow>& rows) {
   std::string figures;
-  for (const BatchColumn& column : kBatchColumns) {
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    const BatchColumn& column = kColumns[i];
     std::vector<double> values;
     for (const BatchPageRow& row : rows) {
-      const std::optional<double>& value = (row.*column.quantity).value;
+      const std::optional<double>& value = row.quantities[i].estimate.value;
       if (!is_group(row) && value) values.push_back(column.per_SI * *value);
     }
     const std::string label = label_with_unit(column.heading, column.unit);
@@ -123,6 +139,78 @@ std::string failures_part(const std::vector<BatchPageFailure>& failures) {
   return section(" class=\"flows\"", "Failures",
                  table(" id=\"failures\"", {"recording", "what is wrong", "code"}, rows) +
                      left_out_part(failures.size(), "failures.csv"));
+}
+
+constexpr std::size_t kSparkColumns = 60;
+constexpr double kSparkWidth = 120.0;
+constexpr double kSparkHeight = 26.0;
+
+std::vector<std::string> codes_in(const Json& warnings) {
+  std::vector<std::string> codes;
+  for (const Json& warning : warnings) {
+    std::string code = text_in(warning, "code");
+    if (std::find(codes.begin(), codes.end(), code) == codes.end()) codes.push_back(std::move(code));
+  }
+  return codes;
+}
+
+/// Empty where it is absent; a bounded parameter keeps its interval alone.
+BatchPageQuantity quantity_in(const Json& document, const BatchColumn& column) {
+  const Json::json_pointer place(column.place);
+  const Json json = document.contains(place) ? document.at(place) : Json();
+  BatchPageQuantity quantity{estimate_in(json, column.suffix), text_in(json, "status")};
+  if (quantity.status == "bounded" || quantity.status == "unidentified") quantity.estimate.value.reset();
+  return quantity;
+}
+
+/// A relative file as an address: everything but letters, digits and -_./~ as %XX.
+std::string address(const std::string& file) {
+  std::string result = "./";
+  for (const char c : file) {
+    const bool is_plain =
+        std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string("-_./~").find(c) != std::string::npos;
+    result += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return result;
+}
+
+std::string spark(const std::string& path) {
+  if (path.empty()) return {};
+  return "<svg class=\"spark\" viewBox=\"0 -2 120 30\" preserveAspectRatio=\"none\" role=\"img\" "
+         "aria-label=\"trace\"><path d=\"" +
+         text(path) + "\"/></svg>";
+}
+
+std::string heading(const std::string& words, const char* css_class) {
+  // data-words: no browser prints a button again on the next page
+  return fmt::format(R"(<th scope="col" class="{}" data-words="{}"><button type="button">{}</button></th>)", css_class,
+                     text(words), text(words));
+}
+
+std::string batch_headings() {
+  std::string cells = heading("recording", "") + "<th scope=\"col\">trace</th>" + heading("shows", "") +
+                      heading("speed [mm/s]", "number");
+  for (const BatchColumn& column : kColumns) {
+    cells += heading(label_with_unit(column.heading, column.unit), "number");
+  }
+  return "<thead><tr>" + cells + heading("warnings", "") + "</tr></thead>\n";
+}
+
+std::string batch_row(const BatchPageRow& row) {
+  std::string name = text(row.id);
+  if (!row.report_file.empty()) name = fmt::format("<a href=\"{}\">{}</a>", address(row.report_file), name);
+  const std::string speed = row.speed_m_per_s ? fmt::format("{}", *row.speed_m_per_s) : std::string();
+  std::string cells = fmt::format(
+      R"(<td class="name">{}</td><td>{}</td><td class="shows">{}</td><td class="number" data-value="{}">{}</td>)", name,
+      spark(row.sparkline), text(plain_words(row.status)), speed,
+      row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    cells += quantity_cell(row.quantities[i].estimate, kColumns[i].per_SI, row.quantities[i].status);
+  }
+  std::string codes;
+  for (const std::string& code : row.warnings) codes += "<span>" + text(code) + " </span>";
+  cells += fmt::format("<td class=\"codes\">{}</td>", codes);
+  return fmt::format("<tr data-status=\"{}\">{}</tr>\n", text(row.status), cells);
 }
 
 std::string table_of(const std::vector<BatchPageRow>& rows) {
@@ -159,6 +247,42 @@ std::string to_html(const BatchPage& page) {
       html::distributions(page.rows) + html::failures_part(page.failures);
   parts.scripts = html::script_element(assets::table_script());
   return html::page_from(parts);
+}
+
+Result<BatchPageRow> batch_page_row(const std::string& document) {
+  using namespace html;
+  const Json json = Json::parse(document, nullptr, false);
+  BatchPageRow row;
+  row.id = text_in(json, "id");
+  row.status = text_in(json, "status");
+  if (text_in(json, "schema") != "slipfit.fit/1" || row.id.empty() || row.status.empty()) {
+    return Error{"bad_document",
+                 fmt::format("'{}': no fit document, expected one line of results.jsonl", document.substr(0, 60))};
+  }
+  row.speed_m_per_s = number_in(child(json, "recording"), "speed_m_per_s");
+  for (std::size_t i = 0; i < kColumns.size(); ++i) row.quantities[i] = quantity_in(json, kColumns[i]);
+  row.warnings = codes_in(child(json, "warnings"));
+  return row;
+}
+
+std::string sparkline_of(const Recording& recording) {
+  const std::vector<chart::Point> points = html::envelope(recording.time_s(), recording.force(), html::kSparkColumns);
+  if (points.size() < 2) return {};
+  const auto is_lower = [](const chart::Point& a, const chart::Point& b) { return a.y < b.y; };
+  const auto [low, high] = std::minmax_element(points.begin(), points.end(), is_lower);
+  const double scale = high->y > low->y ? html::kSparkHeight / (high->y - low->y) : 0.0;
+  std::string path;
+  long last_x = 0;
+  long last_y = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const long x = std::lround(html::kSparkWidth * static_cast<double>(i) / static_cast<double>(points.size() - 1));
+    const long y = std::lround(html::kSparkHeight - scale * (points[i].y - low->y));
+    const char step = i == 0 ? 'M' : i == 1 ? 'l' : ' ';
+    path += fmt::format("{}{}{}{}", step, x - last_x, y < last_y ? "" : " ", y - last_y);
+    last_x = x;
+    last_y = y;
+  }
+  return path;
 }
 
 }  // namespace slipfit

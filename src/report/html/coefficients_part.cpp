@@ -9,7 +9,8 @@ namespace {
 
 std::vector<std::string> row_of(std::string_view words, const Estimate& estimate) {
   const EstimateRow shown = estimate_row(estimate, std::string());
-  return {text(words), text(shown.value), text(shown.interval), formula_text(estimate.note)};
+  return {text(words), text(shown.value), shown.interval.empty() ? "-" : text(shown.interval),
+          formula_text(estimate.note)};
 }
 
 }  // namespace

@@ -33,8 +33,7 @@ Figure both_cycles_figure(const ComparisonOrigin& origin) {
 }
 
 std::string number_cell(const EstimateRow& row) {
-  const std::string interval = row.interval == "-" ? "" : "<small>" + text(row.interval) + "</small>";
-  return "<td class=\"number\">" + text(row.value) + interval + "</td>";
+  return "<td class=\"number\">" + text(row.value) + small(row.interval) + "</td>";
 }
 
 std::string table_row(const ComparisonRow& row) {

@@ -110,6 +110,10 @@ std::string table(std::string_view attributes, const std::vector<std::string>& h
   return table(attributes, headings, markup);
 }
 
+std::string small(std::string_view content) {
+  return content.empty() ? "" : "<small>" + text(content) + "</small>";
+}
+
 std::string fact_list(std::string_view facts) {
   return fmt::format("<dl class=\"facts\">\n{}</dl>\n", facts);
 }

@@ -32,6 +32,9 @@ std::string table(std::string_view attributes, const std::vector<std::string>& h
 std::string table(std::string_view attributes, const std::vector<std::string>& headings,
                   const std::vector<std::vector<std::string>>& rows);
 
+/// <small> of text; empty where that is.
+std::string small(std::string_view content);
+
 /// <dl> of facts.
 std::string fact_list(std::string_view facts);
 

@@ -9,7 +9,6 @@
 #include "report/html/scaling.hpp"
 #include "report/html/stack.hpp"
 #include "report/html/sweep_figures.hpp"
-#include "report/text_sections.hpp"
 
 namespace slipfit::html {
 namespace {

@@ -10,10 +10,7 @@
 #include "report/html/assets.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
-#include "report/html/scaling.hpp"
-#include "report/html/trace_data.hpp"
 #include "report/json_values.hpp"
-#include "report/names.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
@@ -82,6 +79,12 @@ std::string series_json(std::size_t panel, const std::string& name, std::span<co
                      x, y);
 }
 
+/// The name of the file; "recording" where there is none.
+std::string title_of(const Recording& recording) {
+  const std::string name = std::filesystem::path(recording.provenance().file).filename().string();
+  return name.empty() ? "recording" : name;
+}
+
 }  // namespace
 
 std::string picture_with_data(const chart::Chart& chart, const std::string& id, const std::string& label) {
@@ -99,11 +102,6 @@ std::string picture_with_data(const chart::Chart& chart, const std::string& id, 
   if (!data.empty()) data.pop_back();
   return to_page_legend(chart, id) + to_page_svg(chart, {id, label}) +
          R"(<script type="application/json" class="chart-data">)" + script_json("[" + data + "]") + "</script>";
-}
-
-std::string title_of(const Recording& recording) {
-  const std::string name = std::filesystem::path(recording.provenance().file).filename().string();
-  return name.empty() ? "recording" : name;
 }
 
 std::string place_of(const Recording& recording) {

@@ -23,8 +23,6 @@ struct PageParts {
 std::string page_from(const PageParts& parts);
 /// Under the title: where the file lies, and what the manifest says of it.
 std::string place_of(const Recording& recording);
-/// Of a file's path: its name; "recording" where there is none.
-std::string title_of(const Recording& recording);
 std::string script_element(std::string_view script);
 
 /// <td> with a quantity rounded by its uncertainty, its interval, the value to sort by, and the status of a parameter.
@@ -45,6 +43,12 @@ std::string parameter_table(const FitResult& fit);
 std::string coefficients_part(const Source& source);
 std::string quality_part(const Source& source);
 std::string repeat_part(const Source& source, const ReportOrigin& origin);
+/// The recording for trace.js, as JSON that may stand in a <script>: force and residual in 65535 levels between their
+/// ends (a residual that the fit does not reach is level 65535), two bytes a sample in base64; times as a first and a
+/// last, and 32-bit parts of the time between where the clock is uneven; slips and gaps by begin and end, outliers by
+/// their time, as such parts, too. Beyond a million samples the lowest and the
+/// highest of each group, whose times are then right to two millionths of the duration.
+std::string trace_data(const Source& source);
 /// The picture, its legend for narrow screens, and its points as CSV for the button that saves them.
 std::string picture_with_data(const chart::Chart& chart, const std::string& id, const std::string& label);
 /// <section> with the chart, or with the reason why there is none.

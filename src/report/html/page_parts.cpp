@@ -19,8 +19,7 @@ template <class Unit>
 std::string key_number(const std::string& name, const Estimate& estimate, Unit unit) {
   const EstimateRow row = estimate_row(estimate, unit);
   const std::string shown = row.value == "-" ? "not known" : row.value + (row.unit.empty() ? "" : " " + row.unit);
-  const std::string interval = row.interval == "-" ? "" : "<small>" + text(row.interval) + "</small>";
-  return fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", text(name), text(shown), interval);
+  return fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", text(name), text(shown), small(row.interval));
 }
 
 /// Empty where the fit does not have it, or only between bounds.
@@ -47,13 +46,6 @@ std::string candidates_table(const FitResult& fit, ForceQuantity quantity) {
   return "<h3>Models that were tried</h3>\n" + table("", {"model", "", "#residual, rms", "why"}, rows);
 }
 
-/// A quantity that a line does not end in.
-std::string unbroken(const std::string& quantity) {
-  std::string result;
-  for (const char c : quantity) result += c == ' ' ? std::string("\u00a0") : std::string(1, c);
-  return result;
-}
-
 }  // namespace
 
 std::string quantity_cell(const Estimate& SI, double per_SI, const std::string& status) {
@@ -64,11 +56,11 @@ std::string quantity_cell(const Estimate& SI, double per_SI, const std::string& 
     rounded_SI.standard_error = std::max(*SI.standard_error, kFinest * std::abs(*SI.value));
   }
   const EstimateRow shown = estimate_row(rounded_SI, {per_SI, ""});
-  const std::string interval = shown.interval == "-" ? "" : "<small>" + text(shown.interval) + "</small>";
   const std::string value = SI.value ? fmt::format("{}", *SI.value) : std::string();
   const std::string mark =
       status.empty() ? "" : fmt::format(R"(<small><span class="status {0}">{0}</span></small>)", text(status));
-  return fmt::format(R"(<td class="number" data-value="{}">{}{}{}</td>)", value, text(shown.value), interval, mark);
+  return fmt::format(R"(<td class="number" data-value="{}">{}{}{}</td>)", value, text(shown.value),
+                     small(shown.interval), mark);
 }
 
 std::string capitalised(std::string sentence) {
@@ -90,9 +82,8 @@ std::string motion_sentence(const Source& source) {
     case MotionClass::StickSlip: {
       if (rate.empty()) return text("Stick-slip, but no frequency can be told.");
       const Estimate& spacing = analysis.derived.pattern_spacing_m;
-      const std::string pattern = spacing.value
-                                      ? fmt::format(" a pattern of {} spacing at", unbroken(quantity_of(spacing, "m")))
-                                      : std::string(" at");
+      const std::string pattern =
+          spacing.value ? fmt::format(" a pattern of {} spacing at", quantity_of(spacing, "m")) : std::string(" at");
       return text(fmt::format("Stick-slip at {}:{} {}.", rate, pattern, speed));
     }
     case MotionClass::SteadySliding:

@@ -9,10 +9,9 @@
 namespace slipfit::html {
 namespace {
 
-constexpr double kRoom = 0.05;              // of the range, on both sides
-constexpr double kVisible = 1e-9;           // of the largest: below it are the last digits of a constant
-constexpr const char* kNoBreak = "\u00A0";  // a number and its unit stay on one line
-constexpr double kLogRoom = 1.3;            // factor on both sides
+constexpr double kRoom = 0.05;     // of the range, on both sides
+constexpr double kVisible = 1e-9;  // of the largest: below it are the last digits of a constant
+constexpr double kLogRoom = 1.3;   // factor on both sides
 
 }  // namespace
 
@@ -33,11 +32,14 @@ std::string label_with_unit(const std::string& name, const std::string& unit) {
 
 std::string quantity_of(const Estimate& estimate, const std::string& SI_unit) {
   const DisplayUnit unit = display_unit(SI_unit, estimate.value);
-  std::string text = with_error(scaled(estimate, unit.per_SI));
-  for (std::size_t blank = text.find(' '); blank != std::string::npos; blank = text.find(' ')) {
-    text.replace(blank, 1, kNoBreak);
-  }
-  return unit.unit.empty() || text == "-" ? text : text + kNoBreak + unit.unit;
+  const std::string text = with_error(scaled(estimate, unit.per_SI));
+  return unbroken(unit.unit.empty() || text == "-" ? text : text + " " + unit.unit);
+}
+
+std::string unbroken(const std::string& quantity) {
+  std::string result;
+  for (const char c : quantity) result += c == ' ' ? std::string("\u00A0") : std::string(1, c);
+  return result;
 }
 
 chart::Area rectangle(std::string name, chart::Colour colour, chart::Point low, chart::Point high) {

@@ -18,8 +18,10 @@ std::string force_name_of(const Recording& recording);
 /// "force [mN]"; "[-]" for a pure number.
 std::string label_with_unit(const std::string& name, const std::string& unit);
 
-/// "407.1 ± 2.2 µm", "-" where it is not known.
+/// "407.1 ± 2.2 µm" that a line does not end in; "-" where it is not known.
 std::string quantity_of(const Estimate& estimate, const std::string& SI_unit);
+/// With blanks at which no line ends.
+std::string unbroken(const std::string& quantity);
 
 /// A line of this width around an area of a page.
 constexpr double kEdge_px = 0.8;

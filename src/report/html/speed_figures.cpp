@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "report/html/scaling.hpp"
-#include "report/text_sections.hpp"
 
 namespace slipfit::html {
 namespace {
@@ -161,14 +160,6 @@ Series fitted_spacing(const SweepSource& source) {
 
 Estimate critical_speed_of(const SweepSource& source) {
   return source.prediction ? source.prediction->critical_speed_m_per_s : Estimate{};
-}
-
-/// The unit that suits the fastest recording: the slower ones are decimals of it.
-DisplayUnit speed_unit_of(const SweepSource& source) {
-  double fastest = 0.0;
-  for (const SweepEntry& entry : source.entries)
-    fastest = std::max(fastest, entry.recording.conditions().speed_m_per_s);
-  return speed_unit(given_speed_unit(source), fastest);
 }
 
 }  // namespace

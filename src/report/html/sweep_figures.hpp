@@ -20,6 +20,9 @@ struct SweepSource {
 /// The unit in which the manifest gives the speeds; empty: SI.
 const std::string& given_speed_unit(const SweepSource& source);
 
+/// That of the manifest, else the one that suits the fastest recording: the slower ones are decimals of it.
+DisplayUnit speed_unit_of(const SweepSource& source);
+
 /// Places of the recordings, from the slowest to the fastest.
 std::vector<std::size_t> by_speed(const SweepSource& source);
 

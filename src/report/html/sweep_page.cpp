@@ -44,15 +44,13 @@ struct SweepUnits {
 };
 
 SweepUnits units_of(const SweepSource& source) {
-  double fastest_m_per_s = 0.0;
   double widest_m = 0.0;
   for (std::size_t i = 0; i < source.entries.size(); ++i) {
     const Conditions& conditions = source.entries[i].recording.conditions();
-    fastest_m_per_s = std::max(fastest_m_per_s, conditions.speed_m_per_s);
     widest_m = std::max({widest_m, spacing_on_surface(conditions).value.value_or(0.0),
                          source.sweep.recordings[i].derived.pattern_spacing_m.value.value_or(0.0)});
   }
-  return {speed_unit(given_speed_unit(source), fastest_m_per_s), display_unit("m", widest_m)};
+  return {speed_unit_of(source), display_unit("m", widest_m)};
 }
 
 /// Of the pattern on the worn surface, where the manifest gives it for any of them.
@@ -150,6 +148,11 @@ Estimate spacing_on_surface(const Conditions& conditions) {
   const std::optional<double>& se_m = conditions.measured_spacing_se_m;
   if (!stated_m || !se_m) return {stated_m, {}, {}, {}};
   return {stated_m, se_m, Interval{*stated_m - 1.96 * *se_m, *stated_m + 1.96 * *se_m}, {}};
+}
+
+DisplayUnit speed_unit_of(const SweepSource& source) {
+  return speed_unit(given_speed_unit(source),
+                    source.entries[by_speed(source).back()].recording.conditions().speed_m_per_s);
 }
 
 const std::string& given_speed_unit(const SweepSource& source) {

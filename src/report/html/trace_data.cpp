@@ -1,5 +1,3 @@
-#include "report/html/trace_data.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "core/thresholds.hpp"
 #include "report/html/markup.hpp"
+#include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
 #include "report/json_values.hpp"
 
@@ -94,20 +93,17 @@ std::string series_members(const std::string& name, const std::vector<double>& v
          packed_member(name + "_levels", packed(levels));
 }
 
-/// Times as parts of the recording's duration.
-class Clock {
- public:
-  explicit Clock(const Recording& recording)
-      : first_s_(recording.time_s().front()), per_second_(kTicks / recording.duration_s()) {}
-
-  [[nodiscard]] std::uint32_t tick(double time_s) const {
-    return static_cast<std::uint32_t>(std::clamp(per_second_ * (time_s - first_s_), 0.0, kTicks));
+/// Times as parts of the recording's duration, packed.
+std::string packed_ticks(const Recording& recording, const std::vector<double>& times_s) {
+  const double per_second = kTicks / recording.duration_s();
+  std::vector<std::uint32_t> ticks;
+  ticks.reserve(times_s.size());
+  for (const double time_s : times_s) {
+    ticks.push_back(
+        static_cast<std::uint32_t>(std::clamp(per_second * (time_s - recording.time_s().front()), 0.0, kTicks)));
   }
-
- private:
-  double first_s_;
-  double per_second_;
-};
+  return packed(ticks);
+}
 
 bool is_even(std::span<const double> time_s) {
   const double step_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
@@ -117,36 +113,34 @@ bool is_even(std::span<const double> time_s) {
   return true;
 }
 
-std::vector<std::uint32_t> slip_ticks(const Analysis& analysis, const Clock& clock) {
-  std::vector<std::uint32_t> ticks;
-  if (!shows_cycles(analysis)) return {};
+std::vector<double> slip_times_s(const Analysis& analysis) {
+  std::vector<double> times_s;
+  if (!shows_cycles(analysis)) return times_s;
   for (const Cycle& cycle : analysis.cycle_table) {
-    ticks.push_back(clock.tick(cycle.onset_s.value_or(cycle.peak_s)));
-    ticks.push_back(clock.tick(cycle.end_s.value_or(cycle.trough_s)));
+    times_s.push_back(cycle.onset_s.value_or(cycle.peak_s));
+    times_s.push_back(cycle.end_s.value_or(cycle.trough_s));
   }
-  return ticks;
+  return times_s;
 }
 
 /// Begin and end of each gap of the clock.
-std::vector<std::uint32_t> gap_ticks(const Recording& recording, const Clock& clock) {
+std::vector<double> gap_times_s(const Recording& recording) {
   const std::span<const double> time_s = recording.time_s();
   const double shortest_s = thresholds::kGapSteps * recording.sample_interval_s();
-  std::vector<std::uint32_t> ticks;
+  std::vector<double> times_s;
   for (std::size_t i = 1; i < time_s.size(); ++i) {
-    if (time_s[i] - time_s[i - 1] <= shortest_s) continue;
-    ticks.push_back(clock.tick(time_s[i - 1]));
-    ticks.push_back(clock.tick(time_s[i]));
+    if (time_s[i] - time_s[i - 1] > shortest_s) times_s.insert(times_s.end(), {time_s[i - 1], time_s[i]});
   }
-  return ticks;
+  return times_s;
 }
 
-std::vector<std::uint32_t> outlier_ticks(const Source& source, const Clock& clock) {
-  std::vector<std::uint32_t> ticks;
+std::vector<double> outlier_times_s(const Source& source) {
+  std::vector<double> times_s;
   const std::vector<bool>& outliers = source.analysis.quality.impulse_mask;
   for (std::size_t i = 0; i < outliers.size(); ++i) {
-    if (outliers[i]) ticks.push_back(clock.tick(source.recording.time_s()[i]));
+    if (outliers[i]) times_s.push_back(source.recording.time_s()[i]);
   }
-  return ticks;
+  return times_s;
 }
 
 }  // namespace
@@ -154,7 +148,6 @@ std::vector<std::uint32_t> outlier_ticks(const Source& source, const Clock& cloc
 std::string trace_data(const Source& source) {
   const Recording& recording = source.recording;
   const DisplayUnit& unit = source.force_unit;
-  const Clock clock(recording);
   const std::vector<std::size_t> chosen = chosen_samples(recording.force());
   std::vector<double> force;
   force.reserve(chosen.size());
@@ -167,14 +160,15 @@ std::string trace_data(const Source& source) {
                    {"last_s", recording.time_s().back()}};
   std::string json = script_json(text_of(names, JsonLayout::OneLine));
   json.pop_back();
-  json += series_members("force", force) + packed_member("slips", packed(slip_ticks(source.analysis, clock))) +
-          packed_member("gaps", packed(gap_ticks(recording, clock))) +
-          packed_member("outliers", packed(outlier_ticks(source, clock)));
+  json += series_members("force", force) +
+          packed_member("slips", packed_ticks(recording, slip_times_s(source.analysis))) +
+          packed_member("gaps", packed_ticks(recording, gap_times_s(recording))) +
+          packed_member("outliers", packed_ticks(recording, outlier_times_s(source)));
   if (!is_even(recording.time_s())) {
-    std::vector<std::uint32_t> ticks;
-    ticks.reserve(chosen.size());
-    for (const std::size_t i : chosen) ticks.push_back(clock.tick(recording.time_s()[i]));
-    json += packed_member("ticks", packed(ticks));
+    std::vector<double> times_s;
+    times_s.reserve(chosen.size());
+    for (const std::size_t i : chosen) times_s.push_back(recording.time_s()[i]);
+    json += packed_member("ticks", packed_ticks(recording, times_s));
   }
   if (has_fitted_curve(source.analysis)) {
     std::vector<double> residual;

@@ -4,7 +4,6 @@
 
 #include "report/html/figure.hpp"
 #include "report/html/scaling.hpp"
-#include "report/text_sections.hpp"
 
 namespace slipfit::html {
 namespace {
