@@ -7,7 +7,7 @@
 
 #include "fit/inference/ageing_line.hpp"
 #include "fit/inference/sliding_model.hpp"
-#include "fit/report/sentences.hpp"
+#include "fit/report/notes.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/fit/result.hpp"
 

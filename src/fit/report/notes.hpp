@@ -3,10 +3,34 @@
 #include <string>
 
 #include "fit/inference/ageing_line.hpp"
+#include "fit/level/stick_ripple.hpp"
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/fit/parameter.hpp"
 
 namespace slipfit::fit {
+
+/// The condition on a speed without a standard error, and which parameters depend on it.
+inline constexpr const char* kStatedSpeed =
+    "the stated driving speed (k, m and c are in inverse proportion to it; --speed-uncertainty widens their intervals)";
+
+/// Why nothing that is read from the slip is identified where W is fitted.
+inline constexpr const char* kFittedAverage =
+    "known if the instrument averages evenly over a time, as the fit takes it to";
+/// Why a force level is conditional.
+inline constexpr const char* kZeroUnknown =
+    "known if the sensor reads 0 without force, which a recording cannot show: state the reading with --zero";
+/// Why F_s - F_k and zeta of one speed are conditional.
+inline constexpr const char* kOneSpeed =
+    "known if friction does not depend on the sliding speed, which one driving speed cannot show";
+
+/// That an average of the samples is fitted.
+Warning averaged_warning(double average_s);
+
+/// Why w_n is not identified where averaging over a step of the clock would change it by so much of itself.
+std::string averaging_doubt(double change);
+
+/// That a line swings in the sticks: of the drive, unless that would have to turn back.
+Warning ripple_warning(const StickRipple& ripple);
 
 /// What it would take to know zeta well enough. Its errors fall with the root of the cycles; identified from a quarter
 /// on.

@@ -10,7 +10,6 @@
 #include "core/fit_thresholds.hpp"
 #include "fit/report/correlation.hpp"
 #include "fit/report/findings.hpp"
-#include "fit/report/notes.hpp"
 #include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {
