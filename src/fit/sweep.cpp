@@ -141,7 +141,7 @@ class Assembler {
           fit::symmetric(average->seconds, average->standard_error_s, static_cast<double>(data_.fitted.size()));
       findings.slip_doubt = fit::kFittedAverage;
       findings.warnings.push_back(fit::averaged_warning(average->seconds));
-    } else if (data_.rounding_s2) {
+    } else if (data_.rounding_s2 && averaging_ > thresholds::kAverageShare) {
       findings.slip_doubt = "onset and end of the slips are rounded, as an average would that cannot be told";
       findings.warnings.push_back(
           {"samples_averaged", findings.slip_doubt + ": state it with --sensor-average where it is known"});
