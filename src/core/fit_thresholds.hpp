@@ -194,10 +194,6 @@ inline constexpr double kCutoffChance = 0.005;
 /// convention]
 inline constexpr double kCutoffStickRatio = 30.0;
 
-/// Share of the trend of static friction over the speed that may end or double beyond a sweep, where ageing with a
-/// cut-off goes along with it. [1; calibrated: benchmarks/independent/sweeps.py, seeds 61 to 72]
-inline constexpr double kAgeingTrendShare = 0.5;
-
 /// Least recordings that show a trend of static friction over the speed. [1; convention: two always lie on a line]
 inline constexpr std::size_t kTrendRecordings = 3;
 

@@ -122,8 +122,8 @@ TEST_CASE("bands beyond the speeds of a sweep grow with the trend of its static 
   PredictionModel model = model_of(sweep);
   REQUIRE(model.estimate.reach);
   REQUIRE(model.estimate.reach->trend);
-  // F_s - F_k(0+) is about 2.5 N there, and falls by 0.1 N a factor of e: half of that, where it is ageing.
-  CHECK(*model.estimate.reach->trend == Approx(0.02).epsilon(0.3));
+  // F_s - F_k(0+) is about 2.5 N there, and falls by 0.1 N a factor of e.
+  CHECK(*model.estimate.reach->trend == Approx(0.04).epsilon(0.3));
   const std::vector<double> unseen{0.03, 0.16, 0.04};
   const Prediction with_trend = predict_at(model, unseen);
   model.estimate.reach->trend = 0.0;
@@ -132,7 +132,7 @@ TEST_CASE("bands beyond the speeds of a sweep grow with the trend of its static 
     return row.periodic_displacement_m.ci95->high / row.periodic_displacement_m.ci95->low;
   };
   CHECK(width(with_trend.rows[0]) == width(without.rows[0]));
-  CHECK(width(with_trend.rows[1]) > width(without.rows[1]) * 1.01);
+  CHECK(width(with_trend.rows[1]) > width(without.rows[1]) * 1.02);
   CHECK(width(with_trend.rows[2]) > width(without.rows[2]) * 1.002);  // the fastest: a line misses there what bends
   CHECK(holds(with_trend.rows[1].periodic_displacement_m, test::spacing_m(truth, 0.16)));
 }

@@ -239,7 +239,7 @@ StaticFriction static_friction_of(const SweepSolution& solution) {
   return cutoff_of(LinesOverSticks(solution));
 }
 
-SpeedReach reach_of(const SweepSolution& solution, const StaticFriction& kind) {
+SpeedReach reach_of(const SweepSolution& solution) {
   const VectorXd speeds = log_speeds(solution);
   SpeedReach reach{std::exp(speeds.minCoeff()), std::exp(speeds.maxCoeff()), std::nullopt};
   if (!can_show_trend(speeds)) return reach;
@@ -255,8 +255,7 @@ SpeedReach reach_of(const SweepSolution& solution, const StaticFriction& kind) {
   }
   const VectorXd differences = differences_of(solution);
   const Line line = line_over(speeds, differences);
-  const double share = kind ? thresholds::kAgeingTrendShare : 1.0;
-  reach.trend = share * std::hypot(line.slope, 2.0 * line.slope_error) / std::abs(differences.mean());
+  reach.trend = std::hypot(line.slope, 2.0 * line.slope_error) / std::abs(differences.mean());
   return reach;
 }
 

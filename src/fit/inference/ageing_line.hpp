@@ -49,8 +49,8 @@ AgeingLine ageing_line(const SweepSolution& solution, const AgeingCutoff& cutoff
 StaticFriction static_friction_of(const SweepSolution& solution);
 
 /// What the sweep tells of static friction beyond its speeds. Where the recordings differ, the trend of
-/// ln(F_s - F_k(0+)) over ln V may end or double; half of that where it is that of ageing with a cut-off. Where they
-/// share one, the trend that they could hide, by the evidence that there is none (Schwarz's criterion).
-SpeedReach reach_of(const SweepSolution& solution, const StaticFriction& kind);
+/// ln(F_s - F_k(0+)) over ln V may end or double. Where they share one, the trend that they could hide, by the evidence
+/// that there is none (Schwarz's criterion).
+SpeedReach reach_of(const SweepSolution& solution);
 
 }  // namespace slipfit::fit

@@ -17,8 +17,7 @@ namespace slipfit::fit {
 namespace {
 
 LeftOut fit_of(const SweepData& data, const NormalSolution& fit, const StaticFriction& kind) {
-  return {coordinates_of(fit.solution, kind), spread_of(data, fit.solution, fit.normals, kind),
-          reach_of(fit.solution, kind)};
+  return {coordinates_of(fit.solution, kind), spread_of(data, fit.solution, fit.normals, kind), reach_of(fit.solution)};
 }
 
 std::vector<std::optional<LeftOut>> leave_out_each(const SweepData& data, const NormalSolution& all,
