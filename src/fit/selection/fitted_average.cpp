@@ -41,7 +41,7 @@ std::vector<double> guesses_s(const Recording& recording, const DampedFit& plain
   const BlockFit& blocks = plain.blocks;
   const double of_fall_s = 0.7 * blocks.scales().half_period_s;
   const std::optional<Smoothing>& seen = plain.rounding;
-  if (!seen || !is_rounding(*seen, recording.sample_interval_s())) return {};
+  if (!seen || !seen->exceeds_step(recording.sample_interval_s())) return {};
   if (plain.refused_damping) return {of_fall_s};
   return {std::sqrt(12.0 * seen->variance_s2), of_fall_s};
 }
@@ -212,15 +212,6 @@ std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality
 
 bool repeats_rounding(const DampedFit& fit) {
   return fit.uncertainty.from_refits && !fit.misfit;
-}
-
-bool is_rounding(const Smoothing& seen, double sample_interval_s) {
-  return seen.variance_s2 - thresholds::kRoundedSigmas * seen.standard_error_s2 >
-         sample_interval_s * sample_interval_s / 12.0;
-}
-
-double largest_variance_s2(const Smoothing& seen) {
-  return 1.25 * seen.variance_s2 + 2.0 * seen.standard_error_s2;
 }
 
 }  // namespace slipfit::fit
