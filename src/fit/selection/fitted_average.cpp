@@ -67,8 +67,8 @@ class Trials {
   [[nodiscard]] std::optional<Trial> fit(double variance_s2, const Globals& near) const {
     constexpr int kMostFits = 3;
     std::optional<Trial> best;
-    std::optional<DampedFit> fit =
-        draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_, {near, plain_.excluded});
+    std::optional<DampedFit> fit = draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_,
+                                                {near, plain_.excluded, plain_.blocks.level().per_cycle});
     for (int fits = 1; fit; ++fits) {
       const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
       if (!beyond) break;
@@ -102,12 +102,6 @@ class Trials {
   const HeldParameters& held_;
   const DampedFit& plain_;  // without an average
 };
-
-double resting_share(const BlockFit& blocks) {
-  double resting = 0.0;
-  for (std::size_t i = 0; i < blocks.size(); ++i) resting += blocks.state(i).resticks() ? 1.0 : 0.0;
-  return resting / static_cast<double>(blocks.size());
-}
 
 /// Twice the logarithm of the likelihood of one fit over that of another, each at its best noise.
 double gain_of(const DampedFit& fit, const DampedFit& other) {
@@ -186,7 +180,7 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
   const KernelSearch comparison(recording, segmentation, held, plain, width_s + kForgottenLags * longest_lag_s,
                                 kCompareCycles);
   const std::optional<KernelSearch::Least> best = best_average(variances_s2, comparison, plain);
-  if (!best) return std::nullopt;
+  if (!best || best->resting < thresholds::kRestickShare) return std::nullopt;
   std::optional<Trial> trial =
       Trials(recording, quality, segmentation, held, plain).fit(best->variance_s2, best->globals);
   const bool is_better = trial && follows_slips(trial->fit) && gain_of(trial->fit, plain) > thresholds::kTierPrice;
