@@ -78,9 +78,10 @@ class WeakeningFitter {
   [[nodiscard]] std::optional<DampedFit> fit() {
     const std::vector<CycleData> cycles = same_cycles();
     if (cycles.size() < thresholds::kFewestFitted) return std::nullopt;
-    const std::optional<Globals> start = best_start(spread_subset(cycles, kTrialCycles));
+    const std::optional<Globals> start = best_start(some_of(cycles, kTrialCycles));
     if (!start) return std::nullopt;
-    if (cycles.size() > 2 * kSomeCycles && !explains(spread_subset(cycles, kSomeCycles), *start)) return std::nullopt;
+    const std::vector<CycleData> some = some_of(cycles, kSomeCycles);
+    if (2 * samples_of(some) < samples_of(cycles) && !explains(some, *start)) return std::nullopt;
     std::optional<BlockFit> blocks = solved(cycles, *start);
     if (!blocks) return std::nullopt;
     exclude_outliers_of(*blocks);
@@ -114,6 +115,22 @@ class WeakeningFitter {
     BlockFit blocks = blocks_of(cycles);
     const bool is_solved = std::isfinite(solve_from(blocks, start, final_options(held_))) && has_slips(blocks);
     return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
+  }
+
+  /// So many of the cycles, their slips with no more samples than their shape needs.
+  [[nodiscard]] std::vector<CycleData> some_of(const std::vector<CycleData>& cycles, std::size_t count) const {
+    std::vector<CycleData> some = spread_subset(cycles, count);
+    for (CycleData& cycle : some) {
+      const double middle_s = input_.segmentation.slips[cycle.slip].middle_s;
+      cycle = thinned(std::move(cycle), middle_s, scales_.half_period_s, input_.recording.sample_interval_s());
+    }
+    return some;
+  }
+
+  [[nodiscard]] static std::size_t samples_of(const std::vector<CycleData>& cycles) {
+    std::size_t samples = 0;
+    for (const CycleData& cycle : cycles) samples += cycle.time_s.size();
+    return samples;
   }
 
   /// The law may miss so much less of the mean shape of a slip that it is taken, as far as these cycles show.
