@@ -113,7 +113,7 @@ Scale look_at_scale(const Means& trace, double noise) {
   }
   // As small a hysteresis as the counted falls allow: it finds each fall's own turning points.
   Look last = look_beyond(all, 0.25 * scale.best.drop);
-  Look finer = look_beyond(all, 0.25 * last.drop);
+  Look finer = last.drop == scale.best.drop ? last : look_beyond(all, 0.25 * last.drop);
   const auto count = [](const Look& look) { return static_cast<double>(look.falls.size()); };
   if (count(finer) < kAlike * count(last)) last = std::move(finer);
   last.score = score_of(last, noise);
