@@ -112,6 +112,9 @@ std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines) 
   Score best_score;
   for (const Dialect& dialect : kDialects) {
     if (!is_worth_trying(dialect, all)) continue;
+    // One column is no better where another dialect has found numbers, and no more, in every line.
+    const bool is_settled = best_score.weight * 1.001 >= static_cast<double>(tried.size());
+    if (best && is_settled && dialect.delimiter == '\0') continue;
     const Score found = score(tried, dialect);
     const bool is_better = found.weight > best_score.weight * 1.001;
     const bool is_equal = found.weight > 0.0 && found.weight >= best_score.weight * 0.999;

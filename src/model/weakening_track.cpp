@@ -48,7 +48,7 @@ WeakeningPoint WeakeningTrack::weakening_at(double tau) {
 WeakeningPoint WeakeningTrack::weakened_at(double tau) {
   const WeakeningSlip::State& from = slip_.weakened_;
   const double since = tau - from.tau.a;
-  is_weakened_ && is_next(tau) ? phasor_.step() : phasor_.start(since);
+  is_weakened_&& is_next(tau) ? phasor_.step() : phasor_.start(since);
   is_weakened_ = true;
   last_tau_ = tau;
   const double zeta = zeta_.a;
