@@ -40,7 +40,7 @@ double asymmetry_of(const std::vector<SeenFall>& falls) {
 
 /// Falls on either side of which the force rises as quickly are a wave's, where most are sudden; small ones already
 /// where it does on one side.
-void leave_waves(std::vector<SeenFall>& falls) {
+void leave_waves(std::vector<SeenFall>& falls, double usual_drop) {
   std::vector<double> rises, own_rates;
   for (std::size_t i = 1; i < falls.size(); ++i) {
     rises.push_back(rate(falls[i - 1].trough, falls[i].peak));
@@ -48,7 +48,7 @@ void leave_waves(std::vector<SeenFall>& falls) {
   }
   if (median(std::move(rises)) > thresholds::kSuddenRate * median(std::move(own_rates))) return;
   std::vector<SeenFall> sudden;
-  const double small = 0.5 * median(drops_of(falls));
+  const double small = 0.5 * usual_drop;
   for (std::size_t i = 0; i < falls.size(); ++i) {
     const double own = thresholds::kWaveRise * rate(falls[i]);
     const bool before = i > 0 && rate(falls[i - 1].trough, falls[i].peak) > own;
@@ -64,10 +64,13 @@ Look look_beyond(const Falls& falls, double hysteresis) {
   Look look;
   look.hysteresis = std::max(falls.smallest(), hysteresis);
   look.falls = falls.beyond(look.hysteresis);
-  const double quarter = thresholds::kCountedDrop * median(drops_of(look.falls));
-  std::erase_if(look.falls, [&](const SeenFall& fall) { return fall.drop() < quarter; });
-  leave_waves(look.falls);
   look.drop = median(drops_of(look.falls));
+  const double quarter = thresholds::kCountedDrop * look.drop;
+  const auto is_small = [quarter](const SeenFall& fall) { return fall.drop() < quarter; };
+  if (std::erase_if(look.falls, is_small) > 0) look.drop = median(drops_of(look.falls));
+  const std::size_t counted = look.falls.size();
+  leave_waves(look.falls, look.drop);
+  if (look.falls.size() < counted) look.drop = median(drops_of(look.falls));
   look.asymmetry = asymmetry_of(look.falls);
   return look;
 }
