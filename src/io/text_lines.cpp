@@ -28,6 +28,7 @@ const char* TextLines::next() {
     }
     if (found == nullptr && begin_ == end_) return nullptr;
     char* end = found != nullptr ? static_cast<char*>(found) : buffer_.data() + end_;
+    check_length(static_cast<std::size_t>(end - line));
     begin_ = found != nullptr ? static_cast<std::size_t>(end - buffer_.data()) + 1 : end_;
     ++number_;
     *end = '\0';
@@ -36,14 +37,18 @@ const char* TextLines::next() {
   }
 }
 
+/// Of the line behind the latest, or of what there is of it.
+void TextLines::check_length(std::size_t length) const {
+  if (length < kMostInLine) return;
+  ::io::error::line_length_limit_exceeded error;
+  error.set_file_line(static_cast<int>(number_ + 1));
+  throw error;
+}
+
 /// The line that is not whole yet goes to the front.
 void TextLines::read_on() {
   const std::size_t length = end_ - begin_;
-  if (length + 1 > kMostInLine) {
-    ::io::error::line_length_limit_exceeded error;
-    error.set_file_line(static_cast<int>(number_ + 1));
-    throw error;
-  }
+  check_length(length);
   std::memmove(buffer_.data(), buffer_.data() + begin_, length);
   begin_ = 0;
   if (2 * length > buffer_.size()) buffer_.resize(2 * buffer_.size());

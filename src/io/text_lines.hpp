@@ -21,6 +21,7 @@ class TextLines {
   [[nodiscard]] unsigned number() const { return number_; }
 
  private:
+  void check_length(std::size_t length) const;
   void read_on();
 
   std::unique_ptr<TextSource> source_;
