@@ -43,12 +43,19 @@ double row_weight(const std::vector<std::string_view>& cells, bool decimal_comma
   return texts == 0.0 ? 1.0 : 0.25 * part * part;
 }
 
-Score score(const std::vector<std::string_view>& lines, const Dialect& dialect) {
+/// Nothing as soon as `least` is out of reach: a line adds 1 at most.
+Score score(const std::vector<std::string_view>& lines, const Dialect& dialect, double least) {
   std::map<std::size_t, double> weight_by_columns;
   std::vector<std::string_view> cells;
+  double most = 0.0;
+  double left = static_cast<double>(lines.size());
   for (const std::string_view line : lines) {
     split(line, dialect.delimiter, cells);
-    weight_by_columns[cells.size()] += row_weight(cells, dialect.decimal_comma);
+    double& weight = weight_by_columns[cells.size()];
+    weight += row_weight(cells, dialect.decimal_comma);
+    most = std::max(most, weight);
+    left -= 1.0;
+    if (most + left < least) return {};
   }
   Score best;
   for (const auto& [columns, weight] : weight_by_columns) {
@@ -112,12 +119,10 @@ std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines) 
   Score best_score;
   for (const Dialect& dialect : kDialects) {
     if (!is_worth_trying(dialect, all)) continue;
-    // One column is no better where another dialect has found numbers, and no more, in every line.
-    const bool is_settled = best_score.weight * 1.001 >= static_cast<double>(tried.size());
-    if (best && is_settled && dialect.delimiter == '\0') continue;
-    const Score found = score(tried, dialect);
+    const double equal_weight = best_score.weight * 0.999;
+    const Score found = score(tried, dialect, equal_weight);
     const bool is_better = found.weight > best_score.weight * 1.001;
-    const bool is_equal = found.weight > 0.0 && found.weight >= best_score.weight * 0.999;
+    const bool is_equal = found.weight > 0.0 && found.weight >= equal_weight;
     if (!is_better && !(is_equal && found.columns > best_score.columns)) continue;
     best = dialect;
     best_score = found;
