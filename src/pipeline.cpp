@@ -166,6 +166,7 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   sweep.fit_reason = describe_roles(sweep.roles);
   sweep.repeats = compare_repeats(entries, sweep.recordings);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
+  append(sweep.warnings, check_level_repeats(entries, sweep.recordings));
   append(sweep.warnings, check_duplicates(entries));
   append(sweep.warnings, check_resolution(entries, sweep.recordings, sweep.roles));
   if (sweep.fit) {

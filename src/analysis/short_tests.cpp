@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "analysis/level_repeats.hpp"
 #include "core/thresholds.hpp"
 
 namespace slipfit {
@@ -177,9 +178,11 @@ ShortTest finite(ShortTest test) {
 
 std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysis& analysis) {
   std::vector<ShortTest> tests;
-  if (!analysis.fit || analysis.motion != MotionClass::StickSlip) return tests;
-  const FitResult& fit = *analysis.fit;
+  if (analysis.motion != MotionClass::StickSlip) return tests;
   const Conditions& conditions = recording.conditions();
+  if (auto repeats = test_level_repeats(analysis.cycle_table, conditions.speed_m_per_s)) tests.push_back(*repeats);
+  if (!analysis.fit) return tests;
+  const FitResult& fit = *analysis.fit;
   const std::vector<Pair> pairs = pairs_of(fit.cycles);
   const bool scatters = fit.diagnostics.onset_force_spread > thresholds::kStandsOut * fit.diagnostics.onset_force_error;
   if (pairs.size() >= thresholds::kFewestPairs) tests.push_back(test_drift(pairs, recording.duration_s()));
@@ -202,6 +205,7 @@ Warnings warn_of(const std::vector<ShortTest>& tests) {
     }
     if (by_chance) continue;
     if (test.name == "period_drift") warnings.push_back({"period_drifts", test.finding});
+    if (test.name == "level_repeats") warnings.push_back({"level_repeats", test.finding});
     if (test.name == "return_map") warnings.push_back({"cycles_remember", test.finding});
     if (test.name == "stated_mass") {
       warnings.push_back({"mass_differs", test.finding +

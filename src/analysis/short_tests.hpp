@@ -7,8 +7,8 @@
 namespace slipfit {
 
 /// One-line tests of what the fit takes for granted (docs/accuracy.md): drift of the period, a cycle against the one
-/// before, ageing; the stated mass and the load cell's resonance where they are stated. Empty unless the kind of motion
-/// is stick-slip with a fit.
+/// before, ageing; the stated mass and the load cell's resonance where they are stated; without a fit, whether the
+/// level repeats. Empty unless the kind of motion is stick-slip.
 std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysis& analysis);
 
 /// One warning for each test whose outcome is beyond chance (1 in 1000).

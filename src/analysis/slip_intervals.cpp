@@ -79,6 +79,17 @@ bool is_change(const Split& split) {
          std::abs(split.after / split.before - 1.0) > thresholds::kNotableChange;
 }
 
+/// Far off the usual interval by their typical deviation; nearer only between two usual ones: a rhythm may settle.
+bool is_broken(const std::vector<double>& deviations, std::size_t i, double usual, double typical) {
+  constexpr double kOrdinary = 8.0;
+  const auto is_beyond = [&](std::size_t of, double share) {
+    return deviations[of] > std::max(share * usual, kOrdinary * typical);
+  };
+  if (is_beyond(i, thresholds::kFarInterval)) return true;
+  const bool is_inside = i > 0 && i + 1 < deviations.size();
+  return is_inside && is_beyond(i, thresholds::kOddInterval) && !is_beyond(i - 1, 0.0) && !is_beyond(i + 1, 0.0);
+}
+
 }  // namespace
 
 Intervals intervals_of(const Recording& recording, const Segmentation& segmentation) {
@@ -100,12 +111,13 @@ Intervals intervals_of(const Recording& recording, const Segmentation& segmentat
   for (const double interval_s : intervals.seconds) deviations.push_back(std::abs(interval_s - usual));
   const double deviation = signal::median(deviations);
   if (intervals.seconds.size() < 8 || deviation > thresholds::kRegularRest * usual) return intervals;
-  const double far = std::max(thresholds::kFarInterval * usual, 8.0 * deviation);
-  const auto broken = std::count_if(deviations.begin(), deviations.end(), [&](double d) { return d > far; });
+  std::vector<double> unbroken;
+  for (std::size_t i = 0; i < deviations.size(); ++i) {
+    if (!is_broken(deviations, i, usual, deviation)) unbroken.push_back(intervals.seconds[i]);
+  }
+  const std::size_t broken = deviations.size() - unbroken.size();
   if (static_cast<double>(broken) > thresholds::kFewBroken * static_cast<double>(deviations.size())) return intervals;
-  intervals.broken = static_cast<std::size_t>(broken);
-  std::erase_if(intervals.seconds, [&](double interval_s) { return std::abs(interval_s - usual) > far; });
-  return intervals;
+  return {std::move(unbroken), broken};
 }
 
 Estimate count_frequency(const Recording& recording, const Segmentation& segmentation) {

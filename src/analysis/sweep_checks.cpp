@@ -133,6 +133,28 @@ ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<
   return end;
 }
 
+Warnings check_level_repeats(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses) {
+  std::vector<double> paths_m, times_s;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    for (const ShortTest& test : analyses[i].tests) {
+      if (test.name != "level_repeats" || !test.p_value || *test.p_value > thresholds::kProven) continue;
+      paths_m.push_back(*test.value);
+      times_s.push_back(*test.value / entries[i].recording.conditions().speed_m_per_s);
+    }
+  }
+  if (paths_m.size() < 2) return {};
+  const auto is_one = [](const std::vector<double>& values) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return *most < (1.0 + thresholds::kOneWave) * *least;
+  };
+  if (is_one(paths_m) == is_one(times_s)) return {};
+  const std::string what =
+      is_one(paths_m)
+          ? fmt::format("every {:.3g} mm of sliding at every speed: texture of the counterface", 1e3 * paths_m.front())
+          : fmt::format("every {:.3g} s at every speed: a wave of the drive or of the sensor", times_s.front());
+  return {{"level_repeats", fmt::format("the force level of {} recordings repeats {}", paths_m.size(), what)}};
+}
+
 Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < entries.size(); ++i) {

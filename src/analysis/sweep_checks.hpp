@@ -22,6 +22,10 @@ ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<
 /// What only several speeds can tell: that the repetition is geometry or a control loop, not stick-slip.
 Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
 
+/// Whether levels that repeat (`level_repeats` of the recordings) do so over one path at all speeds, which is texture
+/// of the counterface, or after one time.
+Warnings check_level_repeats(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
+
 /// Names the recording that stands furthest from the others where at least half of them agree: by the stiffness of its
 /// own fit, else by the spacing that a fit without it predicts, else by its force level. Needs four with cycles.
 Warnings check_agreement(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,

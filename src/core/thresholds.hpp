@@ -180,8 +180,11 @@ inline constexpr double kRegularRest = 0.03;
 /// Distance from the median of a broken interval among regular ones, over the median. [1; convention]
 inline constexpr double kFarInterval = 0.12;
 
+/// The same of a broken interval between two usual ones. [1; convention]
+inline constexpr double kOddInterval = 0.04;
+
 /// Largest share of intervals that are called broken. [1; convention]
-inline constexpr double kFewBroken = 0.15;
+inline constexpr double kFewBroken = 0.25;
 
 /// Fewest intervals in which a change is looked for. [count; convention]
 inline constexpr std::size_t kFewestForChange = 10;
@@ -243,6 +246,16 @@ inline constexpr double kProven = 1e-3;
 
 /// Fewest pairs of cycles of a short test. [count; convention]
 inline constexpr std::size_t kFewestPairs = 8;
+
+/// Fewest slips in which a wave of the level is looked for. [count; convention]
+inline constexpr std::size_t kFewestOfWave = 16;
+
+/// Smallest swing of such a wave over the mean drop. [1; convention: between two samples of a slip a peak is read too
+/// low by up to as much]
+inline constexpr double kSmallestWave = 0.05;
+
+/// Largest relative difference of what two recordings repeat over, for it to be one thing. [1; convention]
+inline constexpr double kOneWave = 0.05;
 
 /// Spread of the onset forces over the error of one, below which they tell of the noise, not of the cycles.
 /// [1; convention]

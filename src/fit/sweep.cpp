@@ -119,9 +119,6 @@ class Assembler {
           "residuals are well above the noise: the interval cannot hold what the model lacks";
     }
     if (!findings.damping.value) findings.frequency_unknown = findings.damping.note;
-    if (averaging_ > thresholds::kAverageShare && !data_.rounding_s2) {
-      findings.frequency_doubt = fit::averaging_doubt(averaging_);
-    }
     add_average(findings);
     add_difference_doubt(findings);
     // Only recordings with one level and one static friction tell damping from friction that depends on the speed.
@@ -141,11 +138,15 @@ class Assembler {
           fit::symmetric(average->seconds, average->standard_error_s, static_cast<double>(data_.fitted.size()));
       findings.slip_doubt = fit::kFittedAverage;
       findings.warnings.push_back(fit::averaged_warning(average->seconds));
-    } else if (data_.rounding_s2 && averaging_ > thresholds::kAverageShare) {
-      findings.slip_doubt = "onset and end of the slips are rounded, as an average would that cannot be told";
-      findings.warnings.push_back(
-          {"samples_averaged", findings.slip_doubt + ": state it with --sensor-average where it is known"});
     }
+    if (!(averaging_ > thresholds::kAverageShare)) return;
+    if (!data_.rounding_s2) {
+      findings.frequency_doubt = fit::averaging_doubt(averaging_);
+      return;
+    }
+    findings.slip_doubt = "onset and end of the slips are rounded, as an average would that cannot be told";
+    findings.warnings.push_back(
+        {"samples_averaged", findings.slip_doubt + ": state it with --sensor-average where it is known"});
   }
 
   void add_difference_doubt(fit::Findings& findings) const {

@@ -199,9 +199,8 @@ Split split_of(std::vector<double> levels) {
   return best;
 }
 
-/// Blocks [begin, end) of the longest run above the middle of the split.
-Stretch longest_above(const std::vector<double>& levels, Split split) {
-  const double middle = 0.5 * (split.low + split.high);
+/// Blocks [begin, end) of the longest run above this level.
+Stretch longest_above(const std::vector<double>& levels, double middle) {
   Stretch best, run;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (levels[i] <= middle) {
@@ -221,13 +220,17 @@ Stretch plateau(std::span<const double> force) {
   const Blocks blocks = blocks_of(force);
   if (blocks.level.size() < thresholds::kFewestPlateauBlocks) return whole;
   const Split split = split_of(blocks.level);
-  if (!(split.high > split.low) || std::abs(split.low) > thresholds::kRestLevel * split.high) return whole;
-  Stretch run = longest_above(blocks.level, split);
+  if (!(split.high > split.low)) return whole;
+  const double middle = 0.5 * (split.low + split.high);
+  // Where the sensor's zero is not known, rest is told by its place.
+  const bool rests_at_both_ends = blocks.level.front() <= middle && blocks.level.back() <= middle;
+  if (!rests_at_both_ends && std::abs(split.low) > thresholds::kRestLevel * split.high) return whole;
+  Stretch run = longest_above(blocks.level, middle);
   // What the level does in the middle of the run is how it moves while the body slides.
   const std::size_t edge = (run.end - run.begin) / 4;
   const auto [low, high] = std::minmax_element(blocks.level.begin() + static_cast<std::ptrdiff_t>(run.begin + edge),
                                                blocks.level.begin() + static_cast<std::ptrdiff_t>(run.end - edge));
-  const double movement = *high - *low + blocks.movement;
+  const double movement = *high - *low + (rests_at_both_ends ? 0.0 : blocks.movement);
   const double lowest = *low - 0.5 * movement;
   const double highest = *high + 0.5 * movement;
   if (split.high - split.low < thresholds::kPlateauStep * movement) return whole;

@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 #include <random>
 
+#include "analysis/level_repeats.hpp"
 #include "analysis/short_tests.hpp"
 #include "scene.hpp"
 
@@ -13,6 +15,7 @@ struct Contact {
   double ageing_N = 0.0;  ///< F_s for each factor e of time in stick
   double trend = 0.0;     ///< of F_s over the recording, relative
   int cycles = 60;
+  double wave_N = 0.0;  ///< of the level, with a period of 6 seconds
 };
 
 constexpr double kScatter_N = 0.02;
@@ -37,10 +40,14 @@ Analysis cycles_of(const Contact& contact, std::uint64_t seed) {
     Cycle cycle;
     cycle.used = true;
     cycle.onset_s = cycle.end_s = time_s;
+    cycle.peak_s = time_s;
+    cycle.peak_force = force_N + contact.wave_N * std::sin(std::numbers::pi / 3.0 * time_s);
+    cycle.trough_force = cycle.peak_force - 1.8;
     cycle.onset_force = force_N;
     cycle.level_force = 0.0;
     cycle.recovery_s = 1.8 * force_N;
     analysis.fit->cycles.push_back(cycle);
+    analysis.cycle_table.push_back(cycle);
     before_N = force_N;
   }
   return analysis;
@@ -93,6 +100,40 @@ TEST_CASE("ageing comes back, although a strong contact sticks longer by itself"
     inside += std::abs(*ageing.value - kAgeing_N) < 2.0 * *ageing.standard_error ? 1 : 0;
   }
   CHECK(inside >= 88);  // of 95 expected; the plain slope, 1.2 N, is far outside in all of them
+}
+
+TEST_CASE("a level that repeats over the path is told by its length, scatter and a random walk are not") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const ShortTest wave = find(tests_of({0.0, 0.0, 60, 0.1}, seed), "level_repeats");
+    CHECK(*wave.value == Approx(6.0).epsilon(0.02));  // m, at 1 m/s
+    CHECK(*wave.p_value < 1e-3);
+  }
+  const auto is_told = [](const std::vector<Cycle>& cycles) {
+    const std::optional<ShortTest> test = test_level_repeats(cycles, 1.0);
+    return test && test->p_value && *test->p_value < 0.05;
+  };
+  int of_scatter = 0;
+  int of_walk = 0;
+  constexpr int kRecordings = 400;
+  for (std::uint64_t seed = 1; seed <= kRecordings; ++seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> scatter(0.0, 0.1);
+    std::vector<Cycle> white(40);
+    std::vector<Cycle> walk(40);
+    double level = 0.0;
+    for (std::size_t i = 0; i < white.size(); ++i) {
+      white[i].peak_s = walk[i].peak_s = static_cast<double>(i);
+      white[i].trough_force = scatter(random);
+      white[i].peak_force = white[i].trough_force + 0.5;
+      walk[i].trough_force = level += scatter(random);
+      walk[i].peak_force = walk[i].trough_force + 0.5;
+    }
+    of_scatter += is_told(white) ? 1 : 0;
+    of_walk += is_told(walk) ? 1 : 0;
+  }
+  // At most 20 of 400 expected; above 33 once in 100 recordings of this test.
+  CHECK(of_scatter <= 33);
+  CHECK(of_walk <= 33);
 }
 
 TEST_CASE("short tests: cycles alike to the last digit leave nothing to test, and no infinite number") {

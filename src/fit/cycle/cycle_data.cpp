@@ -206,6 +206,28 @@ std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation
   return Cutter(recording, segmentation, half_width_s, excluded, hum).cut();
 }
 
+CycleData thinned(CycleData cycle, double middle_s, double half_period_s, double step_s) {
+  constexpr double kSamples = 20.0;
+  constexpr double kReach = 2.0;
+  constexpr std::size_t kSmooth = 4;
+  const auto stride = static_cast<std::size_t>(std::max(1.0, half_period_s / step_s / kSamples));
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < cycle.time_s.size(); i += stride) {
+    const bool is_near = std::abs(cycle.time_s[i] - middle_s) <= kReach * half_period_s;
+    if (is_near || i % (kSmooth * stride) == 0) kept.push_back(i);
+  }
+  const auto thin = [&](auto& values) {
+    if (values.empty()) return;
+    for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
+    values.resize(kept.size());
+  };
+  thin(cycle.samples);
+  thin(cycle.time_s);
+  thin(cycle.force);
+  thin(cycle.weight);
+  return cycle;
+}
+
 std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size) {
   if (cycles.size() <= size) return cycles;
   std::vector<CycleData> subset;

@@ -95,6 +95,10 @@ bool is_selected(std::size_t slip, std::size_t slips);
 std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,
                                   const std::vector<std::size_t>& excluded, const HumLines& hum = {});
 
+/// A cycle with some 20 samples in a half period of its slip, enough for its shape, and fewer beyond two half periods
+/// of its middle, where the curve is smooth; sticks as they are. `step_s`: of the clock.
+CycleData thinned(CycleData cycle, double middle_s, double half_period_s, double step_s);
+
 /// So many of the cycles, from the first to the last; all where there are no more. `size`: at least 2.
 std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size);
 

@@ -232,10 +232,9 @@ StaticFriction static_friction_of(const SweepSolution& solution) {
   if (solution.sweep.sharing.difference || !can_show_trend(speeds)) return std::nullopt;
   const Line line = line_over(speeds, differences);
   if (!(line.slope < 0.0)) return std::nullopt;
-  if (within_own_errors(line.residuals, variances_of(solution))) return cutoff_of(LinesOverSticks(solution));
   const boost::math::students_t_distribution<double> by_chance(static_cast<double>(differences.size()) - 2.0);
   const double least = boost::math::quantile(by_chance, 1.0 - thresholds::kAgeingChance) * line.slope_error;
-  if (!(-line.slope > least)) return std::nullopt;
+  if (!(-line.slope > least) && !within_own_errors(line.residuals, variances_of(solution))) return std::nullopt;
   return cutoff_of(LinesOverSticks(solution));
 }
 

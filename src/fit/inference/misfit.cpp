@@ -69,11 +69,15 @@ StackedCycles stacked(const BlockFit& fit, const BlockFit& phases) {
 
 }  // namespace
 
-double stacked_residual(const BlockFit& fit, const BlockFit& phases) {
+StackedResidual stacked_residual(const BlockFit& fit, const BlockFit& phases) {
   const auto [stacks, onset_force] = stacked(fit, phases);
   double square = 0.0;
-  for (const Stack& stack : stacks) square += stack.mean * stack.mean / kSegments;
-  return std::sqrt(square) / std::abs(onset_force);
+  double variance = 0.0;
+  for (const Stack& stack : stacks) {
+    square += stack.mean * stack.mean / kSegments;
+    if (stack.count > 1.0) variance += std::pow(stack.standard_error(), 2) / kSegments;
+  }
+  return {std::sqrt(square) / std::abs(onset_force), std::sqrt(variance) / std::abs(onset_force)};
 }
 
 std::optional<std::size_t> segment_of(const CycleState& state, double time_s) {

@@ -24,9 +24,15 @@ std::optional<std::size_t> segment_of(const CycleState& state, double time_s);
 /// standard errors over the cycles) and matters (1 % of the onset force, `tolerated` on top); below 5 cycles.
 std::optional<SegmentMisfit> find_misfit(const BlockFit& fit, double tolerated);
 
-/// Root mean square over the stretches of their mean residuals over the cycles, over the mean onset force. The
-/// stretches are those of the slips of `phases`, a fit of the same recording: two fits compare on the same samples.
-double stacked_residual(const BlockFit& fit, const BlockFit& phases);
+/// Root mean square over the stretches of a slip, over the mean onset force.
+struct StackedResidual {
+  double size = 0.0;       ///< of the mean residuals over the cycles
+  double by_chance = 0.0;  ///< of their standard errors
+};
+
+/// The stretches are those of the slips of `phases`, a fit of the same recording or of more of its cycles: two fits
+/// compare on the same samples.
+StackedResidual stacked_residual(const BlockFit& fit, const BlockFit& phases);
 
 /// Adds the jackknife over the stretches: what the estimates owe to one part of the slip alone. Each row of `moves`:
 /// what a refit without one stretch moves the coordinates by.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/uncertainty.hpp"
 
@@ -71,6 +72,10 @@ std::vector<Part> parts_of(const BlockFit& fit, double variance_s2, double avera
 }
 
 }  // namespace
+
+bool Smoothing::exceeds_step(double sample_interval_s) const {
+  return variance_s2 - thresholds::kRoundedSigmas * standard_error_s2 > sample_interval_s * sample_interval_s / 12.0;
+}
 
 std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& held, double sample_interval_s) {
   const double known_s = fit.scales().sensor_average_s;

@@ -13,6 +13,12 @@ struct Smoothing {
   double variance_s2 = 0.0;  ///< sigma^2 that the rounding of onset and end of the slips shows; may be negative
   double standard_error_s2 = 0.0;
   Coordinates move_per_s2 = Coordinates::Zero();  ///< from the fit's coordinates to those with it in the model
+
+  /// Beyond what averaging over one step of the clock explains.
+  [[nodiscard]] bool exceeds_step(double sample_interval_s) const;
+  /// sigma^2 that what is seen allows for. The move per sigma^2 is that of little averaging: a quarter more of what is
+  /// seen allows for the bend.
+  [[nodiscard]] double largest_variance_s2() const { return 1.25 * variance_s2 + 2.0 * standard_error_s2; }
 };
 
 /// sigma^2 as one parameter more at the solution of the fit: one Gauss-Newton step, errors from the scatter over the

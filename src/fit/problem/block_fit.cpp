@@ -42,4 +42,10 @@ double BlockFit::cycle_sum_of_squares(std::size_t cycle) const {
   return sum;
 }
 
+double resting_share(const BlockFit& fit) {
+  double resting = 0.0;
+  for (std::size_t i = 0; i < fit.size(); ++i) resting += fit.state(i).resticks() ? 1.0 : 0.0;
+  return resting / static_cast<double>(fit.size());
+}
+
 }  // namespace slipfit::fit

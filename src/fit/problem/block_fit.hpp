@@ -48,6 +48,9 @@ class BlockFit {
   std::vector<CycleModel> models_;
 };
 
+/// Share of the slips that come to rest at the solution, under a law in closed form.
+double resting_share(const BlockFit& fit);
+
 /// What the recordings of a sweep have in common beside the globals; otherwise each has its own.
 struct Sharing {
   bool level = false;       ///< F_k(0+): no sensor zero or run-to-run friction between them

@@ -106,8 +106,8 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
   const std::optional<Smoothing> seen =
       &blocks == &fit.blocks ? fit.rounding : estimate_smoothing(blocks, fit.held, step_s);
   if (!seen) return result;
-  const bool rounded = !repeats_rounding(fit) && is_rounding(*seen, step_s);
-  result.one_sided = (rounded ? largest_variance_s2(*seen) : step_s * step_s / 12.0) * seen->move_per_s2;
+  const bool rounded = !repeats_rounding(fit) && seen->exceeds_step(step_s);
+  result.one_sided = (rounded ? seen->largest_variance_s2() : step_s * step_s / 12.0) * seen->move_per_s2;
   const double change = std::abs(result.one_sided(kLogFrequency));
   if (rounded) {
     const double average_s = std::sqrt(12.0 * seen->variance_s2);

@@ -59,7 +59,7 @@ std::optional<double> common_rounding_s2(std::span<const SweepRecording> recordi
   }
   if (!(weights > 0.0)) return std::nullopt;
   const Smoothing together{sum / weights, 1.0 / std::sqrt(weights)};
-  return is_rounding(together, longest_step_s) ? std::optional(largest_variance_s2(together)) : std::nullopt;
+  return together.exceeds_step(longest_step_s) ? std::optional(together.largest_variance_s2()) : std::nullopt;
 }
 
 }  // namespace

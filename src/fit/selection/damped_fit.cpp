@@ -50,12 +50,11 @@ class Fitter {
     if (cycles_.size() < thresholds::kFewestFitted) return std::nullopt;
     scales_.time_begin_s = cycles_.front().window_begin_s;
     scales_.time_end_s = cycles_.back().window_end_s;
-    if (!segmentation_.mains_Hz.empty()) {
-      const HumLines hum{segmentation_.mains_Hz, scales_.time_begin_s};
+    const LevelModel level = first_level();
+    if (!level.lines_Hz.empty()) {
+      const HumLines hum{level.lines_Hz, scales_.time_begin_s};
       cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), first_excluded, hum);
     }
-
-    const LevelModel level = first_level();
     const std::vector<CycleData> probe = spread_subset(cycles_, std::max<std::size_t>(kProbeCycles, 3 * level.terms));
     std::optional<BlockFit> start = fit_probe(probe, level);
     if (!start) return std::nullopt;
@@ -116,9 +115,10 @@ class Fitter {
     start_ = fit->parameters.globals;
     // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
     if (!std::isfinite(solve(*fit, {held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
-    if (!level.per_cycle && probe.size() > level.terms && reduced_chi2(*fit) > thresholds::kSuspectChi2) {
-      std::optional<BlockFit> wandering =
-          fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.globals, kProbeIterations, kRough);
+    const bool may_wander = near_.level_per_cycle || reduced_chi2(*fit) > thresholds::kSuspectChi2;
+    if (!level.per_cycle && probe.size() > level.terms && may_wander) {
+      const Globals globals = near_.globals.value_or(fit->parameters.globals);
+      auto wandering = fit_from(probe, {true, 0, level.lines_Hz}, globals, kProbeIterations, kRough);
       if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
     }
     refuse_negative_damping(*fit, kRough);
@@ -129,7 +129,7 @@ class Fitter {
     const Uncertainty rich = estimate_uncertainty(wandering, {held_, false});
     const Uncertainty poor = estimate_uncertainty(polynomial, {held_, false});
     const auto extra = static_cast<double>(wandering.size() - polynomial.level().terms);
-    const double noise2 = rich.noise * rich.noise / (scales_.noise * scales_.noise);
+    const double noise2 = std::pow(rich.noise / scales_.noise, 2);
     return (poor.chi2 - rich.chi2) / extra > thresholds::kWanderingRatio * noise2;
   }
 

@@ -16,6 +16,7 @@ namespace slipfit::fit {
 struct Near {
   std::optional<Globals> globals{};  ///< empty: where the features of the slips lead
   std::vector<std::size_t> excluded{};
+  bool level_per_cycle = false;  ///< the other one has a level of its own in every cycle, which is tried then
 };
 
 /// `fit_damped` without what finish_fit adds to the uncertainty: all that a comparison of fits needs.

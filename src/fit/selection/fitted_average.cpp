@@ -41,7 +41,7 @@ std::vector<double> guesses_s(const Recording& recording, const DampedFit& plain
   const BlockFit& blocks = plain.blocks;
   const double of_fall_s = 0.7 * blocks.scales().half_period_s;
   const std::optional<Smoothing>& seen = plain.rounding;
-  if (!seen || !is_rounding(*seen, recording.sample_interval_s())) return {};
+  if (!seen || !seen->exceeds_step(recording.sample_interval_s())) return {};
   if (plain.refused_damping) return {of_fall_s};
   return {std::sqrt(12.0 * seen->variance_s2), of_fall_s};
 }
@@ -67,8 +67,8 @@ class Trials {
   [[nodiscard]] std::optional<Trial> fit(double variance_s2, const Globals& near) const {
     constexpr int kMostFits = 3;
     std::optional<Trial> best;
-    std::optional<DampedFit> fit =
-        draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_, {near, plain_.excluded});
+    std::optional<DampedFit> fit = draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_,
+                                                {near, plain_.excluded, plain_.blocks.level().per_cycle});
     for (int fits = 1; fit; ++fits) {
       const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
       if (!beyond) break;
@@ -102,12 +102,6 @@ class Trials {
   const HeldParameters& held_;
   const DampedFit& plain_;  // without an average
 };
-
-double resting_share(const BlockFit& blocks) {
-  double resting = 0.0;
-  for (std::size_t i = 0; i < blocks.size(); ++i) resting += blocks.state(i).resticks() ? 1.0 : 0.0;
-  return resting / static_cast<double>(blocks.size());
-}
 
 /// Twice the logarithm of the likelihood of one fit over that of another, each at its best noise.
 double gain_of(const DampedFit& fit, const DampedFit& other) {
@@ -186,7 +180,7 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
   const KernelSearch comparison(recording, segmentation, held, plain, width_s + kForgottenLags * longest_lag_s,
                                 kCompareCycles);
   const std::optional<KernelSearch::Least> best = best_average(variances_s2, comparison, plain);
-  if (!best) return std::nullopt;
+  if (!best || best->resting < thresholds::kRestickShare) return std::nullopt;
   std::optional<Trial> trial =
       Trials(recording, quality, segmentation, held, plain).fit(best->variance_s2, best->globals);
   const bool is_better = trial && follows_slips(trial->fit) && gain_of(trial->fit, plain) > thresholds::kTierPrice;
@@ -212,15 +206,6 @@ std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality
 
 bool repeats_rounding(const DampedFit& fit) {
   return fit.uncertainty.from_refits && !fit.misfit;
-}
-
-bool is_rounding(const Smoothing& seen, double sample_interval_s) {
-  return seen.variance_s2 - thresholds::kRoundedSigmas * seen.standard_error_s2 >
-         sample_interval_s * sample_interval_s / 12.0;
-}
-
-double largest_variance_s2(const Smoothing& seen) {
-  return 1.25 * seen.variance_s2 + 2.0 * seen.standard_error_s2;
 }
 
 }  // namespace slipfit::fit

@@ -29,11 +29,4 @@ std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality
 /// is known.
 bool repeats_rounding(const DampedFit& fit);
 
-/// Beyond what averaging over one step of the clock explains.
-bool is_rounding(const Smoothing& seen, double sample_interval_s);
-
-/// sigma^2 that what is seen allows for. The move per sigma^2 is that of little averaging: a quarter more of what is
-/// seen allows for the bend.
-double largest_variance_s2(const Smoothing& seen);
-
 }  // namespace slipfit::fit

@@ -21,26 +21,6 @@ constexpr double kShrinking = 0.8;
 constexpr double kWorthMoreSteps = 0.75;  // misfit over that of the plain fit
 constexpr double kWorthAllCycles = 0.5;
 
-/// Every so many samples of the slip, fewer beyond `reach_s` of its middle, where the curve is smooth; sticks as they
-/// are.
-CycleData thinned(CycleData cycle, std::size_t stride, double middle_s, double reach_s) {
-  constexpr std::size_t kSmooth = 4;
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < cycle.time_s.size(); i += stride) {
-    if (std::abs(cycle.time_s[i] - middle_s) <= reach_s || i % (kSmooth * stride) == 0) kept.push_back(i);
-  }
-  const auto thin = [&](auto& values) {
-    if (values.empty()) return;
-    for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
-    values.resize(kept.size());
-  };
-  thin(cycle.samples);
-  thin(cycle.time_s);
-  thin(cycle.force);
-  thin(cycle.weight);
-  return cycle;
-}
-
 /// Those of the cycles that the fit could use.
 std::vector<CycleData> used_by(const BlockFit& fit, std::vector<CycleData> cycles) {
   std::vector<std::size_t> used;
@@ -63,17 +43,14 @@ KernelSearch::KernelSearch(const Recording& recording, const Segmentation& segme
       step_s_(recording.sample_interval_s()),
       plain_(plain.blocks),
       plain_misfit_(plain.misfit) {
-  constexpr double kSamples = 20.0;  // of a half period: enough for its shape
-  constexpr double kReach = 2.0;     // half periods
   const Scales& scales = plain_.scales();
   const HumLines hum{plain_.level().lines_Hz, scales.time_begin_s};
   std::vector<CycleData> cycles =
       spread_subset(used_by(plain_, cut_cycles(recording, segmentation, half_width_s, plain.excluded, hum)), count);
-  const auto stride = static_cast<std::size_t>(std::max(1.0, scales.half_period_s / step_s_ / kSamples));
   std::vector<double> middles_s;
   for (CycleData& cycle : cycles) {
     middles_s.push_back(segmentation.slips[cycle.slip].middle_s);
-    cycle = thinned(std::move(cycle), stride, middles_s.back(), kReach * scales.half_period_s);
+    cycle = thinned(std::move(cycle), middles_s.back(), scales.half_period_s, step_s_);
   }
   cycles_ = std::make_shared<CycleSet>(std::move(cycles), std::move(middles_s), plain_.level(), scales);
 }
@@ -111,7 +88,7 @@ KernelSearch::Least KernelSearch::least_squares(Kernel kernel, double variance_s
     if (!held) break;
     double sum = 0.0;
     for (std::size_t i = 0; i < fit.size(); ++i) sum += fit.cycle_sum_of_squares(i);
-    if (sum < least.sum) least = {sum, variance_s2, fit.parameters.globals};
+    if (sum < least.sum) least = {sum, variance_s2, fit.parameters.globals, resting_share(fit)};
     const std::optional<Smoothing> beyond = estimate_smoothing(fit, *held, step_s_);
     if (!beyond) break;
     const double next_s2 = next_variance_s2(variance_s2, *beyond);

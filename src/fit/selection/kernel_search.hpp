@@ -36,6 +36,7 @@ class KernelSearch {
     double sum = std::numeric_limits<double>::infinity();
     double variance_s2 = 0.0;
     Globals globals{};
+    double resting = 0.0;  ///< share of the slips that come to rest
   };
   /// The least over a few of Newton's steps; infinity without a solution.
   [[nodiscard]] Least least_squares(Kernel kernel, double variance_s2) const;

@@ -23,6 +23,8 @@ namespace slipfit::fit {
 namespace {
 
 constexpr std::size_t kTrialCycles = 16;
+constexpr std::size_t kSomeCycles = 64;  // enough to see that the slips are explained no better
+constexpr double kHopeful = 1.1 * thresholds::kHalvedStack;
 constexpr int kOwnIterations = 6;  // of onsets and forces by themselves
 constexpr int kTrialIterations = 40;
 constexpr int kFullIterations = 60;
@@ -71,12 +73,15 @@ class WeakeningFitter {
     scales_.slip_distance_m = scales_.force / std::exp(coulomb.blocks.parameters.globals[kLogStiffness]);
   }
 
-  /// Empty where no start converges or the cycles do not tell the shared parameters apart.
+  /// Empty where no start converges, where it is far from explaining the slips better or where the cycles do not tell
+  /// the shared parameters apart.
   [[nodiscard]] std::optional<DampedFit> fit() {
     const std::vector<CycleData> cycles = same_cycles();
     if (cycles.size() < thresholds::kFewestFitted) return std::nullopt;
-    const std::optional<Globals> start = best_start(spread_subset(cycles, kTrialCycles));
+    const std::optional<Globals> start = best_start(some_of(cycles, kTrialCycles));
     if (!start) return std::nullopt;
+    const std::vector<CycleData> some = some_of(cycles, kSomeCycles);
+    if (2 * samples_of(some) < samples_of(cycles) && !explains(some, *start)) return std::nullopt;
     std::optional<BlockFit> blocks = solved(cycles, *start);
     if (!blocks) return std::nullopt;
     exclude_outliers_of(*blocks);
@@ -110,6 +115,32 @@ class WeakeningFitter {
     BlockFit blocks = blocks_of(cycles);
     const bool is_solved = std::isfinite(solve_from(blocks, start, final_options(held_))) && has_slips(blocks);
     return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
+  }
+
+  /// So many of the cycles, their slips with no more samples than their shape needs.
+  [[nodiscard]] std::vector<CycleData> some_of(const std::vector<CycleData>& cycles, std::size_t count) const {
+    std::vector<CycleData> some = spread_subset(cycles, count);
+    for (CycleData& cycle : some) {
+      const double middle_s = input_.segmentation.slips[cycle.slip].middle_s;
+      cycle = thinned(std::move(cycle), middle_s, scales_.half_period_s, input_.recording.sample_interval_s());
+    }
+    return some;
+  }
+
+  [[nodiscard]] static std::size_t samples_of(const std::vector<CycleData>& cycles) {
+    std::size_t samples = 0;
+    for (const CycleData& cycle : cycles) samples += cycle.time_s.size();
+    return samples;
+  }
+
+  /// The law may miss so much less of the mean shape of a slip that it is taken, as far as these cycles show.
+  [[nodiscard]] bool explains(const std::vector<CycleData>& cycles, const Globals& start) const {
+    if (coulomb_.average) return true;
+    const std::optional<BlockFit> blocks = solved(cycles, start);
+    if (!blocks) return false;
+    const StackedResidual after = stacked_residual(*blocks, coulomb_.blocks);
+    const double most = kHopeful * stacked_residual(coulomb_.blocks, coulomb_.blocks).size;
+    return after.size * after.size - after.by_chance * after.by_chance < most * most;
   }
 
   /// The best zeta is below 0 clearly, or it is not told.
@@ -210,8 +241,8 @@ std::string hindrance(const FitInput& input, const DampedFit& coulomb) {
 /// Sets what the fit says for and against it.
 Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& coulomb, double gain) {
   const double sigmas = sigmas_of_distance(fit);
-  const double before = stacked_residual(coulomb.blocks, coulomb.blocks);
-  const double after = stacked_residual(fit.blocks, coulomb.blocks);
+  const double before = stacked_residual(coulomb.blocks, coulomb.blocks).size;
+  const double after = stacked_residual(fit.blocks, coulomb.blocks).size;
   candidate.reason = fmt::format(
       "AICc {:.1f} {} than under Coulomb friction, D_c {:.1f} of its standard errors, mean residual over the phase of "
       "the slip {:.2g} % of the onset force in place of {:.2g} %",
@@ -241,7 +272,8 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb) {
   if (!trial.candidate.reason.empty()) return trial;
   trial.fit = WeakeningFitter(input, coulomb).fit();
   if (!trial.fit) {
-    trial.candidate.reason = "no slip distance between 0 and (F_s - F_k) / k fits the slips";
+    trial.candidate.reason =
+        "no slip distance between 0 and (F_s - F_k) / k halves what the slips of Coulomb friction miss";
     return trial;
   }
   const double effective = effective_samples(*trial.fit);

@@ -1,0 +1,144 @@
+#include "analysis/level_repeats.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "core/thresholds.hpp"
+
+namespace slipfit {
+namespace {
+
+constexpr double kFewestWaves = 3.0;     // in the recording: fewer are a drift
+constexpr double kMostWaves = 0.45;      // of the slips: beyond half of them two frequencies look alike
+constexpr double kStep = 0.25;           // of a wave, between two that are tried
+constexpr std::size_t kMostSlips = 256;  // from the first on
+
+/// Values at places between 0 and 1.
+struct Series {
+  Eigen::VectorXd place;
+  Eigen::VectorXd value;
+
+  [[nodiscard]] Eigen::Index size() const { return place.size(); }
+};
+
+/// A sine fitted to a series beside its mean and its trend.
+struct Sine {
+  double waves = 0.0;
+  double amplitude = 0.0;
+  double rest = 1.0;  ///< share of the sum of squares about the trend that it leaves
+};
+
+Eigen::MatrixXd trend_of(const Series& series) {
+  Eigen::MatrixXd trend(series.size(), 2);
+  trend << Eigen::VectorXd::Ones(series.size()), series.place;
+  return trend;
+}
+
+Eigen::VectorXd without_trend(const Series& series) {
+  const Eigen::MatrixXd trend = trend_of(series);
+  return series.value - trend * trend.colPivHouseholderQr().solve(series.value);
+}
+
+Sine sine_in(const Series& series, double waves) {
+  const Eigen::ArrayXd phase = 2.0 * std::numbers::pi * waves * series.place.array();
+  Eigen::MatrixXd columns(series.size(), 4);
+  columns << trend_of(series), phase.cos().matrix(), phase.sin().matrix();
+  const Eigen::VectorXd fitted = columns.colPivHouseholderQr().solve(series.value);
+  const double all = without_trend(series).squaredNorm();
+  const double rest = (series.value - columns * fitted).squaredNorm();
+  return {waves, std::hypot(fitted[2], fitted[3]), all > 0.0 ? rest / all : 1.0};
+}
+
+/// Number of waves of the sine that explains most of a series. Three waves and more hardly correlate with its trend.
+double best_waves(const Series& series) {
+  const Eigen::ArrayXd value = without_trend(series);
+  const std::complex<double> turn(0.0, 2.0 * std::numbers::pi);
+  const Eigen::ArrayXcd step = (turn * kStep * series.place.array()).exp();
+  Eigen::ArrayXcd wave = (turn * kFewestWaves * series.place.array()).exp();
+  double best = kFewestWaves;
+  double best_power = 0.0;
+  const double most = kMostWaves * static_cast<double>(series.size());
+  for (double waves = kFewestWaves; waves <= most; waves += kStep) {
+    const double power = std::norm((wave * value).sum());
+    if (power > best_power) best = waves;
+    best_power = std::max(best_power, power);
+    wave *= step;
+  }
+  return best;
+}
+
+/// Chance that white scatter leaves as little beside the best of all sines. Half as many of them as there are values
+/// are independent.
+double chance_of(const Sine& sine, const Series& series) {
+  const auto count = static_cast<double>(series.size());
+  return std::min(1.0, 0.5 * count * std::pow(sine.rest, 0.5 * (count - 4.0)));
+}
+
+/// Middle between peak and trough of each slip.
+Series levels_of(std::span<const Cycle> cycles) {
+  const auto count = static_cast<Eigen::Index>(cycles.size());
+  Series levels{Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  const double span_s = cycles.back().peak_s - cycles.front().peak_s;
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    levels.place[row] = (cycles[i].peak_s - cycles.front().peak_s) / span_s;
+    levels.value[row] = 0.5 * (cycles[i].peak_force + cycles[i].trough_force);
+  }
+  return levels;
+}
+
+/// From each to the next: of a random walk white scatter.
+Series differences_of(const Series& levels) {
+  const Eigen::Index steps = levels.size() - 1;
+  return {0.5 * (levels.place.head(steps) + levels.place.tail(steps)),
+          levels.value.tail(steps) - levels.value.head(steps)};
+}
+
+double mean_drop(std::span<const Cycle> cycles) {
+  double sum = 0.0;
+  for (const Cycle& cycle : cycles) sum += cycle.peak_force - cycle.trough_force;
+  return sum / static_cast<double>(cycles.size());
+}
+
+}  // namespace
+
+std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, double speed_m_per_s) {
+  if (cycles.size() < thresholds::kFewestOfWave) return std::nullopt;
+  cycles = cycles.first(std::min(cycles.size(), kMostSlips));
+  const auto count = static_cast<double>(cycles.size());
+  const Series levels = levels_of(cycles);
+  const Sine best = sine_in(levels, best_waves(levels));
+  const double swing = 2.0 * best.amplitude / mean_drop(cycles);
+  if (!(swing > thresholds::kSmallestWave)) {
+    return ShortTest{"level_repeats",
+                     {},
+                     {},
+                     {},
+                     fmt::format("no wave of the force level is above {:g} % of the mean drop, which peaks between two "
+                                 "samples make by themselves",
+                                 100.0 * thresholds::kSmallestWave)};
+  }
+  const Series differences = differences_of(levels);
+  const double p = std::max(chance_of(best, levels), chance_of(sine_in(differences, best.waves), differences));
+  const double path_m = speed_m_per_s * (cycles.back().peak_s - cycles.front().peak_s) / best.waves;
+  // Of the frequency of a sine in white scatter: sqrt(6 / n) sigma / (pi amplitude) waves
+  const double scatter = std::sqrt(0.5 * best.rest / (1.0 - best.rest));
+  const double se_m = path_m * std::sqrt(6.0 / count) / std::numbers::pi * scatter / best.waves;
+  const bool is_proven = p < thresholds::kProven;
+  return ShortTest{
+      "level_repeats", path_m, se_m, p,
+      fmt::format("the force level swings by {:.2g} % of the mean drop once every {:.3g} slips or {:.3g} mm of "
+                  "sliding: {} at the {:g} % level (p {:.2g}){}",
+                  100.0 * swing, (count - 1.0) / best.waves, 1e3 * path_m, is_proven ? "proven" : "not proven",
+                  100.0 * thresholds::kProven, p,
+                  is_proven ? "; texture of the counterface repeats over one path at every speed, a wave of the drive "
+                              "or of the sensor after one time"
+                            : "")};
+}
+
+}  // namespace slipfit

@@ -1,0 +1,69 @@
+// What slips keep: their own rhythm across lost samples, and the path over which a level repeats.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/sweep_checks.hpp"
+#include "checks.hpp"
+#include "slipfit/pipeline.hpp"
+
+namespace slipfit {
+namespace {
+
+constexpr double kStep_s = 1e-3;
+constexpr double kPeriod_s = 0.5;
+
+/// 40 saw-teeth of 1 N, of which 30 samples are lost in the middle of one stick while the clock runs on.
+Recording saw_teeth_with_loss(std::size_t tooth) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0.0, 0.003);
+  std::vector<double> time_s, force;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(40.0 * kPeriod_s / kStep_s); ++i) {
+    const double phase = std::fmod(static_cast<double>(i) * kStep_s / kPeriod_s, 1.0);
+    const bool is_lost = i / 500 == tooth && i % 500 >= 250 && i % 500 < 280;
+    if (is_lost) continue;
+    const double fall = 0.5 * (1.0 + std::cos(M_PI * (phase - 0.95) / 0.05));
+    time_s.push_back(static_cast<double>(time_s.size()) * kStep_s);
+    force.push_back(2.0 + (phase < 0.95 ? phase / 0.95 : fall) + noise(random));
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = 1e-3;
+  return Recording::create(std::move(time_s), std::move(force), conditions).value();
+}
+
+SweepEntry entry_at(double speed_m_per_s) {
+  Conditions conditions;
+  conditions.speed_m_per_s = speed_m_per_s;
+  return {"run", Recording::create({0.0, 1.0}, {0.0, 1.0}, conditions).value()};
+}
+
+Analysis repeating_over(double path_m) {
+  Analysis analysis;
+  analysis.tests.push_back({"level_repeats", path_m, 1e-3 * path_m, 1e-9, {}});
+  return analysis;
+}
+
+}  // namespace
+
+TEST_CASE("samples lost in one stick while the clock runs on are in no frequency") {
+  const Analysis analysis = analyze_and_fit(saw_teeth_with_loss(20), {});
+  CHECK(warns(analysis, "broken_rhythm"));
+  CHECK(holds(analysis.frequency.quoted, 1.0 / kPeriod_s));
+  CHECK_FALSE(warns(analyze_and_fit(saw_teeth_with_loss(100), {}), "broken_rhythm"));
+}
+
+TEST_CASE("levels that repeat over one path at all speeds are texture, after one time a wave of the drive") {
+  const std::vector<SweepEntry> entries{entry_at(1e-3), entry_at(3e-3)};
+  const Warnings texture = check_level_repeats(entries, {repeating_over(5e-3), repeating_over(5.1e-3)});
+  REQUIRE(texture.size() == 1);
+  CHECK(texture.front().message.find("5 mm of sliding at every speed: texture") != std::string::npos);
+  const Warnings clock = check_level_repeats(entries, {repeating_over(5e-3), repeating_over(15e-3)});
+  REQUIRE(clock.size() == 1);
+  CHECK(clock.front().message.find("5 s at every speed") != std::string::npos);
+  CHECK(check_level_repeats(entries, {repeating_over(5e-3), repeating_over(9e-3)}).empty());
+}
+
+}  // namespace slipfit
