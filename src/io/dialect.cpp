@@ -74,10 +74,14 @@ bool is_worth_trying(const Dialect& dialect, std::string_view all) {
   return dialect.delimiter == '\0' || holds(dialect.delimiter);
 }
 
+bool is_one_number(std::string_view line) {
+  return read_cell(line, true).kind == CellKind::Number;
+}
+
 /// "0,51" below a single name ("Kraft [N]") is one number, not two columns.
 bool is_single_column(const std::vector<std::string_view>& lines) {
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-    if (read_cell(lines[i + 1], true).kind != CellKind::Number) continue;
+    if (!is_one_number(lines[i + 1])) continue;
     const ColumnName name = read_name(lines[i], {});
     return lines[i].find(',') == std::string_view::npos && (name.role != Role::Unknown || !name.unit.empty());
   }
@@ -127,7 +131,8 @@ std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines) 
     best = dialect;
     best_score = found;
   }
-  if (best && best->delimiter == ',' && !best->decimal_comma && best_score.columns == 2 && is_single_column(lines)) {
+  const bool are_pairs = best && best->delimiter == ',' && !best->decimal_comma && best_score.columns == 2;
+  if (are_pairs && std::any_of(tried.begin(), tried.end(), is_one_number) && is_single_column(lines)) {
     return Dialect{'\0', true};
   }
   return best;
