@@ -87,8 +87,11 @@ double score_of(const Look& look, double noise) {
   if (look.falls.size() == 1 && static_cast<double>(first.peak.at) < thresholds::kLeastAlone * length) return 0.0;
   constexpr double kClear = 40.0;  // beyond, a larger fall is no better seen
   const double stands_out = 1.0 / (1.0 / kClear + noise / look.drop);
+  // Rises twice as long as the falls may be those of a wave on a ramp: they say little more than equal ones.
   const double asymmetry = look.falls.size() == 1 ? 1.0 : std::min(look.asymmetry, kMostAsymmetry);
-  return stands_out * std::sqrt(static_cast<double>(look.falls.size())) * asymmetry;
+  constexpr double kRise = kMostAsymmetry / (kMostAsymmetry - 1.0);
+  const double sudden = std::max(std::min(asymmetry, kRise), kRise * (asymmetry - 1.0));
+  return stands_out * std::sqrt(static_cast<double>(look.falls.size())) * sudden;
 }
 
 /// What one scale shows best.
