@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <string_view>
 #include <utility>
 
 #include "commands.hpp"
@@ -71,26 +72,51 @@ std::vector<std::string> with_quantities_joined(const std::vector<std::string>& 
   return joined;
 }
 
+struct Command {
+  std::string_view name;
+  void (*add)(CLI::App& program, const std::string& typed_line);
+};
+
+template <void (*Add)(CLI::App&)>
+void without_line(CLI::App& program, const std::string& /*typed_line*/) {
+  Add(program);
+}
+
+/// In the order of the help.
+constexpr std::array kCommands = std::to_array<Command>({
+    {"analyze", add_analyze_command},
+    {"fit", add_fit_command},
+    {"info", without_line<add_info_command>},
+    {"simulate", without_line<add_simulate_command>},
+    {"predict", without_line<add_predict_command>},
+    {"plan", without_line<add_plan_command>},
+    {"figures", without_line<add_figures_command>},
+    {"compare", add_compare_command},
+#ifndef SLIPFIT_SINGLE_PROCESS
+    {"batch", without_line<add_batch_command>},
+    {"merge", without_line<add_merge_command>},
+#endif
+    {"manifest", without_line<add_manifest_command>},
+    {"surface", add_surface_command},
+});
+
+/// Only the command that is called, where one is: all options of all of them would be a fifth of the start-up.
+void add_commands(CLI::App& program, const std::string& first_argument, const std::string& typed_line) {
+  const auto is_called = [&](const Command& command) { return command.name == first_argument; };
+  const bool is_one = std::any_of(kCommands.begin(), kCommands.end(), is_called);
+  if (first_argument == "--version") return;
+  for (const Command& command : kCommands) {
+    if (!is_one || is_called(command)) command.add(program, typed_line);
+  }
+}
+
 void run(CLI::App& program, std::vector<std::string> words, const std::string& typed_line) {
   program.set_version_flag("--version", std::string("slipfit ") + SLIPFIT_VERSION);
   program.require_subcommand(1);
   program.footer(
       "Exit codes: 0 analysed, 1 some recordings of a batch failed, 2 wrong usage, 3 recording unreadable or without "
       "anything usable.");
-  add_analyze_command(program, typed_line);
-  add_fit_command(program, typed_line);
-  add_info_command(program);
-  add_simulate_command(program);
-  add_predict_command(program);
-  add_plan_command(program);
-  add_figures_command(program);
-  add_compare_command(program, typed_line);
-#ifndef SLIPFIT_SINGLE_PROCESS
-  add_batch_command(program);
-  add_merge_command(program);
-#endif
-  add_manifest_command(program);
-  add_surface_command(program, typed_line);
+  add_commands(program, words.size() > 1 ? words[1] : "", typed_line);
   check_command(program, words.size() > 1 ? words[1] : "");
   words = with_quantities_joined({words.begin() + std::min<std::ptrdiff_t>(1, std::ssize(words)), words.end()});
   std::reverse(words.begin(), words.end());  // as CLI11 takes them

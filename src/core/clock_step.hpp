@@ -15,6 +15,6 @@ struct ClockOrder {
 ClockOrder order_of(std::span<const double> time_s);
 
 /// Median of the steps that are not zero, s; 0 where there is none. `time_s` never decreases.
-double median_positive_step(const std::vector<double>& time_s);
+double median_positive_step(std::span<const double> time_s);
 
 }  // namespace slipfit

@@ -23,7 +23,7 @@ void flush_to_zero(std::vector<double>& values) {
   for (double& value : values) value = std::abs(value) < kSmallest ? 0.0 : value;
 }
 
-bool is_even(const std::vector<double>& time_s) {
+bool is_even(std::span<const double> time_s) {
   const double begin = time_s.front();
   const double step = (time_s.back() - begin) / static_cast<double>(time_s.size() - 1);
   const double bound = 0.25 * step;
@@ -57,16 +57,19 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
   Recording empty;
   empty.conditions_ = std::move(conditions);
   empty.provenance_ = std::move(provenance);
-  Recording recording = empty.with_samples(std::move(time_s), std::move(force));
+  const std::size_t size = time_s.size();
+  auto samples = std::make_shared<const Samples>(Samples{std::move(time_s), std::move(force)});
+  Recording recording = empty.with_samples(std::move(samples), 0, size);
   if (!(recording.sample_interval_s_ >= kSmallest))
     return Error{"time_constant", "the clock steps by less than 1e-36 s"};
   return recording;
 }
 
-Recording Recording::with_samples(std::vector<double> time_s, std::vector<double> force) const {
+Recording Recording::with_samples(std::shared_ptr<const Samples> samples, std::size_t begin, std::size_t end) const {
   Recording recording;
-  recording.time_s_ = std::move(time_s);
-  recording.force_ = std::move(force);
+  recording.samples_ = std::move(samples);
+  recording.time_s_ = std::span(recording.samples_->time_s).subspan(begin, end - begin);
+  recording.force_ = std::span(recording.samples_->force).subspan(begin, end - begin);
   recording.sample_interval_s_ = median_positive_step(recording.time_s_);
   recording.clock_is_even_ = is_even(recording.time_s_);
   recording.conditions_ = conditions_;
@@ -75,21 +78,18 @@ Recording Recording::with_samples(std::vector<double> time_s, std::vector<double
 }
 
 Recording Recording::part(std::size_t begin, std::size_t end) const {
-  const auto cut = [&](const std::vector<double>& values) {
-    return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                               values.begin() + static_cast<std::ptrdiff_t>(end));
-  };
-  return with_samples(cut(time_s_), cut(force_));
+  const auto before = static_cast<std::size_t>(time_s_.data() - samples_->time_s.data());
+  return with_samples(samples_, before + begin, before + end);
 }
 
 Recording Recording::selected(std::span<const std::size_t> samples) const {
-  const auto pick = [&](const std::vector<double>& values) {
+  const auto pick = [&](std::span<const double> values) {
     std::vector<double> picked;
     picked.reserve(samples.size());
     for (const std::size_t i : samples) picked.push_back(values[i]);
     return picked;
   };
-  return with_samples(pick(time_s_), pick(force_));
+  return with_samples(std::make_shared<const Samples>(Samples{pick(time_s_), pick(force_)}), 0, samples.size());
 }
 
 }  // namespace slipfit

@@ -43,12 +43,19 @@ double row_weight(const std::vector<std::string_view>& cells, bool decimal_comma
   return texts == 0.0 ? 1.0 : 0.25 * part * part;
 }
 
-Score score(const std::vector<std::string_view>& lines, const Dialect& dialect) {
+/// Nothing as soon as `least` is out of reach: a line adds 1 at most.
+Score score(const std::vector<std::string_view>& lines, const Dialect& dialect, double least) {
   std::map<std::size_t, double> weight_by_columns;
   std::vector<std::string_view> cells;
+  double most = 0.0;
+  double left = static_cast<double>(lines.size());
   for (const std::string_view line : lines) {
     split(line, dialect.delimiter, cells);
-    weight_by_columns[cells.size()] += row_weight(cells, dialect.decimal_comma);
+    double& weight = weight_by_columns[cells.size()];
+    weight += row_weight(cells, dialect.decimal_comma);
+    most = std::max(most, weight);
+    left -= 1.0;
+    if (most + left < least) return {};
   }
   Score best;
   for (const auto& [columns, weight] : weight_by_columns) {
@@ -67,10 +74,14 @@ bool is_worth_trying(const Dialect& dialect, std::string_view all) {
   return dialect.delimiter == '\0' || holds(dialect.delimiter);
 }
 
+bool is_one_number(std::string_view line) {
+  return read_cell(line, true).kind == CellKind::Number;
+}
+
 /// "0,51" below a single name ("Kraft [N]") is one number, not two columns.
 bool is_single_column(const std::vector<std::string_view>& lines) {
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-    if (read_cell(lines[i + 1], true).kind != CellKind::Number) continue;
+    if (!is_one_number(lines[i + 1])) continue;
     const ColumnName name = read_name(lines[i], {});
     return lines[i].find(',') == std::string_view::npos && (name.role != Role::Unknown || !name.unit.empty());
   }
@@ -112,14 +123,16 @@ std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines) 
   Score best_score;
   for (const Dialect& dialect : kDialects) {
     if (!is_worth_trying(dialect, all)) continue;
-    const Score found = score(tried, dialect);
+    const double equal_weight = best_score.weight * 0.999;
+    const Score found = score(tried, dialect, equal_weight);
     const bool is_better = found.weight > best_score.weight * 1.001;
-    const bool is_equal = found.weight > 0.0 && found.weight >= best_score.weight * 0.999;
+    const bool is_equal = found.weight > 0.0 && found.weight >= equal_weight;
     if (!is_better && !(is_equal && found.columns > best_score.columns)) continue;
     best = dialect;
     best_score = found;
   }
-  if (best && best->delimiter == ',' && !best->decimal_comma && best_score.columns == 2 && is_single_column(lines)) {
+  const bool are_pairs = best && best->delimiter == ',' && !best->decimal_comma && best_score.columns == 2;
+  if (are_pairs && std::any_of(tried.begin(), tried.end(), is_one_number) && is_single_column(lines)) {
     return Dialect{'\0', true};
   }
   return best;

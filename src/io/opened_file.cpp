@@ -97,7 +97,7 @@ LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options)
   const RowPlan plan{file.layout,  choice, options.sample_rate_Hz.value_or(1.0),
                      options.rows, window, expected_rows(file, options)};
   Warnings warnings = file.source->warnings();
-  Rows rows = read_rows(file.name, std::move(file.source), plan);
+  Rows rows = read_rows(std::move(file.source), plan);
   make_forces(rows, choice, file.layout);
   return {std::move(file.name), std::move(file.layout), std::move(choice), options,
           std::move(rows),      std::move(warnings)};

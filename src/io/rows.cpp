@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/short_decimal.hpp"
+#include "io/text_lines.hpp"
 
 namespace slipfit::reading {
 namespace {
@@ -20,12 +21,10 @@ constexpr double kDay_s = 86400.0;
 /// What may be read from a line. `Where` is compared, not kept.
 enum Slot : std::size_t { kTime, kForce, kWay, kNormalForce, kVelocity, kStepNumber, kWhere, kSlots };
 
-/// The numbers of a line; NaN where there is none.
+/// The numbers of a line; NaN where there is none. There is one for all lines: a copy of what was just written stalls.
 struct Reading {
   std::array<double, kSlots> values{};
   bool is_wanted = true;  ///< by --where
-
-  Reading() { values.fill(kNoValue); }
 };
 
 struct WantedColumn {
@@ -59,21 +58,23 @@ class RowReader {
         dialect_(plan.layout.dialect),
         wanted_(wanted_columns(plan.choice)),
         is_clock_(plan.choice.time && plan.choice.time->is_clock) {
+    reading_.values.fill(kNoValue);
     rows_.time_s.reserve(plan.expected_rows);
     rows_.force.reserve(plan.expected_rows);
   }
 
   void add(const char* line, unsigned number) {
-    Reading reading = read_plain(line);
-    if (!is_complete(reading)) {
+    read_plain(line);
+    if (!is_complete()) {
       split(line, dialect_.delimiter, cells_);
-      for (const WantedColumn& wanted : wanted_) reading.values[wanted.slot] = number_at(wanted.column);
-      if (!is_complete(reading) && !is_row()) return count_text_line(line, number);
+      for (const WantedColumn& wanted : wanted_) reading_.values[wanted.slot] = number_at(wanted.column);
+      if (!is_complete() && !is_row()) return count_text_line(line, number);
     }
     ++rows_.count;
     if (plan_.rows && (rows_.count < plan_.rows->first || rows_.count > plan_.rows->last)) return;
-    if (!reading.is_wanted) return;
-    keep(in_SI(reading), number);
+    if (!reading_.is_wanted) return;
+    turn_into_SI();
+    keep(number);
   }
 
   Rows finish() {
@@ -83,16 +84,16 @@ class RowReader {
 
  private:
   [[nodiscard]] bool has_clock() const { return plan_.choice.time.has_value(); }
-  [[nodiscard]] bool is_complete(const Reading& reading) const {
-    return (std::isfinite(reading.values[kTime]) || !has_clock()) && std::isfinite(reading.values[kForce]);
+  [[nodiscard]] bool is_complete() const {
+    return (std::isfinite(reading_.values[kTime]) || !has_clock()) && std::isfinite(reading_.values[kForce]);
   }
-  [[nodiscard]] Reading read_plain(const char* cell) const;
+  void read_plain(const char* cell);
   [[nodiscard]] bool is_where(std::string_view cell, double number) const;
   [[nodiscard]] double number_at(std::size_t column) const;
   [[nodiscard]] bool is_row() const;
-  [[nodiscard]] Reading in_SI(Reading reading);
+  void turn_into_SI();
   void count_text_line(std::string_view line, unsigned number);
-  void keep(const Reading& reading, unsigned number);
+  void keep(unsigned number);
   void note_place(unsigned line);
 
   const RowPlan& plan_;
@@ -104,15 +105,17 @@ class RowReader {
   double low_s_ = std::numeric_limits<double>::infinity();
   double high_s_ = -std::numeric_limits<double>::infinity();
   std::size_t counted_ = 0;
+  Reading reading_;
   std::vector<std::string_view> cells_;  ///< of a line that is not plain
   Rows rows_;
 };
 
 /// Nearly all lines of a recording: what is wanted are plain numbers. NaN where a cell holds anything else. Reads a
 /// number and finds the end of its cell in one go.
-Reading RowReader::read_plain(const char* cell) const {
+void RowReader::read_plain(const char* cell) {
   const char point = dialect_.decimal_comma ? ',' : '.';
-  Reading reading;
+  for (const WantedColumn& wanted : wanted_) reading_.values[wanted.slot] = kNoValue;
+  reading_.is_wanted = true;
   const WantedColumn* wanted = wanted_.data();
   const WantedColumn* const last = wanted + wanted_.size();
   for (std::size_t column = 0;; ++column) {
@@ -129,15 +132,14 @@ Reading RowReader::read_plain(const char* cell) const {
       const std::string_view text(begin, static_cast<std::size_t>(cell - begin));
       const double value = is_whole ? number.value : plain_number(text, dialect_.decimal_comma);
       for (; wanted != last && wanted->column == column; ++wanted) {
-        reading.values[wanted->slot] = value;
-        if (wanted->slot == kWhere) reading.is_wanted = is_where(text, value);
+        reading_.values[wanted->slot] = value;
+        if (wanted->slot == kWhere) reading_.is_wanted = is_where(text, value);
       }
     }
-    if (wanted == last) return reading;
+    if (wanted == last) return;
     if (*cell++ == '\0') break;
   }
-  reading.is_wanted = reading.is_wanted && !plan_.choice.where;  // its cell was not reached
-  return reading;
+  reading_.is_wanted = reading_.is_wanted && !plan_.choice.where;  // its cell was not reached
 }
 
 bool RowReader::is_where(std::string_view cell, double number) const {
@@ -174,9 +176,9 @@ void RowReader::count_text_line(std::string_view line, unsigned number) {
   if (is_names && !rows_.time_s.empty()) rows_.blocks.push_back(rows_.time_s.size());
 }
 
-Reading RowReader::in_SI(Reading reading) {
-  for (const WantedColumn& wanted : wanted_) reading.values[wanted.slot] *= wanted.scale;
-  double& time_s = reading.values[kTime];
+void RowReader::turn_into_SI() {
+  for (const WantedColumn& wanted : wanted_) reading_.values[wanted.slot] *= wanted.scale;
+  double& time_s = reading_.values[kTime];
   if (!has_clock()) {
     time_s = static_cast<double>(counted_++) / *plan_.sample_rate_Hz;
   } else if (is_clock_ && std::isfinite(time_s)) {
@@ -186,27 +188,27 @@ Reading RowReader::in_SI(Reading reading) {
     last_clock_s_ = time_s;
     time_s += midnights_s_;
   }
-  return reading;
 }
 
-void RowReader::keep(const Reading& reading, unsigned number) {
-  const double time_s = reading.values[kTime];
+void RowReader::keep(unsigned number) {
+  const std::array<double, kSlots>& values = reading_.values;
+  const double time_s = values[kTime];
   if (plan_.window && std::isfinite(time_s)) {
     low_s_ = std::min(low_s_, time_s);
     high_s_ = std::max(high_s_, time_s);
     if (time_s < plan_.window->begin_s || time_s > plan_.window->end_s) return;
   }
-  if (!std::isfinite(time_s) || !std::isfinite(reading.values[kForce])) {
+  if (!std::isfinite(time_s) || !std::isfinite(values[kForce])) {
     ++rows_.without_number;
     return;
   }
   note_place(number);
   rows_.time_s.push_back(time_s);
-  rows_.force.push_back(reading.values[kForce]);
-  if (plan_.choice.displacement) rows_.displacement_m.push_back(reading.values[kWay]);
-  if (plan_.choice.normal_force) rows_.normal_force_N.push_back(std::abs(reading.values[kNormalForce]));
-  if (plan_.choice.speed) rows_.speed_m_per_s.push_back(std::abs(reading.values[kVelocity]));
-  if (plan_.choice.step) rows_.step.push_back(reading.values[kStepNumber]);
+  rows_.force.push_back(values[kForce]);
+  if (plan_.choice.displacement) rows_.displacement_m.push_back(values[kWay]);
+  if (plan_.choice.normal_force) rows_.normal_force_N.push_back(std::abs(values[kNormalForce]));
+  if (plan_.choice.speed) rows_.speed_m_per_s.push_back(std::abs(values[kVelocity]));
+  if (plan_.choice.step) rows_.step.push_back(values[kStepNumber]);
 }
 
 void RowReader::note_place(unsigned line) {
@@ -260,13 +262,12 @@ void Rows::keep(const std::vector<std::size_t>& samples) {
   });
 }
 
-Rows read_rows(const std::string& file, std::unique_ptr<TextSource> source, const RowPlan& plan) {
+Rows read_rows(std::unique_ptr<TextSource> source, const RowPlan& plan) {
   RowReader reader(plan);
   const std::shared_ptr<const Digester> digester = source->digester();
-  ::io::LineReader lines(file.c_str(), std::move(source));
-  while (const char* line = lines.next_line()) {
-    const unsigned number = lines.get_file_line();
-    if (number >= plan.layout.first_data_line) reader.add(line, number);
+  TextLines lines(std::move(source));
+  while (const char* line = lines.next()) {
+    if (lines.number() >= plan.layout.first_data_line) reader.add(line, lines.number());
   }
   Rows rows = reader.finish();
   rows.digest = digester->digest();

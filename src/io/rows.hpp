@@ -58,8 +58,7 @@ struct Rows {
   void keep(const std::vector<std::size_t>& samples);
 };
 
-/// One pass, 16 bytes a sample, 8 for each further column, and the reader's own buffer. Throws what LineReader and its
-/// source throw; `file` is the name that it says.
-Rows read_rows(const std::string& file, std::unique_ptr<TextSource> source, const RowPlan& plan);
+/// One pass, 16 bytes a sample, 8 for each further column. Throws what TextLines throws.
+Rows read_rows(std::unique_ptr<TextSource> source, const RowPlan& plan);
 
 }  // namespace slipfit::reading

@@ -17,7 +17,7 @@ namespace slipfit::reading {
 /// The bytes of a text file as io::LineReader wants them: UTF-8 or Latin-1 (UTF-16 is converted), no byte order mark,
 /// lines that end in LF or CRLF (a lone CR becomes LF), no NUL, and a line end behind the last line. (LineReader cuts
 /// lines at NUL, and without a final line end it reads one byte past the data.) `read` throws std::system_error when
-/// the disk fails; LineReader hands that on.
+/// the disk fails; LineReader and TextLines hand that on.
 class TextSource final : public ::io::ByteSourceBase {
  public:
   /// Errors: file_not_found, is_directory, not_readable, empty_file, binary_file.
@@ -34,7 +34,7 @@ class TextSource final : public ::io::ByteSourceBase {
   /// Sentences about what the text was packed in, and its encoding.
   [[nodiscard]] const std::vector<std::string>& assumed() const { return stream_.assumed; }
   [[nodiscard]] const Warnings& warnings() const { return stream_.warnings; }
-  /// Of the file's bytes as they are read; it outlives the source, which a LineReader takes.
+  /// Of the file's bytes as they are read; it outlives the source, which a reader of lines takes.
   [[nodiscard]] std::shared_ptr<const Digester> digester() const { return stream_.digester; }
   [[nodiscard]] bool is_utf16() const { return encoding_ != Encoding::Bytes; }
 

@@ -34,6 +34,8 @@ class WeakeningSlip {
   [[nodiscard]] WeakeningPoint mean_at(double tau, double average) const;
 
  private:
+  friend class WeakeningTrack;
+
   /// Derivatives with respect to z0, zeta, distance.
   using Jet = ceres::Jet<double, 3>;
 
@@ -56,6 +58,7 @@ class WeakeningSlip {
   double tau_end_ = 0.0;
   bool resticks_ = true;
   State end_{};
+  Jet before_, after_;  ///< in the view, of the sticks on either side of the slip, continued to tau = 0
 };
 
 }  // namespace slipfit::model

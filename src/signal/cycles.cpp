@@ -1,5 +1,6 @@
 #include "slipfit/signal/cycles.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -17,16 +18,22 @@ using signal::Fall;
 
 /// Median of three neighbours, impulses held at the last good value before.
 std::vector<double> smooth(std::span<const double> force, const std::vector<bool>& impulses) {
-  std::vector<double> smoothed(force.begin(), force.end());
-  signal::for_each_set(impulses, [&](std::size_t i) {
-    if (i > 0) smoothed[i] = smoothed[i - 1];
-  });
-  double before = smoothed.empty() ? 0.0 : smoothed.front();
-  for (std::size_t i = 1; i + 1 < smoothed.size(); ++i) {
-    const double here = smoothed[i];
-    smoothed[i] = std::clamp(here, std::min(before, smoothed[i + 1]), std::max(before, smoothed[i + 1]));
-    before = here;
+  std::vector<double> held;
+  if (!impulses.empty()) {
+    held.assign(force.begin(), force.end());
+    signal::for_each_set(impulses, [&](std::size_t i) {
+      if (i > 0) held[i] = held[i - 1];
+    });
+    force = held;
   }
+  std::vector<double> smoothed(force.begin(), force.end());
+  if (force.size() < 3) return smoothed;
+  const auto inner = std::ssize(force) - 2;
+  const auto shifted = [&](std::ptrdiff_t by) {
+    return Eigen::Map<const Eigen::ArrayXd>(force.data() + 1 + by, inner);
+  };
+  Eigen::Map<Eigen::ArrayXd>(smoothed.data() + 1, inner) =
+      shifted(0).max(shifted(-1).min(shifted(1))).min(shifted(-1).max(shifted(1)));
   return smoothed;
 }
 

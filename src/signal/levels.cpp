@@ -1,5 +1,6 @@
 #include "signal/levels.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -82,22 +83,24 @@ std::optional<double> lattice_step(std::span<const double> values) {
   const std::vector<double> distinct = some_distinct(values);
   const std::optional<double> step = step_of(distinct);
   if (!step || !std::isfinite(*step)) return std::nullopt;
-  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
-  if (!fills_lattice(values, distinct.front(), *lowest, *highest, *step)) return std::nullopt;
+  const Eigen::Map<const Eigen::ArrayXd> all(values.data(), std::ssize(values));
+  if (!fills_lattice(values, distinct.front(), all.minCoeff(), all.maxCoeff(), *step)) return std::nullopt;
   return step;
 }
 
 Clipping find_clipping(std::span<const double> values, std::optional<double> step) {
   Clipping clipping;
-  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+  const Eigen::Map<const Eigen::ArrayXd> all(values.data(), std::ssize(values));
+  const double lowest = all.minCoeff();
+  const double highest = all.maxCoeff();
   // On a coarse lattice neighbouring levels fill very differently: four steps of range do not make an end.
-  if (*highest - *lowest <= 4.0 * step.value_or(0.0)) return clipping;
-  if (const std::size_t high = piled_up(values, 1.0, *highest)) {
-    clipping.high = *highest;
+  if (highest - lowest <= 4.0 * step.value_or(0.0)) return clipping;
+  if (const std::size_t high = piled_up(values, 1.0, highest)) {
+    clipping.high = highest;
     clipping.samples += high;
   }
-  if (const std::size_t low = piled_up(values, -1.0, *lowest)) {
-    clipping.low = *lowest;
+  if (const std::size_t low = piled_up(values, -1.0, lowest)) {
+    clipping.low = lowest;
     clipping.samples += low;
   }
   return clipping;

@@ -52,18 +52,16 @@ void assess_clock(const Recording& recording, Quality& quality) {
   const std::span<const double> time = recording.time_s();
   const double usual = recording.sample_interval_s();
   const std::size_t stride = signal::stride_for(time.size());
-  std::vector<double> deviations;
-  std::size_t sampled = stride;
-  for (std::size_t i = 1; i < time.size(); ++i) {
-    const bool is_sampled = i == sampled;
-    if (is_sampled) sampled += stride;
-    const double step = time[i] - time[i - 1];
-    if (step > thresholds::kGapSteps * usual) {
-      ++quality.gaps;
+  const double gap_s = thresholds::kGapSteps * usual;
+  for (std::size_t i = 1; i < time.size(); ++i) quality.gaps += time[i] - time[i - 1] > gap_s ? std::size_t{1} : 0;
+  for (std::size_t i = 1; i < time.size() && quality.gaps > 0; ++i) {
+    if (const double step = time[i] - time[i - 1]; step > gap_s) {
       quality.longest_gap_s = std::max(quality.longest_gap_s, step);
-    } else if (is_sampled) {
-      deviations.push_back(std::abs(step - usual));
     }
+  }
+  std::vector<double> deviations;
+  for (std::size_t i = stride; i < time.size(); i += stride) {
+    if (const double step = time[i] - time[i - 1]; step <= gap_s) deviations.push_back(std::abs(step - usual));
   }
   quality.clock_jitter = signal::kMedianToSigma * signal::median(std::move(deviations)) / usual;
 }

@@ -25,12 +25,42 @@ class RunningMeans {
   [[nodiscard]] Smoothed over(std::size_t width, std::size_t stride) const;
 
  private:
+  friend class Means;
   std::vector<double> sums_;  ///< of the values before a sample, less the first value, which keeps them small
   double origin_ = 0.0;
 };
 
+/// What a trace shows at one time scale, as in Smoothed, but worked out where it is looked at: a long trace at many
+/// scales would fill the memory, and writing it takes longer than the means. A width of 1 is the values as they are,
+/// which sums would round. The values and their running means must outlive it.
+class Means {
+ public:
+  Means(std::span<const double> values, const RunningMeans& sums, std::size_t width, std::size_t stride);
+
+  [[nodiscard]] std::size_t width() const { return width_; }
+  [[nodiscard]] std::size_t stride() const { return stride_; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// Sample at the middle of the mean j.
+  [[nodiscard]] std::size_t sample(std::size_t j) const { return j * stride_ + width_ / 2; }
+  [[nodiscard]] double operator[](std::size_t j) const {
+    const std::size_t i = j * stride_;
+    return width_ == 1 ? values_[i] : origin_ + share_ * (sums_[i + width_] - sums_[i]);
+  }
+  /// The means from `first` on, as many as `into` holds.
+  void copy(std::size_t first, std::span<double> into) const;
+
+ private:
+  std::span<const double> values_;
+  std::span<const double> sums_;
+  double origin_;
+  double share_;
+  std::size_t width_;
+  std::size_t stride_;
+  std::size_t size_ = 0;
+};
+
 /// Standard deviation of what scatters from one width to the next, by second differences: ramps and a wandering level
 /// do not count, and slips do not while they take less than half of the time.
-double noise_of(const Smoothed& trace);
+double noise_of(const Means& trace);
 
 }  // namespace slipfit::signal

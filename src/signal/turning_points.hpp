@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace slipfit::signal {
@@ -13,7 +14,8 @@ struct Fall {
 };
 
 /// Falls of at least `hysteresis`, each bounded by rises of at least as much (or by the ends of the trace). Noise
-/// smaller than the hysteresis makes no turning point, however often it crosses a level. Values come in their order.
+/// smaller than the hysteresis makes no turning point, however often it crosses a level. Values come in their order,
+/// one by one or several.
 class TurningPoints {
  public:
   explicit TurningPoints(double hysteresis) : hysteresis_(hysteresis) {}
@@ -38,6 +40,9 @@ class TurningPoints {
       low_ = i;
     }
   }
+
+  /// The values `first`, `first` + 1, ...: as each alone, but most are passed over several at once.
+  void add(std::size_t first, std::span<const double> values);
 
   [[nodiscard]] const std::vector<Fall>& falls() const { return falls_; }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "model/slip.hpp"
+#include "model/weakening_track.hpp"
 #include "reference_table.hpp"
 
 using namespace slipfit;
@@ -160,4 +161,30 @@ TEST_CASE("friction that weakens slowly has forms of its own, and may stop the s
   CHECK(std::isinf(growing.weakened_tau()));
   CHECK(growing.at(growing.tau_end()).d_tau == Approx(1.0).epsilon(1e-9));
   CHECK(growing.tau_end() < stopped.tau_end());
+}
+
+TEST_CASE("the track of a weakening slip at even steps is the slip") {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 200; ++i) {
+    const Drawn at = drawn(random);
+    for (const ForceView view : {ForceView::Spring, ForceView::Transmitted}) {
+      const WeakeningSlip slip = at.slip(view);
+      if (!std::isfinite(slip.tau_end())) continue;
+      const double step = slip.tau_end() / 70.0;
+      model::WeakeningTrack track(slip, step);
+      CAPTURE(at.lambda, at.zeta, at.distance);
+      for (int k = -5; k < 80; ++k) {
+        if (k % 11 == 7) continue;
+        const double tau = (k + 0.3) * step;
+        const model::WeakeningPoint here = track.at(tau);
+        const model::WeakeningPoint there = slip.at(tau);
+        const double size = at.lambda + tau;
+        CHECK(here.z == Approx(there.z).margin(1e-11 * size));
+        CHECK(here.d_z0 == Approx(there.d_z0).margin(1e-10));
+        CHECK(here.d_zeta == Approx(there.d_zeta).margin(1e-10 * size));
+        CHECK(here.d_tau == Approx(there.d_tau).margin(1e-11 * size));
+        CHECK(here.d_distance == Approx(there.d_distance).margin(1e-10));
+      }
+    }
+  }
 }

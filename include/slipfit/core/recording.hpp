@@ -91,7 +91,8 @@ class Recording {
   /// Whether every time stamp lies within a quarter of a step of an even clock (printed decimals do, gaps do not).
   [[nodiscard]] bool clock_is_even() const { return clock_is_even_; }
 
-  /// Samples [begin, end), at least 2 of them at different times: the same conditions, the same provenance.
+  /// Samples [begin, end), at least 2 of them at different times: the same conditions, the same provenance. They are
+  /// not copied.
   [[nodiscard]] Recording part(std::size_t begin, std::size_t end) const;
 
   /// These samples, ascending, at least 2 of them at different times: the same conditions, the same provenance.
@@ -99,10 +100,17 @@ class Recording {
 
  private:
   Recording() = default;
-  [[nodiscard]] Recording with_samples(std::vector<double> time_s, std::vector<double> force) const;
+  /// Shared by a recording and its parts, which are never changed.
+  struct Samples {
+    std::vector<double> time_s;
+    std::vector<double> force;
+  };
+  [[nodiscard]] Recording with_samples(std::shared_ptr<const Samples> samples, std::size_t begin,
+                                       std::size_t end) const;
 
-  std::vector<double> time_s_;
-  std::vector<double> force_;
+  std::shared_ptr<const Samples> samples_;
+  std::span<const double> time_s_;
+  std::span<const double> force_;
   Conditions conditions_;
   Provenance provenance_;
   double sample_interval_s_ = 0.0;

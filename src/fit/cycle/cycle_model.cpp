@@ -21,13 +21,18 @@ void legendre(double x, std::size_t terms, double* values, double* derivatives) 
 
 namespace {
 
-/// The step of evenly spaced times, 0 of others: samples left out, an uneven clock. A billionth of a step is far below
-/// any noise and far above the rounding of written times.
+/// The step of evenly spaced times, some of which may be left out; 0 of others: an uneven clock. A billionth of a step
+/// is far below any noise and far above the rounding of written times.
 double even_step_of(const std::vector<double>& time_s) {
   if (time_s.size() < 2) return 0.0;
-  const double step_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
-  for (std::size_t i = 0; i < time_s.size(); ++i) {
-    if (std::abs(time_s[i] - time_s.front() - step_s * static_cast<double>(i)) > 1e-9 * step_s) return 0.0;
+  const double span_s = time_s.back() - time_s.front();
+  double smallest_s = span_s;
+  for (std::size_t i = 1; i < time_s.size(); ++i) smallest_s = std::min(smallest_s, time_s[i] - time_s[i - 1]);
+  if (!(smallest_s > 0.0)) return 0.0;
+  const double step_s = span_s / std::round(span_s / smallest_s);
+  for (const double at_s : time_s) {
+    const double since_s = at_s - time_s.front();
+    if (std::abs(since_s - step_s * std::round(since_s / step_s)) > 1e-9 * step_s) return 0.0;
   }
   return step_s;
 }

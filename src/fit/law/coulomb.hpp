@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "fit/cycle/cycle_data.hpp"
@@ -52,26 +53,28 @@ class CoulombCycle {
   [[nodiscard]] static std::array<double, 1> by_law(const Point& point) { return {point.d_zeta}; }
   [[nodiscard]] static double by_log_omega(const Point& point) { return point.d_log_omega; }
 
-  /// The cycle at samples in ascending order. At even steps (`step_tau`; 0: uneven) a slip's cosine and sine turn by
-  /// the same angle from sample to sample.
+  /// The cycle at samples in ascending order. At even steps (`step_tau`; 0: uneven), of which some may be left out, a
+  /// slip's cosine and sine turn by the same angle from sample to sample.
   class Samples {
    public:
     Samples(const CoulombCycle& cycle, double step_tau)
         : cycle_(cycle),
           turns_evenly_(step_tau > 0.0 && !cycle.sensor_.smooths()),
+          step_tau_(step_tau),
           phasor_(cycle.slip.zeta, cycle.slip.b, step_tau) {}
 
     Point at(double tau) {
       if (!turns_evenly_ || !(tau > 0.0) || !(tau <= cycle_.slip.tau_end)) return cycle_.at(tau);
-      started_ ? phasor_.step() : phasor_.start(tau);
-      started_ = true;
+      tau < next_tau_ + 0.5 * step_tau_ ? phasor_.step() : phasor_.start(tau);
+      next_tau_ = tau + step_tau_;
       return cycle_.in_slip(tau, phasor_.c(), phasor_.s());
     }
 
    private:
     const CoulombCycle& cycle_;
     bool turns_evenly_;
-    bool started_ = false;
+    double step_tau_;
+    double next_tau_ = -std::numeric_limits<double>::infinity();
     model::Phasor phasor_;
   };
 

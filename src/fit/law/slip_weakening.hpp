@@ -8,6 +8,7 @@
 
 #include "fit/cycle/cycle_data.hpp"
 #include "model/weakening.hpp"
+#include "model/weakening_track.hpp"
 
 namespace slipfit::fit {
 
@@ -59,14 +60,17 @@ class WeakeningCycle {
     return point.d_log_omega + distance_ * point.d_distance;
   }
 
-  /// The cycle at samples in ascending order.
+  /// The cycle at samples in ascending order; `step_tau` 0: not at even steps.
   class Samples {
    public:
-    Samples(const WeakeningCycle& cycle, double /*step_tau*/) : cycle_(cycle) {}
-    [[nodiscard]] Point at(double tau) const { return cycle_.at(tau); }
+    Samples(const WeakeningCycle& cycle, double step_tau) : cycle_(cycle) {
+      if (step_tau > 0.0 && !(cycle.average_ > 0.0)) track_.emplace(cycle.slip_, step_tau);
+    }
+    Point at(double tau) { return track_ ? track_->at(tau) : cycle_.at(tau); }
 
    private:
     const WeakeningCycle& cycle_;
+    std::optional<model::WeakeningTrack> track_;
   };
 
  private:
