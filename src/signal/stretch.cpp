@@ -226,6 +226,7 @@ Stretch plateau(std::span<const double> force) {
   const bool rests_at_both_ends = blocks.level.front() <= middle && blocks.level.back() <= middle;
   if (!rests_at_both_ends && std::abs(split.low) > thresholds::kRestLevel * split.high) return whole;
   Stretch run = longest_above(blocks.level, middle);
+  if (run.begin == run.end) return whole;  // levels that differ by their rounding alone
   // What the level does in the middle of the run is how it moves while the body slides.
   const std::size_t edge = (run.end - run.begin) / 4;
   const auto [low, high] = std::minmax_element(blocks.level.begin() + static_cast<std::ptrdiff_t>(run.begin + edge),
@@ -237,6 +238,7 @@ Stretch plateau(std::span<const double> force) {
   const auto is_loading = [&](std::size_t i) { return blocks.level[i] < lowest || blocks.level[i] > highest; };
   while (run.begin < run.end && is_loading(run.begin)) ++run.begin;
   while (run.begin < run.end && is_loading(run.end - 1)) --run.end;
+  if (run.begin == run.end) return whole;
   // The blocks at its ends are partly of the loading and of the release.
   const std::size_t begin = run.begin == 0 ? 0 : (run.begin + 1) * blocks.samples;
   const std::size_t end = run.end == blocks.level.size() ? force.size() : (run.end - 1) * blocks.samples;

@@ -39,15 +39,16 @@ Recording wave(const Wave& w) {
   return Recording::create(std::move(time_s), std::move(force), conditions).value();
 }
 
-/// Rest, a loading ramp of 1 s, sliding at 2 N until 11 s, release with a ring-down; the wave in all of it.
-Recording steady_run(double swing_N) {
+/// Rest, a loading ramp of 1 s, sliding at 2 N until 11 s, release with a ring-down; the wave in all of it. `zero_N`:
+/// what the sensor shows at rest.
+Recording steady_run(double swing_N, double zero_N) {
   const Recording steady = wave({.swing_N = swing_N});
   std::vector<double> force;
   for (std::size_t i = 0; i < steady.size(); ++i) {
     const double t = steady.time_s()[i];
     const double sliding = std::clamp(2.0 * (t - 0.5), 0.0, 2.0);
     const double released = std::exp(-4.0 * (t - 11.0)) * std::cos(60.0 * (t - 11.0));
-    force.push_back(steady.force()[i] - 2.0 + (t < 11.0 ? sliding : released));
+    force.push_back(steady.force()[i] - 2.0 + zero_N + (t < 11.0 ? sliding : released));
   }
   return Recording::create({steady.time_s().begin(), steady.time_s().end()}, std::move(force), steady.conditions())
       .value();
@@ -79,7 +80,8 @@ TEST_CASE("no parameter of a sine is identified, whatever its noise") {
 }
 
 TEST_CASE("a steady run with pick-up slides between loading ramp and release") {
-  const Recording run = steady_run(0.06);
+  const double zero_N = GENERATE(0.0, 3.0);
+  const Recording run = steady_run(0.06, zero_N);
   const Analysis analysis = analyze_and_fit(run, {});
   CHECK(analysis.motion == MotionClass::SteadySliding);
   CHECK_FALSE(analysis.frequency.quoted.value);
