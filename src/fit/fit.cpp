@@ -174,7 +174,7 @@ struct Chosen {
 Chosen with_weakening(Chosen chosen, const fit::FitInput& input, std::optional<Tier> forced) {
   const bool is_asked = forced == Tier::Weakening;
   if (!is_asked && (forced || !fit::may_weaken(chosen.fits.damped))) return chosen;
-  fit::WeakeningTrial trial = fit::try_weakening(input, chosen.fits.damped);
+  fit::WeakeningTrial trial = fit::try_weakening(input, chosen.fits.damped, forced);
   Candidate& candidate = trial.candidate;
   const std::string doubt = candidate.chosen ? "" : candidate.reason;
   if (is_asked) candidate = fit::requested(std::move(candidate));

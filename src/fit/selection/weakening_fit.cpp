@@ -60,9 +60,10 @@ SolveOptions final_options(const Held& held) {
 
 class WeakeningFitter {
  public:
-  WeakeningFitter(const FitInput& input, const DampedFit& coulomb)
+  WeakeningFitter(const FitInput& input, const DampedFit& coulomb, std::optional<Tier> forced)
       : input_(input),
         coulomb_(coulomb),
+        must_promise_(forced != Tier::Weakening && !coulomb.average),
         scales_(coulomb.blocks.scales()),
         held_(held_of(input.held)),
         excluded_(coulomb.excluded) {
@@ -80,8 +81,7 @@ class WeakeningFitter {
     if (cycles.size() < thresholds::kFewestFitted) return std::nullopt;
     const std::optional<Globals> start = best_start(some_of(cycles, kTrialCycles));
     if (!start) return std::nullopt;
-    const std::vector<CycleData> some = some_of(cycles, kSomeCycles);
-    if (2 * samples_of(some) < samples_of(cycles) && !explains(some, *start)) return std::nullopt;
+    if (must_promise_ && !promises(cycles, *start)) return std::nullopt;
     std::optional<BlockFit> blocks = solved(cycles, *start);
     if (!blocks) return std::nullopt;
     exclude_outliers_of(*blocks);
@@ -133,10 +133,12 @@ class WeakeningFitter {
     return samples;
   }
 
-  /// The law may miss so much less of the mean shape of a slip that it is taken, as far as these cycles show.
-  [[nodiscard]] bool explains(const std::vector<CycleData>& cycles, const Globals& start) const {
-    if (coulomb_.average) return true;
-    const std::optional<BlockFit> blocks = solved(cycles, start);
+  /// The law may miss so much less of the mean shape of a slip that it is taken, as far as some of the cycles show,
+  /// where these are much less work than all.
+  [[nodiscard]] bool promises(const std::vector<CycleData>& cycles, const Globals& start) const {
+    const std::vector<CycleData> some = some_of(cycles, kSomeCycles);
+    if (2 * samples_of(some) >= samples_of(cycles)) return true;
+    const std::optional<BlockFit> blocks = solved(some, start);
     if (!blocks) return false;
     const StackedResidual after = stacked_residual(*blocks, coulomb_.blocks);
     const double most = kHopeful * stacked_residual(coulomb_.blocks, coulomb_.blocks).size;
@@ -214,6 +216,7 @@ class WeakeningFitter {
 
   const FitInput& input_;
   const DampedFit& coulomb_;
+  bool must_promise_;
   Scales scales_;
   Held held_;
   std::vector<std::size_t> excluded_;  // in ascending order
@@ -266,11 +269,11 @@ bool may_weaken(const DampedFit& coulomb) {
   return coulomb.misfit || coulomb.refused_damping || coulomb.average;
 }
 
-WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb) {
+WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<Tier> forced) {
   WeakeningTrial trial{std::nullopt, {Tier::Weakening, 4, std::nullopt, std::nullopt, false, {}}, std::nullopt};
   trial.candidate.reason = hindrance(input, coulomb);
   if (!trial.candidate.reason.empty()) return trial;
-  trial.fit = WeakeningFitter(input, coulomb).fit();
+  trial.fit = WeakeningFitter(input, coulomb, forced).fit();
   if (!trial.fit) {
     trial.candidate.reason =
         "no slip distance between 0 and (F_s - F_k) / k halves what the slips of Coulomb friction miss";

@@ -23,8 +23,9 @@ struct WeakeningTrial {
   std::optional<Warning> warning;  ///< an average of the sensor explains the slips as well
 };
 
-/// `coulomb`: the fit of the same recording under Coulomb friction.
-WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb);
+/// `coulomb`: the fit of the same recording under Coulomb friction. `forced`: a tier that the user asks for; this one
+/// is then fitted to all cycles, however little some of them promise.
+WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<Tier> forced);
 
 /// The Coulomb fit shows a sign of it: slips that are not shaped like the model's.
 bool may_weaken(const DampedFit& coulomb);
