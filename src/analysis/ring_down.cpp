@@ -31,12 +31,12 @@ struct Start {
 
 /// After the largest fall of the trace smoothed over `width` samples, without the swing that follows it.
 Swings swings_of(const Recording& recording, const Start& start, std::size_t width) {
-  const signal::Smoothed trace = signal::RunningMeans(recording.force().subspan(start.begin)).over(width, 1);
+  const std::vector<double> trace = signal::RunningMeans(recording.force().subspan(start.begin)).over(width);
   const double noise = start.noise / std::sqrt(static_cast<double>(width));
   signal::TurningPoints turning_points(std::max(thresholds::kSwingOverNoise * noise, 1e-3 * start.least_fall));
-  for (std::size_t i = 0; i < trace.values.size(); ++i) turning_points.add(i, trace.values[i]);
+  turning_points.add(0, trace);
   const std::vector<std::size_t> turns = turning_points.turns();
-  const auto size_of = [&](std::size_t i) { return std::abs(trace.values[turns[i + 1]] - trace.values[turns[i]]); };
+  const auto size_of = [&](std::size_t i) { return std::abs(trace[turns[i + 1]] - trace[turns[i]]); };
   std::size_t largest = 0;  // falls begin at even turns
   for (std::size_t i = 2; i + 1 < turns.size(); i += 2) largest = size_of(i) > size_of(largest) ? i : largest;
   Swings swings;

@@ -30,9 +30,9 @@ Trace smoothed(const Detected& detected) {
   const std::span<const double> force = detected.whole->force();
   const Segmentation& slips = detected.signals.segmentation;
   const std::size_t width = slips.slips.empty() ? std::max<std::size_t>(1, force.size() / 500) : slips.smoothed_over;
-  signal::Smoothed means = signal::RunningMeans(force).over(std::min(width, force.size()), 1);
+  std::vector<double> means = signal::RunningMeans(force).over(std::min(width, force.size()));
   const double noise = detected.whole_quality.noise_rms / std::sqrt(static_cast<double>(width));
-  return {std::move(means.values), width / 2, noise};
+  return {std::move(means), width / 2, noise};
 }
 
 /// From the lowest force before it to the first peak.
@@ -86,8 +86,8 @@ double peak_force(const Recording& recording, const Trace& trace, const RunUp& r
   const std::size_t at = ramp.peak + trace.half;
   const std::size_t begin = at - std::min(at, 2 * width);
   const auto around = recording.force().subspan(begin, std::min(recording.size() - begin, 4 * width));
-  const signal::Smoothed means = signal::RunningMeans(around).over(std::min(width, around.size()), 1);
-  return *std::max_element(means.values.begin(), means.values.end());
+  const std::vector<double> means = signal::RunningMeans(around).over(std::min(width, around.size()));
+  return *std::max_element(means.begin(), means.end());
 }
 
 /// Slope of the ramp from 20 % to 80 % of the rise over the speed. The interval holds how the slope changes on the way:

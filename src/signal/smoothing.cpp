@@ -12,16 +12,16 @@ RunningMeans::RunningMeans(std::span<const double> values) : sums_(values.size()
   for (std::size_t i = 0; i < values.size(); ++i) sums_[i + 1] = sums_[i] + (values[i] - origin_);
 }
 
-Smoothed RunningMeans::over(std::size_t width, std::size_t stride) const {
-  Smoothed trace{width, stride, {}};
+std::vector<double> RunningMeans::over(std::size_t width) const {
+  std::vector<double> means;
   const std::size_t samples = sums_.size() - 1;
-  if (width > samples) return trace;
-  trace.values.reserve((samples - width) / stride + 1);
+  if (width > samples) return means;
+  means.reserve(samples - width + 1);
   const double share = 1.0 / static_cast<double>(width);
-  for (std::size_t i = 0; i + width <= samples; i += stride) {
-    trace.values.push_back(origin_ + share * (sums_[i + width] - sums_[i]));
+  for (std::size_t i = 0; i + width <= samples; ++i) {
+    means.push_back(origin_ + share * (sums_[i + width] - sums_[i]));
   }
-  return trace;
+  return means;
 }
 
 Means::Means(std::span<const double> values, const RunningMeans& sums, std::size_t width, std::size_t stride)

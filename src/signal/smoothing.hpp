@@ -6,23 +6,13 @@
 
 namespace slipfit::signal {
 
-/// Means over so many samples, every `stride` samples: what a trace shows at one time scale.
-struct Smoothed {
-  std::size_t width = 1;   ///< samples in a mean
-  std::size_t stride = 1;  ///< samples from one mean to the next
-  std::vector<double> values;
-
-  /// Sample at the middle of the mean j.
-  [[nodiscard]] std::size_t sample(std::size_t j) const { return j * stride + width / 2; }
-};
-
 /// Means over any width of one trace at the price of two look-ups each.
 class RunningMeans {
  public:
   explicit RunningMeans(std::span<const double> values);
 
-  /// Of `width` samples, at most the trace's.
-  [[nodiscard]] Smoothed over(std::size_t width, std::size_t stride) const;
+  /// Of `width` samples each, from every sample on that has as many; none where the trace is shorter.
+  [[nodiscard]] std::vector<double> over(std::size_t width) const;
 
  private:
   friend class Means;
@@ -30,9 +20,9 @@ class RunningMeans {
   double origin_ = 0.0;
 };
 
-/// What a trace shows at one time scale, as in Smoothed, but worked out where it is looked at: a long trace at many
-/// scales would fill the memory, and writing it takes longer than the means. A width of 1 is the values as they are,
-/// which sums would round. The values and their running means must outlive it.
+/// Means over `width` samples, every `stride` samples: what a trace shows at one time scale. Worked out where they are
+/// looked at: a long trace at many scales would fill the memory, and writing it takes longer than the means. A width of
+/// 1 is the values as they are, which sums would round. The values and their running means must outlive it.
 class Means {
  public:
   Means(std::span<const double> values, const RunningMeans& sums, std::size_t width, std::size_t stride);

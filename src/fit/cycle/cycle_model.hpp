@@ -38,8 +38,7 @@ struct CycleSet {
   std::vector<double> reference_s;  ///< time of each cycle from which its onset counts
   LevelModel level;
   std::vector<std::vector<double>> basis;  ///< of each cycle: LevelModel::columns() values a row (slopes in slope rows)
-  std::vector<double>
-      even_step_s;  ///< of each cycle's samples around the slip, of which some may be missing; 0: not even
+  std::vector<double> even_step_s;  ///< of each cycle's samples around the slip, some may be missing; 0: not even
 };
 
 /// A cycle's own numbers, scaled: onset time (from its reference, in half periods), force at onset above the level and,

@@ -60,10 +60,11 @@ SolveOptions final_options(const Held& held) {
 
 class WeakeningFitter {
  public:
-  WeakeningFitter(const FitInput& input, const DampedFit& coulomb, std::optional<Tier> forced)
+  /// `most_missed`: stacked residual that it has to promise to stay below before it is fitted to all cycles.
+  WeakeningFitter(const FitInput& input, const DampedFit& coulomb, std::optional<double> most_missed)
       : input_(input),
         coulomb_(coulomb),
-        must_promise_(forced != Tier::Weakening && !coulomb.average),
+        most_missed_(most_missed),
         scales_(coulomb.blocks.scales()),
         held_(held_of(input.held)),
         excluded_(coulomb.excluded) {
@@ -81,7 +82,7 @@ class WeakeningFitter {
     if (cycles.size() < thresholds::kFewestFitted) return std::nullopt;
     const std::optional<Globals> start = best_start(some_of(cycles, kTrialCycles));
     if (!start) return std::nullopt;
-    if (must_promise_ && !promises(cycles, *start)) return std::nullopt;
+    if (most_missed_ && !promises(cycles, *start)) return std::nullopt;
     std::optional<BlockFit> blocks = solved(cycles, *start);
     if (!blocks) return std::nullopt;
     exclude_outliers_of(*blocks);
@@ -141,8 +142,7 @@ class WeakeningFitter {
     const std::optional<BlockFit> blocks = solved(some, start);
     if (!blocks) return false;
     const StackedResidual after = stacked_residual(*blocks, coulomb_.blocks);
-    const double most = kHopeful * stacked_residual(coulomb_.blocks, coulomb_.blocks).size;
-    return after.size * after.size - after.by_chance * after.by_chance < most * most;
+    return after.size * after.size - after.by_chance * after.by_chance < *most_missed_ * *most_missed_;
   }
 
   /// The best zeta is below 0 clearly, or it is not told.
@@ -216,7 +216,7 @@ class WeakeningFitter {
 
   const FitInput& input_;
   const DampedFit& coulomb_;
-  bool must_promise_;
+  std::optional<double> most_missed_;
   Scales scales_;
   Held held_;
   std::vector<std::size_t> excluded_;  // in ascending order
@@ -241,10 +241,9 @@ std::string hindrance(const FitInput& input, const DampedFit& coulomb) {
   return samples < thresholds::kShapeSamples ? too_few_samples(samples, step_s) : std::string();
 }
 
-/// Sets what the fit says for and against it.
-Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& coulomb, double gain) {
+/// Sets what the fit says for and against it. `before`: stacked residual of the Coulomb fit.
+Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& coulomb, double gain, double before) {
   const double sigmas = sigmas_of_distance(fit);
-  const double before = stacked_residual(coulomb.blocks, coulomb.blocks).size;
   const double after = stacked_residual(fit.blocks, coulomb.blocks).size;
   candidate.reason = fmt::format(
       "AICc {:.1f} {} than under Coulomb friction, D_c {:.1f} of its standard errors, mean residual over the phase of "
@@ -273,7 +272,9 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
   WeakeningTrial trial{std::nullopt, {Tier::Weakening, 4, std::nullopt, std::nullopt, false, {}}, std::nullopt};
   trial.candidate.reason = hindrance(input, coulomb);
   if (!trial.candidate.reason.empty()) return trial;
-  trial.fit = WeakeningFitter(input, coulomb, forced).fit();
+  const double missed = stacked_residual(coulomb.blocks, coulomb.blocks).size;
+  const bool must_promise = forced != Tier::Weakening && !coulomb.average;
+  trial.fit = WeakeningFitter(input, coulomb, must_promise ? std::optional(kHopeful * missed) : std::nullopt).fit();
   if (!trial.fit) {
     trial.candidate.reason =
         "no slip distance between 0 and (F_s - F_k) / k halves what the slips of Coulomb friction miss";
@@ -283,7 +284,7 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
   trial.candidate = candidate_of(*trial.fit, Tier::Weakening, 4, effective);
   const Candidate other = candidate_of(coulomb, Tier::Damped, coulomb.average ? 4 : 3, effective);
   const double gain = *other.aicc - *trial.candidate.aicc;
-  trial.candidate = judged(std::move(trial.candidate), *trial.fit, coulomb, gain);
+  trial.candidate = judged(std::move(trial.candidate), *trial.fit, coulomb, gain, missed);
   if (coulomb.average && !trial.candidate.chosen && std::abs(gain) < thresholds::kTierPrice) {
     trial.warning = Warning{"samples_averaged",
                             fmt::format("friction that weakens over a slip distance of {:.2g} um explains the slips as "
