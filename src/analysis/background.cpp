@@ -34,7 +34,7 @@ std::vector<double> speeds_around(double speed_m_per_s, const Estimate& critical
   const double low = std::min(speed_m_per_s, is_near ? critical : speed_m_per_s) / kSpeedReach;
   std::vector<double> speeds = in_equal_ratios(low, high, kSpeeds);
   if (is_near) speeds.push_back(critical * (1.0 - 1e-9));
-  std::sort(speeds.begin(), speeds.end());
+  std::ranges::sort(speeds);
   return speeds;
 }
 
@@ -90,7 +90,7 @@ std::optional<Prediction> predict_around(std::span<const SweepEntry> entries, co
   std::vector<double> speeds = in_equal_ratios(slowest / kReach, fastest * kReach, kSpeeds);
   const double critical = sweep.derived.critical_speed_m_per_s.value.value_or(0.0);
   if (speeds.front() < critical && critical < speeds.back()) speeds.push_back(critical * (1.0 - 1e-9));
-  std::sort(speeds.begin(), speeds.end());
+  std::ranges::sort(speeds);
   const ObservedEnd observed = sweep.derived.observed_end.value_or(ObservedEnd{});
   return predict_at({*sweep.fit->result.estimate, true, std::nullopt, observed}, speeds);
 }

@@ -42,7 +42,7 @@ bool ends_flat(const Recording& recording, const Segmentation& segmentation) {
 bool is_release(const Recording& recording, const Segmentation& segmentation) {
   const DetectedSlip& last = segmentation.slips.back();
   const auto after = recording.force().subspan(last.trough);
-  if (*std::max_element(after.begin(), after.end()) > last.trough_force + 0.5 * last.drop()) return false;
+  if (*std::ranges::max_element(after) > last.trough_force + 0.5 * last.drop()) return false;
   const double first_s = segmentation.slips.front().middle_s - recording.time_s().front();
   const double last_s = segmentation.slips.back().middle_s - recording.time_s().front();
   return first_s > thresholds::kSpanShare * recording.duration_s() && last_s - first_s < 0.3 * recording.duration_s();

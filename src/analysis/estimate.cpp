@@ -41,8 +41,8 @@ TimedFrequency frequency_of(const Recording& recording, const Signals& signals) 
 double misfit_of(const std::optional<FitResult>& fit) {
   if (!fit) return std::numeric_limits<double>::infinity();
   const std::vector<Cycle>& cycles = fit->cycles;
-  const auto used = std::count_if(cycles.begin(), cycles.end(), [](const Cycle& cycle) { return cycle.used; });
-  const auto offered = std::count_if(cycles.begin(), cycles.end(), [](const Cycle& cycle) { return cycle.selected; });
+  const auto used = std::ranges::count_if(cycles, [](const Cycle& cycle) { return cycle.used; });
+  const auto offered = std::ranges::count_if(cycles, [](const Cycle& cycle) { return cycle.selected; });
   if (2 * used < offered) return std::numeric_limits<double>::infinity();
   return fit->diagnostics.relative_residual + 0.3 * fit->diagnostics.onset_force_spread;
 }

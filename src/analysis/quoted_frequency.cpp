@@ -87,8 +87,8 @@ std::optional<FrequencyReport> of_fit(const Recording& recording, const Signals&
 /// A line of the mains swings far enough to be counted as slips.
 bool hum_makes_falls(const Signals& signals) {
   const auto& lines = signals.spectral.suspicious_lines;
-  return std::any_of(lines.begin(), lines.end(),
-                     [&](const SuspiciousLine& line) { return line.swing > signals.segmentation.hysteresis; });
+  return std::ranges::any_of(lines,
+                             [&](const SuspiciousLine& line) { return line.swing > signals.segmentation.hysteresis; });
 }
 
 /// Noise is so large that slips are missed.

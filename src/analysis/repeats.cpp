@@ -45,8 +45,8 @@ constexpr std::array kQuantities = std::to_array<RepeatedQuantity>({
 
 bool are_at_one_speed(std::span<const SweepEntry> entries) {
   const auto speed = [](const SweepEntry& entry) { return entry.recording.conditions().speed_m_per_s; };
-  const auto [slow, fast] = std::minmax_element(entries.begin(), entries.end(),
-                                                [&](const auto& a, const auto& b) { return speed(a) < speed(b); });
+  const auto [slow, fast] =
+      std::ranges::minmax_element(entries, [&](const auto& a, const auto& b) { return speed(a) < speed(b); });
   return speed(*fast) <= (1.0 + kSameSpeed) * speed(*slow);
 }
 

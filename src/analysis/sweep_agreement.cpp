@@ -42,7 +42,7 @@ bool go_with_speed(std::span<const SweepEntry> entries, std::span<const Apart> r
 /// The one that stands furthest apart, where so many agree.
 std::optional<Apart> furthest(std::span<const SweepEntry> entries, std::vector<Apart> recordings, Agreeing agreeing) {
   if (recordings.size() < thresholds::kNamingRecordings) return std::nullopt;
-  std::sort(recordings.begin(), recordings.end(), [](const Apart& a, const Apart& b) { return a.errors > b.errors; });
+  std::ranges::sort(recordings, [](const Apart& a, const Apart& b) { return a.errors > b.errors; });
   const Apart& first = recordings.front();
   const Apart& other = recordings[agreeing == Agreeing::Half ? recordings.size() / 2 : 1];
   const bool beyond = first.errors > thresholds::kLeftOutErrors && std::abs(first.distance) > thresholds::kLeftOutShare;
@@ -165,7 +165,7 @@ Warnings check_duplicates(std::span<const SweepEntry> entries) {
     for (std::size_t j = 0; j < i; ++j) {
       const auto one = entries[i].recording.force();
       const auto other = entries[j].recording.force();
-      if (!std::equal(one.begin(), one.end(), other.begin(), other.end())) continue;
+      if (!std::ranges::equal(one, other)) continue;
       warnings.push_back(
           {"recording_repeated", fmt::format("recordings '{}' and '{}' hold the same samples: one of them counts "
                                              "twice, or stands under another's conditions",

@@ -48,14 +48,15 @@ bool slides(const Recording& recording, const Analysis& analysis) {
 
 /// The fit tells at least one parameter.
 bool has_values(const Analysis& analysis) {
-  return analysis.fit && std::any_of(analysis.fit->parameters.begin(), analysis.fit->parameters.end(),
-                                     [](const Parameter& parameter) { return parameter.estimate.value.has_value(); });
+  return analysis.fit && std::ranges::any_of(analysis.fit->parameters, [](const Parameter& parameter) {
+           return parameter.estimate.value.has_value();
+         });
 }
 
 /// Stick-slip at one speed has one frequency, to the scatter of a surface.
 Warnings check_frequency_at_one_speed(const std::vector<Point>& points) {
   const auto by_frequency = [](const Point& a, const Point& b) { return a.log_frequency < b.log_frequency; };
-  const auto [low, high] = std::minmax_element(points.begin(), points.end(), by_frequency);
+  const auto [low, high] = std::ranges::minmax_element(points, by_frequency);
   const double factor = std::exp(high->log_frequency - low->log_frequency);
   if (!(factor > thresholds::kOneSpeedFrequencies)) return {};
   return {{"frequency_differs_at_one_speed",
@@ -89,7 +90,7 @@ std::vector<SweepRole> roles_of(std::span<const SweepEntry> entries, const std::
     if (roles[i] != SweepRole::Cycles || is_unresolved(recording, analyses[i])) continue;
     resolved_speeds.push_back(recording.conditions().speed_m_per_s);
   }
-  const auto [slow, fast] = std::minmax_element(resolved_speeds.begin(), resolved_speeds.end());
+  const auto [slow, fast] = std::ranges::minmax_element(resolved_speeds);
   if (resolved_speeds.empty() || !(*fast > thresholds::kLeastSpeedRatio * *slow)) return roles;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (is_unresolved(entries[i].recording, analyses[i])) roles[i] = SweepRole::LeftOut;
@@ -111,7 +112,7 @@ Warnings check_resolution(std::span<const SweepEntry> entries, const std::vector
 }
 
 std::string describe_roles(const std::vector<SweepRole>& roles) {
-  const auto count = [&](SweepRole role) { return std::count(roles.begin(), roles.end(), role); };
+  const auto count = [&](SweepRole role) { return std::ranges::count(roles, role); };
   return fmt::format("{} with stick-slip cycles, {} sliding steadily, {} left out{}", count(SweepRole::Cycles),
                      count(SweepRole::Steady), count(SweepRole::LeftOut),
                      count(SweepRole::Cycles) < 2 ? "; a joint fit needs two with cycles, best at speeds a factor of 3 "
@@ -144,7 +145,7 @@ Warnings check_level_repeats(std::span<const SweepEntry> entries, const std::vec
   }
   if (paths_m.size() < 2) return {};
   const auto is_one = [](const std::vector<double>& values) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const auto [least, most] = std::ranges::minmax_element(values);
     return *most < (1.0 + thresholds::kOneWave) * *least;
   };
   if (is_one(paths_m) == is_one(times_s)) return {};
@@ -162,7 +163,7 @@ Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, cons
   }
   if (points.size() < 2) return {};
   const auto by_speed = [](const Point& a, const Point& b) { return a.log_speed < b.log_speed; };
-  const auto [slow, fast] = std::minmax_element(points.begin(), points.end(), by_speed);
+  const auto [slow, fast] = std::ranges::minmax_element(points, by_speed);
   const double span = fast->log_speed - slow->log_speed;
   if (span < std::log(thresholds::kLeastSpeedRatio)) return check_frequency_at_one_speed(points);
   const double power = (fast->log_frequency - slow->log_frequency) / span;

@@ -44,7 +44,7 @@ struct RunUp {
 
 /// The first rise that is much larger than the sticks between the slips (or, without slips, than what comes after it).
 std::optional<RunUp> first_large_rise(const Trace& trace, double drop) {
-  const auto [low, high] = std::minmax_element(trace.force.begin(), trace.force.end());
+  const auto [low, high] = std::ranges::minmax_element(trace.force);
   const double range = *high - *low;
   const double swing = std::max(drop > 0.0 ? 0.25 * drop : 0.1 * range, 8.0 * trace.noise);
   const double least = std::max(thresholds::kRunUp * drop, thresholds::kNoiseDrop * trace.noise);
@@ -87,7 +87,7 @@ double peak_force(const Recording& recording, const Trace& trace, const RunUp& r
   const std::size_t begin = at - std::min(at, 2 * width);
   const auto around = recording.force().subspan(begin, std::min(recording.size() - begin, 4 * width));
   const std::vector<double> means = signal::RunningMeans(around).over(std::min(width, around.size()));
-  return *std::max_element(means.begin(), means.end());
+  return *std::ranges::max_element(means);
 }
 
 /// Slope of the ramp from 20 % to 80 % of the rise over the speed. The interval holds how the slope changes on the way:

@@ -117,9 +117,8 @@ Result<std::optional<RunRecord>> check_folder(const fs::path& folder) {
     return file_error("folder_of_another_batch", folder,
                       fmt::format("holds '{}' without the run.json of its batch; choose another folder", name));
   }
-  remove_leftovers(folder, [](std::string_view name) {
-    return std::find(kFolderFiles.begin(), kFolderFiles.end(), name) != kFolderFiles.end();
-  });
+  remove_leftovers(folder,
+                   [](std::string_view name) { return std::ranges::find(kFolderFiles, name) != kFolderFiles.end(); });
   return record;
 }
 

@@ -162,7 +162,7 @@ void ProcessPool::serve(int socket, pid_t parent) const {
     JobNumber job = 0;
     while (::recv(socket, &job, sizeof(job), MSG_WAITALL) == static_cast<ssize_t>(sizeof(job))) {
       std::string reply = waiting_.at(job - first_).job();
-      std::replace(reply.begin(), reply.end(), '\n', ' ');
+      std::ranges::replace(reply, '\n', ' ');
       if (!send_all(socket, reply + "\n")) break;
     }
   } catch (...) {

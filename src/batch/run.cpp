@@ -157,8 +157,7 @@ std::optional<Error> Run::take_answers() {
 /// At a stop: what has not begun is dropped, what has may still come to its end.
 std::optional<Error> Run::wait_for_begun() {
   const std::vector<std::size_t> begun = pool_.drop_waiting();
-  std::erase_if(at_work_,
-                [&](const auto& job) { return std::find(begun.begin(), begun.end(), job.first) == begun.end(); });
+  std::erase_if(at_work_, [&](const auto& job) { return std::ranges::find(begun, job.first) == begun.end(); });
   const Clock::time_point end = Clock::now() + kGrace;
   while (!at_work_.empty() && Clock::now() < end) {
     if (auto error = take_answers()) return error;

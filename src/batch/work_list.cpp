@@ -39,7 +39,7 @@ std::optional<Error> check_not_written(const std::filesystem::path& input, const
 /// Comparing every recording with every written file would be six system calls a row: the name decides which ones are.
 bool has_written_name(const ManifestEntry& entry) {
   const std::string name = entry.file.filename().string();
-  return name == kLock || std::find(kFolderFiles.begin(), kFolderFiles.end(), name) != kFolderFiles.end();
+  return name == kLock || std::ranges::find(kFolderFiles, name) != kFolderFiles.end();
 }
 
 /// Collects what the rows of a manifest say.
@@ -68,7 +68,7 @@ class WorkCollector {
       list_.is_mine[i] = shard_of[first_rows_[i] - 1] == options_.shard.index;
     }
     std::vector<Group>& groups = list_.groups;
-    std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.last_row < b.last_row; });
+    std::ranges::sort(groups, [](const Group& a, const Group& b) { return a.last_row < b.last_row; });
     for (std::size_t g = 0; g < groups.size(); ++g) {
       list_.slots.add(id_of_group(groups[g].name), list_.slot_of_group(g));
       list_.is_mine.push_back(list_.is_mine[groups[g].first_row - 1]);
@@ -111,8 +111,7 @@ std::optional<Error> find_duplicate(const std::filesystem::path& manifest, const
 std::vector<std::uint32_t> spread(const std::vector<std::uint64_t>& sizes, std::size_t shards) {
   std::vector<std::uint32_t> largest_first(sizes.size());
   std::iota(largest_first.begin(), largest_first.end(), 0U);
-  std::stable_sort(largest_first.begin(), largest_first.end(),
-                   [&sizes](std::uint32_t a, std::uint32_t b) { return sizes[a] > sizes[b]; });
+  std::ranges::stable_sort(largest_first, [&sizes](std::uint32_t a, std::uint32_t b) { return sizes[a] > sizes[b]; });
   using Load = std::pair<std::uint64_t, std::uint32_t>;  // so far, shard
   std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
   for (std::uint32_t shard = 1; shard <= shards; ++shard) loads.emplace(0, shard);
@@ -127,7 +126,7 @@ std::vector<std::uint32_t> spread(const std::vector<std::uint64_t>& sizes, std::
 }
 
 void IdIndex::sort() {
-  std::sort(entries_.begin(), entries_.end());
+  std::ranges::sort(entries_);
 }
 
 std::optional<std::size_t> IdIndex::find(std::string_view id) const {

@@ -48,7 +48,7 @@ std::string escaped(const std::string& text) {
 
 double letters_in(const std::string& text) {
   const auto begins_letter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
-  return static_cast<double>(std::count_if(text.begin(), text.end(), begins_letter));
+  return static_cast<double>(std::ranges::count_if(text, begins_letter));
 }
 
 void Drawing::text(double x, double y, const std::string& content, const char* css_class, const std::string& more) {

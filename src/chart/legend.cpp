@@ -107,7 +107,7 @@ std::string to_page_legend(const Chart& chart, const std::string& id) {
   for (const Panel& panel : chart.panels) {
     if (panel.legend_at != LegendAt::Above) continue;
     for (const Entry& entry : entries_of(panel)) {
-      if (std::find(names.begin(), names.end(), entry.name) != names.end()) continue;
+      if (std::ranges::find(names, entry.name) != names.end()) continue;
       if (&panel != &chart.panels.front()) return {};
       names.push_back(entry.name);
       Drawing sample(Palette::Page);

@@ -26,7 +26,7 @@ struct SideValues {
 /// From the surest to the least sure.
 std::size_t doubt_of(const std::string& status) {
   constexpr std::array<const char*, 3> kOrder{"identified", "conditional", "weak"};
-  return static_cast<std::size_t>(std::find(kOrder.begin(), kOrder.end(), status) - kOrder.begin());
+  return static_cast<std::size_t>(std::ranges::find(kOrder, status) - kOrder.begin());
 }
 
 SideValues values_of(const Fits& fits, std::size_t quantity) {
@@ -125,7 +125,7 @@ void warn_of_conditions(Comparison& comparison) {
                                      stated(comparison.b, &ComparedFit::normal_force_N, "N"))});
   }
   const auto differs_from_first = [&a](const ComparedFit& fit) { return fit.motion != a.front().motion; };
-  if (std::any_of(a.begin(), a.end(), differs_from_first) || std::any_of(b.begin(), b.end(), differs_from_first)) {
+  if (std::ranges::any_of(a, differs_from_first) || std::ranges::any_of(b, differs_from_first)) {
     comparison.warnings.push_back({"motions_differ",
                                    "the recordings do not all show the same kind of motion: numbers "
                                    "are compared where both sides have them"});

@@ -16,7 +16,7 @@ constexpr double kSmallest = 1e-36;
 
 // Counted, not searched: without a way out of the loop the compiler works on several values at once.
 bool all_readable(const std::vector<double>& values) {
-  return std::count_if(values.begin(), values.end(), [](double v) { return !(std::abs(v) <= kLargest); }) == 0;
+  return std::ranges::count_if(values, [](double v) { return !(std::abs(v) <= kLargest); }) == 0;
 }
 
 void flush_to_zero(std::vector<double>& values) {

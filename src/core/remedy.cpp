@@ -18,11 +18,11 @@ constexpr auto kRequests = std::to_array<std::string_view>(
      "save",    "set",   "sort",   "split",   "start",   "state",   "take", "unpack", "use",  "wait", "write"});
 
 bool is_request(std::string_view text) {
-  const auto end = std::find_if(text.begin(), text.end(), [](char c) { return c == ' ' || c == '='; });
+  const auto end = std::ranges::find_if(text, [](char c) { return c == ' ' || c == '='; });
   if (end == text.end()) return false;
   std::string word(text.begin(), end);
   if (!word.empty()) word[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(word[0])));
-  return std::find(kRequests.begin(), kRequests.end(), word) != kRequests.end();
+  return std::ranges::find(kRequests, word) != kRequests.end();
 }
 
 /// From the first request that stands behind a mark; empty without one.
@@ -41,8 +41,7 @@ std::string_view expectation_in(std::string_view message) {
 }
 
 std::string_view tabled_remedy(std::string_view code) {
-  const auto* const row =
-      std::find_if(kRemedies.begin(), kRemedies.end(), [&](const auto& r) { return r.code == code; });
+  const auto* const row = std::ranges::find_if(kRemedies, [&](const auto& r) { return r.code == code; });
   return row == kRemedies.end() ? std::string_view() : row->remedy;
 }
 

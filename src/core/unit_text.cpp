@@ -44,8 +44,7 @@ constexpr std::array kLatin1 =
     std::to_array<Replacement>({{"\xB5", "u"}, {"\xB7", "."}, {"\xB0", "\xC2\xB0"}, {"\xB2", "2"}, {"\xB3", "3"}});
 
 const Replacement* replacement_in(std::span<const Replacement> table, std::string_view rest) {
-  const auto found =
-      std::find_if(table.begin(), table.end(), [&](const Replacement& r) { return rest.starts_with(r.from); });
+  const auto found = std::ranges::find_if(table, [&](const Replacement& r) { return rest.starts_with(r.from); });
   return found == table.end() ? nullptr : &*found;
 }
 
@@ -79,8 +78,8 @@ std::optional<ParsedUnit> with_prefix(std::string_view text, const Unit& unit, c
 }
 
 std::optional<ParsedUnit> in_table(std::string_view text) {
-  const auto* const whole = std::find_if(kUnitTable.begin(), kUnitTable.end(),
-                                         [&](const Unit& unit) { return is_in(unit.texts, text, kUnitSeparator); });
+  const auto* const whole =
+      std::ranges::find_if(kUnitTable, [&](const Unit& unit) { return is_in(unit.texts, text, kUnitSeparator); });
   if (whole != kUnitTable.end()) return ParsedUnit{whole->factor, whole->powers};
   const std::string_view singular = text.ends_with('s') ? text.substr(0, text.size() - 1) : text;
   for (const Unit& unit : kUnitTable) {
@@ -167,7 +166,7 @@ class UnitReader {
       const auto byte = static_cast<unsigned char>(c);
       return std::isalpha(byte) != 0 || byte >= 0x80 || c == '_' || c == '%';
     };
-    const auto* const end = std::find_if_not(rest_.begin(), rest_.end(), is_letter);
+    const auto* const end = std::ranges::find_if_not(rest_, is_letter);
     const std::string_view name = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
     rest_.remove_prefix(name.size());
     return name.empty() ? std::nullopt : look_up(name);

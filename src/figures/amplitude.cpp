@@ -48,7 +48,7 @@ std::vector<double> speeds_with(const std::vector<double>& more) {
   for (const double speed : more) {
     if (speed < kFastest_m_per_s) speeds.push_back(speed);
   }
-  std::sort(speeds.begin(), speeds.end());
+  std::ranges::sort(speeds);
   return speeds;
 }
 

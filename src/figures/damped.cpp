@@ -24,7 +24,7 @@ std::vector<double> lambdas_from(double first, double critical) {
   for (const double part : evenly_spaced(0.0, 1.0, 200)) {
     lambdas.push_back(first + (kLargestDampedLambda - first) * part * part);
   }
-  std::sort(lambdas.begin(), lambdas.end());
+  std::ranges::sort(lambdas);
   return lambdas;
 }
 

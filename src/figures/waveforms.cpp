@@ -44,7 +44,7 @@ std::vector<double> times_of(const model::Slip& slip, int cycles) {
   const double period = slip.tau_end + slip.z0 - slip.end.z;
   std::vector<double> times = evenly_spaced(0.0, cycles * period, 200 * cycles);
   for (int cycle = 0; cycle < cycles; ++cycle) times.push_back(cycle * period + slip.tau_end);
-  std::sort(times.begin(), times.end());
+  std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }

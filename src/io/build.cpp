@@ -84,7 +84,7 @@ SampleRange at_full_speed(const Interpreted& part, const Stroke& stroke) {
   const std::vector<double> speeds = block_speeds_m_per_s(of(part.time_s), of(part.displacement_m), kBlocks);
   const double full = kFull * quantile_of(speeds, 0.9);
   const auto is_full = [full](double speed) { return speed >= full; };
-  const auto first = std::find_if(speeds.begin(), speeds.end(), is_full);
+  const auto first = std::ranges::find_if(speeds, is_full);
   const auto last = std::find_if(speeds.rbegin(), speeds.rend(), is_full);
   if (first == speeds.end()) return {stroke.begin, stroke.end};
   const std::size_t step = size / kBlocks;

@@ -83,7 +83,7 @@ Result<std::size_t> find_time_column(const Layout& layout, const std::string& fi
     return column.name.role == Role::Unknown && column.is_numeric() && column.never_decreases;
   };
   const auto is_numeric = [](const Column& column) { return column.is_numeric(); };
-  const bool is_alone = std::count_if(layout.columns.begin(), layout.columns.end(), is_numeric) == 1;
+  const bool is_alone = std::ranges::count_if(layout.columns, is_numeric) == 1;
   if (found.empty() && !is_alone) {
     // By monotony. A clock runs in even steps, and a whole number that steps by one beside it is a line number.
     found = best_columns(layout, [&](const Column& column, std::size_t) {

@@ -31,8 +31,8 @@ Error unit_error(const Request& request, std::size_t column, const std::string& 
 }
 
 bool mentions(const std::string& name, std::initializer_list<std::string_view> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [text = lower(name)](std::string_view w) { return text.find(w) != std::string::npos; });
+  return std::ranges::any_of(words,
+                             [text = lower(name)](std::string_view w) { return text.find(w) != std::string::npos; });
 }
 
 struct GuessedUnit {
@@ -86,15 +86,14 @@ Result<Channel> time_channel(const Request& request, std::size_t column) {
 /// Of a test at a known speed the displacement tells the time: t = x / V. Empty where there is none with a unit.
 std::optional<Channel> displacement_as_time(const Request& request) {
   const auto& columns = request.layout.columns;
-  const auto way = std::find_if(columns.begin(), columns.end(), [](const Column& column) {
+  const auto way = std::ranges::find_if(columns, [](const Column& column) {
     return column.name.role == Role::Displacement && column.varies && !column.name.unit.empty();
   });
   if (way == columns.end() || !(request.speed_m_per_s > 0.0)) return std::nullopt;
   const auto scale = parse_unit(way->name.unit, Dimension::Length);
   if (!scale) return std::nullopt;
   std::vector<double> numbers;
-  std::copy_if(way->values.begin(), way->values.end(), std::back_inserter(numbers),
-               [](double value) { return std::isfinite(value); });
+  std::ranges::copy_if(way->values, std::back_inserter(numbers), [](double value) { return std::isfinite(value); });
   const double direction = numbers.back() < numbers.front() ? -1.0 : 1.0;
   const auto column = static_cast<std::size_t>(way - columns.begin());
   return Channel{
@@ -164,8 +163,8 @@ Result<std::size_t> choose_force(const Request& request, std::optional<std::size
   if (options.force_column) return find_column(layout, *options.force_column, "--force-column", file);
   auto candidates = force_candidates(layout, time, options.force_scale);
   const auto varies = [&](std::size_t c) { return request.layout.columns[c].varies; };
-  if (std::count_if(candidates.begin(), candidates.end(), varies) == 1) {
-    candidates = {*std::find_if(candidates.begin(), candidates.end(), varies)};
+  if (std::ranges::count_if(candidates, varies) == 1) {
+    candidates = {*std::ranges::find_if(candidates, varies)};
   }
   if (candidates.empty()) {
     return Error{"no_force_column",

@@ -132,7 +132,7 @@ std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines) 
     best_score = found;
   }
   const bool are_pairs = best && best->delimiter == ',' && !best->decimal_comma && best_score.columns == 2;
-  if (are_pairs && std::any_of(tried.begin(), tried.end(), is_one_number) && is_single_column(lines)) {
+  if (are_pairs && std::ranges::any_of(tried, is_one_number) && is_single_column(lines)) {
     return Dialect{'\0', true};
   }
   return best;
@@ -140,9 +140,8 @@ std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines) 
 
 bool is_comma_twice(const std::vector<std::string_view>& lines, const Layout& layout) {
   const std::size_t columns = layout.columns.size();
-  const bool are_whole = std::all_of(layout.columns.begin(), layout.columns.end(), [](const Column& column) {
-    return column.is_whole && column.clocks == 0 && column.texts == 0;
-  });
+  const bool are_whole = std::ranges::all_of(
+      layout.columns, [](const Column& column) { return column.is_whole && column.clocks == 0 && column.texts == 0; });
   if (layout.dialect.delimiter != ',' || layout.dialect.decimal_comma || !are_whole || columns < 3) return false;
   bool has_zero_in_front = false;  // "001" is no whole number that anybody writes
   for (std::size_t i = layout.first_data_line - 1; i < lines.size(); ++i) {

@@ -36,8 +36,7 @@ std::vector<ColumnInfo> columns_of(const Layout& layout) {
 /// As an option takes it: the name where no other column has it, else the number.
 std::string option_text(const Layout& layout, std::size_t column) {
   const std::string& name = layout.columns[column].name.text;
-  const auto same = std::count_if(layout.columns.begin(), layout.columns.end(),
-                                  [&](const Column& other) { return other.name.text == name; });
+  const auto same = std::ranges::count_if(layout.columns, [&](const Column& other) { return other.name.text == name; });
   return name.empty() || same > 1 ? std::to_string(column + 1) : name;
 }
 
@@ -76,8 +75,7 @@ Choice choice_for(const Layout& layout, const ReadOptions& options, FileInfo& in
     return std::move(chosen).value();
   }
   info.refusal = chosen.error();
-  const auto numeric = std::find_if(layout.columns.begin(), layout.columns.end(),
-                                    [](const Column& column) { return column.is_numeric(); });
+  const auto numeric = std::ranges::find_if(layout.columns, [](const Column& column) { return column.is_numeric(); });
   Choice any;
   any.force.column = numeric == layout.columns.end() ? 0 : static_cast<std::size_t>(numeric - layout.columns.begin());
   return any;

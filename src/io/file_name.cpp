@@ -13,7 +13,7 @@ constexpr std::size_t kLongestName = 255;
 /// Whether something was told: the number and the unit of a match, as a quantity.
 std::optional<double> quantity_in(const std::smatch& match, const std::string& unit, Dimension dimension) {
   std::string number = match[1];
-  std::replace(number.begin(), number.end(), ',', '.');
+  std::ranges::replace(number, ',', '.');
   const auto value = parse_quantity(number + unit, dimension);
   return value && value.value() > 0.0 ? std::optional(value.value()) : std::nullopt;
 }

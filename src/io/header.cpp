@@ -106,7 +106,7 @@ bool is_units_row(const std::vector<std::string_view>& cells, const std::vector<
 
 /// Neither blank nor a rule between header and data.
 bool says_something(std::string_view line) {
-  return std::any_of(line.begin(), line.end(), [](char c) {
+  return std::ranges::any_of(line, [](char c) {
     const auto byte = static_cast<unsigned char>(c);
     return std::isalnum(byte) != 0 || byte >= 0x80 || c == '%';
   });

@@ -111,7 +111,7 @@ class ColumnScan {
     }
     if (values_.empty()) return column_;
     column_.first = values_.front();
-    column_.is_whole = std::all_of(values_.begin(), values_.end(), [](double v) { return v == std::floor(v); });
+    column_.is_whole = std::ranges::all_of(values_, [](double v) { return v == std::floor(v); });
     std::vector<double> steps;
     for (std::size_t i = 1; i < values_.size(); ++i) steps.push_back(values_[i] - values_[i - 1]);
     if (!steps.empty()) describe_steps(steps);
@@ -120,7 +120,7 @@ class ColumnScan {
 
  private:
   void describe_steps(std::vector<double>& steps) {
-    std::sort(steps.begin(), steps.end());
+    std::ranges::sort(steps);
     column_.varies = steps.front() != 0.0 || steps.back() != 0.0;
     column_.never_decreases = column_.varies && steps.front() >= 0.0 && steps.size() >= 2;
     const auto rising = std::upper_bound(steps.begin(), steps.end(), 0.0);

@@ -19,7 +19,7 @@ constexpr std::size_t kShortestStretch = 20;  // parts of the column
 
 std::vector<double> finite(std::span<const double> values) {
   std::vector<double> kept;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(kept), [](double v) { return std::isfinite(v); });
+  std::ranges::copy_if(values, std::back_inserter(kept), [](double v) { return std::isfinite(v); });
   return kept;
 }
 
@@ -60,8 +60,8 @@ std::optional<Level> level_of(std::span<const double> values) {
   level.standard_deviation = quantile_of(on, 0.5) / kNormalQuartile;
   auto blocks = block_medians(values);
   std::erase_if(blocks, [&](double v) { return !(v > threshold); });
-  const auto near = std::count_if(blocks.begin(), blocks.end(),
-                                  [&](double v) { return std::abs(v - level.value) <= kSteadyWithin * level.value; });
+  const auto near =
+      std::ranges::count_if(blocks, [&](double v) { return std::abs(v - level.value) <= kSteadyWithin * level.value; });
   level.is_steady = static_cast<double>(near) >= kSteadyPart * static_cast<double>(blocks.size());
   return level;
 }
@@ -80,7 +80,7 @@ std::vector<double> block_speeds_m_per_s(std::span<const double> time_s, std::sp
 std::vector<SampleRange> stretches_of_levels(std::span<const double> values, double tolerance) {
   const auto blocks = block_medians(values);
   const std::size_t size = block_size(values.size());
-  const double standing = blocks.empty() ? 0.0 : tolerance * *std::max_element(blocks.begin(), blocks.end());
+  const double standing = blocks.empty() ? 0.0 : tolerance * *std::ranges::max_element(blocks);
   std::vector<SampleRange> stretches;
   double lowest = HUGE_VAL;
   double highest = 0.0;

@@ -56,9 +56,8 @@ void scale_by(std::vector<double>& values, double scale) {
 /// Leaves out what is not asked for, and what is no number.
 void keep_wanted(Rows& rows, const ReadOptions& options) {
   const auto is_finite = [](double value) { return std::isfinite(value); };
-  const bool is_whole = !options.rows && !options.window &&
-                        std::all_of(rows.time_s.begin(), rows.time_s.end(), is_finite) &&
-                        std::all_of(rows.force.begin(), rows.force.end(), is_finite);
+  const bool is_whole = !options.rows && !options.window && std::ranges::all_of(rows.time_s, is_finite) &&
+                        std::ranges::all_of(rows.force, is_finite);
   if (is_whole) return;
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < rows.time_s.size(); ++i) {

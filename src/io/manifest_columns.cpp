@@ -69,8 +69,8 @@ Result<std::optional<ManifestColumn>> recognise(const std::string& name, std::si
 }
 
 const ManifestColumn* find_read(const ManifestColumns& columns, const ManifestField* field) {
-  const auto found = std::find_if(columns.read.begin(), columns.read.end(),
-                                  [field](const ManifestColumn& column) { return column.field == field; });
+  const auto found =
+      std::ranges::find_if(columns.read, [field](const ManifestColumn& column) { return column.field == field; });
   return found == columns.read.end() ? nullptr : &*found;
 }
 
@@ -168,7 +168,7 @@ Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& na
                                                "id,file,speed_m_per_s",
                                                place, field.full_name(), ignored)};
   }
-  std::stable_sort(columns.read.begin(), columns.read.end(), [](const ManifestColumn& a, const ManifestColumn& b) {
+  std::ranges::stable_sort(columns.read, [](const ManifestColumn& a, const ManifestColumn& b) {
     return turn_of(a.field->said.column) < turn_of(b.field->said.column);
   });
   return columns;
@@ -193,8 +193,8 @@ namespace slipfit {
 using namespace reading;
 
 Result<ManifestEntry> entry_from_cells(std::vector<NamedCell> cells) {
-  std::stable_sort(cells.begin(), cells.end(),
-                   [](const NamedCell& a, const NamedCell& b) { return turn_of(a.column) < turn_of(b.column); });
+  std::ranges::stable_sort(
+      cells, [](const NamedCell& a, const NamedCell& b) { return turn_of(a.column) < turn_of(b.column); });
   ManifestEntry entry;
   for (const NamedCell& cell : cells) {
     const auto column = recognise(cell.column, 0, cell.column);

@@ -34,7 +34,7 @@ std::vector<fs::path> files_below(const fs::path& path) {
        !error && at != end; at.increment(error)) {
     if (at->is_regular_file(error) && has_usual_ending(at->path())) files.push_back(at->path());
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 
@@ -92,8 +92,8 @@ ManifestDraft draft_manifest(const std::vector<fs::path>& paths, const ReadOptio
 }
 
 std::string to_csv(const ManifestDraft& draft, const fs::path& folder, const std::vector<DraftColumn>& columns) {
-  const bool has_steps = std::any_of(draft.entries.begin(), draft.entries.end(),
-                                     [](const DraftEntry& entry) { return entry.step.has_value(); });
+  const bool has_steps =
+      std::ranges::any_of(draft.entries, [](const DraftEntry& entry) { return entry.step.has_value(); });
   std::vector<std::string> names{"id", "file", "speed_m_per_s", "normal_force_N", "group"};
   if (has_steps) names.emplace_back("step");
   for (const DraftColumn& column : columns) names.push_back(column.name);

@@ -40,7 +40,7 @@ std::optional<Error> set_text_of(ManifestEntry& entry, const std::string& cell) 
 inline std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell) {
   const bool has_slash = cell.find_first_of("/\\") != std::string::npos;
   const bool has_control =
-      std::any_of(cell.begin(), cell.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+      std::ranges::any_of(cell, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
   if (has_slash || has_control || cell.starts_with("group:")) {
     return refusal("bad_id", cell, "a name without slash or control character that does not begin with 'group:'");
   }
@@ -57,7 +57,7 @@ std::optional<Error> set_label(ManifestEntry& entry, const std::string& cell) {
 inline std::optional<Error> set_force_view(ManifestEntry& entry, const std::string& cell) {
   constexpr auto kViews = std::to_array<std::pair<std::string_view, ForceView>>(
       {{"spring", ForceView::Spring}, {"transmitted", ForceView::Transmitted}, {"contact", ForceView::Contact}});
-  const auto* const view = std::find_if(kViews.begin(), kViews.end(), [&](const auto& v) { return v.first == cell; });
+  const auto* const view = std::ranges::find_if(kViews, [&](const auto& v) { return v.first == cell; });
   if (view == kViews.end()) return refusal("unknown_force_view", cell, "spring, transmitted or contact");
   entry.conditions.force_view = view->second;
   return std::nullopt;

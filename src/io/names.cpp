@@ -85,16 +85,16 @@ std::vector<std::string> words_of(std::string_view name) {
 
 /// "Force X", "Z-Force" are "fx", "fz".
 std::vector<std::string> with_direction(std::vector<std::string> words) {
-  const auto letter = std::find_if(words.begin(), words.end(), [](const std::string& word) {
+  const auto letter = std::ranges::find_if(words, [](const std::string& word) {
     return word.size() == 1 && std::string_view("xyz").find(word) != std::string_view::npos;
   });
-  const bool is_force = std::any_of(words.begin(), words.end(), [](const auto& word) { return is_in(kForce, word); });
+  const bool is_force = std::ranges::any_of(words, [](const auto& word) { return is_in(kForce, word); });
   if (is_force && letter != words.end()) letter->insert(letter->begin(), 'f');
   return words;
 }
 
 bool has(const std::vector<std::string>& words, std::string_view list) {
-  return std::any_of(words.begin(), words.end(), [list](const std::string& word) { return is_in(list, word); });
+  return std::ranges::any_of(words, [list](const std::string& word) { return is_in(list, word); });
 }
 
 struct RoleAndRank {
@@ -105,7 +105,7 @@ struct RoleAndRank {
 /// A letter alone is a speed only where its unit says so ("v [mm/s]"): it may be a voltage.
 RoleAndRank speed_role(const std::vector<std::string>& words, UnitClass unit) {
   const bool is_speed_unit = unit == UnitClass::Speed || unit == UnitClass::Rotation;
-  const bool is_letter = std::all_of(words.begin(), words.end(), [](const auto& word) { return word.size() == 1; });
+  const bool is_letter = std::ranges::all_of(words, [](const auto& word) { return word.size() == 1; });
   if (!is_speed_unit && (is_letter || unit != UnitClass::None)) return {Role::Other, 0};
   return {Role::Speed, is_letter || has(words, kNominal) ? 1 : 2};
 }

@@ -42,8 +42,7 @@ Result<Layout> layout_of_head(TextSource& source, const std::string& file) {
                                                 file, lines.size() + 1, kLongestLine >> 20)};
     }
     if (!source.head_is_everything()) continue;
-    const bool is_blank =
-        std::all_of(lines.begin(), lines.end(), [](std::string_view line) { return trim(line).empty(); });
+    const bool is_blank = std::ranges::all_of(lines, [](std::string_view line) { return trim(line).empty(); });
     if (is_blank) return Error{"empty_file", file + ": the file holds only blank lines; export the recording again"};
     break;
   }

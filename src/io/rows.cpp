@@ -46,8 +46,7 @@ std::vector<WantedColumn> wanted_columns(const Choice& choice) {
   add(choice.speed, kVelocity);
   if (choice.step) wanted.push_back({*choice.step, kStepNumber});
   if (choice.where) wanted.push_back({choice.where->column, kWhere});
-  std::stable_sort(wanted.begin(), wanted.end(),
-                   [](const WantedColumn& a, const WantedColumn& b) { return a.column < b.column; });
+  std::ranges::stable_sort(wanted, [](const WantedColumn& a, const WantedColumn& b) { return a.column < b.column; });
   return wanted;
 }
 
@@ -170,7 +169,7 @@ bool RowReader::is_row() const {
 /// Lines of nothing but blanks and delimiters (spreadsheets leave them at the end) do not count.
 void RowReader::count_text_line(std::string_view line, unsigned number) {
   const char delimiter = dialect_.delimiter == '\0' ? ' ' : dialect_.delimiter;
-  if (std::all_of(line.begin(), line.end(), [&](char c) { return c == delimiter || trim({&c, 1}).empty(); })) return;
+  if (std::ranges::all_of(line, [&](char c) { return c == delimiter || trim({&c, 1}).empty(); })) return;
   if (rows_.text_lines++ == 0) rows_.first_text_line = number;
   const bool is_names = !plan_.layout.names_line.empty() && trim(line) == plan_.layout.names_line;
   if (is_names && !rows_.time_s.empty()) rows_.blocks.push_back(rows_.time_s.size());

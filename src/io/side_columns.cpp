@@ -134,7 +134,7 @@ std::vector<std::size_t> those_of_coefficient(const Layout& layout, std::vector<
     return compared >= kFewest && 10 * alike >= 8 * compared;
   };
   std::vector<std::size_t> found;
-  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(found), is_its_force);
+  std::ranges::copy_if(candidates, std::back_inserter(found), is_its_force);
   return found.empty() ? candidates : found;
 }
 

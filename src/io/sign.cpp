@@ -69,7 +69,7 @@ std::vector<Stroke> parted(std::span<const double> force, double near) {
 }
 
 std::size_t count_negative(std::span<const double> force) {
-  return static_cast<std::size_t>(std::count_if(force.begin(), force.end(), [](double f) { return f < 0.0; }));
+  return static_cast<std::size_t>(std::ranges::count_if(force, [](double f) { return f < 0.0; }));
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ std::vector<Stroke> find_strokes(std::span<const double> force) {
   const auto negative = static_cast<double>(count_negative(force));
   if (std::min(negative, samples - negative) < kLeastOfEitherSign * samples) return {};
   const double near = kNear * level_90(force);
-  const auto near_zero = std::count_if(force.begin(), force.end(), [&](double f) { return std::abs(f) < near; });
+  const auto near_zero = std::ranges::count_if(force, [&](double f) { return std::abs(f) < near; });
   if (static_cast<double>(near_zero) > kMostNear * samples) return {};
   return parted(force, near);
 }

@@ -33,8 +33,8 @@ std::optional<double> steady_speed_m_per_s(const Rows& rows) {
   std::erase_if(speeds, [&](double v) { return !(v > 0.2 * fast_m_per_s); });  // standing, or about to start
   if (speeds.size() < 3) return std::nullopt;
   const double speed_m_per_s = quantile_of(speeds, 0.5);
-  const auto alike = std::count_if(speeds.begin(), speeds.end(),
-                                   [&](double v) { return std::abs(v - speed_m_per_s) <= 0.2 * speed_m_per_s; });
+  const auto alike =
+      std::ranges::count_if(speeds, [&](double v) { return std::abs(v - speed_m_per_s) <= 0.2 * speed_m_per_s; });
   const bool is_steady = 10 * alike >= 6 * static_cast<std::ptrdiff_t>(speeds.size());
   return is_steady ? std::optional(speed_m_per_s) : std::nullopt;
 }

@@ -57,12 +57,11 @@ std::vector<std::size_t> changes_of(const std::vector<double>& step) {
 std::vector<std::size_t> joined(std::vector<std::size_t> first, const std::vector<std::size_t>& second) {
   const std::vector<std::size_t> given = first;
   for (const std::size_t at : second) {
-    const auto beside = std::find_if(given.begin(), given.end(), [&](std::size_t other) {
-      return std::max(at, other) - std::min(at, other) < kFewestRows;
-    });
+    const auto beside = std::ranges::find_if(
+        given, [&](std::size_t other) { return std::max(at, other) - std::min(at, other) < kFewestRows; });
     if (beside == given.end()) first.push_back(at);
   }
-  std::sort(first.begin(), first.end());
+  std::ranges::sort(first);
   return first;
 }
 
@@ -95,7 +94,7 @@ bool is_level_kept(const std::vector<double>& column, std::span<const Step> step
     if (level) levels.push_back(level->value);
   }
   if (levels.empty()) return true;
-  const auto [lowest, highest] = std::minmax_element(levels.begin(), levels.end());
+  const auto [lowest, highest] = std::ranges::minmax_element(levels);
   return *highest <= (1.0 + tolerance) * *lowest;
 }
 
@@ -142,12 +141,11 @@ const Step& main_step(std::span<const Step> steps) {
   const auto length = [](const Step& step) { return static_cast<double>(step.end - step.begin); };
   double longest = 0.0;
   for (const Step& step : steps) longest = std::max(longest, length(step));
-  return *std::find_if(steps.begin(), steps.end(),
-                       [&](const Step& step) { return length(step) >= kAboutAsLong * longest; });
+  return *std::ranges::find_if(steps, [&](const Step& step) { return length(step) >= kAboutAsLong * longest; });
 }
 
 Result<Step> step_with_number(std::span<const Step> steps, std::size_t number, const std::string& file) {
-  const auto found = std::find_if(steps.begin(), steps.end(), [&](const Step& step) { return step.number == number; });
+  const auto found = std::ranges::find_if(steps, [&](const Step& step) { return step.number == number; });
   if (found != steps.end()) return *found;
   if (number >= 1 && number <= steps.size()) return steps[number - 1];
   std::string known;

@@ -58,7 +58,7 @@ PlanMatrix vague(const ModelEstimate& model) {
 }
 
 double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   return values[values.size() / 2];
 }
 
@@ -97,8 +97,8 @@ class Planner {
     for (const double speed : speeds()) {
       if (const auto option = best_rate(target, speed)) all.push_back(*option);
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const PlanOption& a, const PlanOption& b) { return a.standard_error < b.standard_error; });
+    std::ranges::stable_sort(
+        all, [](const PlanOption& a, const PlanOption& b) { return a.standard_error < b.standard_error; });
     return all;
   }
 
@@ -165,8 +165,8 @@ class Planner {
 
   /// Around those measured, where the model sticks for sure.
   [[nodiscard]] std::vector<double> speeds() const {
-    const auto [slow, fast] = std::minmax_element(
-        basis_.recordings.begin(), basis_.recordings.end(),
+    const auto [slow, fast] = std::ranges::minmax_element(
+        basis_.recordings,
         [](const RecordingPlan& a, const RecordingPlan& b) { return a.speed_m_per_s < b.speed_m_per_s; });
     std::vector<double> result;
     constexpr double kBeyond = 8.0;
@@ -210,8 +210,8 @@ class Planner {
           {recording, information->cycles, information->samples_per_slip, error_with(target, information->matrix)});
     }
     const double best = options.back().standard_error;
-    return *std::find_if(options.begin(), options.end(),
-                         [best](const PlanOption& option) { return option.standard_error <= 1.1 * best; });
+    return *std::ranges::find_if(options,
+                                 [best](const PlanOption& option) { return option.standard_error <= 1.1 * best; });
   }
 
   const PlanBasis& basis_;
@@ -226,8 +226,8 @@ PlanTarget worst_known(const std::vector<ParameterLimit>& limits) {
   const auto relative = [](const ParameterLimit& limit) {
     return limit.standard_error > 0.0 ? limit.standard_error / std::abs(limit.value) : 0.0;
   };
-  const auto worst = std::max_element(limits.begin(), limits.end(),
-                                      [&](const auto& a, const auto& b) { return relative(a) < relative(b); });
+  const auto worst =
+      std::ranges::max_element(limits, [&](const auto& a, const auto& b) { return relative(a) < relative(b); });
   return {worst->name, std::nullopt};
 }
 

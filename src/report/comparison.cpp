@@ -84,7 +84,7 @@ std::string side_text(const ComparisonSide& side) {
   std::vector<std::string> motions;
   for (const ComparedFit& fit : side.fits) {
     const std::string motion = plain_words(fit.motion);
-    if (std::find(motions.begin(), motions.end(), motion) == motions.end()) motions.push_back(motion);
+    if (std::ranges::find(motions, motion) == motions.end()) motions.push_back(motion);
   }
   return fmt::format("{} ({}, {}{}{})", one_line(side.name),
                      side.fits.size() == 1 ? "one recording" : fmt::format("{} recordings", side.fits.size()),
@@ -138,8 +138,7 @@ std::vector<NotCompared> not_compared(const Comparison& comparison) {
   for (const QuantityComparison& quantity : comparison.quantities) {
     if (quantity.difference.value) continue;
     const std::string& reason = quantity.difference.note;
-    const auto same =
-        std::find_if(all.begin(), all.end(), [&](const NotCompared& one) { return one.reason == reason; });
+    const auto same = std::ranges::find_if(all, [&](const NotCompared& one) { return one.reason == reason; });
     if (same == all.end()) {
       all.push_back({quantity.quantity.words, reason});
     } else {

@@ -80,7 +80,7 @@ std::string with_error(const Estimate& estimate) {
 DisplayUnit display_unit(const std::string& SI_unit, std::optional<double> typical) {
   if (SI_unit == "1/m") return {1e-3, "1/mm"};
   constexpr std::array<const char*, 5> kPrefixable{"m", "m/s", "s", "N", "kg"};
-  const bool prefixable = std::find(kPrefixable.begin(), kPrefixable.end(), SI_unit) != kPrefixable.end();
+  const bool prefixable = std::ranges::find(kPrefixable, SI_unit) != kPrefixable.end();
   if (!prefixable || !typical || !std::isfinite(*typical) || *typical == 0.0) return {1.0, SI_unit};
   const double magnitude = std::abs(*typical);
   if (magnitude >= 1.0) return {1.0, SI_unit};
@@ -170,7 +170,7 @@ std::string speed_text(const Conditions& conditions) {
 std::string plain_words(std::string_view name) {
   if (name == "stick_slip") return "stick-slip";
   std::string words = one_line(name);
-  std::replace(words.begin(), words.end(), '_', ' ');
+  std::ranges::replace(words, '_', ' ');
   return words;
 }
 

@@ -138,8 +138,8 @@ Json candidate_json(const Candidate& candidate, ForceQuantity quantity) {
 
 /// Its place in ModelEstimate::covariance.
 std::size_t place_of(const std::string& name) {
-  const auto* const found = std::find_if(kModelParameters.begin(), kModelParameters.end(),
-                                         [&name](ParameterId id) { return info(id).key == name; });
+  const auto* const found =
+      std::ranges::find_if(kModelParameters, [&name](ParameterId id) { return info(id).key == name; });
   return static_cast<std::size_t>(found - kModelParameters.begin());
 }
 

@@ -72,7 +72,7 @@ class Footnotes {
  public:
   std::string mark(const std::string& note) {
     if (note.empty()) return {};
-    const auto known = std::find(notes_.begin(), notes_.end(), note);
+    const auto known = std::ranges::find(notes_, note);
     const auto index = static_cast<std::size_t>(known - notes_.begin());
     if (known == notes_.end()) notes_.push_back(note);
     return " " + std::string(index + 1, '*');

@@ -73,7 +73,7 @@ void add_estimate(Table& table, std::string_view words, const Estimate& estimate
 std::string regime_text(const Derived& derived) {
   std::string words = one_line(*derived.regime);
   if (words == "stick_slip_bistable") words = "stick-slip from rest";
-  std::replace(words.begin(), words.end(), '_', '-');
+  std::ranges::replace(words, '_', '-');
   return fmt::format("  regime: {}{}\n", words,
                      derived.bistable.value_or(false) ? "; steady sliding, once reached, persists too (bistable)" : "");
 }

@@ -26,7 +26,7 @@ std::string notes_text(const std::vector<Parameter>& parameters) {
     for (auto other = first; other != parameters.end(); ++other) {
       if (has_note(*other)) names += (names.empty() ? "" : ", ") + one_line(info(other->id).words);
     }
-    const bool is_of_all = std::all_of(parameters.begin(), parameters.end(), has_note);
+    const bool is_of_all = std::ranges::all_of(parameters, has_note);
     text += fmt::format("    {}: {}\n", is_of_all ? "all of them" : names, one_line(note));
   }
   return text;
@@ -37,8 +37,8 @@ std::string statuses_text(const std::vector<Parameter>& parameters) {
   std::string text;
   for (const auto status : {ParameterStatus::Weak, ParameterStatus::Bounded, ParameterStatus::Unidentified,
                             ParameterStatus::Conditional, ParameterStatus::Fixed}) {
-    const bool occurs = std::any_of(parameters.begin(), parameters.end(),
-                                    [status](const Parameter& parameter) { return parameter.status == status; });
+    const bool occurs =
+        std::ranges::any_of(parameters, [status](const Parameter& parameter) { return parameter.status == status; });
     if (occurs) text += fmt::format("  {}: {}\n", name_of(status), words_for_status(status));
   }
   return text;

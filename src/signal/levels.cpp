@@ -17,7 +17,7 @@ std::vector<double> some_distinct(std::span<const double> values) {
   const std::size_t stride = 1 + (values.size() - 1) / kSorted;
   std::vector<double> distinct;
   for (std::size_t i = 0; i < values.size(); i += stride) distinct.push_back(values[i]);
-  std::sort(distinct.begin(), distinct.end());
+  std::ranges::sort(distinct);
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   return distinct;
 }
@@ -52,13 +52,13 @@ bool fills_lattice(std::span<const double> values, double origin, double lowest,
     if (std::abs(place - nearest) > thresholds::kOffLattice) return false;
     taken[static_cast<std::size_t>(std::clamp(nearest - first, 0.0, places))] = 1;
   }
-  const auto distinct = static_cast<double>(std::count(taken.begin(), taken.end(), 1));
+  const auto distinct = static_cast<double>(std::ranges::count(taken, 1));
   return distinct >= 2.0 && distinct < thresholds::kDistinctShare * static_cast<double>(values.size());
 }
 
 /// The samples at one end of the range (`sign` +1: the highest values), if they pile up there.
 std::size_t piled_up(std::span<const double> values, double sign, double end) {
-  const auto at_end = static_cast<std::size_t>(std::count(values.begin(), values.end(), end));
+  const auto at_end = static_cast<std::size_t>(std::ranges::count(values, end));
   // Half of all samples at one level is a force at rest, not a sensor at its end.
   if (at_end < thresholds::kFewestClipped || 2 * at_end >= values.size()) return 0;
   double next = -sign * HUGE_VAL;
@@ -71,7 +71,7 @@ std::size_t piled_up(std::span<const double> values, double sign, double end) {
       next = values[i];
     }
   }
-  const auto at_next = std::count(values.begin(), values.end(), next);
+  const auto at_next = std::ranges::count(values, next);
   const bool piled = static_cast<double>(at_end) > thresholds::kClippedPile * static_cast<double>(at_next) &&
                      static_cast<double>(in_runs) > thresholds::kClippedRuns * static_cast<double>(at_end);
   return piled ? at_end : 0;

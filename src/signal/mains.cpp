@@ -80,7 +80,7 @@ std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, 
       if (mains_Hz * order < 4.0 * resolution_Hz) continue;
       const auto line = line_at(power, bin_Hz, resolution_Hz, mains_Hz * order);
       const auto same = [&](const MainsLine& other) { return other.frequency_Hz == line->frequency_Hz; };
-      if (!line || std::any_of(lines.begin(), lines.end(), same)) continue;
+      if (!line || std::ranges::any_of(lines, same)) continue;
       // High orders come in company: one alone is a line of something else that happens to lie there.
       if (order > 3 && !has_lower) continue;
       has_lower = true;
@@ -101,7 +101,7 @@ std::optional<double> mains_in_step(double frequency_Hz, int harmonics, double d
 }
 
 bool is_of_mains(double frequency_Hz, double resolution_Hz) {
-  return std::any_of(kMains_Hz.begin(), kMains_Hz.end(), [&](double mains_Hz) {
+  return std::ranges::any_of(kMains_Hz, [&](double mains_Hz) {
     const double order = std::max(1.0, std::round(frequency_Hz / mains_Hz));
     return std::abs(frequency_Hz - order * mains_Hz) < std::max(resolution_Hz, 2e-3 * frequency_Hz);
   });
@@ -137,7 +137,7 @@ std::vector<MainsLine> without_hinted(std::vector<MainsLine> lines, std::optiona
 }
 
 bool is_on_line(const std::vector<MainsLine>& lines, double frequency_Hz, double reach_Hz) {
-  return std::any_of(lines.begin(), lines.end(), [&](const MainsLine& line) {
+  return std::ranges::any_of(lines, [&](const MainsLine& line) {
     return std::abs(line.frequency_Hz - frequency_Hz) < std::max(line.width_Hz, reach_Hz);
   });
 }

@@ -83,8 +83,7 @@ Quality assess_quality(const Recording& recording) {
   quality.clip_low = clipping.low;
   quality.clipped_samples = clipping.samples;
   quality.impulse_mask = signal::find_impulses(force, quality.noise_rms);
-  quality.impulses =
-      static_cast<std::size_t>(std::count(quality.impulse_mask.begin(), quality.impulse_mask.end(), true));
+  quality.impulses = static_cast<std::size_t>(std::ranges::count(quality.impulse_mask, true));
   assess_clock(recording, quality);
   return quality;
 }

@@ -28,7 +28,7 @@ Changes changes_between(std::span<const double> force, const std::vector<std::si
   for (std::size_t run = 1; run < first.size(); ++run) {
     sizes.push_back(std::abs(force[first[run]] - force[first[run - 1]]));
   }
-  const double smallest = sizes.empty() ? 0.0 : *std::min_element(sizes.begin(), sizes.end());
+  const double smallest = sizes.empty() ? 0.0 : *std::ranges::min_element(sizes);
   return {median(std::move(sizes)), smallest};
 }
 

@@ -86,8 +86,7 @@ Band band_of(const Train& train, Run run) {
     if (i < run.last) troughs.push_back(train.trough(i));
   }
   const double room = 0.5 * train.usual().large_drop;
-  return {*std::min_element(troughs.begin(), troughs.end()) - room,
-          *std::max_element(peaks.begin(), peaks.end()) + room};
+  return {*std::ranges::min_element(troughs) - room, *std::ranges::max_element(peaks) + room};
 }
 
 bool within(const std::vector<double>& force, std::size_t begin, std::size_t end, Band band) {
@@ -165,7 +164,7 @@ Blocks blocks_of(std::span<const double> force) {
   for (std::size_t begin = 0; begin + blocks.samples <= force.size(); begin += blocks.samples) {
     const auto block = force.subspan(begin, blocks.samples);
     blocks.level.push_back(median({block.begin(), block.end()}));
-    const auto [low, high] = std::minmax_element(block.begin(), block.end());
+    const auto [low, high] = std::ranges::minmax_element(block);
     movements.push_back(*high - *low);
   }
   blocks.movement = quantile_of(std::move(movements), 0.9);
@@ -180,7 +179,7 @@ struct Split {
 };
 
 Split split_of(std::vector<double> levels) {
-  std::sort(levels.begin(), levels.end());
+  std::ranges::sort(levels);
   double total = 0.0;
   for (const double level : levels) total += level;
   const auto count = static_cast<double>(levels.size());

@@ -91,8 +91,7 @@ ComplexTransform::Buffer windowed(std::span<const double> values, std::size_t pa
 std::shared_ptr<const ComplexTransform> transform_of(std::size_t length) {
   static std::array<std::shared_ptr<const ComplexTransform>, 4> latest;
   const std::lock_guard guard(PlanLocks::get().kept);
-  const auto known =
-      std::find_if(latest.begin(), latest.end(), [&](const auto& plan) { return plan && plan->length() == length; });
+  const auto known = std::ranges::find_if(latest, [&](const auto& plan) { return plan && plan->length() == length; });
   const bool is_new = known == latest.end();
   const auto first = is_new ? known - 1 : known;
   std::rotate(latest.begin(), first, first + 1);
@@ -131,7 +130,7 @@ std::vector<double> real_power(const Complex* z, std::size_t half, double scale)
 UniformTrace bridge(const Recording& recording, const std::vector<bool>& held) {
   const std::span<const double> force = recording.force();
   UniformTrace trace{recording.duration_s() / static_cast<double>(force.size() - 1), {force.begin(), force.end()}};
-  for (auto first = std::find(held.begin(), held.end(), true); first != held.end();) {
+  for (auto first = std::ranges::find(held, true); first != held.end();) {
     const auto last = std::find(first, held.end(), false);
     const auto begin = static_cast<std::size_t>(first - held.begin());
     const auto end = static_cast<std::size_t>(last - held.begin());

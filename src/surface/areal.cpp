@@ -48,9 +48,9 @@ Projection project(const HeightMap& map, double along_rad, std::size_t thinned) 
 
 /// Without the corners, where few rows take part; gaps stay gaps.
 Projection trimmed(Projection projection) {
-  const double most = *std::max_element(projection.counts.begin(), projection.counts.end());
+  const double most = *std::ranges::max_element(projection.counts);
   const auto is_full = [most](double count) { return count >= 0.5 * most; };
-  const auto first = std::find_if(projection.counts.begin(), projection.counts.end(), is_full);
+  const auto first = std::ranges::find_if(projection.counts, is_full);
   const auto last = std::find_if(projection.counts.rbegin(), projection.counts.rend(), is_full).base();
   const auto begin = first - projection.counts.begin();
   const auto end = last - projection.counts.begin();
@@ -130,8 +130,8 @@ Result<Profile> profile_of(std::vector<double> places_m, std::vector<double> hei
   if (places_m.size() < 2)
     return Error{"too_few_points", file + ": holds fewer than two points; measure a longer track"};
   if (places_m.front() > places_m.back()) {
-    std::reverse(places_m.begin(), places_m.end());
-    std::reverse(heights.begin(), heights.end());
+    std::ranges::reverse(places_m);
+    std::ranges::reverse(heights);
   }
   for (std::size_t i = 1; i < places_m.size(); ++i) {
     if (places_m[i] > places_m[i - 1]) continue;

@@ -30,8 +30,7 @@ Error too_few_ridges(const Profile& profile, double count) {
 
 std::optional<Error> refusal(const Profile& profile) {
   const std::vector<double>& z = profile.height;
-  const auto holes =
-      static_cast<std::size_t>(std::count_if(z.begin(), z.end(), [](double h) { return !std::isfinite(h); }));
+  const auto holes = static_cast<std::size_t>(std::ranges::count_if(z, [](double h) { return !std::isfinite(h); }));
   if (z.size() < thresholds::kFewestPoints) {
     return Error{"too_few_points",
                  fmt::format("{}: {} points are too few for a pattern (at least {}); measure a longer "
@@ -45,8 +44,8 @@ std::optional<Error> refusal(const Profile& profile) {
                     "again or cut it to its good part",
                     profile.file, 100.0 * static_cast<double>(holes) / static_cast<double>(z.size()))};
   }
-  const auto known = std::find_if(z.begin(), z.end(), [](double h) { return std::isfinite(h); });
-  if (std::all_of(z.begin(), z.end(), [&](double h) { return !std::isfinite(h) || h == *known; })) {
+  const auto known = std::ranges::find_if(z, [](double h) { return std::isfinite(h); });
+  if (std::ranges::all_of(z, [&](double h) { return !std::isfinite(h) || h == *known; })) {
     return Error{"constant_profile", profile.file +
                                          ": all heights are equal: there is no surface in it; check the column "
                                          "(--z-column) and the range of the instrument"};
@@ -161,7 +160,7 @@ void add_ridges(const Profile& profile, const Pattern& pattern, Surface& found) 
 bool is_of_the_code(const Profile& profile, const surface::MeanSpacing& spacing) {
   if (!profile.block_samples) return false;
   constexpr std::array kBlocks = {1.0, 2.0};
-  return std::any_of(kBlocks.begin(), kBlocks.end(), [&](double blocks) {
+  return std::ranges::any_of(kBlocks, [&](double blocks) {
     const double apart = std::abs(spacing.value - blocks * *profile.block_samples);
     return apart < std::max(2.0 * spacing.standard_error, 0.01 * spacing.value);
   });
@@ -227,8 +226,7 @@ Result<Surface> measure_surface(const Profile& profile) {
   conclude(profile, patterns, found);
   const double length_m = profile.pitch_m * static_cast<double>(heights.size());
   add_rsm(profile, heights, found.spacing_m.value.value_or(length_m / 20.0), found);
-  const auto holes =
-      std::count_if(profile.height.begin(), profile.height.end(), [](double h) { return !std::isfinite(h); });
+  const auto holes = std::ranges::count_if(profile.height, [](double h) { return !std::isfinite(h); });
   if (holes > 0) {
     found.warnings.push_back(
         {"holes_bridged", fmt::format("{} points that were not measured were bridged by lines", holes)});

@@ -25,7 +25,7 @@ double mean_height(std::span<const double> heights, std::size_t sampling) {
 
 double standard_cutoff_m(double element_m) {
   constexpr std::array kSeries_m = {25e-6, 80e-6, 250e-6, 800e-6, 2.5e-3, 8e-3, 25e-3};
-  const auto found = std::find_if(kSeries_m.begin(), kSeries_m.end(), [&](double c) { return c >= 2.0 * element_m; });
+  const auto found = std::ranges::find_if(kSeries_m, [&](double c) { return c >= 2.0 * element_m; });
   return found == kSeries_m.end() ? kSeries_m.back() : *found;
 }
 

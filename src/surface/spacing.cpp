@@ -21,7 +21,7 @@ Pattern pattern_of(Ridges ridges) {
     if (places->size() >= thresholds::kFewestRidges - 1) features.emplace_back(variation(distances(*places)), places);
   }
   if (features.size() >= 2) {
-    std::sort(features.begin(), features.end());
+    std::ranges::sort(features);
     pattern.variation = features[1].first;
     pattern.places = *features[1].second;
     const double freedom = static_cast<double>(pattern.places.size()) - 2.0;
@@ -145,10 +145,9 @@ double largest_variation(const Pattern& pattern) {
 /// still regular is taken, and the distance to the one at which they are most regular counts as an error.
 Pattern choose(std::vector<Pattern> looks, const std::optional<Clock>& clock) {
   const auto by_chance = [](const Pattern& a, const Pattern& b) { return a.log_chance < b.log_chance; };
-  const auto best = std::min_element(looks.begin(), looks.end(), by_chance);
-  const auto first = std::find_if(looks.begin(), looks.end(), [&](const Pattern& p) {
-    return p.log_chance <= thresholds::kKeptChance * best->log_chance;
-  });
+  const auto best = std::ranges::min_element(looks, by_chance);
+  const auto first = std::ranges::find_if(
+      looks, [&](const Pattern& p) { return p.log_chance <= thresholds::kKeptChance * best->log_chance; });
   Pattern chosen = *first;
   const double distance = mean_distance(chosen);
   // Anywhere between the two smoothings.

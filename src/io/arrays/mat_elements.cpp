@@ -17,7 +17,7 @@ template <class Number>
 Number number_at(const char* place, MatOrder order) {
   std::array<char, sizeof(Number)> bytes{};
   std::memcpy(bytes.data(), place, bytes.size());
-  if (order == MatOrder::Swapped) std::reverse(bytes.begin(), bytes.end());
+  if (order == MatOrder::Swapped) std::ranges::reverse(bytes);
   Number number{};
   std::memcpy(&number, bytes.data(), bytes.size());
   return number;

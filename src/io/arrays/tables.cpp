@@ -56,7 +56,7 @@ bool is_better(const TableShape& a, const TableShape& b) {
 /// "/run/force" is called so, without the first slash, and as MATLAB calls it: "run.force".
 bool is_called(const std::string& name, std::string wanted) {
   if (name == wanted || name == "/" + wanted) return true;
-  std::replace(wanted.begin(), wanted.end(), '.', '/');
+  std::ranges::replace(wanted, '.', '/');
   return name == "/" + wanted;
 }
 
@@ -86,7 +86,7 @@ TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::option
     chosen = wanted_table(arrays, *variable);
   } else {
     auto tables = tables_of(arrays);
-    chosen = *std::min_element(tables.begin(), tables.end(), is_better);
+    chosen = *std::ranges::min_element(tables, is_better);
   }
   const std::uint64_t numbers = numbers_in(chosen);
   if (numbers > kMostNumbers || columns_of(chosen) > kMostColumns || is_bomb(8 * numbers, file_size)) {

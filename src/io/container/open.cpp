@@ -103,7 +103,7 @@ constexpr std::array kFormats = std::to_array<Format>({
 });
 
 const Format& format_of(std::string_view start) {
-  return *std::find_if(kFormats.begin(), kFormats.end(), [&](const Format& format) {
+  return *std::ranges::find_if(kFormats, [&](const Format& format) {
     return start.size() >= format.offset && start.substr(format.offset).starts_with(format.magic);
   });
 }

@@ -68,9 +68,7 @@ Result<std::string> choose_group(const std::vector<TdmsChannel>& channels, const
                                                  name, printable(*choice.variable),
                                                  printable(fmt::format("{}", fmt::join(groups, "', '"))))};
   }
-  return std::max_element(values.begin(), values.end(),
-                          [](const auto& a, const auto& b) { return a.second < b.second; })
-      ->first;
+  return std::ranges::max_element(values, [](const auto& a, const auto& b) { return a.second < b.second; })->first;
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ class Cursor {
   template <class Number>
   Number number() {
     std::string raw(bytes(sizeof(Number)));
-    if (order_ != std::endian::native) std::reverse(raw.begin(), raw.end());
+    if (order_ != std::endian::native) std::ranges::reverse(raw);
     Number value{};
     std::memcpy(&value, raw.data(), sizeof(Number));
     return value;
@@ -92,8 +92,8 @@ constexpr std::array kNumberTypes = std::to_array<NumberType>({
 
 /// Null for what has no fixed size or is no number.
 const NumberType* type_with_code(std::uint32_t code) {
-  const auto* const found = std::find_if(kNumberTypes.begin(), kNumberTypes.end(),
-                                         [code](const NumberType& type) { return type.code == code; });
+  const auto* const found =
+      std::ranges::find_if(kNumberTypes, [code](const NumberType& type) { return type.code == code; });
   return found == kNumberTypes.end() ? nullptr : found;
 }
 

@@ -81,7 +81,7 @@ std::vector<DateStyle> styles_of(const pugi::xml_document& document) {
   std::vector<DateStyle> styles;
   for (const pugi::xml_node style : child(root, "cellXfs")) {
     const unsigned id = style.attribute("numFmtId").as_uint();
-    const auto own = std::find_if(formats.begin(), formats.end(), [id](const auto& f) { return f.first == id; });
+    const auto own = std::ranges::find_if(formats, [id](const auto& f) { return f.first == id; });
     styles.push_back(own == formats.end() ? built_in_date_style(id) : own->second);
   }
   return styles;
@@ -177,7 +177,7 @@ Result<TextStream> open_workbook(const ZipArchive& archive, const std::string& n
   names.reserve(sheets.size());
   for (const Sheet& sheet : sheets) names.push_back(sheet.name);
   const auto largest =
-      std::max_element(sheets.begin(), sheets.end(), [](const Sheet& a, const Sheet& b) { return a.bytes < b.bytes; });
+      std::ranges::max_element(sheets, [](const Sheet& a, const Sheet& b) { return a.bytes < b.bytes; });
   const auto at = choice.sheet ? find_named(names, *choice.sheet, name)
                                : Result<std::size_t>(static_cast<std::size_t>(largest - sheets.begin()));
   if (!at) return at.error();

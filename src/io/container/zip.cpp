@@ -133,8 +133,7 @@ Result<ZipArchive> ZipArchive::open(std::string content, const std::string& name
 }
 
 const ZipMember* ZipArchive::find(const std::string& member) const {
-  const auto found =
-      std::find_if(members_.begin(), members_.end(), [&](const ZipMember& m) { return m.name == member; });
+  const auto found = std::ranges::find_if(members_, [&](const ZipMember& m) { return m.name == member; });
   return found == members_.end() ? nullptr : &*found;
 }
 
@@ -197,7 +196,7 @@ Result<TextStream> open_zip(TextStream /*packed*/, const std::string& name, cons
 
 Result<std::size_t> find_named(const std::vector<std::string>& names, const std::string& wanted,
                                const std::string& file) {
-  const auto found = std::find(names.begin(), names.end(), wanted);
+  const auto found = std::ranges::find(names, wanted);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   if (const auto place = place_in_list(wanted, names.size())) return *place;
   constexpr std::size_t kMostListed = 12;

@@ -54,12 +54,12 @@ StatusCounts statuses_of(const std::vector<BatchPageRow>& rows) {
   std::map<std::string, std::size_t> counts;
   for (const BatchPageRow& row : rows) counts[row.status] += is_group(row) ? 0U : 1U;
   StatusCounts sorted(counts.begin(), counts.end());
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::ranges::stable_sort(sorted, [](const auto& a, const auto& b) { return a.second > b.second; });
   return sorted;
 }
 
 std::string summary_of(const BatchPage& page, const StatusCounts& counts) {
-  const auto groups = static_cast<std::size_t>(std::count_if(page.rows.begin(), page.rows.end(), is_group));
+  const auto groups = static_cast<std::size_t>(std::ranges::count_if(page.rows, is_group));
   std::string sentence = reading::counted(page.rows.size() - groups, "recording");
   const char* separator = ": ";
   for (const auto& [status, count] : counts) {
@@ -76,11 +76,11 @@ std::string summary_of(const BatchPage& page, const StatusCounts& counts) {
 /// counted.
 std::optional<chart::Panel> histogram(std::vector<double> values, std::string label) {
   if (values.empty()) return std::nullopt;
-  const double least = kLeastShare * *std::max_element(values.begin(), values.end());
+  const double least = kLeastShare * *std::ranges::max_element(values);
   const auto near_zero = std::erase_if(values, [least](double v) { return !(v > least); });
   if (values.size() < kFewest) return std::nullopt;
   if (near_zero > 0) label += fmt::format(", {} at zero not drawn", near_zero);
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = std::ranges::minmax_element(values);
   const double first = *low / 1.05;
   const auto bins =
       static_cast<std::size_t>(std::clamp(2.0 * std::cbrt(static_cast<double>(values.size())), 6.0, 40.0));
@@ -92,7 +92,7 @@ std::optional<chart::Panel> histogram(std::vector<double> values, std::string la
   chart::Panel panel;
   panel.height_px = 160.0;
   panel.x = {label, first, first * std::exp(step * static_cast<double>(bins)), chart::Scale::Logarithmic};
-  panel.y = {"recordings", 0.0, 1.1 * *std::max_element(counts.begin(), counts.end()), chart::Scale::Linear};
+  panel.y = {"recordings", 0.0, 1.1 * *std::ranges::max_element(counts), chart::Scale::Linear};
   for (std::size_t i = 0; i < bins; ++i) {
     const double left = first * std::exp(step * static_cast<double>(i));
     const double right = left * std::exp(step);
@@ -149,7 +149,7 @@ std::vector<std::string> codes_in(const Json& warnings) {
   std::vector<std::string> codes;
   for (const Json& warning : warnings) {
     std::string code = text_in(warning, "code");
-    if (std::find(codes.begin(), codes.end(), code) == codes.end()) codes.push_back(std::move(code));
+    if (std::ranges::find(codes, code) == codes.end()) codes.push_back(std::move(code));
   }
   return codes;
 }
@@ -269,7 +269,7 @@ std::string sparkline_of(const Recording& recording) {
   const std::vector<chart::Point> points = html::envelope(recording.time_s(), recording.force(), html::kSparkColumns);
   if (points.size() < 2) return {};
   const auto is_lower = [](const chart::Point& a, const chart::Point& b) { return a.y < b.y; };
-  const auto [low, high] = std::minmax_element(points.begin(), points.end(), is_lower);
+  const auto [low, high] = std::ranges::minmax_element(points, is_lower);
   const double scale = high->y > low->y ? html::kSparkHeight / (high->y - low->y) : 0.0;
   std::string path;
   long last_x = 0;

@@ -84,8 +84,7 @@ Panel panel_of(const Source& source, const Stack& stack, CycleWindow window) {
   const DisplayUnit unit = display_unit("s", window.after_s);
   chart::Line model{"fit of a typical cycle", Colour::Vermillion, Stroke::Solid,
                     laid(source, source.fitted, stack.typical, window), 2.4};
-  const bool has_model =
-      std::any_of(model.points.begin(), model.points.end(), [](const Point& p) { return std::isfinite(p.y); });
+  const bool has_model = std::ranges::any_of(model.points, [](const Point& p) { return std::isfinite(p.y); });
   Panel panel;
   panel.height_px = 240.0;
   panel.legend_at = chart::LegendAt::Above;

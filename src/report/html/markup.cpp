@@ -40,9 +40,8 @@ std::string replaced(std::string_view content, const std::array<Replacement, cou
     result += content.substr(0, plain);
     content.remove_prefix(plain);
     if (content.empty()) break;
-    const auto* const found = std::find_if(replacements.begin(), replacements.end(), [content](const Replacement& r) {
-      return content.substr(0, r.first.size()) == r.first;
-    });
+    const auto* const found = std::ranges::find_if(
+        replacements, [content](const Replacement& r) { return content.substr(0, r.first.size()) == r.first; });
     const bool is_plain = found == replacements.end();
     result += is_plain ? content.substr(0, 1) : found->second;
     content.remove_prefix(is_plain ? 1 : found->first.size());
@@ -75,7 +74,7 @@ std::string filled(std::string_view page, const std::vector<std::pair<std::strin
     const std::size_t close = page.find("}}", open == std::string_view::npos ? open : open + 2);
     if (close == std::string_view::npos) return result += page;
     const std::string_view name = page.substr(open + 2, close - open - 2);
-    const auto found = std::find_if(values.begin(), values.end(), [name](const auto& v) { return v.first == name; });
+    const auto found = std::ranges::find_if(values, [name](const auto& v) { return v.first == name; });
     result += page.substr(0, open);
     result += found == values.end() ? page.substr(open, close + 2 - open) : std::string_view(found->second);
     page.remove_prefix(close + 2);

@@ -97,7 +97,7 @@ Figure spectrum_figure(const Source& source) {
       std::max(spectrum.bin_Hz, frequency.quoted.value ? *frequency.quoted.value / kBelowFundamental : spectrum.bin_Hz);
   if (spectrum.power.size() > 2) {
     const std::vector<Point> points = highest_bins(spectrum, low_Hz, source.force_unit.per_SI);
-    const bool has_force = std::any_of(points.begin(), points.end(), [](const Point& point) { return point.y > 0.0; });
+    const bool has_force = std::ranges::any_of(points, [](const Point& point) { return point.y > 0.0; });
     if (points.size() > 2 && has_force) figure.chart = chart::Chart{"Spectrum", {}, {spectrum_panel(source, points)}};
   }
   if (!figure.chart) figure.absent = "The recording is too short, or too even, for a spectrum.";

@@ -61,8 +61,8 @@ DisplayUnit force_unit_of_all(const std::vector<OverlaidSet>& sets) {
   for (const OverlaidSet& set : sets) {
     for (const OverlaidRecording& one : set.recordings) units.push_back(force_unit_of(one.recording));
   }
-  return *std::min_element(units.begin(), units.end(),
-                           [](const DisplayUnit& a, const DisplayUnit& b) { return a.per_SI < b.per_SI; });
+  return *std::ranges::min_element(units,
+                                   [](const DisplayUnit& a, const DisplayUnit& b) { return a.per_SI < b.per_SI; });
 }
 
 /// Colours in the order of the sets; further rounds in other strokes.
@@ -154,8 +154,8 @@ std::vector<OverlaidSet> sets_of(const SweepSource& source) {
 }  // namespace
 
 bool has_cycles(const OverlaidSet& set) {
-  return std::any_of(set.recordings.begin(), set.recordings.end(),
-                     [](const OverlaidRecording& one) { return window_of(one, kAxes.front()).has_value(); });
+  return std::ranges::any_of(set.recordings,
+                             [](const OverlaidRecording& one) { return window_of(one, kAxes.front()).has_value(); });
 }
 
 chart::Chart overlay_of(const std::string& title, const std::vector<OverlaidSet>& sets) {

@@ -26,7 +26,7 @@ std::string sweep_sentence(const SweepSource& source) {
       critical.value
           ? ": stick-slip ends at " + estimate_text(critical, speed_unit(given_speed_unit(source), critical.value))
           : std::string(": where stick-slip ends is not known");
-  const auto left_out = std::count(source.sweep.roles.begin(), source.sweep.roles.end(), SweepRole::LeftOut);
+  const auto left_out = std::ranges::count(source.sweep.roles, SweepRole::LeftOut);
   const auto fitted = static_cast<std::ptrdiff_t>(source.entries.size()) - left_out;
   return text(fmt::format("{} recordings, {} fitted together{}.", source.entries.size(), fitted, end));
 }
@@ -55,7 +55,7 @@ SweepUnits units_of(const SweepSource& source) {
 
 /// Of the pattern on the worn surface, where the manifest gives it for any of them.
 bool has_surface_spacing(const SweepSource& source) {
-  return std::any_of(source.entries.begin(), source.entries.end(), [](const SweepEntry& entry) {
+  return std::ranges::any_of(source.entries, [](const SweepEntry& entry) {
     return spacing_on_surface(entry.recording.conditions()).value.has_value();
   });
 }
@@ -138,7 +138,7 @@ std::vector<std::size_t> by_speed(const SweepSource& source) {
   std::vector<std::size_t> order(source.entries.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto speed = [&source](std::size_t i) { return source.entries[i].recording.conditions().speed_m_per_s; };
-  std::stable_sort(order.begin(), order.end(), [&speed](std::size_t a, std::size_t b) { return speed(a) < speed(b); });
+  std::ranges::stable_sort(order, [&speed](std::size_t a, std::size_t b) { return speed(a) < speed(b); });
   return order;
 }
 
