@@ -1,7 +1,8 @@
 #include "core/clock_step.hpp"
 
-#include <algorithm>
 #include <cstddef>
+
+#include "core/quantile.hpp"
 
 namespace slipfit {
 namespace {
@@ -13,13 +14,6 @@ std::vector<double> positive_steps(std::span<const double> time_s, std::size_t s
     if (time_s[i] > time_s[i - 1]) steps.push_back(time_s[i] - time_s[i - 1]);
   }
   return steps;
-}
-
-double upper_median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -39,8 +33,8 @@ ClockOrder order_of(std::span<const double> time_s) {
 double median_positive_step(std::span<const double> time_s) {
   constexpr std::size_t kSome = 16;
   const std::vector<double> some = positive_steps(time_s, kSome);
-  if (some.empty()) return upper_median(positive_steps(time_s, 1));
-  const double guess = upper_median(some);
+  if (some.empty()) return median(positive_steps(time_s, 1));
+  const double guess = median(some);
   std::size_t positive = 0;
   std::size_t below = 0;
   std::size_t equal = 0;
@@ -51,7 +45,7 @@ double median_positive_step(std::span<const double> time_s) {
     equal += step == guess ? std::size_t{1} : 0;
   }
   const bool is_median = below <= positive / 2 && positive / 2 < below + equal;
-  return is_median ? guess : upper_median(positive_steps(time_s, 1));
+  return is_median ? guess : median(positive_steps(time_s, 1));
 }
 
 }  // namespace slipfit

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/fit_thresholds.hpp"
+#include "core/quantile.hpp"
 #include "predict/delta.hpp"
 #include "predict/information.hpp"
 #include "predict/motion.hpp"
@@ -55,11 +56,6 @@ PlanMatrix vague(const ModelEstimate& model) {
   }
   matrix(predict::kPlanValues - 1, predict::kPlanValues - 1) = 1e4 * std::pow(model.friction_difference_N, 2);
   return matrix;
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
 }
 
 /// Scatter of the static friction. The force falls from that of the onset to exp(-pi zeta / b) of it on the other side;

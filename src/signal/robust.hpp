@@ -1,8 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
-#include <vector>
+
+#include "core/quantile.hpp"
 
 namespace slipfit::signal {
 
@@ -15,12 +15,6 @@ inline std::size_t stride_for(std::size_t count) {
 /// From the median of |x| to the standard deviation, normal distribution.
 inline constexpr double kMedianToSigma = 1.4826;
 
-/// Upper median; 0 for no values. Takes a copy to sort in.
-inline double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+using slipfit::median;
 
 }  // namespace slipfit::signal

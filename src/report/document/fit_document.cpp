@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "core/quantile.hpp"
 #include "report/document/json_node.hpp"
 #include "report/document/prediction_model.hpp"
 
@@ -30,45 +30,34 @@ RecordingPlan conditions_of(const JsonNode& recording) {
           recording.member("duration_s").positive()};
 }
 
-std::optional<double> median(std::vector<double> values) {
-  if (values.empty()) return std::nullopt;
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
-
-/// A recording whose scatter is not known adds nothing.
-void add_scatter(const JsonNode& cycles, std::vector<double>& scatter) {
-  if (const std::optional<double> sd = cycles.member("force_drop_sd_N").number()) scatter.push_back(*sd);
-}
-
 /// The model, how the recordings with cycles were made, their noise and scatter (medians). Throws also where the
 /// document has no residual in newtons.
 PlanBasis plan_basis_of(const JsonNode& document, ModelEstimate estimate) {
   PlanBasis result;
   result.estimate = std::move(estimate);
-  std::vector<double> scatter;
   if (!document.has("recordings")) {
     result.recordings = {conditions_of(document.member("recording"))};
     result.noise_rms_N = document.member("model").member("residual").member("rms_N").positive();
-    add_scatter(document.member("cycles"), scatter);
-    result.force_drop_sd_N = median(scatter);
+    result.force_drop_sd_N = document.member("cycles").member("force_drop_sd_N").number();
     return result;
   }
   const std::optional<bool> shared = document.member("model").member("level_shared").flag();
   if (shared.value_or(false)) result.levels = LevelSharing::Shared;
   const JsonNode members = document.member("recordings");
   std::vector<double> noise;
+  std::vector<double> scatter;
   for (std::size_t i = 0; i < members.array_size(); ++i) {
     const JsonNode member = members.element(i);
     if (member.member("role").text() != "cycles" || !member.has("joint")) continue;
     if (member.member("joint").member("rms_N").is_null()) continue;
     result.recordings.push_back(conditions_of(member.member("recording")));
     noise.push_back(member.member("joint").member("rms_N").positive());
-    add_scatter(member.member("cycles"), scatter);
+    const std::optional<double> sd = member.member("cycles").member("force_drop_sd_N").number();
+    if (sd) scatter.push_back(*sd);
   }
   if (noise.empty()) members.fail("recordings with cycles in the joint fit");
-  result.noise_rms_N = *median(noise);
-  result.force_drop_sd_N = median(scatter);
+  result.noise_rms_N = median(noise);
+  if (!scatter.empty()) result.force_drop_sd_N = median(scatter);
   return result;
 }
 
