@@ -4,7 +4,7 @@
 
 #include "analysis/slip_shape.hpp"
 #include "analysis/stopwatch.hpp"
-#include "signal/repeats.hpp"
+#include "signal/defects.hpp"
 #include "signal/stretch.hpp"
 
 namespace slipfit {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "signal/events.hpp"
-#include "signal/mains_removal.hpp"
+#include "signal/mains.hpp"
 #include "signal/mask.hpp"
 #include "signal/robust.hpp"
 #include "signal/stretch.hpp"

@@ -8,7 +8,6 @@
 
 #include "core/thresholds.hpp"
 #include "signal/comb.hpp"
-#include "signal/harmonic_fit.hpp"
 #include "signal/mains.hpp"
 #include "signal/phase_track.hpp"
 #include "signal/transform.hpp"

@@ -1,4 +1,4 @@
-#include "signal/harmonic_fit.hpp"
+#include "signal/phase_track.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "signal/impulses.hpp"
+#include "signal/defects.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "signal/levels.hpp"
+#include "signal/defects.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "slipfit/core/recording.hpp"
+
 namespace slipfit::signal {
 
 /// A peak of a spectrum where the mains or one of its harmonics would be.
@@ -36,5 +38,15 @@ std::vector<MainsLine> without_hinted(std::vector<MainsLine> lines, std::optiona
 
 /// Whether a frequency lies within the width of a line, or within `reach_Hz` of it if that is more.
 bool is_on_line(const std::vector<MainsLine>& lines, double frequency_Hz, double reach_Hz);
+
+/// The force without lines of the mains, for looking at, not for fitting: cosine and sine of each under a Hann window,
+/// which keeps the cycles' own lines out.
+struct Dehummed {
+  std::vector<double> lines_Hz;  ///< empty: none stands out, the clock is uneven, or the mains is slower than 4 turns
+  std::vector<double> force;
+  double swing = 0.0;  ///< peak to peak, the largest line
+};
+
+Dehummed without_mains(const Recording& recording);
 
 }  // namespace slipfit::signal

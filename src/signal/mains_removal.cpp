@@ -1,12 +1,11 @@
-#include "signal/mains_removal.hpp"
+#include "signal/mains.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
-#include "signal/mains.hpp"
+#include "signal/segments.hpp"
 #include "signal/transform.hpp"
-#include "signal/turn.hpp"
 
 namespace slipfit::signal {
 namespace {

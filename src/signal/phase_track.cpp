@@ -8,7 +8,6 @@
 #include "signal/robust.hpp"
 #include "signal/segments.hpp"
 #include "signal/student.hpp"
-#include "signal/turn.hpp"
 
 namespace slipfit::signal {
 namespace {

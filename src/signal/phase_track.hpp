@@ -21,4 +21,8 @@ struct TrackedFrequency {
 /// Empty: fewer than 6 usable cycles or no phase to follow.
 std::optional<TrackedFrequency> track_frequency(const Recording& recording, double near_Hz, std::size_t harmonics);
 
+/// Least squares of a harmonic series plus a straight line over the whole trace; for few cycles (the cost is cycles x
+/// harmonics^3). The standard error allows for residuals correlated over up to one period. Empty: no convergence.
+std::optional<TrackedFrequency> fit_harmonics(const Recording& recording, double near_Hz, std::size_t harmonics);
+
 }  // namespace slipfit::signal

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "core/thresholds.hpp"
-#include "signal/impulses.hpp"
-#include "signal/levels.hpp"
+#include "signal/defects.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {

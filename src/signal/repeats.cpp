@@ -1,4 +1,4 @@
-#include "signal/repeats.hpp"
+#include "signal/defects.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "signal/turn.hpp"
-
 namespace slipfit::signal {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "slipfit/core/recording.hpp"
@@ -40,5 +41,7 @@ Advance advance_of(const std::vector<Segment>& segments);
 
 /// Half as many segments of twice the length.
 std::vector<Segment> merge_pairs(const std::vector<Segment>& segments, double advance_rad, std::size_t harmonics);
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
 
 }  // namespace slipfit::signal
