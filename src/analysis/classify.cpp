@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/harmonic_null.hpp"
 #include "analysis/slip_shape.hpp"
 #include "core/thresholds.hpp"
 #include "signal/robust.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/coefficients.hpp"
+#include "analysis/conclusions.hpp"
 
 #include <fmt/format.h>
 

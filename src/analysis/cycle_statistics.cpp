@@ -1,4 +1,4 @@
-#include "analysis/cycle_statistics.hpp"
+#include "analysis/conclusions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "analysis/slip_shape.hpp"
-#include "analysis/stopwatch.hpp"
 #include "signal/defects.hpp"
 #include "signal/stretch.hpp"
 

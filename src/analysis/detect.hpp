@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -39,5 +40,15 @@ struct Detected {
 };
 
 Detected detect(const Recording& recording);
+
+/// Wall-clock seconds since it was made.
+class Stopwatch {
+ public:
+  [[nodiscard]] double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
 
 }  // namespace slipfit

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/detect.hpp"
 #include "analysis/ranges.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/slip_shape.hpp"
-#include "analysis/stopwatch.hpp"
 #include "core/parallel.hpp"
 #include "core/thresholds.hpp"
 

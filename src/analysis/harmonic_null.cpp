@@ -1,4 +1,4 @@
-#include "analysis/harmonic_null.hpp"
+#include "analysis/classify.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

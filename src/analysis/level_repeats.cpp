@@ -1,4 +1,4 @@
-#include "analysis/level_repeats.hpp"
+#include "analysis/conclusions.hpp"
 
 #include <fmt/format.h>
 

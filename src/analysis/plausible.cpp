@@ -1,4 +1,4 @@
-#include "analysis/plausible.hpp"
+#include "analysis/conclusions.hpp"
 
 #include <fmt/format.h>
 

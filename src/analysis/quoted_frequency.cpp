@@ -1,4 +1,4 @@
-#include "analysis/quoted_frequency.hpp"
+#include "analysis/conclusions.hpp"
 
 #include <fmt/format.h>
 

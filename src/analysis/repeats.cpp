@@ -1,4 +1,4 @@
-#include "analysis/repeats.hpp"
+#include "analysis/sweep_checks.hpp"
 
 #include <algorithm>
 #include <array>

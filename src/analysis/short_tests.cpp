@@ -1,4 +1,4 @@
-#include "analysis/short_tests.hpp"
+#include "analysis/conclusions.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include <string_view>
 #include <utility>
 
-#include "analysis/level_repeats.hpp"
 #include "core/thresholds.hpp"
 
 namespace slipfit {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "slipfit/sweep.hpp"
 
 namespace slipfit {
@@ -33,5 +36,8 @@ Warnings check_agreement(std::span<const SweepEntry> entries, const std::vector<
 
 /// Recordings with the same samples, whatever their files are called.
 Warnings check_duplicates(std::span<const SweepEntry> entries);
+
+/// Mean and scatter over recordings that are all at one speed; empty where they are not.
+std::vector<Repeat> compare_repeats(std::span<const SweepEntry> entries, std::span<const Analysis> analyses);
 
 }  // namespace slipfit

@@ -1,4 +1,4 @@
-#include "analysis/transients.hpp"
+#include "analysis/conclusions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "analysis/warnings.hpp"
+#include "analysis/conclusions.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "analysis/short_tests.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "core/thresholds.hpp"
 

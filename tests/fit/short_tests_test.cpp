@@ -3,8 +3,7 @@
 #include <numbers>
 #include <random>
 
-#include "analysis/level_repeats.hpp"
-#include "analysis/short_tests.hpp"
+#include "analysis/conclusions.hpp"
 #include "scene.hpp"
 
 using namespace slipfit;

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analysis/classify.hpp"
+#include "analysis/detect.hpp"
+#include "analysis/estimate.hpp"
+#include "slipfit/analysis.hpp"
+#include "slipfit/signal/cycles.hpp"
+
+namespace slipfit {
+
+// What an analysis says beside its fit, in the order in which src/pipeline.cpp asks.
+
+/// Both frequencies and the one to quote, which is of slips (or of an oscillation that is the motion): the cycles of a
+/// fit that is the model's (fitted_frequency.hpp), or harmonic least squares where they are regular and it is the
+/// sharper; without such a fit the count, or harmonic least squares where they agree on regular slips. Steady sliding
+/// and what cannot be told quote none, nor does what dies out where spectrum and count differ. `fit`: empty unless its
+/// cycles are the model's.
+FrequencyReport quote_frequency(const Recording& recording, const Signals& signals,
+                                const Classification& classification, const FitResult* fit);
+
+/// Of the detected slips; times of stick and slip from the cycles of a fit, where there is one.
+CycleStatistics summarise_cycles(const Recording& recording, const Segmentation& segmentation, const FitResult* fit);
+
+/// Of slips with at least two intervals. `slips_Hz`: the quoted frequency.
+Regularity regularity_of(const CycleStatistics& cycles, const Estimate& slips_Hz, const Conditions& conditions);
+
+/// Spacing V/f and impulse rate from the quoted frequency; uncertainty of the speed included where it is given.
+Derived with_measured_spacing(Derived derived, const Recording& recording, const FrequencyReport& frequency,
+                              const CycleStatistics& cycles);
+
+/// What the recording shows outside of the stretch that slides: the loading ramp and its first peak before it, a free
+/// ring-down after it (after the release, or after the last slip of a motion that dies out).
+Transients find_transients(const Detected& detected, MotionClass motion);
+
+/// Empty without a normal force (for a force column). `analysis`: with its cycles, transients and kind of motion.
+std::optional<Coefficients> find_coefficients(const Detected& detected, const Analysis& analysis);
+
+/// Numbers that no tester has, mostly from a unit that was mistaken: with the factor of 1000 that would mend them.
+std::optional<Warning> implausible_units(const Recording& recording, const Analysis& analysis);
+
+/// One-line tests of what the fit takes for granted (docs/accuracy.md): drift of the period, a cycle against the one
+/// before, ageing; the stated mass and the load cell's resonance where they are stated; without a fit, whether the
+/// level repeats. Empty unless the kind of motion is stick-slip.
+std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysis& analysis);
+
+/// One warning for each test whose outcome is beyond chance (1 in 1000).
+Warnings warn_of(const std::vector<ShortTest>& tests);
+
+/// Does the force level of the slips repeat over the path (docs/accuracy.md)? `level_repeats`: the path from one
+/// repetition to the next, in m. Beyond chance only where neither white scatter of the levels nor a random walk makes
+/// such a sine. Empty below thresholds::kFewestOfWave slips.
+std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, double speed_m_per_s);
+
+/// Of the reader, the quality, the lines beside the slips, the short tests, the fit, and of what changes on the way.
+Warnings collect_warnings(const Detected& detected, const Segmentation& slips, const Analysis& analysis);
+
+}  // namespace slipfit
