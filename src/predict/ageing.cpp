@@ -1,4 +1,4 @@
-#include "predict/ageing.hpp"
+#include "predict/motion.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -7,8 +7,6 @@
 
 #include "core/fit_thresholds.hpp"
 #include "model/ageing.hpp"
-#include "predict/coulomb.hpp"
-#include "predict/velocity.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -109,9 +107,8 @@ CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagatio
   const double unit = (p.omega_rad_per_s * p.difference_N / p.stiffness_N_per_m).a;
   double sticks = kSlowest * unit;
   double slides = kFastest * unit;
-  const auto both = [](const std::string& reason) { return CriticalPoint{unknown(reason), unknown(reason)}; };
-  if (!aged_difference_N(model, sticks)) return both("no stick-slip at any speed");
-  if (aged_difference_N(model, slides)) return both("there is stick-slip at every speed looked at");
+  if (!aged_difference_N(model, sticks)) return CriticalPoint::unknown("no stick-slip at any speed");
+  if (aged_difference_N(model, slides)) return CriticalPoint::unknown("there is stick-slip at every speed looked at");
   while (slides > (1.0 + kSharp) * sticks) {
     const double middle = std::sqrt(sticks * slides);
     (aged_difference_N(model, middle) ? sticks : slides) = middle;
@@ -119,7 +116,7 @@ CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagatio
   const double difference_N = *aged_difference_N(model, sticks);
   const Jet speed = end_speed(model, difference_N, sticks);
   if (propagation.quantile() * propagation.standard_error(speed) > thresholds::kWidestAgeing * sticks) {
-    return both("ageing and damping are not known well enough to tell where stick-slip ends");
+    return CriticalPoint::unknown("ageing and damping are not known well enough to tell where stick-slip ends");
   }
   const Jet lambda = p.omega_rad_per_s * difference_N / (p.stiffness_N_per_m * speed);
   return {propagation.positive(lambda), propagation.positive(speed)};

@@ -1,4 +1,4 @@
-#include "predict/coulomb.hpp"
+#include "predict/motion.hpp"
 
 #include <cassert>
 #include <utility>
@@ -36,10 +36,7 @@ Jet jet_of(const Sensitive& quantity, const ModelEstimate& model) {
 }  // namespace
 
 CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagation& propagation) {
-  if (!model.damping_identified) {
-    const Estimate reason = unknown("the damping ratio cannot be told from 0");
-    return {reason, reason};
-  }
+  if (!model.damping_identified) return CriticalPoint::unknown("the damping ratio cannot be told from 0");
   if (!(model.damping_ratio > 0.0)) {
     return {{0.0, std::nullopt, std::nullopt, {}}, unknown("without damping there is stick-slip at every speed")};
   }

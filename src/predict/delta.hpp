@@ -58,6 +58,8 @@ std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_p
 /// on there is none.
 struct CriticalPoint {
   Estimate lambda, speed_m_per_s;
+
+  static CriticalPoint unknown(const std::string& why) { return {slipfit::unknown(why), slipfit::unknown(why)}; }
 };
 
 /// One stick-slip cycle; forces of the spring above F_k.

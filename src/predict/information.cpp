@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "model/velocity_track.hpp"
-#include "predict/ageing.hpp"
+#include "predict/motion.hpp"
 
 namespace slipfit::predict {
 namespace {

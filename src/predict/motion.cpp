@@ -7,9 +7,6 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/unknown.hpp"
-#include "predict/ageing.hpp"
-#include "predict/coulomb.hpp"
-#include "predict/velocity.hpp"
 
 namespace slipfit::predict {
 namespace {

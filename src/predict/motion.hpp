@@ -12,4 +12,26 @@ MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s);
 /// of static friction, or where it rests on one law of F_k(v) of several that would fit.
 CriticalPoint critical_point(const ModelEstimate& model);
 
+/// As motion_at(), for a model with `speed_dependence`: docs/model.md section 5.
+MotionJets velocity_motion_at(const ModelEstimate& model, double speed_m_per_s);
+
+/// As critical_point(): the highest speed at which the slip that starts from stick sticks again.
+CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagation& propagation);
+
+/// As motion_at(), for a model under Coulomb friction without `ageing`.
+MotionJets coulomb_motion_at(const ModelEstimate& model, double speed_m_per_s);
+
+/// As critical_point(), likewise.
+CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagation& propagation);
+
+/// As motion_at(), for a model with `ageing`.
+MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s);
+
+/// As critical_point(), for a model with `ageing`: where the sticks become too short to give the static friction that
+/// they need.
+CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagation& propagation);
+
+/// F_s - F_k(0+) of the limit cycle at a speed, for a model with `ageing`; empty where there is no stick-slip.
+std::optional<double> aged_difference_N(const ModelEstimate& model, double speed_m_per_s);
+
 }  // namespace slipfit::predict

@@ -1,4 +1,4 @@
-#include "predict/velocity.hpp"
+#include "predict/motion.hpp"
 
 #include <numbers>
 
@@ -120,10 +120,6 @@ Bracket refined(const ModelJets& p, Bracket bracket) {
   return bracket;
 }
 
-CriticalPoint both(const Estimate& estimate) {
-  return {estimate, estimate};
-}
-
 }  // namespace
 
 MotionJets velocity_motion_at(const ModelEstimate& model, double speed_m_per_s) {
@@ -145,15 +141,15 @@ CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagat
   const double unit = (p.omega_rad_per_s * p.difference_N / p.stiffness_N_per_m).a;
   double speed = kFastest * unit;
   if (sticks_at(p, speed)) {
-    if (!model.damping_identified) return both(unknown("the damping ratio cannot be told from 0"));
+    if (!model.damping_identified) return CriticalPoint::unknown("the damping ratio cannot be told from 0");
     return {{0.0, std::nullopt, std::nullopt, {}}, unknown("there is stick-slip at every speed looked at")};
   }
   while (speed > kSlowest * unit && !sticks_at(p, speed / kSearchStep)) speed /= kSearchStep;
-  if (speed <= kSlowest * unit) return both(unknown("no stick-slip at any speed"));
+  if (speed <= kSlowest * unit) return CriticalPoint::unknown("no stick-slip at any speed");
   const double critical = refined(p, {speed / kSearchStep, speed}).slides;
   const SlipJets slip(p, critical);
   const auto track = slip.solve();
-  if (!track || track->resticks()) return both(unknown("the end of stick-slip has no solution"));
+  if (!track || track->resticks()) return CriticalPoint::unknown("the end of stick-slip has no solution");
   // The largest z' is 1 there: derivatives of the root by the implicit function theorem.
   const model::TrackValue& first = track->end().first;
   const double by_speed = (-first.d_z0 * (slip.z0.a + 2.0 * slip.zeta.a) + first.d_rate * slip.rate.a) / critical;
@@ -161,7 +157,7 @@ CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagat
   speed_jet.v = -slip.jet(first).v / by_speed;
   if (propagation.quantile() * propagation.standard_error(speed_jet) > thresholds::kWidestEnd * critical ||
       propagation.law_is_open_at(critical)) {
-    return both(unknown("damping and friction law are not known well enough to tell where stick-slip ends"));
+    return CriticalPoint::unknown("damping and friction law are not known well enough to tell where stick-slip ends");
   }
   const Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed_jet);
   return {propagation.positive(lambda), propagation.positive(speed_jet)};
