@@ -9,7 +9,6 @@
 #include "core/quantile.hpp"
 #include "io/levels.hpp"
 #include "io/sign.hpp"
-#include "io/stated.hpp"
 
 namespace slipfit::reading {
 namespace {

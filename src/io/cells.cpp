@@ -10,7 +10,6 @@
 
 #include "core/number_text.hpp"
 #include "core/word_list.hpp"
-#include "io/dates.hpp"
 #include "io/short_decimal.hpp"
 
 namespace slipfit::reading {

@@ -11,7 +11,6 @@
 #include "core/word_list.hpp"
 #include "io/column_search.hpp"
 #include "io/message.hpp"
-#include "io/side_columns.hpp"
 #include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {

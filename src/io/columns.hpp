@@ -1,18 +1,59 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "io/choice.hpp"
 #include "io/layout.hpp"
+#include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"
 #include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {
+
+/// A column by its 0-based index, and what turns its numbers into SI.
+struct Channel {
+  std::size_t column = 0;
+  double scale = 1.0;
+  ForceQuantity quantity = ForceQuantity::Force_N;  ///< of the force channel
+  std::string sentence;                             ///< for Provenance::assumed
+  bool is_clock = false;                            ///< of the time: counted from midnight of its first day
+};
+
+/// Only rows whose cell says this are read.
+struct WhereFilter {
+  std::size_t column = 0;
+  std::string text;
+  std::optional<double> number;  ///< where the text is one: 4 is 4.0
+};
+
+/// Which columns are read, and how.
+struct Choice {
+  std::optional<Channel> time;  ///< empty: the sample rate is the clock
+  Channel force;
+  std::optional<Channel> displacement;
+  std::optional<Channel> normal_force;
+  std::optional<Channel> speed;
+  std::optional<std::size_t> step;  ///< column of numbers of steps
+  std::optional<WhereFilter> where;
+  std::vector<std::string> assumed;
+};
 
 /// Errors: unknown_column, column_not_numeric, no_time_column, ambiguous_time_column, no_force_column,
 /// ambiguous_force_column, unknown_unit, conflicting_options. `file` is how messages call the file. A displacement over
 /// `speed_m_per_s` (0: not known) stands in for a clock that is missing.
 Result<Choice> choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s,
                               const std::string& file);
+
+/// What stands beside time and force: normal force, speed, displacement, numbers of steps, the column of --where. A
+/// column that nobody named is used where its name and unit leave no doubt, and is otherwise no reason to refuse a
+/// file. Errors: unknown_column, column_not_numeric, unknown_unit, conflicting_options.
+Result<Choice> with_side_columns(Choice choice, const Layout& layout, const ReadOptions& options,
+                                 const std::string& file);
+
+/// Of several columns that may be the tangential force, those whose quotient with the normal force is the column of
+/// friction coefficients; all of them where that does not tell.
+std::vector<std::size_t> those_of_coefficient(const Layout& layout, std::vector<std::size_t> candidates);
 
 }  // namespace slipfit::reading

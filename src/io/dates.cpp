@@ -1,4 +1,4 @@
-#include "io/dates.hpp"
+#include "io/cells.hpp"
 
 #include <array>
 #include <charconv>

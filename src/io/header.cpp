@@ -1,4 +1,4 @@
-#include "io/header.hpp"
+#include "io/layout.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "io/header.hpp"
-
 namespace slipfit::reading {
 namespace {
 

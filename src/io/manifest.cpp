@@ -10,7 +10,6 @@
 
 #include "io/cells.hpp"
 #include "io/line_reader.hpp"
-#include "io/manifest_columns.hpp"
 #include "io/manifest_fields.hpp"
 #include "io/message.hpp"
 #include "io/text_source.hpp"

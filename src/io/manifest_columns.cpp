@@ -1,4 +1,4 @@
-#include "io/manifest_columns.hpp"
+#include "io/manifest_fields.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "io/cells.hpp"
-#include "io/manifest_fields.hpp"
 #include "io/message.hpp"
 #include "slipfit/core/units.hpp"
 

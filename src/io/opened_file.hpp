@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "io/choice.hpp"
+#include "io/columns.hpp"
 #include "io/layout.hpp"
 #include "io/rows.hpp"
 #include "io/text_source.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/choice.hpp"
+#include "io/columns.hpp"
 #include "io/layout.hpp"
 #include "io/text_source.hpp"
 #include "slipfit/io/read_options.hpp"

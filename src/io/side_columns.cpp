@@ -1,4 +1,4 @@
-#include "io/side_columns.hpp"
+#include "io/columns.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "io/stated.hpp"
+#include "io/build.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "io/dates.hpp"
+#include "io/cells.hpp"
 #include "temp_file.hpp"
 
 using namespace io_test;
