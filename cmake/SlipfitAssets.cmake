@@ -19,3 +19,14 @@ function(slipfit_embed target name file)
     DEPENDS "${script}" ${file} VERBATIM)
   target_sources(${target} PRIVATE "${source}")
 endfunction()
+
+# slipfit_remedies(TARGET HEADER): what docs/formats.md says to do about each error, as a header of TARGET.
+function(slipfit_remedies target header)
+  set(output "${CMAKE_CURRENT_BINARY_DIR}/${header}")
+  set(tables "${PROJECT_SOURCE_DIR}/docs/formats.md")
+  set(script "${PROJECT_SOURCE_DIR}/cmake/remedies.cmake")
+  add_custom_command(OUTPUT "${output}"
+    COMMAND "${CMAKE_COMMAND}" "-DINPUT=${tables}" "-DOUTPUT=${output}" -P "${script}" DEPENDS "${script}" "${tables}" VERBATIM)
+  target_sources(${target} PRIVATE "${output}")
+  target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
+endfunction()
