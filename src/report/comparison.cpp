@@ -6,8 +6,8 @@
 #include <array>
 
 #include "report/comparison_text.hpp"
+#include "report/format.hpp"
 #include "report/json_sections.hpp"
-#include "report/table.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/text.hpp"
 

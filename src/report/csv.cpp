@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "report/format.hpp"
+#include "report/quantities.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
@@ -35,18 +36,12 @@ std::string cycles_to_csv(const Recording& recording, const Analysis& analysis) 
 }
 
 std::string curve_to_csv(const Recording& recording, const Analysis& analysis) {
-  std::vector<std::optional<double>> fitted(recording.size());
-  if (analysis.fit) {
-    for (const CurvePoint& point : analysis.fit->curve) {
-      if (point.sample < fitted.size()) fitted[point.sample] = point.force;
-    }
-  }
+  const std::vector<double> fitted = fitted_force(recording, analysis);
   std::string csv = fmt::format("time_s,force_{0},fitted_{0},residual_{0}\n", unit_suffix(recording));
   for (std::size_t i = 0; i < recording.size(); ++i) {
     const double force = recording.force()[i];
-    const std::optional<double> residual = fitted[i] ? std::optional(force - *fitted[i]) : std::nullopt;
     fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", recording.time_s()[i], force, cell(fitted[i]),
-                   cell(residual));
+                   cell(force - fitted[i]));
   }
   return csv;
 }

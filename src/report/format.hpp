@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
@@ -63,5 +64,20 @@ std::string force_unit(ForceQuantity quantity);
 
 /// For CSV: the shortest text that reads back as the same double; empty where there is no number.
 std::string cell(std::optional<double> value);
+
+enum class Align { Left, Right };
+
+/// Lines of cells in columns that are as wide as their widest cell, two blanks apart, indented by two.
+class Table {
+ public:
+  explicit Table(std::vector<Align> columns) : columns_(std::move(columns)) {}
+  void add(std::vector<std::string> cells);  ///< at most as many cells as columns
+  [[nodiscard]] bool empty() const { return rows_.empty(); }
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::vector<Align> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
 
 }  // namespace slipfit

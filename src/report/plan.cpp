@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "report/format.hpp"
 #include "report/json_values.hpp"
-#include "report/table.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/text.hpp"
 

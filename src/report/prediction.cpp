@@ -13,7 +13,6 @@
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
 #include "report/json_values.hpp"
-#include "report/table.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/text.hpp"
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -70,6 +71,16 @@ inline std::vector<std::pair<std::string_view, Estimate>> coefficient_rows(const
     rows.emplace_back(row.words, Estimate{coefficients.*row.value, {}, {}, {}});
   }
   return rows;
+}
+
+/// The fit at every sample of the recording, not a number where it does not reach.
+inline std::vector<double> fitted_force(const Recording& recording, const Analysis& analysis) {
+  std::vector<double> fitted(recording.size(), std::numeric_limits<double>::quiet_NaN());
+  if (!analysis.fit) return fitted;
+  for (const CurvePoint& point : analysis.fit->curve) {
+    if (point.sample < fitted.size()) fitted[point.sample] = point.force;
+  }
+  return fitted;
 }
 
 /// In what a recording differs from what a standard asks.

@@ -5,7 +5,6 @@
 #include "report/format.hpp"
 #include "report/names.hpp"
 #include "report/quantities.hpp"
-#include "report/table.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/text.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "report/format.hpp"
 #include "report/names.hpp"
-#include "report/table.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/text.hpp"

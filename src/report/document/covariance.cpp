@@ -1,4 +1,4 @@
-#include "report/document/covariance.hpp"
+#include "report/document/prediction_model.hpp"
 
 #include <fmt/format.h>
 

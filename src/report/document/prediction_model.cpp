@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "report/document/covariance.hpp"
 #include "report/document/json_node.hpp"
 
 namespace slipfit::documents {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "report/comparison_text.hpp"
+#include "report/html/figure.hpp"
 #include "report/html/markup.hpp"
-#include "report/html/overlay_figure.hpp"
 #include "report/html/page.hpp"
 #include "slipfit/report/comparison.hpp"
 

@@ -1,22 +1,9 @@
 #include "report/html/figure.hpp"
 
-#include <limits>
-
 #include "report/html/scaling.hpp"
+#include "report/quantities.hpp"
 
 namespace slipfit::html {
-namespace {
-
-std::vector<double> fitted_force(const Recording& recording, const Analysis& analysis) {
-  std::vector<double> fitted(recording.size(), std::numeric_limits<double>::quiet_NaN());
-  if (!analysis.fit) return fitted;
-  for (const CurvePoint& point : analysis.fit->curve) {
-    if (point.sample < fitted.size()) fitted[point.sample] = point.force;
-  }
-  return fitted;
-}
-
-}  // namespace
 
 Source source_of(const Recording& recording, const Analysis& analysis, const Background& background) {
   return {recording, analysis, background, force_unit_of(recording), fitted_force(recording, analysis)};

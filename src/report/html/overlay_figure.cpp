@@ -1,4 +1,4 @@
-#include "report/html/overlay_figure.hpp"
+#include "report/html/figure.hpp"
 
 #include <fmt/format.h>
 

@@ -10,6 +10,7 @@
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
 #include "report/names.hpp"
+#include "report/quantities.hpp"
 #include "report/text_sections.hpp"
 
 namespace slipfit::html {
@@ -44,6 +45,12 @@ std::string candidates_table(const FitResult& fit, ForceQuantity quantity) {
                     text(quantity_text(candidate.rms, force_unit(quantity))), formula_text(candidate.reason)});
   }
   return "<h3>Models that were tried</h3>\n" + table("", {"model", "", "#residual, rms", "why"}, rows);
+}
+
+std::vector<std::string> coefficient_row(std::string_view words, const Estimate& estimate) {
+  const EstimateRow shown = estimate_row(estimate, std::string());
+  return {text(words), text(shown.value), shown.interval.empty() ? "-" : text(shown.interval),
+          formula_text(estimate.note)};
 }
 
 }  // namespace
@@ -153,6 +160,22 @@ std::string parameters_part(const Source& source) {
   if (!fit.conditional_on.empty())
     content += "<p class=\"guide\">Assumed in the fit:</p>\n" + list(each(fit.conditional_on, formula_text));
   return part(content + candidates_table(fit, source.recording.conditions().quantity));
+}
+
+std::string coefficients_part(const Source& source) {
+  const auto& coefficients = source.analysis.coefficients;
+  if (!coefficients) return {};
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [words, estimate] : coefficient_rows(*coefficients))
+    rows.push_back(coefficient_row(words, estimate));
+  for (const StandardCoefficients& standard : coefficients->standards) {
+    Estimate kinetic = standard.kinetic_coefficient;
+    kinetic.note = standard.standard + " prescribes " + standard.prescribes + ". Here: " + differences_text(standard);
+    rows.push_back(coefficient_row("static, as " + standard.standard, standard.static_coefficient));
+    rows.push_back(coefficient_row("kinetic, as " + standard.standard, kinetic));
+  }
+  return section(" id=\"coefficients\" class=\"flows\"", "Coefficient of friction",
+                 table(" class=\"parameters\"", {"", "#value", "~95 % interval", "what it is"}, rows));
 }
 
 std::string quality_part(const Source& source) {
