@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "chart/chart.hpp"
 
@@ -40,5 +41,34 @@ std::string escaped(const std::string& text);
 
 /// Letters of a UTF-8 text, for the room that it takes.
 double letters_in(const std::string& text);
+
+struct Tick {
+  double value = 0.0;
+  std::string text;  ///< empty: a grid line only
+};
+
+/// The axis as it can be drawn: finite ends in order, positive ones on a logarithmic axis, and so far apart that ticks
+/// between them are different doubles.
+Axis drawable(Axis axis);
+
+/// Of a drawable axis. Steps of 1, 2 or 5 times a power of ten, at most `most_steps` of them; decades with their parts
+/// on a logarithmic axis, all decades with values (of very many some) and, where the axis is short, some parts.
+std::vector<Tick> ticks_of(const Axis& axis, int most_steps = 8);
+
+constexpr double kLineHeight_px = 18.0;
+
+/// The room inside the axes of a panel, in pixels.
+struct Frame {
+  double left = 0.0;
+  double top = 0.0;
+  double width = 0.0;
+  double height = 0.0;
+};
+
+/// Room that the legend takes above the axes; 0 where it stands inside them.
+double legend_height_px(const Panel& panel, double width_px);
+
+/// Everything with a name, in the order lines, markers, areas. `id`: of the picture.
+void draw_legend(Drawing& drawing, const Panel& panel, const Frame& frame, const std::string& id);
 
 }  // namespace slipfit::chart

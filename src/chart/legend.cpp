@@ -1,4 +1,4 @@
-#include "chart/legend.hpp"
+#include "chart/drawing.hpp"
 
 #include <fmt/format.h>
 
@@ -28,8 +28,7 @@ std::vector<Entry> entries_of(const Panel& panel) {
   for (const Line& line : panel.lines) entries.push_back({line.name, &line});
   for (const Markers& markers : panel.markers) entries.push_back({markers.name, &markers});
   for (const Area& area : panel.areas) entries.push_back({area.name, &area});
-  entries.erase(std::remove_if(entries.begin(), entries.end(), [](const Entry& entry) { return entry.name.empty(); }),
-                entries.end());
+  std::erase_if(entries, [](const Entry& entry) { return entry.name.empty(); });
   return entries;
 }
 

@@ -10,8 +10,6 @@
 
 #include "chart/chart.hpp"
 #include "chart/drawing.hpp"
-#include "chart/legend.hpp"
-#include "chart/ticks.hpp"
 
 namespace slipfit::chart {
 namespace {

@@ -1,4 +1,4 @@
-#include "chart/ticks.hpp"
+#include "chart/drawing.hpp"
 
 #include <fmt/format.h>
 

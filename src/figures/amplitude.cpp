@@ -9,8 +9,6 @@
 
 #include "chart/chart.hpp"
 #include "figures/parts.hpp"
-#include "figures/scaled.hpp"
-#include "figures/table.hpp"
 
 namespace slipfit::figures {
 namespace {
@@ -131,8 +129,8 @@ std::vector<FigureFile> amplitude_against_speed() {
     }
     panel.lines.push_back(line);
   }
-  panel.x = {kSpeedLabel, 0.0, kFastest_m_per_s, chart::Scale::Linear};
-  panel.y = {"stick-slip amplitude Δx  [mm]", 0.0, 45.0, chart::Scale::Linear};
+  panel.x = {kSpeedLabel, 0.0, kFastest_m_per_s};
+  panel.y = {"stick-slip amplitude Δx  [mm]", 0.0, 45.0};
   const chart::Chart chart{"Figure 4: stick-slip amplitude against speed, undamped",
                            {"Exact; so is the paper's eq. (23). m = 0.5 g and Fₛ − Fₖ = 5 N as in the paper.",
                             "Assumed: the values of Xₛ = (Fₛ − Fₖ)/k and the range of V."},
@@ -151,10 +149,10 @@ std::vector<FigureFile> damped_amplitude_against_speed() {
       {"figure 8 of the paper: the speeds above which there is no stick-slip (exact) and no root of eq. (36)", assumed},
       {"assumed_damping_ratio", "critical_speed_m_per_s", "largest_speed_of_eq_36_m_per_s"});
   chart::Panel upper, lower;
-  upper.x = {"", 0.0, kFastest_m_per_s, chart::Scale::Linear};
-  upper.y = {"amplitude Δx  [mm]", 0.0, 20.0, chart::Scale::Linear};
-  lower.x = {kSpeedLabel, 0.0, kFastest_m_per_s, chart::Scale::Linear};
-  lower.y = {"Δx / Δx(ζ = 0)  [-]", 0.8, 1.1, chart::Scale::Linear};
+  upper.x = {"", 0.0, kFastest_m_per_s};
+  upper.y = {"amplitude Δx  [mm]", 0.0, 20.0};
+  lower.x = {kSpeedLabel, 0.0, kFastest_m_per_s};
+  lower.y = {"Δx / Δx(ζ = 0)  [-]", 0.8, 1.1};
   for (std::size_t i = 0; i < kDampingRatios.size(); ++i) {
     const double zeta = kDampingRatios.at(i);
     const DampedCurves curves = damped_curves(zeta, kColours.at(i), table);

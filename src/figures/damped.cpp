@@ -7,8 +7,6 @@
 
 #include "chart/chart.hpp"
 #include "figures/parts.hpp"
-#include "figures/scaled.hpp"
-#include "figures/table.hpp"
 
 namespace slipfit::figures {
 namespace {
@@ -74,8 +72,8 @@ void add_keys(chart::Panel& panel) {
 
 chart::Chart chart_of(chart::Panel whole) {
   whole.height_px = 300.0;
-  whole.x = {"stick-slip parameter λ  [-]", 0.0, kLargestDampedLambda, chart::Scale::Linear};
-  whole.y = {"sticking degree  [-]", 0.0, 0.8, chart::Scale::Linear};
+  whole.x = {"stick-slip parameter λ  [-]", 0.0, kLargestDampedLambda};
+  whole.y = {"sticking degree  [-]", 0.0, 0.8};
   chart::Panel close = whole;  // the same close to the limits, without the legend
   for (chart::Line& line : close.lines) line.name.clear();
   for (chart::Markers& markers : close.markers) markers.name.clear();

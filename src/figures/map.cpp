@@ -2,8 +2,6 @@
 
 #include "chart/chart.hpp"
 #include "figures/parts.hpp"
-#include "figures/scaled.hpp"
-#include "figures/table.hpp"
 
 namespace slipfit::figures {
 namespace {

@@ -5,8 +5,6 @@
 
 #include "chart/chart.hpp"
 #include "figures/parts.hpp"
-#include "figures/scaled.hpp"
-#include "figures/table.hpp"
 
 namespace slipfit::figures {
 namespace {
@@ -43,8 +41,8 @@ std::vector<FigureFile> slip_and_stick_times() {
     period.points.push_back({lambda, cycle.period_s});
   }
   chart::Panel panel;
-  panel.x = {kLambdaLabel, 0.0, kLargestLambda, chart::Scale::Linear};
-  panel.y = {"time × natural frequency  [rad]", 0.0, 25.0, chart::Scale::Linear};
+  panel.x = {kLambdaLabel, 0.0, kLargestLambda};
+  panel.y = {"time × natural frequency  [rad]", 0.0, 25.0};
   panel.lines = {period, stick, slip};
   const chart::Chart chart{"Figure 2: slip time, stick time and period, undamped", {kRemark}, {panel}};
   return {{"figure_2.csv", table.csv()}, {"figure_2.svg", to_svg(chart)}};
@@ -63,13 +61,13 @@ std::vector<FigureFile> sticking_degree_and_amplitude() {
   }
   chart::Panel upper;
   upper.height_px = 210.0;
-  upper.x = {"", 0.0, kLargestLambda, chart::Scale::Linear};
-  upper.y = {"sticking degree  [-]", 0.0, 1.0, chart::Scale::Linear};
+  upper.x = {"", 0.0, kLargestLambda};
+  upper.y = {"sticking degree  [-]", 0.0, 1.0};
   upper.lines = {degree};
   chart::Panel lower;
   lower.height_px = 210.0;
-  lower.x = {kLambdaLabel, 0.0, kLargestLambda, chart::Scale::Linear};
-  lower.y = {"ξ = Δx ωₙ / V  [-]", 0.0, 25.0, chart::Scale::Linear};
+  lower.x = {kLambdaLabel, 0.0, kLargestLambda};
+  lower.y = {"ξ = Δx ωₙ / V  [-]", 0.0, 25.0};
   lower.lines = {displacement};
   const chart::Chart chart{
       "Figure 3: sticking degree and normalized displacement, undamped", {kRemark}, {upper, lower}};

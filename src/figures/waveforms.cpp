@@ -9,8 +9,6 @@
 
 #include "chart/chart.hpp"
 #include "figures/parts.hpp"
-#include "figures/scaled.hpp"
-#include "figures/table.hpp"
 #include "model/slip.hpp"
 
 namespace slipfit::figures {
@@ -69,8 +67,8 @@ std::vector<FigureFile> velocity_ratio() {
     panel.markers.push_back({"", kWaveColours.at(i), chart::Shape::Cross, {{line.points.back().x, 0.0}}});
     panel.lines.push_back(line);
   }
-  panel.x = {kTimeLabel, 0.0, 14.0, chart::Scale::Linear};
-  panel.y = {"velocity ratio v* = (sliding speed) / V  [-]", 0.0, 6.5, chart::Scale::Linear};
+  panel.x = {kTimeLabel, 0.0, 14.0};
+  panel.y = {"velocity ratio v* = (sliding speed) / V  [-]", 0.0, 6.5};
   panel.legend = {1.0, 1.0};
   panel.markers.push_back({"end of slip", Colour::Grey, chart::Shape::Ring, {}});
   panel.markers.push_back({"end of stick", Colour::Grey, chart::Shape::Cross, {}});
@@ -99,8 +97,8 @@ std::vector<FigureFile> spring_force() {
     }
     panel.lines.push_back(line);
   }
-  panel.x = {kTimeLabel, 0.0, 17.0, chart::Scale::Linear};
-  panel.y = {"spring force Fₑ* = Fₑ / (Fₛ − Fₖ)  [-]", -1.0, 8.0, chart::Scale::Linear};
+  panel.x = {kTimeLabel, 0.0, 17.0};
+  panel.y = {"spring force Fₑ* = Fₑ / (Fₛ − Fₖ)  [-]", -1.0, 8.0};
   panel.legend = {1.0, 1.0};
   panel.areas = {{"spring in compression", Colour::Grey, chart::Fill::Plain, {{0, -1}, {0, 0}, {17, 0}, {17, -1}}}};
   const chart::Chart chart{"Figure 6: spring force in two periods at λ = 2, undamped",

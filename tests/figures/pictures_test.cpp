@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "chart/chart.hpp"
-#include "chart/ticks.hpp"
+#include "chart/drawing.hpp"
 #include "run_program.hpp"
 #include "slipfit/figures/figures.hpp"
 #include "tables.hpp"

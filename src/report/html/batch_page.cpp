@@ -92,7 +92,7 @@ std::optional<chart::Panel> histogram(std::vector<double> values, std::string la
   chart::Panel panel;
   panel.height_px = 160.0;
   panel.x = {label, first, first * std::exp(step * static_cast<double>(bins)), chart::Scale::Logarithmic};
-  panel.y = {"recordings", 0.0, 1.1 * *std::ranges::max_element(counts), chart::Scale::Linear};
+  panel.y = {"recordings", 0.0, 1.1 * *std::ranges::max_element(counts)};
   for (std::size_t i = 0; i < bins; ++i) {
     const double left = first * std::exp(step * static_cast<double>(i));
     const double right = left * std::exp(step);

@@ -94,7 +94,7 @@ Panel panel_of(const Source& source, const Stack& stack, CycleWindow window) {
     for (Point& point : line.points) point.x *= unit.per_SI;
   }
   panel.x = {label_with_unit("time since the slip began", unit.unit), -window.before_s * unit.per_SI,
-             window.after_s * unit.per_SI, chart::Scale::Linear};
+             window.after_s * unit.per_SI};
   const char* above = stack.on_kinetic_level ? " above kinetic level" : " above trough";
   panel.y = height.linear_axis(label_with_unit(force_name_of(source.recording) + above, source.force_unit.unit));
   return panel;

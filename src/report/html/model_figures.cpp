@@ -133,8 +133,8 @@ void add_ridge(Panel& panel, double begin, double end) {
 Panel strip(const std::string& name, const std::string& unit, double length) {
   Panel panel;
   panel.height_px = 70.0;
-  panel.x = {label_with_unit(name, unit), 0.0, length, chart::Scale::Linear};
-  panel.y = {"", 0.0, 1.0, chart::Scale::Linear};
+  panel.x = {label_with_unit(name, unit), 0.0, length};
+  panel.y = {"", 0.0, 1.0};
   return panel;
 }
 

@@ -103,8 +103,7 @@ class OverlayPanel {
     chart::Panel panel = panel_;
     panel.height_px = 280.0;
     panel.legend_at = axis_.legend_at;
-    panel.x = {label_with_unit(axis_.label, unit_.unit), -unit_.per_SI * reach_.before, unit_.per_SI * reach_.after,
-               chart::Scale::Linear};
+    panel.x = {label_with_unit(axis_.label, unit_.unit), -unit_.per_SI * reach_.before, unit_.per_SI * reach_.after};
     const char* const level = on_kinetic_level_ ? " above kinetic level" : " above kinetic level, or trough";
     panel.y = height_.linear_axis(label_with_unit(force_name + level, force_.unit));
     return panel;

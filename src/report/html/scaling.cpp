@@ -60,9 +60,9 @@ double Span::range() const {
 }
 
 chart::Axis Span::linear_axis(const std::string& label) const {
-  if (empty()) return {label, 0.0, 1.0, chart::Scale::Linear};
+  if (empty()) return {label, 0.0, 1.0};
   const double room = range() > 0.0 ? kRoom * range() : std::max(0.5 * std::abs(low_), 1e-12);
-  return {label, low_ - room, high_ + room, chart::Scale::Linear};
+  return {label, low_ - room, high_ + room};
 }
 
 chart::Axis Span::logarithmic_axis(const std::string& label) const {

@@ -272,7 +272,7 @@ Figure sweep_traces_figure(const SweepSource& source) {
     Panel panel;
     panel.height_px = 80.0;
     panel.legend_at = chart::LegendAt::Above;
-    panel.x = {"time [s]", recording.time_s().front(), recording.time_s().back(), chart::Scale::Linear};
+    panel.x = {"time [s]", recording.time_s().front(), recording.time_s().back()};
     panel.y = heights.linear_axis(label_with_unit("force", unit.unit));
     panel.lines.push_back({fmt::format("{}, {}", entry.id, speed_text(recording.conditions())), Colour::Grey,
                            Stroke::Solid, std::move(points), 1.0});

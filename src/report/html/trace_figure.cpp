@@ -40,7 +40,7 @@ chart::Axis axis_of(const std::vector<Point>& points, const std::string& label) 
 }
 
 chart::Axis time_axis(const Piece& piece, const std::string& label) {
-  return {label, piece.time_s.front(), piece.time_s.back(), chart::Scale::Linear};
+  return {label, piece.time_s.front(), piece.time_s.back()};
 }
 
 Panel force_panel(const Piece& piece, const std::string& label, double width_px) {

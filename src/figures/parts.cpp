@@ -1,5 +1,8 @@
-#include "figures/scaled.hpp"
+#include "figures/parts.hpp"
 
+#include <fmt/format.h>
+
+#include <cassert>
 #include <cmath>
 
 #include "model/slip.hpp"
@@ -16,6 +19,21 @@ Friction scaled_friction(double lambda) {
 }
 
 }  // namespace
+
+Table::Table(const std::vector<std::string>& comments, const std::vector<std::string>& columns)
+    : columns_(columns.size()) {
+  for (const std::string& comment : comments) csv_ += "# " + comment + "\n";
+  csv_ += fmt::format("{}\n", fmt::join(columns, ","));
+}
+
+void Table::add(const std::vector<double>& row) {
+  assert(row.size() == columns_);
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (i > 0) csv_ += ',';
+    if (std::isfinite(row[i])) csv_ += fmt::format("{}", row[i]);
+  }
+  csv_ += '\n';
+}
 
 Motion scaled_motion(double lambda, double damping_ratio) {
   return damped_motion(scaled_slider(damping_ratio), scaled_friction(lambda), 1.0);
