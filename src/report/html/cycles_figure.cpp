@@ -108,18 +108,13 @@ Figure cycles_figure(const Source& source) {
       "Every cycle moved so that its slip begins at time zero and its kinetic friction lies at zero force. A tight "
       "bundle means cycles alike; the spread at the top is the scatter of static friction. Above: whole cycles; below: "
       "the slip close up, where natural frequency and damping show.";
-  if (!shows_cycles(source.analysis)) {
-    figure.absent = "Steady sliding has no cycles.";
-    return figure;
-  }
+  if (!shows_cycles(source.analysis)) return figure.without_chart("Steady sliding has no cycles.");
   constexpr std::size_t kMostCycles = 30;
   const Stack stack = stack_of(source.analysis, kMostCycles);
   const CycleStatistics& cycles = source.analysis.cycles;
   const auto windows = windows_of(cycles, source.recording.sample_interval_s());
-  if (stack.anchors.empty() || windows.empty()) {
-    figure.absent = "There are too few slips to lay cycles over each other.";
-    return figure;
-  }
+  if (stack.anchors.empty() || windows.empty())
+    return figure.without_chart("There are too few slips to lay cycles over each other.");
   chart::Chart chart{"Cycles laid over each other", {}, {}};
   for (const CycleWindow& window : windows) chart.panels.push_back(panel_of(source, stack, window));
   figure.chart = std::move(chart);

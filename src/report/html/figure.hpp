@@ -37,6 +37,12 @@ struct Figure {
   std::string label = {};  ///< what there is to see, in words, for who cannot see it
   std::optional<chart::Chart> chart = {};
   std::string absent = {};  ///< a sentence, where there is no chart
+
+  [[nodiscard]] Figure without_chart(std::string why) const {
+    Figure figure = *this;
+    figure.absent = std::move(why);
+    return figure;
+  }
 };
 
 Figure trace_figure(const Source& source);

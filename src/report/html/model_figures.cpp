@@ -75,8 +75,7 @@ Figure map_figure(const Source& source) {
   const Spot spot = spot_of(source.analysis);
   if (!spot.lambda.value || !spot.zeta.value || !(*spot.lambda.value > 0.0)) {
     const std::string& why = spot.lambda.value ? spot.zeta.note : spot.lambda.note;
-    figure.absent = "The place on the map is not known" + (why.empty() ? std::string() : ": " + why) + ".";
-    return figure;
+    return figure.without_chart("The place on the map is not known" + (why.empty() ? std::string() : ": " + why) + ".");
   }
   const double lambda = *spot.lambda.value;
   chart::Panel panel = regions(source.background.limit, std::min(0.01, 0.3 * lambda), std::max(100.0, 3.0 * lambda));
@@ -184,10 +183,7 @@ Figure pattern_figure(const Source& source) {
   const bool has_ridges = source.analysis.motion == MotionClass::StickSlip && spacing.value;
   const std::vector<double> distances_m =
       has_ridges ? ridge_distances_m(source.analysis, *spacing.value) : std::vector<double>{};
-  if (distances_m.empty()) {
-    figure.absent = "Without stick-slip there is no pattern to draw.";
-    return figure;
-  }
+  if (distances_m.empty()) return figure.without_chart("Without stick-slip there is no pattern to draw.");
   const double length_m = std::accumulate(distances_m.begin(), distances_m.end(), 0.0);
   const DisplayUnit unit = display_unit("m", 0.2 * length_m);
   const double per_SI = unit.per_SI;

@@ -172,10 +172,7 @@ Figure sweep_cycles_figure(const SweepSource& source) {
   constexpr std::size_t kMostTogether = 16;  // colours and strokes that can be told apart
   Figure figure{"sweep-cycles", "Cycles of the recordings laid over each other", std::string(kOverlayGuide)};
   const std::vector<OverlaidSet> all = sets_of(source);
-  if (all.size() < 2) {
-    figure.absent = "Fewer than two recordings have cycles to lay over each other.";
-    return figure;
-  }
+  if (all.size() < 2) return figure.without_chart("Fewer than two recordings have cycles to lay over each other.");
   const std::size_t count = std::min(kMostTogether, all.size());
   std::vector<OverlaidSet> shown;
   for (std::size_t i = 0; i < count; ++i) shown.push_back(all[i * all.size() / count]);

@@ -173,8 +173,7 @@ Figure speed_figure(const Source& source) {
   const Analysis& analysis = source.analysis;
   if (!source.background.prediction) {
     const std::string& why = analysis.derived.lambda.note;
-    figure.absent = "No prediction for other speeds" + (why.empty() ? std::string() : ": " + why) + ".";
-    return figure;
+    return figure.without_chart("No prediction for other speeds" + (why.empty() ? std::string() : ": " + why) + ".");
   }
   const Prediction& prediction = *source.background.prediction;
   const DisplayUnit length =
@@ -204,19 +203,14 @@ Figure sweep_spacing_figure(const SweepSource& source) {
       "this is the test of the model, because the recording had no say in it. Line: the fit to all, with its 95 % "
       "band; where the band ends before "
       "the line, the recordings cannot tell whether there still is stick-slip.";
-  if (!source.sweep.fit) {
-    figure.absent = "There is no joint fit: " + source.sweep.fit_reason + ".";
-    return figure;
-  }
+  if (!source.sweep.fit) return figure.without_chart("There is no joint fit: " + source.sweep.fit_reason + ".");
   const std::vector<SweepPoint>& points = source.sweep.fit->points;
   const Series measured =
       series_of(source, [&source](std::size_t i) { return source.sweep.recordings[i].derived.pattern_spacing_m; });
   const Series left_out = series_of(source, [&points](std::size_t i) { return points[i].spacing_left_out_m; });
   const Series fitted = fitted_spacing(source);
-  if (measured.estimates.empty() && fitted.estimates.empty()) {
-    figure.absent = "No recording of the sweep shows a pattern.";
-    return figure;
-  }
+  if (measured.estimates.empty() && fitted.estimates.empty())
+    return figure.without_chart("No recording of the sweep shows a pattern.");
   const Series& typical = measured.estimates.empty() ? fitted : measured;
   SpeedPanel panel(speed_unit_of(source), display_unit("m", typical.estimates.front().value));
   panel.add_curve("joint fit", Colour::Blue, fitted);
@@ -244,10 +238,7 @@ Figure sweep_friction_figure(const SweepSource& source) {
   const std::vector<SweepPoint> points = source.sweep.fit ? source.sweep.fit->points : std::vector<SweepPoint>{};
   const Series law =
       points.empty() ? Series{} : series_of(source, [&points](std::size_t i) { return points[i].kinetic_friction_N; });
-  if (law.estimates.empty()) {
-    figure.absent = "Kinetic friction over speed is not known.";
-    return figure;
-  }
+  if (law.estimates.empty()) return figure.without_chart("Kinetic friction over speed is not known.");
   SpeedPanel panel(speed_unit_of(source), display_unit("N", law.estimates.front().value));
   panel.add_curve("kinetic friction by the fit", Colour::Blue, law);
   panel.add_markers("steady sliding, mean force", Colour::Black, Shape::Dot,

@@ -26,7 +26,7 @@ double height_at(const Profile& profile, double place_m) {
 
 chart::Panel profile_panel(const Profile& profile, const Surface& surface, const ProfileUnits& units, double begin_m,
                            double end_m) {
-  constexpr std::size_t kColumns = 1400;  // as many as a line of the chart can show
+  constexpr std::size_t kMostColumns = 1400;  // as many as a line of the chart can show
   std::vector<double> places;
   std::vector<double> heights;
   for (auto i = static_cast<std::size_t>(begin_m / profile.pitch_m); i < profile.height.size(); ++i) {
@@ -35,7 +35,7 @@ chart::Panel profile_panel(const Profile& profile, const Surface& surface, const
     places.push_back(place_m * units.along.per_SI);
     heights.push_back(profile.height[i] * units.height.per_SI);
   }
-  chart::Line line{"profile", chart::Colour::Blue, chart::Stroke::Solid, envelope(places, heights, kColumns), 1.0};
+  chart::Line line{"profile", chart::Colour::Blue, chart::Stroke::Solid, envelope(places, heights, kMostColumns), 1.0};
   Span span;
   for (const double height : heights) span.add(height);
   chart::Panel panel;
