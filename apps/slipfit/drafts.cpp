@@ -48,18 +48,20 @@ void tell_of_other_speed(double stated_m_per_s, const slipfit::DraftEntry& draft
 
 }  // namespace
 
+void check_found(const slipfit::ManifestDraft& draft) {
+  if (!draft.entries.empty()) return;
+  const std::string why = draft.skipped.empty() ? "no files with a usual ending (csv, txt, xlsx, ...) in these folders"
+                                                : draft.skipped.front().message;
+  throw Failure(ExitCode::BadRecording, "no recording found: " + why);
+}
+
 slipfit::ManifestDraft draft_of(const std::vector<std::string>& paths, const slipfit::ReadOptions& options,
                                 const Tell& tell) {
   slipfit::ManifestDraft draft = slipfit::draft_manifest({paths.begin(), paths.end()}, options);
   for (const slipfit::Error& error : draft.skipped) {
     if (is_named(paths, error)) throw Failure(ExitCode::BadRecording, error);
   }
-  if (draft.entries.empty()) {
-    const std::string why = draft.skipped.empty()
-                                ? "no files with a usual ending (csv, txt, xlsx, ...) in these folders"
-                                : draft.skipped.front().message;
-    throw Failure(ExitCode::BadRecording, "no recording found: " + why);
-  }
+  check_found(draft);
   for (const slipfit::Error& error : draft.skipped) tell("left out: " + error.message);
   return draft;
 }

@@ -10,6 +10,9 @@
 
 using Tell = std::function<void(const std::string&)>;
 
+/// Throws Failure(BadRecording) where the draft has no recording.
+void check_found(const slipfit::ManifestDraft& draft);
+
 /// What `slipfit manifest` drafts of files and folders, at least one recording. A named file that is none throws
 /// Failure(BadRecording); in a folder it is told of and left out.
 slipfit::ManifestDraft draft_of(const std::vector<std::string>& paths, const slipfit::ReadOptions& options,

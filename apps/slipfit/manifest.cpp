@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "failure.hpp"
+#include "drafts.hpp"
 #include "output.hpp"
-#include "slipfit/io/manifest_draft.hpp"
 
 namespace {
 
@@ -32,12 +31,7 @@ void run(const ManifestArguments& arguments) {
   const OutputFile output{"--out", arguments.out.value_or("")};
   if (arguments.out) check_outputs({output}, "");
   const slipfit::ManifestDraft draft = slipfit::draft_manifest(arguments.paths);
-  if (draft.entries.empty()) {
-    const std::string why = draft.skipped.empty()
-                                ? "no files with a usual ending (csv, txt, xlsx, ...) in these folders"
-                                : draft.skipped.front().message;
-    throw Failure(ExitCode::BadRecording, "no recording found: " + why);
-  }
+  check_found(draft);
   if (!arguments.quiet) tell_of(draft);
   const std::filesystem::path folder = std::filesystem::path(arguments.out.value_or("")).parent_path();
   const std::string text = slipfit::to_csv(draft, folder);

@@ -1,8 +1,7 @@
 #include "batch/run_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/chrono.h>
 
-#include <array>
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -53,13 +52,6 @@ void for_each_member(Record& record, const Use& use) {
   use("/digests/failures", record.digests.failures);
 }
 
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  std::array<char, 32> text{};
-  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", ::gmtime_r(&now, &parts))};
-}
-
 std::string options_text(const BatchOptions& options) {
   Json fixed = Json::object();
   const HeldParameters& held = options.fit.held;
@@ -87,7 +79,7 @@ RunRecord begin_record(const BatchOptions& options, const Digest& manifest_diges
   record.jobs = options.jobs;
   record.timeout_s = options.timeout_s;
   record.rows = rows;
-  record.started = utc_now();
+  record.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   return record;
 }
 
