@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "analysis/statistics.hpp"
+#include "core/quantile.hpp"
 #include "core/unknown.hpp"
 #include "fit/inference/student.hpp"
 
@@ -28,8 +28,7 @@ Estimate mean_during_sliding(std::span<const double> force, std::size_t cycles) 
   std::vector<double> means;
   for (std::size_t i = 0; i < blocks; ++i) {
     const std::size_t begin = i * force.size() / blocks;
-    const auto block = force.subspan(begin, (i + 1) * force.size() / blocks - begin);
-    means.push_back(std::accumulate(block.begin(), block.end(), 0.0) / static_cast<double>(block.size()));
+    means.push_back(mean_of(force.subspan(begin, (i + 1) * force.size() / blocks - begin)));
   }
   const MeanAndSpread spread = describe(means);
   return fit::symmetric(spread.mean, spread.sd / std::sqrt(spread.count), spread.count - 1.0);

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <numeric>
 #include <span>
 #include <utility>
 
 #include "analysis/fitted_frequency.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/slip_shape.hpp"
+#include "core/quantile.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/student.hpp"
 
@@ -40,7 +40,7 @@ bool is_sharper(const SpectralFrequency& spectral, const Estimate& fitted) {
 double swing_at(const Recording& recording, double frequency_Hz) {
   const std::span<const double> time_s = recording.time_s();
   const std::span<const double> force = recording.force();
-  const double mean = std::accumulate(force.begin(), force.end(), 0.0) / static_cast<double>(force.size());
+  const double mean = mean_of(force);
   std::complex<double> sum = 0.0;
   for (std::size_t i = 0; i < force.size(); ++i) {
     sum += (force[i] - mean) * std::polar(1.0, -2.0 * std::numbers::pi * frequency_Hz * (time_s[i] - time_s[0]));

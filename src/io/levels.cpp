@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include "core/quantile.hpp"
 
@@ -41,10 +40,7 @@ std::vector<double> block_medians(std::span<const double> values) {
 /// Whether the halves differ by more than the bound.
 bool drifts(std::span<const double> blocks, double bound) {
   const std::size_t half = blocks.size() / 2;
-  const auto mean = [](std::span<const double> part) {
-    return std::accumulate(part.begin(), part.end(), 0.0) / static_cast<double>(part.size());
-  };
-  return half > 0 && std::abs(mean(blocks.first(half)) - mean(blocks.last(half))) > bound;
+  return half > 0 && std::abs(mean_of(blocks.first(half)) - mean_of(blocks.last(half))) > bound;
 }
 
 }  // namespace

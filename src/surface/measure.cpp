@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "core/surface_thresholds.hpp"
 #include "core/unknown.hpp"
@@ -85,7 +84,7 @@ Estimate normal(double value, double standard_error) {
 /// Of each ridge over the next valley; neighbours are taken as independent.
 Estimate mean_height(const std::vector<double>& heights) {
   const auto n = static_cast<double>(heights.size());
-  const double mean = std::accumulate(heights.begin(), heights.end(), 0.0) / n;
+  const double mean = mean_of(heights);
   return within(normal(mean, mean * surface::variation(heights) / std::sqrt(n)), kNotNegative);
 }
 
@@ -96,7 +95,7 @@ struct Trend {
 /// A straight line through the distances over their places along the track.
 Trend trend_of(const std::vector<double>& distances, double pitch_m) {
   const auto n = static_cast<double>(distances.size());
-  const double mean = std::accumulate(distances.begin(), distances.end(), 0.0) / n;
+  const double mean = mean_of(distances);
   const double middle = 0.5 * (n - 1.0);
   double moment = 0.0;
   for (std::size_t i = 0; i < distances.size(); ++i) moment += (static_cast<double>(i) - middle) * distances[i];

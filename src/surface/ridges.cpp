@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/quantile.hpp"
 #include "core/surface_thresholds.hpp"
@@ -85,7 +84,7 @@ std::vector<double> distances(std::span<const double> places) {
 double variation(std::span<const double> values) {
   if (values.size() < 2) return 0.0;
   const auto n = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  const double mean = mean_of(values);
   double sum = 0.0;
   for (const double v : values) sum += (v - mean) * (v - mean);
   return std::sqrt(sum / (n - 1.0)) / std::abs(mean);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/quantile.hpp"
 #include "report/html/figure.hpp"
 #include "report/html/scaling.hpp"
 
@@ -108,7 +109,7 @@ std::vector<double> ridge_distances_m(const Analysis& analysis, double spacing_m
   std::vector<double> distances(intervals.begin() + static_cast<std::ptrdiff_t>(first),
                                 intervals.begin() + static_cast<std::ptrdiff_t>(first + count));
   if (distances.empty()) return distances;
-  const double mean = std::accumulate(intervals.begin(), intervals.end(), 0.0) / static_cast<double>(intervals.size());
+  const double mean = mean_of(intervals);
   for (double& distance : distances) distance *= spacing_m / mean;
   return distances;
 }
