@@ -30,6 +30,15 @@ Parameter within(Parameter parameter, const Range& range) {
   return parameter;
 }
 
+std::optional<Estimate> within(std::optional<Estimate> estimate, const Range& range) {
+  return estimate ? std::optional(within(*std::move(estimate), range)) : std::nullopt;
+}
+
+template <class... Values>
+void keep_in(const Range& range, Values&... values) {
+  ((values = within(std::move(values), range)), ...);
+}
+
 bool all_finite(const ModelEstimate& model) {
   const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
   const Ageing ageing = model.ageing.value_or(Ageing{});
@@ -51,16 +60,13 @@ bool all_finite(const Correlation& correlation) {
 }
 
 SweepPoint in_range(SweepPoint point) {
-  point.rms = within(point.rms, kNotNegative);
-  point.kinetic_friction_N = within(std::move(point.kinetic_friction_N), kAnyNumber);
-  point.mean_steady_force_N = within(std::move(point.mean_steady_force_N), kAnyNumber);
-  point.spacing_m = within(std::move(point.spacing_m), kNotNegative);
-  point.spacing_left_out_m = within(std::move(point.spacing_left_out_m), kNotNegative);
+  keep_in(kNotNegative, point.rms, point.spacing_m, point.spacing_left_out_m);
+  keep_in(kAnyNumber, point.kinetic_friction_N, point.mean_steady_force_N);
   return point;
 }
 
 SpectralFrequency in_range(SpectralFrequency spectral) {
-  spectral.value_Hz = within(spectral.value_Hz, kNotNegative);
+  keep_in(kNotNegative, spectral.value_Hz);
   spectral.standard_error_Hz = spectral.value_Hz ? within(spectral.standard_error_Hz, kNotNegative) : std::nullopt;
   spectral.false_alarm_probability = within(spectral.false_alarm_probability, kShare).value_or(1.0);
   std::erase_if(spectral.harmonics_Hz, [](double frequency_Hz) { return !std::isfinite(frequency_Hz); });
@@ -80,73 +86,54 @@ FitResult in_range(FitResult fit, const Conditions& conditions) {
     fit.estimate = std::nullopt;  // nothing can be derived from it
     fit.correlation = std::nullopt;
   }
-  fit.residual.reduced_chi2 = within(fit.residual.reduced_chi2, kNotNegative);
-  fit.residual.whiteness_p = within(fit.residual.whiteness_p, kShare);
+  keep_in(kNotNegative, fit.residual.reduced_chi2);
+  keep_in(kShare, fit.residual.whiteness_p);
   for (Candidate& candidate : fit.candidates) {
-    candidate.rms = within(candidate.rms, kNotNegative);
-    candidate.aicc = within(candidate.aicc, kAnyNumber);
+    keep_in(kNotNegative, candidate.rms);
+    keep_in(kAnyNumber, candidate.aicc);
   }
   return fit;
 }
 
 FrequencyReport in_range(FrequencyReport frequency) {
-  frequency.quoted = within(std::move(frequency.quoted), kNotNegative);
-  frequency.counted = within(std::move(frequency.counted), kNotNegative);
+  keep_in(kNotNegative, frequency.quoted, frequency.counted);
   frequency.spectral = in_range(std::move(frequency.spectral));
   if (!frequency.quoted.value) frequency.method = "none";
   return frequency;
 }
 
 CycleStatistics in_range(CycleStatistics cycles) {
-  for (auto* const time_s : {&cycles.period_s, &cycles.period_sd_s, &cycles.slip_time_s, &cycles.stick_time_s}) {
-    *time_s = within(*time_s, kNotNegative);
-  }
-  cycles.sticking_degree = within(cycles.sticking_degree, kShare);
-  for (auto* const force : {&cycles.peak_force, &cycles.trough_force}) *force = within(*force, kAnyNumber);
-  for (auto* const spread :
-       {&cycles.peak_force_sd, &cycles.force_drop, &cycles.force_drop_sd, &cycles.drop_cv, &cycles.period_cv}) {
-    *spread = within(*spread, kNotNegative);
-  }
-  cycles.stick_stiffness = within(std::move(cycles.stick_stiffness), kNotNegative);
+  keep_in(kNotNegative, cycles.period_s, cycles.period_sd_s, cycles.period_cv, cycles.slip_time_s, cycles.stick_time_s,
+          cycles.peak_force_sd, cycles.force_drop, cycles.force_drop_sd, cycles.drop_cv, cycles.stick_stiffness);
+  keep_in(kShare, cycles.sticking_degree);
+  keep_in(kAnyNumber, cycles.peak_force, cycles.trough_force);
   return cycles;
 }
 
 Derived in_range(Derived derived) {
-  for (Estimate* const quantity :
-       {&derived.lambda, &derived.lambda_critical, &derived.critical_speed_m_per_s, &derived.periodic_displacement_m,
-        &derived.pattern_spacing_m, &derived.micro_vibration_spacing_m, &derived.impulse_rate_per_m}) {
-    *quantity = within(std::move(*quantity), kNotNegative);
-  }
-  derived.gamma = within(std::move(derived.gamma), {1.0, std::numeric_limits<double>::infinity()});
-  derived.pattern_spacing_sd_m = within(derived.pattern_spacing_sd_m, kNotNegative);
-  for (auto* const quantity : {&derived.surface_spacing_m, &derived.surface_ratio}) {
-    if (*quantity) *quantity = within(**quantity, kNotNegative);
-  }
-  if (derived.surface_En) derived.surface_En = within(*std::move(derived.surface_En), kAnyNumber);
-  if (derived.measured_spacing_En) {
-    derived.measured_spacing_En = within(*std::move(derived.measured_spacing_En), kAnyNumber);
-  }
+  keep_in(kNotNegative, derived.lambda, derived.lambda_critical, derived.critical_speed_m_per_s,
+          derived.periodic_displacement_m, derived.pattern_spacing_m, derived.pattern_spacing_sd_m,
+          derived.micro_vibration_spacing_m, derived.impulse_rate_per_m, derived.surface_spacing_m,
+          derived.surface_ratio);
+  keep_in({1.0, std::numeric_limits<double>::infinity()}, derived.gamma);
+  keep_in(kAnyNumber, derived.surface_En, derived.measured_spacing_En);
   return derived;
 }
 
 Transients in_range(Transients transients) {
-  Transients t;
-  t.loading_stiffness_N_per_m = within(std::move(transients.loading_stiffness_N_per_m), kNotNegative);
-  t.breakaway_force = within(std::move(transients.breakaway_force), kAnyNumber);
-  t.ring_down_frequency_Hz = within(std::move(transients.ring_down_frequency_Hz), kNotNegative);
-  t.ring_down_damping_ratio = within(std::move(transients.ring_down_damping_ratio), kShare);
-  return t;
+  keep_in(kNotNegative, transients.loading_stiffness_N_per_m, transients.ring_down_frequency_Hz);
+  keep_in(kAnyNumber, transients.breakaway_force);
+  keep_in(kShare, transients.ring_down_damping_ratio);
+  return transients;
 }
 
 std::optional<Coefficients> in_range(std::optional<Coefficients> coefficients) {
   if (!coefficients) return coefficients;
-  std::vector<Estimate*> estimates{&coefficients->static_first_peak, &coefficients->static_mean_peak,
-                                   &coefficients->kinetic_mean, &coefficients->kinetic_first_third,
-                                   &coefficients->kinetic_last_third};
+  keep_in(kNotNegative, coefficients->static_first_peak, coefficients->static_mean_peak, coefficients->kinetic_mean,
+          coefficients->kinetic_first_third, coefficients->kinetic_last_third);
   for (StandardCoefficients& standard : coefficients->standards) {
-    estimates.insert(estimates.end(), {&standard.static_coefficient, &standard.kinetic_coefficient});
+    keep_in(kNotNegative, standard.static_coefficient, standard.kinetic_coefficient);
   }
-  for (Estimate* estimate : estimates) *estimate = within(std::move(*estimate), kNotNegative);
   return coefficients;
 }
 
