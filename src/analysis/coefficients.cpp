@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "analysis/statistics.hpp"
 #include "core/quantile.hpp"

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "analysis/slip_intervals.hpp"
 #include "analysis/statistics.hpp"

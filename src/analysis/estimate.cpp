@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/detect.hpp"
 #include "analysis/ranges.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/slip_shape.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "analysis/fitted_frequency.hpp"

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
 #include <variant>
-#include <vector>
 
 namespace slipfit::chart {
 namespace {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <string>
 
 #include "compare/statistics.hpp"
 #include "core/unknown.hpp"

@@ -1,7 +1,5 @@
 #include "core/clock_step.hpp"
 
-#include <cstddef>
-
 #include "core/quantile.hpp"
 
 namespace slipfit {

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "core/number_text.hpp"
 #include "core/word_list.hpp"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "io/names.hpp"
-
 namespace slipfit::reading {
 namespace {
 

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "io/cells.hpp"
 #include "io/message.hpp"
-#include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "io/column_search.hpp"
-#include "io/columns.hpp"
 #include "io/line_reader.hpp"
 #include "io/message.hpp"
 

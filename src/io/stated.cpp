@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/quantile.hpp"
 #include "io/column_search.hpp"

@@ -1,8 +1,6 @@
 #include "slipfit/predict/prediction.hpp"
 
 #include <cmath>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "core/fit_thresholds.hpp"

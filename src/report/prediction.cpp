@@ -6,9 +6,7 @@
 #include <array>
 #include <iterator>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "report/format.hpp"
 #include "report/json_sections.hpp"

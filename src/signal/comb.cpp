@@ -1,6 +1,5 @@
 #include "signal/comb.hpp"
 
-#include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/thresholds.hpp"
 #include "signal/robust.hpp"

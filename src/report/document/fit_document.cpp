@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <utility>
-#include <vector>
 
 #include "core/quantile.hpp"
 #include "report/document/json_node.hpp"

@@ -5,11 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <string>
 #include <vector>
-
-#include "report/document/json_node.hpp"
 
 namespace slipfit::documents {
 namespace {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "report/html/scaling.hpp"
 #include "report/html/stack.hpp"
