@@ -146,16 +146,7 @@ std::size_t place_of(const std::string& name) {
 /// What the covariance belongs to, in the order of Correlation::names. A value that the data hardly tell alone, and
 /// whose parameter is therefore null, still stands here: together with the others it predicts.
 Json working_values_json(const Correlation& correlation, const ModelEstimate& estimate) {
-  const SpeedDependence law = estimate.speed_dependence.value_or(SpeedDependence{});
-  const Ageing ageing = estimate.ageing.value_or(Ageing{});
-  const std::array<double, kModelValues> values{estimate.stiffness_N_per_m,
-                                                estimate.natural_frequency_rad_per_s,
-                                                estimate.damping_ratio,
-                                                estimate.friction_difference_N,
-                                                law.slope_N_s_per_m,
-                                                law.alpha_s_per_m,
-                                                ageing.rate_N,
-                                                ageing.cutoff_s};
+  const std::array<double, kModelValues> values = values_of(estimate);
   return array_of(correlation.names, [&values](const std::string& name) { return number(values[place_of(name)]); });
 }
 

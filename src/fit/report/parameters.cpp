@@ -31,6 +31,7 @@ class Reporter {
     report_dynamics();
     if (f_.law) report_law();
     report_slip_distance();
+    if (model_.reload) report_reload(*model_.reload);
     if (f_.sensor_average_s) add_held(Id::SensorAverage, *f_.sensor_average_s);
     if (f_.fitted_average) add_graded(Id::SensorAverage, *f_.fitted_average, slip_doubt(), slip_note());
     report_model();
@@ -206,6 +207,13 @@ class Reporter {
     add(Id::SlipDistance, distance, status, status == ParameterStatus::Conditional ? kOneSpeed : slip_note());
   }
 
+  void report_reload(const Reload& reload) {
+    const std::string& doubt = f_.reload_doubt;
+    const std::string note = or_few_cycles(doubt);
+    if (f_.in_newtons) add_graded(Id::ReloadForce, f_.intervals.interval_of_one_sign(reload.force_N), doubt, note);
+    add_graded(Id::ReloadLength, f_.intervals.interval_of_one_sign(reload.length_m), doubt, note);
+  }
+
   void report_law() {
     if (!f_.law->depends_on_speed) return withhold_law("not needed or not told: " + f_.law->reason);
     const Estimate slope = along([](const SlidingModel& model) { return model.slope; });
@@ -263,7 +271,9 @@ class Reporter {
     // In the order of kModelParameters; of the positive ones the logarithm.
     const std::array<Jet, kModelValues> all{log(model_.stiffness),  log(model_.omega), model_.zeta,
                                             log(model_.difference), model_.slope,      model_.alpha,
-                                            model_.ageing,          model_.ageing_time};
+                                            model_.ageing,          model_.ageing_time,
+                                            model_.reload ? model_.reload->force_N : Jet(0.0),
+                                            model_.reload ? log(model_.reload->length_m) : Jet(0.0)};
     ModelEstimate estimate{model_.stiffness.a, model_.omega.a, model_.zeta.a, model_.difference.a};
     std::vector<std::size_t> used{0, 1, 2, 3};
     if (f_.law && f_.law->depends_on_speed) {
@@ -273,6 +283,10 @@ class Reporter {
     if (f_.law && f_.law->ageing) {
       estimate.ageing = Ageing{model_.ageing.a, f_.units.stick_s, model_.ageing_time.a};
       used.insert(used.end(), {6, 7});
+    }
+    if (model_.reload) {
+      estimate.reloading = Reloading{model_.reload->force_N.a, model_.reload->length_m.a};
+      used.insert(used.end(), {8, 9});
     }
     for (const std::size_t i : used) {
       for (const std::size_t j : used) estimate.covariance[i][j] = f_.intervals.whole_covariance(all[i], all[j]);

@@ -37,7 +37,9 @@ StickBin merge(const std::vector<StickBin>& bins) {
 double level_slope(const BlockFit& fit, std::size_t cycle, double time_s) {
   const double step_s = fit.scales().half_period_s;
   const double* local = fit.parameters.cycles[cycle].data();
-  const auto level = [&](double t_s) { return fit.model(cycle).level_at(t_s, fit.level_data(), local); };
+  const auto level = [&](double t_s) {
+    return fit.model(cycle).level_at(t_s, fit.level_data(), local) + fit.model(cycle).rise_at(t_s, fit.level_data());
+  };
   return (level(time_s + step_s) - level(time_s - step_s)) / (2.0 * step_s);
 }
 
