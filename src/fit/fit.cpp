@@ -13,6 +13,7 @@
 #include "fit/report/recording_findings.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/fitted_average.hpp"
+#include "fit/selection/reloading_fit.hpp"
 #include "fit/selection/tiers.hpp"
 #include "fit/selection/weakening_fit.hpp"
 #include "model/reloading.hpp"
@@ -229,7 +230,8 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   if (recording.conditions().force_view == ForceView::Contact)
     return fit::fit_contact(recording, segmentation, options);
   const HeldParameters held = held_parameters(options);
-  std::optional<DampedFit> damped = fit::fit_as_sensed(recording, quality, segmentation, held);
+  std::optional<DampedFit> damped = fit::draft_with_rise(recording, quality, segmentation, held);
+  if (damped) damped = fit::fit_as_sensed(recording, quality, segmentation, held, *std::move(damped));
   if (!damped) return std::nullopt;
   const auto [fits, resolution, candidates, of_choice] =
       choose({recording, quality, segmentation, held}, *std::move(damped), options.tier);

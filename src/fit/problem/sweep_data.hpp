@@ -22,6 +22,7 @@ inline constexpr std::size_t kSteadyStretches = 10;
 struct SweepData {
   std::vector<std::optional<DampedFit>> single;  ///< in the order of the recordings
   std::optional<FittedAverage> average{};        ///< OwnFits
+  std::optional<FittedLength> reload{};          ///< OwnFits
   std::optional<double> rounding_s2{};           ///< OwnFits
   std::vector<SteadyRun> steady;
   std::vector<std::optional<std::size_t>> steady_of;  ///< index into `steady` of each recording

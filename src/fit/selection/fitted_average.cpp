@@ -200,15 +200,12 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
 }
 
 std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality& quality,
-                                       const Segmentation& segmentation, const HeldParameters& held) {
-  std::optional<DampedFit> fit = draft_damped(recording, quality, segmentation, held);
-  if (!fit) return fit;
-  if (auto reloading = fit_reloading(recording, quality, segmentation, held, *fit)) fit = std::move(reloading);
+                                       const Segmentation& segmentation, const HeldParameters& held, DampedFit plain) {
   if (!recording.conditions().sensor_average_s) {
-    fit->rounding = estimate_smoothing(fit->blocks, fit->held, recording.sample_interval_s());
-    if (auto averaged = fit_average(recording, quality, segmentation, held, *fit)) return averaged;
+    plain.rounding = estimate_smoothing(plain.blocks, plain.held, recording.sample_interval_s());
+    if (auto averaged = fit_average(recording, quality, segmentation, held, plain)) return averaged;
   }
-  return finish_fit(recording, quality, segmentation, *std::move(fit));
+  return finish_fit(recording, quality, segmentation, std::move(plain));
 }
 
 bool repeats_rounding(const DampedFit& fit) {

@@ -131,7 +131,8 @@ bool is_justified(const Recording& recording, const DampedFit& fit, const Damped
 
 std::shared_ptr<const RiseAfterSlip> reloading_of(const Recording& recording, const Segmentation& segmentation,
                                               const BlockFit& fit, double length_m, bool is_free) {
-  RiseAfterSlip reloading{length_m, is_free, fit.scales().speed_m_per_s, fit.scales().sensor_average_s, {}, {}};
+  RiseAfterSlip reloading{length_m, is_free, fit.scales().speed_m_per_s,
+                          recording.conditions().sensor_average_s.value_or(0.0), {}, {}};
   for (const DetectedSlip& slip : segmentation.slips) {
     reloading.slip_begin_s.push_back(recording.time_s()[slip.peak]);
     reloading.slip_end_s.push_back(recording.time_s()[slip.trough]);
@@ -148,29 +149,30 @@ double gain_of(const DampedFit& fit, const DampedFit& other) {
   return 2.0 * effective_samples(other) * std::log(other.uncertainty.noise / fit.uncertainty.noise);
 }
 
-std::optional<DampedFit> fit_reloading(const Recording& recording, const Quality& quality,
-                                       const Segmentation& segmentation, const HeldParameters& held,
-                                       const DampedFit& plain) {
-  const std::optional<RampBend> bend = ramp_bend(plain.blocks);
-  if (!bends(bend)) return std::nullopt;
-  const Best best = best_length(recording, segmentation, plain.blocks, held_of(held));
-  if (!std::isfinite(best.sum)) return std::nullopt;
+std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quality& quality,
+                                         const Segmentation& segmentation, const HeldParameters& held) {
+  std::optional<DampedFit> plain = draft_damped(recording, quality, segmentation, held);
+  if (!plain) return plain;
+  const std::optional<RampBend> bend = ramp_bend(plain->blocks);
+  if (!bends(bend)) return plain;
+  const Best best = best_length(recording, segmentation, plain->blocks, held_of(held));
+  if (!std::isfinite(best.sum)) return plain;
   std::optional<DampedFit> fit = draft_damped(
       recording, quality, segmentation, held,
-      {best.globals, plain.excluded, reloading_of(recording, segmentation, plain.blocks, best.length_m, true),
-       plain.blocks.level().per_cycle});
+      {best.globals, plain->excluded, reloading_of(recording, segmentation, plain->blocks, best.length_m, true),
+       plain->blocks.level().per_cycle});
   if (fit) fit = converged(recording, quality, segmentation, *std::move(fit));
-  const bool is_better = fit && is_justified(recording, *fit, plain, *bend);
-  return is_better ? std::move(fit) : std::nullopt;
+  const bool is_better = fit && is_justified(recording, *fit, *plain, *bend);
+  return is_better ? std::move(fit) : std::move(plain);
 }
 
-std::optional<DampedFit> fit_reloading_over(const Recording& recording, const Quality& quality,
-                                            const Segmentation& segmentation, const HeldParameters& held,
-                                            const DampedFit& plain, double length_m) {
-  std::optional<DampedFit> fit =
-      draft_damped(recording, quality, segmentation, held,
-                   {std::nullopt, plain.excluded, reloading_of(recording, segmentation, plain.blocks, length_m, false),
-                    plain.blocks.level().per_cycle});
+std::optional<DampedFit> draft_with_rise_over(double length_m, const Recording& recording, const Quality& quality,
+                                              const Segmentation& segmentation, const HeldParameters& held,
+                                              const DampedFit& near) {
+  std::optional<DampedFit> fit = draft_damped(
+      recording, quality, segmentation, held,
+      {std::nullopt, near.excluded, reloading_of(recording, segmentation, near.blocks, length_m, false),
+       near.blocks.level().per_cycle});
   return fit && fit->blocks.rise_data()[0] > 0.0 ? std::move(fit) : std::nullopt;
 }
 

@@ -15,16 +15,16 @@ namespace slipfit::fit {
 std::shared_ptr<const RiseAfterSlip> reloading_of(const Recording& recording, const Segmentation& segmentation,
                                               const BlockFit& fit, double length_m, bool is_free);
 
-/// The fit with sticks that rise more steeply after a slip (level/reloading.hpp), where `plain`, the fit with straight
-/// ones, shows that they bend and the rise is known and explains it; else empty.
-std::optional<DampedFit> fit_reloading(const Recording& recording, const Quality& quality,
-                                       const Segmentation& segmentation, const HeldParameters& held,
-                                       const DampedFit& plain);
+/// The damped fit, its sticks rising more steeply after a slip (level/reloading.hpp) where straight ones bend and the
+/// rise is known and explains it. Before `finish_fit`.
+std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quality& quality,
+                                         const Segmentation& segmentation, const HeldParameters& held);
 
-/// The same over a length that is known; empty where the rise has no solution.
-std::optional<DampedFit> fit_reloading_over(const Recording& recording, const Quality& quality,
-                                            const Segmentation& segmentation, const HeldParameters& held,
-                                            const DampedFit& plain, double length_m);
+/// With the rise over a given length, after slips that begin and end where `near`, another fit of the recording, has
+/// them. Empty where the force falls after a slip in place of rising.
+std::optional<DampedFit> draft_with_rise_over(double length_m, const Recording& recording, const Quality& quality,
+                                              const Segmentation& segmentation, const HeldParameters& held,
+                                              const DampedFit& near);
 
 /// Twice the logarithm of the likelihood of one fit over that of another, each at its best noise.
 double gain_of(const DampedFit& fit, const DampedFit& other);

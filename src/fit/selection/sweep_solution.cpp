@@ -29,6 +29,7 @@ SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, 
   SweepSolution solution;
   solution.sweep = {sharing, data.steady, data.units};
   solution.average = data.average;
+  solution.reload = data.reload;
   for (const std::size_t i : used) {
     const DampedFit& single = *data.single[i];
     const Scales scales = scales_in_sweep(data, i, law);
@@ -264,6 +265,23 @@ std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolu
     Scales scales = other.recordings[f].scales();
     scales.sensor_average_s = average_s;
     other.recordings[f] = with_scales(other.recordings[f], scales);
+  }
+  return at_minimum(std::move(other), solution.held);
+}
+
+std::optional<SweepSolution> with_length(const SweepSolution& solution, double length_m) {
+  SweepSolution other = solution;
+  other.reload->metres = length_m;
+  for (BlockFit& recording : other.recordings) {
+    LevelModel level = recording.level();
+    if (!level.reloading) continue;
+    RiseAfterSlip rise = *level.reloading;
+    rise.length_m = length_m;
+    level.reloading = std::make_shared<const RiseAfterSlip>(std::move(rise));
+    const CycleSet& set = *recording.set();
+    BlockFit next(set.cycles, set.reference_s, recording.scales(), std::move(level));
+    next.parameters = std::move(recording.parameters);
+    recording = std::move(next);
   }
   return at_minimum(std::move(other), solution.held);
 }
