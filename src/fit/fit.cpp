@@ -14,6 +14,7 @@
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/stated_mass.hpp"
 #include "fit/selection/tiers.hpp"
 #include "fit/selection/weakening_fit.hpp"
 #include "model/reloading.hpp"
@@ -85,8 +86,7 @@ double recovery_s(const BlockFit& blocks, const CycleState& state) {
   if (!reloading || !(straight_s > state.slip_s()) || !(blocks.rise_data()[0] > 0.0)) return straight_s;
   const double speed = blocks.scales().speed_m_per_s;
   const double rise_m = blocks.rise_data()[0] * blocks.scales().force / state.stiffness_N_per_m;
-  const double stick_m =
-      model::reloaded_stick_m(speed * (straight_s - state.slip_s()), rise_m, reloading->length_m);
+  const double stick_m = model::reloaded_stick_m(speed * (straight_s - state.slip_s()), rise_m, reloading->length_m);
   return state.slip_s() + stick_m / speed;
 }
 
@@ -233,6 +233,7 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   std::optional<DampedFit> damped = fit::draft_with_rise(recording, quality, segmentation, held);
   if (damped) damped = fit::fit_as_sensed(recording, quality, segmentation, held, *std::move(damped));
   if (!damped) return std::nullopt;
+  damped = fit::fit_with_mass(recording, quality, segmentation, held, *std::move(damped));
   const auto [fits, resolution, candidates, of_choice] =
       choose({recording, quality, segmentation, held}, *std::move(damped), options.tier);
 
@@ -246,6 +247,7 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   result.diagnostics = diagnostics_of(recording, fits.damped, resolution);
   result.conditional_on = fit::conditions_of(recording, result.tier);
   result.residual = residual_of(chosen, quality);
+  result.mass_gives_frequency = fits.damped.mass_gives_frequency;
   fit::report_parameters(fit::findings_of(recording, fits, resolution, result.residual), result);
   tabulate(recording, segmentation, chosen.blocks, result);
   for (const Warnings& warnings : {warnings_of(chosen), of_choice}) {

@@ -48,6 +48,7 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
             {"force_quantity", name_of(conditions.quantity)},
             {"zero_force_N", number(conditions.zero_force_N)},
             {"mass_kg", number(conditions.mass_kg)},
+            {"mass_se_kg", number(conditions.mass_standard_error_kg)},
             {"sensor_bandwidth_Hz", number(conditions.sensor_bandwidth_Hz)},
             {"drive_period_s", number(conditions.drive_period_s)},
             {"sensor_average_s", number(conditions.sensor_average_s)},

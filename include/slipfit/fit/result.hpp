@@ -86,7 +86,7 @@ struct Ageing {
 };
 
 /// Reloading hysteresis: after a slip the force rises by force (1 - exp(-x / length)) more than by k x over the path x
-/// of the stick. docs/model.md (24)
+/// of the stick. docs/model.md (25)
 struct Reloading {
   double force_N = 0.0;   ///< A > 0
   double length_m = 0.0;  ///< l > 0
@@ -133,6 +133,7 @@ struct FitResult {
   Tier tier = Tier::Sawtooth;
   FitDiagnostics diagnostics;
   std::optional<ModelEstimate> estimate;    ///< empty where the slip is not resolved or forces have no newtons
+  bool mass_gives_frequency = false;        ///< w_n is that of the stated mass: averaging of the samples hides it
   std::vector<std::string> conditional_on;  ///< what the numbers assume ("Coulomb friction", ...)
   std::vector<Candidate> candidates;
   Residual residual;

@@ -130,6 +130,7 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
   data.average = own.average;
   data.reload = own.reload;
   data.rounding_s2 = own.rounding_s2;
+  data.mass = own.mass;
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     const SweepRecording& sweep = recordings[i];
     data.loads.push_back(data.mean_load_N ? *sweep.recording.conditions().normal_force_N / *data.mean_load_N : 1.0);

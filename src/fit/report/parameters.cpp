@@ -154,9 +154,13 @@ class Reporter {
       return f_.in_newtons ? add_unknown(Id::Mass, f_.frequency_unknown) : void();
     }
     const Estimate omega = f_.intervals.interval_of_one_sign(model_.omega);
-    f_.held[kLogFrequency]
-        ? add_held(Id::NaturalFrequency, model_.omega.a)
-        : add_graded(Id::NaturalFrequency, omega, frequency_doubt(), or_few_cycles(frequency_doubt()));
+    if (f_.mass_gives_frequency) {
+      add(Id::NaturalFrequency, omega, ParameterStatus::Conditional, kStatedMass);
+    } else if (f_.held[kLogFrequency]) {
+      add_held(Id::NaturalFrequency, model_.omega.a);
+    } else {
+      add_graded(Id::NaturalFrequency, omega, frequency_doubt(), or_few_cycles(frequency_doubt()));
+    }
     if (f_.in_newtons) report_mass();
   }
 
@@ -172,6 +176,9 @@ class Reporter {
   void report_mass() {
     const Jet m = model_.stiffness / (model_.omega * model_.omega);
     if (f_.held[kLogStiffness] && f_.held[kLogFrequency]) return add_held(Id::Mass, m.a);
+    if (f_.mass_gives_frequency) {
+      return add(Id::Mass, f_.intervals.interval_of_one_sign(m), ParameterStatus::Conditional, kStatedMass);
+    }
     const std::string doubt = frequency_doubt().empty() ? f_.stiffness_doubt : frequency_doubt();
     add_graded(Id::Mass, f_.intervals.interval_of_one_sign(m), doubt, "effective: k / w_n^2");
   }
@@ -269,9 +276,14 @@ class Reporter {
     const bool resolved = !f_.weakens && f_.slip_unresolved.empty() && !f_.difference_bounds && f_.in_newtons;
     if (!resolved || !damping_known || !(model_.difference.a > 0.0)) return;
     // In the order of kModelParameters; of the positive ones the logarithm.
-    const std::array<Jet, kModelValues> all{log(model_.stiffness),  log(model_.omega), model_.zeta,
-                                            log(model_.difference), model_.slope,      model_.alpha,
-                                            model_.ageing,          model_.ageing_time,
+    const std::array<Jet, kModelValues> all{log(model_.stiffness),
+                                            log(model_.omega),
+                                            model_.zeta,
+                                            log(model_.difference),
+                                            model_.slope,
+                                            model_.alpha,
+                                            model_.ageing,
+                                            model_.ageing_time,
                                             model_.reload ? model_.reload->force_N : Jet(0.0),
                                             model_.reload ? log(model_.reload->length_m) : Jet(0.0)};
     ModelEstimate estimate{model_.stiffness.a, model_.omega.a, model_.zeta.a, model_.difference.a};

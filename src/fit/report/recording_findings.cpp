@@ -264,6 +264,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   findings.warnings = std::move(stiffness.warnings);
   findings.fitted_average = fitted_average_of(fits.damped);
   findings.frequency_doubt = std::move(averaging.small_doubt);
+  findings.mass_gives_frequency = fits.damped.mass_gives_frequency;
   // Bent sticks begin and end in other slips than the model's.
   findings.slip_doubt = !averaging.doubt.empty()    ? averaging.doubt
                         : findings.warnings.empty() ? ""

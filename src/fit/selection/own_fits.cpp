@@ -10,6 +10,7 @@
 #include "fit/selection/finish.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/reloading_fit.hpp"
+#include "signal/robust.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -171,10 +172,69 @@ class OwnFitter {
   const HeldParameters& held_;
 };
 
+double median_stiffness(const OwnFits& own) {
+  std::vector<double> stiffnesses;
+  for (const auto& fit : own.fits) {
+    if (fit) stiffnesses.push_back(std::exp(fit->blocks.parameters.globals[kLogStiffness]));
+  }
+  return signal::median(std::move(stiffnesses));
+}
+
+/// The mass that all recordings state, where averaging hides w_n in all of them.
+std::optional<StatedMass> common_mass(std::span<const SweepRecording> recordings, const OwnFits& own,
+                                      const HeldParameters& held) {
+  std::optional<StatedMass> common;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    if (!own.fits[i]) continue;
+    const double average_s = own.fits[i]->blocks.scales().sensor_average_s;
+    const auto mass = mass_for_frequency(recordings[i].recording.conditions(), held, median_stiffness(own), average_s);
+    if (!mass || (common && mass->kg != common->kg)) return std::nullopt;
+    common = mass;
+  }
+  return common;
+}
+
+/// Residuals of all recordings, each over its own before.
+bool explains_as_well(const OwnFits& with_mass, const OwnFits& free) {
+  double square = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < free.fits.size(); ++i) {
+    if (!free.fits[i]) continue;
+    if (!with_mass.fits[i]) return false;
+    square += std::pow(with_mass.fits[i]->uncertainty.noise / free.fits[i]->uncertainty.noise, 2);
+    count += 1.0;
+  }
+  return std::sqrt(square / count) < thresholds::kContradictedMass;
+}
+
 }  // namespace
 
 OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held) {
-  return OwnFitter(recordings, held).fit();
+  OwnFits own = OwnFitter(recordings, held).fit();
+  const std::optional<StatedMass> mass = common_mass(recordings, own, held);
+  if (!mass) return own;
+  // As with a stated average, where one was found
+  std::vector<Recording> averaged;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const Recording& recording = recordings[i].recording;
+    const bool is_open = own.average && !recording.conditions().sensor_average_s;
+    averaged.push_back(is_open ? with_average(recording, own.average->seconds * own.average->seconds / 12.0)
+                               : recording);
+  }
+  std::vector<SweepRecording> sweep;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    sweep.push_back({averaged[i], recordings[i].quality, recordings[i].segmentation, recordings[i].role});
+  }
+  HeldParameters by_mass = held;
+  by_mass.natural_frequency_rad_per_s = mass->frequency_rad_per_s(median_stiffness(own));
+  OwnFits with_mass = OwnFitter(sweep, by_mass).fit();
+  if (!explains_as_well(with_mass, own)) return own;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    if (with_mass.fits[i] && own.fits[i]) with_mass.fits[i]->average = own.fits[i]->average;
+  }
+  with_mass.average = own.average;
+  with_mass.mass = mass;
+  return with_mass;
 }
 
 }  // namespace slipfit::fit

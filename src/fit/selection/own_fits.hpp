@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fit/selection/solution.hpp"
+#include "fit/selection/stated_mass.hpp"
 #include "slipfit/fit/parameter.hpp"
 #include "slipfit/fit/sweep_recording.hpp"
 
@@ -17,12 +18,13 @@ struct OwnFits {
   std::optional<FittedLength> reload{};        ///< in all fits whose sticks rise more steeply after a slip
   /// sigma^2 up to which averaging that is not in the fits rounds their slips; empty: no sign of more than a step's
   std::optional<double> rounding_s2{};
+  std::optional<StatedMass> mass{};  ///< that gives w_n
 };
 
 /// What belongs to contact or machine is the same in all of them. Where some show a rise after slips, all are fitted
-/// with the mean of its length. Where some that state no average show one, and agree on it, all of these are fitted with
-/// the mean of it if half of them show it or they are explained better together; otherwise what all of them show
-/// together is told.
+/// with the mean of its length. Where some that state no average show one, and agree on it, all of these are fitted
+/// with the mean of it if half of them show it or they are explained better together; otherwise what all of them show
+/// together is told. Where averaging hides w_n, a mass that all state gives it.
 OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held);
 
 }  // namespace slipfit::fit

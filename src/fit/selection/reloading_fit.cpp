@@ -23,9 +23,9 @@ constexpr int kSearchIterations = 20;
 constexpr double kRoughRise = 0.1;       // SolveOptions::tolerance
 constexpr double kShortestShare = 0.02;  // of a stick
 constexpr double kLongestShare = 0.5;
-constexpr int kMostRounds = 4;
+constexpr int kMostRounds = 10;
 constexpr double kMostLengthChange = 0.7;   // of ln l in one round
-constexpr double kSmallLengthChange = 0.1;  // in standard errors
+constexpr double kSmallLengthChange = 0.2;  // in standard errors
 
 double median_stick_s(const BlockFit& fit) {
   std::vector<double> sticks_s;
@@ -130,9 +130,9 @@ bool is_justified(const Recording& recording, const DampedFit& fit, const Damped
 }  // namespace
 
 std::shared_ptr<const RiseAfterSlip> reloading_of(const Recording& recording, const Segmentation& segmentation,
-                                              const BlockFit& fit, double length_m, bool is_free) {
-  RiseAfterSlip reloading{length_m, is_free, fit.scales().speed_m_per_s,
-                          recording.conditions().sensor_average_s.value_or(0.0), {}, {}};
+                                                  const BlockFit& fit, double length_m, bool is_free) {
+  RiseAfterSlip reloading{
+      length_m, is_free, fit.scales().speed_m_per_s, recording.conditions().sensor_average_s.value_or(0.0), {}, {}};
   for (const DetectedSlip& slip : segmentation.slips) {
     reloading.slip_begin_s.push_back(recording.time_s()[slip.peak]);
     reloading.slip_end_s.push_back(recording.time_s()[slip.trough]);
@@ -169,10 +169,10 @@ std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quali
 std::optional<DampedFit> draft_with_rise_over(double length_m, const Recording& recording, const Quality& quality,
                                               const Segmentation& segmentation, const HeldParameters& held,
                                               const DampedFit& near) {
-  std::optional<DampedFit> fit = draft_damped(
-      recording, quality, segmentation, held,
-      {std::nullopt, near.excluded, reloading_of(recording, segmentation, near.blocks, length_m, false),
-       near.blocks.level().per_cycle});
+  std::optional<DampedFit> fit =
+      draft_damped(recording, quality, segmentation, held,
+                   {std::nullopt, near.excluded, reloading_of(recording, segmentation, near.blocks, length_m, false),
+                    near.blocks.level().per_cycle});
   return fit && fit->blocks.rise_data()[0] > 0.0 ? std::move(fit) : std::nullopt;
 }
 

@@ -13,7 +13,7 @@ namespace slipfit::fit {
 
 /// The rise after slips that begin and end where `fit` has them, over this length.
 std::shared_ptr<const RiseAfterSlip> reloading_of(const Recording& recording, const Segmentation& segmentation,
-                                              const BlockFit& fit, double length_m, bool is_free);
+                                                  const BlockFit& fit, double length_m, bool is_free);
 
 /// The damped fit, its sticks rising more steeply after a slip (level/reloading.hpp) where straight ones bend and the
 /// rise is known and explains it. Before `finish_fit`.

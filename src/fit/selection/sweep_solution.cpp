@@ -98,7 +98,7 @@ SweepSolution moved_by(SweepSolution solution, const NewtonStep& step) {
 
 class SweepFitter {
  public:
-  SweepFitter(const SweepData& data, const FitOptions& options) : data_(data), fixed_(options.held) {}
+  SweepFitter(const SweepData& data, const HeldParameters& held) : data_(data), fixed_(held) {}
 
   [[nodiscard]] std::optional<SweepFits> fit() const {
     std::optional<SweepSolution> free = fit_velocity({false, false});
@@ -228,7 +228,23 @@ std::size_t SweepSolution::cycles() const {
 }
 
 std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options) {
-  return SweepFitter(data, options).fit();
+  if (!data.mass) return SweepFitter(data, options.held).fit();
+  constexpr int kMostRounds = 3;
+  constexpr double kSmallChange = 1e-3;  // of ln w_n: k hardly depends on it
+  HeldParameters held = options.held;
+  std::vector<double> logs;
+  for (const std::size_t i : data.fitted) logs.push_back(data.single[i]->blocks.parameters.globals[kLogStiffness]);
+  double stiffness = std::exp(signal::median(std::move(logs)));
+  std::optional<SweepFits> fits;
+  for (int round = 0; round < kMostRounds; ++round) {
+    held.natural_frequency_rad_per_s = data.mass->frequency_rad_per_s(stiffness);
+    fits = SweepFitter(data, held).fit();
+    if (!fits) return fits;
+    const SweepSolution& solution = fits->coulomb ? *fits->coulomb : fits->velocity;
+    const double next = std::exp(solution.recordings.front().parameters.globals[kLogStiffness]);
+    if (std::abs(std::log(next / std::exchange(stiffness, next))) < 2.0 * kSmallChange) break;
+  }
+  return fits;
 }
 
 SweepSolution settled(const SweepSolution& solution) {
@@ -266,6 +282,12 @@ std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolu
     scales.sensor_average_s = average_s;
     other.recordings[f] = with_scales(other.recordings[f], scales);
   }
+  return at_minimum(std::move(other), solution.held);
+}
+
+std::optional<SweepSolution> with_frequency(const SweepSolution& solution, double log_change) {
+  SweepSolution other = solution;
+  for (BlockFit& recording : other.recordings) recording.parameters.globals[kLogFrequency] += log_change;
   return at_minimum(std::move(other), solution.held);
 }
 

@@ -17,7 +17,7 @@ struct SweepSolution {
   double degrees_of_freedom = 0.0;
   std::optional<FittedAverage> average{};  ///< in the recordings of which none is stated (SweepData::average)
 
-  std::optional<FittedLength> reload{};    ///< in the recordings whose sticks rise more steeply after a slip
+  std::optional<FittedLength> reload{};  ///< in the recordings whose sticks rise more steeply after a slip
 
   [[nodiscard]] Problem problem() const { return {recordings, sweep}; }
   [[nodiscard]] std::size_t cycles() const;
@@ -47,6 +47,9 @@ std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw
 
 /// The same fit with another average in the recordings that have the one which was found.
 std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolution& solution, double average_s);
+
+/// The same fit with ln w_n, which is held, elsewhere.
+std::optional<SweepSolution> with_frequency(const SweepSolution& solution, double log_change);
 
 /// The same fit with a rise over another length in the recordings that have one.
 std::optional<SweepSolution> with_length(const SweepSolution& solution, double length_m);
