@@ -14,6 +14,7 @@
 #include "fit/inference/sweep_outcome.hpp"
 #include "fit/report/findings.hpp"
 #include "fit/selection/law_choice.hpp"
+#include "fit/selection/sweep_solution.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {

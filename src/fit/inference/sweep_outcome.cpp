@@ -12,6 +12,7 @@
 #include "fit/inference/ageing_line.hpp"
 #include "fit/inference/rate_profile.hpp"
 #include "fit/inference/sliding_model.hpp"
+#include "fit/selection/sweep_solution.hpp"
 
 namespace slipfit::fit {
 namespace {

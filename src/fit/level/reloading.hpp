@@ -8,8 +8,8 @@
 namespace slipfit::fit {
 
 /// Reloading hysteresis: after a slip the force rises by A (1 - exp(-x / l)) more than by k x over the path x = V t of
-/// the stick (docs/model.md section 10). Columns of the level: one counts A; where l is free a second one counts A times
-/// what ln l is off by, to first order. The ends of the slips stand still while fitting.
+/// the stick (docs/model.md section 10). Columns of the level: one counts A; where l is free a second one counts A
+/// times what ln l is off by, to first order. The ends of the slips stand still while fitting.
 struct RiseAfterSlip {
   double length_m = 0.0;  ///< l
   bool is_free = false;   ///< l

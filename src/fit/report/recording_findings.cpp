@@ -180,6 +180,7 @@ void state_conditions(const Recording& recording, Findings& findings) {
 
 void state_law(const DampedFit& fit, Findings& findings) {
   findings.weakens = fit.blocks.scales().law == FrictionLaw::Weakening;
+  findings.mass_gives_frequency = fit.mass_gives_frequency;
   if (!fit.law_doubt.empty()) (findings.weakens ? findings.slip_doubt : findings.slip_distance_unknown) = fit.law_doubt;
 }
 
@@ -264,7 +265,6 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   findings.warnings = std::move(stiffness.warnings);
   findings.fitted_average = fitted_average_of(fits.damped);
   findings.frequency_doubt = std::move(averaging.small_doubt);
-  findings.mass_gives_frequency = fits.damped.mass_gives_frequency;
   // Bent sticks begin and end in other slips than the model's.
   findings.slip_doubt = !averaging.doubt.empty()    ? averaging.doubt
                         : findings.warnings.empty() ? ""
