@@ -16,7 +16,7 @@ import subprocess
 import command_line
 
 SHORT = {"stiffness_N_per_m": "k", "friction_difference_N": "dF", "natural_frequency_rad_per_s": "w_n", "damping_ratio": "zeta",
-         "slip_distance_m": "D_c"}
+         "slip_distance_m": "D_c", "reload_force_N": "A", "reload_length_m": "l"}
 RIGHT = {"stick_slip": {"stick_slip"}, "reciprocating": {"stick_slip", "refused:reciprocating"},
          "steady": {"steady_sliding"}, "wave": {"oscillatory_slip", "undetermined", "steady_sliding"},
          "ringdown": {"oscillatory_slip", "undetermined", "steady_sliding"}}

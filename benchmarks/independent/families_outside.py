@@ -139,7 +139,7 @@ def creep(rng):
 
 
 def reload(rng):
-    return _friction(rng, NONE, reload_force=lambda r: 0.3 * r.drop * rng.uniform(0.3, 1), reload_length=lambda r: 0.3 * r.drop / r.model.stiffness)
+    return _friction(rng, PARAMETERS, reload_force=lambda r: 0.3 * r.drop * rng.uniform(0.3, 1), reload_length=lambda r: 0.3 * r.drop / r.model.stiffness)
 
 
 def stiffening(rng):

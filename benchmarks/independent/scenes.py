@@ -78,6 +78,9 @@ def truth_of(rig, slips, stretch, known=PARAMETERS):
     values = dict(zip(PARAMETERS, (rig.model.stiffness, rig.drop, rig.model.omega, rig.model.damping_ratio)))
     if rig.model.weakening_length > 0:
         values["slip_distance_m"], known = rig.model.weakening_length, (*known, "slip_distance_m")
+    if rig.model.reload_length:
+        values["reload_force_N"], values["reload_length_m"] = rig.model.reload_force, rig.model.reload_length
+        known = (*known, "reload_force_N", "reload_length_m")
     return {"kind": "stick_slip", "speed_m_per_s": rig.speed, "frequency_Hz": frequency, "stretch_s": [float(s) for s in stretch],
             "spacing_m": rig.speed / frequency if frequency else None,
             "parameters": {name: values[name] for name in known}, "slips_s": [float(t) for t in onset]}

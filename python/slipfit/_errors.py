@@ -16,7 +16,8 @@ _FLAGS = {
     "--tier velocity": "tier='velocity'",
 }
 # Where an argument is called otherwise than the column of a manifest.
-COLUMNS = {"zero": "zero_force", "speed_uncertainty": "speed_se", "measured_spacing_uncertainty": "measured_spacing_se"}
+COLUMNS = {"zero": "zero_force", "speed_uncertainty": "speed_se", "mass_uncertainty": "mass_se",
+           "measured_spacing_uncertainty": "measured_spacing_se"}
 _ARGUMENTS = {column: argument for argument, column in COLUMNS.items()}
 
 

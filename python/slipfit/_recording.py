@@ -41,8 +41,8 @@ class Recording:
         What results and messages call the recording.
     sample_rate, time_unit, force_unit, window, rows
         As for `read_recording`.
-    speed_uncertainty, radius, mass, force_view, sensor_bandwidth, sensor_average, sensor_resonance, drive_period,
-    measured_spacing, measured_spacing_uncertainty, surface, group, sample, material, operator
+    speed_uncertainty, radius, mass, mass_uncertainty, force_view, sensor_bandwidth, sensor_average, sensor_resonance,
+    drive_period, measured_spacing, measured_spacing_uncertainty, surface, group, sample, material, operator
         As for `read_recording`.
 
     Raises
@@ -78,6 +78,7 @@ class Recording:
         speed_uncertainty: Optional[Quantity] = None,
         radius: Optional[Quantity] = None,
         mass: Optional[Quantity] = None,
+        mass_uncertainty: Optional[Quantity] = None,
         force_view: Optional[str] = None,
         sensor_bandwidth: Optional[Quantity] = None,
         sensor_average: Optional[Quantity] = None,
@@ -219,6 +220,7 @@ def read_recording(
     speed_uncertainty: Optional[Quantity] = None,
     radius: Optional[Quantity] = None,
     mass: Optional[Quantity] = None,
+    mass_uncertainty: Optional[Quantity] = None,
     force_view: Optional[str] = None,
     sensor_bandwidth: Optional[Quantity] = None,
     sensor_average: Optional[Quantity] = None,
@@ -275,7 +277,9 @@ def read_recording(
     radius : float or str
         Distance of the contact from the axis (m).
     mass : float or str
-        Moving mass (kg); held against k / w_n**2.
+        Moving mass (kg); gives w_n where averaging hides it, else held against k / w_n**2.
+    mass_uncertainty : float or str
+        Standard error of the mass: ``"5 g"``, ``"1 %"``; 2 % of it by default.
     force_view : "spring", "transmitted" or "contact"
         Which force the sensor sees.
     sensor_bandwidth, sensor_resonance : float or str

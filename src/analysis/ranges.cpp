@@ -40,10 +40,8 @@ void keep_in(const Range& range, Values&... values) {
 }
 
 bool all_finite(const ModelEstimate& model) {
-  const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
-  const Ageing ageing = model.ageing.value_or(Ageing{});
-  double sum = model.stiffness_N_per_m + model.natural_frequency_rad_per_s + model.damping_ratio +
-               model.friction_difference_N + law.slope_N_s_per_m + law.alpha_s_per_m + ageing.rate_N + ageing.cutoff_s;
+  double sum = 0.0;
+  for (const double value : values_of(model)) sum += std::abs(value);
   for (const auto& row : model.covariance) {
     for (const double cell : row) sum += std::abs(cell);
   }

@@ -188,7 +188,7 @@ std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysi
     tests.push_back(test_return_map(pairs));
     tests.push_back(test_ageing(pairs, conditions.quantity == ForceQuantity::Force_N ? "N" : ""));
   }
-  if (conditions.mass_kg) tests.push_back(test_mass(fit, *conditions.mass_kg));
+  if (conditions.mass_kg && !fit.mass_gives_frequency) tests.push_back(test_mass(fit, *conditions.mass_kg));
   if (conditions.sensor_resonance_Hz) tests.push_back(test_resonance(fit, *conditions.sensor_resonance_Hz));
   for (ShortTest& test : tests) test = finite(std::move(test));
   return tests;

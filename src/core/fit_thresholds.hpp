@@ -181,6 +181,14 @@ inline constexpr double kSweepMisfit = 1.5;
 /// chance for each]
 inline constexpr double kShiftSigmas = 4.5;
 
+/// Averaging time of the samples times w_n, above which a stated mass gives w_n: the fall of an averaged slip is then
+/// longer by the average than by itself. [1; derived]
+inline constexpr double kHidingAverage = 2.0;
+
+/// Residual with w_n by a stated mass over that with w_n free, above which the mass is not that of the slips. [1;
+/// convention]
+inline constexpr double kContradictedMass = 1.25;
+
 /// Least ratio of speeds that shows ageing. [1; convention]
 inline constexpr double kAgeingSpeedRatio = 2.0;
 

@@ -26,6 +26,8 @@ enum Coordinate : Eigen::Index {
   kAgeing,            ///< rate of ageing / Units::force
   kAgeingTime,        ///< cut-off of ageing / Units::stick_s
   kSlipDistance,      ///< sqrt(D_c / Units::slip_distance_m): the limit of Coulomb friction is reached as it goes to 0
+  kReloadForce,       ///< A / Units::force, of the rise after a slip
+  kReloadLength,      ///< ln (l / m), of the path over which it rises
   kCoordinates
 };
 

@@ -13,8 +13,11 @@
 #include "fit/report/recording_findings.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/fitted_average.hpp"
+#include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/stated_mass.hpp"
 #include "fit/selection/tiers.hpp"
 #include "fit/selection/weakening_fit.hpp"
+#include "model/reloading.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -76,6 +79,17 @@ void tell_selection(FitResult& result) {
                                          selected, slips)});
 }
 
+/// Of the slip and the stick that makes good its drop.
+double recovery_s(const BlockFit& blocks, const CycleState& state) {
+  const double straight_s = (state.z0() - state.intercept()) / state.omega_rad_per_s;
+  const auto& reloading = blocks.level().reloading;
+  if (!reloading || !(straight_s > state.slip_s()) || !(blocks.rise_data()[0] > 0.0)) return straight_s;
+  const double speed = blocks.scales().speed_m_per_s;
+  const double rise_m = blocks.rise_data()[0] * blocks.scales().force / state.stiffness_N_per_m;
+  const double stick_m = model::reloaded_stick_m(speed * (straight_s - state.slip_s()), rise_m, reloading->length_m);
+  return state.slip_s() + stick_m / speed;
+}
+
 /// The table of all detected cycles, with what the fit says of those that it uses.
 void tabulate(const Recording& recording, const Segmentation& segmentation, const BlockFit& blocks, FitResult& result) {
   result.cycles = fit::detected_cycles(recording, segmentation);
@@ -89,7 +103,7 @@ void tabulate(const Recording& recording, const Segmentation& segmentation, cons
     row.end_s = state.onset_s + state.slip_s();
     row.level_force = blocks.model(c).level_at(state.onset_s, blocks.level_data(), local);
     row.onset_force = *row.level_force + state.onset_force;
-    row.recovery_s = (state.z0() - state.intercept()) / state.omega_rad_per_s;
+    row.recovery_s = recovery_s(blocks, state);
     row.residual_rms = blocks.scales().noise *
                        std::sqrt(blocks.cycle_sum_of_squares(c) / static_cast<double>(blocks.data(c).residuals()));
   }
@@ -106,7 +120,8 @@ std::vector<CurvePoint> curve_of(const Recording& recording, const BlockFit& blo
                                       time_s.begin());
     for (; i < time_s.size() && time_s[i] < blocks.data(c).window_end_s; ++i) {
       curve.push_back({i, blocks.model(c).level_at(time_s[i], blocks.level_data(), local) +
-                              blocks.model(c).hum_at(time_s[i], blocks.level_data()) + state.force_at(time_s[i])});
+                              blocks.model(c).hum_at(time_s[i], blocks.level_data()) +
+                              blocks.model(c).rise_at(time_s[i], blocks.level_data()) + state.force_at(time_s[i])});
     }
   }
   return curve;
@@ -215,8 +230,10 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   if (recording.conditions().force_view == ForceView::Contact)
     return fit::fit_contact(recording, segmentation, options);
   const HeldParameters held = held_parameters(options);
-  std::optional<DampedFit> damped = fit::fit_as_sensed(recording, quality, segmentation, held);
+  std::optional<DampedFit> damped = fit::draft_with_rise(recording, quality, segmentation, held);
+  if (damped) damped = fit::fit_as_sensed(recording, quality, segmentation, held, *std::move(damped));
   if (!damped) return std::nullopt;
+  damped = fit::fit_with_mass(recording, quality, segmentation, held, *std::move(damped));
   const auto [fits, resolution, candidates, of_choice] =
       choose({recording, quality, segmentation, held}, *std::move(damped), options.tier);
 
@@ -230,6 +247,7 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   result.diagnostics = diagnostics_of(recording, fits.damped, resolution);
   result.conditional_on = fit::conditions_of(recording, result.tier);
   result.residual = residual_of(chosen, quality);
+  result.mass_gives_frequency = fits.damped.mass_gives_frequency;
   fit::report_parameters(fit::findings_of(recording, fits, resolution, result.residual), result);
   tabulate(recording, segmentation, chosen.blocks, result);
   for (const Warnings& warnings : {warnings_of(chosen), of_choice}) {

@@ -41,7 +41,11 @@ constexpr std::array kTable{
     ParameterInfo{Id::SensorAverage, "sensor_average_s", "time over which samples are averaged", "s", kNotNegative,
                   0.25},
     ParameterInfo{Id::SlipDistance, "slip_distance_m", "slip distance D_c over which friction weakens", "m",
-                  kNotNegative, 0.25}};
+                  kNotNegative, 0.25},
+    ParameterInfo{Id::ReloadForce, "reload_force_N", "rise A of the force after a slip, beside k x", "N", kNotNegative,
+                  0.25},
+    ParameterInfo{Id::ReloadLength, "reload_length_m", "path l of that rise, A (1 - exp(-x / l))", "m", kNotNegative,
+                  0.25}};
 
 }  // namespace
 

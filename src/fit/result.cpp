@@ -16,6 +16,17 @@ double from_end(const SpeedReach& reach, double speed_m_per_s) {
 
 }  // namespace
 
+std::array<double, kModelValues> values_of(const ModelEstimate& model) {
+  const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
+  const Ageing ageing = model.ageing.value_or(Ageing{});
+  const Reloading reloading = model.reloading.value_or(Reloading{});
+  return {model.stiffness_N_per_m, model.natural_frequency_rad_per_s,
+          model.damping_ratio,     model.friction_difference_N,
+          law.slope_N_s_per_m,     law.alpha_s_per_m,
+          ageing.rate_N,           ageing.cutoff_s,
+          reloading.force_N,       reloading.length_m};
+}
+
 double SpeedReach::distance_to(double speed_m_per_s) const {
   return std::max(0.0, from_end(*this, speed_m_per_s));
 }

@@ -14,6 +14,7 @@
 #include "fit/inference/sweep_outcome.hpp"
 #include "fit/report/findings.hpp"
 #include "fit/selection/law_choice.hpp"
+#include "fit/selection/sweep_solution.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -84,6 +85,10 @@ class Assembler {
         })) {
       sweep.result.conditional_on.emplace_back(fit::kStatedSpeed);
     }
+    if (data_.mass) {
+      sweep.result.mass_gives_frequency = true;
+      sweep.result.conditional_on.push_back(fmt::format("a moving mass of {:.4g} kg", data_.mass->kg));
+    }
     sweep.result.residual.rms = residual_rms(solution);
     if (std::any_of(data_.loads.begin(), data_.loads.end(), [](double load) { return load != 1.0; })) {
       sweep.result.conditional_on.push_back(
@@ -109,6 +114,7 @@ class Assembler {
       return sweep.recording.conditions().zero_force_N.has_value();
     });
     findings.cycles = solution.cycles();
+    findings.mass_gives_frequency = data_.mass.has_value();
     findings.samples_per_slip = samples_per_slip(recordings_, data_);
     findings.sample_interval_s = recordings_[data_.fitted.front()].recording.sample_interval_s();
     if (fit::residual_over_noise(recordings_, data_, solution) > thresholds::kLargeChi2) {

@@ -71,15 +71,25 @@ const ManifestColumn* find_read(const ManifestColumns& columns, const ManifestFi
   return found == columns.read.end() ? nullptr : &*found;
 }
 
-/// A speed as it is, or a rotation times the radius; of a standard error a percentage of the speed. Both come before
-/// it.
-Result<double> speed_in(const std::string& text, const ManifestField& field, const ManifestEntry& entry) {
-  const double speed_m_per_s = entry.conditions.speed_m_per_s;
-  const auto share = parse_quantity(text, Dimension::Dimensionless);
-  if (field.said.column == "speed_se" && text.ends_with('%') && share) {
-    if (speed_m_per_s > 0.0) return share.value() * speed_m_per_s;
-    return *refusal("no_speed", text, "a speed beside it (--speed), of which it is a part");
+/// What a standard error belongs to, which is read before it, and how it is stated; empty: no standard error.
+struct Measured {
+  double value = 0.0;  ///< 0: not stated
+  const char* absent = nullptr;
+  const char* expected = nullptr;
+};
+std::optional<Measured> measured_by(std::string_view column, const ManifestEntry& entry) {
+  if (column == "speed_se") {
+    return Measured{entry.conditions.speed_m_per_s, "no_speed", "a speed beside it (--speed), of which it is a part"};
   }
+  if (column == "mass_se") {
+    return Measured{entry.conditions.mass_kg.value_or(0.0), "no_mass",
+                    "a mass beside it (--mass), of which it is a part"};
+  }
+  return std::nullopt;
+}
+
+/// A speed as it is, or a rotation times the radius, which is read before it.
+Result<double> speed_in(const std::string& text, const ManifestEntry& entry) {
   const auto rotation = parse_quantity(text, Dimension::AngularSpeed);
   Result<double> speed = parse_quantity(text, Dimension::Speed);
   if (speed || !rotation) return speed;
@@ -93,8 +103,14 @@ Result<double> number_in(const std::string& text, const ManifestEntry& entry, co
                          bool decimal_comma) {
   const ManifestField& field = *column.field;
   if (!column.scale) {
+    const auto share = parse_quantity(text, Dimension::Dimensionless);
+    const std::optional<Measured> measured = measured_by(field.said.column, entry);
+    if (measured && text.ends_with('%') && share) {
+      if (measured->value > 0.0) return share.value() * measured->value;
+      return *refusal(measured->absent, text, measured->expected);
+    }
     Result<double> value =
-        field.dimension == Dimension::Speed ? speed_in(text, field, entry) : parse_quantity(text, *field.dimension);
+        field.dimension == Dimension::Speed ? speed_in(text, entry) : parse_quantity(text, *field.dimension);
     return value ? value : Result<double>(Error{value.error().code, printable(value.error().message)});
   }
   const Cell number = read_cell(text, decimal_comma && text.find(',') != std::string::npos);
@@ -134,9 +150,10 @@ std::optional<Error> set_window(ManifestEntry& entry, const ManifestColumn& colu
   return std::nullopt;
 }
 
-/// A speed may hang on the radius, and its standard error on the speed.
+/// A speed may hang on the radius, a standard error on what it belongs to.
 int turn_of(std::string_view column) {
-  return column == "speed_se" ? 2 : column == "speed" ? 1 : 0;
+  if (column == "speed_se" || column == "mass_se") return 2;
+  return column == "speed" ? 1 : 0;
 }
 
 }  // namespace

@@ -13,8 +13,6 @@ namespace {
 
 /// The row of ModelEstimate's values that holds ln (F_s - F_k(0+)).
 constexpr Eigen::Index kDifference = 3;
-/// That of alpha.
-constexpr Eigen::Index kRate = 5;
 
 /// The same bodies, with static friction that does not age.
 ModelEstimate held_at(const ModelEstimate& model, double difference_N) {
@@ -47,9 +45,12 @@ Jet aged_jet(const ModelEstimate& model, double difference_N, Jet stick_s) {
 /// The speed at which stick-slip ends, with its derivatives: the static friction after a stick only just reaches the
 /// F_s - F_k(0+) that made it so long, and changes with it as fast, so that only the move at F_s - F_k(0+) held counts.
 Jet end_speed(const ModelEstimate& model, double difference_N, double speed_m_per_s) {
-  Jet stick_s = held_motion_at(held_at(model, difference_N), speed_m_per_s).cycle->stick_s;
-  // w_n times the stick time is a function of lambda, which is as D / V, of alpha V, and of what has no speed in it.
-  const double by_log_speed = -stick_s.v(kDifference) + jets_of(model).alpha_s_per_m.a * stick_s.v(kRate);
+  const ModelEstimate held = held_at(model, difference_N);
+  const auto stick_at = [&held](double speed) { return held_motion_at(held, speed).cycle->stick_s; };
+  Jet stick_s = stick_at(speed_m_per_s);
+  constexpr double kStep = 1e-4;  // of ln V; only the interval rests on it
+  const double slower_m_per_s = speed_m_per_s * std::exp(-kStep);
+  const double by_log_speed = (stick_s.a - stick_at(slower_m_per_s).a) / kStep;
   take_derivative_by_difference(stick_s, difference_N);
   const Jet excess_N = law_of(model).after(stick_s) - difference_N;
   const double rate_N_per_s = model.ageing->rate_N / (stick_s.a + model.ageing->cutoff_s);

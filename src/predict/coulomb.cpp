@@ -64,9 +64,10 @@ MotionJets coulomb_motion_at(const ModelEstimate& model, double speed_m_per_s) {
   const Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed_m_per_s);
   if (model.damping_ratio < 1.0) motion.restick_margin = model::restick_margin(lambda, p.damping_ratio);
   if (const std::optional<CycleSensitivity> cycle = damped_sensitivity(slider, friction, speed_m_per_s)) {
-    motion.cycle = CycleJets{jet_of(cycle->slip_s, model),       jet_of(cycle->stick_s, model),
+    const CycleJets straight{jet_of(cycle->slip_s, model),       jet_of(cycle->stick_s, model),
                              jet_of(cycle->period_s, model),     jet_of(cycle->periodic_displacement_m, model),
                              jet_of(cycle->force_peak_N, model), jet_of(cycle->force_trough_N, model)};
+    motion.cycle = reloaded(straight, model, speed_m_per_s);
   }
   return motion;
 }

@@ -7,6 +7,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "fit/inference/student.hpp"
+#include "model/reloading.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -23,6 +24,7 @@ Jet positive_parameter(double value, int i) {
 ModelJets jets_of(const ModelEstimate& model) {
   const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
   const Ageing ageing = model.ageing.value_or(Ageing{});
+  const Reloading reloading = model.reloading.value_or(Reloading{});
   return {positive_parameter(model.stiffness_N_per_m, 0),
           positive_parameter(model.natural_frequency_rad_per_s, 1),
           Jet(model.damping_ratio, 2),
@@ -30,7 +32,9 @@ ModelJets jets_of(const ModelEstimate& model) {
           Jet(law.slope_N_s_per_m, 4),
           Jet(law.alpha_s_per_m, 5),
           Jet(ageing.rate_N, 6),
-          Jet(ageing.cutoff_s, 7)};
+          Jet(ageing.cutoff_s, 7),
+          Jet(reloading.force_N, 8),
+          positive_parameter(reloading.length_m, 9)};
 }
 
 Propagation::Propagation(ModelEstimate model)
@@ -65,6 +69,17 @@ std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_p
   wider.covariance[kDifference][kDifference] +=
       std::pow(model.reach->half_width_at(speed_m_per_s) / fit::t_quantile(model.degrees_of_freedom), 2);
   return wider;
+}
+
+CycleJets reloaded(CycleJets cycle, const ModelEstimate& model, double speed_m_per_s) {
+  if (!model.reloading) return cycle;
+  const ModelJets p = jets_of(model);
+  const Jet straight_m = speed_m_per_s * cycle.stick_s;
+  const Jet rise_m = p.reload_force_N / p.stiffness_N_per_m;
+  cycle.stick_s = model::reloaded_stick_m(straight_m, rise_m, p.reload_length_m) / speed_m_per_s;
+  cycle.period_s = cycle.slip_s + cycle.stick_s;
+  cycle.periodic_displacement_m = speed_m_per_s * cycle.period_s;
+  return cycle;
 }
 
 Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s) {

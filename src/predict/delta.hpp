@@ -15,12 +15,12 @@
 namespace slipfit::predict {
 
 /// Numbers that know their derivatives with respect to (ln k, ln w_n, zeta, ln dF, b, alpha, rate and
-/// cut-off of ageing).
+/// cut-off of ageing, A and ln l of reloading).
 using Jet = ceres::Jet<double, static_cast<int>(kModelValues)>;
 
 struct ModelJets {
   Jet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N, slope_N_s_per_m, alpha_s_per_m, ageing_N,
-      ageing_cutoff_s;
+      ageing_cutoff_s, reload_force_N, reload_length_m;
 };
 
 ModelJets jets_of(const ModelEstimate& model);
@@ -66,6 +66,9 @@ struct CriticalPoint {
 struct CycleJets {
   Jet slip_s, stick_s, period_s, periodic_displacement_m, force_peak_N, force_trough_N;
 };
+
+/// Its stick, period and distance where the force rises more steeply after a slip than by k x, as `model` has it.
+CycleJets reloaded(CycleJets cycle, const ModelEstimate& model, double speed_m_per_s);
 
 /// The motion at one speed.
 struct MotionJets {

@@ -166,7 +166,8 @@ PredictionModel at_load(PredictionModel model, double normal_force_N) {
   estimate.friction_difference_N *= ratio;
   if (estimate.speed_dependence) estimate.speed_dependence->slope_N_s_per_m *= ratio;
   if (estimate.ageing) estimate.ageing->rate_N *= ratio;
-  for (const std::size_t of_force : {4U, 6U}) {  // the slope of F_k(v), the rate of ageing
+  if (estimate.reloading) estimate.reloading->force_N *= ratio;
+  for (const std::size_t of_force : {4U, 6U, 8U}) {  // the slope of F_k(v), the rate of ageing, the rise after a slip
     for (std::size_t i = 0; i < kModelValues; ++i) {
       estimate.covariance[of_force][i] *= ratio;
       estimate.covariance[i][of_force] *= ratio;

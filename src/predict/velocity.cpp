@@ -130,6 +130,7 @@ MotionJets velocity_motion_at(const ModelEstimate& model, double speed_m_per_s) 
   motion.total_damping_ratio = slip.zeta + 0.5 * slip.slope * exp(slip.rate);
   if (const auto track = slip.solve()) {
     motion.cycle = cycle_of(slip, *track, p.omega_rad_per_s);
+    if (motion.cycle) motion.cycle = reloaded(*motion.cycle, model, speed_m_per_s);
     motion.restick_margin = margin_of(slip, *track);
   }
   motion.regime = regime_of(motion.total_damping_ratio.a, motion.cycle.has_value());

@@ -48,6 +48,7 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
             {"force_quantity", name_of(conditions.quantity)},
             {"zero_force_N", number(conditions.zero_force_N)},
             {"mass_kg", number(conditions.mass_kg)},
+            {"mass_se_kg", number(conditions.mass_standard_error_kg)},
             {"sensor_bandwidth_Hz", number(conditions.sensor_bandwidth_Hz)},
             {"drive_period_s", number(conditions.drive_period_s)},
             {"sensor_average_s", number(conditions.sensor_average_s)},
@@ -146,16 +147,7 @@ std::size_t place_of(const std::string& name) {
 /// What the covariance belongs to, in the order of Correlation::names. A value that the data hardly tell alone, and
 /// whose parameter is therefore null, still stands here: together with the others it predicts.
 Json working_values_json(const Correlation& correlation, const ModelEstimate& estimate) {
-  const SpeedDependence law = estimate.speed_dependence.value_or(SpeedDependence{});
-  const Ageing ageing = estimate.ageing.value_or(Ageing{});
-  const std::array<double, kModelValues> values{estimate.stiffness_N_per_m,
-                                                estimate.natural_frequency_rad_per_s,
-                                                estimate.damping_ratio,
-                                                estimate.friction_difference_N,
-                                                law.slope_N_s_per_m,
-                                                law.alpha_s_per_m,
-                                                ageing.rate_N,
-                                                ageing.cutoff_s};
+  const std::array<double, kModelValues> values = values_of(estimate);
   return array_of(correlation.names, [&values](const std::string& name) { return number(values[place_of(name)]); });
 }
 

@@ -74,4 +74,39 @@ TEST_CASE("samples of an instant get no average") {
   for (const Parameter& p : analysis.fit->parameters) CHECK(p.name() != "sensor_average_s");
 }
 
+TEST_CASE("a stated mass gives the natural frequency where averaging hides it, and is held against it elsewhere") {
+  Scene s = printed_plastic();
+  s.conditions.mass_kg = 0.232;
+  s.conditions.mass_standard_error_kg = 0.01 * 0.232;
+  SECTION("averages longer than the slips") {
+    const Analysis analysis = analyze_and_fit(averaged(s, 61), {});
+    REQUIRE(analysis.fit);
+    CHECK(analysis.fit->mass_gives_frequency);
+    const Parameter& omega = parameter(analysis, "natural_frequency_rad_per_s");
+    CHECK(omega.status == ParameterStatus::Conditional);
+    CHECK(*omega.estimate.value == Approx(s.omega).epsilon(0.02));
+    // d ln w_n = (d ln k - d ln m) / 2, and k is known far better than the mass.
+    CHECK(*omega.estimate.standard_error == Approx(0.005 * s.omega).epsilon(0.1));
+    const Estimate& mass = parameter(analysis, "mass_kg").estimate;
+    CHECK(*mass.value == Approx(0.232).epsilon(0.005));
+    CHECK(*mass.standard_error == Approx(0.00232).epsilon(0.03));
+    const Estimate& zeta = parameter(analysis, "damping_ratio").estimate;
+    REQUIRE(zeta.ci95);
+    CHECK(zeta.ci95->low < s.zeta);
+    CHECK(zeta.ci95->high > s.zeta);
+  }
+  SECTION("short averages") {
+    const Analysis analysis = analyze_and_fit(averaged(s, 15), {});
+    REQUIRE(analysis.fit);
+    CHECK_FALSE(analysis.fit->mass_gives_frequency);
+    CHECK(parameter(analysis, "natural_frequency_rad_per_s").status != ParameterStatus::Conditional);
+  }
+  SECTION("a mass that is not that of the slips") {
+    s.conditions.mass_kg = 2.0;
+    const Analysis analysis = analyze_and_fit(averaged(s, 61), {});
+    REQUIRE(analysis.fit);
+    CHECK_FALSE(analysis.fit->mass_gives_frequency);
+  }
+}
+
 }  // namespace slipfit

@@ -49,13 +49,15 @@ struct Conditions {
   /// one step of the clock.
   std::optional<double> sensor_average_s;
   std::optional<double>
-      sensor_resonance_Hz;                   ///< > 0, of the load cell as it is mounted: a frequency near it is doubted
-  std::optional<double> drive_period_s;      ///< > 0, of what may set the rhythm: a motor's step, an excitation
-  std::optional<double> mass_kg;             ///< > 0, of the moving body: held against k / w_n^2, never forced
-  std::optional<double> measured_spacing_m;  ///< > 0, of the worn surface: a prediction is held against it
-  std::optional<double> measured_spacing_se_m;  ///< >= 0; empty: the measured spacing counts as exact
-  std::shared_ptr<const WornTrack> worn_track;  ///< none: no surface was given
-  std::string speed_unit = {};                  ///< that the speed was given in ("mm/min"): reports show it; empty: m/s
+      sensor_resonance_Hz;               ///< > 0, of the load cell as it is mounted: a frequency near it is doubted
+  std::optional<double> drive_period_s;  ///< > 0, of what may set the rhythm: a motor's step, an excitation
+  /// > 0, of the moving body: gives w_n where averaging hides it, else held against k / w_n^2.
+  std::optional<double> mass_kg;
+  std::optional<double> mass_standard_error_kg;  ///< >= 0, of the stated mass; empty: 2 % of it
+  std::optional<double> measured_spacing_m;      ///< > 0, of the worn surface: a prediction is held against it
+  std::optional<double> measured_spacing_se_m;   ///< >= 0; empty: the measured spacing counts as exact
+  std::shared_ptr<const WornTrack> worn_track;   ///< none: no surface was given
+  std::string speed_unit = {};  ///< that the speed was given in ("mm/min"): reports show it; empty: m/s
   Labels labels = {};
 };
 

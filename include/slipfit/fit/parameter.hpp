@@ -33,7 +33,9 @@ enum class ParameterId : std::size_t {
   Mu0,
   Mu1,
   SensorAverage,
-  SlipDistance
+  SlipDistance,
+  ReloadForce,
+  ReloadLength
 };
 
 struct ParameterInfo {
@@ -74,7 +76,8 @@ struct HeldParameters {
 inline constexpr std::array kModelParameters{ParameterId::Stiffness,     ParameterId::NaturalFrequency,
                                              ParameterId::DampingRatio,  ParameterId::FrictionDifference,
                                              ParameterId::FrictionSlope, ParameterId::Alpha,
-                                             ParameterId::Ageing,        ParameterId::AgeingTime};
+                                             ParameterId::Ageing,        ParameterId::AgeingTime,
+                                             ParameterId::ReloadForce,   ParameterId::ReloadLength};
 inline constexpr std::size_t kModelValues = kModelParameters.size();
 
 }  // namespace slipfit

@@ -85,6 +85,13 @@ struct Ageing {
   double cutoff_s = 0.0;  ///< >= 0; sticks far shorter than it add nothing to static friction
 };
 
+/// Reloading hysteresis: after a slip the force rises by force (1 - exp(-x / length)) more than by k x over the path x
+/// of the stick. docs/model.md (25)
+struct Reloading {
+  double force_N = 0.0;   ///< A > 0
+  double length_m = 0.0;  ///< l > 0
+};
+
 /// What a sweep tells of F_s - F_k(0+) at speeds beyond its own, where no law of friction is sure to hold.
 struct SpeedReach {
   double slowest_m_per_s = 0.0;
@@ -106,21 +113,27 @@ struct ModelEstimate {
   double natural_frequency_rad_per_s = 0.0;
   double damping_ratio = 0.0;          ///< >= 0
   double friction_difference_N = 0.0;  ///< F_s - F_k(0+)
-  /// Of kModelParameters, (ln k, ln w_n, zeta, ln (F_s - F_k(0+)), b, alpha, rate and cut-off of ageing), scatter of
-  /// the cycles included; b and alpha are exactly 0 under Coulomb friction, the last two without ageing.
+  /// Of kModelParameters, (ln k, ln w_n, zeta, ln (F_s - F_k(0+)), b, alpha, rate and cut-off of ageing, A and ln l of
+  /// reloading), scatter of the cycles included; b and alpha are exactly 0 under Coulomb friction, the others where the
+  /// model does not have them.
   std::array<std::array<double, kModelValues>, kModelValues> covariance{};
   double degrees_of_freedom = 1.0;                    ///< of Student's t
   bool damping_identified = false;                    ///< zeta is known well enough to ask for critical speeds
   std::optional<SpeedDependence> speed_dependence{};  ///< empty: Coulomb friction
   std::optional<Ageing> ageing{};                     ///< empty: the same static friction after every stick
+  std::optional<Reloading> reloading{};               ///< empty: sticks are straight
   std::optional<SpeedReach> reach{};                  ///< of a sweep
   std::optional<double> normal_force_N{};             ///< that the forces belong to, where loads are known
 };
+
+/// In the order of kModelParameters; 0 where the model does not have one.
+std::array<double, kModelValues> values_of(const ModelEstimate& model);
 
 struct FitResult {
   Tier tier = Tier::Sawtooth;
   FitDiagnostics diagnostics;
   std::optional<ModelEstimate> estimate;    ///< empty where the slip is not resolved or forces have no newtons
+  bool mass_gives_frequency = false;        ///< w_n is that of the stated mass: averaging of the samples hides it
   std::vector<std::string> conditional_on;  ///< what the numbers assume ("Coulomb friction", ...)
   std::vector<Candidate> candidates;
   Residual residual;

@@ -37,6 +37,12 @@ double even_step_of(const std::vector<double>& time_s) {
   return step_s;
 }
 
+double* put_share(const RiseAfterSlip::Share& share, const LevelModel& level, double* out) {
+  *out++ = share.value;
+  if (level.reloading->is_free) *out++ = share.by_log_length;
+  return out;
+}
+
 /// The level's functions at every residual row of a cycle.
 std::vector<double> basis_of(const CycleData& data, const LevelModel& level, const Scales& scales) {
   std::vector<double> basis(data.residuals() * level.columns());
@@ -51,6 +57,7 @@ std::vector<double> basis_of(const CycleData& data, const LevelModel& level, con
   for (const double time_s : data.time_s) {
     polynomial_at(time_s);
     out = std::copy(values.begin(), values.end(), out);
+    if (level.reloading) out = put_share(level.reloading->at(data.slip, time_s), level, out);
     for (const double line_Hz : level.lines_Hz) {
       const double phase = 2.0 * std::numbers::pi * line_Hz * (time_s - scales.time_begin_s);
       *out++ = std::cos(phase);
@@ -60,9 +67,12 @@ std::vector<double> basis_of(const CycleData& data, const LevelModel& level, con
   for (const auto* bins : {&data.bins_before, &data.bins_after}) {
     for (const StickBin& bin : *bins) {
       polynomial_at(bin.time_s);
+      const RiseAfterSlip::Line rise = level.reloading ? level.reloading->over(data.slip, bin) : RiseAfterSlip::Line{};
       out = std::copy(values.begin(), values.end(), out);
+      if (level.reloading) out = put_share(rise.mean, level, out);
       for (const LineInBin& line : bin.lines) out = std::copy_n(line.mean.data(), 2, out);
       for (const double slope : slopes) *out++ = 2.0 / span_s * slope;
+      if (level.reloading) out = put_share(rise.slope, level, out);
       for (const LineInBin& line : bin.lines) out = std::copy_n(line.slope.data(), 2, out);
     }
   }
@@ -97,6 +107,13 @@ CycleFrame CycleModel::frame(const double* globals, const double* local) const {
   frame.onset_s = reference_s_ + scales_.half_period_s * local[0];
   frame.onset_force = scales_.force * local[1];
   return frame;
+}
+
+double CycleModel::rise_at(double time_s, const double* level) const {
+  if (!level_->reloading) return 0.0;
+  const double* const rise = level + (has_constant() ? 1 : 0) + level_->first_rise();
+  const RiseAfterSlip::Share share = level_->reloading->at(data_->slip, time_s);
+  return scales_.force * (rise[0] * share.value + (level_->reloading->is_free ? rise[1] * share.by_log_length : 0.0));
 }
 
 std::optional<CycleState> CycleModel::state(const double* globals, const double* local) const {

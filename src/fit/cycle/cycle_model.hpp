@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <variant>
@@ -11,6 +12,7 @@
 #include "fit/cycle/cycle_data.hpp"
 #include "fit/law/coulomb.hpp"
 #include "fit/law/slip_weakening.hpp"
+#include "fit/level/reloading.hpp"
 
 namespace slipfit::fit {
 
@@ -23,9 +25,13 @@ struct LevelModel {
   bool per_cycle = false;
   std::size_t terms = 1;  ///< of the Legendre polynomial; 0 where per_cycle
   std::vector<double> lines_Hz;
+  std::shared_ptr<const RiseAfterSlip> reloading{};  ///< null: sticks are straight
 
-  /// Functions of time: the polynomial's first, then cosine and sine of each line.
-  [[nodiscard]] std::size_t columns() const { return terms + 2 * lines_Hz.size(); }
+  /// Functions of time: the polynomial's first, then the rise after a slip, then cosine and sine of each line.
+  [[nodiscard]] std::size_t columns() const { return terms + rise_columns() + 2 * lines_Hz.size(); }
+  [[nodiscard]] std::size_t rise_columns() const { return reloading ? reloading->columns() : 0; }
+  /// Of the first column of the rise among those behind the constant.
+  [[nodiscard]] std::size_t first_rise() const { return terms > 0 ? terms - 1 : 0; }
 };
 
 /// The cycles of a recording as fits use them, with the level's functions at all their rows. Never changed, and so
@@ -127,6 +133,8 @@ class CycleModel {
   /// Without hum. `level`: constant, where there is one, and drift.
   [[nodiscard]] double level_at(double time_s, const double* level, const double* local) const;
   [[nodiscard]] double hum_at(double time_s, const double* level) const;
+  /// Of the rise after a slip; 0 where sticks are straight.
+  [[nodiscard]] double rise_at(double time_s, const double* level) const;
 
  private:
   class Rows;

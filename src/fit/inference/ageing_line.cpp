@@ -5,6 +5,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "core/fit_thresholds.hpp"
 #include "fit/inference/sliding_model.hpp"
@@ -31,6 +32,10 @@ VectorXd log_sticks(const SweepSolution& solution) {
   const Units& units = solution.sweep.units;
   Coordinates values = Coordinates::Zero();
   for (std::size_t i = 0; i < globals.size(); ++i) values(static_cast<Index>(i)) = globals[i];
+  if (solution.reload) {
+    values(kReloadLength) = std::log(solution.reload->metres);
+    if (const VectorXd rises = rises_of(solution); rises.size() > 0) values(kReloadForce) = rises.mean();
+  }
   const SlidingModel model(values, units);
   VectorXd logs(differences.size());
   for (Index i = 0; i < differences.size(); ++i) {
@@ -208,6 +213,16 @@ VectorXd differences_of(const SweepSolution& solution) {
     differences(i) = solution.recordings[static_cast<std::size_t>(i)].parameters.difference;
   }
   return differences;
+}
+
+VectorXd rises_of(const SweepSolution& solution) {
+  std::vector<double> rises;
+  for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
+    const BlockFit& recording = solution.recordings[r];
+    if (!recording.level().reloading) continue;
+    rises.push_back(recording.rise_data()[0] * recording.scales().force / solution.population(r).force);
+  }
+  return Eigen::Map<const VectorXd>(rises.data(), static_cast<Index>(rises.size()));
 }
 
 AgeingLine ageing_line(const SweepSolution& solution, const AgeingCutoff& cutoff) {

@@ -30,6 +30,9 @@ using StaticFriction = std::optional<AgeingCutoff>;
 /// F_s - F_k(0+) / Units::force of each recording.
 Eigen::VectorXd differences_of(const SweepSolution& solution);
 
+/// A / Units::force, at the reference load, of the recordings whose sticks rise more steeply after a slip.
+Eigen::VectorXd rises_of(const SweepSolution& solution);
+
 /// F_s - F_k(0+) = D + rate ln((stick + t_c) / (Units::stick_s + t_c)) through the recordings' own values. At one speed
 /// a larger F_s - F_k makes a longer stick, ageing or not: what moves the stick time here is the driving speed
 /// (instrumental variable ln V).

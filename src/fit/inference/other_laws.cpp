@@ -1,4 +1,5 @@
 #include "fit/inference/other_laws.hpp"
+#include "fit/selection/sweep_solution.hpp"
 
 #include <algorithm>
 #include <array>

@@ -12,6 +12,7 @@
 #include "core/parallel.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/intervals.hpp"
+#include "fit/selection/sweep_solution.hpp"
 
 namespace slipfit::fit {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "fit/law/speed_dependent.hpp"
 #include "model/ageing.hpp"
+#include "model/reloading.hpp"
 
 namespace slipfit::fit {
 
@@ -23,6 +24,7 @@ SlidingModel::SlidingModel(const Coordinates& values, const Units& units) {
   ageing = units.force * jet(kAgeing);
   ageing_time = units.stick_s * jet(kAgeingTime);
   slip_distance = units.slip_distance_m * jet(kSlipDistance) * jet(kSlipDistance);
+  if (values(kReloadForce) > 0.0) reload = Reload{units.force * jet(kReloadForce), exp(jet(kReloadLength))};
   reference_stick_s_ = units.stick_s;
 }
 
@@ -58,7 +60,11 @@ std::optional<SlidingModel::Cycle> SlidingModel::cycle(double speed_m_per_s, dou
   const model::TrackEnd& end = track->end();
   Jet tau_slip(end.tau);
   tau_slip.v = -jet(end.first.value, end.first).v / end.second.value;  // z'(tau) = 1 holds at the end
-  return Cycle{tau_period / omega, (tau_period - tau_slip) / omega};
+  const Jet straight_s = (tau_period - tau_slip) / omega;
+  if (!reload) return Cycle{tau_period / omega, straight_s};
+  const Jet stick_m =
+      model::reloaded_stick_m(speed_m_per_s * straight_s, load * reload->force_N / stiffness, reload->length_m);
+  return Cycle{tau_slip / omega + stick_m / speed_m_per_s, stick_m / speed_m_per_s};
 }
 
 std::optional<Jet> SlidingModel::aged_difference_N(double speed_m_per_s, double load) const {

@@ -6,9 +6,15 @@
 
 namespace slipfit::fit {
 
+/// The rise of the force after a slip: A and l.
+struct Reload {
+  Jet force_N, length_m;
+};
+
 /// The coordinates in SI with their derivatives. Forces at the reference load.
 struct SlidingModel {
   Jet stiffness, omega, zeta, slope, alpha, level, difference, ageing, ageing_time, slip_distance;
+  std::optional<Reload> reload;  ///< empty: sticks are straight
 
   SlidingModel(const Coordinates& values, const Units& units);
 

@@ -1,10 +1,12 @@
 #include "fit/inference/sweep_coordinates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "fit/inference/covariance.hpp"
+#include "fit/inference/uncertainty.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -57,6 +59,11 @@ Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
     selection.common(column, kDifference) = line.difference_weights(r);
     selection.common(column, kAgeing) = line.rate_weights(r);
   }
+  const auto rises = static_cast<double>(rises_of(solution).size());
+  for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
+    const double unit = solution.recordings[r].scales().force / solution.population(r).force;
+    select_rise(solution.recordings[r], columns.drift(r), unit / rises, selection);
+  }
   return selection;
 }
 
@@ -82,6 +89,11 @@ Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& 
   values(kDifference) = line.difference_weights.dot(differences);
   values(kAgeing) = line.rate_weights.dot(differences);
   values(kAgeingTime) = kind ? kind->value : 0.0;
+  values(kSlipDistance) = values(kReloadForce) = values(kReloadLength) = 0.0;
+  if (const VectorXd rises = rises_of(solution); rises.size() > 0) {
+    values(kReloadForce) = rises.mean();
+    values(kReloadLength) = std::log(solution.reload->metres);
+  }
   return values;
 }
 
@@ -102,6 +114,7 @@ Spread spread_of(const SweepData& data, const SweepSolution& solution, const std
     spread.degrees_of_freedom = static_cast<double>(solution.cycles());
   }
   spread.covariance(kLevel, kLevel) += variance_of_mean(levels_of(solution));
+  spread.covariance(kReloadForce, kReloadForce) += variance_of_mean(rises_of(solution));
   // Recordings whose cycles are those of the model, and that lie on the line within their own errors, count as the
   // cycles do; otherwise they scatter, and they count.
   if (!(kind && line.explains && !correlated)) add_scatter(spread, solution, line, kind);

@@ -12,6 +12,7 @@
 #include "fit/inference/ageing_line.hpp"
 #include "fit/inference/rate_profile.hpp"
 #include "fit/inference/sliding_model.hpp"
+#include "fit/selection/sweep_solution.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -107,6 +108,24 @@ CoordinateMatrix by_average(const SweepData& data, const SweepSolution& solution
   return move * move.transpose();
 }
 
+/// What the error of the length of the rise after a slip adds to the covariance.
+CoordinateMatrix by_length(const SweepSolution& solution, const SweepOutcome& outcome) {
+  const double length_m = solution.reload->metres * std::exp(solution.reload->relative_error);
+  const std::optional<SweepSolution> other = with_length(solution, length_m);
+  if (!other) return CoordinateMatrix::Zero();
+  const Coordinates move = coordinates_of(*other, outcome.static_friction) - outcome.values;
+  return move * move.transpose();
+}
+
+/// With w_n by the stated mass; w_n is held in `outcome`.
+CoordinateMatrix with_stated_mass(const SweepData& data, const SweepSolution& solution, const SweepOutcome& outcome) {
+  constexpr double kStep = 0.01;  // of ln w_n
+  const std::optional<SweepSolution> other = with_frequency(solution, kStep);
+  if (!other) return outcome.spread.covariance;
+  const Coordinates move = coordinates_of(*other, outcome.static_friction) - outcome.values;
+  return with_mass(outcome.spread.covariance, move / kStep, data.mass->relative_error);
+}
+
 bool depends_on_speed(const SweepSolution& solution) {
   return solution.recordings.front().scales().law != FrictionLaw::Coulomb;
 }
@@ -120,6 +139,8 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
   SweepOutcome outcome{
       solution, kind, all.values, std::move(all.spread), all.reach, leave_out_each(data, normal, kind)};
   if (solution.average) outcome.spread.covariance += by_average(data, solution, outcome);
+  if (data.mass) outcome.spread.covariance = with_stated_mass(data, solution, outcome);
+  if (solution.reload) outcome.spread.covariance += by_length(solution, outcome);
   if (depends_on_speed(solution)) outcome.other_law = other_law(solution, kind);
   outcome.disagree = recordings_disagree(outcome);
   if (outcome.disagree) {

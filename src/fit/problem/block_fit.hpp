@@ -36,6 +36,10 @@ class BlockFit {
   [[nodiscard]] const LevelModel& level() const { return set_->level; }
   [[nodiscard]] double reference_s(std::size_t cycle) const { return set_->reference_s[cycle]; }
   [[nodiscard]] const double* level_data() const { return parameters.level.data(); }
+  /// Coefficients of the rise after a slip, over Scales::force; where there is one.
+  [[nodiscard]] const double* rise_data() const {
+    return level_data() + (model(0).has_constant() ? 1 : 0) + level().first_rise();
+  }
   [[nodiscard]] CycleValues values(std::size_t cycle) const;
   /// By a law in closed form, at a solution; under friction that depends on the speed as if it did not.
   [[nodiscard]] CycleState state(std::size_t cycle) const;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "fit/inference/moderated.hpp"
-#include "fit/selection/common_average.hpp"
+#include "fit/selection/own_fits.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -128,7 +128,9 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
   OwnFits own = fit_each(recordings, options.held);
   data.single = std::move(own.fits);
   data.average = own.average;
+  data.reload = own.reload;
   data.rounding_s2 = own.rounding_s2;
+  data.mass = own.mass;
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     const SweepRecording& sweep = recordings[i];
     data.loads.push_back(data.mean_load_N ? *sweep.recording.conditions().normal_force_N / *data.mean_load_N : 1.0);

@@ -9,6 +9,7 @@
 
 #include "fit/problem/steady_run.hpp"
 #include "fit/selection/solution.hpp"
+#include "fit/selection/stated_mass.hpp"
 #include "slipfit/fit/options.hpp"
 #include "slipfit/fit/sweep_recording.hpp"
 
@@ -22,7 +23,9 @@ inline constexpr std::size_t kSteadyStretches = 10;
 struct SweepData {
   std::vector<std::optional<DampedFit>> single;  ///< in the order of the recordings
   std::optional<FittedAverage> average{};        ///< OwnFits
+  std::optional<FittedLength> reload{};          ///< OwnFits
   std::optional<double> rounding_s2{};           ///< OwnFits
+  std::optional<StatedMass> mass{};              ///< OwnFits
   std::vector<SteadyRun> steady;
   std::vector<std::optional<std::size_t>> steady_of;  ///< index into `steady` of each recording
   std::vector<double> onset_sd;                       ///< spread of F_s over the cycles of each recording, N

@@ -23,6 +23,9 @@ inline constexpr const char* kZeroUnknown =
 inline constexpr const char* kOneSpeed =
     "known if friction does not depend on the sliding speed, which one driving speed cannot show";
 
+/// Why w_n and mass are not read from the slips.
+inline constexpr const char* kStatedMass = "by the stated mass: averaging of the samples hides w_n";
+
 /// That an average of the samples is fitted.
 Warning averaged_warning(double average_s);
 

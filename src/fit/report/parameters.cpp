@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
-#include "fit/report/correlation.hpp"
 #include "fit/report/findings.hpp"
+#include "fit/report/model_estimate.hpp"
 #include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {
@@ -31,9 +31,13 @@ class Reporter {
     report_dynamics();
     if (f_.law) report_law();
     report_slip_distance();
+    if (model_.reload) report_reload(*model_.reload);
     if (f_.sensor_average_s) add_held(Id::SensorAverage, *f_.sensor_average_s);
     if (f_.fitted_average) add_graded(Id::SensorAverage, *f_.fitted_average, slip_doubt(), slip_note());
-    report_model();
+    if (auto model = model_of(f_, model_)) {
+      result_.estimate = std::move(model->estimate);
+      result_.correlation = std::move(model->correlation);
+    }
     result_.warnings.insert(result_.warnings.end(), f_.warnings.begin(), f_.warnings.end());
     std::sort(result_.parameters.begin(), result_.parameters.end(),
               [](const Parameter& a, const Parameter& b) { return a.id < b.id; });
@@ -153,9 +157,13 @@ class Reporter {
       return f_.in_newtons ? add_unknown(Id::Mass, f_.frequency_unknown) : void();
     }
     const Estimate omega = f_.intervals.interval_of_one_sign(model_.omega);
-    f_.held[kLogFrequency]
-        ? add_held(Id::NaturalFrequency, model_.omega.a)
-        : add_graded(Id::NaturalFrequency, omega, frequency_doubt(), or_few_cycles(frequency_doubt()));
+    if (f_.mass_gives_frequency) {
+      add(Id::NaturalFrequency, omega, ParameterStatus::Conditional, kStatedMass);
+    } else if (f_.held[kLogFrequency]) {
+      add_held(Id::NaturalFrequency, model_.omega.a);
+    } else {
+      add_graded(Id::NaturalFrequency, omega, frequency_doubt(), or_few_cycles(frequency_doubt()));
+    }
     if (f_.in_newtons) report_mass();
   }
 
@@ -171,6 +179,9 @@ class Reporter {
   void report_mass() {
     const Jet m = model_.stiffness / (model_.omega * model_.omega);
     if (f_.held[kLogStiffness] && f_.held[kLogFrequency]) return add_held(Id::Mass, m.a);
+    if (f_.mass_gives_frequency) {
+      return add(Id::Mass, f_.intervals.interval_of_one_sign(m), ParameterStatus::Conditional, kStatedMass);
+    }
     const std::string doubt = frequency_doubt().empty() ? f_.stiffness_doubt : frequency_doubt();
     add_graded(Id::Mass, f_.intervals.interval_of_one_sign(m), doubt, "effective: k / w_n^2");
   }
@@ -204,6 +215,13 @@ class Reporter {
     if (!tells) return add_unknown(Id::SlipDistance, "it cannot be distinguished from 0, Coulomb friction");
     const ParameterStatus status = at_one_speed(graded(Id::SlipDistance, distance, slip_doubt()));
     add(Id::SlipDistance, distance, status, status == ParameterStatus::Conditional ? kOneSpeed : slip_note());
+  }
+
+  void report_reload(const Reload& reload) {
+    const std::string& doubt = f_.reload_doubt;
+    const std::string note = or_few_cycles(doubt);
+    if (f_.in_newtons) add_graded(Id::ReloadForce, f_.intervals.interval_of_one_sign(reload.force_N), doubt, note);
+    add_graded(Id::ReloadLength, f_.intervals.interval_of_one_sign(reload.length_m), doubt, note);
   }
 
   void report_law() {
@@ -253,35 +271,6 @@ class Reporter {
 
   void withhold_law(const std::string& reason) {
     for (const Id id : {Id::Alpha, Id::F0, Id::F1}) add_unknown(id, reason);
-  }
-
-  /// For everything that is computed from the fit. Needs all four of k, w_n, zeta and F_s above F_k.
-  void report_model() {
-    const bool damping_known = f_.held[kDamping] || f_.damping_known();
-    const bool resolved = !f_.weakens && f_.slip_unresolved.empty() && !f_.difference_bounds && f_.in_newtons;
-    if (!resolved || !damping_known || !(model_.difference.a > 0.0)) return;
-    // In the order of kModelParameters; of the positive ones the logarithm.
-    const std::array<Jet, kModelValues> all{log(model_.stiffness),  log(model_.omega), model_.zeta,
-                                            log(model_.difference), model_.slope,      model_.alpha,
-                                            model_.ageing,          model_.ageing_time};
-    ModelEstimate estimate{model_.stiffness.a, model_.omega.a, model_.zeta.a, model_.difference.a};
-    std::vector<std::size_t> used{0, 1, 2, 3};
-    if (f_.law && f_.law->depends_on_speed) {
-      estimate.speed_dependence = SpeedDependence{model_.slope.a, model_.alpha.a};
-      used.insert(used.end(), {4, 5});
-    }
-    if (f_.law && f_.law->ageing) {
-      estimate.ageing = Ageing{model_.ageing.a, f_.units.stick_s, model_.ageing_time.a};
-      used.insert(used.end(), {6, 7});
-    }
-    for (const std::size_t i : used) {
-      for (const std::size_t j : used) estimate.covariance[i][j] = f_.intervals.whole_covariance(all[i], all[j]);
-    }
-    result_.correlation = correlation_of(estimate, used);
-    estimate.degrees_of_freedom =
-        std::min(f_.intervals.degrees_of_freedom(model_.difference), f_.intervals.spread().degrees_of_freedom);
-    estimate.damping_identified = f_.held[kDamping] || f_.damping.ci95->low > 0.0;
-    result_.estimate = estimate;
   }
 
   const Findings& f_;

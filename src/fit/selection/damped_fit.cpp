@@ -98,7 +98,7 @@ class Fitter {
     const bool well_sampled = scales_.half_period_s > thresholds::kWellSampled * recording_.sample_interval_s();
     const bool wanders = well_sampled && left > thresholds::kWanderingShare * 2.0 * scales_.force &&
                          left > thresholds::kWanderingNoises * scales_.noise && cycles_.size() >= kProbeCycles;
-    return {wanders, wanders ? 0 : terms, segmentation_.mains_Hz};
+    return {wanders, wanders ? 0 : terms, segmentation_.mains_Hz, near_.reloading};
   }
 
   [[nodiscard]] std::vector<double> middles_s(const std::vector<CycleData>& cycles) const {
@@ -118,7 +118,7 @@ class Fitter {
     const bool may_wander = near_.level_per_cycle || reduced_chi2(*fit) > thresholds::kSuspectChi2;
     if (!level.per_cycle && probe.size() > level.terms && may_wander) {
       const Globals globals = near_.globals.value_or(fit->parameters.globals);
-      auto wandering = fit_from(probe, {true, 0, level.lines_Hz}, globals, kProbeIterations, kRough);
+      auto wandering = fit_from(probe, {true, 0, level.lines_Hz, level.reloading}, globals, kProbeIterations, kRough);
       if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
     }
     refuse_negative_damping(*fit, kRough);

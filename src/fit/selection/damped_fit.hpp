@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace slipfit::fit {
 struct Near {
   std::optional<Globals> globals{};  ///< empty: where the features of the slips lead
   std::vector<std::size_t> excluded{};
+  std::shared_ptr<const RiseAfterSlip> reloading{};  ///< of the sticks
   bool level_per_cycle = false;  ///< the other one has a level of its own in every cycle, which is tried then
 };
 

@@ -121,7 +121,8 @@ std::optional<DampedFit> with_uncertainty(DampedFit draft, double tolerated_misf
   draft.uncertainty = estimate_uncertainty(draft.blocks, {draft.held, false});
   if (!is_regular(draft.uncertainty, draft.held)) return std::nullopt;
   const bool is_coulomb = draft.blocks.scales().law == FrictionLaw::Coulomb;  // RampResidual
-  if (is_coulomb && !draft.blocks.level().per_cycle && !draft.uncertainty.from_cycles) {
+  const LevelModel& level = draft.blocks.level();
+  if (is_coulomb && !level.per_cycle && !level.reloading && !draft.uncertainty.from_cycles) {
     draft = with_joined_ramps(std::move(draft));
   }
   draft.misfit = find_misfit(draft.blocks, tolerated_misfit);

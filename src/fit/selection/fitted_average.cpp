@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/kernel_search.hpp"
+#include "fit/selection/reloading_fit.hpp"
 #include "fit/selection/tiers.hpp"
 #include "signal/robust.hpp"
 
@@ -67,8 +69,9 @@ class Trials {
   [[nodiscard]] std::optional<Trial> fit(double variance_s2, const Globals& near) const {
     constexpr int kMostFits = 3;
     std::optional<Trial> best;
-    std::optional<DampedFit> fit = draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_,
-                                                {near, plain_.excluded, plain_.blocks.level().per_cycle});
+    std::optional<DampedFit> fit = draft_damped(
+        with_average(recording_, variance_s2), quality_, segmentation_, held_,
+        {near, plain_.excluded, reloading(std::sqrt(12.0 * variance_s2)), plain_.blocks.level().per_cycle});
     for (int fits = 1; fit; ++fits) {
       const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
       if (!beyond) break;
@@ -85,6 +88,14 @@ class Trials {
   }
 
  private:
+  /// Of the fit without an average, as one of this time shows it.
+  [[nodiscard]] std::shared_ptr<const RiseAfterSlip> reloading(double average_s) const {
+    if (!plain_.blocks.level().reloading) return nullptr;
+    RiseAfterSlip reloading = *plain_.blocks.level().reloading;
+    reloading.average_s = average_s;
+    return std::make_shared<const RiseAfterSlip>(std::move(reloading));
+  }
+
   /// The same cycles and samples with another average.
   [[nodiscard]] std::optional<DampedFit> beside(const DampedFit& other, double variance_s2) const {
     Scales scales = other.blocks.scales();
@@ -102,11 +113,6 @@ class Trials {
   const HeldParameters& held_;
   const DampedFit& plain_;  // without an average
 };
-
-/// Twice the logarithm of the likelihood of one fit over that of another, each at its best noise.
-double gain_of(const DampedFit& fit, const DampedFit& other) {
-  return 2.0 * effective_samples(other) * std::log(other.uncertainty.noise / fit.uncertainty.noise);
-}
 
 /// The slips that are left behind W are those of the model.
 bool follows_slips(const DampedFit& fit) {
@@ -194,14 +200,12 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
 }
 
 std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality& quality,
-                                       const Segmentation& segmentation, const HeldParameters& held) {
-  std::optional<DampedFit> fit = draft_damped(recording, quality, segmentation, held);
-  if (!fit) return fit;
+                                       const Segmentation& segmentation, const HeldParameters& held, DampedFit plain) {
   if (!recording.conditions().sensor_average_s) {
-    fit->rounding = estimate_smoothing(fit->blocks, fit->held, recording.sample_interval_s());
-    if (auto averaged = fit_average(recording, quality, segmentation, held, *fit)) return averaged;
+    plain.rounding = estimate_smoothing(plain.blocks, plain.held, recording.sample_interval_s());
+    if (auto averaged = fit_average(recording, quality, segmentation, held, plain)) return averaged;
   }
-  return finish_fit(recording, quality, segmentation, *std::move(fit));
+  return finish_fit(recording, quality, segmentation, std::move(plain));
 }
 
 bool repeats_rounding(const DampedFit& fit) {

@@ -21,9 +21,9 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
                                      const Segmentation& segmentation, const HeldParameters& held,
                                      const DampedFit& plain);
 
-/// `fit_damped`, with the average that the slips show where the recording states none.
+/// `plain` finished, with the average that the slips show where the recording states none.
 std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality& quality,
-                                       const Segmentation& segmentation, const HeldParameters& held);
+                                       const Segmentation& segmentation, const HeldParameters& held, DampedFit plain);
 
 /// Rounding to steps of the converter repeats its errors in every cycle: their scatter does not show how well averaging
 /// is known.

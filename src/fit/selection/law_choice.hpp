@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/selection/sweep_solution.hpp"
+#include "fit/selection/sweep_fit.hpp"
 #include "slipfit/fit/result.hpp"
 #include "slipfit/fit/sweep_recording.hpp"
 

@@ -46,8 +46,9 @@ class ResidualsOfCycles {
     const CycleState state = fit_.state(cycle);
     const std::size_t begin = index_at(fit_.data(cycle).window_begin_s);
     const std::size_t end = std::max(begin, index_at(fit_.data(cycle).window_end_s));
-    const std::size_t slip_begin = std::clamp(index_at(state.onset_s), begin, end);
-    const std::size_t slip_end = std::clamp(index_at(state.onset_s + state.slip_s()), slip_begin, end);
+    const double reach_s = 0.5 * fit_.scales().sensor_average_s;  // over which an average shows the slip beside it
+    const std::size_t slip_begin = std::clamp(index_at(state.onset_s - reach_s), begin, end);
+    const std::size_t slip_end = std::clamp(index_at(state.onset_s + state.slip_s() + reach_s), slip_begin, end);
     const double rate = state.force_scale * state.omega_rad_per_s;
     const auto slip = [&state](double t_s) { return state.force_at(t_s); };
     const auto stick = [&state, rate](double above) {
@@ -66,10 +67,12 @@ class ResidualsOfCycles {
     const double* const level = fit_.level_data();
     const double* const local = fit_.parameters.cycles[cycle].data();
     const bool hums = !fit_.level().lines_Hz.empty();
+    const bool rises = fit_.level().reloading != nullptr;
     for (std::size_t i = begin; i < end; ++i) {
       const double t_s = recording_.time_s()[i];
       result_.value[i] = recording_.force()[i] - (model.level_at(t_s, level, local) + force_at(t_s));
       if (hums) result_.value[i] -= model.hum_at(t_s, level);
+      if (rises) result_.value[i] -= model.rise_at(t_s, level);
       result_.part[i] = part;
     }
   }

@@ -33,6 +33,22 @@ StickBin merge(const std::vector<StickBin>& bins) {
   return all;
 }
 
+/// Without the rise after a slip.
+std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& fit, std::size_t cycle) {
+  const auto& reloading = fit.level().reloading;
+  if (!reloading) return bins;
+  const double* const rise = fit.rise_data();
+  const auto force_of = [&](const RiseAfterSlip::Share& share) {
+    return fit.scales().force * (rise[0] * share.value + (reloading->is_free ? rise[1] * share.by_log_length : 0.0));
+  };
+  for (StickBin& bin : bins) {
+    const RiseAfterSlip::Line line = reloading->over(fit.data(cycle).slip, bin);
+    bin.force -= force_of(line.mean);
+    bin.slope -= force_of(line.slope);
+  }
+  return bins;
+}
+
 /// A drift that itself bends would make a ramp steeper than the one before it.
 double level_slope(const BlockFit& fit, std::size_t cycle, double time_s) {
   const double step_s = fit.scales().half_period_s;
@@ -51,8 +67,8 @@ std::optional<RampBend> ramp_bend(const BlockFit& fit) {
   double slope = 0.0;
   std::vector<std::pair<double, double>> cycles;
   for (std::size_t i = 0; i < fit.size(); ++i) {
-    StickBin late = merge(fit.data(i).bins_before);
-    StickBin early = merge(fit.data(i).bins_after);
+    StickBin late = merge(straightened(fit.data(i).bins_before, fit, i));
+    StickBin early = merge(straightened(fit.data(i).bins_after, fit, i));
     if (late.count < 3.0 || early.count < 3.0) continue;
     late.slope -= level_slope(fit, i, late.time_s);
     early.slope -= level_slope(fit, i, early.time_s);

@@ -19,6 +19,12 @@ struct FittedAverage {
   double standard_error_s = 0.0;
 };
 
+/// Path over which the force rises after a slip, as the recordings of a sweep found it.
+struct FittedLength {
+  double metres = 0.0;
+  double relative_error = 0.0;
+};
+
 /// The block fit of a recording and what it was reached with.
 struct DampedFit {
   BlockFit blocks;
@@ -33,6 +39,7 @@ struct DampedFit {
   std::optional<Smoothing> rounding{};     ///< of the slips beyond what is stated of the sensor; empty: not told
   std::optional<StickRipple> ripple{};     ///< left in the sticks
   std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none
+  bool mass_gives_frequency = false;       ///< w_n is held at sqrt(k / m) of a stated m; the covariance holds its error
   std::string law_doubt{};                 ///< why the friction law was not the data's choice; empty: it was
 };
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "fit/inference/covariance.hpp"
+#include "fit/inference/normals.hpp"
 #include "fit/problem/sweep_data.hpp"
 
 namespace slipfit::fit {
@@ -16,6 +16,7 @@ struct SweepSolution {
   double chi2 = 0.0;  ///< in units of each recording's own noise
   double degrees_of_freedom = 0.0;
   std::optional<FittedAverage> average{};  ///< in the recordings of which none is stated (SweepData::average)
+  std::optional<FittedLength> reload{};    ///< in the recordings whose sticks rise more steeply after a slip
 
   [[nodiscard]] Problem problem() const { return {recordings, sweep}; }
   [[nodiscard]] std::size_t cycles() const;
@@ -24,15 +25,14 @@ struct SweepSolution {
   }
 };
 
-struct SweepFits {
-  SweepSolution velocity;                ///< near enough to its minimum to compare sums of squares: see settled
-  std::optional<SweepSolution> coulomb;  ///< with the same shares; empty: it has no minimum
-  bool depends_on_speed = false;         ///< velocity explains more than chance would
-  double p_value = 1.0;                  ///< that Coulomb friction gives such a difference by chance
-};
+/// SolveOptions::tolerance of a sweep's last step.
+inline constexpr double kSweepFinal = 1e-4;
 
-/// Both laws, with everything shared between the recordings that the data agree with. Empty where no start converges.
-std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options);
+/// From the solution's parameters; returns chi2, infinity where they are outside the model.
+double solve(SweepSolution& solution, const Held& held, int max_iterations, double tolerance);
+
+/// The solution, moved to its minimum with these globals held; empty where it has none.
+std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held, double tolerance = kSweepFinal);
 
 /// At its minimum to a thousandth of a standard error.
 SweepSolution settled(const SweepSolution& solution);
@@ -45,6 +45,12 @@ std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw
 
 /// The same fit with another average in the recordings that have the one which was found.
 std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolution& solution, double average_s);
+
+/// The same fit with ln w_n, which is held, elsewhere.
+std::optional<SweepSolution> with_frequency(const SweepSolution& solution, double log_change);
+
+/// The same fit with a rise over another length in the recordings that have one.
+std::optional<SweepSolution> with_length(const SweepSolution& solution, double length_m);
 
 /// A solution with its normal equations.
 struct NormalSolution {

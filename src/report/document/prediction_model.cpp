@@ -95,6 +95,16 @@ std::optional<Ageing> ageing(const std::string& file, const JsonNode& document) 
   return Ageing{rate_N, stick_s->positive(), cutoff_s};
 }
 
+std::optional<Reloading> reloading(const std::string& file, const JsonNode& document) {
+  const std::optional<JsonNode> correlation = document.known("correlation");
+  if (!correlation || !find_row(correlation->member("names"), key_of(ParameterId::ReloadForce))) return std::nullopt;
+  const Reloading reloading{working_value(file, document, key_of(ParameterId::ReloadForce)),
+                            working_value(file, document, key_of(ParameterId::ReloadLength))};
+  if (!(reloading.force_N > 0.0)) cannot_predict(file, "reload_force_N is not above 0");
+  if (!(reloading.length_m > 0.0)) cannot_predict(file, "reload_length_m is not above 0");
+  return reloading;
+}
+
 std::optional<Estimate> kinetic_friction_N(const JsonNode& parameters) {
   const auto parameter = parameters.known("kinetic_friction_N");
   if (!parameter) return std::nullopt;
@@ -175,6 +185,7 @@ FitDocument fit_document_from(const JsonNode& document, const std::string& name)
   }
   estimate.speed_dependence = speed_dependence(name, document);
   estimate.ageing = ageing(name, document);
+  estimate.reloading = reloading(name, document);
   estimate.damping_identified = damping_identified(parameters.member(key_of(ParameterId::DampingRatio)));
   estimate.degrees_of_freedom = degrees_of_freedom(document);
   read_covariance(document, result.model);

@@ -1,0 +1,240 @@
+#include "fit/selection/own_fits.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <cstddef>
+
+#include "core/fit_thresholds.hpp"
+#include "fit/selection/damped_fit.hpp"
+#include "fit/selection/finish.hpp"
+#include "fit/selection/fitted_average.hpp"
+#include "fit/selection/reloading_fit.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+/// Mean by their errors; empty where they differ by more than these.
+std::optional<FittedAverage> mean_of(const std::vector<FittedAverage>& averages) {
+  double weights = 0.0;
+  double sum = 0.0;
+  for (const FittedAverage& one : averages) {
+    const double weight = 1.0 / (one.standard_error_s * one.standard_error_s);
+    weights += weight;
+    sum += weight * one.seconds;
+  }
+  const double mean_s = sum / weights;
+  double square = 0.0;
+  for (const FittedAverage& one : averages) square += std::pow((one.seconds - mean_s) / one.standard_error_s, 2);
+  if (averages.size() > 1) {
+    const boost::math::chi_squared_distribution<double> by_chance(static_cast<double>(averages.size()) - 1.0);
+    if (boost::math::cdf(boost::math::complement(by_chance, square)) < thresholds::kShareChance) return std::nullopt;
+  }
+  // Most of each error is the unknown shape of the kernel, which all share: the mean is known no better than one.
+  double error_s = averages.front().standard_error_s;
+  for (const FittedAverage& one : averages) error_s = std::min(error_s, one.standard_error_s);
+  return FittedAverage{mean_s, error_s};
+}
+
+/// What one recording shows of averaging that nobody stated; empty where it cannot tell.
+std::optional<Smoothing> rounding_of(const SweepRecording& sweep, const DampedFit& fit) {
+  if (sweep.recording.conditions().sensor_average_s) return std::nullopt;
+  if (fit.average) {
+    const double average_s = fit.average->seconds;
+    return Smoothing{average_s * average_s / 12.0, average_s * fit.average->standard_error_s / 6.0};
+  }
+  return repeats_rounding(fit) ? std::nullopt : fit.rounding;
+}
+
+/// All recordings of a machine average over the same time: what each alone cannot tell they may tell together.
+std::optional<double> common_rounding_s2(std::span<const SweepRecording> recordings, const OwnFits& own) {
+  double weights = 0.0;
+  double sum = 0.0;
+  double longest_step_s = 0.0;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const std::optional<Smoothing> seen = own.fits[i] ? rounding_of(recordings[i], *own.fits[i]) : std::nullopt;
+    if (!seen || !(seen->standard_error_s2 > 0.0)) continue;
+    const double weight = std::pow(seen->standard_error_s2, -2);
+    weights += weight;
+    sum += weight * seen->variance_s2;
+    longest_step_s = std::max(longest_step_s, recordings[i].recording.sample_interval_s());
+  }
+  if (!(weights > 0.0)) return std::nullopt;
+  const Smoothing together{sum / weights, 1.0 / std::sqrt(weights)};
+  return together.exceeds_step(longest_step_s) ? std::optional(together.largest_variance_s2()) : std::nullopt;
+}
+
+/// Mean of the lengths that the recordings find for the rise after a slip, by their errors; empty where none does.
+std::optional<FittedLength> mean_length(const std::vector<std::optional<DampedFit>>& fits) {
+  double weights = 0.0;
+  double sum = 0.0;
+  double square = 0.0;
+  double count = 0.0;
+  for (const auto& fit : fits) {
+    if (!fit || !fit->blocks.level().reloading) continue;
+    const double log_length = coordinates_of(fit->blocks)(kReloadLength);
+    const double weight = 1.0 / fit->uncertainty.covariance(kReloadLength, kReloadLength);
+    weights += weight;
+    sum += weight * log_length;
+    square += weight * log_length * log_length;
+    count += 1.0;
+  }
+  if (count == 0.0) return std::nullopt;
+  const double mean = sum / weights;
+  const double scatter = count > 1.0 ? std::max(1.0, (square - weights * mean * mean) / (count - 1.0)) : 1.0;
+  return FittedLength{std::exp(mean), std::sqrt(scatter / weights)};
+}
+
+class OwnFitter {
+ public:
+  OwnFitter(std::span<const SweepRecording> recordings, const HeldParameters& held)
+      : recordings_(recordings), held_(held) {}
+
+  [[nodiscard]] OwnFits fit() const {
+    OwnFits own;
+    for (const SweepRecording& sweep : recordings_) {
+      std::optional<DampedFit>& fit = own.fits.emplace_back();
+      if (sweep.role != SweepRole::Cycles) continue;
+      fit = draft_with_rise(sweep.recording, sweep.quality, sweep.segmentation, held_);
+    }
+    share_length(own);
+    for (std::size_t i = 0; i < recordings_.size(); ++i) {
+      const auto& [recording, quality, segmentation] = parts(i);
+      if (own.fits[i]) own.fits[i] = fit_as_sensed(recording, quality, segmentation, held_, *std::move(own.fits[i]));
+    }
+    share_average(own);
+    if (!own.average) own.rounding_s2 = common_rounding_s2(recordings_, own);
+    return own;
+  }
+
+ private:
+  struct Parts {
+    const Recording& recording;
+    const Quality& quality;
+    const Segmentation& segmentation;
+  };
+  [[nodiscard]] Parts parts(std::size_t i) const {
+    return {recordings_[i].recording, recordings_[i].quality, recordings_[i].segmentation};
+  }
+
+  /// Recordings that are too fast to tell it are fitted with it where it explains them better.
+  void share_length(OwnFits& own) const {
+    own.reload = mean_length(own.fits);
+    if (!own.reload) return;
+    for (std::size_t i = 0; i < recordings_.size(); ++i) {
+      std::optional<DampedFit>& fit = own.fits[i];
+      if (!fit) continue;
+      const auto& [recording, quality, segmentation] = parts(i);
+      auto other = draft_with_rise_over(own.reload->metres, recording, quality, segmentation, held_, *fit);
+      if (other && (fit->blocks.level().reloading || gain_of(*other, *fit) > 0.0)) fit = std::move(other);
+    }
+  }
+
+  void share_average(OwnFits& own) const {
+    std::vector<FittedAverage> averages;
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < recordings_.size(); ++i) {
+      if (!own.fits[i] || recordings_[i].recording.conditions().sensor_average_s) continue;
+      ++open;
+      if (own.fits[i]->average) averages.push_back(*own.fits[i]->average);
+    }
+    if (averages.empty()) return;
+    const std::optional<FittedAverage> average = mean_of(averages);
+    if (!average) return;
+    OwnFits averaged = own;
+    double gain = 0.0;
+    for (std::size_t i = 0; i < recordings_.size(); ++i) {
+      if (!own.fits[i] || recordings_[i].recording.conditions().sensor_average_s) continue;
+      averaged.fits[i] = fit_averaged(i, *average, *own.fits[i], own.reload);
+      if (averaged.fits[i] && !own.fits[i]->average) gain += gain_of(*averaged.fits[i], *own.fits[i]);
+    }
+    if (2 * averages.size() < open && !(gain > thresholds::kTierPrice)) return;
+    own = std::move(averaged);
+    own.average = average;
+  }
+
+  [[nodiscard]] std::optional<DampedFit> fit_averaged(std::size_t i, const FittedAverage& average, const DampedFit& own,
+                                                      const std::optional<FittedLength>& length) const {
+    const auto& [recording, quality, segmentation] = parts(i);
+    const Recording averaged = with_average(recording, average.seconds * average.seconds / 12.0);
+    std::optional<DampedFit> fit;
+    if (length && own.blocks.level().reloading) {
+      fit = draft_with_rise_over(length->metres, averaged, quality, segmentation, held_, own);
+    }
+    if (!fit) fit = draft_damped(averaged, quality, segmentation, held_);
+    if (fit) fit = finish_fit(averaged, quality, segmentation, *std::move(fit));
+    if (fit) fit->average = average;
+    return fit;
+  }
+
+  std::span<const SweepRecording> recordings_;
+  const HeldParameters& held_;
+};
+
+double median_stiffness(const OwnFits& own) {
+  std::vector<double> stiffnesses;
+  for (const auto& fit : own.fits) {
+    if (fit) stiffnesses.push_back(std::exp(fit->blocks.parameters.globals[kLogStiffness]));
+  }
+  return signal::median(std::move(stiffnesses));
+}
+
+/// The mass that all recordings state, where averaging hides w_n in all of them.
+std::optional<StatedMass> common_mass(std::span<const SweepRecording> recordings, const OwnFits& own,
+                                      const HeldParameters& held) {
+  std::optional<StatedMass> common;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    if (!own.fits[i]) continue;
+    const double average_s = own.fits[i]->blocks.scales().sensor_average_s;
+    const auto mass = mass_for_frequency(recordings[i].recording.conditions(), held, median_stiffness(own), average_s);
+    if (!mass || (common && mass->kg != common->kg)) return std::nullopt;
+    common = mass;
+  }
+  return common;
+}
+
+/// Residuals of all recordings, each over its own before.
+bool explains_as_well(const OwnFits& with_mass, const OwnFits& free) {
+  double square = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < free.fits.size(); ++i) {
+    if (!free.fits[i]) continue;
+    if (!with_mass.fits[i]) return false;
+    square += std::pow(with_mass.fits[i]->uncertainty.noise / free.fits[i]->uncertainty.noise, 2);
+    count += 1.0;
+  }
+  return std::sqrt(square / count) < thresholds::kContradictedMass;
+}
+
+}  // namespace
+
+OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held) {
+  OwnFits own = OwnFitter(recordings, held).fit();
+  const std::optional<StatedMass> mass = common_mass(recordings, own, held);
+  if (!mass) return own;
+  // As with a stated average, where one was found
+  std::vector<Recording> averaged;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const Recording& recording = recordings[i].recording;
+    const bool is_open = own.average && !recording.conditions().sensor_average_s;
+    averaged.push_back(is_open ? with_average(recording, own.average->seconds * own.average->seconds / 12.0)
+                               : recording);
+  }
+  std::vector<SweepRecording> sweep;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    sweep.push_back({averaged[i], recordings[i].quality, recordings[i].segmentation, recordings[i].role});
+  }
+  HeldParameters by_mass = held;
+  by_mass.natural_frequency_rad_per_s = mass->frequency_rad_per_s(median_stiffness(own));
+  OwnFits with_mass = OwnFitter(sweep, by_mass).fit();
+  if (!explains_as_well(with_mass, own)) return own;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    if (with_mass.fits[i] && own.fits[i]) with_mass.fits[i]->average = own.fits[i]->average;
+  }
+  with_mass.average = own.average;
+  with_mass.mass = mass;
+  return with_mass;
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,76 @@
+#include "fit/selection/stated_mass.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "core/fit_thresholds.hpp"
+#include "fit/problem/solve.hpp"
+#include "fit/selection/finish.hpp"
+#include "fit/selection/fitted_average.hpp"
+#include "fit/selection/reloading_fit.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+constexpr double kUsualError = 0.02;  // of a mass stated without its standard error
+constexpr double kStep = 0.01;        // of ln w_n
+
+double stiffness_of(const DampedFit& fit) {
+  return std::exp(fit.blocks.parameters.globals[kLogStiffness]);
+}
+
+/// What the coordinates move by where w_n is held elsewhere; empty where the fit has no solution there.
+std::optional<Coordinates> by_log_frequency(const DampedFit& fit) {
+  BlockFit other = fit.blocks;
+  other.parameters.globals[kLogFrequency] += kStep;
+  if (!std::isfinite(solve(other, {fit.held, fit.continuous, true}))) return std::nullopt;
+  return (coordinates_of(other) - coordinates_of(fit.blocks)) / kStep;
+}
+
+}  // namespace
+
+std::optional<StatedMass> mass_for_frequency(const Conditions& conditions, const HeldParameters& held,
+                                             double stiffness_N_per_m, double average_s) {
+  if (!conditions.mass_kg || held.natural_frequency_rad_per_s) return std::nullopt;
+  StatedMass mass{*conditions.mass_kg, kUsualError};
+  if (conditions.mass_standard_error_kg) mass.relative_error = *conditions.mass_standard_error_kg / mass.kg;
+  const bool hides = mass.frequency_rad_per_s(stiffness_N_per_m) * average_s > thresholds::kHidingAverage;
+  return hides ? std::optional(mass) : std::nullopt;
+}
+
+CoordinateMatrix with_mass(const CoordinateMatrix& held, const Coordinates& by_log_frequency, double relative_error) {
+  // d ln w_n = (d ln k - d ln m) / 2
+  CoordinateMatrix follows = CoordinateMatrix::Identity();
+  follows.col(kLogStiffness) += 0.5 * by_log_frequency;
+  const Coordinates by_mass = 0.5 * relative_error * by_log_frequency;
+  return follows * held * follows.transpose() + by_mass * by_mass.transpose();
+}
+
+DampedFit fit_with_mass(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
+                        HeldParameters held, DampedFit fit) {
+  constexpr int kRounds = 2;  // k changes little with w_n
+  const std::optional<StatedMass> mass =
+      mass_for_frequency(recording.conditions(), held, stiffness_of(fit), fit.blocks.scales().sensor_average_s);
+  if (!mass) return fit;
+  const double average_s = fit.blocks.scales().sensor_average_s;
+  const Recording averaged = fit.average ? with_average(recording, average_s * average_s / 12.0) : recording;
+  double stiffness = stiffness_of(fit);
+  std::optional<DampedFit> by_mass;
+  for (int round = 0; round < kRounds; ++round) {
+    held.natural_frequency_rad_per_s = mass->frequency_rad_per_s(stiffness);
+    by_mass = draft_with_rise(averaged, quality, segmentation, held);
+    if (!by_mass) return fit;
+    stiffness = stiffness_of(*by_mass);
+  }
+  const bool contradicts = by_mass->uncertainty.noise > thresholds::kContradictedMass * fit.uncertainty.noise;
+  const std::optional<Coordinates> move = by_log_frequency(*by_mass);
+  if (contradicts || !move) return fit;
+  by_mass = finish_fit(averaged, quality, segmentation, *std::move(by_mass));
+  if (!by_mass) return fit;
+  by_mass->average = fit.average;
+  by_mass->mass_gives_frequency = true;
+  by_mass->uncertainty.covariance = with_mass(by_mass->uncertainty.covariance, *move, mass->relative_error);
+  return *std::move(by_mass);
+}
+
+}  // namespace slipfit::fit

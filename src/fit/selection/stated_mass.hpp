@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "fit/selection/solution.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/parameter.hpp"
+#include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
+
+namespace slipfit::fit {
+
+/// A stated mass that gives the natural frequency, sqrt(k / m). kg > 0.
+struct StatedMass {
+  double kg = 0.0;
+  double relative_error = 0.0;
+
+  [[nodiscard]] double frequency_rad_per_s(double stiffness_N_per_m) const { return std::sqrt(stiffness_N_per_m / kg); }
+};
+
+/// The stated mass where the samples are averaged over so much of a slip (thresholds::kHidingAverage) that these tell
+/// w_n and zeta hardly apart. Empty: none is stated, w_n is held, or the average is shorter.
+std::optional<StatedMass> mass_for_frequency(const Conditions& conditions, const HeldParameters& held,
+                                             double stiffness_N_per_m, double average_s);
+
+/// A covariance found with w_n held, as it is with w_n = sqrt(k / m). `by_log_frequency`: what the coordinates move by.
+CoordinateMatrix with_mass(const CoordinateMatrix& held, const Coordinates& by_log_frequency, double relative_error);
+
+/// `fit` with w_n by the recording's stated mass, where averaging hides it and the slips do not speak against it.
+DampedFit fit_with_mass(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
+                        HeldParameters held, DampedFit fit);
+
+}  // namespace slipfit::fit

@@ -1,0 +1,189 @@
+#include "fit/selection/sweep_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/fit_thresholds.hpp"
+#include "core/parallel.hpp"
+#include "fit/inference/covariance.hpp"
+#include "fit/problem/block_fit.hpp"
+#include "signal/robust.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+constexpr double kSweepRough = 0.1;
+constexpr double kSweepCompared = 1e-2;  // sums of squares to a hundredth of what a parameter gains by chance
+constexpr int kSweepQuickIterations = 10;
+
+/// The recordings `used` of the sweep, as their own fits left them.
+SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, const std::vector<std::size_t>& used) {
+  SweepSolution solution;
+  solution.sweep = {sharing, data.steady, data.units};
+  solution.average = data.average;
+  solution.reload = data.reload;
+  for (const std::size_t i : used) {
+    const DampedFit& single = *data.single[i];
+    const Scales scales = scales_in_sweep(data, i, law);
+    BlockFit recording(single.blocks.set(), scales);
+    const auto& level = single.blocks.parameters.level;
+    const std::ptrdiff_t skip = single.blocks.level().terms > 0 ? 1 : 0;
+    std::copy(level.begin() + skip, level.end(), recording.parameters.level.begin() + 1);
+    recording.parameters.level[0] = level_of(single) / scales.population->force;
+    recording.parameters.difference = mean_onset_force(single) / scales.population->force;
+    recording.parameters.cycles = single.blocks.parameters.cycles;
+    solution.recordings.push_back(std::move(recording));
+  }
+  return solution;
+}
+
+class SweepFitter {
+ public:
+  SweepFitter(const SweepData& data, const HeldParameters& held) : data_(data), fixed_(held) {}
+
+  [[nodiscard]] std::optional<SweepFits> fit() const {
+    std::optional<SweepSolution> free = fit_velocity({false, false});
+    if (!free) return std::nullopt;
+    SweepSolution velocity = at_best_average(with_shares(std::move(*free)));
+    std::optional<SweepSolution> coulomb = coulomb_like(velocity);
+    if (coulomb) coulomb = at_best_average(*std::move(coulomb));
+    SweepFits fits{std::move(velocity), std::move(coulomb)};
+    const double extra = 2.0;  // slope and rate
+    fits.p_value = fits.coulomb ? chance(fits.coulomb->chi2 - fits.velocity.chi2, extra, fits.velocity) : 0.0;
+    fits.depends_on_speed = fits.p_value < thresholds::kLawChance;
+    return fits;
+  }
+
+ private:
+  /// Chance of such a gain in chi2 by `extra` parameters (or constraints taken off).
+  static double chance(double gain, double extra, const SweepSolution& rich) {
+    const double ratio = gain / extra / (rich.chi2 / rich.degrees_of_freedom);
+    if (!(ratio > 0.0)) return 1.0;
+    const boost::math::fisher_f_distribution<double> by_chance(extra, rich.degrees_of_freedom);
+    return boost::math::cdf(boost::math::complement(by_chance, ratio));
+  }
+
+  /// From the medians of the recordings' own fits.
+  void set_globals(SweepSolution& solution) const {
+    Globals globals{};
+    for (const std::size_t i : std::array<std::size_t, 3>{kLogStiffness, kLogFrequency, kDamping}) {
+      std::vector<double> values;
+      for (const std::size_t r : data_.fitted) values.push_back(data_.single[r]->blocks.parameters.globals[i]);
+      globals[i] = signal::median(values);
+    }
+    globals[kDamping] = std::clamp(globals[kDamping], 0.0, 0.3);
+    if (fixed_.stiffness_N_per_m) globals[kLogStiffness] = std::log(*fixed_.stiffness_N_per_m);
+    if (fixed_.natural_frequency_rad_per_s) globals[kLogFrequency] = std::log(*fixed_.natural_frequency_rad_per_s);
+    if (fixed_.damping_ratio) globals[kDamping] = *fixed_.damping_ratio;
+    std::vector<double> levels;
+    std::vector<double> differences;
+    for (const BlockFit& recording : solution.recordings) {
+      levels.push_back(recording.parameters.level[0]);
+      differences.push_back(recording.parameters.difference);
+    }
+    for (BlockFit& recording : solution.recordings) {
+      recording.parameters.globals = globals;
+      if (solution.sweep.sharing.level) recording.parameters.level[0] = signal::median(levels);
+      if (solution.sweep.sharing.difference) recording.parameters.difference = signal::median(differences);
+    }
+  }
+
+  /// Several rates: a wrong sign of alpha is a minimum of its own.
+  [[nodiscard]] std::optional<SweepSolution> fit_velocity(Sharing sharing) const {
+    const Held held = held_of(fixed_);
+    constexpr std::array kStartRates{-1.0, 1.0, -4.0};
+    std::vector<SweepSolution> starts = in_parallel(kStartRates.size(), [&](std::size_t i) {
+      SweepSolution start = start_of(data_, sharing, FrictionLaw::Exponential, data_.fitted);
+      set_globals(start);
+      for (BlockFit& recording : start.recordings) recording.parameters.globals[kFrictionRate] = kStartRates[i];
+      Held quick = held;
+      quick[kFrictionRate] = true;
+      start.chi2 = solve(start, quick, kSweepQuickIterations, kSweepRough);
+      return start;
+    });
+    std::optional<SweepSolution> best;
+    for (SweepSolution& start : starts) {
+      if (std::isfinite(start.chi2) && (!best || start.chi2 < best->chi2)) best = std::move(start);
+    }
+    return best ? at_minimum(std::move(*best), held, kSweepCompared) : std::nullopt;
+  }
+
+  /// Sharing as much as the data agree with: both, then one of the two, else nothing.
+  [[nodiscard]] SweepSolution with_shares(SweepSolution free) const {
+    const std::size_t runs = data_.fitted.size();
+    for (const Sharing sharing : {Sharing{true, true}, Sharing{false, true}, Sharing{true, false}}) {
+      std::optional<SweepSolution> shared = fit_velocity(sharing);
+      if (!shared) continue;
+      // With more freedom no fit can be worse: where it is, it had ended in another minimum.
+      if (shared->chi2 < free.chi2) {
+        std::optional<SweepSolution> better = released(*shared);
+        if (better && better->chi2 < free.chi2) free = std::move(*better);
+      }
+      const double steady = sharing.level ? static_cast<double>(data_.steady.size()) : 0.0;
+      const double shared_kinds = (sharing.level ? 1.0 : 0.0) + (sharing.difference ? 1.0 : 0.0);
+      const double constraints = static_cast<double>(runs - 1) * shared_kinds + steady;
+      if (chance(shared->chi2 - free.chi2, constraints, free) > thresholds::kShareChance) return std::move(*shared);
+    }
+    return free;
+  }
+
+  /// From a shared solution on with nothing shared.
+  [[nodiscard]] static std::optional<SweepSolution> released(const SweepSolution& shared) {
+    SweepSolution free = shared;
+    free.sweep.sharing = {};
+    return at_minimum(std::move(free), shared.held, kSweepCompared);
+  }
+
+  /// At the average that explains all recordings best, where their own fits found one: by the parabola through the sums
+  /// of squares beside that. Each law has its own: none may stand for the error of the average.
+  [[nodiscard]] SweepSolution at_best_average(SweepSolution solution) const {
+    if (!solution.average) return solution;
+    const double step_s = solution.average->standard_error_s;
+    const double middle_s = solution.average->seconds;
+    const auto less = with_average(data_, solution, middle_s - step_s);
+    const auto more = with_average(data_, solution, middle_s + step_s);
+    if (!less || !more) return solution;
+    const double bend = less->chi2 - 2.0 * solution.chi2 + more->chi2;
+    if (!(bend > 0.0)) return solution;
+    const double steps = std::clamp(0.5 * (less->chi2 - more->chi2) / bend, -3.0, 3.0);
+    auto best = with_average(data_, solution, middle_s + steps * step_s);
+    return best && best->chi2 < solution.chi2 ? *std::move(best) : solution;
+  }
+
+  [[nodiscard]] std::optional<SweepSolution> coulomb_like(const SweepSolution& velocity) const {
+    SweepSolution start = start_of(data_, velocity.sweep.sharing, FrictionLaw::Coulomb, data_.fitted);
+    set_globals(start);
+    return at_minimum(std::move(start), held_of(fixed_));
+  }
+
+  const SweepData& data_;
+  HeldParameters fixed_;
+};
+
+}  // namespace
+
+std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options) {
+  if (!data.mass) return SweepFitter(data, options.held).fit();
+  constexpr int kMostRounds = 3;
+  constexpr double kSmallChange = 1e-3;  // of ln w_n: k hardly depends on it
+  HeldParameters held = options.held;
+  std::vector<double> logs;
+  for (const std::size_t i : data.fitted) logs.push_back(data.single[i]->blocks.parameters.globals[kLogStiffness]);
+  double stiffness = std::exp(signal::median(std::move(logs)));
+  std::optional<SweepFits> fits;
+  for (int round = 0; round < kMostRounds; ++round) {
+    held.natural_frequency_rad_per_s = data.mass->frequency_rad_per_s(stiffness);
+    fits = SweepFitter(data, held).fit();
+    if (!fits) return fits;
+    const SweepSolution& solution = fits->coulomb ? *fits->coulomb : fits->velocity;
+    const double next = std::exp(solution.recordings.front().parameters.globals[kLogStiffness]);
+    if (std::abs(std::log(next / std::exchange(stiffness, next))) < 2.0 * kSmallChange) break;
+  }
+  return fits;
+}
+
+}  // namespace slipfit::fit

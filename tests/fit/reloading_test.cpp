@@ -1,0 +1,163 @@
+#include <ceres/jet.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "fit/level/reloading.hpp"
+#include "fit/scene.hpp"
+#include "model/reloading.hpp"
+#include "model/slip.hpp"
+
+namespace slipfit {
+namespace {
+
+constexpr double kRise = 0.3;       // A over F_s - F_k
+constexpr double kLength_m = 2e-4;  // l
+
+/// The scene with sticks that rise more steeply after each slip; F_s scatters by `jitter` of F_s - F_k.
+Recording reloading_recording(const Scene& s, double rise_N) {
+  std::mt19937_64 random(s.seed);
+  std::normal_distribution<double> normal;
+  const double unit_N = s.stiffness * s.speed / s.omega;
+  const double lambda = (s.static_N - s.kinetic_N) / unit_N;
+  const auto next_slip = [&] {
+    return model::solve_slip(lambda * (1.0 + s.jitter * normal(random)) - 2.0 * s.zeta, s.zeta);
+  };
+  model::Slip slip = next_slip();
+  const double step = slip.tau_end / s.samples_per_slip;
+  double onset = lambda;
+  std::vector<double> time_s, force;
+  double before_N = s.kinetic_N;  // force at tau = 0 of the stick that goes on
+  for (double cycles = 0.0; cycles < s.cycles; ++cycles) {
+    model::Slip next = next_slip();
+    const double end_z = model::stick_after(slip).intercept + slip.tau_end;
+    const double drop_m = unit_N * (next.z0 - end_z) / s.stiffness;
+    const double stick_m = model::reloaded_stick_m(drop_m, rise_N / s.stiffness, kLength_m);
+    const double end = onset + slip.tau_end;
+    const double next_onset = end + s.omega * stick_m / s.speed;
+    for (double tau = step * static_cast<double>(time_s.size()); tau < next_onset;
+         tau = step * static_cast<double>(time_s.size())) {
+      time_s.push_back(tau / s.omega);
+      double force_N = before_N + unit_N * tau;
+      if (tau > onset) {
+        force_N = s.kinetic_N + unit_N * model::slip_wave(slip, tau - onset).z;
+      }
+      if (tau > end) {
+        const double x_m = s.speed * (tau - end) / s.omega;
+        force_N = s.kinetic_N + unit_N * end_z + s.stiffness * x_m + rise_N * (1.0 - std::exp(-x_m / kLength_m));
+      }
+      force.push_back(force_N + s.noise * (s.static_N - s.kinetic_N) * normal(random));
+    }
+    onset = next_onset;
+    slip = next;
+  }
+  Conditions conditions = s.conditions;
+  conditions.speed_m_per_s = s.speed;
+  conditions.zero_force_N = 0.0;
+  return Recording::create(std::move(time_s), std::move(force), conditions).value();
+}
+
+Scene bent_sticks() {
+  Scene s;
+  s.noise = 0.005;
+  s.jitter = 0.03;
+  s.cycles = 40.0;
+  return s;
+}
+
+fit::RiseAfterSlip two_slips(double average_s) {
+  return {kLength_m, true, 0.01, average_s, {1.0, 1.2}, {1.03, 1.23}};
+}
+
+}  // namespace
+
+TEST_CASE("the stick that makes good a drop is shorter by the rise after the slip") {
+  const double drop_m = GENERATE(1e-5, 3e-4, 2e-3);
+  const double rise_m = GENERATE(1e-6, 1e-4, 1e-3);
+  CAPTURE(drop_m, rise_m);
+  const double x = model::reloaded_stick_m(drop_m, rise_m, kLength_m);
+  CHECK(x + rise_m * (1.0 - std::exp(-x / kLength_m)) == Approx(drop_m).epsilon(1e-14));
+  CHECK(model::reloaded_stick_m(drop_m, 0.0, kLength_m) == Approx(drop_m).epsilon(1e-15));
+  using Jet = ceres::Jet<double, 3>;
+  const Jet jet = model::reloaded_stick_m(Jet(drop_m, 0), Jet(rise_m, 1), Jet(kLength_m, 2));
+  const auto slope = [](const auto& at, double h) { return (at(h) - at(-h)) / (2.0 * h); };
+  const double h = 1e-5;
+  const double by_drop =
+      slope([&](double e) { return model::reloaded_stick_m(drop_m * (1.0 + e), rise_m, kLength_m); }, h) / drop_m;
+  const double by_rise =
+      slope([&](double e) { return model::reloaded_stick_m(drop_m, rise_m * (1.0 + e), kLength_m); }, h) / rise_m;
+  const double by_length =
+      slope([&](double e) { return model::reloaded_stick_m(drop_m, rise_m, kLength_m * (1.0 + e)); }, h) / kLength_m;
+  CHECK(jet.v[0] == Approx(by_drop).epsilon(1e-7));
+  CHECK(jet.v[1] == Approx(by_rise).epsilon(1e-7));
+  CHECK(jet.v[2] == Approx(by_length).epsilon(1e-7).margin(1e-9));
+}
+
+TEST_CASE("the rise after a slip is averaged exactly and knows its derivative") {
+  const double average_s = GENERATE(0.0, 0.02, 0.1);
+  const fit::RiseAfterSlip rise = two_slips(average_s);
+  const fit::RiseAfterSlip instant = two_slips(0.0);
+  for (const double time_s : {1.1, 1.17, 1.195, 1.21, 1.24, 1.25, 1.35}) {
+    CAPTURE(average_s, time_s);
+    const auto share = rise.at(1, time_s);
+    if (average_s > 0.0) {
+      // Midpoint rule, whose error over a kink is that of one step.
+      constexpr int kSteps = 200000;
+      double mean = 0.0;
+      for (int i = 0; i < kSteps; ++i) {
+        const double at_s = time_s + average_s * ((i + 0.5) / kSteps - 0.5);
+        mean += instant.at(1, at_s).value / kSteps;
+      }
+      CHECK(share.value == Approx(mean).margin(1e-8));
+    }
+    const double h = 1e-5;
+    fit::RiseAfterSlip longer = rise;
+    longer.length_m *= std::exp(h);
+    fit::RiseAfterSlip shorter = rise;
+    shorter.length_m *= std::exp(-h);
+    const double slope = (longer.at(1, time_s).value - shorter.at(1, time_s).value) / (2.0 * h);
+    CHECK(share.by_log_length == Approx(slope).margin(1e-8));
+  }
+  // Before the onset the rise after the slip before it is nearly made, and 0 at the onset.
+  CHECK(instant.at(1, 1.2).value == Approx(0.0).margin(1e-12));
+  CHECK(instant.at(1, 1.215).value == 0.0);
+  CHECK(instant.at(1, 1.23 + 0.02).value == Approx(1.0 - std::exp(-1.0)));
+}
+
+TEST_CASE("a rise after slips is found with the other parameters") {
+  Scene s = bent_sticks();
+  s.seed = GENERATE(range<std::uint64_t>(1, 5));
+  CAPTURE(s.seed);
+  const double difference_N = s.static_N - s.kinetic_N;
+  const Analysis analysis = analyze_and_fit(reloading_recording(s, kRise * difference_N), {});
+  REQUIRE(analysis.fit);
+  for (const auto& [name, truth] :
+       {std::pair{"reload_force_N", kRise * difference_N}, std::pair{"reload_length_m", kLength_m},
+        std::pair{"stiffness_N_per_m", s.stiffness}, std::pair{"natural_frequency_rad_per_s", s.omega},
+        std::pair{"damping_ratio", s.zeta}, std::pair{"friction_difference_N", difference_N}}) {
+    INFO(name);
+    const Estimate& estimate = parameter(analysis, name).estimate;
+    REQUIRE(estimate.standard_error);
+    CHECK(std::abs(*estimate.value - truth) < 3.5 * *estimate.standard_error);
+    CHECK(*estimate.value == Approx(truth).epsilon(0.1));
+  }
+  CHECK(parameter(analysis, "stiffness_N_per_m").status == ParameterStatus::Identified);
+  // The period that the model says is that of the recording.
+  REQUIRE(analysis.derived.periodic_displacement_m.value);
+  CHECK(*analysis.derived.periodic_displacement_m.value ==
+        Approx(*analysis.derived.pattern_spacing_m.value).epsilon(0.02));
+}
+
+TEST_CASE("straight sticks get no rise") {
+  Scene s = bent_sticks();
+  s.seed = GENERATE(range<std::uint64_t>(1, 9));
+  CAPTURE(s.seed);
+  const Analysis analysis = analyze_and_fit(record(s), {});
+  REQUIRE(analysis.fit);
+  CHECK(analysis.fit->find(ParameterId::ReloadLength) == nullptr);
+}
+
+}  // namespace slipfit
