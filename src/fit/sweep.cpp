@@ -124,7 +124,9 @@ class Assembler {
       findings.slip_doubt = findings.stiffness_doubt =
           "residuals are well above the noise: the interval cannot hold what the model lacks";
     }
-    if (!findings.damping.value) findings.frequency_unknown = findings.damping.note;
+    if (!findings.damping.value && outcome_.values(fit::kDamping) < 0.0) {
+      findings.frequency_unknown = findings.damping.note;
+    }
     add_average(findings);
     add_difference_doubt(findings);
     // Only recordings with one level and one static friction tell damping from friction that depends on the speed.
@@ -179,6 +181,7 @@ class Assembler {
     if (zeta.ci95->high <= 0.0 && !outcome_.solution.held[fit::kDamping]) {
       return unknown("the best value is negative: the slips do not follow a damped oscillation");
     }
+    if (zeta.ci95->low <= 0.0 && zeta.ci95->high >= 1.0) return unknown("it can lie anywhere between 0 and 1");
     zeta.value = std::max(0.0, *zeta.value);
     zeta.ci95->low = std::max(0.0, zeta.ci95->low);
     return zeta;

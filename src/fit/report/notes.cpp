@@ -9,10 +9,12 @@
 namespace slipfit::fit {
 
 Warning averaged_warning(double average_s) {
-  return {"samples_averaged",
-          fmt::format("the slips are seen through averaging over {:.3g} ms, which is fitted together with them: state "
-                      "it with --sensor-average where it is known",
-                      1e3 * average_s)};
+  return {
+      "samples_averaged",
+      fmt::format("the slips are seen through averaging over {:.3g} ms, which is fitted together with them: state "
+                  "it with --sensor-average where it is known, and the mass with --mass, which averages of the length "
+                  "of the slips hide",
+                  1e3 * average_s)};
 }
 
 std::string averaging_doubt(double change) {
