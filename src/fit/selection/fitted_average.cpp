@@ -46,6 +46,11 @@ std::vector<double> guesses_s(const Recording& recording, const DampedFit& plain
   return {std::sqrt(12.0 * seen->variance_s2), of_fall_s};
 }
 
+/// The slips that are left behind W are those of the model.
+bool follows_slips(const DampedFit& fit) {
+  return !fit.misfit && !fit.refused_damping && resting_share(fit.blocks) >= thresholds::kRestickShare;
+}
+
 /// A fit of all cycles with an average in it, and what is left to smooth.
 struct Trial {
   DampedFit fit;
@@ -74,8 +79,7 @@ class Trials {
       if (!beyond) break;
       Trial trial{*std::move(fit), *beyond, variance_s2};
       if (!best || trial.off() < best->off()) best = std::move(trial);
-      const bool is_hopeless =
-          best->fit.misfit || best->fit.refused_damping || best->fit.uncertainty.noise > plain_.uncertainty.noise;
+      const bool is_hopeless = !follows_slips(best->fit) || best->fit.uncertainty.noise > plain_.uncertainty.noise;
       if (fits == kMostFits || is_hopeless || best->off() < thresholds::kSettledAverage) break;
       variance_s2 += beyond->variance_s2;
       if (!(variance_s2 > 0.0)) break;
@@ -106,11 +110,6 @@ class Trials {
 /// Twice the logarithm of the likelihood of one fit over that of another, each at its best noise.
 double gain_of(const DampedFit& fit, const DampedFit& other) {
   return 2.0 * effective_samples(other) * std::log(other.uncertainty.noise / fit.uncertainty.noise);
-}
-
-/// The slips that are left behind W are those of the model.
-bool follows_slips(const DampedFit& fit) {
-  return !fit.misfit && !fit.refused_damping && resting_share(fit.blocks) >= thresholds::kRestickShare;
 }
 
 /// Slips and W can be told apart.
