@@ -23,6 +23,7 @@ constexpr std::size_t kSearchCycles = 10;   // enough to begin with
 constexpr std::size_t kCompareCycles = 40;  // enough to tell two kernels apart
 constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
 constexpr double kForgottenLags = 8.0;      // e^-8
+constexpr double kFewRest = 0.9 * thresholds::kRestickShare;  // of 64 slips two standard errors below it
 
 /// Median time from the end of one slip to the onset of the next.
 double stick_s(const BlockFit& blocks) {
@@ -73,7 +74,7 @@ class Trials {
     constexpr int kMostFits = 3;
     std::optional<Trial> best;
     std::optional<DampedFit> fit = draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_,
-                                                {near, plain_.excluded, plain_.blocks.level().per_cycle});
+                                                {near, plain_.excluded, plain_.blocks.level().per_cycle, kFewRest});
     for (int fits = 1; fit; ++fits) {
       const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
       if (!beyond) break;

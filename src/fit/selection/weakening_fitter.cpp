@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
 #include "fit/cycle/start.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
@@ -156,9 +157,15 @@ class WeakeningFitter {
     const std::vector<CycleData> some = some_of(cycles, kSomeCycles);
     if (2 * samples_of(some) >= samples_of(cycles)) return true;
     const std::optional<BlockFit> blocks = solved(some, start);
-    if (!blocks || is_beaten(*blocks)) return false;
+    if (!blocks || is_beaten(*blocks) || loses_sticks(*blocks)) return false;
     // In place of an average it need not explain more.
     return coulomb_.average || (explains_enough(*blocks) && tells_distance(*blocks));
+  }
+
+  /// Slips that come to rest under Coulomb friction would not.
+  [[nodiscard]] bool loses_sticks(const BlockFit& some) const {
+    return resting_share(some) < thresholds::kRestickShare &&
+           resting_share(coulomb_.blocks) >= thresholds::kRestickShare;
   }
 
   /// The Coulomb fit explains these cycles better, beyond chance.

@@ -2,9 +2,18 @@
 
 #include <optional>
 
-#include "fit/selection/weakening_fit.hpp"
+#include "fit/selection/tiers.hpp"
+#include "slipfit/fit/parameter.hpp"
 
 namespace slipfit::fit {
+
+/// A recording as fits see it.
+struct FitInput {
+  const Recording& recording;
+  const Quality& quality;
+  const Segmentation& segmentation;
+  const HeldParameters& held;
+};
 
 /// `missed`: stacked residual of the Coulomb fit, where the law is to be taken for halving it alone; empty: it is
 /// fitted to all cycles, whatever some of them show. Empty where no start converges, where some of the cycles show that
