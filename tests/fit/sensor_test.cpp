@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "fit/observation/averaged_slip.hpp"
 #include "model/reference_table.hpp"
 #include "scene.hpp"
 
@@ -172,5 +173,29 @@ TEST_CASE("a stated averaging gives the parameters back; unstated it is seen, an
     // One recording: one in twenty lies outside the interval, one in four hundred outside three standard errors.
     CHECK(std::abs(*omega.estimate.value - s.omega) < 3.0 * *omega.estimate.standard_error);
     CHECK(parameter(analysis, "mass_kg").status == ParameterStatus::Weak);
+  }
+}
+
+TEST_CASE("an average without a lag is the same by either class") {
+  const double zeta = GENERATE(-0.05, 0.0, 0.1, 0.6);
+  const bool transmitted = GENERATE(false, true);
+  const double average = GENERATE(0.3, 2.0, 6.0);
+  const model::Slip slip = model::solve_slip(8.0, zeta);
+  CAPTURE(zeta, transmitted, average);
+  const fit::SensedSlip sensed({0.0, average, transmitted}, slip);
+  const fit::AveragedSlip averaged(slip, model::stick_after(slip), average, transmitted);
+  constexpr double kStep = 0.05;
+  fit::AveragedSlip::Samples samples(averaged, kStep);
+  for (int i = 0; i * kStep < slip.tau_end + 2.0 * average; ++i) {
+    if (i % 7 == 3) continue;  // some samples are left out
+    const double tau = i * kStep - average;
+    const model::WavePoint a = sensed.at(tau);
+    for (const model::WavePoint& b : {averaged.at(tau), samples.at(tau)}) {
+      CHECK(b.z == Approx(a.z).margin(1e-11));  // rounding
+      CHECK(b.d_z0 == Approx(a.d_z0).margin(1e-11));
+      CHECK(b.d_zeta == Approx(a.d_zeta).margin(1e-10));
+      CHECK(b.d_tau == Approx(a.d_tau).margin(1e-11));
+      CHECK(b.d_log_omega == Approx(a.d_log_omega).margin(1e-11));
+    }
   }
 }

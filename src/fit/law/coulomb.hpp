@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "fit/cycle/cycle_data.hpp"
+#include "fit/observation/averaged_slip.hpp"
 #include "fit/observation/sensor.hpp"
 #include "model/phasor.hpp"
 #include "model/slip.hpp"
@@ -20,7 +21,11 @@ class CoulombCycle {
   /// `z0`: spring force above F_k at the onset. Needs z0 + 2 zeta > 0 and |zeta| < 1.
   CoulombCycle(double z0, double zeta, const Sensor& sensor)
       : slip(model::solve_slip(z0, zeta)), after(model::stick_after(slip)), sensor_(sensor) {
-    if (sensor.smooths()) sensed_.emplace(sensor, slip);
+    if (sensor.lag_tau > 0.0) {
+      sensed_.emplace(sensor, slip);
+    } else if (sensor.average_tau > 0.0) {
+      averaged_.emplace(slip, after, sensor.average_tau, sensor.transmitted);
+    }
   }
 
   model::Slip slip;
@@ -40,6 +45,7 @@ class CoulombCycle {
     if (tau <= -reach) return before_slip(tau);
     if (tau > slip.tau_end + reach && sensor_.lag_tau == 0.0) return after_slip(tau);
     if (sensed_) return sensed_->at(tau);
+    if (averaged_) return averaged_->at(tau);
     const double decay = std::exp(-slip.zeta * tau);
     return in_slip(tau, decay * std::cos(slip.b * tau), decay * std::sin(slip.b * tau));
   }
@@ -59,12 +65,16 @@ class CoulombCycle {
    public:
     Samples(const CoulombCycle& cycle, double step_tau)
         : cycle_(cycle),
-          turns_evenly_(step_tau > 0.0 && !cycle.sensor_.smooths()),
+          turns_evenly_(step_tau > 0.0 && !cycle.sensed_),
           step_tau_(step_tau),
-          phasor_(cycle.slip.zeta, cycle.slip.b, step_tau) {}
+          phasor_(cycle.slip.zeta, cycle.slip.b, step_tau) {
+      if (turns_evenly_ && cycle.averaged_) averaged_.emplace(*cycle.averaged_, step_tau);
+    }
 
     Point at(double tau) {
-      if (!turns_evenly_ || !(tau > 0.0) || !(tau <= cycle_.slip.tau_end)) return cycle_.at(tau);
+      const double reach = 0.5 * cycle_.sensor_.average_tau;
+      if (!turns_evenly_ || !(tau > -reach) || !(tau <= cycle_.slip.tau_end + reach)) return cycle_.at(tau);
+      if (averaged_) return averaged_->at(tau);
       tau < next_tau_ + 0.5 * step_tau_ ? phasor_.step() : phasor_.start(tau);
       next_tau_ = tau + step_tau_;
       return cycle_.in_slip(tau, phasor_.c(), phasor_.s());
@@ -76,6 +86,7 @@ class CoulombCycle {
     double step_tau_;
     double next_tau_ = -std::numeric_limits<double>::infinity();
     model::Phasor phasor_;
+    std::optional<AveragedSlip::Samples> averaged_;
   };
 
  private:
@@ -97,7 +108,8 @@ class CoulombCycle {
   }
 
   Sensor sensor_;
-  std::optional<SensedSlip> sensed_;  ///< where the sensor smooths
+  std::optional<SensedSlip> sensed_;      ///< where the sensor lags
+  std::optional<AveragedSlip> averaged_;  ///< where it averages, without a lag
 };
 
 }  // namespace slipfit::fit

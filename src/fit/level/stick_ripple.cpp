@@ -27,16 +27,22 @@ struct Stick {
 };
 
 /// Without the straight line that fits best.
-Eigen::MatrixXd without_line(const Eigen::VectorXd& time_s, const Eigen::MatrixXd& columns) {
-  Eigen::MatrixXd line(time_s.size(), 2);
-  line << Eigen::VectorXd::Ones(time_s.size()),
-      (time_s.array() - time_s.mean()) / (time_s(time_s.size() - 1) - time_s(0));
-  return columns - line * line.householderQr().solve(columns);
+template <class Columns>
+Columns without_line(const Eigen::VectorXd& time_s, Columns columns) {
+  const Eigen::VectorXd since_s = time_s.array() - time_s.mean();
+  const auto slope = (since_s.transpose() * columns / since_s.squaredNorm()).eval();
+  const auto mean = columns.colwise().mean().eval();
+  columns.noalias() -= since_s * slope;
+  columns.rowwise() -= mean;
+  return columns;
 }
 
-Eigen::MatrixXd waves_at(const Eigen::VectorXd& time_s, double frequency_Hz) {
+/// Cosine and sine.
+using Waves = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+
+Waves waves_at(const Eigen::VectorXd& time_s, double frequency_Hz) {
   const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * frequency_Hz * time_s.array();
-  Eigen::MatrixXd waves(time_s.size(), 2);
+  Waves waves(time_s.size(), 2);
   waves << angle.cos(), angle.sin();
   return waves;
 }
@@ -142,7 +148,7 @@ class Sticks {
       const auto first = static_cast<Eigen::Index>(from * count);
       const Eigen::Index length = static_cast<Eigen::Index>(to * count) - first;
       const Eigen::VectorXd time_s = stick.time_s.segment(first, length);
-      const Eigen::MatrixXd waves = without_line(time_s, waves_at(time_s, frequency_Hz));
+      const Waves waves = without_line(time_s, waves_at(time_s, frequency_Hz));
       sum.square += waves.transpose() * waves;
       sum.cross += waves.transpose() * stick.force.segment(first, length);
     }

@@ -13,12 +13,9 @@ struct Sensor {
   double lag_tau = 0.0;      ///< w_n T; 0: none
   double average_tau = 0.0;  ///< w_n W; 0: none
   bool transmitted = false;
-
-  /// It shows something else than the force at the time stamp.
-  [[nodiscard]] bool smooths() const { return lag_tau > 0.0 || average_tau > 0.0; }
 };
 
-/// A slip as such an instrument shows it.
+/// A slip as such an instrument shows it. Where it does not lag, AveragedSlip says the same at less work.
 class SensedSlip {
  public:
   SensedSlip(const Sensor& sensor, const model::Slip& slip);

@@ -229,8 +229,10 @@ class Bundle {
   /// cannot may creep along a valley: not for longer than the rest of the program takes.
   [[nodiscard]] int most_iterations() const {
     constexpr double kMostEvaluations = 1.2e6;  // of a sample
+    constexpr double kCycle = 24.0;             // evaluations that a cycle takes as long as beside those of its samples
     constexpr double kFewest = 6.0;
-    const double most = std::max(kFewest, kMostEvaluations / static_cast<double>(residuals_));
+    const double evaluations = static_cast<double>(residuals_) + kCycle * static_cast<double>(owns_.size());
+    const double most = std::max(kFewest, kMostEvaluations / evaluations);
     return recordings_.size() > 1 ? options_.max_iterations
                                   : static_cast<int>(std::min<double>(options_.max_iterations, most));
   }

@@ -24,7 +24,6 @@ namespace {
 constexpr std::size_t kProbeCycles = 12;
 /// Enough to know the shared parameters to an error or two: all cycles then need few steps, however many they are.
 constexpr std::size_t kMiddleCycles = 64;
-
 constexpr int kQuickIterations = 8;
 constexpr int kCleanPasses = 4;
 constexpr int kProbeIterations = 12;
@@ -62,6 +61,7 @@ class Fitter {
       auto middle = fit_from(spread_subset(cycles_, kMiddleCycles), start->level(), start->parameters.globals,
                              kMaxIterations, kRough);
       if (middle) start = std::move(middle);
+      if (resting_share(*start) < near_.least_resting) return std::nullopt;
     }
     std::optional<BlockFit> fit =
         fit_from(std::move(cycles_), start->level(), start->parameters.globals, kMaxIterations, kRough);

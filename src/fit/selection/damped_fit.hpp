@@ -19,6 +19,7 @@ struct Near {
   std::vector<std::size_t> excluded{};
   std::shared_ptr<const RiseAfterSlip> reloading{};  ///< of the sticks
   bool level_per_cycle = false;  ///< the other one has a level of its own in every cycle, which is tried then
+  double least_resting = 0.0;    ///< share of the slips: none where fewer of some of them come to rest
 };
 
 /// `fit_damped` without what finish_fit adds to the uncertainty: all that a comparison of fits needs.

@@ -25,6 +25,7 @@ constexpr std::size_t kSearchCycles = 10;   // enough to begin with
 constexpr std::size_t kCompareCycles = 40;  // enough to tell two kernels apart
 constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
 constexpr double kForgottenLags = 8.0;      // e^-8
+constexpr double kFewRest = 0.9 * thresholds::kRestickShare;  // of 64 slips two standard errors below it
 
 /// Median time from the end of one slip to the onset of the next.
 double stick_s(const BlockFit& blocks) {
@@ -46,6 +47,11 @@ std::vector<double> guesses_s(const Recording& recording, const DampedFit& plain
   if (!seen || !seen->exceeds_step(recording.sample_interval_s())) return {};
   if (plain.refused_damping) return {of_fall_s};
   return {std::sqrt(12.0 * seen->variance_s2), of_fall_s};
+}
+
+/// The slips that are left behind W are those of the model.
+bool follows_slips(const DampedFit& fit) {
+  return !fit.misfit && !fit.refused_damping && resting_share(fit.blocks) >= thresholds::kRestickShare;
 }
 
 /// A fit of all cycles with an average in it, and what is left to smooth.
@@ -71,14 +77,13 @@ class Trials {
     std::optional<Trial> best;
     std::optional<DampedFit> fit = draft_damped(
         with_average(recording_, variance_s2), quality_, segmentation_, held_,
-        {near, plain_.excluded, reloading(std::sqrt(12.0 * variance_s2)), plain_.blocks.level().per_cycle});
+        {near, plain_.excluded, reloading(std::sqrt(12.0 * variance_s2)), plain_.blocks.level().per_cycle, kFewRest});
     for (int fits = 1; fit; ++fits) {
       const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
       if (!beyond) break;
       Trial trial{*std::move(fit), *beyond, variance_s2};
       if (!best || trial.off() < best->off()) best = std::move(trial);
-      const bool is_hopeless =
-          best->fit.misfit || best->fit.refused_damping || best->fit.uncertainty.noise > plain_.uncertainty.noise;
+      const bool is_hopeless = !follows_slips(best->fit) || best->fit.uncertainty.noise > plain_.uncertainty.noise;
       if (fits == kMostFits || is_hopeless || best->off() < thresholds::kSettledAverage) break;
       variance_s2 += beyond->variance_s2;
       if (!(variance_s2 > 0.0)) break;
@@ -113,11 +118,6 @@ class Trials {
   const HeldParameters& held_;
   const DampedFit& plain_;  // without an average
 };
-
-/// The slips that are left behind W are those of the model.
-bool follows_slips(const DampedFit& fit) {
-  return !fit.misfit && !fit.refused_damping && resting_share(fit.blocks) >= thresholds::kRestickShare;
-}
 
 /// Slips and W can be told apart.
 bool tells_slips(const DampedFit& fit) {

@@ -2,18 +2,9 @@
 
 #include <optional>
 
-#include "fit/selection/tiers.hpp"
-#include "slipfit/fit/parameter.hpp"
+#include "fit/selection/weakening_fitter.hpp"
 
 namespace slipfit::fit {
-
-/// A recording as fits see it.
-struct FitInput {
-  const Recording& recording;
-  const Quality& quality;
-  const Segmentation& segmentation;
-  const HeldParameters& held;
-};
 
 /// The fit with friction that weakens over a slip distance (docs/model.md section 9), one parameter more, and whether
 /// the data pay for it: Candidate::chosen, with the reason.

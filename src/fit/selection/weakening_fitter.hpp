@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "fit/selection/tiers.hpp"
+#include "slipfit/fit/parameter.hpp"
+
+namespace slipfit::fit {
+
+/// A recording as fits see it.
+struct FitInput {
+  const Recording& recording;
+  const Quality& quality;
+  const Segmentation& segmentation;
+  const HeldParameters& held;
+};
+
+/// `missed`: stacked residual of the Coulomb fit, where the law is to be taken for halving it alone; empty: it is
+/// fitted to all cycles, whatever some of them show. Empty where no start converges, where some of the cycles show that
+/// it will not be taken or where the cycles do not tell the shared parameters apart.
+std::optional<DampedFit> fit_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<double> missed);
+
+double median_slip_time_s(const BlockFit& blocks);
+
+/// Standard error of zeta.
+double damping_error(const DampedFit& fit);
+
+/// D_c over its standard error.
+double sigmas_of_distance(const DampedFit& fit);
+
+}  // namespace slipfit::fit
