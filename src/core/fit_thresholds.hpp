@@ -192,8 +192,9 @@ inline constexpr double kContradictedMass = 1.25;
 /// Least ratio of speeds that shows ageing. [1; convention]
 inline constexpr double kAgeingSpeedRatio = 2.0;
 
-/// Chance below which static friction ages. [1; convention]
-inline constexpr double kAgeingChance = 0.01;
+/// Chance below which static friction that differs between the speeds ages. [1; convention: static friction of polymers
+/// and rubber does]
+inline constexpr double kAgeingChance = 0.05;
 
 /// Chance below which ageing has a cut-off. [1; derived: taken wrongly in one sweep of 200]
 inline constexpr double kCutoffChance = 0.005;

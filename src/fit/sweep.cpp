@@ -124,9 +124,7 @@ class Assembler {
       findings.slip_doubt = findings.stiffness_doubt =
           "residuals are well above the noise: the interval cannot hold what the model lacks";
     }
-    if (!findings.damping.value && outcome_.values(fit::kDamping) < 0.0) {
-      findings.frequency_unknown = findings.damping.note;
-    }
+    if (!findings.damping.value) findings.frequency_unknown = findings.damping.note;
     add_average(findings);
     add_difference_doubt(findings);
     // Only recordings with one level and one static friction tell damping from friction that depends on the speed.
@@ -181,7 +179,6 @@ class Assembler {
     if (zeta.ci95->high <= 0.0 && !outcome_.solution.held[fit::kDamping]) {
       return unknown("the best value is negative: the slips do not follow a damped oscillation");
     }
-    if (zeta.ci95->low <= 0.0 && zeta.ci95->high >= 1.0) return unknown("it can lie anywhere between 0 and 1");
     zeta.value = std::max(0.0, *zeta.value);
     zeta.ci95->low = std::max(0.0, zeta.ci95->low);
     return zeta;
@@ -254,9 +251,27 @@ class Assembler {
   fit::Intervals intervals_;
 };
 
-}  // namespace
+/// The recordings say nothing of zeta.
+bool is_damping_open(const SweepFit& sweep) {
+  const Parameter* const zeta = sweep.result.find(ParameterId::DampingRatio);
+  return zeta != nullptr && zeta->status == ParameterStatus::Weak && zeta->estimate.ci95 &&
+         zeta->estimate.ci95->low <= 0.0 && zeta->estimate.ci95->high >= 1.0;
+}
 
-std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
+/// A fit with zeta held at 0 in place of one that says nothing of it.
+SweepFit with_open_damping(SweepFit sweep) {
+  for (Parameter& parameter : sweep.result.parameters) {
+    if (parameter.id != ParameterId::DampingRatio) continue;
+    const double error = 1.0 / std::sqrt(12.0);  // anything between 0 and 1 is as likely
+    parameter.estimate = {0.0, error, Interval{0.0, 1.0}, "it can lie anywhere between 0 and 1: the fit takes 0"};
+    parameter.status = ParameterStatus::Weak;
+  }
+  if (sweep.result.estimate) sweep.result.estimate->damping_identified = false;
+  sweep.result.conditional_on.emplace_back("a damping ratio of 0, of which the recordings say nothing");
+  return sweep;
+}
+
+std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, const FitOptions& options) {
   const SweepData data = fit::prepare_sweep(recordings, options);
   if (data.fitted.size() < 2) return std::nullopt;
   if (options.tell_step) options.tell_step(fmt::format("fitting {} recordings together", data.fitted.size()));
@@ -279,6 +294,17 @@ std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, co
   SweepFit sweep = Assembler(recordings, data, *outcome).assemble(choice);
   sweep.result.candidates = fit::candidates_of(*fits, choice);
   return sweep;
+}
+
+}  // namespace
+
+std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
+  std::optional<SweepFit> sweep = fit_at_once(recordings, options);
+  if (!sweep || options.held.damping_ratio || !is_damping_open(*sweep)) return sweep;
+  FitOptions undamped = options;
+  undamped.held.damping_ratio = 0.0;
+  std::optional<SweepFit> simpler = fit_at_once(recordings, undamped);
+  return simpler ? with_open_damping(*std::move(simpler)) : std::move(sweep);
 }
 
 }  // namespace slipfit

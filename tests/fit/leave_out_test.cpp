@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fit/inference/sweep_coordinates.hpp"
+#include "fit/selection/sweep_fit.hpp"
 #include "slipfit/signal/cycles.hpp"
 #include "slipfit/signal/quality.hpp"
 #include "sweep_recordings.hpp"
