@@ -13,6 +13,7 @@
 #include "fit/inference/sliding_model.hpp"
 #include "fit/inference/sweep_outcome.hpp"
 #include "fit/report/findings.hpp"
+#include "fit/report/open_damping.hpp"
 #include "fit/selection/law_choice.hpp"
 #include "fit/selection/sweep_solution.hpp"
 #include "signal/robust.hpp"
@@ -251,26 +252,6 @@ class Assembler {
   fit::Intervals intervals_;
 };
 
-/// The recordings say nothing of zeta.
-bool is_damping_open(const SweepFit& sweep) {
-  const Parameter* const zeta = sweep.result.find(ParameterId::DampingRatio);
-  return zeta != nullptr && zeta->status == ParameterStatus::Weak && zeta->estimate.ci95 &&
-         zeta->estimate.ci95->low <= 0.0 && zeta->estimate.ci95->high >= 1.0;
-}
-
-/// A fit with zeta held at 0 in place of one that says nothing of it.
-SweepFit with_open_damping(SweepFit sweep) {
-  for (Parameter& parameter : sweep.result.parameters) {
-    if (parameter.id != ParameterId::DampingRatio) continue;
-    const double error = 1.0 / std::sqrt(12.0);  // anything between 0 and 1 is as likely
-    parameter.estimate = {0.0, error, Interval{0.0, 1.0}, "it can lie anywhere between 0 and 1: the fit takes 0"};
-    parameter.status = ParameterStatus::Weak;
-  }
-  if (sweep.result.estimate) sweep.result.estimate->damping_identified = false;
-  sweep.result.conditional_on.emplace_back("a damping ratio of 0, of which the recordings say nothing");
-  return sweep;
-}
-
 std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, const FitOptions& options) {
   const SweepData data = fit::prepare_sweep(recordings, options);
   if (data.fitted.size() < 2) return std::nullopt;
@@ -300,11 +281,13 @@ std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, 
 
 std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
   std::optional<SweepFit> sweep = fit_at_once(recordings, options);
-  if (!sweep || options.held.damping_ratio || !is_damping_open(*sweep)) return sweep;
+  if (!sweep || options.held.damping_ratio || !fit::is_damping_open(sweep->result)) return sweep;
   FitOptions undamped = options;
   undamped.held.damping_ratio = 0.0;
   std::optional<SweepFit> simpler = fit_at_once(recordings, undamped);
-  return simpler ? with_open_damping(*std::move(simpler)) : std::move(sweep);
+  if (!simpler) return sweep;
+  fit::tell_open_damping(simpler->result);
+  return simpler;
 }
 
 }  // namespace slipfit

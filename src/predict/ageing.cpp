@@ -14,6 +14,9 @@ namespace {
 /// The row of ModelEstimate's values that holds ln (F_s - F_k(0+)).
 constexpr Eigen::Index kDifference = 3;
 
+/// That of alpha.
+constexpr Eigen::Index kRate = 5;
+
 /// The same bodies, with static friction that does not age.
 ModelEstimate held_at(const ModelEstimate& model, double difference_N) {
   ModelEstimate held = model;
@@ -45,12 +48,16 @@ Jet aged_jet(const ModelEstimate& model, double difference_N, Jet stick_s) {
 /// The speed at which stick-slip ends, with its derivatives: the static friction after a stick only just reaches the
 /// F_s - F_k(0+) that made it so long, and changes with it as fast, so that only the move at F_s - F_k(0+) held counts.
 Jet end_speed(const ModelEstimate& model, double difference_N, double speed_m_per_s) {
-  const ModelEstimate held = held_at(model, difference_N);
-  const auto stick_at = [&held](double speed) { return held_motion_at(held, speed).cycle->stick_s; };
-  Jet stick_s = stick_at(speed_m_per_s);
-  constexpr double kStep = 1e-4;  // of ln V; only the interval rests on it
-  const double slower_m_per_s = speed_m_per_s * std::exp(-kStep);
-  const double by_log_speed = (stick_s.a - stick_at(slower_m_per_s).a) / kStep;
+  ModelEstimate held = held_at(model, difference_N);
+  Jet stick_s = held_motion_at(held, speed_m_per_s).cycle->stick_s;
+  // Without a rise after slips, w_n times the stick time is a function of lambda, which is as D / V, of alpha V, and of
+  // what has no speed in it; with one the path of the stick is a function of what the path would be without.
+  held.reloading.reset();
+  const Jet straight_s = held_motion_at(held, speed_m_per_s).cycle->stick_s;
+  const double straight_by_log_speed =
+      -straight_s.v(kDifference) + jets_of(model).alpha_s_per_m.a * straight_s.v(kRate);
+  const double by_straight = stick_s.v(kDifference) / straight_s.v(kDifference);
+  const double by_log_speed = by_straight * (straight_s.a + straight_by_log_speed) - stick_s.a;
   take_derivative_by_difference(stick_s, difference_N);
   const Jet excess_N = law_of(model).after(stick_s) - difference_N;
   const double rate_N_per_s = model.ageing->rate_N / (stick_s.a + model.ageing->cutoff_s);

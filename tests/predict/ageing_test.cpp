@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "differences.hpp"
@@ -68,6 +69,21 @@ PredictionModel cut_off_example() {
     model.estimate.covariance[i][7] = model.estimate.covariance[7][i] = 0.2 * 0.03 * se;
   }
   model.estimate.covariance[7][7] = 0.03 * 0.03;
+  return model;
+}
+
+/// With sticks that rise more steeply after a slip, too.
+PredictionModel reloading_example() {
+  PredictionModel model = cut_off_example();
+  model.estimate.reloading = Reloading{0.04, 1.5e-4};
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double se = std::sqrt(model.estimate.covariance[i][i]);
+    for (const auto& [place, own] : {std::pair{std::size_t{8}, 0.003}, std::pair{std::size_t{9}, 0.05}}) {
+      model.estimate.covariance[i][place] = model.estimate.covariance[place][i] = 0.2 * own * se;
+    }
+  }
+  model.estimate.covariance[8][8] = 0.003 * 0.003;
+  model.estimate.covariance[9][9] = 0.05 * 0.05;
   return model;
 }
 
@@ -154,7 +170,7 @@ TEST_CASE("ageing: the limit of no cut-off is ageing without one") {
 }
 
 TEST_CASE("ageing: intervals follow from derivatives that agree with differences") {
-  const PredictionModel model = GENERATE(example(), cut_off_example());
+  const PredictionModel model = GENERATE(example(), cut_off_example(), reloading_example());
   for (const double speed : {0.0005, 0.001, 0.003}) {
     CAPTURE(speed);
     for (const auto quantity :

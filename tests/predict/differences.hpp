@@ -19,6 +19,8 @@ inline slipfit::PredictionModel moved(slipfit::PredictionModel model, std::size_
   if (i == 5 && e.speed_dependence) e.speed_dependence->alpha_s_per_m += step;
   if (i == 6 && e.ageing) e.ageing->rate_N += step;
   if (i == 7 && e.ageing) e.ageing->cutoff_s += step;
+  if (i == 8 && e.reloading) e.reloading->force_N += step;
+  if (i == 9 && e.reloading) e.reloading->length_m *= std::exp(step);
   return model;
 }
 
@@ -28,11 +30,13 @@ template <class Function>
 double standard_error_by_differences(const slipfit::PredictionModel& model, double relative_step,
                                      const Function& quantity) {
   const slipfit::ModelEstimate& e = model.estimate;
-  std::array<double, slipfit::kModelValues> sizes{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+  std::array<double, slipfit::kModelValues> sizes{};
+  sizes.fill(1.0);
   if (e.speed_dependence) sizes[4] = std::abs(e.speed_dependence->slope_N_s_per_m);
   if (e.speed_dependence) sizes[5] = std::abs(e.speed_dependence->alpha_s_per_m);
   if (e.ageing) sizes[6] = e.ageing->rate_N;
   if (e.ageing && e.ageing->cutoff_s > 0.0) sizes[7] = e.ageing->cutoff_s;
+  if (e.reloading) sizes[8] = e.reloading->force_N;
   std::array<double, slipfit::kModelValues> gradient{};
   for (std::size_t i = 0; i < gradient.size(); ++i) {
     const auto slope = [&](double step) {
