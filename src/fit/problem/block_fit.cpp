@@ -2,6 +2,9 @@
 
 #include <limits>
 #include <utility>
+#include <vector>
+
+#include "core/quantile.hpp"
 
 namespace slipfit::fit {
 
@@ -46,6 +49,16 @@ double resting_share(const BlockFit& fit) {
   double resting = 0.0;
   for (std::size_t i = 0; i < fit.size(); ++i) resting += fit.state(i).resticks() ? 1.0 : 0.0;
   return resting / static_cast<double>(fit.size());
+}
+
+double median_stick_s(const BlockFit& fit) {
+  std::vector<double> sticks_s;
+  for (std::size_t i = 0; i + 1 < fit.size(); ++i) {
+    if (!fit.data(i).continuous_with_next) continue;
+    const CycleState state = fit.state(i);
+    sticks_s.push_back(fit.state(i + 1).onset_s - state.onset_s - state.slip_s());
+  }
+  return median(std::move(sticks_s));
 }
 
 }  // namespace slipfit::fit

@@ -55,6 +55,9 @@ class BlockFit {
 /// Share of the slips that come to rest at the solution, under a law in closed form.
 double resting_share(const BlockFit& fit);
 
+/// Median time from the end of one slip to the onset of the next.
+double median_stick_s(const BlockFit& fit);
+
 /// What the recordings of a sweep have in common beside the globals; otherwise each has its own.
 struct Sharing {
   bool level = false;       ///< F_k(0+): no sensor zero or run-to-run friction between them

@@ -60,7 +60,6 @@ struct Findings {
   bool weakens = false;                 ///< friction falls over a slip distance, in the model
   std::string slip_distance_unknown{};  ///< why D_c was asked for in vain; empty: it was not
   bool mass_gives_frequency = false;    ///< w_n is held at sqrt(k / m) of the stated mass, whose error the spread holds
-  std::string reload_doubt{};           ///< why the rise after a slip is not identified
   Warnings warnings{};
 
   /// Of F_k(0+) and F_s - F_k(0+), which depend on the law below the speeds that were measured.

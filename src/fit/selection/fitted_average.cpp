@@ -16,7 +16,6 @@
 #include "fit/selection/kernel_search.hpp"
 #include "fit/selection/reloading_fit.hpp"
 #include "fit/selection/tiers.hpp"
-#include "signal/robust.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -26,17 +25,6 @@ constexpr std::size_t kCompareCycles = 40;  // enough to tell two kernels apart
 constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
 constexpr double kForgottenLags = 8.0;      // e^-8
 constexpr double kFewRest = 0.9 * thresholds::kRestickShare;  // of 64 slips two standard errors below it
-
-/// Median time from the end of one slip to the onset of the next.
-double stick_s(const BlockFit& blocks) {
-  std::vector<double> sticks_s;
-  for (std::size_t i = 0; i + 1 < blocks.size(); ++i) {
-    if (!blocks.data(i).continuous_with_next) continue;
-    const CycleState state = blocks.state(i);
-    sticks_s.push_back(blocks.state(i + 1).onset_s - state.onset_s - state.slip_s());
-  }
-  return signal::median(std::move(sticks_s));
-}
 
 /// Where the search for W begins; empty without a sign of averaging. The sum of squares may have two minima, one of
 /// much averaging, where the time of the fall is W's, and one of little with slips that are too slow.
@@ -124,7 +112,7 @@ bool tells_slips(const DampedFit& fit) {
   const double damping_error = std::sqrt(std::max(0.0, fit.uncertainty.covariance(kDamping, kDamping)));
   return damping_error < thresholds::kTellingDamping &&
          fit.average->seconds > thresholds::kSureTerm * fit.average->standard_error_s &&
-         fit.average->seconds < stick_s(fit.blocks);
+         fit.average->seconds < median_stick_s(fit.blocks);
 }
 
 /// The average that explains some of the samples of some cycles best; empty where a sensor of first order is not ten

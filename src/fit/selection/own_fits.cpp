@@ -6,11 +6,12 @@
 #include <cstddef>
 
 #include "core/fit_thresholds.hpp"
+#include "core/quantile.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/reloading_fit.hpp"
-#include "signal/robust.hpp"
+#include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -177,7 +178,7 @@ double median_stiffness(const OwnFits& own) {
   for (const auto& fit : own.fits) {
     if (fit) stiffnesses.push_back(std::exp(fit->blocks.parameters.globals[kLogStiffness]));
   }
-  return signal::median(std::move(stiffnesses));
+  return median(std::move(stiffnesses));
 }
 
 /// The mass that all recordings state, where averaging hides w_n in all of them.

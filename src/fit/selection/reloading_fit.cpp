@@ -12,7 +12,6 @@
 #include "fit/selection/finish.hpp"
 #include "fit/selection/ramps.hpp"
 #include "fit/selection/tiers.hpp"
-#include "signal/robust.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -27,14 +26,21 @@ constexpr int kMostRounds = 10;
 constexpr double kMostLengthChange = 0.7;   // of ln l in one round
 constexpr double kSmallLengthChange = 0.2;  // in standard errors
 
-double median_stick_s(const BlockFit& fit) {
-  std::vector<double> sticks_s;
-  for (std::size_t i = 0; i + 1 < fit.size(); ++i) {
-    if (!fit.data(i).continuous_with_next) continue;
-    const CycleState state = fit.state(i);
-    sticks_s.push_back(fit.state(i + 1).onset_s - state.onset_s - state.slip_s());
+/// The rise after slips that begin and end where `fit` has them, over this length.
+std::shared_ptr<const RiseAfterSlip> reloading_of(const Recording& recording, const Segmentation& segmentation,
+                                                  const BlockFit& fit, double length_m, bool is_free) {
+  RiseAfterSlip reloading{
+      length_m, is_free, fit.scales().speed_m_per_s, recording.conditions().sensor_average_s.value_or(0.0), {}, {}};
+  for (const DetectedSlip& slip : segmentation.slips) {
+    reloading.slip_begin_s.push_back(recording.time_s()[slip.peak]);
+    reloading.slip_end_s.push_back(recording.time_s()[slip.trough]);
   }
-  return signal::median(std::move(sticks_s));
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    const CycleState state = fit.state(i);
+    reloading.slip_begin_s[fit.data(i).slip] = state.onset_s;
+    reloading.slip_end_s[fit.data(i).slip] = state.onset_s + state.slip_s();
+  }
+  return std::make_shared<const RiseAfterSlip>(std::move(reloading));
 }
 
 /// The same cycles, those of `cycles`, with another rise.
@@ -128,26 +134,6 @@ bool is_justified(const Recording& recording, const DampedFit& fit, const Damped
 }
 
 }  // namespace
-
-std::shared_ptr<const RiseAfterSlip> reloading_of(const Recording& recording, const Segmentation& segmentation,
-                                                  const BlockFit& fit, double length_m, bool is_free) {
-  RiseAfterSlip reloading{
-      length_m, is_free, fit.scales().speed_m_per_s, recording.conditions().sensor_average_s.value_or(0.0), {}, {}};
-  for (const DetectedSlip& slip : segmentation.slips) {
-    reloading.slip_begin_s.push_back(recording.time_s()[slip.peak]);
-    reloading.slip_end_s.push_back(recording.time_s()[slip.trough]);
-  }
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    const CycleState state = fit.state(i);
-    reloading.slip_begin_s[fit.data(i).slip] = state.onset_s;
-    reloading.slip_end_s[fit.data(i).slip] = state.onset_s + state.slip_s();
-  }
-  return std::make_shared<const RiseAfterSlip>(std::move(reloading));
-}
-
-double gain_of(const DampedFit& fit, const DampedFit& other) {
-  return 2.0 * effective_samples(other) * std::log(other.uncertainty.noise / fit.uncertainty.noise);
-}
 
 std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quality& quality,
                                          const Segmentation& segmentation, const HeldParameters& held) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "fit/selection/solution.hpp"
@@ -10,10 +9,6 @@
 #include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
-
-/// The rise after slips that begin and end where `fit` has them, over this length.
-std::shared_ptr<const RiseAfterSlip> reloading_of(const Recording& recording, const Segmentation& segmentation,
-                                                  const BlockFit& fit, double length_m, bool is_free);
 
 /// The damped fit, its sticks rising more steeply after a slip (level/reloading.hpp) where straight ones bend and the
 /// rise is known and explains it. Before `finish_fit`.
@@ -25,8 +20,5 @@ std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quali
 std::optional<DampedFit> draft_with_rise_over(double length_m, const Recording& recording, const Quality& quality,
                                               const Segmentation& segmentation, const HeldParameters& held,
                                               const DampedFit& near);
-
-/// Twice the logarithm of the likelihood of one fit over that of another, each at its best noise.
-double gain_of(const DampedFit& fit, const DampedFit& other);
 
 }  // namespace slipfit::fit

@@ -173,7 +173,7 @@ std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& op
   HeldParameters held = options.held;
   std::vector<double> logs;
   for (const std::size_t i : data.fitted) logs.push_back(data.single[i]->blocks.parameters.globals[kLogStiffness]);
-  double stiffness = std::exp(signal::median(std::move(logs)));
+  double stiffness = std::exp(median(std::move(logs)));
   std::optional<SweepFits> fits;
   for (int round = 0; round < kMostRounds; ++round) {
     held.natural_frequency_rad_per_s = data.mass->frequency_rad_per_s(stiffness);

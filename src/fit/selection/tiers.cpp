@@ -88,6 +88,10 @@ SawtoothFit fit_sawtooth(const DampedFit& damped) {
   return result;
 }
 
+double gain_of(const DampedFit& fit, const DampedFit& other) {
+  return 2.0 * effective_samples(other) * std::log(other.uncertainty.noise / fit.uncertainty.noise);
+}
+
 std::string too_few_samples(double samples_per_slip, double sample_interval_s) {
   const double rate_Hz = std::ceil(6.0 / samples_per_slip) / sample_interval_s;
   return fmt::format("the slip has {:.1f} samples; sample at {} or more", samples_per_slip,

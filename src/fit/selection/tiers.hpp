@@ -48,6 +48,9 @@ struct Resolution {
 /// at least once.
 double effective_samples(const DampedFit& fit);
 
+/// Twice the logarithm of the likelihood of one fit over that of another, each at its best noise.
+double gain_of(const DampedFit& fit, const DampedFit& other);
+
 /// "the slip has 1.4 samples; sample at 8.0 kHz or more": for 6 samples in a slip.
 std::string too_few_samples(double samples_per_slip, double sample_interval_s);
 
