@@ -184,6 +184,23 @@ void state_law(const DampedFit& fit, Findings& findings) {
   if (!fit.law_doubt.empty()) (findings.weakens ? findings.slip_doubt : findings.slip_distance_unknown) = fit.law_doubt;
 }
 
+/// Why w_n and zeta cannot be read from the slips of a contact that is not the model's and not seen as it is; empty:
+/// they can. A fall that the sensor's average draws out fits as well as a slow slip then.
+std::string doubt_of_fall(const DampedFit& fit, const Residual& residual, const Findings& findings) {
+  const bool coloured = residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance;
+  const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
+  if (!large || !coloured || fit.mass_gives_frequency) return {};
+  const double average_s = fit.blocks.scales().sensor_average_s;
+  if (std::exp(fit.blocks.parameters.globals[kLogFrequency]) * average_s > thresholds::kHidingAverage) {
+    return "averaging over most of the slip hides w_n and zeta where residuals are larger than the noise and not "
+           "random: "
+           "state the mass with --mass";
+  }
+  if (!fit.blocks.level().reloading || findings.sensor_average_s || fit.average) return {};
+  return "beside sticks that rise more steeply after a slip the residuals are larger than the noise and not random: an "
+         "average of the sensor (--sensor-average), or friction, may set the time of the fall instead of the mass";
+}
+
 /// Why what is read from the slip cannot be told, or not surely.
 void state_doubts(const TierFits& fits, const Resolution& resolution, const Residual& residual, Findings& findings) {
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
@@ -206,14 +223,17 @@ void state_doubts(const TierFits& fits, const Resolution& resolution, const Resi
   } else if (large && residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance) {
     findings.slip_doubt = "residuals are larger than the noise and not random: the interval may be too short";
   }
-  if (!resolution.slip_resolved) findings.slip_unresolved = resolution.reason;
-  if (!resolution.damping_resolved) {
-    findings.damping = {std::nullopt, std::nullopt, std::nullopt, resolution.reason};
+  findings.slip_unresolved =
+      resolution.slip_resolved ? doubt_of_fall(fits.damped, residual, findings) : resolution.reason;
+  const bool is_resolved = findings.slip_unresolved.empty() && resolution.damping_resolved;
+  if (!is_resolved) {
+    const std::string& why = findings.slip_unresolved.empty() ? resolution.reason : findings.slip_unresolved;
+    findings.damping = {std::nullopt, std::nullopt, std::nullopt, why};
   }
   // A standard error of a third says less than the bound by the drop.
   const Estimate difference = findings.intervals.interval_of(SlidingModel(findings.values, findings.units).difference);
   const bool tells = *difference.standard_error < thresholds::kTellingError * *difference.value;
-  if (!resolution.slip_resolved || !resolution.damping_resolved || !tells) {
+  if (!is_resolved || !tells) {
     findings.difference_bounds = bounds_by_drop(fits.sawtooth, static_cast<double>(findings.cycles));
   }
 }
