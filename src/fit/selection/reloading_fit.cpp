@@ -67,6 +67,7 @@ struct Best {
   double sum = std::numeric_limits<double>::infinity();
   double length_m = 0.0;
   Globals globals{};
+  std::optional<RampBend> bend{};  ///< of the sticks that are left
 };
 
 /// The length over which the rise explains some of the cycles best.
@@ -85,7 +86,7 @@ Best best_length(const Recording& recording, const Segmentation& segmentation, c
     BlockFit trial = with_rise(fit, cycles, reloading_of(recording, segmentation, fit, length_m, false));
     if (!held[kDamping]) trial.parameters.globals[kDamping] = std::max(0.05, fit.parameters.globals[kDamping]);
     const double sum = solve(trial, {held, false, true, kSearchIterations, kRoughRise});
-    if (sum < best.sum) best = {sum, length_m, trial.parameters.globals};
+    if (sum < best.sum) best = {sum, length_m, trial.parameters.globals, ramp_bend(trial)};
   }
   return best;
 }
@@ -118,7 +119,14 @@ std::optional<DampedFit> converged(const Recording& recording, const Quality& qu
 }
 
 bool bends(const std::optional<RampBend>& bend) {
-  return bend && bend->log_ratio > thresholds::kBendSigmas * bend->standard_error;
+  return bend && bend->log_ratio > std::max(thresholds::kLeastBend, thresholds::kBendSigmas * bend->standard_error);
+}
+
+/// Some of the cycles do not exclude that the rise takes half of the bend away.
+bool promises(const Best& best, const RampBend& before) {
+  if (!std::isfinite(best.sum) || !best.bend) return false;
+  const double surely = std::abs(best.bend->log_ratio) - thresholds::kBendSigmas * best.bend->standard_error;
+  return surely < thresholds::kHalvedStack * before.log_ratio;
 }
 
 /// A and l are told by this recording alone, and explain most of what bends.
@@ -142,7 +150,7 @@ std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quali
   const std::optional<RampBend> bend = ramp_bend(plain->blocks);
   if (!bends(bend)) return plain;
   const Best best = best_length(recording, segmentation, plain->blocks, held_of(held));
-  if (!std::isfinite(best.sum)) return plain;
+  if (!promises(best, *bend)) return plain;
   std::optional<DampedFit> fit = draft_damped(
       recording, quality, segmentation, held,
       {best.globals, plain->excluded, reloading_of(recording, segmentation, plain->blocks, best.length_m, true),
