@@ -112,8 +112,7 @@ CycleFrame CycleModel::frame(const double* globals, const double* local) const {
 double CycleModel::rise_at(double time_s, const double* level) const {
   if (!level_->reloading) return 0.0;
   const double* const rise = level + (has_constant() ? 1 : 0) + level_->first_rise();
-  const RiseAfterSlip::Share share = level_->reloading->at(data_->slip, time_s);
-  return scales_.force * (rise[0] * share.value + (level_->reloading->is_free ? rise[1] * share.by_log_length : 0.0));
+  return scales_.force * level_->reloading->sum_of(level_->reloading->at(data_->slip, time_s), rise);
 }
 
 std::optional<CycleState> CycleModel::state(const double* globals, const double* local) const {

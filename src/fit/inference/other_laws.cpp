@@ -1,5 +1,4 @@
 #include "fit/inference/other_laws.hpp"
-#include "fit/selection/sweep_solution.hpp"
 
 #include <algorithm>
 #include <array>

@@ -25,6 +25,10 @@ struct RiseAfterSlip {
     double value = 0.0;
     double by_log_length = 0.0;
   };
+  /// What its columns add up to with these coefficients.
+  [[nodiscard]] double sum_of(const Share& share, const double* coefficients) const {
+    return coefficients[0] * share.value + (is_free ? coefficients[1] * share.by_log_length : 0.0);
+  }
   /// Near this slip: what the rise after the slip before it still lacks at the onset (below 0), 0 in the slip, the rise
   /// after it.
   [[nodiscard]] Share at(std::size_t slip, double time_s) const;

@@ -38,13 +38,10 @@ std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& f
   const auto& reloading = fit.level().reloading;
   if (!reloading) return bins;
   const double* const rise = fit.rise_data();
-  const auto force_of = [&](const RiseAfterSlip::Share& share) {
-    return fit.scales().force * (rise[0] * share.value + (reloading->is_free ? rise[1] * share.by_log_length : 0.0));
-  };
   for (StickBin& bin : bins) {
     const RiseAfterSlip::Line line = reloading->over(fit.data(cycle).slip, bin);
-    bin.force -= force_of(line.mean);
-    bin.slope -= force_of(line.slope);
+    bin.force -= fit.scales().force * reloading->sum_of(line.mean, rise);
+    bin.slope -= fit.scales().force * reloading->sum_of(line.slope, rise);
   }
   return bins;
 }
