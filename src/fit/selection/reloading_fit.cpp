@@ -63,32 +63,14 @@ BlockFit with_rise(const BlockFit& fit, const std::vector<CycleData>& cycles,
   return other;
 }
 
-struct Best {
-  double sum = std::numeric_limits<double>::infinity();
-  double length_m = 0.0;
-  Globals globals{};
-  std::optional<RampBend> bend{};  ///< of the sticks that are left
-};
+std::vector<CycleData> cycles_of(const BlockFit& fit) {
+  std::vector<CycleData> cycles;
+  for (std::size_t i = 0; i < fit.size(); ++i) cycles.push_back(fit.data(i));
+  return cycles;
+}
 
-/// The length over which the rise explains some of the cycles best.
-Best best_length(const Recording& recording, const Segmentation& segmentation, const BlockFit& fit, const Held& held) {
-  const double speed = fit.scales().speed_m_per_s;
-  const double stick_m = speed * median_stick_s(fit);
-  const double shortest_m = std::max(2.0 * speed * recording.sample_interval_s(), kShortestShare * stick_m);
-  const double longest_m = kLongestShare * stick_m;
-  Best best;
-  if (!(longest_m > shortest_m)) return best;
-  std::vector<CycleData> all;
-  for (std::size_t i = 0; i < fit.size(); ++i) all.push_back(fit.data(i));
-  const std::vector<CycleData> cycles = spread_subset(all, kSearchedCycles);
-  for (int i = 0; i < kLengths; ++i) {
-    const double length_m = shortest_m * std::pow(longest_m / shortest_m, static_cast<double>(i) / (kLengths - 1));
-    BlockFit trial = with_rise(fit, cycles, reloading_of(recording, segmentation, fit, length_m, false));
-    if (!held[kDamping]) trial.parameters.globals[kDamping] = std::max(0.05, fit.parameters.globals[kDamping]);
-    const double sum = solve(trial, {held, false, true, kSearchIterations, kRoughRise});
-    if (sum < best.sum) best = {sum, length_m, trial.parameters.globals, ramp_bend(trial)};
-  }
-  return best;
+double samples_over(double length_m, const Recording& recording, const DampedFit& fit) {
+  return length_m / (fit.blocks.scales().speed_m_per_s * recording.sample_interval_s());
 }
 
 /// Standard errors of A / Scales::force and ln l.
@@ -96,24 +78,54 @@ double error_of(const DampedFit& fit, Coordinate coordinate) {
   return std::sqrt(std::max(0.0, fit.uncertainty.covariance(coordinate, coordinate)));
 }
 
-/// Newton's steps in ln l, by its own column.
+double length_of(const DampedFit& fit) {
+  return fit.blocks.level().reloading->length_m;
+}
+
+/// A few cycles of `plain` with the rise over the length that explains them best, of several.
+std::optional<DampedFit> best_of_lengths(const Recording& recording, const Segmentation& segmentation,
+                                         const DampedFit& plain, const Held& held) {
+  const double speed = plain.blocks.scales().speed_m_per_s;
+  const double stick_m = speed * median_stick_s(plain.blocks);
+  const double shortest_m = std::max(2.0 * speed * recording.sample_interval_s(), kShortestShare * stick_m);
+  const double longest_m = kLongestShare * stick_m;
+  std::optional<DampedFit> best;
+  if (!(longest_m > shortest_m)) return best;
+  const std::vector<CycleData> cycles = spread_subset(cycles_of(plain.blocks), kSearchedCycles);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kLengths; ++i) {
+    const double length_m = shortest_m * std::pow(longest_m / shortest_m, static_cast<double>(i) / (kLengths - 1));
+    BlockFit trial =
+        with_rise(plain.blocks, cycles, reloading_of(recording, segmentation, plain.blocks, length_m, false));
+    if (!held[kDamping]) trial.parameters.globals[kDamping] = std::max(0.05, plain.blocks.parameters.globals[kDamping]);
+    const double sum = solve(trial, {held, false, true, kSearchIterations, kRoughRise});
+    if (!(sum < least)) continue;
+    least = sum;
+    best.emplace(DampedFit{std::move(trial), false, held, {}, plain.half_width_s, plain.excluded, {}, {}});
+  }
+  return best;
+}
+
+/// The same cycles with the rise over a length near this one that is free.
+std::optional<DampedFit> with_free_length(double length_m, const Recording& recording, const Quality& quality,
+                                          const Segmentation& segmentation, DampedFit fit) {
+  fit.blocks =
+      with_rise(fit.blocks, cycles_of(fit.blocks), reloading_of(recording, segmentation, fit.blocks, length_m, true));
+  if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
+  return with_uncertainty(std::move(fit), tolerated_misfit(quality));
+}
+
+/// Newton's steps in ln l, by its own column, while the data sample the rise.
 std::optional<DampedFit> converged(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-                                   DampedFit fit) {
-  for (int round = 0; round < kMostRounds; ++round) {
-    const double* const rise = fit.blocks.rise_data();
-    if (!(rise[0] > 0.0)) return std::nullopt;
+                                   std::optional<DampedFit> fit) {
+  for (int round = 0; fit && round < kMostRounds; ++round) {
+    const double* const rise = fit->blocks.rise_data();
+    const double length_m = length_of(*fit);
+    if (!(rise[0] > 0.0) || samples_over(length_m, recording, *fit) < thresholds::kShapeSamples) return std::nullopt;
     const double change = std::clamp(rise[1] / rise[0], -kMostLengthChange, kMostLengthChange);
-    if (std::abs(change) < kSmallLengthChange * error_of(fit, kReloadLength)) return fit;
-    const double length_m = fit.blocks.level().reloading->length_m * std::exp(change);
-    std::vector<CycleData> cycles;
-    for (std::size_t i = 0; i < fit.blocks.size(); ++i) cycles.push_back(fit.blocks.data(i));
-    BlockFit next = with_rise(fit.blocks, cycles, reloading_of(recording, segmentation, fit.blocks, length_m, true));
-    if (!std::isfinite(solve(next, {fit.held, false, true}))) return std::nullopt;
-    std::optional<DampedFit> draft = with_uncertainty(
-        {std::move(next), false, fit.held, fit.refused_damping, fit.half_width_s, fit.excluded, {}, {}},
-        tolerated_misfit(quality));
-    if (!draft) return std::nullopt;
-    fit = *std::move(draft);
+    const bool is_last = std::abs(change) < kSmallLengthChange * error_of(*fit, kReloadLength);
+    fit = with_free_length(length_m * std::exp(change), recording, quality, segmentation, *std::move(fit));
+    if (is_last) return fit;
   }
   return std::nullopt;
 }
@@ -122,22 +134,20 @@ bool bends(const std::optional<RampBend>& bend) {
   return bend && bend->log_ratio > std::max(thresholds::kLeastBend, thresholds::kBendSigmas * bend->standard_error);
 }
 
-/// Some of the cycles do not exclude that the rise takes half of the bend away.
-bool promises(const Best& best, const RampBend& before) {
-  if (!std::isfinite(best.sum) || !best.bend) return false;
-  const double surely = std::abs(best.bend->log_ratio) - thresholds::kBendSigmas * best.bend->standard_error;
+/// These few cycles do not exclude that the rise takes half of the bend away.
+bool promises(const DampedFit& few, const RampBend& before) {
+  const std::optional<RampBend> bend = ramp_bend(few.blocks);
+  if (!bend) return false;
+  const double surely = std::abs(bend->log_ratio) - thresholds::kBendSigmas * bend->standard_error;
   return surely < thresholds::kHalvedStack * before.log_ratio;
 }
 
 /// A and l are told by this recording alone, and explain most of what bends.
-bool is_justified(const Recording& recording, const DampedFit& fit, const DampedFit& plain, const RampBend& before) {
+bool is_justified(const DampedFit& fit, const DampedFit& plain, const RampBend& before) {
   const double rise = fit.blocks.rise_data()[0];
-  const double length_m = fit.blocks.level().reloading->length_m;
-  const double samples = length_m / (fit.blocks.scales().speed_m_per_s * recording.sample_interval_s());
   const std::optional<RampBend> after = ramp_bend(fit.blocks);
   const bool is_straight = after && std::abs(after->log_ratio) < thresholds::kHalvedStack * before.log_ratio;
-  return is_straight && samples >= thresholds::kShapeSamples &&
-         rise > thresholds::kSureTerm * error_of(fit, kReloadForce) &&
+  return is_straight && rise > thresholds::kSureTerm * error_of(fit, kReloadForce) &&
          error_of(fit, kReloadLength) < thresholds::kTellingError && gain_of(fit, plain) > thresholds::kTierPrice;
 }
 
@@ -149,14 +159,17 @@ std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quali
   if (!plain) return plain;
   const std::optional<RampBend> bend = ramp_bend(plain->blocks);
   if (!bends(bend)) return plain;
-  const Best best = best_length(recording, segmentation, plain->blocks, held_of(held));
-  if (!promises(best, *bend)) return plain;
+  std::optional<DampedFit> few = best_of_lengths(recording, segmentation, *plain, held_of(held));
+  if (!few) return plain;
+  few = converged(recording, quality, segmentation,
+                  with_free_length(length_of(*few), recording, quality, segmentation, *few));
+  if (!few || !promises(*few, *bend)) return plain;
   std::optional<DampedFit> fit = draft_damped(
       recording, quality, segmentation, held,
-      {best.globals, plain->excluded, reloading_of(recording, segmentation, plain->blocks, best.length_m, true),
-       plain->blocks.level().per_cycle});
-  if (fit) fit = converged(recording, quality, segmentation, *std::move(fit));
-  const bool is_better = fit && is_justified(recording, *fit, *plain, *bend);
+      {few->blocks.parameters.globals, plain->excluded,
+       reloading_of(recording, segmentation, plain->blocks, length_of(*few), true), plain->blocks.level().per_cycle});
+  fit = converged(recording, quality, segmentation, std::move(fit));
+  const bool is_better = fit && is_justified(*fit, *plain, *bend);
   return is_better ? std::move(fit) : std::move(plain);
 }
 
