@@ -28,7 +28,8 @@ struct LevelModel {
   std::shared_ptr<const RiseAfterSlip> reloading{};  ///< null: sticks are straight
 
   /// Functions of time: the polynomial's first, then the rise after a slip, then cosine and sine of each line.
-  [[nodiscard]] std::size_t columns() const { return terms + rise_columns() + 2 * lines_Hz.size(); }
+  [[nodiscard]] std::size_t columns() const { return first_line() + 2 * lines_Hz.size(); }
+  [[nodiscard]] std::size_t first_line() const { return terms + rise_columns(); }
   [[nodiscard]] std::size_t rise_columns() const { return reloading ? reloading->columns() : 0; }
   /// Of the first column of the rise among those behind the constant.
   [[nodiscard]] std::size_t first_rise() const { return terms > 0 ? terms - 1 : 0; }

@@ -69,6 +69,10 @@ HumTerm fit_term(const std::vector<double>& residuals, double step_s, double fre
   return {frequency_Hz, (rc * ss - rs * cs) / determinant, (rs * cc - rc * cs) / determinant};
 }
 
+double step_of(const Recording& recording) {
+  return recording.duration_s() / static_cast<double>(recording.size() - 1);
+}
+
 double power_of(const HumTerm& term) {
   return term.cosine * term.cosine + term.sine * term.sine;
 }
@@ -87,6 +91,15 @@ double refine(const std::vector<double>& residuals, double step_s, double freque
     if (curvature < 0.0) offset += 0.5 * (powers[best - 1] - powers[best + 1]) / curvature;
   }
   return frequency_Hz + 0.25 * offset * resolution_Hz;
+}
+
+/// Of the lines that the fit has. `values`: residuals with its hum put back.
+std::vector<double> refine_all(const Recording& recording, const BlockFit& fit, const std::vector<double>& values) {
+  std::vector<double> frequencies_Hz;
+  for (const double known_Hz : fit.level().lines_Hz) {
+    frequencies_Hz.push_back(refine(values, step_of(recording), known_Hz, 1.0 / recording.duration_s()));
+  }
+  return frequencies_Hz;
 }
 
 /// Amplitude^2 from the peak of a Hann spectrum of `samples` values. Residuals of 0 among them and a line between bins
@@ -130,7 +143,7 @@ struct FittedLine {
 std::vector<FittedLine> fitted_lines(const BlockFit& fit) {
   const double resolution_Hz = 1.0 / (fit.scales().time_end_s - fit.scales().time_begin_s);
   std::vector<FittedLine> lines;
-  const double* wave = fit.parameters.level.data() + fit.level().terms;
+  const double* wave = fit.parameters.level.data() + fit.level().first_line();
   for (const double frequency_Hz : fit.level().lines_Hz) {
     const double force = fit.scales().force * std::hypot(wave[0], wave[1]);
     lines.push_back({frequency_Hz, force, signal::is_of_mains(frequency_Hz, resolution_Hz)});
@@ -155,6 +168,33 @@ double mains_amplitude(const BlockFit& fit) {
   return amplitude;
 }
 
+std::vector<double> hum_at_other_frequencies(const BlockFit& fit, const std::vector<double>& frequencies_Hz) {
+  const double half_s = 0.5 * (fit.scales().time_end_s - fit.scales().time_begin_s);
+  std::vector<double> coefficients(2 * frequencies_Hz.size(), 0.0);
+  const double* const wave = fit.parameters.level.data() + fit.level().first_line();
+  const std::size_t known = std::min(frequencies_Hz.size(), fit.level().lines_Hz.size());
+  for (std::size_t i = 0; i < known; ++i) {
+    const double turn = 2.0 * std::numbers::pi * (fit.level().lines_Hz[i] - frequencies_Hz[i]) * half_s;
+    const std::complex<double> line = std::complex(wave[2 * i], -wave[2 * i + 1]) * std::polar(1.0, turn);
+    coefficients[2 * i] = line.real();
+    coefficients[2 * i + 1] = -line.imag();
+  }
+  return coefficients;
+}
+
+bool is_same_hum(const BlockFit& fit, const std::vector<double>& frequencies_Hz) {
+  constexpr double kNothing = 0.02;  // of the noise
+  const std::vector<FittedLine> lines = fitted_lines(fit);
+  if (lines.empty() || lines.size() != frequencies_Hz.size()) return false;
+  const double span_s = fit.scales().time_end_s - fit.scales().time_begin_s;
+  double difference = 0.0;  // root of the mean square over the recording, phases equal in its middle
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double turns = (frequencies_Hz[i] - lines[i].frequency_Hz) * span_s;
+    difference = std::hypot(difference, lines[i].force * turns * std::numbers::pi / std::sqrt(6.0));
+  }
+  return difference < kNothing * fit.scales().noise;
+}
+
 std::optional<StickRipple> fitted_ripple(const BlockFit& fit) {
   std::optional<StickRipple> largest;
   for (const FittedLine& line : fitted_lines(fit)) {
@@ -166,21 +206,22 @@ std::optional<StickRipple> fitted_ripple(const BlockFit& fit) {
   return largest;
 }
 
+std::vector<double> refine_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals) {
+  return refine_all(recording, fit, with_hum(recording, fit, std::move(residuals), {}));
+}
+
 std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
                              const std::vector<std::size_t>& outliers, const std::optional<StickRipple>& in_sticks) {
   if (!recording.clock_is_even()) return {};
   const std::vector<double> values = with_hum(recording, fit, std::move(residuals), outliers);
-  const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
+  const double step_s = step_of(recording);
   const std::size_t length = signal::good_length(values.size());
   const std::vector<double> power = signal::hann_power(values, length);
   const double bin_Hz = 1.0 / (static_cast<double>(length) * step_s);
   const double resolution_Hz = 1.0 / recording.duration_s();
 
   // A new line is taken where its peak is; its hum must be fitted before its frequency is worth refining.
-  std::vector<double> frequencies_Hz;
-  for (const double known_Hz : fit.level().lines_Hz) {
-    frequencies_Hz.push_back(refine(values, step_s, known_Hz, resolution_Hz));
-  }
+  std::vector<double> frequencies_Hz = refine_all(recording, fit, values);
   const auto is_new = [&](double f_Hz) {
     const auto is_near = [&](double f) { return std::abs(f - f_Hz) < 2.0 * resolution_Hz; };
     return std::none_of(frequencies_Hz.begin(), frequencies_Hz.end(), is_near) && !is_in_step(fit, f_Hz);

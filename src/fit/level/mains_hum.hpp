@@ -16,10 +16,20 @@ namespace slipfit::fit {
 std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
                              const std::vector<std::size_t>& outliers, const std::optional<StickRipple>& in_sticks);
 
+/// Where the residuals of the fit, as for find_hum, have the lines that it has already. On an even clock.
+std::vector<double> refine_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals);
+
 /// Of all fitted lines together, unit of the force; 0 without.
 double hum_amplitude(const BlockFit& fit);
 /// Of those of the mains.
 double mains_amplitude(const BlockFit& fit);
+
+/// Coefficients of the level for lines of these frequencies, where a fit that follows may begin: the lines that `fit`
+/// has come first, in its order, with the same phase in the middle of the recording; others are 0.
+std::vector<double> hum_at_other_frequencies(const BlockFit& fit, const std::vector<double>& frequencies_Hz);
+
+/// The fit has lines at these frequencies already, up to what the noise hides.
+bool is_same_hum(const BlockFit& fit, const std::vector<double>& frequencies_Hz);
 
 /// The largest fitted line that a drive may make: its speed changes by more than thresholds::kRippleShare and never
 /// turns back; not of the mains.

@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
 #include "fit/cycle/clock_weights.hpp"
 #include "fit/cycle/start.hpp"
-#include "fit/level/level_order.hpp"
 #include "fit/level/mains_hum.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/clipping.hpp"
 #include "fit/selection/finish.hpp"
+#include "fit/selection/first_guess.hpp"
 #include "fit/selection/outliers.hpp"
 #include "signal/robust.hpp"
 
@@ -21,7 +20,7 @@ namespace slipfit::fit {
 namespace {
 
 /// Enough cycles to find the shared parameters' neighbourhood; the full fit starts from there.
-constexpr std::size_t kProbeCycles = 12;
+constexpr std::size_t kProbeCycles = kFewestWandering;
 /// Enough to know the shared parameters to an error or two: all cycles then need few steps, however many they are.
 constexpr std::size_t kMiddleCycles = 64;
 constexpr int kQuickIterations = 8;
@@ -42,25 +41,11 @@ class Fitter {
   }
 
   std::optional<DampedFit> fit() {
-    start_stiffness_ = held_values_.stiffness_N_per_m.value_or(stiffness_of(recording_, segmentation_));
-    if (!(start_stiffness_ > 0.0)) return std::nullopt;
-    const std::vector<std::size_t> first_excluded = united(excluded_, near_.excluded);
-    cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), first_excluded);
-    if (cycles_.size() < thresholds::kFewestFitted) return std::nullopt;
-    scales_.time_begin_s = cycles_.front().window_begin_s;
-    scales_.time_end_s = cycles_.back().window_end_s;
-    const LevelModel level = first_level();
-    if (!level.lines_Hz.empty()) {
-      const HumLines hum{level.lines_Hz, scales_.time_begin_s};
-      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(), first_excluded, hum);
-    }
-    const std::vector<CycleData> probe = spread_subset(cycles_, std::max<std::size_t>(kProbeCycles, 3 * level.terms));
-    std::optional<BlockFit> start = fit_probe(probe, level);
+    std::optional<BlockFit> start = started();
     if (!start) return std::nullopt;
     if (cycles_.size() > 4 * kMiddleCycles) {
-      auto middle = fit_from(spread_subset(cycles_, kMiddleCycles), start->level(), start->parameters.globals,
-                             kMaxIterations, kRough);
-      if (middle) start = std::move(middle);
+      auto middle = fit_middle(*start, start->level().lines_Hz);
+      if (middle) start = with_settled_hum(*std::move(middle));
       if (resting_share(*start) < near_.least_resting) return std::nullopt;
     }
     std::optional<BlockFit> fit =
@@ -69,43 +54,28 @@ class Fitter {
     if (!fit) return std::nullopt;
     if (quality_.clock_jitter > thresholds::kWeighedClock) fit = with_clock_weights(std::move(*fit));
     refuse_negative_damping(*fit, kFinal);
-    return with_uncertainty({std::move(*fit), false, held_, refused_damping_, half_width_s(), excluded_, {}, {}},
-                            tolerated_misfit(quality_));
+    return with_uncertainty(
+        {std::move(*fit), false, held_, refused_damping_, half_width_s(start_stiffness_, scales_), excluded_, {}, {}},
+        tolerated_misfit(quality_));
   }
 
  private:
-  /// A slip lasts 2 (pi - atan lambda) / w_n around its middle; 0.3 half periods on either side are left for the fit to
-  /// move its ends.
-  [[nodiscard]] double half_width_s() const {
-    const double u = start_stiffness_ * scales_.speed_m_per_s * scales_.half_period_s / std::numbers::pi;
-    constexpr double kForgotten = 8.0;  // e^-8: what the sensor still shows of the slip in the straight ramp
-    return scales_.half_period_s * (1.0 - std::atan2(scales_.force, u) / std::numbers::pi + 0.3) +
-           kForgotten * scales_.sensor_lag_s + 0.5 * scales_.sensor_average_s;
-  }
-
-  /// The level model to begin with: the polynomial that the middles justify, or one level a cycle.
-  [[nodiscard]] LevelModel first_level() const {
-    std::vector<double> middles;
-    std::vector<double> drops;
-    for (const CycleData& cycle : cycles_) {
-      const DetectedSlip& slip = segmentation_.slips[cycle.slip];
-      middles.push_back(0.5 * (slip.peak_force + slip.trough_force));
-      drops.push_back(slip.drop());
+  /// Cuts the cycles and fits a few of them.
+  std::optional<BlockFit> started() {
+    start_stiffness_ = held_values_.stiffness_N_per_m.value_or(stiffness_of(recording_, segmentation_));
+    if (!(start_stiffness_ > 0.0)) return std::nullopt;
+    const std::vector<std::size_t> first_excluded = united(excluded_, near_.excluded);
+    cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), first_excluded);
+    if (cycles_.size() < thresholds::kFewestFitted) return std::nullopt;
+    scales_.time_begin_s = cycles_.front().window_begin_s;
+    scales_.time_end_s = cycles_.back().window_end_s;
+    LevelModel level = first_level(recording_, segmentation_, cycles_, scales_);
+    level.reloading = near_.reloading;
+    if (!level.lines_Hz.empty()) {
+      const HumLines hum{level.lines_Hz, scales_.time_begin_s};
+      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), first_excluded, hum);
     }
-    const std::vector<double> times_s = middles_s(cycles_);
-    const std::size_t terms = choose_level_terms(times_s, middles);
-    const double left = unexplained_level(times_s, middles, drops, terms);
-    const bool well_sampled = scales_.half_period_s > thresholds::kWellSampled * recording_.sample_interval_s();
-    const bool wanders = well_sampled && left > thresholds::kWanderingShare * 2.0 * scales_.force &&
-                         left > thresholds::kWanderingNoises * scales_.noise && cycles_.size() >= kProbeCycles;
-    return {wanders, wanders ? 0 : terms, segmentation_.mains_Hz, near_.reloading};
-  }
-
-  [[nodiscard]] std::vector<double> middles_s(const std::vector<CycleData>& cycles) const {
-    std::vector<double> values;
-    values.reserve(cycles.size());
-    for (const CycleData& cycle : cycles) values.push_back(segmentation_.slips[cycle.slip].middle_s);
-    return values;
+    return fit_probe(spread_subset(cycles_, std::max<std::size_t>(kProbeCycles, 3 * level.terms)), level);
   }
 
   /// Finds level model and neighbourhood of the shared parameters on a few cycles.
@@ -125,6 +95,27 @@ class Fitter {
     return fit;
   }
 
+  [[nodiscard]] std::optional<BlockFit> fit_middle(const BlockFit& near, const std::vector<double>& lines_Hz) const {
+    LevelModel level = near.level();
+    level.lines_Hz = lines_Hz;
+    return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.globals, kMaxIterations, kRough);
+  }
+
+  /// The spectrum tells the frequencies of lines less well than a fit of some cycles from the first to the last.
+  [[nodiscard]] BlockFit with_settled_hum(BlockFit middle) {
+    for (int pass = 0; pass < kCleanPasses && !middle.level().lines_Hz.empty(); ++pass) {
+      const Residuals residuals = without(residuals_of(recording_, middle), excluded_);
+      const std::vector<double> lines_Hz = refine_hum(recording_, middle, residuals.value);
+      if (is_same_hum(middle, lines_Hz)) break;
+      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_),
+                           united(excluded_, near_.excluded), {lines_Hz, scales_.time_begin_s});
+      std::optional<BlockFit> next = fit_middle(middle, lines_Hz);
+      if (!next) break;
+      middle = *std::move(next);
+    }
+    return middle;
+  }
+
   [[nodiscard]] bool explains_more(const BlockFit& wandering, const BlockFit& polynomial) const {
     const Uncertainty rich = estimate_uncertainty(wandering, {held_, false});
     const Uncertainty poor = estimate_uncertainty(polynomial, {held_, false});
@@ -133,33 +124,18 @@ class Fitter {
     return (poor.chi2 - rich.chi2) / extra > thresholds::kWanderingRatio * noise2;
   }
 
-  /// Where the search begins: several frequencies where the fall is hardly sampled or drawn out.
-  [[nodiscard]] std::vector<Globals> starts() const {
-    if (near_.globals) return {*near_.globals};
-    std::vector<double> stretches{1.0};
-    if (scales_.half_period_s < 6.0 * recording_.sample_interval_s()) stretches = {1.0, 1.6, 1.0 / 0.6};
-    // Lag and averaging draw the fall out.
-    const double smoothed_s = std::max(scales_.sensor_lag_s, 0.3 * scales_.sensor_average_s);
-    if (smoothed_s > 0.05 * scales_.half_period_s) stretches = {1.0, 1.4, 2.0};
-    const double zeta = held_values_.damping_ratio.value_or(0.05);
-    std::vector<Globals> globals;
-    for (const double stretch : stretches) {
-      const double omega = held_values_.natural_frequency_rad_per_s.value_or(
-          stretch * std::numbers::pi / (scales_.half_period_s * std::sqrt(1.0 - zeta * zeta)));
-      globals.push_back({std::log(start_stiffness_), std::log(omega), zeta});
-    }
-    return globals;
-  }
-
   /// Short runs with zeta held, the best of them.
   [[nodiscard]] std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles,
                                                         const LevelModel& level) const {
-    BlockFit fit(cycles, middles_s(cycles), scales_, level);
+    BlockFit fit(cycles, middles_s(segmentation_, cycles), scales_, level);
     SolveOptions quick{held_, false, true, kQuickIterations, kRough};
     quick.held[kDamping] = true;
     double best_cost = std::numeric_limits<double>::infinity();
     Parameters best;
-    for (const Globals& start : starts()) {
+    const double step_s = recording_.sample_interval_s();
+    const std::vector<Globals> starts =
+        near_.globals ? std::vector{*near_.globals} : first_globals(start_stiffness_, held_values_, scales_, step_s);
+    for (const Globals& start : starts) {
       set_start(fit, segmentation_, start);
       const double cost = solve(fit, quick);
       if (cost >= best_cost) continue;
@@ -174,7 +150,7 @@ class Fitter {
 
   [[nodiscard]] std::optional<BlockFit> fit_from(std::vector<CycleData> cycles, const LevelModel& level,
                                                  const Globals& globals, int max_iterations, double tolerance) const {
-    std::vector<double> middles = middles_s(cycles);
+    std::vector<double> middles = middles_s(segmentation_, cycles);
     BlockFit fit(std::move(cycles), std::move(middles), scales_, level);
     set_start(fit, segmentation_, globals);
     if (!std::isfinite(solve(fit, {held_, false, true, max_iterations, tolerance}))) return std::nullopt;
@@ -214,9 +190,11 @@ class Fitter {
         return fit;
       }
       excluded_ = united(excluded_, united(outliers, censored));
+      const bool is_settled = is_same_hum(fit, lines_Hz);
       std::optional<BlockFit> next = refit(std::move(fit), bad, lines_Hz);
       if (!next) return std::nullopt;
       fit = std::move(*next);
+      if (is_settled) break;
       const double hum_power = 0.5 * std::pow(hum_amplitude(fit), 2);
       if (hum_power < thresholds::kBlurringHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
     }
@@ -227,7 +205,7 @@ class Fitter {
   [[nodiscard]] BlockFit with_clock_weights(BlockFit fit) const {
     for (int round = 0; round < 3; ++round) {
       std::vector<CycleData> cycles = weigh_by_slope(fit);
-      std::vector<double> middles = middles_s(cycles);
+      std::vector<double> middles = middles_s(segmentation_, cycles);
       BlockFit weighted(std::move(cycles), std::move(middles), scales_, fit.level());
       weighted.parameters = fit.parameters;
       if (!std::isfinite(solve(weighted, {held_, false, true, kMaxIterations, kFinal}))) return fit;
@@ -240,6 +218,7 @@ class Fitter {
   /// make room for the new ones.
   [[nodiscard]] std::optional<BlockFit> refit(BlockFit fit, const std::vector<std::size_t>& bad,
                                               const std::vector<double>& lines_Hz) const {
+    const std::vector<double> hum_start = hum_at_other_frequencies(fit, lines_Hz);
     const Parameters start = std::move(fit.parameters);
     LevelModel level = fit.level();
     std::vector<std::size_t> slips;
@@ -247,7 +226,8 @@ class Fitter {
     { const BlockFit released = std::move(fit); }
     std::vector<CycleData> kept;
     const HumLines hum{lines_Hz, scales_.time_begin_s};
-    for (CycleData& cycle : cut_cycles(recording_, segmentation_, half_width_s(), excluded_, hum)) {
+    for (CycleData& cycle :
+         cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_, hum)) {
       if (std::find(bad.begin(), bad.end(), cycle.slip) == bad.end()) {
         kept.push_back(std::move(cycle));
       } else if (!kept.empty()) {
@@ -256,10 +236,12 @@ class Fitter {
     }
     if (kept.size() < thresholds::kFewestFitted) return std::nullopt;
     level.lines_Hz = lines_Hz;
-    std::vector<double> middles = middles_s(kept);
+    std::vector<double> middles = middles_s(segmentation_, kept);
     BlockFit refit(std::move(kept), std::move(middles), scales_, level);
     refit.parameters.globals = start.globals;
-    std::copy_n(start.level.begin(), level.terms, refit.parameters.level.begin());
+    const auto before_lines = static_cast<std::ptrdiff_t>(level.first_line());
+    std::copy_n(start.level.begin(), before_lines, refit.parameters.level.begin());
+    std::copy(hum_start.begin(), hum_start.end(), refit.parameters.level.begin() + before_lines);
     std::size_t old = 0;
     for (std::size_t i = 0; i < refit.size(); ++i) {
       while (old + 1 < slips.size() && slips[old] < refit.data(i).slip) ++old;  // a last slip may be new
