@@ -1,17 +1,21 @@
 #include "analysis/estimate.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <future>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "analysis/excerpt.hpp"
 #include "analysis/ranges.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/slip_shape.hpp"
 #include "core/parallel.hpp"
 #include "core/thresholds.hpp"
+#include "fit/fit_unless.hpp"
+#include "fit/rough_misfit.hpp"
 
 namespace slipfit {
 namespace {
@@ -34,6 +38,10 @@ TimedFrequency frequency_of(const Recording& recording, const Signals& signals) 
   return {std::move(spectral), stopwatch.elapsed_s()};
 }
 
+double misfit_of(double relative_residual, double onset_force_spread) {
+  return relative_residual + 0.3 * onset_force_spread;
+}
+
 /// How badly the cycles fit: residual and spread over the onset force. A missing fit is the worst; so is one that finds
 /// cycles in less than half of the slips offered to it, which are then no slips: a rhythm near the mains that was taken
 /// out as hum leaves such remains behind.
@@ -43,21 +51,66 @@ double misfit_of(const std::optional<FitResult>& fit) {
   const auto used = std::ranges::count_if(cycles, [](const Cycle& cycle) { return cycle.used; });
   const auto offered = std::ranges::count_if(cycles, [](const Cycle& cycle) { return cycle.selected; });
   if (2 * used < offered) return std::numeric_limits<double>::infinity();
-  return fit->diagnostics.relative_residual + 0.3 * fit->diagnostics.onset_force_spread;
+  return misfit_of(fit->diagnostics.relative_residual, fit->diagnostics.onset_force_spread);
 }
 
-/// Lines of the mains in the level take up some noise by themselves: a fit beneath them has to be clearly better.
-Estimates without_mains_if_better(const Recording& recording, const FitOptions& options, Estimates seen) {
-  std::optional<Segmentation> beneath =
-      find_slips_beneath_hum(recording, seen.signals.quality, seen.signals.segmentation);
-  if (!beneath) return seen;
-  std::optional<FitResult> other = fit_recording(recording, seen.signals.quality, *beneath, options);
-  if (!(misfit_of(other) < thresholds::kClearlyBetter * misfit_of(seen.fit))) return seen;
-  seen.signals.segmentation = std::move(*beneath);
-  seen.signals.spectral = frequency_of(recording, seen.signals).spectral;
-  seen.fit = std::move(other);
-  return seen;
-}
+/// Where lines of the mains may hide slips or pass for them: the slips beneath, and whether they are fitted better.
+class BeneathHum {
+ public:
+  BeneathHum(const Recording& recording, const FitOptions& options) : recording_(recording), options_(options) {}
+
+  /// A few neighbouring slips are fitted so much better beneath the mains that the fit of those seen is not needed.
+  /// Where it is so much worse, all of them are not tried. For recordings of many slips.
+  [[nodiscard]] bool is_sure(const Signals& seen) {
+    constexpr double kSure = 2.0;  // by which the misfit may change from a few slips to all
+    look(seen);
+    if (!slips_ || slips_->slips.size() < kFewSlips + 2) return false;
+    const double ratio = misfit_of_few(seen.quality, *slips_) / misfit_of_few(seen.quality, seen.segmentation);
+    if (ratio > kSure) slips_.reset();
+    is_sure_ = kSure * ratio < thresholds::kClearlyBetter;
+    return is_sure_;
+  }
+
+  /// Lines of the mains in the level take up some noise by themselves: a fit beneath them has to be clearly better.
+  [[nodiscard]] Estimates better_of(Estimates seen) {
+    look(seen.signals);
+    if (!slips_) return seen;
+    const Quality& quality = seen.signals.quality;
+    std::optional<FitResult> other = fit_recording(recording_, quality, *slips_, options_);
+    const double misfit = misfit_of(other);
+    if (is_sure_ && !std::isfinite(misfit)) {
+      seen.fit = fit_recording(recording_, quality, seen.signals.segmentation, options_);
+    }
+    if (!(misfit < thresholds::kClearlyBetter * misfit_of(seen.fit))) return seen;
+    seen.signals.segmentation = *std::move(slips_);
+    seen.signals.spectral = frequency_of(recording_, seen.signals).spectral;
+    seen.fit = std::move(other);
+    return seen;
+  }
+
+ private:
+  static constexpr std::size_t kFewSlips = 64;
+
+  void look(const Signals& seen) {
+    if (!has_looked_) slips_ = find_slips_beneath_hum(recording_, seen.quality, seen.segmentation);
+    has_looked_ = true;
+  }
+
+  /// With the lines of the mains in the level.
+  [[nodiscard]] double misfit_of_few(const Quality& quality, const Segmentation& segmentation) const {
+    Excerpt few = excerpt_of(recording_, quality, segmentation, kFewSlips);
+    few.segmentation.mains_Hz = slips_->mains_Hz;
+    const auto misfit = fit::rough_misfit(few.recording, few.quality, few.segmentation, options_.held);
+    if (!misfit || 2 * misfit->cycles < kFewSlips) return std::numeric_limits<double>::infinity();
+    return misfit_of(misfit->relative_residual, misfit->onset_force_spread);
+  }
+
+  const Recording& recording_;
+  const FitOptions& options_;
+  bool has_looked_ = false;
+  bool is_sure_ = false;
+  std::optional<Segmentation> slips_;
+};
 
 }  // namespace
 
@@ -76,13 +129,23 @@ Estimates estimate(const Detected& detected, const FitOptions& options) {
   // Named, and so copied: where there is no thread, async begins anew with what it was given.
   const auto spectrum_task = [&] { return frequency_of(recording, detected.signals); };
   std::future<TimedFrequency> frequency = std::async(kLaunch, spectrum_task);
+  const auto take_frequency = [&] {
+    if (!frequency.valid()) return;
+    TimedFrequency timed = frequency.get();
+    estimates.signals.spectral = std::move(timed.spectral);
+    estimates.frequency_s = timed.seconds;
+  };
+  BeneathHum beneath(recording, options);
+  const auto is_hum = [&] {
+    take_frequency();
+    return may_be_hum(estimates.signals) && beneath.is_sure(estimates.signals);
+  };
   if (recording.size() >= kLarge) frequency.wait();
   const Stopwatch stopwatch;
-  estimates.fit = fit_recording(recording, estimates.signals.quality, estimates.signals.segmentation, options);
-  TimedFrequency timed = frequency.get();
-  estimates.signals.spectral = std::move(timed.spectral);
-  estimates.frequency_s = timed.seconds;
-  if (may_be_hum(estimates.signals)) estimates = without_mains_if_better(recording, options, std::move(estimates));
+  const Signals& seen = estimates.signals;
+  estimates.fit = fit::fit_unless(is_hum, recording, seen.quality, seen.segmentation, options);
+  take_frequency();
+  if (may_be_hum(estimates.signals)) estimates = beneath.better_of(std::move(estimates));
   if (estimates.fit) estimates.fit = in_range(*std::move(estimates.fit), recording.conditions());
   estimates.fit_s = stopwatch.elapsed_s();
   return estimates;

@@ -9,6 +9,7 @@
 
 #include "fit/contact/contact_fit.hpp"
 #include "fit/cycle/cycle_table.hpp"
+#include "fit/fit_unless.hpp"
 #include "fit/level/mains_hum.hpp"
 #include "fit/report/recording_findings.hpp"
 #include "fit/selection/damped_fit.hpp"
@@ -225,12 +226,11 @@ Chosen choose(const fit::FitInput& input, DampedFit damped, std::optional<Tier> 
 
 }  // namespace
 
-std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
-                                       const Segmentation& segmentation, const FitOptions& options) {
-  if (recording.conditions().force_view == ForceView::Contact)
-    return fit::fit_contact(recording, segmentation, options);
+std::optional<FitResult> fit::fit_unless(const GiveUp& give_up, const Recording& recording, const Quality& quality,
+                                         const Segmentation& segmentation, const FitOptions& options) {
+  if (recording.conditions().force_view == ForceView::Contact) return fit_contact(recording, segmentation, options);
   const HeldParameters held = held_parameters(options);
-  std::optional<DampedFit> damped = fit::draft_with_rise(recording, quality, segmentation, held);
+  std::optional<DampedFit> damped = draft_with_rise(recording, quality, segmentation, held, give_up);
   if (damped) damped = fit::fit_as_sensed(recording, quality, segmentation, held, *std::move(damped));
   if (!damped) return std::nullopt;
   damped = fit::fit_with_mass(recording, quality, segmentation, held, *std::move(damped));
@@ -256,6 +256,11 @@ std::optional<FitResult> fit_recording(const Recording& recording, const Quality
   result.warnings = one_of_each_code(result.warnings);
   if (options.curve) result.curve = curve_of(recording, chosen.blocks);
   return result;
+}
+
+std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
+                                       const Segmentation& segmentation, const FitOptions& options) {
+  return fit::fit_unless({}, recording, quality, segmentation, options);
 }
 
 }  // namespace slipfit

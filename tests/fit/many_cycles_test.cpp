@@ -71,6 +71,28 @@ TEST_CASE("a part of many cycles gives the parameters, and the warning says so")
   CHECK(*frequency.standard_error < 1e-3 / period_s);
 }
 
+TEST_CASE("hum that adds slips to many is taken off where a few of them show it, and the parameters are those below") {
+  Scene s;
+  s.stiffness = 5000.0;
+  s.omega = 900.0;
+  s.static_N = 4.2;
+  s.kinetic_N = 3.2;
+  s.cycles = 400.0;
+  s.noise = 0.02;
+  s.jitter = 0.05;
+  s.hum = 0.6;
+  const Recording recording = record(s);
+  const std::size_t seen = find_slips(recording, assess_quality(recording)).slips.size();
+  CHECK(static_cast<double>(seen) > 1.2 * s.cycles);
+  const Analysis analysis = analyze_and_fit(recording, {});
+  CHECK(std::abs(static_cast<double>(analysis.cycles.count) - s.cycles) < 0.01 * s.cycles);
+  CHECK(has_warning(analysis, "hum_fitted"));
+  check_truth(analysis, "stiffness_N_per_m", s.stiffness);
+  check_truth(analysis, "natural_frequency_rad_per_s", s.omega);
+  check_truth(analysis, "friction_difference_N", s.static_N - s.kinetic_N);
+  check_truth(analysis, "damping_ratio", s.zeta);
+}
+
 TEST_CASE("lines that keep the phase of the slips are of the cycles' shape and not of the mains") {
   // Straight ramps at 25 Hz with sudden falls: what the model misses of them repeats at 50, 100, 150 Hz and so on.
   constexpr int kPeriod = 400;

@@ -26,6 +26,7 @@ constexpr std::size_t kMiddleCycles = 64;
 constexpr int kQuickIterations = 8;
 constexpr int kCleanPasses = 4;
 constexpr int kProbeIterations = 12;
+constexpr int kRoughIterations = 20;
 constexpr int kMaxIterations = 60;
 constexpr double kRough = 0.1;  // SolveOptions::tolerance
 constexpr double kFinal = 1e-3;
@@ -47,6 +48,7 @@ class Fitter {
       auto middle = fit_middle(*start, start->level().lines_Hz);
       if (middle) start = with_settled_hum(*std::move(middle));
       if (resting_share(*start) < near_.least_resting) return std::nullopt;
+      if (near_.give_up && reduced_chi2(*start) > thresholds::kLargeChi2 && near_.give_up()) return std::nullopt;
     }
     std::optional<BlockFit> fit =
         fit_from(std::move(cycles_), start->level(), start->parameters.globals, kMaxIterations, kRough);
@@ -57,6 +59,13 @@ class Fitter {
     return with_uncertainty(
         {std::move(*fit), false, held_, refused_damping_, half_width_s(start_stiffness_, scales_), excluded_, {}, {}},
         tolerated_misfit(quality_));
+  }
+
+  /// All cycles as they are, roughly.
+  std::optional<BlockFit> rough() {
+    const std::optional<BlockFit> start = started();
+    if (!start) return std::nullopt;
+    return fit_from(std::move(cycles_), start->level(), start->parameters.globals, kRoughIterations, kRough);
   }
 
  private:
@@ -271,6 +280,12 @@ std::optional<DampedFit> draft_damped(const Recording& recording, const Quality&
                                       const Segmentation& segmentation, const HeldParameters& held, const Near& near) {
   if (segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
   return Fitter(recording, quality, segmentation, held, near).fit();
+}
+
+std::optional<BlockFit> rough_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
+                                  const HeldParameters& held) {
+  if (segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
+  return Fitter(recording, quality, segmentation, held, {}).rough();
 }
 
 std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& quality,

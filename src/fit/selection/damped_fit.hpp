@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,6 +14,10 @@
 
 namespace slipfit::fit {
 
+/// Asked once, before all of many cycles are fitted, where the model misses much of some of them: true ends the fit,
+/// which is then empty.
+using GiveUp = std::function<bool()>;
+
 /// Where a fit begins: beside another one of the same recording, first without the samples that this left out.
 struct Near {
   std::optional<Globals> globals{};  ///< empty: where the features of the slips lead
@@ -20,12 +25,17 @@ struct Near {
   std::shared_ptr<const RiseAfterSlip> reloading{};  ///< of the sticks
   bool level_per_cycle = false;  ///< the other one has a level of its own in every cycle, which is tried then
   double least_resting = 0.0;    ///< share of the slips: none where fewer of some of them come to rest
+  GiveUp give_up{};              ///< empty: never
 };
 
 /// `fit_damped` without what finish_fit adds to the uncertainty: all that a comparison of fits needs.
 std::optional<DampedFit> draft_damped(const Recording& recording, const Quality& quality,
                                       const Segmentation& segmentation, const HeldParameters& held,
                                       const Near& near = {});
+
+/// All cycles with no sample, no slip and no line looked for: how badly they fit, roughly.
+std::optional<BlockFit> rough_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
+                                  const HeldParameters& held);
 
 /// The per-cycle block fit with all that makes it stand real recordings: several starts in zeta, a level that may
 /// drift or wander, outliers left out, ramps joined where the data allow it. Empty: fewer than 3 cycles to fit, or no

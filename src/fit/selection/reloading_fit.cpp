@@ -154,8 +154,11 @@ bool is_justified(const DampedFit& fit, const DampedFit& plain, const RampBend& 
 }  // namespace
 
 std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quality& quality,
-                                         const Segmentation& segmentation, const HeldParameters& held) {
-  std::optional<DampedFit> plain = draft_damped(recording, quality, segmentation, held);
+                                         const Segmentation& segmentation, const HeldParameters& held,
+                                         const GiveUp& give_up) {
+  Near from_features;
+  from_features.give_up = give_up;
+  std::optional<DampedFit> plain = draft_damped(recording, quality, segmentation, held, from_features);
   if (!plain) return plain;
   const std::optional<RampBend> bend = ramp_bend(plain->blocks);
   if (!bends(bend)) return plain;

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "fit/selection/damped_fit.hpp"
 #include "fit/selection/solution.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/fit/parameter.hpp"
@@ -13,7 +14,8 @@ namespace slipfit::fit {
 /// The damped fit, its sticks rising more steeply after a slip (level/reloading.hpp) where straight ones bend and the
 /// rise is known and explains it. Before `finish_fit`.
 std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quality& quality,
-                                         const Segmentation& segmentation, const HeldParameters& held);
+                                         const Segmentation& segmentation, const HeldParameters& held,
+                                         const GiveUp& give_up = {});
 
 /// With the rise over a given length, after slips that begin and end where `near`, another fit of the recording, has
 /// them. Empty where the force falls after a slip in place of rising.
