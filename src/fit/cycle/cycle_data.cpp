@@ -17,10 +17,10 @@ constexpr double kForgottenLags = 8.0;  // e^-8: what a lagging sensor still sho
 
 class Cutter {
  public:
-  Cutter(const Recording& recording, const Segmentation& segmentation, double half_width_s,
-         const std::vector<std::size_t>& excluded, const HumLines& hum)
+  Cutter(std::span<const double> force, const Recording& recording, const Segmentation& segmentation,
+         double half_width_s, const std::vector<std::size_t>& excluded, const HumLines& hum)
       : time_s_(recording.time_s()),
-        force_(recording.force()),
+        force_(force),
         slips_(segmentation.slips),
         half_width_s_(half_width_s),
         step_s_(recording.sample_interval_s()),
@@ -203,7 +203,13 @@ bool is_selected(std::size_t slip, std::size_t slips) {
 
 std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,
                                   const std::vector<std::size_t>& excluded, const HumLines& hum) {
-  return Cutter(recording, segmentation, half_width_s, excluded, hum).cut();
+  return cut_cycles_of(recording.force(), recording, segmentation, half_width_s, excluded, hum);
+}
+
+std::vector<CycleData> cut_cycles_of(std::span<const double> force, const Recording& recording,
+                                     const Segmentation& segmentation, double half_width_s,
+                                     const std::vector<std::size_t>& excluded, const HumLines& hum) {
+  return Cutter(force, recording, segmentation, half_width_s, excluded, hum).cut();
 }
 
 CycleData thinned(CycleData cycle, double middle_s, double half_period_s, double step_s) {

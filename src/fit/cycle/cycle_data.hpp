@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "fit/coordinates.hpp"
@@ -94,6 +95,11 @@ bool is_selected(std::size_t slip, std::size_t slips);
 /// into bins.
 std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,
                                   const std::vector<std::size_t>& excluded, const HumLines& hum = {});
+
+/// With another force of every sample.
+std::vector<CycleData> cut_cycles_of(std::span<const double> force, const Recording& recording,
+                                     const Segmentation& segmentation, double half_width_s,
+                                     const std::vector<std::size_t>& excluded, const HumLines& hum = {});
 
 /// A cycle with some 20 samples in a half period of its slip, enough for its shape, and fewer beyond two half periods
 /// of its middle, where the curve is smooth; sticks as they are. `step_s`: of the clock.

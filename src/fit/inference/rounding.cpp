@@ -9,6 +9,16 @@
 
 namespace slipfit::fit {
 
+namespace {
+
+/// For |x| < 2^51, without a call: the last bit of the sum is 1.
+double nearest_integer(double x) {
+  constexpr double kLastBitIsOne = 0x1.8p52;
+  return (x + kLastBitIsOne) - kLastBitIsOne;
+}
+
+}  // namespace
+
 RoundedCopies::RoundedCopies(std::vector<double> model, double step, double residual_rms)
     : model_(std::move(model)),
       step_(step),
@@ -22,7 +32,7 @@ std::vector<double> RoundedCopies::draw(unsigned copy) const {
   forces.reserve(model_.size());
   for (const double force : model_) {
     const double noisy = force + noise_ * normal(generator);
-    forces.push_back(step_ * std::round((noisy - origin) / step_) + origin);
+    forces.push_back(step_ * nearest_integer((noisy - origin) / step_) + origin);
   }
   return forces;
 }

@@ -82,21 +82,18 @@ class RoundingMoves {
     for (unsigned copy = 0; copy < kRoundedCopies; ++copy) {
       std::vector<double> errors = copies.draw(copy);
       for (std::size_t i = 0; i < model.size(); ++i) errors[i] -= model[i];
-      moves.row(copy) = move_by(std::move(errors));
+      moves.row(copy) = move_by(errors);
     }
     return moves;
   }
 
  private:
   /// `errors`: of every sample.
-  [[nodiscard]] Eigen::RowVectorXd move_by(std::vector<double> errors) const {
+  [[nodiscard]] Eigen::RowVectorXd move_by(const std::vector<double>& errors) const {
     const BlockFit& fit = result_.blocks;
-    const auto time_s = recording_.time_s();
-    const auto recording =
-        Recording::create({time_s.begin(), time_s.end()}, std::move(errors), recording_.conditions());
     Eigen::RowVectorXd move = Eigen::RowVectorXd::Zero(kCoordinates);
     std::size_t next = 0;
-    for (CycleData& cycle : cut_cycles(recording.value(), segmentation_, result_.half_width_s, result_.excluded)) {
+    for (CycleData& cycle : cut_cycles_of(errors, recording_, segmentation_, result_.half_width_s, result_.excluded)) {
       if (next == fit.size() || cycle.slip != fit.data(next).slip) continue;
       cycle.weight = fit.data(next).weight;
       move += residuals_of(cycle, fit.scales().noise).transpose() * influences_[next];
