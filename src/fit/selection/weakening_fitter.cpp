@@ -21,12 +21,17 @@ namespace slipfit::fit {
 namespace {
 
 constexpr std::size_t kTrialCycles = 16;
-constexpr std::size_t kSomeCycles = 64;  // enough to see that the slips are explained no better
+constexpr std::size_t kFewCycles = 40;   // enough to see that the slips are explained no better
+constexpr std::size_t kSomeCycles = 64;  // of many
 constexpr double kHopeful = 1.1 * thresholds::kHalvedStack;
 constexpr double kNothing = 0.1;   // of its error: a slip distance that is none
 constexpr int kOwnIterations = 6;  // of onsets and forces by themselves
 constexpr int kTrialIterations = 40;
 constexpr int kFullIterations = 60;
+/// SolveOptions::tolerance. Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them
+/// an error off.
+constexpr double kTolerance = 1e-7;
+constexpr double kSomeTolerance = 1e-4;  // where a tenth of an error decides nothing
 
 /// k D_c / (F_s - F_k) to begin with: the sum of squares has several minima.
 constexpr std::array kStarts{0.05, 0.2, 0.45, 0.75};
@@ -62,11 +67,8 @@ bool has_slips(const BlockFit& fit) {
   return true;
 }
 
-/// Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them an error off.
-SolveOptions final_options(const Held& held) {
-  SolveOptions options{held, false, true, kFullIterations};
-  options.tolerance = 1e-7;
-  return options;
+SolveOptions final_options(const Held& held, double tolerance = kTolerance) {
+  return {held, false, true, kFullIterations, tolerance};
 }
 
 class WeakeningFitter {
@@ -90,7 +92,7 @@ class WeakeningFitter {
     if (cycles.size() < thresholds::kFewestFitted) return std::nullopt;
     const std::optional<Globals> start = best_start(some_of(cycles, kTrialCycles));
     if (!start || (missed_ && !promises(cycles, *start))) return std::nullopt;
-    std::optional<BlockFit> blocks = solved(cycles, *start);
+    std::optional<BlockFit> blocks = solved(cycles, *start, kTolerance);
     if (blocks) blocks = without_outliers(*std::move(blocks));
     if (!blocks) return std::nullopt;
     std::optional<DampedFit> fit =
@@ -122,16 +124,18 @@ class WeakeningFitter {
     return settled(std::move(clean), held_);
   }
 
-  [[nodiscard]] std::optional<BlockFit> solved(const std::vector<CycleData>& cycles, const Globals& start) const {
+  [[nodiscard]] std::optional<BlockFit> solved(const std::vector<CycleData>& cycles, const Globals& start,
+                                               double tolerance) const {
     BlockFit blocks = blocks_of(cycles);
     set_start(blocks, input_.segmentation, start);
     if (!solve_own(blocks, final_options(held_))) return std::nullopt;
-    return settled(std::move(blocks), held_);
+    return settled(std::move(blocks), held_, tolerance);
   }
 
   /// From where it stands.
-  [[nodiscard]] static std::optional<BlockFit> settled(BlockFit blocks, const Held& held) {
-    const bool is_solved = std::isfinite(solve(blocks, final_options(held))) && has_slips(blocks);
+  [[nodiscard]] static std::optional<BlockFit> settled(BlockFit blocks, const Held& held,
+                                                       double tolerance = kTolerance) {
+    const bool is_solved = std::isfinite(solve(blocks, final_options(held, tolerance))) && has_slips(blocks);
     return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
   }
 
@@ -154,9 +158,9 @@ class WeakeningFitter {
   /// False where some of the cycles show that the law will not be taken. They are not asked where all of them are not
   /// much more work.
   [[nodiscard]] bool promises(const std::vector<CycleData>& cycles, const Globals& start) const {
-    const std::vector<CycleData> some = some_of(cycles, kSomeCycles);
+    const std::vector<CycleData> some = some_of(cycles, std::clamp(cycles.size() / 3, kFewCycles, kSomeCycles));
     if (2 * samples_of(some) >= samples_of(cycles)) return true;
-    const std::optional<BlockFit> blocks = solved(some, start);
+    const std::optional<BlockFit> blocks = solved(some, start, kSomeTolerance);
     if (!blocks || is_beaten(*blocks) || loses_sticks(*blocks)) return false;
     // In place of an average it need not explain more.
     return coulomb_.average || (explains_enough(*blocks) && tells_distance(*blocks));
