@@ -51,7 +51,7 @@ class Fitter {
       if (near_.give_up && reduced_chi2(*start) > thresholds::kLargeChi2 && near_.give_up()) return std::nullopt;
     }
     std::optional<BlockFit> fit =
-        fit_from(std::move(cycles_), start->level(), start->parameters.globals, kMaxIterations, kRough);
+        fit_from(std::move(cycles_), start->level(), start->parameters.globals, near_.most_iterations, kRough);
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
     if (quality_.clock_jitter > thresholds::kWeighedClock) fit = with_clock_weights(std::move(*fit));
@@ -107,7 +107,9 @@ class Fitter {
   [[nodiscard]] std::optional<BlockFit> fit_middle(const BlockFit& near, const std::vector<double>& lines_Hz) const {
     LevelModel level = near.level();
     level.lines_Hz = lines_Hz;
-    return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.globals, kMaxIterations, kRough);
+    // What decides whether all are fitted has to be settled.
+    const double tolerance = near_.least_resting > 0.0 ? kFinal : kRough;
+    return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.globals, kMaxIterations, tolerance);
   }
 
   /// The spectrum tells the frequencies of lines less well than a fit of some cycles from the first to the last.
@@ -195,7 +197,7 @@ class Fitter {
       const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals.value), outliers, ripple);
       const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty();
       if (is_clean && (pass > 0 || near_.excluded.empty())) {
-        if (pass == 0) solve(fit, {held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
+        if (pass == 0) solve(fit, {held_, false, true, near_.most_iterations, kFinal});  // it was only rough so far
         return fit;
       }
       excluded_ = united(excluded_, united(outliers, censored));
@@ -256,7 +258,7 @@ class Fitter {
       while (old + 1 < slips.size() && slips[old] < refit.data(i).slip) ++old;  // a last slip may be new
       refit.parameters.cycles[i] = start.cycles[old];
     }
-    if (!std::isfinite(solve(refit, {held_, false, true, kMaxIterations, kFinal}))) return std::nullopt;
+    if (!std::isfinite(solve(refit, {held_, false, true, near_.most_iterations, kFinal}))) return std::nullopt;
     return refit;
   }
 

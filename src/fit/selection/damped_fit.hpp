@@ -25,6 +25,7 @@ struct Near {
   std::shared_ptr<const RiseAfterSlip> reloading{};  ///< of the sticks
   bool level_per_cycle = false;  ///< the other one has a level of its own in every cycle, which is tried then
   double least_resting = 0.0;    ///< share of the slips: none where fewer of some of them come to rest
+  int most_iterations = 60;      ///< of a solve of all cycles
   GiveUp give_up{};              ///< empty: never
 };
 

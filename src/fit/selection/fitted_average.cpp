@@ -23,8 +23,10 @@ namespace {
 constexpr std::size_t kSearchCycles = 10;   // enough to begin with
 constexpr std::size_t kCompareCycles = 40;  // enough to tell two kernels apart
 constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
+constexpr double kSameVariance = 0.01;      // in ln sigma^2
+constexpr int kAveragedIterations = 30;     // a fit that explains the slips settles in fewer
 constexpr double kForgottenLags = 8.0;      // e^-8
-constexpr double kFewRest = 0.9 * thresholds::kRestickShare;  // of 64 slips two standard errors below it
+constexpr double kFewRest = 0.95 * thresholds::kRestickShare;  // of 64 slips a standard error below it
 
 /// Where the search for W begins; empty without a sign of averaging. The sum of squares may have two minima, one of
 /// much averaging, where the time of the fall is W's, and one of little with slips that are too slow.
@@ -63,9 +65,9 @@ class Trials {
   [[nodiscard]] std::optional<Trial> fit(double variance_s2, const Globals& near) const {
     constexpr int kMostFits = 3;
     std::optional<Trial> best;
-    std::optional<DampedFit> fit = draft_damped(
-        with_average(recording_, variance_s2), quality_, segmentation_, held_,
-        {near, plain_.excluded, reloading(std::sqrt(12.0 * variance_s2)), plain_.blocks.level().per_cycle, kFewRest});
+    std::optional<DampedFit> fit = draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_,
+                                                {near, plain_.excluded, reloading(std::sqrt(12.0 * variance_s2)),
+                                                 plain_.blocks.level().per_cycle, kFewRest, kAveragedIterations});
     for (int fits = 1; fit; ++fits) {
       const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
       if (!beyond) break;
@@ -167,7 +169,10 @@ std::optional<DampedFit> fit_average(const Recording& recording, const Quality& 
   std::vector<double> variances_s2;
   for (const double guess_s : guesses) {
     const std::optional<double> average_s = search.converge(guess_s);
-    if (average_s) variances_s2.push_back(*average_s * *average_s / 12.0);
+    if (!average_s) continue;
+    const double variance_s2 = *average_s * *average_s / 12.0;
+    const auto is_same = [&](double other_s2) { return std::abs(std::log(variance_s2 / other_s2)) < kSameVariance; };
+    if (std::ranges::none_of(variances_s2, is_same)) variances_s2.push_back(variance_s2);
   }
   if (variances_s2.empty()) return std::nullopt;
   const double longest_lag_s = std::sqrt(kLongTail * *std::max_element(variances_s2.begin(), variances_s2.end()));

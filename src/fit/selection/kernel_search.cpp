@@ -88,7 +88,8 @@ KernelSearch::Least KernelSearch::least_squares(Kernel kernel, double variance_s
     if (!held) break;
     double sum = 0.0;
     for (std::size_t i = 0; i < fit.size(); ++i) sum += fit.cycle_sum_of_squares(i);
-    if (sum < least.sum) least = {sum, variance_s2, fit.parameters.globals, resting_share(fit)};
+    if (!(sum < least.sum)) break;
+    least = {sum, variance_s2, fit.parameters.globals, resting_share(fit)};
     const std::optional<Smoothing> beyond = estimate_smoothing(fit, *held, step_s_);
     if (!beyond) break;
     const double next_s2 = next_variance_s2(variance_s2, *beyond);
