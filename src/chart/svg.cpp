@@ -17,10 +17,11 @@ namespace {
 // Pixels.
 constexpr double kLeft = 74.0;
 constexpr double kRight = 16.0;
-constexpr double kAxisRoom = 52.0;   // below the axes: values and label
-constexpr double kLeastStep = 18.0;  // between values of the axis at the left
-constexpr double kDigit = 6.6;       // mean width of one at 12 px
-constexpr double kBetween = 6.0;     // least gap between two values below
+constexpr double kAxisRoom = 52.0;    // below the axes: values and label
+constexpr double kLeastStep = 18.0;   // between values of the axis at the left
+constexpr double kDigit = 6.6;        // mean width of one at 12 px
+constexpr double kWidestDigit = 7.7;  // of the fonts that readers may have in its place (DejaVu Sans)
+constexpr double kBetween = 6.0;      // least gap between two values below
 
 /// One panel: from values to pixels.
 class PanelDrawing {
@@ -99,7 +100,7 @@ class PanelDrawing {
       const double x = x_of(tick.value);
       drawing_.line(x, top_, x, bottom_, "class=\"grid\"");
       if (tick.text.empty()) continue;
-      const double half = 0.5 * kDigit * letters_in(tick.text);
+      const double half = 0.5 * kWidestDigit * letters_in(tick.text);
       const double inside = std::min(x, kLeft + width_ + kRight - half);  // of the picture, at the end of the axis
       drawing_.text(inside, bottom_ + 17.0, tick.text, "value", " text-anchor=\"middle\"");
     }
