@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """How long slipfit and two fits by scipy take for the same recording, and how far off they end.
 
-compare.py SLIPFIT [--runs N]
+compare.py SLIPFIT [--runs N] [--samples N] [--cycles N]
 
-The peers, all by scipy's least_squares from starts within 0.05 % of the truth:
+The peers, all by scipy's least_squares, from starts within 0.05 % of the truth where they do not look for their own:
   blocks            the model that slipfit fits (own onset and force for every cycle), evaluated by numpy in closed form
   blocks, sparse    the same, told which parameter moves which samples
   whole trace       one onset and F_s - F_k for all cycles: faster, and wrong where static friction scatters or the start
                     is off by more than 1 / (10 cycles) (docs/accuracy.md)
+  whole trace, own search    the same from a start that the trace gives: FFT, slopes, trials, parts of growing length
   solve_ivp         the whole trace with every slip integrated to its event; differences for the derivatives are taken wide
                     enough (1e-5) for the integrator's error not to drown them
 The peers' times are processor times of the fit alone. slipfit's are two: the processor time of the command, reading and
@@ -29,7 +30,6 @@ from scipy.optimize import brentq, least_squares
 TRUTH = {"stiffness_N_per_m": 5000.0, "natural_frequency_rad_per_s": 900.0, "damping_ratio": 0.05,
          "friction_difference_N": 1.0}
 KINETIC_N, SPEED, NOISE_N = 3.0, 0.01, 0.01
-SAMPLES, CYCLES = 10000, 100
 START_OFF = numpy.array([4e-4, -4e-4, 5e-4, 4e-4])  # relative; beyond 1 / (10 cycles) of the period: a false minimum
 
 
@@ -144,15 +144,15 @@ class Blocks:
         return pattern
 
 
-def simulate(slipfit, folder):
+def simulate(slipfit, folder, samples, cycles):
     period_s = cycle_of(5000.0, 900.0, 0.05, 1.0)[4] / 900.0
     file = folder + "/recording.csv"
     subprocess.run([slipfit, "simulate", "--stiffness", "5000", "--natural-frequency", "900", "--damping-ratio", "0.05",
                     "--static-friction", str(KINETIC_N + 1.0), "--kinetic-friction", str(KINETIC_N), "--speed", str(SPEED),
-                    "--duration", repr(period_s * (CYCLES + 4)), "--sample-rate", repr(SAMPLES / CYCLES / period_s),
+                    "--duration", repr(period_s * (cycles + 4)), "--sample-rate", repr(samples / cycles / period_s),
                     "--noise", str(NOISE_N), "--out", file, "--quiet"], check=True)
     rows = numpy.loadtxt(file, delimiter=",", skiprows=2)
-    rows = rows[rows[:, 0] > 1.2 * (KINETIC_N + 1.0) / 5000.0 / SPEED][:SAMPLES]  # without the ramp from rest
+    rows = rows[rows[:, 0] > 1.2 * (KINETIC_N + 1.0) / 5000.0 / SPEED][:samples]  # without the ramp from rest
     numpy.savetxt(file, rows, delimiter=",", header="time_s,force_N", comments="", fmt="%.9g")
     return file, rows[:, 0], rows[:, 1]
 
@@ -172,9 +172,62 @@ def good_start(time_s, force):
     return start
 
 
+def residuals(model, p, time_s, force):
+    """Large where the step left stick-slip."""
+    try:
+        return model(p, time_s) - force
+    except (ValueError, RuntimeError):
+        return numpy.full_like(force, 10.0 * numpy.ptp(force))
+
+
+def searched_start(time_s, force):
+    """A start from the trace alone: period by FFT, k by slopes, phase and w_n by trial; then fits of longer and longer parts."""
+    step_s = (time_s[-1] - time_s[0]) / (len(time_s) - 1)
+    length = 8 * len(force)
+    power = numpy.abs(numpy.fft.rfft((force - numpy.mean(force)) * numpy.hanning(len(force)), length)) ** 2
+    begin = int(3.0 * length / len(force))
+    peak = begin + int(numpy.argmax(power[begin:]))
+    period_s = length * step_s / peak
+    lag = max(1, int(0.05 * period_s / step_s))
+    k = numpy.median(force[lag:] - force[:-lag]) / (lag * step_s * SPEED)  # most of the time it sticks
+    fall = numpy.ptp(numpy.percentile(force - numpy.polyval(numpy.polyfit(time_s, force, 1), time_s), (1.0, 99.0)))
+    slip_s = max(period_s - fall / (k * SPEED), 0.03 * period_s)
+    first = time_s < time_s[0] + 6.0 * period_s
+    best = None
+    for omega in 1.05 * numpy.pi / slip_s * numpy.array([0.6, 0.8, 1.0, 1.3, 1.7, 2.3]):
+        def longer(drop):
+            return cycle_of(k, omega, 0.05, drop)[4] / omega - period_s
+        low, high = 1.5 * k * SPEED / omega, 2.0 * fall  # 1.5: stick-slip for certain
+        if high <= low or longer(low) * longer(high) > 0.0:
+            continue
+        drop = brentq(longer, low, high)
+        level = numpy.mean(force[first])
+        for onset_s in time_s[0] + numpy.linspace(0.0, period_s, 60, endpoint=False):
+            start = numpy.array([k, omega, 0.05, drop, level, onset_s])
+            misfit = closed_form(start, time_s[first]) - force[first]
+            start[4] -= numpy.mean(misfit)
+            if best is None or numpy.var(misfit) < best[0]:
+                best = numpy.var(misfit), start
+    start = best[1]
+    cycles = 6.0
+    while cycles * period_s < time_s[-1] - time_s[0]:
+        part = time_s < time_s[0] + cycles * period_s
+        start = least_squares(lambda p: residuals(closed_form, p, time_s[part], force[part]), start, x_scale=numpy.abs(start) + 1e-3).x
+        cycles *= 3.0
+    return start
+
+
+def fit_with_search(time_s, force):
+    begin = time.process_time()
+    start = searched_start(time_s, force)
+    seconds = time.process_time() - begin
+    fit_s, result = fit(closed_form, start, time_s, force)
+    return seconds + fit_s, result
+
+
 def fit(model, start, time_s, force, **options):
     begin = time.process_time()
-    result = least_squares(lambda p: (model(p, time_s) - force) / NOISE_N, start, x_scale=numpy.abs(start) + 1e-3, **options)
+    result = least_squares(lambda p: residuals(model, p, time_s, force) / NOISE_N, start, x_scale=numpy.abs(start) + 1e-3, **options)
     return time.process_time() - begin, result
 
 
@@ -207,12 +260,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("slipfit")
     parser.add_argument("--runs", type=int, default=21)
+    parser.add_argument("--samples", type=int, default=10000)
+    parser.add_argument("--cycles", type=int, default=100)
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        file, time_s, force = simulate(arguments.slipfit, folder)
+        file, time_s, force = simulate(arguments.slipfit, folder, arguments.samples, arguments.cycles)
         runs = [fit_by_slipfit(arguments.slipfit, file) for _ in range(arguments.runs)]
         ours = [numpy.median([seconds[i] for seconds in runs]) for i in (0, 1)]
-        print(f"{len(time_s)} samples, {CYCLES} cycles, noise {NOISE_N} N")
+        print(f"{len(time_s)} samples, {arguments.cycles} cycles, noise {NOISE_N} N")
         print(f"slipfit: command {1e3 * ours[0]:.1f} ms, fit alone {1e3 * ours[1]:.1f} ms, errors {errors(runs[0][2])}")
         start = good_start(time_s, force)
         blocks = Blocks(start, time_s)
@@ -220,6 +275,7 @@ def main():
         report("blocks, sparse", ours, blocks.values,
                *fit(blocks, blocks.start, time_s, force, jac_sparsity=blocks.sparsity(len(time_s))))
         report("whole trace", ours, lambda p: p, *fit(closed_form, start, time_s, force))
+        report("whole trace, own search", ours, lambda p: p, *fit_with_search(time_s, force))
         off = numpy.max(numpy.abs(integrated(start, time_s) - closed_form(start, time_s)))
         print(f"solve_ivp is off the closed form by {off:.1e} N at most")
         report("solve_ivp", ours, lambda p: p, *fit(integrated, start, time_s, force, diff_step=1e-5))
