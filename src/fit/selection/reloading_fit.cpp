@@ -23,10 +23,8 @@ constexpr double kRoughRise = 0.1;       // SolveOptions::tolerance
 constexpr double kShortestShare = 0.02;  // of a stick
 constexpr double kLongestShare = 0.5;
 constexpr int kMostRounds = 10;
-constexpr double kMostLengthChange = 0.7;  // of ln l in one round
-constexpr double kShrinkingLength = 0.8;   // of a change over the one before
-constexpr double kLargeLengthChange = 0.2;
-constexpr int kMostTurns = 1;               // without that
+constexpr double kMostLengthChange = 0.7;   // of ln l in one round
+constexpr int kMostWorse = 1;               // rounds that leave more than another
 constexpr double kSmallLengthChange = 0.2;  // in standard errors
 
 /// The rise after slips that begin and end where `fit` has them, over this length.
@@ -118,19 +116,20 @@ std::optional<DampedFit> with_free_length(double length_m, const Recording& reco
   return with_uncertainty(std::move(fit), tolerated_misfit(quality));
 }
 
-/// Newton's steps in ln l, by its own column, while the data sample the rise and the steps do not go to and fro.
+/// Newton's steps in ln l, by its own column, while the data sample the rise and the steps lead down.
 std::optional<DampedFit> converged(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
                                    std::optional<DampedFit> fit) {
-  double last_change = 0.0;
-  int turns = 0;
+  double least = std::numeric_limits<double>::infinity();
+  int worse = 0;
   for (int round = 0; fit && round < kMostRounds; ++round) {
     const double* const rise = fit->blocks.rise_data();
     const double length_m = length_of(*fit);
     if (!(rise[0] > 0.0) || samples_over(length_m, recording, *fit) < thresholds::kShapeSamples) return std::nullopt;
     const double change = std::clamp(rise[1] / rise[0], -kMostLengthChange, kMostLengthChange);
-    const bool shrinks = std::abs(change) < std::max(kLargeLengthChange, kShrinkingLength * std::abs(last_change));
-    if (change * last_change < 0.0 && !shrinks && ++turns > kMostTurns) return std::nullopt;
-    last_change = change;
+    const double left = fit->uncertainty.chi2;
+    const double by_chance = thresholds::kTierPrice * std::pow(fit->uncertainty.noise / fit->blocks.scales().noise, 2);
+    if (left > least + by_chance && ++worse > kMostWorse) return std::nullopt;
+    least = std::min(least, left);
     const bool is_last = std::abs(change) < kSmallLengthChange * error_of(*fit, kReloadLength);
     fit = with_free_length(length_m * std::exp(change), recording, quality, segmentation, *std::move(fit));
     if (is_last) return fit;
