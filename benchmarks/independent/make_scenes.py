@@ -14,19 +14,18 @@ import families_inside
 import families_outside
 from simulator import write_csv
 
-FAMILIES = {f.__name__: f for f in families_inside.FAMILIES + families_outside.FAMILIES + families_controls.FAMILIES}
 
-
-def main():
-    arguments, tasks = command_line.drawing(__doc__, FAMILIES, count=10)
+def draw(description, families):
+    named = {family.__name__: family for family in families}
+    arguments, tasks = command_line.drawing(description, named, count=10)
     with open(arguments.out / "truth.jsonl", "w", encoding="utf-8") as truths:
         for family, seed in tasks:
             rng = np.random.default_rng([seed, zlib.crc32(family.encode())])
-            scene = FAMILIES[family](rng)
+            scene = named[family](rng)
             name = f"{family}-{seed}"
             write_csv(arguments.out / f"{name}.csv", scene.time_s, scene.force)
             truths.write(json.dumps({"id": name, "family": family, "file": f"{name}.csv", **scene.truth}) + "\n")
 
 
 if __name__ == "__main__":
-    main()
+    draw(__doc__, families_inside.FAMILIES + families_outside.FAMILIES + families_controls.FAMILIES)

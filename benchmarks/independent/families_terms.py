@@ -1,0 +1,76 @@
+"""Families of the terms that measured recordings ask for, alone and together: an average of the instrument, friction that
+weakens over a slip distance, a rise after slips. Drawn by make_terms.py."""
+import math
+
+from scenes import PARAMETERS, Scene, draw_rig, np, truth_of
+
+FINE = 8  # steps of the simulator in one of the recording
+
+
+def _log_uniform(rng, low, high):
+    return math.exp(rng.uniform(math.log(low), math.log(high)))
+
+
+def _averaged(time_s, force, window_s, every):
+    """Moving average over the window, exact for a force that is straight between samples, at every so many samples."""
+    integral = np.concatenate([[0.0], np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(time_s))])
+    centre = time_s[(time_s > 0.5 * window_s) & (time_s < time_s[-1] - 0.5 * window_s)][::every]
+    return centre, (np.interp(centre + 0.5 * window_s, time_s, integral) - np.interp(centre - 0.5 * window_s, time_s, integral)) / window_s
+
+
+def _scene(rng, average=False, weakens=False, reloads=False):
+    rig = draw_rig(rng, per_slip=(20, 60), ratio=(5, 25))
+    rig.step /= FINE
+    if weakens:
+        rig.model.weakening_length = _log_uniform(rng, 0.02, 0.6) * rig.drop / rig.model.stiffness
+    if reloads:
+        rig.model.reload_force = rig.drop * rng.uniform(0.1, 0.3)
+        rig.model.reload_length = rig.drop / rig.model.stiffness * rng.uniform(0.2, 0.5)
+    motion = rig.run((rig.count + 2) * rig.period_s)
+    window_s = _log_uniform(rng, 0.3, 6.0) / rig.model.omega if average else 0.0
+    if average:
+        time_s, force = _averaged(motion.time_s, motion.force, window_s, FINE)
+    else:
+        time_s, force = motion.time_s[::FINE], motion.force[::FINE]
+    stretch = (time_s[0], time_s[-1])
+    truth = truth_of(rig, motion.slips, stretch, PARAMETERS)
+    truth["slips_s"] = [slip - time_s[0] for slip in truth["slips_s"]]
+    truth["stretch_s"] = [0.0, float(time_s[-1] - time_s[0])]
+    if average:
+        truth["parameters"]["sensor_average_s"] = window_s
+    return Scene(time_s - time_s[0], force + rig.white(len(force)), truth)
+
+
+def none(rng):
+    return _scene(rng)
+
+
+def average(rng):
+    return _scene(rng, average=True)
+
+
+def weakens(rng):
+    return _scene(rng, weakens=True)
+
+
+def reloads(rng):
+    return _scene(rng, reloads=True)
+
+
+def average_weakens(rng):
+    return _scene(rng, average=True, weakens=True)
+
+
+def average_reloads(rng):
+    return _scene(rng, average=True, reloads=True)
+
+
+def weakens_reloads(rng):
+    return _scene(rng, weakens=True, reloads=True)
+
+
+def average_weakens_reloads(rng):
+    return _scene(rng, average=True, weakens=True, reloads=True)
+
+
+FAMILIES = [none, average, weakens, reloads, average_weakens, average_reloads, weakens_reloads, average_weakens_reloads]
