@@ -209,6 +209,7 @@ Chosen with_weakening(Chosen chosen, const fit::FitInput& input, std::optional<T
       chosen.resolution.reason = doubt;
     }
   }
+  if (chosen.fits.damped.fall_doubt.empty()) chosen.fits.damped.fall_doubt = trial.fall_doubt;
   chosen.candidates.push_back(std::move(candidate));
   if (trial.warning) chosen.warnings.push_back(*std::move(trial.warning));
   return chosen;

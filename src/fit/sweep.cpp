@@ -252,8 +252,10 @@ class Assembler {
   fit::Intervals intervals_;
 };
 
-std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, const FitOptions& options) {
-  const SweepData data = fit::prepare_sweep(recordings, options);
+/// `known`: an average of the sensor that was found before.
+std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, const FitOptions& options,
+                                    const std::optional<fit::FittedAverage>& known = {}) {
+  const SweepData data = fit::prepare_sweep(recordings, options, known);
   if (data.fitted.size() < 2) return std::nullopt;
   if (options.tell_step) options.tell_step(fmt::format("fitting {} recordings together", data.fitted.size()));
   std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
@@ -281,10 +283,10 @@ std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, 
 
 std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
   std::optional<SweepFit> sweep = fit_at_once(recordings, options);
-  if (!sweep || options.held.damping_ratio || !fit::is_damping_open(sweep->result)) return sweep;
+  if (!sweep || options.held.damping_ratio || !fit::is_damping_open(sweep->result, recordings)) return sweep;
   FitOptions undamped = options;
   undamped.held.damping_ratio = 0.0;
-  std::optional<SweepFit> simpler = fit_at_once(recordings, undamped);
+  std::optional<SweepFit> simpler = fit_at_once(recordings, undamped, fit::found_average(sweep->result));
   if (!simpler) return sweep;
   fit::tell_open_damping(simpler->result);
   return simpler;

@@ -51,6 +51,13 @@ double resting_share(const BlockFit& fit) {
   return resting / static_cast<double>(fit.size());
 }
 
+double median_slip_s(const BlockFit& fit) {
+  std::vector<double> slips_s;
+  slips_s.reserve(fit.size());
+  for (std::size_t i = 0; i < fit.size(); ++i) slips_s.push_back(fit.state(i).slip_s());
+  return median(std::move(slips_s));
+}
+
 double median_stick_s(const BlockFit& fit) {
   std::vector<double> sticks_s;
   for (std::size_t i = 0; i + 1 < fit.size(); ++i) {

@@ -55,6 +55,9 @@ class BlockFit {
 /// Share of the slips that come to rest at the solution, under a law in closed form.
 double resting_share(const BlockFit& fit);
 
+/// Median time that a slip lasts.
+double median_slip_s(const BlockFit& fit);
+
 /// Median time from the end of one slip to the onset of the next.
 double median_stick_s(const BlockFit& fit);
 

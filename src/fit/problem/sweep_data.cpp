@@ -121,11 +121,12 @@ double median_period_s(const BlockFit& blocks) {
   return signal::median(intervals_s);
 }
 
-SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
+SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options,
+                        const std::optional<FittedAverage>& known) {
   SweepData data;
   data.tell_step = options.tell_step;
   data.mean_load_N = mean_load_N(recordings);
-  OwnFits own = fit_each(recordings, options.held);
+  OwnFits own = fit_each(recordings, options.held, known);
   data.single = std::move(own.fits);
   data.average = own.average;
   data.reload = own.reload;

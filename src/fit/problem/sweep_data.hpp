@@ -39,7 +39,9 @@ struct SweepData {
 /// From onset to onset; a cycle that could not be fitted makes one interval long.
 double median_period_s(const BlockFit& blocks);
 
-SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options);
+/// `known`: fit_each.
+SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options,
+                        const std::optional<FittedAverage>& known = {});
 
 /// Of a recording on its own: F_s - cV above F_k, and the force level F_k(0+), means over its cycles.
 double mean_onset_force(const DampedFit& fit);

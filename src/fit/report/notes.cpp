@@ -24,6 +24,13 @@ std::string averaging_doubt(double change) {
       100.0 * change);
 }
 
+std::string unexcluded_average(double average_s, double change) {
+  return fmt::format(
+      "the slips do not exclude averaging over {:.2g} ms, which would change w_n by {:.1f} %; state it with "
+      "--sensor-average (0: an instant)",
+      1e3 * average_s, 100.0 * change);
+}
+
 Warning ripple_warning(const StickRipple& ripple) {
   if (ripple.speed_share > 1.0) {
     return {"suspicious_line",

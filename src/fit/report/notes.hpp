@@ -31,6 +31,8 @@ Warning averaged_warning(double average_s);
 
 /// Why w_n is not identified where averaging over a step of the clock would change it by so much of itself.
 std::string averaging_doubt(double change);
+/// The same of an average that the slips may hide.
+std::string unexcluded_average(double average_s, double change);
 
 /// That a line swings in the sticks: of the drive, unless that would have to turn back.
 Warning ripple_warning(const StickRipple& ripple);

@@ -107,7 +107,9 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
       &blocks == &fit.blocks ? fit.rounding : estimate_smoothing(blocks, fit.held, step_s);
   if (!seen) return result;
   const bool rounded = !repeats_rounding(fit) && seen->exceeds_step(step_s);
-  result.one_sided = (rounded ? seen->largest_variance_s2() : step_s * step_s / 12.0) * seen->move_per_s2;
+  // One step is what most instruments do; the slips speak for more where their best estimate is more.
+  const bool is_seen = !repeats_rounding(fit) && seen->variance_s2 > step_s * step_s / 12.0;
+  result.one_sided = (is_seen ? seen->largest_variance_s2() : step_s * step_s / 12.0) * seen->move_per_s2;
   const double change = std::abs(result.one_sided(kLogFrequency));
   if (rounded) {
     const double average_s = std::sqrt(12.0 * seen->variance_s2);
@@ -118,7 +120,8 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
                                  " (or friction that changes in the slip): intervals allow for it; state it with "
                                  "--sensor-average where it is known"});
   } else if (change > thresholds::kAverageShare) {
-    result.small_doubt = averaging_doubt(change);
+    result.small_doubt =
+        is_seen ? unexcluded_average(std::sqrt(12.0 * seen->largest_variance_s2()), change) : averaging_doubt(change);
   }
   return result;
 }
@@ -164,11 +167,11 @@ Interval lengthened(const Interval& interval, double off) {
   return {std::max(0.0, interval.low + std::min(0.0, off)), interval.high + std::max(0.0, off)};
 }
 
-/// Unresolved slip: F_s - F_k lies between half of the drop (zeta = 0) and the drop (zeta -> 1), lambda >> 1. At zeta =
-/// 0 the drop also has the part that the drive makes up during the slip; 0.485 leaves room for it.
+/// Unresolved slip: F_s - F_k lies between half of the fall from onset to end of slip (zeta = 0) and the drop between
+/// the ramps (zeta -> 1), which also has what the drive makes up during the slip. 0.485 leaves room for its time.
 Interval bounds_by_drop(const SawtoothFit& sawtooth, double cycles) {
   const double spread = t_quantile(cycles - 1.0) * sawtooth.drop_sd / std::sqrt(cycles);
-  return {std::max(0.0, 0.485 * (sawtooth.drop - spread)), sawtooth.drop + spread};
+  return {std::max(0.0, 0.485 * (sawtooth.fall - spread)), sawtooth.drop + spread};
 }
 
 void state_conditions(const Recording& recording, Findings& findings) {
@@ -187,14 +190,14 @@ void state_law(const DampedFit& fit, Findings& findings) {
 /// Why w_n and zeta cannot be read from the slips of a contact that is not the model's and not seen as it is; empty:
 /// they can. A fall that the sensor's average draws out fits as well as a slow slip then.
 std::string doubt_of_fall(const DampedFit& fit, const Residual& residual, const Findings& findings) {
+  if (!fit.fall_doubt.empty()) return fit.fall_doubt;
   const bool coloured = residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance;
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
   if (!large || !coloured || fit.mass_gives_frequency) return {};
   const double average_s = fit.blocks.scales().sensor_average_s;
   if (std::exp(fit.blocks.parameters.globals[kLogFrequency]) * average_s > thresholds::kHidingAverage) {
     return "averaging over most of the slip hides w_n and zeta where residuals are larger than the noise and not "
-           "random: "
-           "state the mass with --mass";
+           "random: state the mass with --mass";
   }
   if (!fit.blocks.level().reloading || findings.sensor_average_s || fit.average) return {};
   return "beside sticks that rise more steeply after a slip the residuals are larger than the noise and not random: an "
@@ -213,8 +216,7 @@ void state_doubts(const TierFits& fits, const Resolution& resolution, const Resi
   if (const std::optional<double>& zeta = fits.damped.refused_damping) {
     findings.frequency_unknown = fmt::format(
         "the slip does not follow a damped oscillation (the best damping ratio is negative, {:.2f}): friction, creep "
-        "or "
-        "the sensor may set its time instead of the mass",
+        "or the sensor may set its time instead of the mass",
         *zeta);
     findings.slip_doubt = findings.frequency_unknown;
   } else if (fits.damped.misfit) {

@@ -1,9 +1,11 @@
 #include "fit/selection/fitted_average.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,25 +25,25 @@ namespace {
 constexpr std::size_t kSearchCycles = 10;   // enough to begin with
 constexpr std::size_t kCompareCycles = 40;  // enough to tell two kernels apart
 constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
-constexpr double kSameVariance = 0.01;      // in ln sigma^2
 constexpr int kAveragedIterations = 30;     // a fit that explains the slips settles in fewer
 constexpr double kForgottenLags = 8.0;      // e^-8
 constexpr double kFewRest = 0.95 * thresholds::kRestickShare;  // of 64 slips a standard error below it
 
-/// Where the search for W begins; empty without a sign of averaging. The sum of squares may have two minima, one of
-/// much averaging, where the time of the fall is W's, and one of little with slips that are too slow.
-std::vector<double> guesses_s(const Recording& recording, const DampedFit& plain) {
-  const BlockFit& blocks = plain.blocks;
-  const double of_fall_s = 0.7 * blocks.scales().half_period_s;
+/// Rounded slips, slips that are not shaped like the model's, or slips without damping: an average that lasts longer
+/// than the slip takes it away.
+bool may_be_averaged(const Recording& recording, const DampedFit& plain) {
   const std::optional<Smoothing>& seen = plain.rounding;
-  if (!seen || !seen->exceeds_step(recording.sample_interval_s())) return {};
-  if (plain.refused_damping) return {of_fall_s};
-  return {std::sqrt(12.0 * seen->variance_s2), of_fall_s};
+  const double zeta = plain.blocks.parameters.globals[kDamping];
+  const bool is_damped = zeta > thresholds::kSureTerm * damping_error(plain);
+  return plain.misfit || plain.refused_damping || !is_damped ||
+         (seen && seen->exceeds_step(recording.sample_interval_s()));
 }
 
-/// The slips that are left behind W are those of the model.
-bool follows_slips(const DampedFit& fit) {
-  return !fit.misfit && !fit.refused_damping && resting_share(fit.blocks) >= thresholds::kRestickShare;
+/// The slips that are left behind W are those of the model, and longer than a step of the clock.
+bool follows_slips(const DampedFit& fit, double sample_interval_s) {
+  const double negative = -thresholds::kNegativeSigmas * damping_error(fit);
+  return !fit.misfit && !fit.refused_damping && fit.blocks.parameters.globals[kDamping] > negative &&
+         resting_share(fit.blocks) >= thresholds::kRestickShare && median_slip_s(fit.blocks) > sample_interval_s;
 }
 
 /// A fit of all cycles with an average in it, and what is left to smooth.
@@ -52,6 +54,7 @@ struct Trial {
 
   /// In standard errors.
   [[nodiscard]] double off() const { return std::abs(beyond.variance_s2) / beyond.standard_error_s2; }
+  [[nodiscard]] bool is_settled() const { return off() < thresholds::kSettledAverage; }
 };
 
 /// Fits of all cycles with an average of about the given variance.
@@ -63,18 +66,20 @@ class Trials {
 
   /// Newton's steps in sigma^2, the nearest of them.
   [[nodiscard]] std::optional<Trial> fit(double variance_s2, const Globals& near) const {
-    constexpr int kMostFits = 3;
+    const int most_fits = plain_.blocks.level().reloading ? 6 : 3;
     std::optional<Trial> best;
     std::optional<DampedFit> fit = draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_,
                                                 {near, plain_.excluded, reloading(std::sqrt(12.0 * variance_s2)),
                                                  plain_.blocks.level().per_cycle, kFewRest, kAveragedIterations});
+    fit = settle_rise(recording_.sample_interval_s(), quality_, std::move(fit));
     for (int fits = 1; fit; ++fits) {
       const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
       if (!beyond) break;
       Trial trial{*std::move(fit), *beyond, variance_s2};
       if (!best || trial.off() < best->off()) best = std::move(trial);
-      const bool is_hopeless = !follows_slips(best->fit) || best->fit.uncertainty.noise > plain_.uncertainty.noise;
-      if (fits == kMostFits || is_hopeless || best->off() < thresholds::kSettledAverage) break;
+      const bool is_hopeless = !follows_slips(best->fit, recording_.sample_interval_s()) ||
+                               best->fit.uncertainty.noise > plain_.uncertainty.noise;
+      if (fits == most_fits || is_hopeless || best->is_settled()) break;
       variance_s2 += beyond->variance_s2;
       if (!(variance_s2 > 0.0)) break;
       fit = beside(best->fit, variance_s2);
@@ -91,15 +96,16 @@ class Trials {
     return std::make_shared<const RiseAfterSlip>(std::move(reloading));
   }
 
-  /// The same cycles and samples with another average.
+  /// The same cycles and samples with another average, and the rise after the slips that it shows.
   [[nodiscard]] std::optional<DampedFit> beside(const DampedFit& other, double variance_s2) const {
     Scales scales = other.blocks.scales();
     scales.sensor_average_s = std::sqrt(12.0 * variance_s2);
-    BlockFit blocks(other.blocks.set(), scales);
-    blocks.parameters = other.blocks.parameters;
+    BlockFit blocks = with_rise_after(other.blocks, scales);
     if (!std::isfinite(solve(blocks, {other.held, false, true}))) return std::nullopt;
-    return with_uncertainty({std::move(blocks), false, other.held, {}, other.half_width_s, other.excluded, {}, {}},
-                            tolerated_misfit(quality_));
+    std::optional<DampedFit> fit =
+        with_uncertainty({std::move(blocks), false, other.held, {}, other.half_width_s, other.excluded, {}, {}},
+                         tolerated_misfit(quality_));
+    return settle_rise(recording_.sample_interval_s(), quality_, std::move(fit));
   }
 
   const Recording& recording_;
@@ -111,40 +117,75 @@ class Trials {
 
 /// Slips and W can be told apart.
 bool tells_slips(const DampedFit& fit) {
-  const double damping_error = std::sqrt(std::max(0.0, fit.uncertainty.covariance(kDamping, kDamping)));
-  return damping_error < thresholds::kTellingDamping &&
-         fit.average->seconds > thresholds::kSureTerm * fit.average->standard_error_s &&
-         fit.average->seconds < median_stick_s(fit.blocks);
+  return damping_error(fit) < thresholds::kTellingDamping &&
+         fit.average->seconds > thresholds::kSureTerm * fit.average->standard_error_s;
 }
 
-/// The average that explains some of the samples of some cycles best; empty where a sensor of first order is not ten
-/// times less likely. A long tail rounds the slip less than its variance says: the search for it begins on both sides.
-/// `plain` tells how far samples are independent.
-std::optional<KernelSearch::Least> best_average(const std::vector<double>& variances_s2, const KernelSearch& search,
-                                                const DampedFit& plain) {
-  KernelSearch::Least best;
-  for (const double variance_s2 : variances_s2) {
-    KernelSearch::Least least = search.least_squares(Kernel::MovingAverage, variance_s2);
-    least.variance_s2 = variance_s2;
-    if (least.sum < best.sum) best = least;
-  }
+/// Logarithm of how much more likely `better` is on these cycles. `plain` tells how far samples are independent.
+double evidence(const KernelSearch::Least& better, const KernelSearch::Least& other, const KernelSearch& search,
+                const DampedFit& plain) {
   const double independent = search.residuals() * effective_samples(plain) / plain.uncertainty.samples;
-  for (const double tail : {1.0, kLongTail}) {
-    const double lag = search.least_squares(Kernel::FirstOrder, tail * best.variance_s2).sum;
-    if (!(independent * std::log(lag / best.sum) > thresholds::kEvidence)) return std::nullopt;
-  }
-  return best;
+  return independent * std::log(other.sum / better.sum);
 }
 
-/// With what W is not known by in the covariance.
-DampedFit with_average_error(Trial trial) {
-  const double error_s2 = std::hypot(trial.beyond.standard_error_s2, trial.beyond.variance_s2,
-                                     thresholds::kKernelShape * trial.variance_s2);
-  const double average_s = std::sqrt(12.0 * trial.variance_s2);
-  trial.fit.average = FittedAverage{average_s, 6.0 * error_s2 / average_s};
-  trial.fit.uncertainty.covariance +=
-      error_s2 * error_s2 * trial.beyond.move_per_s2 * trial.beyond.move_per_s2.transpose();
-  return std::move(trial.fit);
+/// Averages that explain some of the samples of some cycles, the best first and those that are not ten times less
+/// likely; empty where a sensor of first order is not. A long tail rounds the slip less than its variance says: the
+/// search for it begins on both sides.
+std::vector<KernelSearch::Least> best_averages(const std::vector<KernelSearch::Least>& minima,
+                                               const KernelSearch& search, const DampedFit& plain) {
+  std::vector<KernelSearch::Least> averages;
+  for (const KernelSearch::Least& least : minima) averages.push_back(search.refined(least));
+  std::erase_if(averages, [](const KernelSearch::Least& least) { return least.resting < thresholds::kRestickShare; });
+  std::sort(averages.begin(), averages.end(), [](const auto& a, const auto& b) { return a.sum < b.sum; });
+  if (averages.empty()) return {};
+  const KernelSearch::Least best = averages.front();
+  std::erase_if(averages,
+                [&](const auto& other) { return evidence(best, other, search, plain) > thresholds::kTierPrice; });
+  for (const double tail : {1.0, kLongTail}) {
+    const KernelSearch::Least lag = search.least_squares(Kernel::FirstOrder, tail * best.variance_s2);
+    if (!(evidence(best, lag, search, plain) > thresholds::kEvidence)) return {};
+  }
+  return averages;
+}
+
+/// The fit of all cycles that explains them best, and another average that does so as well.
+struct Found {
+  std::optional<Trial> trial;
+  std::optional<double> other_s;
+};
+Found best_trial(const Trials& trials, const DampedFit& plain, const std::vector<KernelSearch::Least>& starts,
+                 double sample_interval_s) {
+  Found found;
+  std::optional<Trial>& trial = found.trial;
+  for (const KernelSearch::Least& start : starts) {
+    std::optional<Trial> next = trials.fit(start.variance_s2, start.globals);
+    const bool is_better =
+        next && follows_slips(next->fit, sample_interval_s) && gain_of(next->fit, plain) > thresholds::kTierPrice;
+    if (!is_better) continue;
+    if (!trial) {
+      trial = std::move(next);
+      continue;
+    }
+    const double gain = gain_of(next->fit, trial->fit);
+    if (gain > 0.0) std::swap(trial, next);
+    const double apart_s2 = std::abs(next->variance_s2 - trial->variance_s2);
+    const bool is_another = apart_s2 > thresholds::kSureTerm * trial->beyond.standard_error_s2;
+    if (is_another && std::abs(gain) < thresholds::kTierPrice) found.other_s = std::sqrt(12.0 * next->variance_s2);
+  }
+  return found;
+}
+
+/// Why w_n and zeta cannot be told beside an average; empty: they can.
+std::string doubt_beside(const DampedFit& fit, std::optional<double> other_s) {
+  if (other_s) {
+    return fmt::format(
+        "quick slips that are averaged over {:.3g} ms and slow ones that are averaged over {:.3g} ms explain the "
+        "recording alike: state the average with --sensor-average, or the mass",
+        1e3 * std::max(*other_s, fit.average->seconds), 1e3 * std::min(*other_s, fit.average->seconds));
+  }
+  if (tells_slips(fit)) return {};
+  return "the slips and the average of the sensor behind which they are seen cannot be told apart: state the average "
+         "with --sensor-average, or the mass";
 }
 
 }  // namespace
@@ -159,37 +200,44 @@ Recording with_average(const Recording& recording, double variance_s2) {
       .value();
 }
 
+DampedFit with_average_error(DampedFit fit, double variance_s2, const Smoothing& beyond) {
+  const double error_s2 =
+      std::hypot(beyond.standard_error_s2, beyond.variance_s2, thresholds::kKernelShape * variance_s2);
+  const double average_s = std::sqrt(12.0 * variance_s2);
+  fit.average = FittedAverage{average_s, 6.0 * error_s2 / average_s};
+  fit.uncertainty.covariance += error_s2 * error_s2 * beyond.move_per_s2 * beyond.move_per_s2.transpose();
+  return fit;
+}
+
 std::optional<DampedFit> fit_average(const Recording& recording, const Quality& quality,
                                      const Segmentation& segmentation, const HeldParameters& held,
                                      const DampedFit& plain) {
-  const std::vector<double> guesses = guesses_s(recording, plain);
-  if (guesses.empty()) return std::nullopt;
+  if (!may_be_averaged(recording, plain)) return std::nullopt;
   const double width_s = 2.0 * plain.blocks.scales().half_period_s;
-  const KernelSearch search(recording, segmentation, held, plain, width_s, kSearchCycles);
-  std::vector<double> variances_s2;
-  for (const double guess_s : guesses) {
-    const std::optional<double> average_s = search.converge(guess_s);
-    if (!average_s) continue;
-    const double variance_s2 = *average_s * *average_s / 12.0;
-    const auto is_same = [&](double other_s2) { return std::abs(std::log(variance_s2 / other_s2)) < kSameVariance; };
-    if (std::ranges::none_of(variances_s2, is_same)) variances_s2.push_back(variance_s2);
-  }
-  if (variances_s2.empty()) return std::nullopt;
-  const double longest_lag_s = std::sqrt(kLongTail * *std::max_element(variances_s2.begin(), variances_s2.end()));
+  // Half of what all cycles have to gain: a few of them may tell less.
+  const double worth = 0.5 * thresholds::kTierPrice / effective_samples(plain);
+  const std::vector<KernelSearch::Least> minima =
+      KernelSearch(recording, segmentation, held, plain, width_s, kSearchCycles).minima(worth);
+  if (minima.empty()) return std::nullopt;
+  double longest_s2 = 0.0;
+  for (const KernelSearch::Least& least : minima) longest_s2 = std::max(longest_s2, least.variance_s2);
+  const double longest_lag_s = std::sqrt(kLongTail * longest_s2);
   const KernelSearch comparison(recording, segmentation, held, plain, width_s + kForgottenLags * longest_lag_s,
                                 kCompareCycles);
-  const std::optional<KernelSearch::Least> best = best_average(variances_s2, comparison, plain);
-  if (!best || best->resting < thresholds::kRestickShare) return std::nullopt;
-  std::optional<Trial> trial =
-      Trials(recording, quality, segmentation, held, plain).fit(best->variance_s2, best->globals);
-  const bool is_better = trial && follows_slips(trial->fit) && gain_of(trial->fit, plain) > thresholds::kTierPrice;
-  if (!is_better) return std::nullopt;
+  auto [trial, other_s] = best_trial(Trials(recording, quality, segmentation, held, plain), plain,
+                                     best_averages(minima, comparison, plain), recording.sample_interval_s());
+  if (!trial) return std::nullopt;
   std::optional<DampedFit> finished =
       finish_fit(with_average(recording, trial->variance_s2), quality, segmentation, std::move(trial->fit));
   if (!finished) return std::nullopt;
   trial->fit = *std::move(finished);
-  DampedFit fit = with_average_error(*std::move(trial));
-  return tells_slips(fit) ? std::optional(std::move(fit)) : std::nullopt;
+  DampedFit fit = with_average_error(std::move(trial->fit), trial->variance_s2, trial->beyond);
+  if (!(fit.average->seconds < median_stick_s(fit.blocks))) return std::nullopt;
+  fit.fall_doubt = doubt_beside(fit, other_s);
+  if (other_s) {
+    fit.average->standard_error_s = std::hypot(fit.average->standard_error_s, *other_s - fit.average->seconds);
+  }
+  return fit;
 }
 
 std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality& quality,

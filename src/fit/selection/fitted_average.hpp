@@ -13,6 +13,10 @@ namespace slipfit::fit {
 /// The recording with a stated average whose impulse response has this variance.
 Recording with_average(const Recording& recording, double variance_s2);
 
+/// With an average of this variance as a parameter of the fit that its model has, and what W is not known by in the
+/// covariance. `beyond`: what is left to smooth.
+DampedFit with_average_error(DampedFit fit, double variance_s2, const Smoothing& beyond);
+
 /// The fit with one parameter more, the time W over which the instrument averages its samples (docs/model.md section
 /// 7), where it is not stated and `plain`, the fit without, shows its sign: rounded slips (DampedFit::rounding).
 /// Its covariance holds that of W. Empty where W does not explain all that `plain` misses of the slips, where a sensor

@@ -1,7 +1,9 @@
 #include "fit/selection/kernel_search.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -10,6 +12,7 @@
 #include "fit/cycle/start.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
+#include "fit/selection/reloading_fit.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -17,9 +20,10 @@ namespace {
 
 constexpr double kMostChange = 4.0;  // of sigma^2 in one of Newton's steps
 constexpr double kSmallStep = 0.05;  // in ln sigma^2
-constexpr double kShrinking = 0.8;
-constexpr double kWorthMoreSteps = 0.75;  // misfit over that of the plain fit
-constexpr double kWorthAllCycles = 0.5;
+constexpr double kSlipVariance = 0.25 - 2.0 / (std::numbers::pi * std::numbers::pi);  // of half a sine that lasts 1
+constexpr double kLargestShare = 1.4;  // of the seen variance: damping and the drive make a slip last longer
+constexpr double kShareStep = 0.1;
+constexpr int kMinimumBits = 6;
 
 /// Those of the cycles that the fit could use.
 std::vector<CycleData> used_by(const BlockFit& fit, std::vector<CycleData> cycles) {
@@ -38,11 +42,7 @@ double next_variance_s2(double variance_s2, const Smoothing& beyond) {
 
 KernelSearch::KernelSearch(const Recording& recording, const Segmentation& segmentation, const HeldParameters& held,
                            const DampedFit& plain, double half_width_s, std::size_t count)
-    : segmentation_(segmentation),
-      held_(held_of(held)),
-      step_s_(recording.sample_interval_s()),
-      plain_(plain.blocks),
-      plain_misfit_(plain.misfit) {
+    : segmentation_(segmentation), held_(held_of(held)), step_s_(recording.sample_interval_s()), plain_(plain.blocks) {
   const Scales& scales = plain_.scales();
   const HumLines hum{plain_.level().lines_Hz, scales.time_begin_s};
   std::vector<CycleData> cycles =
@@ -55,34 +55,58 @@ KernelSearch::KernelSearch(const Recording& recording, const Segmentation& segme
   cycles_ = std::make_shared<CycleSet>(std::move(cycles), std::move(middles_s), plain_.level(), scales);
 }
 
-std::optional<double> KernelSearch::converge(double average_s) const {
-  constexpr int kMostSteps = 6;
-  double last_step = std::numeric_limits<double>::infinity();
-  double variance_s2 = average_s * average_s / 12.0;
-  BlockFit fit = started(Kernel::MovingAverage, variance_s2);
-  for (int step = 0; step < kMostSteps; ++step) {
-    const std::optional<Held> held = solve_with_damping(fit);
-    if (!held || (step == 0 && !misses_less(fit, kWorthMoreSteps))) return std::nullopt;
-    const std::optional<Smoothing> beyond = estimate_smoothing(fit, *held, step_s_);
-    if (!beyond) return std::nullopt;
-    const double next_s2 = next_variance_s2(variance_s2, *beyond);
-    const double change = std::abs(std::log(next_s2 / variance_s2));
-    variance_s2 = next_s2;
-    const double next_average_s = std::sqrt(12.0 * variance_s2);
-    if (next_average_s < step_s_ || next_average_s > 2.0 * plain_.scales().half_period_s) return std::nullopt;
-    if (change < kSmallStep || std::abs(beyond->variance_s2) < beyond->standard_error_s2)
-      return misses_less(fit, kWorthAllCycles) ? std::optional(next_average_s) : std::nullopt;
-    if (change > kShrinking * last_step) return std::nullopt;
-    last_step = change;
-    fit = with_kernel(fit, Kernel::MovingAverage, variance_s2);
+std::vector<KernelSearch::Least> KernelSearch::minima(double least_share) const {
+  // The variances of the average and of the slip's own velocity add up to what is seen.
+  const double seen_s2 = seen_variance_s2();
+  std::vector<double> shares{0.0, 0.125 * kShareStep, 0.25 * kShareStep, 0.5 * kShareStep};
+  for (double share = kShareStep; share < kLargestShare; share += kShareStep) shares.push_back(share);
+  std::vector<double> sums;
+  for (const double share : shares) sums.push_back(at(share * seen_s2).sum);
+  std::vector<Least> minima;
+  for (std::size_t i = 1; i + 1 < sums.size(); ++i) {
+    if (!(sums[i] < sums[i - 1] && sums[i] <= sums[i + 1])) continue;
+    std::uintmax_t most = 8;
+    const auto least = boost::math::tools::brent_find_minima([&](double share) { return at(share * seen_s2).sum; },
+                                                             shares[i - 1], shares[i + 1], kMinimumBits, most);
+    minima.push_back(at(least.first * seen_s2));
   }
-  return std::nullopt;
+  std::erase_if(minima, [&](const Least& least) { return !(least.sum < (1.0 - least_share) * sums.front()); });
+  std::sort(minima.begin(), minima.end(), [](const Least& a, const Least& b) { return a.sum < b.sum; });
+  return minima;
+}
+
+double KernelSearch::seen_variance_s2() const {
+  const double slip_s = std::numbers::pi / std::exp(plain_.parameters.globals[kLogFrequency]);
+  return kSlipVariance * slip_s * slip_s;
+}
+
+KernelSearch::Least KernelSearch::at(double variance_s2) const {
+  BlockFit fit = started(Kernel::MovingAverage, variance_s2);
+  Least least;
+  least.variance_s2 = variance_s2;
+  if (!solve_with_damping(fit)) return least;
+  least.sum = 0.0;
+  for (std::size_t i = 0; i < fit.size(); ++i) least.sum += fit.cycle_sum_of_squares(i);
+  least.globals = fit.parameters.globals;
+  least.resting = resting_share(fit);
+  return least;
 }
 
 KernelSearch::Least KernelSearch::least_squares(Kernel kernel, double variance_s2) const {
+  return descended(started(kernel, variance_s2), kernel, variance_s2);
+}
+
+KernelSearch::Least KernelSearch::refined(const Least& near) const {
+  BlockFit fit(cycles_, plain_.scales());
+  set_start(fit, segmentation_, near.globals);
+  fit.parameters.level = plain_.parameters.level;
+  return descended(with_kernel(fit, Kernel::MovingAverage, near.variance_s2), Kernel::MovingAverage, near.variance_s2);
+}
+
+/// Newton's steps in sigma^2.
+KernelSearch::Least KernelSearch::descended(BlockFit fit, Kernel kernel, double variance_s2) const {
   constexpr int kMostSteps = 3;
   Least least;
-  BlockFit fit = started(kernel, variance_s2);
   for (int step = 0; step < kMostSteps; ++step) {
     const std::optional<Held> held = solve_with_damping(fit);
     if (!held) break;
@@ -106,29 +130,19 @@ double KernelSearch::residuals() const {
   return count;
 }
 
-/// Of the mean shape of the slips less than this share of what the plain fit misses.
-bool KernelSearch::misses_less(const BlockFit& fit, double share) const {
-  const std::optional<SegmentMisfit> misfit = find_misfit(fit, 0.0);
-  return !misfit || !plain_misfit_ || std::abs(misfit->size) < share * std::abs(plain_misfit_->size);
-}
-
 BlockFit KernelSearch::with_kernel(const BlockFit& fit, Kernel kernel, double variance_s2) const {
   Scales scales = plain_.scales();
   scales.sensor_average_s = kernel == Kernel::MovingAverage ? std::sqrt(12.0 * variance_s2) : 0.0;
   scales.sensor_lag_s = kernel == Kernel::FirstOrder ? std::sqrt(variance_s2) : 0.0;
-  BlockFit next(cycles_, scales);
-  next.parameters = fit.parameters;
-  return next;
+  return with_rise_after(fit, scales);
 }
 
-/// Averaging draws the fall out: the squares of its own time and of W add up.
 BlockFit KernelSearch::started(Kernel kernel, double variance_s2) const {
-  constexpr double kLeast = 0.2;
-  const double half_s = plain_.scales().half_period_s;
-  const double own = std::max(kLeast, 1.0 - 12.0 * variance_s2 / (half_s * half_s));
+  constexpr double kLeast = 0.03;
+  const double own = std::max(kLeast, 1.0 - variance_s2 / seen_variance_s2());
   BlockFit fit(cycles_, plain_.scales());
-  Globals globals{plain_.parameters.globals[kLogStiffness], std::log(std::numbers::pi / (half_s * std::sqrt(own))),
-                  0.1};
+  Globals globals{plain_.parameters.globals[kLogStiffness],
+                  plain_.parameters.globals[kLogFrequency] - 0.5 * std::log(own), 0.1};
   for (std::size_t i = 0; i < globals.size(); ++i) {
     if (held_[i]) globals[i] = plain_.parameters.globals[i];
   }

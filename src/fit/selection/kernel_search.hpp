@@ -4,8 +4,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
-#include "fit/inference/misfit.hpp"
 #include "fit/problem/block_fit.hpp"
 #include "fit/selection/solution.hpp"
 #include "slipfit/core/recording.hpp"
@@ -27,10 +27,6 @@ class KernelSearch {
   KernelSearch(const Recording& recording, const Segmentation& segmentation, const HeldParameters& held,
                const DampedFit& plain, double half_width_s, std::size_t count);
 
-  /// W of a moving average: Newton's steps in W^2, none by more than a factor of 4, until they are small or within the
-  /// error; empty where they do not get smaller, or where the slips are not explained much better than by `plain`.
-  [[nodiscard]] std::optional<double> converge(double average_s) const;
-
   /// A sum of squares, in units of the noise, and where it is.
   struct Least {
     double sum = std::numeric_limits<double>::infinity();
@@ -38,14 +34,23 @@ class KernelSearch {
     Globals globals{};
     double resting = 0.0;  ///< share of the slips that come to rest
   };
-  /// The least over a few of Newton's steps; infinity without a solution.
+  /// Where the sum of squares of a moving average is least, the smallest first. There are two where the time of the
+  /// fall may be either W's or the slip's own (docs/model.md section 7). Empty where none is smaller than without an
+  /// average by this share of it.
+  [[nodiscard]] std::vector<Least> minima(double least_share) const;
+
+  /// The least near one of another search, and near a kernel of this variance: over a few of Newton's steps, infinity
+  /// without a solution.
+  [[nodiscard]] Least refined(const Least& near) const;
   [[nodiscard]] Least least_squares(Kernel kernel, double variance_s2) const;
 
   /// In the sum of squares.
   [[nodiscard]] double residuals() const;
 
  private:
-  [[nodiscard]] bool misses_less(const BlockFit& fit, double share) const;
+  [[nodiscard]] double seen_variance_s2() const;
+  [[nodiscard]] Least at(double variance_s2) const;
+  [[nodiscard]] Least descended(BlockFit fit, Kernel kernel, double variance_s2) const;
   [[nodiscard]] BlockFit with_kernel(const BlockFit& fit, Kernel kernel, double variance_s2) const;
   [[nodiscard]] BlockFit started(Kernel kernel, double variance_s2) const;
   [[nodiscard]] std::optional<Held> solve_with_damping(BlockFit& fit) const;
@@ -54,7 +59,6 @@ class KernelSearch {
   Held held_;
   double step_s_;
   const BlockFit& plain_;
-  const std::optional<SegmentMisfit>& plain_misfit_;
   std::shared_ptr<const CycleSet> cycles_;
 };
 

@@ -89,8 +89,9 @@ std::optional<FittedLength> mean_length(const std::vector<std::optional<DampedFi
 
 class OwnFitter {
  public:
-  OwnFitter(std::span<const SweepRecording> recordings, const HeldParameters& held)
-      : recordings_(recordings), held_(held) {}
+  OwnFitter(std::span<const SweepRecording> recordings, const HeldParameters& held,
+            const std::optional<FittedAverage>& known)
+      : recordings_(recordings), held_(held), known_(known) {}
 
   [[nodiscard]] OwnFits fit() const {
     OwnFits own;
@@ -100,6 +101,7 @@ class OwnFitter {
       fit = draft_with_rise(sweep.recording, sweep.quality, sweep.segmentation, held_);
     }
     share_length(own);
+    if (known_) return averaged(own, *known_);
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
       const auto& [recording, quality, segmentation] = parts(i);
       if (own.fits[i]) own.fits[i] = fit_as_sensed(recording, quality, segmentation, held_, *std::move(own.fits[i]));
@@ -143,16 +145,30 @@ class OwnFitter {
     if (averages.empty()) return;
     const std::optional<FittedAverage> average = mean_of(averages);
     if (!average) return;
-    OwnFits averaged = own;
+    OwnFits together = averaged(own, *average);
     double gain = 0.0;
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
       if (!own.fits[i] || recordings_[i].recording.conditions().sensor_average_s) continue;
-      averaged.fits[i] = fit_averaged(i, *average, *own.fits[i], own.reload);
-      if (averaged.fits[i] && !own.fits[i]->average) gain += gain_of(*averaged.fits[i], *own.fits[i]);
+      if (together.fits[i] && !own.fits[i]->average) gain += gain_of(*together.fits[i], *own.fits[i]);
     }
     if (2 * averages.size() < open && !(gain > thresholds::kTierPrice)) return;
-    own = std::move(averaged);
-    own.average = average;
+    own = std::move(together);
+  }
+
+  /// All recordings that state none seen through this average.
+  [[nodiscard]] OwnFits averaged(const OwnFits& own, const FittedAverage& average) const {
+    OwnFits other = own;
+    for (std::size_t i = 0; i < recordings_.size(); ++i) {
+      if (!own.fits[i]) continue;
+      if (recordings_[i].recording.conditions().sensor_average_s) {
+        const auto& [recording, quality, segmentation] = parts(i);
+        if (known_) other.fits[i] = finish_fit(recording, quality, segmentation, *std::move(other.fits[i]));
+        continue;
+      }
+      other.fits[i] = fit_averaged(i, average, *own.fits[i], own.reload);
+    }
+    other.average = average;
+    return other;
   }
 
   [[nodiscard]] std::optional<DampedFit> fit_averaged(std::size_t i, const FittedAverage& average, const DampedFit& own,
@@ -171,6 +187,7 @@ class OwnFitter {
 
   std::span<const SweepRecording> recordings_;
   const HeldParameters& held_;
+  const std::optional<FittedAverage>& known_;
 };
 
 double median_stiffness(const OwnFits& own) {
@@ -210,8 +227,9 @@ bool explains_as_well(const OwnFits& with_mass, const OwnFits& free) {
 
 }  // namespace
 
-OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held) {
-  OwnFits own = OwnFitter(recordings, held).fit();
+OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held,
+                 const std::optional<FittedAverage>& known) {
+  OwnFits own = OwnFitter(recordings, held, known).fit();
   const std::optional<StatedMass> mass = common_mass(recordings, own, held);
   if (!mass) return own;
   // As with a stated average, where one was found
@@ -228,7 +246,7 @@ OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameter
   }
   HeldParameters by_mass = held;
   by_mass.natural_frequency_rad_per_s = mass->frequency_rad_per_s(median_stiffness(own));
-  OwnFits with_mass = OwnFitter(sweep, by_mass).fit();
+  OwnFits with_mass = OwnFitter(sweep, by_mass, {}).fit();
   if (!explains_as_well(with_mass, own)) return own;
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     if (with_mass.fits[i] && own.fits[i]) with_mass.fits[i]->average = own.fits[i]->average;

@@ -24,29 +24,33 @@ constexpr double kShortestShare = 0.02;  // of a stick
 constexpr double kLongestShare = 0.5;
 constexpr int kMostRounds = 10;
 constexpr double kMostLengthChange = 0.7;   // of ln l in one round
-constexpr int kMostWorse = 1;               // rounds that leave more than another
+constexpr int kMostLarger = 2;              // steps that are larger than another before them
 constexpr double kSmallLengthChange = 0.2;  // in standard errors
 
-/// The rise after slips that begin and end where `fit` has them, over this length.
-std::shared_ptr<const RiseAfterSlip> reloading_of(const Recording& recording, const Segmentation& segmentation,
-                                                  const BlockFit& fit, double length_m, bool is_free) {
-  RiseAfterSlip reloading{
-      length_m, is_free, fit.scales().speed_m_per_s, recording.conditions().sensor_average_s.value_or(0.0), {}, {}};
-  for (const DetectedSlip& slip : segmentation.slips) {
-    reloading.slip_begin_s.push_back(recording.time_s()[slip.peak]);
-    reloading.slip_end_s.push_back(recording.time_s()[slip.trough]);
-  }
+/// `rise` after slips that begin and end where `fit` has them.
+RiseAfterSlip moved(RiseAfterSlip rise, const BlockFit& fit) {
   for (std::size_t i = 0; i < fit.size(); ++i) {
     const CycleState state = fit.state(i);
-    reloading.slip_begin_s[fit.data(i).slip] = state.onset_s;
-    reloading.slip_end_s[fit.data(i).slip] = state.onset_s + state.slip_s();
+    rise.slip_begin_s[fit.data(i).slip] = state.onset_s;
+    rise.slip_end_s[fit.data(i).slip] = state.onset_s + state.slip_s();
   }
-  return std::make_shared<const RiseAfterSlip>(std::move(reloading));
+  return rise;
+}
+
+/// The rise over this length after all slips of a recording, those of `fit` where it has them.
+std::shared_ptr<const RiseAfterSlip> rise_over(double length_m, bool is_free, const Recording& recording,
+                                               const Segmentation& segmentation, const BlockFit& fit) {
+  RiseAfterSlip rise{length_m, is_free, fit.scales().speed_m_per_s, fit.scales().sensor_average_s, {}, {}};
+  for (const DetectedSlip& slip : segmentation.slips) {
+    rise.slip_begin_s.push_back(recording.time_s()[slip.peak]);
+    rise.slip_end_s.push_back(recording.time_s()[slip.trough]);
+  }
+  return std::make_shared<const RiseAfterSlip>(moved(std::move(rise), fit));
 }
 
 /// The same cycles, those of `cycles`, with another rise.
-BlockFit with_rise(const BlockFit& fit, const std::vector<CycleData>& cycles,
-                   std::shared_ptr<const RiseAfterSlip> reloading) {
+BlockFit with_rise(const BlockFit& fit, const std::vector<CycleData>& cycles, const Scales& scales,
+                   std::shared_ptr<const RiseAfterSlip> rise) {
   std::vector<double> references_s;
   std::vector<Local> locals;
   std::size_t next = 0;
@@ -56,11 +60,13 @@ BlockFit with_rise(const BlockFit& fit, const std::vector<CycleData>& cycles,
     locals.push_back(fit.parameters.cycles[next]);
   }
   LevelModel level = fit.level();
-  level.reloading = std::move(reloading);
-  BlockFit other(cycles, std::move(references_s), fit.scales(), std::move(level));
+  level.reloading = std::move(rise);
+  BlockFit other(cycles, std::move(references_s), scales, std::move(level));
   other.parameters.globals = fit.parameters.globals;
+  other.parameters.difference = fit.parameters.difference;
   other.parameters.cycles = std::move(locals);
-  std::copy_n(fit.parameters.level.begin(), fit.level().terms, other.parameters.level.begin());
+  const std::size_t same = std::min(fit.parameters.level.size(), other.parameters.level.size());
+  std::copy_n(fit.parameters.level.begin(), same, other.parameters.level.begin());
   return other;
 }
 
@@ -68,10 +74,6 @@ std::vector<CycleData> cycles_of(const BlockFit& fit) {
   std::vector<CycleData> cycles;
   for (std::size_t i = 0; i < fit.size(); ++i) cycles.push_back(fit.data(i));
   return cycles;
-}
-
-double samples_over(double length_m, const Recording& recording, const DampedFit& fit) {
-  return length_m / (fit.blocks.scales().speed_m_per_s * recording.sample_interval_s());
 }
 
 /// Standard errors of A / Scales::force and ln l.
@@ -96,8 +98,8 @@ std::optional<DampedFit> best_of_lengths(const Recording& recording, const Segme
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kLengths; ++i) {
     const double length_m = shortest_m * std::pow(longest_m / shortest_m, static_cast<double>(i) / (kLengths - 1));
-    BlockFit trial =
-        with_rise(plain.blocks, cycles, reloading_of(recording, segmentation, plain.blocks, length_m, false));
+    BlockFit trial = with_rise(plain.blocks, cycles, plain.blocks.scales(),
+                               rise_over(length_m, false, recording, segmentation, plain.blocks));
     if (!held[kDamping]) trial.parameters.globals[kDamping] = std::max(0.05, plain.blocks.parameters.globals[kDamping]);
     const double sum = solve(trial, {held, false, true, kSearchIterations, kRoughRise});
     if (!(sum < least)) continue;
@@ -107,34 +109,25 @@ std::optional<DampedFit> best_of_lengths(const Recording& recording, const Segme
   return best;
 }
 
-/// The same cycles with the rise over a length near this one that is free.
-std::optional<DampedFit> with_free_length(double length_m, const Recording& recording, const Quality& quality,
-                                          const Segmentation& segmentation, DampedFit fit) {
-  fit.blocks =
-      with_rise(fit.blocks, cycles_of(fit.blocks), reloading_of(recording, segmentation, fit.blocks, length_m, true));
+/// With the rise over a length that is free.
+std::optional<DampedFit> with_free_length(double length_m, const Quality& quality, DampedFit fit) {
+  RiseAfterSlip rise = moved(*fit.blocks.level().reloading, fit.blocks);
+  rise.length_m = length_m;
+  rise.is_free = true;
+  fit.blocks = with_rise(fit.blocks, cycles_of(fit.blocks), fit.blocks.scales(),
+                         std::make_shared<const RiseAfterSlip>(std::move(rise)));
   if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
   return with_uncertainty(std::move(fit), tolerated_misfit(quality));
 }
 
-/// Newton's steps in ln l, by its own column, while the data sample the rise and the steps lead down.
-std::optional<DampedFit> converged(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-                                   std::optional<DampedFit> fit) {
-  double least = std::numeric_limits<double>::infinity();
-  int worse = 0;
-  for (int round = 0; fit && round < kMostRounds; ++round) {
-    const double* const rise = fit->blocks.rise_data();
-    const double length_m = length_of(*fit);
-    if (!(rise[0] > 0.0) || samples_over(length_m, recording, *fit) < thresholds::kShapeSamples) return std::nullopt;
-    const double change = std::clamp(rise[1] / rise[0], -kMostLengthChange, kMostLengthChange);
-    const double left = fit->uncertainty.chi2;
-    const double by_chance = thresholds::kTierPrice * std::pow(fit->uncertainty.noise / fit->blocks.scales().noise, 2);
-    if (left > least + by_chance && ++worse > kMostWorse) return std::nullopt;
-    least = std::min(least, left);
-    const bool is_last = std::abs(change) < kSmallLengthChange * error_of(*fit, kReloadLength);
-    fit = with_free_length(length_m * std::exp(change), recording, quality, segmentation, *std::move(fit));
-    if (is_last) return fit;
-  }
-  return std::nullopt;
+/// What Newton's step in ln l comes to, at most a factor of 2.
+double next_length_step(const BlockFit& fit) {
+  const double* const rise = fit.rise_data();
+  return std::clamp(rise[1] / rise[0], -kMostLengthChange, kMostLengthChange);
+}
+
+bool is_length_settled(const DampedFit& fit) {
+  return std::abs(next_length_step(fit.blocks)) < kSmallLengthChange * error_of(fit, kReloadLength);
 }
 
 bool bends(const std::optional<RampBend>& bend) {
@@ -160,6 +153,35 @@ bool is_justified(const DampedFit& fit, const DampedFit& plain, const RampBend& 
 
 }  // namespace
 
+BlockFit with_rise_after(const BlockFit& fit, const Scales& scales) {
+  if (!fit.level().reloading) {
+    BlockFit same(fit.set(), scales);
+    same.parameters = fit.parameters;
+    return same;
+  }
+  RiseAfterSlip rise = moved(*fit.level().reloading, fit);
+  rise.average_s = scales.sensor_average_s;
+  return with_rise(fit, cycles_of(fit), scales, std::make_shared<const RiseAfterSlip>(std::move(rise)));
+}
+
+std::optional<DampedFit> settle_rise(double sample_interval_s, const Quality& quality, std::optional<DampedFit> fit) {
+  if (!fit || !fit->blocks.level().reloading || !fit->blocks.level().reloading->is_free) return fit;
+  double least_step = std::numeric_limits<double>::infinity();
+  int larger = 0;
+  for (int round = 0; fit && round < kMostRounds; ++round) {
+    const double samples = length_of(*fit) / (fit->blocks.scales().speed_m_per_s * sample_interval_s);
+    if (!(fit->blocks.rise_data()[0] > 0.0) || samples < thresholds::kShapeSamples) return std::nullopt;
+    const double step = next_length_step(fit->blocks);
+    if (std::abs(step) > least_step && ++larger > kMostLarger) return std::nullopt;
+    least_step = std::min(least_step, std::abs(step));
+    const bool is_last = round > 0 && is_length_settled(*fit);  // the slips may have moved since the first
+    const double length_m = length_of(*fit) * std::exp(step);
+    fit = with_free_length(length_m, quality, *std::move(fit));
+    if (is_last) return fit;
+  }
+  return std::nullopt;
+}
+
 std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quality& quality,
                                          const Segmentation& segmentation, const HeldParameters& held,
                                          const GiveUp& give_up) {
@@ -171,14 +193,14 @@ std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quali
   if (!bends(bend)) return plain;
   std::optional<DampedFit> few = best_of_lengths(recording, segmentation, *plain, held_of(held));
   if (!few) return plain;
-  few = converged(recording, quality, segmentation,
-                  with_free_length(length_of(*few), recording, quality, segmentation, *few));
+  const double step_s = recording.sample_interval_s();
+  few = settle_rise(step_s, quality, with_free_length(length_of(*few), quality, *few));
   if (!few || !promises(*few, *bend)) return plain;
   std::optional<DampedFit> fit = draft_damped(
       recording, quality, segmentation, held,
       {few->blocks.parameters.globals, plain->excluded,
-       reloading_of(recording, segmentation, plain->blocks, length_of(*few), true), plain->blocks.level().per_cycle});
-  fit = converged(recording, quality, segmentation, std::move(fit));
+       rise_over(length_of(*few), true, recording, segmentation, plain->blocks), plain->blocks.level().per_cycle});
+  fit = settle_rise(step_s, quality, std::move(fit));
   const bool is_better = fit && is_justified(*fit, *plain, *bend);
   return is_better ? std::move(fit) : std::move(plain);
 }
@@ -188,7 +210,7 @@ std::optional<DampedFit> draft_with_rise_over(double length_m, const Recording& 
                                               const DampedFit& near) {
   std::optional<DampedFit> fit =
       draft_damped(recording, quality, segmentation, held,
-                   {std::nullopt, near.excluded, reloading_of(recording, segmentation, near.blocks, length_m, false),
+                   {std::nullopt, near.excluded, rise_over(length_m, false, recording, segmentation, near.blocks),
                     near.blocks.level().per_cycle});
   return fit && fit->blocks.rise_data()[0] > 0.0 ? std::move(fit) : std::nullopt;
 }

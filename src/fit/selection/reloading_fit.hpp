@@ -17,6 +17,14 @@ std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quali
                                          const Segmentation& segmentation, const HeldParameters& held,
                                          const GiveUp& give_up = {});
 
+/// The same cycles at the same parameters, their rise after slips that begin and end where `fit` has them, as a sensor
+/// of these scales sees it.
+BlockFit with_rise_after(const BlockFit& fit, const Scales& scales);
+
+/// The fit of the same cycles under the same law, its rise settled: its length, and the slips that it comes after.
+/// Empty where the data do not sample it. Without a rise `fit` as it is.
+std::optional<DampedFit> settle_rise(double sample_interval_s, const Quality& quality, std::optional<DampedFit> fit);
+
 /// With the rise over a given length, after slips that begin and end where `near`, another fit of the recording, has
 /// them. Empty where the force falls after a slip in place of rising.
 std::optional<DampedFit> draft_with_rise_over(double length_m, const Recording& recording, const Quality& quality,

@@ -31,16 +31,16 @@ std::string against(const Candidate& candidate, const Candidate& other) {
       thresholds::kTierPrice);
 }
 
-double median_slip_s(const BlockFit& blocks) {
-  std::vector<double> durations;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const CycleState state = blocks.state(i);
-    durations.push_back(state.slip_s());
-  }
-  return signal::median(durations);
+}  // namespace
+
+double damping_error(const DampedFit& fit) {
+  return std::sqrt(std::max(0.0, fit.uncertainty.covariance(kDamping, kDamping)));
 }
 
-}  // namespace
+double sigmas_of_distance(const DampedFit& fit) {
+  const double root = fit.blocks.parameters.globals[kFrictionSlope];
+  return 0.5 * std::abs(root) / std::sqrt(fit.uncertainty.covariance(kSlipDistance, kSlipDistance));
+}
 
 double effective_samples(const DampedFit& fit) {
   const double rho = std::clamp(fit.uncertainty.lag1_correlation, 0.0, 0.99);
@@ -64,6 +64,8 @@ SawtoothFit fit_sawtooth(const DampedFit& damped) {
     // Lines of the fit before and after, continued to the middle of the slip.
     const double jump = state.force_scale * (state.z0() - state.intercept());
     drops.push_back(jump);
+    result.fall +=
+        (jump - state.force_scale * state.omega_rad_per_s * state.slip_s()) / static_cast<double>(blocks.size());
     const double middle_s = blocks.reference_s(i);
     const double* local = blocks.parameters.cycles[i].data();
     for (std::size_t j = 0; j < data.time_s.size(); ++j) {
@@ -106,12 +108,10 @@ Candidate requested(Candidate candidate) {
 
 Resolution resolution_of(const Recording& recording, const TierFits& fits) {
   const BlockFit& blocks = fits.damped.blocks;
-  const Uncertainty& uncertainty = fits.damped.uncertainty;
   Resolution result;
   result.samples_per_slip = median_slip_s(blocks) / recording.sample_interval_s();
-  const double damping_error = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
   const bool held = fits.damping_held();
-  const bool scatter_tells = !fits.damped.refused_damping && damping_error < thresholds::kPinningDamping;
+  const bool scatter_tells = !fits.damped.refused_damping && damping_error(fits.damped) < thresholds::kPinningDamping;
   if (result.samples_per_slip < thresholds::kResolvedSamples && !held && !scatter_tells) {
     result.reason = too_few_samples(result.samples_per_slip, recording.sample_interval_s());
     return result;
@@ -121,8 +121,8 @@ Resolution resolution_of(const Recording& recording, const TierFits& fits) {
     result.reason =
         fmt::format("the slip does not follow a damped oscillation: the best damping ratio is negative, {:.2f}",
                     *fits.damped.refused_damping);
-  } else if (!held && !(damping_error < thresholds::kTellingDamping)) {
-    result.reason = fmt::format("the standard error of the damping ratio is {:.2g}; {}", damping_error,
+  } else if (!held && !(damping_error(fits.damped) < thresholds::kTellingDamping)) {
+    result.reason = fmt::format("the standard error of the damping ratio is {:.2g}; {}", damping_error(fits.damped),
                                 result.samples_per_slip < 6.0
                                     ? too_few_samples(result.samples_per_slip, recording.sample_interval_s())
                                     : std::string("less noise or more cycles would lower it"));

@@ -11,7 +11,8 @@ namespace slipfit::fit {
 
 /// Poorest tier: straight ramps of one slope, joined by jumps. Nothing about the slip itself.
 struct SawtoothFit {
-  double drop = 0.0;  ///< mean jump at the middle of the slip
+  double drop = 0.0;  ///< mean jump between the ramps at the middle of the slip
+  double fall = 0.0;  ///< mean from onset to end of slip
   double drop_sd = 0.0;
   double rms = 0.0;
 };
@@ -43,6 +44,12 @@ struct Resolution {
   bool damping_resolved = false;  ///< zeta can
   std::string reason;             ///< why not, or empty
 };
+
+/// Standard error of zeta.
+double damping_error(const DampedFit& fit);
+
+/// D_c over its standard error.
+double sigmas_of_distance(const DampedFit& fit);
 
 /// Independent residuals: neighbours that correlate by rho count as (1 - rho) / (1 + rho) of themselves; a cycle counts
 /// at least once.

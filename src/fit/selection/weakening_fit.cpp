@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
 #include "fit/inference/misfit.hpp"
+#include "fit/selection/carried_fit.hpp"
 #include "fit/selection/weakening_fitter.hpp"
 
 namespace slipfit::fit {
@@ -21,7 +23,7 @@ double slip_distance_m(const DampedFit& fit) {
 std::string hindrance(const FitInput& input, const DampedFit& coulomb) {
   if (coulomb.blocks.scales().sensor_lag_s > 0.0) return "it is not fitted with a sensor of first order";
   const double step_s = input.recording.sample_interval_s();
-  const double samples = median_slip_time_s(coulomb.blocks) / step_s;
+  const double samples = median_slip_s(coulomb.blocks) / step_s;
   return samples < thresholds::kShapeSamples ? too_few_samples(samples, step_s) : std::string();
 }
 
@@ -38,12 +40,95 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
     return candidate;
   }
   // An average of the sensor takes as many parameters and explains the roundness, not the asymmetry of the slip.
-  const double share = coulomb.average ? 1.0 : thresholds::kHalvedStack;
+  const bool is_rounded = coulomb.average || coulomb.blocks.scales().law == FrictionLaw::Weakening;
+  const double share = is_rounded ? 1.0 : thresholds::kHalvedStack;
   candidate.chosen = gain > thresholds::kTierPrice && sigmas > thresholds::kSureTerm && after <= share * before;
   candidate.reason += candidate.chosen ? ": the slip distance is justified"
                                        : fmt::format(": it takes {:g} lower, {:g} standard errors and half",
                                                      thresholds::kTierPrice, thresholds::kSureTerm);
   return candidate;
+}
+
+/// Where a search for an average beside the slip distance begins; empty: one of the two explains the slips.
+std::optional<double> start_of_average_s(const FitInput& input, const DampedFit& coulomb,
+                                         const std::optional<DampedFit>& weakening) {
+  if (input.recording.conditions().sensor_average_s) return std::nullopt;
+  if (coulomb.average) return coulomb.average->seconds;
+  const double step_s = input.recording.sample_interval_s();
+  if (!weakening || !weakening->rounding || !weakening->rounding->exceeds_step(step_s)) return std::nullopt;
+  return std::sqrt(12.0 * weakening->rounding->variance_s2);
+}
+
+/// Where a search for the other minimum begins: much averaging of quick slips looks like little of slow ones. The
+/// shares of the average in what draws the fall out add up to about 0.75 then (docs/model.md section 7).
+double mirrored_s(const DampedFit& fit) {
+  constexpr double kBoth = 0.75;
+  constexpr double kLeast = 0.05;
+  constexpr double kSlip2 = 5.6;  // W^2 of an average that draws the fall out as much as the slip itself does
+  const double omega = std::exp(fit.blocks.parameters.globals[kLogFrequency]);
+  const double seen2 = std::pow(omega * fit.average->seconds, 2) + kSlip2;
+  const double share = 1.0 - kSlip2 / seen2;
+  return std::sqrt(std::max(kLeast, kBoth - share) * seen2) / omega;
+}
+
+/// The better of two fits from either minimum, and whether the other one is as good.
+struct Minimum {
+  DampedFit fit;
+  bool is_sure = true;
+};
+Minimum better_minimum(const FitInput& input, const DampedFit& coulomb, double missed, const DampedFit& rival,
+                       DampedFit first) {
+  std::optional<DampedFit> second = fit_averaged_weakening(input, coulomb, missed, mirrored_s(first), rival);
+  if (!second) return {std::move(first)};
+  const double gain = gain_on_same_samples(*second, first) + 2.0;  // as many parameters
+  const double apart = std::abs(second->average->seconds - first.average->seconds);
+  const bool is_same = apart < thresholds::kSureTerm * first.average->standard_error_s;
+  return {gain > 0.0 ? *std::move(second) : std::move(first), is_same || std::abs(gain) > thresholds::kTierPrice};
+}
+
+/// F_s - F_k lies between half of the fall and the drop between the ramps whatever D_c and zeta are, and slips rest:
+/// others follow the samples by other means than a slip.
+bool has_slips_of_the_model(const DampedFit& fit) {
+  constexpr double kRoom = 0.05;
+  const SawtoothFit sawtooth = fit_sawtooth(fit);
+  double difference = 0.0;
+  for (std::size_t i = 0; i < fit.blocks.size(); ++i) {
+    difference += fit.blocks.state(i).onset_force / static_cast<double>(fit.blocks.size());
+  }
+  return resting_share(fit.blocks) >= thresholds::kRestickShare && difference > (0.5 - kRoom) * sawtooth.fall &&
+         difference < (1.0 + kRoom) * sawtooth.drop;
+}
+
+/// What a fit of both says for and against it beside `single`, the fit with one of the two.
+Candidate judged_both(const DampedFit& both, const DampedFit& single, const DampedFit& coulomb) {
+  Candidate candidate =
+      judged(candidate_of(both, Tier::Weakening, 5, effective_samples(both)), both, single,
+             gain_on_same_samples(both, single), stacked_residual(single.blocks, coulomb.blocks).size);
+  const bool tells_average = both.average->seconds > thresholds::kSureTerm * both.average->standard_error_s;
+  if (!tells_average || !has_slips_of_the_model(both)) candidate.chosen = false;
+  return candidate;
+}
+
+/// Friction that weakens, seen through an average, where this explains more than either of the two.
+WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const DampedFit& coulomb, double missed) {
+  const std::optional<double> start_s = start_of_average_s(input, coulomb, trial.fit);
+  if (!start_s) return trial;
+  const DampedFit& single = trial.candidate.chosen ? *trial.fit : coulomb;
+  std::optional<DampedFit> both = fit_averaged_weakening(input, coulomb, missed, *start_s, single);
+  if (!both || !(gain_on_same_samples(*both, single) > thresholds::kTierPrice)) return trial;
+  Candidate candidate = judged_both(*both, single, coulomb);
+  if (candidate.chosen) {
+    Minimum best = better_minimum(input, coulomb, missed, single, *std::move(both));
+    both = std::move(best.fit);
+    candidate = judged_both(*both, single, coulomb);
+    if (best.is_sure && candidate.chosen) return {std::move(both), std::move(candidate), {}, std::nullopt};
+  }
+  const StackedResidual before = stacked_residual(single.blocks, coulomb.blocks);
+  if (stacked_residual(both->blocks, coulomb.blocks).size > thresholds::kHalvedStack * before.size) return trial;
+  trial.fall_doubt =
+      "friction that weakens over a slip distance and an average of the sensor together explain the slips better "
+      "than either, and cannot be told apart: state the average with --sensor-average";
+  return trial;
 }
 
 }  // namespace
@@ -53,28 +138,30 @@ bool may_weaken(const DampedFit& coulomb) {
 }
 
 WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<Tier> forced) {
-  WeakeningTrial trial{std::nullopt, {Tier::Weakening, 4, std::nullopt, std::nullopt, false, {}}, std::nullopt};
+  WeakeningTrial trial{std::nullopt, {Tier::Weakening, 4, std::nullopt, std::nullopt, false, {}}, {}, std::nullopt};
   trial.candidate.reason = hindrance(input, coulomb);
   if (!trial.candidate.reason.empty()) return trial;
   const double missed = stacked_residual(coulomb.blocks, coulomb.blocks).size;
-  trial.fit = fit_weakening(input, coulomb, forced == Tier::Weakening ? std::nullopt : std::optional(missed));
-  if (!trial.fit) {
+  const std::optional<double> asked = forced == Tier::Weakening ? std::nullopt : std::optional(missed);
+  trial.fit = fit_weakening(input, coulomb, asked);
+  if (trial.fit) {
+    const double effective = effective_samples(*trial.fit);
+    trial.candidate = candidate_of(*trial.fit, Tier::Weakening, 4, effective);
+    const Candidate other = candidate_of(coulomb, Tier::Damped, coulomb.average ? 4 : 3, effective);
+    const double gain = *other.aicc - *trial.candidate.aicc;
+    trial.candidate = judged(std::move(trial.candidate), *trial.fit, coulomb, gain, missed);
+    if (coulomb.average && !trial.candidate.chosen && std::abs(gain) < thresholds::kTierPrice) {
+      trial.fall_doubt = fmt::format(
+          "friction that weakens over a slip distance of {:.2g} um explains the slips as well as the average of the "
+          "sensor: the two cannot be told apart",
+          1e6 * slip_distance_m(*trial.fit));
+      trial.warning = Warning{"samples_averaged", trial.fall_doubt};
+    }
+  } else {
     trial.candidate.reason =
         "no slip distance between 0 and (F_s - F_k) / k halves what the slips of Coulomb friction miss";
-    return trial;
   }
-  const double effective = effective_samples(*trial.fit);
-  trial.candidate = candidate_of(*trial.fit, Tier::Weakening, 4, effective);
-  const Candidate other = candidate_of(coulomb, Tier::Damped, coulomb.average ? 4 : 3, effective);
-  const double gain = *other.aicc - *trial.candidate.aicc;
-  trial.candidate = judged(std::move(trial.candidate), *trial.fit, coulomb, gain, missed);
-  if (coulomb.average && !trial.candidate.chosen && std::abs(gain) < thresholds::kTierPrice) {
-    trial.warning = Warning{"samples_averaged",
-                            fmt::format("friction that weakens over a slip distance of {:.2g} um explains the slips as "
-                                        "well as the average of the sensor: the two cannot be told apart",
-                                        1e6 * slip_distance_m(*trial.fit))};
-  }
-  return trial;
+  return with_both(std::move(trial), input, coulomb, missed);
 }
 
 }  // namespace slipfit::fit

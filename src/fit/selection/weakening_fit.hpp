@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "fit/selection/weakening_fitter.hpp"
 
@@ -11,6 +12,7 @@ namespace slipfit::fit {
 struct WeakeningTrial {
   std::optional<DampedFit> fit;  ///< empty: there is none
   Candidate candidate;
+  std::string fall_doubt{};        ///< of the fit that stays where this is not chosen: DampedFit::fall_doubt
   std::optional<Warning> warning;  ///< an average of the sensor explains the slips as well
 };
 

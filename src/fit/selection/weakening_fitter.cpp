@@ -12,10 +12,12 @@
 #include "fit/cycle/start.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
+#include "fit/selection/carried_fit.hpp"
 #include "fit/selection/clipping.hpp"
 #include "fit/selection/finish.hpp"
+#include "fit/selection/fitted_average.hpp"
 #include "fit/selection/outliers.hpp"
-#include "signal/robust.hpp"
+#include "fit/selection/reloading_fit.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -28,6 +30,7 @@ constexpr double kNothing = 0.1;   // of its error: a slip distance that is none
 constexpr int kOwnIterations = 6;  // of onsets and forces by themselves
 constexpr int kTrialIterations = 40;
 constexpr int kFullIterations = 60;
+constexpr int kStepIterations = 20;  // beside a solution for another average
 /// SolveOptions::tolerance. Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them
 /// an error off.
 constexpr double kTolerance = 1e-7;
@@ -36,53 +39,24 @@ constexpr double kSomeTolerance = 1e-4;  // where a tenth of an error decides no
 /// k D_c / (F_s - F_k) to begin with: the sum of squares has several minima.
 constexpr std::array kStarts{0.05, 0.2, 0.45, 0.75};
 
-/// Takes the solution of other fits of the same slips, of a neighbour where one is not among them.
-void carry_over(const BlockFit& from, BlockFit& to) {
-  to.parameters.globals = from.parameters.globals;
-  to.parameters.level = from.parameters.level;
-  std::size_t same = 0;
-  for (std::size_t i = 0; i < to.size(); ++i) {
-    while (same + 1 < from.size() && from.data(same).slip < to.data(i).slip) ++same;
-    to.parameters.cycles[i] = from.parameters.cycles[same];
-  }
-}
-
-double sum_of_squares(const BlockFit& fit) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < fit.size(); ++i) sum += fit.cycle_sum_of_squares(i);
-  return sum;
-}
-
-std::size_t residuals_in(const BlockFit& fit) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < fit.size(); ++i) count += fit.data(i).residuals();
-  return count;
-}
-
-/// Every cycle has one: a search that ran to the longest slip distance may end beyond it.
-bool has_slips(const BlockFit& fit) {
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    if (!std::isfinite(fit.cycle_sum_of_squares(i))) return false;
-  }
-  return true;
-}
-
 SolveOptions final_options(const Held& held, double tolerance = kTolerance) {
   return {held, false, true, kFullIterations, tolerance};
 }
 
 class WeakeningFitter {
  public:
-  WeakeningFitter(const FitInput& input, const DampedFit& coulomb, std::optional<double> missed)
+  WeakeningFitter(const FitInput& input, const DampedFit& coulomb, std::optional<double> missed,
+                  std::optional<double> average_s = {}, const DampedFit* rival = nullptr)
       : input_(input),
         coulomb_(coulomb),
         missed_(missed),
+        rival_(rival),
         scales_(coulomb.blocks.scales()),
         held_(held_of(input.held)),
         excluded_(coulomb.excluded) {
-    scales_.sensor_average_s = input.recording.conditions().sensor_average_s.value_or(0.0);
+    scales_.sensor_average_s = average_s.value_or(input.recording.conditions().sensor_average_s.value_or(0.0));
     // A slow onset begins before the slip of the Coulomb fit.
-    half_width_s_ = 1.1 * median_slip_time_s(coulomb.blocks) + 0.5 * scales_.sensor_average_s;
+    half_width_s_ = 1.1 * median_slip_s(coulomb.blocks) + 0.5 * scales_.sensor_average_s;
     scales_.law = FrictionLaw::Weakening;
     scales_.slip_distance_m = scales_.force / std::exp(coulomb.blocks.parameters.globals[kLogStiffness]);
   }
@@ -92,12 +66,13 @@ class WeakeningFitter {
     if (cycles.size() < thresholds::kFewestFitted) return std::nullopt;
     const std::optional<Globals> start = best_start(some_of(cycles, kTrialCycles));
     if (!start || (missed_ && !promises(cycles, *start))) return std::nullopt;
+    if (rival_ != nullptr && !promises_more(cycles, *start)) return std::nullopt;
     std::optional<BlockFit> blocks = solved(cycles, *start, kTolerance);
-    if (blocks) blocks = without_outliers(*std::move(blocks));
-    if (!blocks) return std::nullopt;
+    if (!blocks || !(blocks = without_outliers(*std::move(blocks)))) return std::nullopt;
     std::optional<DampedFit> fit =
         finish({*std::move(blocks), false, held_, std::nullopt, half_width_s_, excluded_, {}, {}});
     if (fit && is_negative(*fit)) fit = without_damping(*std::move(fit));
+    if (fit && rival_ != nullptr) return with_free_average(*std::move(fit));
     if (fit && !input_.recording.conditions().sensor_average_s) {
       fit->rounding = estimate_smoothing(fit->blocks, fit->held, input_.recording.sample_interval_s());
     }
@@ -107,7 +82,34 @@ class WeakeningFitter {
  private:
   [[nodiscard]] std::optional<DampedFit> finish(DampedFit fit) const {
     std::optional<DampedFit> draft = with_uncertainty(std::move(fit), tolerated_misfit(input_.quality));
+    draft = settle_rise(input_.recording.sample_interval_s(), input_.quality, std::move(draft));
     return draft ? finish_fit(input_.recording, input_.quality, input_.segmentation, *std::move(draft)) : std::nullopt;
+  }
+
+  /// The same cycles seen through an average of another variance, by Newton's step.
+  [[nodiscard]] static std::optional<BlockFit> with_next_average(const BlockFit& blocks, const Smoothing& beyond,
+                                                                 const Held& held) {
+    BlockFit next = averaged_by(blocks, beyond);
+    const bool is_solved = std::isfinite(solve(next, {held, false, true, kStepIterations})) && has_slips(next);
+    return is_solved ? std::optional(std::move(next)) : std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<DampedFit> with_free_average(DampedFit fit) const {
+    constexpr int kMostSteps = 5;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const auto beyond = estimate_smoothing(fit.blocks, fit.held, input_.recording.sample_interval_s());
+      if (!beyond) return std::nullopt;
+      if (std::abs(beyond->variance_s2) < thresholds::kSettledAverage * beyond->standard_error_s2) {
+        return with_average_error(std::move(fit), std::pow(fit.blocks.scales().sensor_average_s, 2) / 12.0, *beyond);
+      }
+      std::optional<BlockFit> blocks = with_next_average(fit.blocks, *beyond, fit.held);
+      if (!blocks) return std::nullopt;
+      fit.blocks = *std::move(blocks);
+      std::optional<DampedFit> next = finish(std::move(fit));
+      if (!next) return std::nullopt;
+      fit = *std::move(next);
+    }
+    return std::nullopt;
   }
 
   /// Outliers of the Coulomb fit may be what that law misses.
@@ -166,6 +168,25 @@ class WeakeningFitter {
     return coulomb_.average || (explains_enough(*blocks) && tells_distance(*blocks));
   }
 
+  /// Some of the cycles do not exclude that law and average together explain all of them better than the rival does.
+  [[nodiscard]] bool promises_more(const std::vector<CycleData>& cycles, const Globals& start) const {
+    constexpr int kFewSteps = 4;
+    std::optional<BlockFit> blocks = solved(some_of(cycles, kTrialCycles), start, kSomeTolerance);
+    if (!blocks) return false;
+    BlockFit rival(blocks->set(), rival_->blocks.scales());
+    carry_over(rival_->blocks, rival);
+    rival = with_rise_after(rival, rival_->blocks.scales());
+    if (!std::isfinite(solve(rival, {rival_->held, false, true}))) return true;
+    const double least = sum_of_squares(rival) * (1.0 - 0.5 * thresholds::kTierPrice / effective_samples(*rival_));
+    for (int step = 0; blocks && step < kFewSteps; ++step) {
+      if (sum_of_squares(*blocks) < least) return true;
+      const auto beyond = estimate_smoothing(*blocks, held_, input_.recording.sample_interval_s());
+      if (!beyond) return false;
+      blocks = with_next_average(*blocks, *beyond, held_);
+    }
+    return false;
+  }
+
   /// Slips that come to rest under Coulomb friction would not.
   [[nodiscard]] bool loses_sticks(const BlockFit& some) const {
     return resting_share(some) < thresholds::kRestickShare &&
@@ -215,17 +236,9 @@ class WeakeningFitter {
 
   /// Those of the Coulomb fit, cut wider.
   [[nodiscard]] std::vector<CycleData> same_cycles() const {
-    const BlockFit& before = coulomb_.blocks;
-    const HumLines hum{before.level().lines_Hz, scales_.time_begin_s};
-    std::vector<CycleData> same;
-    std::size_t next = 0;
-    for (CycleData& cycle : cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded_, hum)) {
-      while (next < before.size() && before.data(next).slip < cycle.slip) ++next;
-      if (next == before.size() || before.data(next).slip != cycle.slip) continue;
-      cycle.continuous_with_next = before.data(next).continuous_with_next;
-      same.push_back(std::move(cycle));
-    }
-    return same;
+    const HumLines hum{coulomb_.blocks.level().lines_Hz, scales_.time_begin_s};
+    return same_cycles_of(coulomb_.blocks,
+                          cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded_, hum));
   }
 
   [[nodiscard]] BlockFit blocks_of(const std::vector<CycleData>& cycles) const {
@@ -266,6 +279,7 @@ class WeakeningFitter {
   const FitInput& input_;
   const DampedFit& coulomb_;
   std::optional<double> missed_;
+  const DampedFit* rival_;  // the average is free then
   Scales scales_;
   Held held_;
   std::vector<std::size_t> excluded_;  // in ascending order
@@ -274,24 +288,13 @@ class WeakeningFitter {
 
 }  // namespace
 
-double median_slip_time_s(const BlockFit& blocks) {
-  std::vector<double> times_s;
-  times_s.reserve(blocks.size());
-  for (std::size_t i = 0; i < blocks.size(); ++i) times_s.push_back(blocks.state(i).slip_s());
-  return signal::median(std::move(times_s));
-}
-
-double damping_error(const DampedFit& fit) {
-  return std::sqrt(std::max(0.0, fit.uncertainty.covariance(kDamping, kDamping)));
-}
-
-double sigmas_of_distance(const DampedFit& fit) {
-  const double root = fit.blocks.parameters.globals[kFrictionSlope];
-  return 0.5 * std::abs(root) / std::sqrt(fit.uncertainty.covariance(kSlipDistance, kSlipDistance));
-}
-
 std::optional<DampedFit> fit_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<double> missed) {
   return WeakeningFitter(input, coulomb, missed).fit();
+}
+
+std::optional<DampedFit> fit_averaged_weakening(const FitInput& input, const DampedFit& coulomb, double missed,
+                                                double average_s, const DampedFit& rival) {
+  return WeakeningFitter(input, coulomb, missed, average_s, &rival).fit();
 }
 
 }  // namespace slipfit::fit

@@ -20,12 +20,9 @@ struct FitInput {
 /// it will not be taken or where the cycles do not tell the shared parameters apart.
 std::optional<DampedFit> fit_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<double> missed);
 
-double median_slip_time_s(const BlockFit& blocks);
-
-/// Standard error of zeta.
-double damping_error(const DampedFit& fit);
-
-/// D_c over its standard error.
-double sigmas_of_distance(const DampedFit& fit);
+/// The same seen through an average of the sensor that is one parameter more, from `average_s` on. Empty as well where
+/// some of the cycles show that it explains them no better than `rival`, a fit with one of the two.
+std::optional<DampedFit> fit_averaged_weakening(const FitInput& input, const DampedFit& coulomb, double missed,
+                                                double average_s, const DampedFit& rival);
 
 }  // namespace slipfit::fit

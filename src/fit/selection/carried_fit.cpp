@@ -1,0 +1,74 @@
+#include "fit/selection/carried_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fit/problem/solve.hpp"
+#include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/tiers.hpp"
+
+namespace slipfit::fit {
+
+void carry_over(const BlockFit& from, BlockFit& to) {
+  to.parameters.globals = from.parameters.globals;
+  to.parameters.level = from.parameters.level;
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    while (same + 1 < from.size() && from.data(same).slip < to.data(i).slip) ++same;
+    to.parameters.cycles[i] = from.parameters.cycles[same];
+  }
+}
+
+double sum_of_squares(const BlockFit& fit) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < fit.size(); ++i) sum += fit.cycle_sum_of_squares(i);
+  return sum;
+}
+
+std::size_t residuals_in(const BlockFit& fit) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < fit.size(); ++i) count += fit.data(i).residuals();
+  return count;
+}
+
+bool has_slips(const BlockFit& fit) {
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    if (!std::isfinite(fit.cycle_sum_of_squares(i))) return false;
+  }
+  return true;
+}
+
+std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData> cut) {
+  std::vector<CycleData> same;
+  std::size_t next = 0;
+  for (CycleData& cycle : cut) {
+    while (next < fit.size() && fit.data(next).slip < cycle.slip) ++next;
+    if (next == fit.size() || fit.data(next).slip != cycle.slip) continue;
+    cycle.continuous_with_next = fit.data(next).continuous_with_next;
+    same.push_back(std::move(cycle));
+  }
+  return same;
+}
+
+BlockFit averaged_by(const BlockFit& fit, const Smoothing& beyond) {
+  constexpr double kMostChange = 4.0;
+  Scales scales = fit.scales();
+  const double variance_s2 = scales.sensor_average_s * scales.sensor_average_s / 12.0;
+  const double next_s2 =
+      std::clamp(variance_s2 + beyond.variance_s2, variance_s2 / kMostChange, kMostChange * variance_s2);
+  scales.sensor_average_s = std::sqrt(12.0 * next_s2);
+  return with_rise_after(fit, scales);
+}
+
+double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor) {
+  constexpr int kMostIterations = 60;
+  constexpr double kTolerance = 1e-7;  // SolveOptions::tolerance: as near as the richer one is
+  BlockFit again(rich.blocks.set(), poor.blocks.scales());
+  carry_over(poor.blocks, again);
+  again = with_rise_after(again, poor.blocks.scales());
+  if (!std::isfinite(solve(again, {poor.held, false, true, kMostIterations, kTolerance}))) return 0.0;
+  return effective_samples(rich) * std::log(sum_of_squares(again) / sum_of_squares(rich.blocks)) - 2.0;
+}
+
+}  // namespace slipfit::fit

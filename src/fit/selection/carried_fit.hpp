@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fit/inference/smoothing.hpp"
+#include "fit/problem/block_fit.hpp"
+#include "fit/selection/solution.hpp"
+
+namespace slipfit::fit {
+
+/// Takes the solution of other fits of the same slips, of a neighbour where one is not among them.
+void carry_over(const BlockFit& from, BlockFit& to);
+
+/// Those of the cycles that the fit has, in order.
+std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData> cut);
+
+/// The same cycles at the same parameters, seen through an average of a variance that Newton's step gives, at most four
+/// times as large or as small.
+BlockFit averaged_by(const BlockFit& fit, const Smoothing& beyond);
+
+double sum_of_squares(const BlockFit& fit);
+std::size_t residuals_in(const BlockFit& fit);
+
+/// Every cycle has one: a search that ran to the longest slip distance may end beyond it.
+bool has_slips(const BlockFit& fit);
+
+/// By how much the AICc of `rich`, a fit with one parameter more, is lower than that of `poor` on the same samples.
+double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor);
+
+}  // namespace slipfit::fit
