@@ -77,6 +77,11 @@ bool Smoothing::exceeds_step(double sample_interval_s) const {
   return variance_s2 - thresholds::kRoundedSigmas * standard_error_s2 > sample_interval_s * sample_interval_s / 12.0;
 }
 
+double Smoothing::next_variance_s2(double known_s2) const {
+  constexpr double kMostChange = 4.0;
+  return std::clamp(known_s2 + variance_s2, known_s2 / kMostChange, kMostChange * known_s2);
+}
+
 std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& held, double sample_interval_s) {
   const double known_s = fit.scales().sensor_average_s;
   const double trial_s = std::max(kTrialShare * fit.scales().half_period_s, kTrialSteps * sample_interval_s);

@@ -52,12 +52,9 @@ std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData
 }
 
 BlockFit averaged_by(const BlockFit& fit, const Smoothing& beyond) {
-  constexpr double kMostChange = 4.0;
   Scales scales = fit.scales();
   const double variance_s2 = scales.sensor_average_s * scales.sensor_average_s / 12.0;
-  const double next_s2 =
-      std::clamp(variance_s2 + beyond.variance_s2, variance_s2 / kMostChange, kMostChange * variance_s2);
-  scales.sensor_average_s = std::sqrt(12.0 * next_s2);
+  scales.sensor_average_s = std::sqrt(12.0 * beyond.next_variance_s2(variance_s2));
   return with_rise_after(fit, scales);
 }
 

@@ -15,8 +15,7 @@ void carry_over(const BlockFit& from, BlockFit& to);
 /// Those of the cycles that the fit has, in order.
 std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData> cut);
 
-/// The same cycles at the same parameters, seen through an average of a variance that Newton's step gives, at most four
-/// times as large or as small.
+/// The same cycles at the same parameters, seen through an average of a variance that Newton's step gives.
 BlockFit averaged_by(const BlockFit& fit, const Smoothing& beyond);
 
 double sum_of_squares(const BlockFit& fit);

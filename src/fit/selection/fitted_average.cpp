@@ -128,9 +128,9 @@ double evidence(const KernelSearch::Least& better, const KernelSearch::Least& ot
   return independent * std::log(other.sum / better.sum);
 }
 
-/// Averages that explain some of the samples of some cycles, the best first and those that are not ten times less
-/// likely; empty where a sensor of first order is not. A long tail rounds the slip less than its variance says: the
-/// search for it begins on both sides.
+/// Averages that explain some of the samples of some cycles, the best first and those that it does not rule out; empty
+/// where a sensor of first order is not ten times less likely. A long tail rounds the slip less than its variance says:
+/// the search for it begins on both sides.
 std::vector<KernelSearch::Least> best_averages(const std::vector<KernelSearch::Least>& minima,
                                                const KernelSearch& search, const DampedFit& plain) {
   std::vector<KernelSearch::Least> averages;

@@ -18,9 +18,9 @@ Recording with_average(const Recording& recording, double variance_s2);
 DampedFit with_average_error(DampedFit fit, double variance_s2, const Smoothing& beyond);
 
 /// The fit with one parameter more, the time W over which the instrument averages its samples (docs/model.md section
-/// 7), where it is not stated and `plain`, the fit without, shows its sign: rounded slips (DampedFit::rounding).
-/// Its covariance holds that of W. Empty where W does not explain all that `plain` misses of the slips, where a sensor
-/// of first order explains it as well, and where W cannot be told from the slips behind it.
+/// 7), where it is not stated and `plain`, the fit without, shows a sign of it. Its covariance holds that of W. Empty
+/// where W does not explain all that `plain` misses of the slips or a sensor of first order explains it as well. Where
+/// W cannot be told from the slips behind it, or another W explains them as well, DampedFit::fall_doubt says so.
 std::optional<DampedFit> fit_average(const Recording& recording, const Quality& quality,
                                      const Segmentation& segmentation, const HeldParameters& held,
                                      const DampedFit& plain);

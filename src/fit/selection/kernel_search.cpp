@@ -12,14 +12,14 @@
 #include "fit/cycle/start.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
+#include "fit/selection/carried_fit.hpp"
 #include "fit/selection/reloading_fit.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
 namespace {
 
-constexpr double kMostChange = 4.0;  // of sigma^2 in one of Newton's steps
-constexpr double kSmallStep = 0.05;  // in ln sigma^2
+constexpr double kSmallStep = 0.05;                                                   // in ln sigma^2
 constexpr double kSlipVariance = 0.25 - 2.0 / (std::numbers::pi * std::numbers::pi);  // of half a sine that lasts 1
 constexpr double kLargestShare = 1.4;  // of the seen variance: damping and the drive make a slip last longer
 constexpr double kShareStep = 0.1;
@@ -32,10 +32,6 @@ std::vector<CycleData> used_by(const BlockFit& fit, std::vector<CycleData> cycle
   std::erase_if(cycles,
                 [&](const CycleData& cycle) { return !std::binary_search(used.begin(), used.end(), cycle.slip); });
   return cycles;
-}
-
-double next_variance_s2(double variance_s2, const Smoothing& beyond) {
-  return std::clamp(variance_s2 + beyond.variance_s2, variance_s2 / kMostChange, kMostChange * variance_s2);
 }
 
 }  // namespace
@@ -85,8 +81,7 @@ KernelSearch::Least KernelSearch::at(double variance_s2) const {
   Least least;
   least.variance_s2 = variance_s2;
   if (!solve_with_damping(fit)) return least;
-  least.sum = 0.0;
-  for (std::size_t i = 0; i < fit.size(); ++i) least.sum += fit.cycle_sum_of_squares(i);
+  least.sum = sum_of_squares(fit);
   least.globals = fit.parameters.globals;
   least.resting = resting_share(fit);
   return least;
@@ -110,13 +105,12 @@ KernelSearch::Least KernelSearch::descended(BlockFit fit, Kernel kernel, double 
   for (int step = 0; step < kMostSteps; ++step) {
     const std::optional<Held> held = solve_with_damping(fit);
     if (!held) break;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < fit.size(); ++i) sum += fit.cycle_sum_of_squares(i);
+    const double sum = sum_of_squares(fit);
     if (!(sum < least.sum)) break;
     least = {sum, variance_s2, fit.parameters.globals, resting_share(fit)};
     const std::optional<Smoothing> beyond = estimate_smoothing(fit, *held, step_s_);
     if (!beyond) break;
-    const double next_s2 = next_variance_s2(variance_s2, *beyond);
+    const double next_s2 = beyond->next_variance_s2(variance_s2);
     if (std::abs(std::log(next_s2 / variance_s2)) < kSmallStep) break;
     variance_s2 = next_s2;
     fit = with_kernel(fit, kernel, variance_s2);
