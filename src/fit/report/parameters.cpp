@@ -35,7 +35,7 @@ class Reporter {
     if (f_.sensor_average_s) add_held(Id::SensorAverage, *f_.sensor_average_s);
     if (f_.fitted_average) add_graded(Id::SensorAverage, *f_.fitted_average, slip_doubt(), slip_note());
     if (auto model = model_of(f_, model_)) {
-      result_.estimate = std::move(model->estimate);
+      result_.estimate = model->estimate;
       result_.correlation = std::move(model->correlation);
     }
     result_.warnings.insert(result_.warnings.end(), f_.warnings.begin(), f_.warnings.end());
