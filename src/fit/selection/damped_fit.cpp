@@ -267,7 +267,7 @@ class Fitter {
   const Segmentation& segmentation_;
   HeldParameters held_values_;
   const Near& near_;
-  Held held_;
+  Held held_{};
   double start_stiffness_ = 0.0;
   Globals start_{};
   std::optional<double> refused_damping_;

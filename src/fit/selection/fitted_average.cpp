@@ -134,6 +134,7 @@ double evidence(const KernelSearch::Least& better, const KernelSearch::Least& ot
 std::vector<KernelSearch::Least> best_averages(const std::vector<KernelSearch::Least>& minima,
                                                const KernelSearch& search, const DampedFit& plain) {
   std::vector<KernelSearch::Least> averages;
+  averages.reserve(minima.size());
   for (const KernelSearch::Least& least : minima) averages.push_back(search.refined(least));
   std::erase_if(averages, [](const KernelSearch::Least& least) { return least.resting < thresholds::kRestickShare; });
   std::sort(averages.begin(), averages.end(), [](const auto& a, const auto& b) { return a.sum < b.sum; });

@@ -57,6 +57,7 @@ std::vector<KernelSearch::Least> KernelSearch::minima(double least_share) const 
   std::vector<double> shares{0.0, 0.125 * kShareStep, 0.25 * kShareStep, 0.5 * kShareStep};
   for (double share = kShareStep; share < kLargestShare; share += kShareStep) shares.push_back(share);
   std::vector<double> sums;
+  sums.reserve(shares.size());
   for (const double share : shares) sums.push_back(at(share * seen_s2).sum);
   std::vector<Least> minima;
   for (std::size_t i = 1; i + 1 < sums.size(); ++i) {

@@ -234,8 +234,8 @@ OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameter
   if (!mass) return own;
   // As with a stated average, where one was found
   std::vector<Recording> averaged;
-  for (std::size_t i = 0; i < recordings.size(); ++i) {
-    const Recording& recording = recordings[i].recording;
+  for (const SweepRecording& one : recordings) {
+    const Recording& recording = one.recording;
     const bool is_open = own.average && !recording.conditions().sensor_average_s;
     averaged.push_back(is_open ? with_average(recording, own.average->seconds * own.average->seconds / 12.0)
                                : recording);

@@ -72,7 +72,7 @@ class WeakeningFitter {
     std::optional<DampedFit> fit =
         finish({*std::move(blocks), false, held_, std::nullopt, half_width_s_, excluded_, {}, {}});
     if (fit && is_negative(*fit)) fit = without_damping(*std::move(fit));
-    if (fit && rival_ != nullptr) return with_free_average(*std::move(fit));
+    if (fit && rival_ != nullptr) return with_free_average(std::move(fit));
     if (fit && !input_.recording.conditions().sensor_average_s) {
       fit->rounding = estimate_smoothing(fit->blocks, fit->held, input_.recording.sample_interval_s());
     }
@@ -94,20 +94,19 @@ class WeakeningFitter {
     return is_solved ? std::optional(std::move(next)) : std::nullopt;
   }
 
-  [[nodiscard]] std::optional<DampedFit> with_free_average(DampedFit fit) const {
+  [[nodiscard]] std::optional<DampedFit> with_free_average(std::optional<DampedFit> fit) const {
     constexpr int kMostSteps = 5;
-    for (int step = 0; step < kMostSteps; ++step) {
-      const auto beyond = estimate_smoothing(fit.blocks, fit.held, input_.recording.sample_interval_s());
-      if (!beyond) return std::nullopt;
+    for (int step = 0; fit && step < kMostSteps; ++step) {
+      const auto beyond = estimate_smoothing(fit->blocks, fit->held, input_.recording.sample_interval_s());
+      if (!beyond) break;
       if (std::abs(beyond->variance_s2) < thresholds::kSettledAverage * beyond->standard_error_s2) {
-        return with_average_error(std::move(fit), std::pow(fit.blocks.scales().sensor_average_s, 2) / 12.0, *beyond);
+        const double average_s = fit->blocks.scales().sensor_average_s;
+        return with_average_error(*std::move(fit), average_s * average_s / 12.0, *beyond);
       }
-      std::optional<BlockFit> blocks = with_next_average(fit.blocks, *beyond, fit.held);
-      if (!blocks) return std::nullopt;
-      fit.blocks = *std::move(blocks);
-      std::optional<DampedFit> next = finish(std::move(fit));
-      if (!next) return std::nullopt;
-      fit = *std::move(next);
+      std::optional<BlockFit> blocks = with_next_average(fit->blocks, *beyond, fit->held);
+      if (!blocks) break;
+      fit->blocks = *std::move(blocks);
+      fit = finish(*std::move(fit));
     }
     return std::nullopt;
   }
