@@ -1,9 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstddef>
-#include <random>
 #include <utility>
-#include <vector>
 
 #include "fit/scene.hpp"
 
@@ -25,19 +23,9 @@ Scene printed_plastic() {
   return s;
 }
 
-/// The scene with every sample averaged over so many, noise of a hundredth of the friction difference added after it.
+/// With noise of a hundredth of the friction difference.
 Recording averaged(const Scene& s, std::size_t samples) {
-  const Recording exact = record(s);
-  std::vector<double> time_s, force;
-  std::mt19937_64 random(7);
-  std::normal_distribution<double> noise(0.0, 0.002);
-  for (std::size_t begin = 0; begin + samples <= exact.size(); ++begin) {
-    double sum = 0.0;
-    for (std::size_t i = begin; i < begin + samples; ++i) sum += exact.force()[i];
-    time_s.push_back(0.5 * (exact.time_s()[begin] + exact.time_s()[begin + samples - 1]));
-    force.push_back(sum / static_cast<double>(samples) + noise(random));
-  }
-  return Recording::create(std::move(time_s), std::move(force), exact.conditions()).value();
+  return moving_average(record(s), samples, 0.002, 7);
 }
 
 }  // namespace

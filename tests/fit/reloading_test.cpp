@@ -137,17 +137,8 @@ TEST_CASE("a rise after slips is found through an average that nobody stated") {
   const double rise_N = kRise * (s.static_N - s.kinetic_N);
   const Recording exact = reloading_recording(s, rise_N);
   const std::size_t width = 8;
-  std::mt19937_64 random(s.seed);
-  std::normal_distribution<double> noise(0.0, 0.005 * (s.static_N - s.kinetic_N));
-  std::vector<double> time_s, force;
-  for (std::size_t begin = 0; begin + width <= exact.size(); ++begin) {
-    double sum = 0.0;
-    for (std::size_t i = begin; i < begin + width; ++i) sum += exact.force()[i];
-    time_s.push_back(0.5 * (exact.time_s()[begin] + exact.time_s()[begin + width - 1]));
-    force.push_back(sum / static_cast<double>(width) + noise(random));
-  }
-  const Analysis analysis =
-      analyze_and_fit(Recording::create(std::move(time_s), std::move(force), exact.conditions()).value(), {});
+  const double noise_N = 0.005 * (s.static_N - s.kinetic_N);
+  const Analysis analysis = analyze_and_fit(moving_average(exact, width, noise_N, s.seed), {});
   REQUIRE(analysis.fit);
   // With the slips of the fit without an average the rise would be off by 5 to 30 of its standard errors.
   for (const auto& [name, truth] : {std::pair{"reload_force_N", rise_N}, std::pair{"reload_length_m", kLength_m},

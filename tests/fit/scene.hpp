@@ -1,9 +1,12 @@
 #pragma once
 
 #include <catch2/catch.hpp>
+#include <cstddef>
 #include <cstdint>
+#include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/pipeline.hpp"
@@ -40,6 +43,20 @@ inline Recording record(const Scene& s) {
   conditions.force_view = s.view;
   conditions.zero_force_N = 0.0;
   return Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value();
+}
+
+/// Every sample averaged over so many, noise added after it.
+inline Recording moving_average(const Recording& exact, std::size_t samples, double noise_N, std::uint64_t seed) {
+  std::vector<double> time_s, force;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> noise(0.0, noise_N);
+  for (std::size_t begin = 0; begin + samples <= exact.size(); ++begin) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < begin + samples; ++i) sum += exact.force()[i];
+    time_s.push_back(0.5 * (exact.time_s()[begin] + exact.time_s()[begin + samples - 1]));
+    force.push_back(sum / static_cast<double>(samples) + noise(random));
+  }
+  return Recording::create(std::move(time_s), std::move(force), exact.conditions()).value();
 }
 
 inline const Parameter& parameter(const Analysis& analysis, const std::string& name) {

@@ -39,6 +39,12 @@ bool has_slips(const BlockFit& fit) {
   return true;
 }
 
+BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& from) {
+  BlockFit to(set, from.scales());
+  carry_over(from, to);
+  return with_rise_after(to, from.scales());
+}
+
 std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData> cut) {
   std::vector<CycleData> same;
   std::size_t next = 0;
@@ -61,9 +67,7 @@ BlockFit averaged_by(const BlockFit& fit, const Smoothing& beyond) {
 double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor) {
   constexpr int kMostIterations = 60;
   constexpr double kTolerance = 1e-7;  // SolveOptions::tolerance: as near as the richer one is
-  BlockFit again(rich.blocks.set(), poor.blocks.scales());
-  carry_over(poor.blocks, again);
-  again = with_rise_after(again, poor.blocks.scales());
+  BlockFit again = carried_to(rich.blocks.set(), poor.blocks);
   if (!std::isfinite(solve(again, {poor.held, false, true, kMostIterations, kTolerance}))) return 0.0;
   return effective_samples(rich) * std::log(sum_of_squares(again) / sum_of_squares(rich.blocks)) - 2.0;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "fit/inference/smoothing.hpp"
@@ -11,6 +12,9 @@ namespace slipfit::fit {
 
 /// Takes the solution of other fits of the same slips, of a neighbour where one is not among them.
 void carry_over(const BlockFit& from, BlockFit& to);
+
+/// The fit on the cycles of another one, its rise after the slips that it has there.
+BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& from);
 
 /// Those of the cycles that the fit has, in order.
 std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData> cut);

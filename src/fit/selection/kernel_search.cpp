@@ -13,6 +13,7 @@
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/carried_fit.hpp"
+#include "fit/selection/first_guess.hpp"
 #include "fit/selection/reloading_fit.hpp"
 #include "signal/robust.hpp"
 
@@ -25,15 +26,6 @@ constexpr double kLargestShare = 1.4;  // of the seen variance: damping and the 
 constexpr double kShareStep = 0.1;
 constexpr int kMinimumBits = 6;
 
-/// Those of the cycles that the fit could use.
-std::vector<CycleData> used_by(const BlockFit& fit, std::vector<CycleData> cycles) {
-  std::vector<std::size_t> used;
-  for (std::size_t i = 0; i < fit.size(); ++i) used.push_back(fit.data(i).slip);
-  std::erase_if(cycles,
-                [&](const CycleData& cycle) { return !std::binary_search(used.begin(), used.end(), cycle.slip); });
-  return cycles;
-}
-
 }  // namespace
 
 KernelSearch::KernelSearch(const Recording& recording, const Segmentation& segmentation, const HeldParameters& held,
@@ -41,14 +33,13 @@ KernelSearch::KernelSearch(const Recording& recording, const Segmentation& segme
     : segmentation_(segmentation), held_(held_of(held)), step_s_(recording.sample_interval_s()), plain_(plain.blocks) {
   const Scales& scales = plain_.scales();
   const HumLines hum{plain_.level().lines_Hz, scales.time_begin_s};
-  std::vector<CycleData> cycles =
-      spread_subset(used_by(plain_, cut_cycles(recording, segmentation, half_width_s, plain.excluded, hum)), count);
-  std::vector<double> middles_s;
-  for (CycleData& cycle : cycles) {
-    middles_s.push_back(segmentation.slips[cycle.slip].middle_s);
-    cycle = thinned(std::move(cycle), middles_s.back(), scales.half_period_s, step_s_);
+  std::vector<CycleData> cycles = spread_subset(
+      same_cycles_of(plain_, cut_cycles(recording, segmentation, half_width_s, plain.excluded, hum)), count);
+  std::vector<double> middles = middles_s(segmentation, cycles);
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    cycles[i] = thinned(std::move(cycles[i]), middles[i], scales.half_period_s, step_s_);
   }
-  cycles_ = std::make_shared<CycleSet>(std::move(cycles), std::move(middles_s), plain_.level(), scales);
+  cycles_ = std::make_shared<CycleSet>(std::move(cycles), std::move(middles), plain_.level(), scales);
 }
 
 std::vector<KernelSearch::Least> KernelSearch::minima(double least_share) const {

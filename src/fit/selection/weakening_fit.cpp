@@ -99,11 +99,11 @@ bool has_slips_of_the_model(const DampedFit& fit) {
          difference < (1.0 + kRoom) * sawtooth.drop;
 }
 
-/// What a fit of both says for and against it beside `single`, the fit with one of the two.
-Candidate judged_both(const DampedFit& both, const DampedFit& single, const DampedFit& coulomb) {
+/// What a fit of both says for and against it beside `single`, the fit with one of the two. `gain`: of AICc over
+/// `single`; `before`: stacked residual of `single`.
+Candidate judged_both(const DampedFit& both, const DampedFit& single, double gain, double before) {
   Candidate candidate =
-      judged(candidate_of(both, Tier::Weakening, 5, effective_samples(both)), both, single,
-             gain_on_same_samples(both, single), stacked_residual(single.blocks, coulomb.blocks).size);
+      judged(candidate_of(both, Tier::Weakening, 5, effective_samples(both)), both, single, gain, before);
   const bool tells_average = both.average->seconds > thresholds::kSureTerm * both.average->standard_error_s;
   if (!tells_average || !has_slips_of_the_model(both)) candidate.chosen = false;
   return candidate;
@@ -115,16 +115,18 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Damp
   if (!start_s) return trial;
   const DampedFit& single = trial.candidate.chosen ? *trial.fit : coulomb;
   std::optional<DampedFit> both = fit_averaged_weakening(input, coulomb, missed, *start_s, single);
-  if (!both || !(gain_on_same_samples(*both, single) > thresholds::kTierPrice)) return trial;
-  Candidate candidate = judged_both(*both, single, coulomb);
+  if (!both) return trial;
+  const double gain = gain_on_same_samples(*both, single);
+  if (!(gain > thresholds::kTierPrice)) return trial;
+  const double before = stacked_residual(single.blocks, coulomb.blocks).size;
+  Candidate candidate = judged_both(*both, single, gain, before);
   if (candidate.chosen) {
     Minimum best = better_minimum(input, coulomb, missed, single, *std::move(both));
     both = std::move(best.fit);
-    candidate = judged_both(*both, single, coulomb);
+    candidate = judged_both(*both, single, gain_on_same_samples(*both, single), before);
     if (best.is_sure && candidate.chosen) return {std::move(both), std::move(candidate), {}, std::nullopt};
   }
-  const StackedResidual before = stacked_residual(single.blocks, coulomb.blocks);
-  if (stacked_residual(both->blocks, coulomb.blocks).size > thresholds::kHalvedStack * before.size) return trial;
+  if (stacked_residual(both->blocks, coulomb.blocks).size > thresholds::kHalvedStack * before) return trial;
   trial.fall_doubt =
       "friction that weakens over a slip distance and an average of the sensor together explain the slips better "
       "than either, and cannot be told apart: state the average with --sensor-average";

@@ -15,6 +15,7 @@
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/clipping.hpp"
 #include "fit/selection/finish.hpp"
+#include "fit/selection/first_guess.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/outliers.hpp"
 #include "fit/selection/reloading_fit.hpp"
@@ -172,9 +173,7 @@ class WeakeningFitter {
     constexpr int kFewSteps = 4;
     std::optional<BlockFit> blocks = solved(some_of(cycles, kTrialCycles), start, kSomeTolerance);
     if (!blocks) return false;
-    BlockFit rival(blocks->set(), rival_->blocks.scales());
-    carry_over(rival_->blocks, rival);
-    rival = with_rise_after(rival, rival_->blocks.scales());
+    BlockFit rival = carried_to(blocks->set(), rival_->blocks);
     if (!std::isfinite(solve(rival, {rival_->held, false, true}))) return true;
     const double least = sum_of_squares(rival) * (1.0 - 0.5 * thresholds::kTierPrice / effective_samples(*rival_));
     for (int step = 0; blocks && step < kFewSteps; ++step) {
@@ -241,10 +240,7 @@ class WeakeningFitter {
   }
 
   [[nodiscard]] BlockFit blocks_of(const std::vector<CycleData>& cycles) const {
-    std::vector<double> middles_s;
-    middles_s.reserve(cycles.size());
-    for (const CycleData& cycle : cycles) middles_s.push_back(input_.segmentation.slips[cycle.slip].middle_s);
-    return {cycles, std::move(middles_s), scales_, coulomb_.blocks.level()};
+    return {cycles, middles_s(input_.segmentation, cycles), scales_, coulomb_.blocks.level()};
   }
 
   /// Onsets and forces of the cycles by themselves; false where a slip has no solution.
