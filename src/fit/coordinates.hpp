@@ -47,6 +47,11 @@ inline Held held_of(const HeldParameters& parameters) {
   return held;
 }
 
+/// Bounds of kFrictionRate: friction that changes within a tenth of the speeds of a slip, or grows by more than exp(2)
+/// over them, is another law.
+inline constexpr double kLeastRate = -10.0;
+inline constexpr double kMostRate = 2.0;
+
 enum class FrictionLaw {
   Coulomb,      ///< F_k is constant: the slip in closed form
   Exponential,  ///< F_k(v), the slip integrated; the same of the others

@@ -9,6 +9,7 @@ namespace slipfit::model {
 // there is none.
 std::optional<double> aged_difference_N(const AgeingLaw& law, const StickTimeOf& stick_time) {
   constexpr int kMaxSteps = 200;
+  constexpr int kMaxDoublings = 20;  // the logarithm of a stick time brings few times the rate
   constexpr double kSharp = 1e-10;
   struct Excess {
     double value_N, slope;
@@ -21,7 +22,7 @@ std::optional<double> aged_difference_N(const AgeingLaw& law, const StickTimeOf&
   };
   double difference_N = std::max(law.difference_N, law.rate_N);
   std::optional<Excess> excess = excess_at(difference_N);
-  for (int i = 0; i < kMaxSteps && !(excess && excess->value_N <= 0.0 && excess->slope < 0.0); ++i) {
+  for (int i = 0; i < kMaxDoublings && !(excess && excess->value_N <= 0.0 && excess->slope < 0.0); ++i) {
     difference_N *= 2.0;
     excess = excess_at(difference_N);
   }

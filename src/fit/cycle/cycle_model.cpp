@@ -265,7 +265,7 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, Rows& rows) const
 
 bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* jacobian) const {
   Rows rows(*this, values, residuals, jacobian);
-  if (scales_.law == FrictionLaw::Coulomb || scales_.law == FrictionLaw::Weakening) {
+  if (!is_integrated()) {
     const std::optional<CycleState> now = state(values.globals, values.local);
     if (now) std::visit([&](const auto& law) { fill(law, *now, rows); }, now->motion);
     return now.has_value();

@@ -123,6 +123,10 @@ class CycleModel {
     return globals() + (scales_.population ? 1 : 0) + (has_constant() ? 1 : 0) + drift_parameters();
   }
   [[nodiscard]] const CycleData& data() const { return *data_; }
+  /// Friction that depends on the speed has no closed form.
+  [[nodiscard]] bool is_integrated() const {
+    return scales_.law != FrictionLaw::Coulomb && scales_.law != FrictionLaw::Weakening;
+  }
 
   /// Residuals and, unless null, their Jacobian (residuals() x columns(), column after column). False where the slip
   /// has no solution.

@@ -17,8 +17,8 @@
 namespace slipfit::fit {
 namespace {
 
-/// alpha v_c; friction that falls by more than exp(-10) over a slip, or grows by more than exp(2), is another law.
-constexpr std::array kRates{-10.0, -7.0, -5.0, -3.5, -2.5, -1.8, -1.3, -0.9, -0.6, -0.3, 0.01, 0.3, 0.6, 1.0, 1.5, 2.0};
+constexpr std::array kRates{kLeastRate, -7.0, -5.0, -3.5, -2.5, -1.8, -1.3, -0.9,
+                            -0.6,       -0.3, 0.01, 0.3,  0.6,  1.0,  1.5,  kMostRate};
 
 /// Where the coordinates are with alpha held.
 struct Point {

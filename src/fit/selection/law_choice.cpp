@@ -47,14 +47,13 @@ LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
 std::vector<Candidate> candidates_of(const SweepFits& fits, const LawChoice& choice) {
   const double noise2 = fits.velocity.chi2 / fits.velocity.degrees_of_freedom;
   const auto cycles = static_cast<double>(fits.velocity.cycles());
-  const auto aicc = [&](const SweepSolution& solution, double parameters) -> std::optional<double> {
+  const auto aicc = [&](double chi2, double parameters) -> std::optional<double> {
     if (!(cycles > parameters + 1.0)) return std::nullopt;
-    return solution.chi2 / noise2 + 2.0 * parameters +
-           2.0 * parameters * (parameters + 1.0) / (cycles - parameters - 1.0);
+    return chi2 / noise2 + 2.0 * parameters + 2.0 * parameters * (parameters + 1.0) / (cycles - parameters - 1.0);
   };
-  const std::optional<double> of_coulomb = fits.coulomb ? aicc(*fits.coulomb, 5.0) : std::nullopt;
+  const std::optional<double> of_coulomb = fits.coulomb ? aicc(fits.coulomb_chi2, 5.0) : std::nullopt;
   return {{Tier::Damped, 5, std::nullopt, of_coulomb, !choice.velocity, choice.reason},
-          {Tier::Velocity, 7, std::nullopt, aicc(fits.velocity, 7.0), choice.velocity, choice.reason}};
+          {Tier::Velocity, 7, std::nullopt, aicc(fits.velocity.chi2, 7.0), choice.velocity, choice.reason}};
 }
 
 }  // namespace slipfit::fit

@@ -46,14 +46,21 @@ class SweepFitter {
   SweepFitter(const SweepData& data, const HeldParameters& held) : data_(data), fixed_(held) {}
 
   [[nodiscard]] std::optional<SweepFits> fit() const {
-    std::optional<SweepSolution> free = fit_velocity({false, false});
-    if (!free) return std::nullopt;
-    SweepSolution velocity = at_best_average(with_shares(std::move(*free)));
-    std::optional<SweepSolution> coulomb = coulomb_like(velocity);
-    if (coulomb) coulomb = at_best_average(*std::move(coulomb));
-    SweepFits fits{std::move(velocity), std::move(coulomb)};
-    const double extra = 2.0;  // slope and rate
-    fits.p_value = fits.coulomb ? chance(fits.coulomb->chi2 - fits.velocity.chi2, extra, fits.velocity) : 0.0;
+    constexpr Sharing kAll{true, true};
+    std::optional<SweepSolution> velocity = with_shares(FrictionLaw::Exponential, kAll);
+    if (!velocity) return std::nullopt;
+    SweepFits fits{at_best_average(*std::move(velocity)), std::nullopt};
+    const Sharing shares = fits.velocity.sweep.sharing;
+    std::optional<SweepSolution> coulomb = fit(FrictionLaw::Coulomb, shares);
+    if (coulomb) {
+      coulomb = at_best_average(*std::move(coulomb));
+      constexpr double kExtra = 2.0;  // slope and rate
+      fits.coulomb_chi2 = coulomb->chi2;
+      fits.p_value = chance(coulomb->chi2 - fits.velocity.chi2, kExtra, fits.velocity);
+      // Friction that depends on the speed may explain levels that differ under Coulomb friction.
+      coulomb = with_shares(FrictionLaw::Coulomb, shares);
+      if (coulomb) fits.coulomb = at_best_average(*std::move(coulomb));
+    }
     fits.depends_on_speed = fits.p_value < thresholds::kLawChance;
     return fits;
   }
@@ -112,23 +119,40 @@ class SweepFitter {
     return best ? at_minimum(std::move(*best), held, kSweepCompared) : std::nullopt;
   }
 
-  /// Sharing as much as the data agree with: both, then one of the two, else nothing.
-  [[nodiscard]] SweepSolution with_shares(SweepSolution free) const {
-    const std::size_t runs = data_.fitted.size();
+  [[nodiscard]] std::optional<SweepSolution> fit_coulomb(Sharing sharing) const {
+    SweepSolution start = start_of(data_, sharing, FrictionLaw::Coulomb, data_.fitted);
+    set_globals(start);
+    return at_minimum(std::move(start), held_of(fixed_));
+  }
+
+  [[nodiscard]] std::optional<SweepSolution> fit(FrictionLaw law, Sharing sharing) const {
+    return law == FrictionLaw::Coulomb ? fit_coulomb(sharing) : fit_velocity(sharing);
+  }
+
+  /// Sharing as much of `most` as the data agree with: both, then one of the two, else nothing.
+  [[nodiscard]] std::optional<SweepSolution> with_shares(FrictionLaw law, Sharing most) const {
+    std::optional<SweepSolution> free = fit(law, {false, false});
     for (const Sharing sharing : {Sharing{true, true}, Sharing{false, true}, Sharing{true, false}}) {
-      std::optional<SweepSolution> shared = fit_velocity(sharing);
+      if ((sharing.level && !most.level) || (sharing.difference && !most.difference)) continue;
+      std::optional<SweepSolution> shared = free ? fit(law, sharing) : std::nullopt;
       if (!shared) continue;
       // With more freedom no fit can be worse: where it is, it had ended in another minimum.
-      if (shared->chi2 < free.chi2) {
+      if (shared->chi2 < free->chi2) {
         std::optional<SweepSolution> better = released(*shared);
-        if (better && better->chi2 < free.chi2) free = std::move(*better);
+        if (better && better->chi2 < free->chi2) free = std::move(better);
       }
-      const double steady = sharing.level ? static_cast<double>(data_.steady.size()) : 0.0;
-      const double shared_kinds = (sharing.level ? 1.0 : 0.0) + (sharing.difference ? 1.0 : 0.0);
-      const double constraints = static_cast<double>(runs - 1) * shared_kinds + steady;
-      if (chance(shared->chi2 - free.chi2, constraints, free) > thresholds::kShareChance) return std::move(*shared);
+      if (chance_of_sharing(*shared, *free) > thresholds::kShareChance) return shared;
     }
     return free;
+  }
+
+  /// Of so much more misfit by what the recordings share.
+  [[nodiscard]] double chance_of_sharing(const SweepSolution& shared, const SweepSolution& free) const {
+    const Sharing& sharing = shared.sweep.sharing;
+    const double steady = sharing.level ? static_cast<double>(data_.steady.size()) : 0.0;
+    const double shared_kinds = (sharing.level ? 1.0 : 0.0) + (sharing.difference ? 1.0 : 0.0);
+    const double constraints = static_cast<double>(data_.fitted.size() - 1) * shared_kinds + steady;
+    return chance(shared.chi2 - free.chi2, constraints, free);
   }
 
   /// From a shared solution on with nothing shared.
@@ -152,12 +176,6 @@ class SweepFitter {
     const double steps = std::clamp(0.5 * (less->chi2 - more->chi2) / bend, -3.0, 3.0);
     auto best = with_average(data_, solution, middle_s + steps * step_s);
     return best && best->chi2 < solution.chi2 ? *std::move(best) : solution;
-  }
-
-  [[nodiscard]] std::optional<SweepSolution> coulomb_like(const SweepSolution& velocity) const {
-    SweepSolution start = start_of(data_, velocity.sweep.sharing, FrictionLaw::Coulomb, data_.fitted);
-    set_globals(start);
-    return at_minimum(std::move(start), held_of(fixed_));
   }
 
   const SweepData& data_;

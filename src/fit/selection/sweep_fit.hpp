@@ -10,9 +10,10 @@ namespace slipfit::fit {
 
 struct SweepFits {
   SweepSolution velocity;                ///< near enough to its minimum to compare sums of squares: see settled
-  std::optional<SweepSolution> coulomb;  ///< with the same shares; empty: it has no minimum
+  std::optional<SweepSolution> coulomb;  ///< sharing at most what velocity does; empty: it has no minimum
+  double coulomb_chi2 = 0.0;             ///< with the shares of velocity
+  double p_value = 0.0;                  ///< that Coulomb friction with these gives such a difference by chance
   bool depends_on_speed = false;         ///< velocity explains more than chance would
-  double p_value = 1.0;                  ///< that Coulomb friction gives such a difference by chance
 };
 
 /// Both laws, with everything shared between the recordings that the data agree with. Empty where no start converges.
