@@ -15,6 +15,7 @@
 
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/pipeline.hpp"
+#include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
 
 using namespace slipfit;
@@ -117,6 +118,39 @@ TEST_CASE("printed plastic: spacing agrees with the authors' own") {
   if (ratios.empty()) return;
   std::sort(ratios.begin(), ratios.end());
   CHECK(0.5 * (ratios[(ratios.size() - 1) / 2] + ratios[ratios.size() / 2]) == Approx(1.0).epsilon(0.05));
+}
+
+TEST_CASE("printed plastic: slow recordings predict the spacing at speeds up to 2.7 times as fast") {
+  std::map<int, double> published_m;
+  for (auto& row : table(kData / "real/fdm/published_spacing.csv")) {
+    if (row["mass_g"] == "77")
+      published_m[std::stoi(row["speed_mm_min"])] = 1e-3 * std::stod(row["published_spacing_mm"]);
+  }
+  std::vector<SweepEntry> entries;
+  for (const int speed_mm_min : {30, 50, 100, 150}) {
+    const std::string name = "fdm_77g_" + std::to_string(speed_mm_min) + "mm_min.csv";
+    if (!std::filesystem::exists(kData / "real/fdm" / name)) {
+      WARN("skipped: no " << name << " beside the checkout");
+      return;
+    }
+    Conditions conditions;
+    conditions.speed_m_per_s = speed_mm_min / 60000.0;
+    entries.push_back({name, read_recording(kData / "real/fdm" / name, conditions, {}).value()});
+  }
+  const SweepAnalysis analysis = analyze_sweep(entries, {});
+  REQUIRE(analysis.fit);
+  REQUIRE(analysis.fit->result.estimate);
+  for (const int speed_mm_min : {200, 300, 400}) {
+    CAPTURE(speed_mm_min);
+    const std::vector<double> speed{speed_mm_min / 60000.0};
+    const Prediction prediction = predict_at({*analysis.fit->result.estimate, true, std::nullopt}, speed);
+    const Estimate& spacing_m = prediction.rows.front().periodic_displacement_m;
+    REQUIRE(spacing_m.ci95);
+    CHECK(spacing_m.ci95->low < published_m[speed_mm_min]);
+    CHECK(published_m[speed_mm_min] < spacing_m.ci95->high);
+    // The authors' own reading of the same recordings differs from ours by up to this.
+    CHECK(*spacing_m.value == Approx(published_m[speed_mm_min]).epsilon(0.25));
+  }
 }
 
 TEST_CASE("teaching rig without a clock: period found, damping refused, friction drop bounded") {
