@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/contact/contact_fit.hpp"
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/fit_unless.hpp"
@@ -227,10 +228,15 @@ Chosen choose(const fit::FitInput& input, DampedFit damped, std::optional<Tier> 
 
 }  // namespace
 
-std::optional<FitResult> fit::fit_unless(const GiveUp& give_up, const Recording& recording, const Quality& quality,
-                                         const Segmentation& segmentation, const FitOptions& options) {
+std::optional<FitResult> fit::fit_unless(const std::function<bool()>& is_other_kept, const Recording& recording,
+                                         const Quality& quality, const Segmentation& segmentation,
+                                         const FitOptions& options) {
   if (recording.conditions().force_view == ForceView::Contact) return fit_contact(recording, segmentation, options);
   const HeldParameters held = held_parameters(options);
+  GiveUp give_up;
+  if (is_other_kept) {
+    give_up = [&](const BlockFit& some) { return reduced_chi2(some) > thresholds::kLargeChi2 && is_other_kept(); };
+  }
   std::optional<DampedFit> damped = draft_with_rise(recording, quality, segmentation, held, give_up);
   if (damped) damped = fit::fit_as_sensed(recording, quality, segmentation, held, *std::move(damped));
   if (!damped) return std::nullopt;

@@ -47,8 +47,7 @@ class Fitter {
     if (cycles_.size() > 4 * kMiddleCycles) {
       auto middle = fit_middle(*start, start->level().lines_Hz);
       if (middle) start = with_settled_hum(*std::move(middle));
-      if (resting_share(*start) < near_.least_resting) return std::nullopt;
-      if (near_.give_up && reduced_chi2(*start) > thresholds::kLargeChi2 && near_.give_up()) return std::nullopt;
+      if (near_.give_up && near_.give_up(*start)) return std::nullopt;
     }
     std::optional<BlockFit> fit =
         fit_from(std::move(cycles_), start->level(), start->parameters.globals, near_.most_iterations, kRough);
@@ -108,7 +107,7 @@ class Fitter {
     LevelModel level = near.level();
     level.lines_Hz = lines_Hz;
     // What decides whether all are fitted has to be settled.
-    const double tolerance = near_.least_resting > 0.0 ? kFinal : kRough;
+    const double tolerance = near_.give_up ? kFinal : kRough;
     return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.globals, kMaxIterations, tolerance);
   }
 

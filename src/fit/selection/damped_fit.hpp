@@ -14,9 +14,9 @@
 
 namespace slipfit::fit {
 
-/// Asked once, before all of many cycles are fitted, where the model misses much of some of them: true ends the fit,
-/// which is then empty.
-using GiveUp = std::function<bool()>;
+/// Asked once, before all of many cycles are fitted, with the fit of some of them: true ends the fit, which is then
+/// empty.
+using GiveUp = std::function<bool(const BlockFit& some)>;
 
 /// Where a fit begins: beside another one of the same recording, first without the samples that this left out.
 struct Near {
@@ -24,7 +24,6 @@ struct Near {
   std::vector<std::size_t> excluded{};
   std::shared_ptr<const RiseAfterSlip> reloading{};  ///< of the sticks
   bool level_per_cycle = false;  ///< the other one has a level of its own in every cycle, which is tried then
-  double least_resting = 0.0;    ///< share of the slips: none where fewer of some of them come to rest
   int most_iterations = 60;      ///< of a solve of all cycles
   GiveUp give_up{};              ///< empty: never
 };

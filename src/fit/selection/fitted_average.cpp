@@ -11,6 +11,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
+#include "fit/cycle/start.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/damped_fit.hpp"
@@ -24,6 +25,7 @@ namespace {
 
 constexpr std::size_t kSearchCycles = 10;   // enough to begin with
 constexpr std::size_t kCompareCycles = 40;  // enough to tell two kernels apart
+constexpr double kSame = 0.05;              // of the variance: Newton's steps have led to one minimum from two sides
 constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
 constexpr int kAveragedIterations = 30;     // a fit that explains the slips settles in fewer
 constexpr double kForgottenLags = 8.0;      // e^-8
@@ -64,14 +66,12 @@ class Trials {
          const HeldParameters& held, const DampedFit& plain)
       : recording_(recording), quality_(quality), segmentation_(segmentation), held_(held), plain_(plain) {}
 
-  /// Newton's steps in sigma^2, the nearest of them.
-  [[nodiscard]] std::optional<Trial> fit(double variance_s2, const Globals& near) const {
+  /// Newton's steps in sigma^2, the nearest of them. `other`: a fit with another average, whose cycles and samples will
+  /// do.
+  [[nodiscard]] std::optional<Trial> fit(double variance_s2, const Globals& near, const DampedFit* other) const {
     const int most_fits = plain_.blocks.level().reloading ? 6 : 3;
     std::optional<Trial> best;
-    std::optional<DampedFit> fit = draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_,
-                                                {near, plain_.excluded, reloading(std::sqrt(12.0 * variance_s2)),
-                                                 plain_.blocks.level().per_cycle, kFewRest, kAveragedIterations});
-    fit = settle_rise(recording_.sample_interval_s(), quality_, std::move(fit));
+    std::optional<DampedFit> fit = other != nullptr ? beside(*other, variance_s2, &near) : drafted(variance_s2, near);
     for (int fits = 1; fit; ++fits) {
       const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
       if (!beyond) break;
@@ -82,7 +82,7 @@ class Trials {
       if (fits == most_fits || is_hopeless || best->is_settled()) break;
       variance_s2 += beyond->variance_s2;
       if (!(variance_s2 > 0.0)) break;
-      fit = beside(best->fit, variance_s2);
+      fit = beside(best->fit, variance_s2, nullptr);
     }
     return best;
   }
@@ -96,11 +96,22 @@ class Trials {
     return std::make_shared<const RiseAfterSlip>(std::move(reloading));
   }
 
-  /// The same cycles and samples with another average, and the rise after the slips that it shows.
-  [[nodiscard]] std::optional<DampedFit> beside(const DampedFit& other, double variance_s2) const {
+  [[nodiscard]] std::optional<DampedFit> drafted(double variance_s2, const Globals& near) const {
+    std::optional<DampedFit> fit =
+        draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_,
+                     {near, plain_.excluded, reloading(std::sqrt(12.0 * variance_s2)), plain_.blocks.level().per_cycle,
+                      kAveragedIterations, [](const BlockFit& some) { return resting_share(some) < kFewRest; }});
+    return settle_rise(recording_.sample_interval_s(), quality_, std::move(fit));
+  }
+
+  /// The same cycles and samples with another average, and the rise after the slips that it shows. From the other's
+  /// solution on, or from `start`.
+  [[nodiscard]] std::optional<DampedFit> beside(const DampedFit& other, double variance_s2,
+                                                const Globals* start) const {
     Scales scales = other.blocks.scales();
     scales.sensor_average_s = std::sqrt(12.0 * variance_s2);
     BlockFit blocks = with_rise_after(other.blocks, scales);
+    if (start != nullptr) set_start(blocks, segmentation_, *start);
     if (!std::isfinite(solve(blocks, {other.held, false, true}))) return std::nullopt;
     std::optional<DampedFit> fit =
         with_uncertainty({std::move(blocks), false, other.held, {}, other.half_width_s, other.excluded, {}, {}},
@@ -134,9 +145,13 @@ double evidence(const KernelSearch::Least& better, const KernelSearch::Least& ot
 std::vector<KernelSearch::Least> best_averages(const std::vector<KernelSearch::Least>& minima,
                                                const KernelSearch& search, const DampedFit& plain) {
   std::vector<KernelSearch::Least> averages;
-  averages.reserve(minima.size());
-  for (const KernelSearch::Least& least : minima) averages.push_back(search.refined(least));
-  std::erase_if(averages, [](const KernelSearch::Least& least) { return least.resting < thresholds::kRestickShare; });
+  for (const KernelSearch::Least& minimum : minima) {
+    const KernelSearch::Least least = search.refined(minimum);
+    const bool is_new = std::none_of(averages.begin(), averages.end(), [&](const KernelSearch::Least& other) {
+      return std::abs(other.variance_s2 - least.variance_s2) < kSame * least.variance_s2;
+    });
+    if (is_new && least.resting >= thresholds::kRestickShare) averages.push_back(least);
+  }
   std::sort(averages.begin(), averages.end(), [](const auto& a, const auto& b) { return a.sum < b.sum; });
   if (averages.empty()) return {};
   const KernelSearch::Least best = averages.front();
@@ -159,7 +174,7 @@ Found best_trial(const Trials& trials, const DampedFit& plain, const std::vector
   Found found;
   std::optional<Trial>& trial = found.trial;
   for (const KernelSearch::Least& start : starts) {
-    std::optional<Trial> next = trials.fit(start.variance_s2, start.globals);
+    std::optional<Trial> next = trials.fit(start.variance_s2, start.globals, trial ? &trial->fit : nullptr);
     const bool is_better =
         next && follows_slips(next->fit, sample_interval_s) && gain_of(next->fit, plain) > thresholds::kTierPrice;
     if (!is_better) continue;

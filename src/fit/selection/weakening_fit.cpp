@@ -114,19 +114,20 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Damp
   const std::optional<double> start_s = start_of_average_s(input, coulomb, trial.fit);
   if (!start_s) return trial;
   const DampedFit& single = trial.candidate.chosen ? *trial.fit : coulomb;
+  const StackedResidual before = stacked_residual(single.blocks, coulomb.blocks);
+  if (before.size < before.by_chance) return trial;
   std::optional<DampedFit> both = fit_averaged_weakening(input, coulomb, missed, *start_s, single);
   if (!both) return trial;
   const double gain = gain_on_same_samples(*both, single);
   if (!(gain > thresholds::kTierPrice)) return trial;
-  const double before = stacked_residual(single.blocks, coulomb.blocks).size;
-  Candidate candidate = judged_both(*both, single, gain, before);
+  Candidate candidate = judged_both(*both, single, gain, before.size);
   if (candidate.chosen) {
     Minimum best = better_minimum(input, coulomb, missed, single, *std::move(both));
     both = std::move(best.fit);
-    candidate = judged_both(*both, single, gain_on_same_samples(*both, single), before);
+    candidate = judged_both(*both, single, gain_on_same_samples(*both, single), before.size);
     if (best.is_sure && candidate.chosen) return {std::move(both), std::move(candidate), {}, std::nullopt};
   }
-  if (stacked_residual(both->blocks, coulomb.blocks).size > thresholds::kHalvedStack * before) return trial;
+  if (stacked_residual(both->blocks, coulomb.blocks).size > thresholds::kHalvedStack * before.size) return trial;
   trial.fall_doubt =
       "friction that weakens over a slip distance and an average of the sensor together explain the slips better "
       "than either, and cannot be told apart: state the average with --sensor-average";
