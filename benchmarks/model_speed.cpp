@@ -7,12 +7,17 @@
 #include <random>
 #include <vector>
 
+#include "fit/law/coulomb.hpp"
+#include "fit/law/slip_weakening.hpp"
+#include "model/reloading.hpp"
 #include "model/velocity_track.hpp"
+#include "predict/motion.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
 #include "slipfit/model/sensitivity.hpp"
 #include "slipfit/model/velocity.hpp"
 #include "slipfit/model/waveform.hpp"
+#include "slipfit/predict/prediction.hpp"
 
 namespace {
 
@@ -144,6 +149,83 @@ void waveform_with_derivatives(benchmark::State& state) {
   count_samples(state);
 }
 
+// The slips of the fit, as an instrument shows them, with their derivatives. Of a slip of lambda 20 and zeta 0.05 one
+// cycle is solved, or one sample is asked at even steps; an average is 2 / w_n long, the slip distance 0.2 of
+// (F_s - F_k) / k.
+constexpr double kLambda = 20.0;
+constexpr double kZeta = 0.05;
+
+fit::Sensor averaging(double average_tau) {
+  fit::Sensor sensor;
+  sensor.average_tau = average_tau;
+  return sensor;
+}
+fit::CoulombCycle coulomb_cycle(double average_tau) {
+  return {kLambda - 2.0 * kZeta, kZeta, averaging(average_tau)};
+}
+fit::WeakeningCycle weakening_cycle(double average_tau) {
+  fit::Scales scales;
+  scales.speed_m_per_s = 1.0;
+  scales.slip_distance_m = kLambda;  // (F_s - F_k) / k in units of V / w_n
+  scales.sensor_average_s = average_tau;
+  const fit::Globals globals{0.0, 0.0, kZeta, std::sqrt(0.2)};
+  return *fit::WeakeningCycle::solve(kLambda - 2.0 * kZeta, 1.0, globals.data(), scales);
+}
+
+void coulomb_solved(benchmark::State& state) {
+  const auto average_tau = static_cast<double>(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(coulomb_cycle(average_tau));
+}
+void weakening_solved(benchmark::State& state) {
+  const auto average_tau = static_cast<double>(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(weakening_cycle(average_tau));
+}
+
+/// A thousand samples from before the slip to after it.
+template <class Cycle>
+void over_samples(benchmark::State& state, const Cycle& cycle) {
+  constexpr int kCount = 1000;
+  const double step = 1.5 * cycle.tau_end() / kCount;
+  for (auto _ : state) {
+    typename Cycle::Samples samples(cycle, step);
+    for (int i = 0; i < kCount; ++i) benchmark::DoNotOptimize(samples.at(step * i - 0.25 * cycle.tau_end()));
+  }
+  state.counters["per_sample"] = benchmark::Counter(kCount * static_cast<double>(state.iterations()),
+                                                    benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+void coulomb_sample(benchmark::State& state) {
+  over_samples(state, coulomb_cycle(static_cast<double>(state.range(0))));
+}
+void weakening_sample(benchmark::State& state) {
+  over_samples(state, weakening_cycle(static_cast<double>(state.range(0))));
+}
+
+/// The stick whose first part is steeper, with its derivatives.
+void reloaded_stick(benchmark::State& state) {
+  using Jet = ceres::Jet<double, 3>;
+  const Jet drop_m(2.0, 0);
+  const Jet rise_m(0.4, 1);
+  const Jet length_m(0.6, 2);
+  for (auto _ : state) benchmark::DoNotOptimize(model::reloaded_stick_m(drop_m, rise_m, length_m));
+}
+
+/// The limit cycle at one speed, with its derivatives: 1: static friction is that of a stick of its own length.
+void limit_cycle(benchmark::State& state) {
+  ModelEstimate model =
+      stated_model(Slider::create(1000.0, 1.0, kZeta).value(), Friction::create(3.0, 2.0).value()).estimate;
+  if (state.range(0) == 1) model.ageing = Ageing{0.05, 1.0, 0.1};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(model.ageing ? predict::ageing_motion_at(model, 1e-3)
+                                          : predict::coulomb_motion_at(model, 1e-3));
+  }
+}
+
+BENCHMARK(coulomb_solved)->Arg(0)->Arg(2);
+BENCHMARK(coulomb_sample)->Arg(0)->Arg(2);
+BENCHMARK(weakening_solved)->Arg(0)->Arg(2);
+BENCHMARK(weakening_sample)->Arg(0)->Arg(2);
+BENCHMARK(reloaded_stick);
+BENCHMARK(limit_cycle)->Arg(0)->Arg(1);
 BENCHMARK(exact_cycle);
 BENCHMARK(paper_approximation);
 BENCHMARK(exact_cycle_with_derivatives);
