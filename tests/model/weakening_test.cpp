@@ -171,19 +171,22 @@ TEST_CASE("the track of a weakening slip at even steps is the slip") {
       const WeakeningSlip slip = at.slip(view);
       if (!std::isfinite(slip.tau_end())) continue;
       const double step = slip.tau_end() / 70.0;
-      model::WeakeningTrack track(slip, step);
-      CAPTURE(at.lambda, at.zeta, at.distance);
-      for (int k = -5; k < 80; ++k) {
-        if (k % 11 == 7) continue;
-        const double tau = (k + 0.3) * step;
-        const model::WeakeningPoint here = track.at(tau);
-        const model::WeakeningPoint there = slip.at(tau);
-        const double size = at.lambda + tau;
-        CHECK(here.z == Approx(there.z).margin(1e-11 * size));
-        CHECK(here.d_z0 == Approx(there.d_z0).margin(1e-10));
-        CHECK(here.d_zeta == Approx(there.d_zeta).margin(1e-10 * size));
-        CHECK(here.d_tau == Approx(there.d_tau).margin(1e-11 * size));
-        CHECK(here.d_distance == Approx(there.d_distance).margin(1e-10));
+      for (const double average : {0.0, 0.3 * slip.tau_end(), 1.5 * slip.tau_end()}) {
+        model::WeakeningTrack track(slip, step, average);
+        CAPTURE(at.lambda, at.zeta, at.distance, average);
+        for (int k = -60; k < 130; ++k) {
+          if (k % 11 == 7) continue;
+          const double tau = (k + 0.3) * step;
+          const model::WeakeningPoint here = track.at(tau);
+          const model::WeakeningPoint there = average > 0.0 ? slip.mean_at(tau, average) : slip.at(tau);
+          const double size = at.lambda + std::abs(tau);
+          CHECK(here.z == Approx(there.z).margin(1e-11 * size));
+          CHECK(here.d_z0 == Approx(there.d_z0).margin(1e-10));
+          CHECK(here.d_zeta == Approx(there.d_zeta).margin(1e-10 * size));
+          CHECK(here.d_tau == Approx(there.d_tau).margin(1e-11 * size));
+          CHECK(here.d_log_omega == Approx(there.d_log_omega).margin(1e-11 * size));
+          CHECK(here.d_distance == Approx(there.d_distance).margin(1e-10));
+        }
       }
     }
   }

@@ -64,7 +64,7 @@ class WeakeningCycle {
   class Samples {
    public:
     Samples(const WeakeningCycle& cycle, double step_tau) : cycle_(cycle) {
-      if (step_tau > 0.0 && !(cycle.average_ > 0.0)) track_.emplace(cycle.slip_, step_tau);
+      if (step_tau > 0.0) track_.emplace(cycle.slip_, step_tau, cycle.average_);
     }
     Point at(double tau) { return track_ ? track_->at(tau) : cycle_.at(tau); }
 
