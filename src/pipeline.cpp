@@ -154,8 +154,8 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
     recordings.push_back({members[i].detected.recording(), signals.quality, signals.segmentation, sweep.roles[i]});
   }
   sweep.fit = in_range(fit_sweep(recordings, options));
-  sweep.derived =
-      in_range(derive_from_sweep(sweep.fit ? sweep.fit->result : FitResult{}, observed_end(entries, sweep.recordings)));
+  const FitResult result = sweep.fit ? sweep.fit->result : FitResult{};
+  sweep.derived = in_range(derive_from_sweep(result, observed_end(entries, sweep.recordings, result)));
   sweep.fit_reason = describe_roles(sweep.roles);
   sweep.repeats = compare_repeats(entries, sweep.recordings);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);

@@ -38,12 +38,13 @@ std::optional<Point> point_of(const Recording& recording, const Analysis& analys
   return point;
 }
 
-/// Swings of a few samples show no sticks whether there are any or not.
-bool slides(const Recording& recording, const Analysis& analysis) {
+/// Swings of a few samples, or seen through a long average, show no sticks whether there are any or not.
+bool slides(const Recording& recording, const Analysis& analysis, double average_s) {
   if (analysis.motion == MotionClass::SteadySliding) return true;
   const std::optional<double> frequency_Hz = analysis.frequency.quoted.value;
   return analysis.motion == MotionClass::OscillatorySlip && frequency_Hz &&
-         *frequency_Hz * recording.sample_interval_s() * thresholds::kSamplesOfSwing < 1.0;
+         *frequency_Hz * recording.sample_interval_s() * thresholds::kSamplesOfSwing < 1.0 &&
+         *frequency_Hz * average_s < thresholds::kAverageOfSwing;
 }
 
 /// The fit tells at least one parameter.
@@ -120,16 +121,26 @@ std::string describe_roles(const std::vector<SweepRole>& roles) {
                                                   : "");
 }
 
-ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses) {
+ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
+                         const FitResult& fit) {
+  const Parameter* const average = fit.find(ParameterId::SensorAverage);
+  const double fitted_s = average != nullptr ? average->estimate.value.value_or(0.0) : 0.0;
   ObservedEnd end;
-  const auto speed = [&](std::size_t i) { return entries[i].recording.conditions().speed_m_per_s; };
+  double fastest_open = 0.0;  // that sticks, or may
+  std::vector<double> sliding;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (analyses[i].motion != MotionClass::StickSlip) continue;
-    end.sticks_m_per_s = std::max(speed(i), end.sticks_m_per_s.value_or(0.0));
+    const Conditions& conditions = entries[i].recording.conditions();
+    const double speed = conditions.speed_m_per_s;
+    const MotionClass motion = analyses[i].motion;
+    if (motion == MotionClass::StickSlip) end.sticks_m_per_s = std::max(speed, end.sticks_m_per_s.value_or(0.0));
+    if (slides(entries[i].recording, analyses[i], conditions.sensor_average_s.value_or(fitted_s))) {
+      sliding.push_back(speed);
+    } else if (motion == MotionClass::StickSlip || motion == MotionClass::OscillatorySlip) {
+      fastest_open = std::max(speed, fastest_open);
+    }
   }
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (!slides(entries[i].recording, analyses[i]) || !(speed(i) > end.sticks_m_per_s.value_or(0.0))) continue;
-    end.slides_m_per_s = std::min(speed(i), end.slides_m_per_s.value_or(speed(i)));
+  for (const double speed : sliding) {
+    if (speed > fastest_open) end.slides_m_per_s = std::min(speed, end.slides_m_per_s.value_or(speed));
   }
   return end;
 }

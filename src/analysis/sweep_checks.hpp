@@ -19,8 +19,10 @@ Warnings check_resolution(std::span<const SweepEntry> entries, const std::vector
 /// "4 with stick-slip cycles, 1 sliding steadily, 1 left out".
 std::string describe_roles(const std::vector<SweepRole>& roles);
 
-/// Fastest run with stick-slip, slowest one beyond it that slides steadily or rings down.
-ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
+/// Fastest run with stick-slip; slowest one that slides steadily or rings down beyond all that stick, or may: the
+/// sensor shows swings through its average, stated or found by the fit of the sweep.
+ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
+                         const FitResult& fit);
 
 /// What only several speeds can tell: that the repetition is geometry or a control loop, not stick-slip.
 Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);

@@ -274,4 +274,8 @@ inline constexpr double kSamplesOfFall = 4.0;
 /// Samples of a swing, below which straight sticks cannot be told from it. [count; convention]
 inline constexpr double kSamplesOfSwing = 10.0;
 
+/// Averaging time of the sensor over the period of a swing, above which straight sticks cannot be told from it.
+/// [1; derived: a fall lasts as long as the average at least, and its rounded ends as long again on either side]
+inline constexpr double kAverageOfSwing = 0.25;
+
 }  // namespace slipfit::thresholds

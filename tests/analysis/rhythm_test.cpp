@@ -34,10 +34,17 @@ Recording saw_teeth_with_loss(std::size_t tooth) {
   return Recording::create(std::move(time_s), std::move(force), conditions).value();
 }
 
-SweepEntry entry_at(double speed_m_per_s) {
+SweepEntry entry_at(double speed_m_per_s, double step_s = 1.0) {
   Conditions conditions;
   conditions.speed_m_per_s = speed_m_per_s;
-  return {"run", Recording::create({0.0, 1.0}, {0.0, 1.0}, conditions).value()};
+  return {"run", Recording::create({0.0, step_s}, {0.0, 1.0}, conditions).value()};
+}
+
+Analysis moving(MotionClass motion, double frequency_Hz = 0.0) {
+  Analysis analysis;
+  analysis.motion = motion;
+  if (frequency_Hz > 0.0) analysis.frequency.quoted.value = frequency_Hz;
+  return analysis;
 }
 
 Analysis repeating_over(double path_m) {
@@ -53,6 +60,22 @@ TEST_CASE("samples lost in one stick while the clock runs on are in no frequency
   CHECK(warns(analysis, "broken_rhythm"));
   CHECK(holds(analysis.frequency.quoted, 1.0 / kPeriod_s));
   CHECK_FALSE(warns(analyze_and_fit(saw_teeth_with_loss(100), {}), "broken_rhythm"));
+}
+
+TEST_CASE("swings through a long average do not tell that stick-slip has ended") {
+  const std::vector<SweepEntry> entries{entry_at(1e-3, 1e-3), entry_at(2e-3, 1e-3), entry_at(4e-3, 1e-3),
+                                        entry_at(8e-3, 1e-3)};
+  const std::vector<Analysis> analyses{moving(MotionClass::StickSlip), moving(MotionClass::SteadySliding),
+                                       moving(MotionClass::OscillatorySlip, 5.0), moving(MotionClass::SteadySliding)};
+  const ObservedEnd clear = observed_end(entries, analyses, {});
+  CHECK(*clear.sticks_m_per_s == 1e-3);
+  CHECK(*clear.slides_m_per_s == 2e-3);
+  FitResult averaged;
+  averaged.parameters.push_back({ParameterId::SensorAverage, {}, ParameterStatus::Weak});
+  averaged.parameters.back().estimate.value = 0.1;
+  const ObservedEnd hidden = observed_end(entries, analyses, averaged);
+  CHECK(*hidden.sticks_m_per_s == 1e-3);
+  CHECK(*hidden.slides_m_per_s == 8e-3);
 }
 
 TEST_CASE("levels that repeat over one path at all speeds are texture, after one time a wave of the drive") {
