@@ -76,9 +76,8 @@ struct Minimum {
   DampedFit fit;
   bool is_sure = true;
 };
-Minimum better_minimum(const FitInput& input, const DampedFit& coulomb, double missed, const DampedFit& rival,
-                       DampedFit first) {
-  std::optional<DampedFit> second = fit_averaged_weakening(input, coulomb, missed, mirrored_s(first), rival);
+Minimum better_minimum(const FitInput& input, const DampedFit& coulomb, const DampedFit& rival, DampedFit first) {
+  std::optional<DampedFit> second = fit_averaged_weakening(input, coulomb, mirrored_s(first), rival);
   if (!second) return {std::move(first)};
   const double gain = gain_on_same_samples(*second, first) + 2.0;  // as many parameters
   const double apart = std::abs(second->average->seconds - first.average->seconds);
@@ -110,19 +109,19 @@ Candidate judged_both(const DampedFit& both, const DampedFit& single, double gai
 }
 
 /// Friction that weakens, seen through an average, where this explains more than either of the two.
-WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const DampedFit& coulomb, double missed) {
+WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const DampedFit& coulomb) {
   const std::optional<double> start_s = start_of_average_s(input, coulomb, trial.fit);
   if (!start_s) return trial;
   const DampedFit& single = trial.candidate.chosen ? *trial.fit : coulomb;
   const StackedResidual before = stacked_residual(single.blocks, coulomb.blocks);
   if (before.size < before.by_chance) return trial;
-  std::optional<DampedFit> both = fit_averaged_weakening(input, coulomb, missed, *start_s, single);
+  std::optional<DampedFit> both = fit_averaged_weakening(input, coulomb, *start_s, single);
   if (!both) return trial;
   const double gain = gain_on_same_samples(*both, single);
   if (!(gain > thresholds::kTierPrice)) return trial;
   Candidate candidate = judged_both(*both, single, gain, before.size);
   if (candidate.chosen) {
-    Minimum best = better_minimum(input, coulomb, missed, single, *std::move(both));
+    Minimum best = better_minimum(input, coulomb, single, *std::move(both));
     both = std::move(best.fit);
     candidate = judged_both(*both, single, gain_on_same_samples(*both, single), before.size);
     if (best.is_sure && candidate.chosen) return {std::move(both), std::move(candidate), {}, std::nullopt};
@@ -164,7 +163,7 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
     trial.candidate.reason =
         "no slip distance between 0 and (F_s - F_k) / k halves what the slips of Coulomb friction miss";
   }
-  return with_both(std::move(trial), input, coulomb, missed);
+  return with_both(std::move(trial), input, coulomb);
 }
 
 }  // namespace slipfit::fit

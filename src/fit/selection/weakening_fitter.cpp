@@ -66,8 +66,9 @@ class WeakeningFitter {
     const std::vector<CycleData> cycles = same_cycles();
     if (cycles.size() < thresholds::kFewestFitted) return std::nullopt;
     const std::optional<Globals> start = best_start(some_of(cycles, kTrialCycles));
-    if (!start || (missed_ && !promises(cycles, *start))) return std::nullopt;
+    if (!start) return std::nullopt;
     if (rival_ != nullptr && !promises_more(cycles, *start)) return std::nullopt;
+    if (missed_ && !promises(cycles, *start)) return std::nullopt;
     std::optional<BlockFit> blocks = solved(cycles, *start, kTolerance);
     if (!blocks || !(blocks = without_outliers(*std::move(blocks)))) return std::nullopt;
     std::optional<DampedFit> fit =
@@ -287,9 +288,9 @@ std::optional<DampedFit> fit_weakening(const FitInput& input, const DampedFit& c
   return WeakeningFitter(input, coulomb, missed).fit();
 }
 
-std::optional<DampedFit> fit_averaged_weakening(const FitInput& input, const DampedFit& coulomb, double missed,
-                                                double average_s, const DampedFit& rival) {
-  return WeakeningFitter(input, coulomb, missed, average_s, &rival).fit();
+std::optional<DampedFit> fit_averaged_weakening(const FitInput& input, const DampedFit& coulomb, double average_s,
+                                                const DampedFit& rival) {
+  return WeakeningFitter(input, coulomb, std::nullopt, average_s, &rival).fit();
 }
 
 }  // namespace slipfit::fit

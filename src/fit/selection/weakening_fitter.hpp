@@ -20,9 +20,10 @@ struct FitInput {
 /// it will not be taken or where the cycles do not tell the shared parameters apart.
 std::optional<DampedFit> fit_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<double> missed);
 
-/// The same seen through an average of the sensor that is one parameter more, from `average_s` on. Empty as well where
-/// some of the cycles show that it explains them no better than `rival`, a fit with one of the two.
-std::optional<DampedFit> fit_averaged_weakening(const FitInput& input, const DampedFit& coulomb, double missed,
-                                                double average_s, const DampedFit& rival);
+/// The same seen through an average of the sensor that is one parameter more, from `average_s` on. Empty where no start
+/// converges, and where some of the cycles show that it explains them no better than `rival`, a fit with one of the
+/// two.
+std::optional<DampedFit> fit_averaged_weakening(const FitInput& input, const DampedFit& coulomb, double average_s,
+                                                const DampedFit& rival);
 
 }  // namespace slipfit::fit
