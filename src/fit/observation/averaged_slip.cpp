@@ -2,8 +2,45 @@
 
 namespace slipfit::fit {
 
+// Inline: asked for every sample.
+
+inline AveragedSlip::Force AveragedSlip::shown(const model::WavePoint& spring, Integral integral) const {
+  integral.value += drag_ * spring.z;
+  integral.d_z0 += drag_ * spring.d_z0;
+  integral.d_zeta += drag_ * spring.d_zeta + drag_by_zeta_ * spring.z;
+  return {spring.z + drag_ * spring.d_tau, integral};
+}
+
+/// z'' + 2 zeta z' + z = 0 gives the integral of z over the slip: 1 + 2 zeta (z0 - z) - z'.
+inline AveragedSlip::Force AveragedSlip::sliding_at(double tau, double c, double bs) const {
+  const double s = bs * by_b_;
+  const double zeta = slip_.zeta;
+  const model::WavePoint spring = model::slip_wave(slip_, tau, c, s);
+  const double ds_dzeta = -tau * s + zeta * by_b_ * by_b_ * (s - tau * c);
+  const double slope_d_zeta = tau * (zeta * s - c) - s - (slip_.z0 + zeta) * ds_dzeta;
+  return shown(spring, {1.0 + 2.0 * zeta * (slip_.z0 - spring.z) - spring.d_tau, 2.0 * zeta * (1.0 - spring.d_z0) + s,
+                        2.0 * (slip_.z0 - spring.z) - 2.0 * zeta * spring.d_zeta - slope_d_zeta});
+}
+
+inline AveragedSlip::Force AveragedSlip::sticking_at(double tau) const {
+  const model::StickLine line = tau <= 0.0 ? model::StickLine{slip_.z0, 1.0, 0.0} : after_;
+  Integral integral = tau <= 0.0 ? Integral{} : until_after_;
+  integral.value += tau * (line.intercept + 0.5 * tau);
+  integral.d_z0 += tau * line.d_z0;
+  integral.d_zeta += tau * line.d_zeta;
+  return shown({line.intercept + tau, line.d_z0, line.d_zeta, 1.0}, integral);
+}
+
+inline model::WavePoint AveragedSlip::between(const Force& first, const Force& last) const {
+  const double scale = 0.5 / half_;
+  const double mean = scale * (last.integral.value - first.integral.value);
+  return {mean, scale * (last.integral.d_z0 - first.integral.d_z0),
+          scale * (last.integral.d_zeta - first.integral.d_zeta), scale * (last.z - first.z),
+          0.5 * (first.z + last.z) - mean};
+}
+
 AveragedSlip::AveragedSlip(const model::Slip& slip, const model::StickLine& after, double average_tau, bool transmitted)
-    : slip_(slip), after_(after), half_(0.5 * average_tau), drag_(0.0), drag_by_zeta_(0.0) {
+    : slip_(slip), after_(after), half_(0.5 * average_tau), by_b_(1.0 / slip.b), drag_(0.0), drag_by_zeta_(0.0) {
   // In the spring's view, from where both hold.
   const double tau = slip.tau_end;
   until_after_ = force_at(tau).integral;
@@ -21,39 +58,8 @@ AveragedSlip::Force AveragedSlip::force_at(double tau) const {
   return sliding_at(tau, decay * std::cos(slip_.b * tau), decay * std::sin(slip_.b * tau));
 }
 
-/// z'' + 2 zeta z' + z = 0 gives the integral of z over the slip: 1 + 2 zeta (z0 - z) - z'.
-AveragedSlip::Force AveragedSlip::sliding_at(double tau, double c, double bs) const {
-  const double s = bs / slip_.b;
-  const double zeta = slip_.zeta;
-  const model::WavePoint spring = model::slip_wave(slip_, tau, c, s);
-  const double ds_dzeta = -tau * s + zeta / (slip_.b * slip_.b) * (s - tau * c);
-  const double slope_d_zeta = tau * (zeta * s - c) - s - (slip_.z0 + zeta) * ds_dzeta;
-  return shown(spring, {1.0 + 2.0 * zeta * (slip_.z0 - spring.z) - spring.d_tau, 2.0 * zeta * (1.0 - spring.d_z0) + s,
-                        2.0 * (slip_.z0 - spring.z) - 2.0 * zeta * spring.d_zeta - slope_d_zeta});
-}
-
-AveragedSlip::Force AveragedSlip::sticking_at(double tau) const {
-  const model::StickLine line = tau <= 0.0 ? model::StickLine{slip_.z0, 1.0, 0.0} : after_;
-  Integral integral = tau <= 0.0 ? Integral{} : until_after_;
-  integral.value += tau * (line.intercept + 0.5 * tau);
-  integral.d_z0 += tau * line.d_z0;
-  integral.d_zeta += tau * line.d_zeta;
-  return shown({line.intercept + tau, line.d_z0, line.d_zeta, 1.0}, integral);
-}
-
-AveragedSlip::Force AveragedSlip::shown(const model::WavePoint& spring, Integral integral) const {
-  integral.value += drag_ * spring.z;
-  integral.d_z0 += drag_ * spring.d_z0;
-  integral.d_zeta += drag_ * spring.d_zeta + drag_by_zeta_ * spring.z;
-  return {spring.z + drag_ * spring.d_tau, integral};
-}
-
-model::WavePoint AveragedSlip::between(const Force& first, const Force& last) const {
-  const double scale = 0.5 / half_;
-  const double mean = scale * (last.integral.value - first.integral.value);
-  return {mean, scale * (last.integral.d_z0 - first.integral.d_z0),
-          scale * (last.integral.d_zeta - first.integral.d_zeta), scale * (last.z - first.z),
-          0.5 * (first.z + last.z) - mean};
+model::WavePoint AveragedSlip::at(double tau) const {
+  return between(force_at(tau - half_), force_at(tau + half_));
 }
 
 model::WavePoint AveragedSlip::Samples::at(double tau) {

@@ -16,7 +16,7 @@ class AveragedSlip {
   AveragedSlip(const model::Slip& slip, const model::StickLine& after, double average_tau, bool transmitted);
 
   /// At any tau.
-  [[nodiscard]] model::WavePoint at(double tau) const { return between(force_at(tau - half_), force_at(tau + half_)); }
+  [[nodiscard]] model::WavePoint at(double tau) const;
 
   /// The same at samples in ascending order, those between onset and end at even steps, of which some may be left out.
   class Samples {
@@ -55,6 +55,7 @@ class AveragedSlip {
   model::StickLine after_;
   Integral until_after_;  ///< of the stick after the slip, continued to tau = 0
   double half_;           ///< of the average
+  double by_b_;           ///< 1 / b
   double drag_;           ///< 2 zeta of the transmitted view
   double drag_by_zeta_;
 };
