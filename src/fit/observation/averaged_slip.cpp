@@ -40,7 +40,7 @@ inline model::WavePoint AveragedSlip::between(const Force& first, const Force& l
 }
 
 AveragedSlip::AveragedSlip(const model::Slip& slip, const model::StickLine& after, double average_tau, bool transmitted)
-    : slip_(slip), after_(after), half_(0.5 * average_tau), by_b_(1.0 / slip.b), drag_(0.0), drag_by_zeta_(0.0) {
+    : slip_(slip), after_(after), half_(0.5 * average_tau), by_b_(1.0 / slip.b) {
   // In the spring's view, from where both hold.
   const double tau = slip.tau_end;
   until_after_ = force_at(tau).integral;

@@ -56,8 +56,8 @@ class AveragedSlip {
   Integral until_after_;  ///< of the stick after the slip, continued to tau = 0
   double half_;           ///< of the average
   double by_b_;           ///< 1 / b
-  double drag_;           ///< 2 zeta of the transmitted view
-  double drag_by_zeta_;
+  double drag_ = 0.0;     ///< 2 zeta of the transmitted view
+  double drag_by_zeta_ = 0.0;
 };
 
 }  // namespace slipfit::fit
