@@ -99,19 +99,8 @@ double error_beyond(const SweepOutcome& outcome) {
   return largest;
 }
 
-/// What the error of the average that was found adds to the covariance.
-CoordinateMatrix by_average(const SweepData& data, const SweepSolution& solution, const SweepOutcome& outcome) {
-  const double average_s = solution.average->seconds + solution.average->standard_error_s;
-  const std::optional<SweepSolution> other = with_average(data, solution, average_s);
-  if (!other) return CoordinateMatrix::Zero();
-  const Coordinates move = coordinates_of(*other, outcome.static_friction) - outcome.values;
-  return move * move.transpose();
-}
-
-/// What the error of the length of the rise after a slip adds to the covariance.
-CoordinateMatrix by_length(const SweepSolution& solution, const SweepOutcome& outcome) {
-  const double length_m = solution.reload->metres * std::exp(solution.reload->relative_error);
-  const std::optional<SweepSolution> other = with_length(solution, length_m);
+/// What the error of something that was found before adds to the covariance. `other`: with that a standard error away.
+CoordinateMatrix by_error(const std::optional<SweepSolution>& other, const SweepOutcome& outcome) {
   if (!other) return CoordinateMatrix::Zero();
   const Coordinates move = coordinates_of(*other, outcome.static_friction) - outcome.values;
   return move * move.transpose();
@@ -138,9 +127,15 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
   LeftOut all = fit_of(data, normal, kind);
   SweepOutcome outcome{
       solution, kind, all.values, std::move(all.spread), all.reach, leave_out_each(data, normal, kind)};
-  if (solution.average) outcome.spread.covariance += by_average(data, solution, outcome);
+  if (const auto& average = solution.average) {
+    const double average_s = average->seconds + average->standard_error_s;
+    outcome.spread.covariance += by_error(with_average(data, solution, average_s), outcome);
+  }
   if (data.mass) outcome.spread.covariance = with_stated_mass(data, solution, outcome);
-  if (solution.reload) outcome.spread.covariance += by_length(solution, outcome);
+  if (const auto& reload = solution.reload) {
+    const double length_m = reload->metres * std::exp(reload->relative_error);
+    outcome.spread.covariance += by_error(with_length(solution, length_m), outcome);
+  }
   if (depends_on_speed(solution)) outcome.other_law = other_law(solution, kind);
   outcome.disagree = recordings_disagree(outcome);
   if (outcome.disagree) {
