@@ -9,6 +9,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
+#include "fit/report/open_damping.hpp"
 
 namespace slipfit {
 namespace {
@@ -122,9 +123,9 @@ std::string describe_roles(const std::vector<SweepRole>& roles) {
 }
 
 ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
-                         const FitResult& fit) {
-  const Parameter* const average = fit.find(ParameterId::SensorAverage);
-  const double fitted_s = average != nullptr ? average->estimate.value.value_or(0.0) : 0.0;
+                         const FitResult& result) {
+  const std::optional<fit::FittedAverage> found = fit::found_average(result);
+  const double fitted_s = found ? found->seconds : 0.0;
   ObservedEnd end;
   double fastest_open = 0.0;  // that sticks, or may
   std::vector<double> sliding;

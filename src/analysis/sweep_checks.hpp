@@ -22,7 +22,7 @@ std::string describe_roles(const std::vector<SweepRole>& roles);
 /// Fastest run with stick-slip; slowest one that slides steadily or rings down beyond all that stick, or may: the
 /// sensor shows swings through its average, stated or found by the fit of the sweep.
 ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
-                         const FitResult& fit);
+                         const FitResult& result);
 
 /// What only several speeds can tell: that the repetition is geometry or a control loop, not stick-slip.
 Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);

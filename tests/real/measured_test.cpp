@@ -24,16 +24,21 @@ namespace {
 
 const std::filesystem::path kData = std::filesystem::path(SLIPFIT_SHARED_DIR) / "data";
 
-std::optional<Analysis> fit_file(const std::string& file, double speed_m_per_s, const ReadOptions& options = {}) {
+std::optional<Recording> read_file(const std::string& file, double speed_m_per_s, const ReadOptions& options = {}) {
   if (!std::filesystem::exists(kData / file)) {
     WARN("skipped: no " << file << " beside the checkout");
     return std::nullopt;
   }
   Conditions conditions;
   conditions.speed_m_per_s = speed_m_per_s;
-  const auto recording = read_recording(kData / file, conditions, options);
+  auto recording = read_recording(kData / file, conditions, options);
   if (!recording.ok()) FAIL(recording.error().message);
-  return analyze_and_fit(recording.value(), {});
+  return std::move(recording).value();
+}
+
+std::optional<Analysis> fit_file(const std::string& file, double speed_m_per_s, const ReadOptions& options = {}) {
+  const std::optional<Recording> recording = read_file(file, speed_m_per_s, options);
+  return recording ? std::optional(analyze_and_fit(*recording, {})) : std::nullopt;
 }
 
 const Parameter* find(const Analysis& analysis, const std::string& name) {
@@ -129,13 +134,9 @@ TEST_CASE("printed plastic: slow recordings predict the spacing at speeds up to 
   std::vector<SweepEntry> entries;
   for (const int speed_mm_min : {30, 50, 100, 150}) {
     const std::string name = "fdm_77g_" + std::to_string(speed_mm_min) + "mm_min.csv";
-    if (!std::filesystem::exists(kData / "real/fdm" / name)) {
-      WARN("skipped: no " << name << " beside the checkout");
-      return;
-    }
-    Conditions conditions;
-    conditions.speed_m_per_s = speed_mm_min / 60000.0;
-    entries.push_back({name, read_recording(kData / "real/fdm" / name, conditions, {}).value()});
+    std::optional<Recording> recording = read_file("real/fdm/" + name, speed_mm_min / 60000.0);
+    if (!recording) return;
+    entries.push_back({name, *std::move(recording)});
   }
   const SweepAnalysis analysis = analyze_sweep(entries, {});
   REQUIRE(analysis.fit);

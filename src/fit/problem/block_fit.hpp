@@ -65,6 +65,8 @@ double median_stick_s(const BlockFit& fit);
 struct Sharing {
   bool level = false;       ///< F_k(0+): no sensor zero or run-to-run friction between them
   bool difference = false;  ///< F_s - F_k(0+): static friction does not depend on the speed (no ageing)
+
+  friend bool operator==(const Sharing&, const Sharing&) = default;
 };
 
 /// What makes one problem of the recordings of a sweep. Steady ones enter where the level is shared.

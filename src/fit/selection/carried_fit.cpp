@@ -57,10 +57,9 @@ std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData
   return same;
 }
 
-BlockFit averaged_by(const BlockFit& fit, const Smoothing& beyond) {
+BlockFit averaged_by(const BlockFit& fit, double variance_s2) {
   Scales scales = fit.scales();
-  const double variance_s2 = scales.sensor_average_s * scales.sensor_average_s / 12.0;
-  scales.sensor_average_s = std::sqrt(12.0 * beyond.next_variance_s2(variance_s2));
+  scales.sensor_average_s = std::sqrt(12.0 * variance_s2);
   return with_rise_after(fit, scales);
 }
 

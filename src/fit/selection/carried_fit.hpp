@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "fit/inference/smoothing.hpp"
 #include "fit/problem/block_fit.hpp"
 #include "fit/selection/solution.hpp"
 
@@ -19,8 +18,8 @@ BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& 
 /// Those of the cycles that the fit has, in order.
 std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData> cut);
 
-/// The same cycles at the same parameters, seen through an average of a variance that Newton's step gives.
-BlockFit averaged_by(const BlockFit& fit, const Smoothing& beyond);
+/// The same cycles at the same parameters, seen through an average of this variance.
+BlockFit averaged_by(const BlockFit& fit, double variance_s2);
 
 double sum_of_squares(const BlockFit& fit);
 std::size_t residuals_in(const BlockFit& fit);

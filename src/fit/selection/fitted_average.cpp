@@ -14,6 +14,7 @@
 #include "fit/cycle/start.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
+#include "fit/selection/carried_fit.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/kernel_search.hpp"
@@ -108,9 +109,7 @@ class Trials {
   /// solution on, or from `start`.
   [[nodiscard]] std::optional<DampedFit> beside(const DampedFit& other, double variance_s2,
                                                 const Globals* start) const {
-    Scales scales = other.blocks.scales();
-    scales.sensor_average_s = std::sqrt(12.0 * variance_s2);
-    BlockFit blocks = with_rise_after(other.blocks, scales);
+    BlockFit blocks = averaged_by(other.blocks, variance_s2);
     if (start != nullptr) set_start(blocks, segmentation_, *start);
     if (!std::isfinite(solve(blocks, {other.held, false, true}))) return std::nullopt;
     std::optional<DampedFit> fit =

@@ -101,11 +101,12 @@ class OwnFitter {
       fit = draft_with_rise(sweep.recording, sweep.quality, sweep.segmentation, held_);
     }
     share_length(own);
-    if (known_) return averaged(own, *known_);
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
+      if (!own.fits[i] || (known_ && !states_average(i))) continue;
       const auto& [recording, quality, segmentation] = parts(i);
-      if (own.fits[i]) own.fits[i] = fit_as_sensed(recording, quality, segmentation, held_, *std::move(own.fits[i]));
+      own.fits[i] = fit_as_sensed(recording, quality, segmentation, held_, *std::move(own.fits[i]));
     }
+    if (known_) return averaged(own, *known_);
     share_average(own);
     if (!own.average) own.rounding_s2 = common_rounding_s2(recordings_, own);
     return own;
@@ -119,6 +120,10 @@ class OwnFitter {
   };
   [[nodiscard]] Parts parts(std::size_t i) const {
     return {recordings_[i].recording, recordings_[i].quality, recordings_[i].segmentation};
+  }
+
+  [[nodiscard]] bool states_average(std::size_t i) const {
+    return recordings_[i].recording.conditions().sensor_average_s.has_value();
   }
 
   /// Recordings that are too fast to tell it are fitted with it where it explains them better.
@@ -138,7 +143,7 @@ class OwnFitter {
     std::vector<FittedAverage> averages;
     std::size_t open = 0;
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
-      if (!own.fits[i] || recordings_[i].recording.conditions().sensor_average_s) continue;
+      if (!own.fits[i] || states_average(i)) continue;
       ++open;
       if (own.fits[i]->average) averages.push_back(*own.fits[i]->average);
     }
@@ -148,7 +153,7 @@ class OwnFitter {
     OwnFits together = averaged(own, *average);
     double gain = 0.0;
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
-      if (!own.fits[i] || recordings_[i].recording.conditions().sensor_average_s) continue;
+      if (!own.fits[i] || states_average(i)) continue;
       if (together.fits[i] && !own.fits[i]->average) gain += gain_of(*together.fits[i], *own.fits[i]);
     }
     if (2 * averages.size() < open && !(gain > thresholds::kTierPrice)) return;
@@ -159,12 +164,7 @@ class OwnFitter {
   [[nodiscard]] OwnFits averaged(const OwnFits& own, const FittedAverage& average) const {
     OwnFits other = own;
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
-      if (!own.fits[i]) continue;
-      if (recordings_[i].recording.conditions().sensor_average_s) {
-        const auto& [recording, quality, segmentation] = parts(i);
-        if (known_) other.fits[i] = finish_fit(recording, quality, segmentation, *std::move(other.fits[i]));
-        continue;
-      }
+      if (!own.fits[i] || states_average(i)) continue;
       other.fits[i] = fit_averaged(i, average, *own.fits[i], own.reload);
     }
     other.average = average;

@@ -58,8 +58,9 @@ class SweepFitter {
       fits.coulomb_chi2 = coulomb->chi2;
       fits.p_value = chance(coulomb->chi2 - fits.velocity.chi2, kExtra, fits.velocity);
       // Friction that depends on the speed may explain levels that differ under Coulomb friction.
-      coulomb = with_shares(FrictionLaw::Coulomb, shares);
-      if (coulomb) fits.coulomb = at_best_average(*std::move(coulomb));
+      std::optional<SweepSolution> own = with_shares(FrictionLaw::Coulomb, shares);
+      const bool shares_less = own && own->sweep.sharing != shares;
+      fits.coulomb = shares_less ? at_best_average(*std::move(own)) : std::move(coulomb);
     }
     fits.depends_on_speed = fits.p_value < thresholds::kLawChance;
     return fits;
@@ -132,9 +133,10 @@ class SweepFitter {
   /// Sharing as much of `most` as the data agree with: both, then one of the two, else nothing.
   [[nodiscard]] std::optional<SweepSolution> with_shares(FrictionLaw law, Sharing most) const {
     std::optional<SweepSolution> free = fit(law, {false, false});
+    if (!free) return free;
     for (const Sharing sharing : {Sharing{true, true}, Sharing{false, true}, Sharing{true, false}}) {
       if ((sharing.level && !most.level) || (sharing.difference && !most.difference)) continue;
-      std::optional<SweepSolution> shared = free ? fit(law, sharing) : std::nullopt;
+      std::optional<SweepSolution> shared = fit(law, sharing);
       if (!shared) continue;
       // With more freedom no fit can be worse: where it is, it had ended in another minimum.
       if (shared->chi2 < free->chi2) {

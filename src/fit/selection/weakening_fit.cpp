@@ -71,18 +71,25 @@ double mirrored_s(const DampedFit& fit) {
   return std::sqrt(std::max(kLeast, kBoth - share) * seen2) / omega;
 }
 
-/// The better of two fits from either minimum, and whether the other one is as good.
+/// A fit of both, by how much its AICc is lower than the rival's, and whether no other minimum is as good.
 struct Minimum {
   DampedFit fit;
+  double gain = 0.0;
   bool is_sure = true;
 };
-Minimum better_minimum(const FitInput& input, const DampedFit& coulomb, const DampedFit& rival, DampedFit first) {
-  std::optional<DampedFit> second = fit_averaged_weakening(input, coulomb, mirrored_s(first), rival);
-  if (!second) return {std::move(first)};
-  const double gain = gain_on_same_samples(*second, first) + 2.0;  // as many parameters
-  const double apart = std::abs(second->average->seconds - first.average->seconds);
-  const bool is_same = apart < thresholds::kSureTerm * first.average->standard_error_s;
-  return {gain > 0.0 ? *std::move(second) : std::move(first), is_same || std::abs(gain) > thresholds::kTierPrice};
+
+/// The better of two fits from either minimum.
+Minimum better_minimum(const FitInput& input, const DampedFit& coulomb, const DampedFit& rival, Minimum first) {
+  std::optional<DampedFit> second = fit_averaged_weakening(input, coulomb, mirrored_s(first.fit), rival);
+  if (!second) return first;
+  const double ahead = gain_on_same_samples(*second, first.fit) + 2.0;  // as many parameters
+  const FittedAverage& average = *first.fit.average;
+  const bool is_same =
+      std::abs(second->average->seconds - average.seconds) < thresholds::kSureTerm * average.standard_error_s;
+  first.is_sure = is_same || std::abs(ahead) > thresholds::kTierPrice;
+  if (!(ahead > 0.0)) return first;
+  const double gain = gain_on_same_samples(*second, rival);
+  return {*std::move(second), gain, first.is_sure};
 }
 
 /// F_s - F_k lies between half of the fall and the drop between the ramps whatever D_c and zeta are, and slips rest:
@@ -98,13 +105,14 @@ bool has_slips_of_the_model(const DampedFit& fit) {
          difference < (1.0 + kRoom) * sawtooth.drop;
 }
 
-/// What a fit of both says for and against it beside `single`, the fit with one of the two. `gain`: of AICc over
-/// `single`; `before`: stacked residual of `single`.
-Candidate judged_both(const DampedFit& both, const DampedFit& single, double gain, double before) {
+/// What a fit of both says for and against it beside `single`, the fit with one of the two. `before`: stacked residual
+/// of `single`.
+Candidate judged_both(const Minimum& both, const DampedFit& single, double before) {
+  const DampedFit& fit = both.fit;
   Candidate candidate =
-      judged(candidate_of(both, Tier::Weakening, 5, effective_samples(both)), both, single, gain, before);
-  const bool tells_average = both.average->seconds > thresholds::kSureTerm * both.average->standard_error_s;
-  if (!tells_average || !has_slips_of_the_model(both)) candidate.chosen = false;
+      judged(candidate_of(fit, Tier::Weakening, 5, effective_samples(fit)), fit, single, both.gain, before);
+  const bool tells_average = fit.average->seconds > thresholds::kSureTerm * fit.average->standard_error_s;
+  if (!tells_average || !has_slips_of_the_model(fit)) candidate.chosen = false;
   return candidate;
 }
 
@@ -115,18 +123,17 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Damp
   const DampedFit& single = trial.candidate.chosen ? *trial.fit : coulomb;
   const StackedResidual before = stacked_residual(single.blocks, coulomb.blocks);
   if (before.size < before.by_chance) return trial;
-  std::optional<DampedFit> both = fit_averaged_weakening(input, coulomb, *start_s, single);
-  if (!both) return trial;
-  const double gain = gain_on_same_samples(*both, single);
+  std::optional<DampedFit> first = fit_averaged_weakening(input, coulomb, *start_s, single);
+  if (!first) return trial;
+  const double gain = gain_on_same_samples(*first, single);
   if (!(gain > thresholds::kTierPrice)) return trial;
-  Candidate candidate = judged_both(*both, single, gain, before.size);
-  if (candidate.chosen) {
-    Minimum best = better_minimum(input, coulomb, single, *std::move(both));
-    both = std::move(best.fit);
-    candidate = judged_both(*both, single, gain_on_same_samples(*both, single), before.size);
-    if (best.is_sure && candidate.chosen) return {std::move(both), std::move(candidate), {}, std::nullopt};
+  Minimum both{*std::move(first), gain};
+  if (judged_both(both, single, before.size).chosen) {
+    both = better_minimum(input, coulomb, single, std::move(both));
+    Candidate candidate = judged_both(both, single, before.size);
+    if (both.is_sure && candidate.chosen) return {std::move(both.fit), std::move(candidate), {}, std::nullopt};
   }
-  if (stacked_residual(both->blocks, coulomb.blocks).size > thresholds::kHalvedStack * before.size) return trial;
+  if (stacked_residual(both.fit.blocks, coulomb.blocks).size > thresholds::kHalvedStack * before.size) return trial;
   trial.fall_doubt =
       "friction that weakens over a slip distance and an average of the sensor together explain the slips better "
       "than either, and cannot be told apart: state the average with --sensor-average";

@@ -91,7 +91,8 @@ class WeakeningFitter {
   /// The same cycles seen through an average of another variance, by Newton's step.
   [[nodiscard]] static std::optional<BlockFit> with_next_average(const BlockFit& blocks, const Smoothing& beyond,
                                                                  const Held& held) {
-    BlockFit next = averaged_by(blocks, beyond);
+    const double average_s = blocks.scales().sensor_average_s;
+    BlockFit next = averaged_by(blocks, beyond.next_variance_s2(average_s * average_s / 12.0));
     const bool is_solved = std::isfinite(solve(next, {held, false, true, kStepIterations})) && has_slips(next);
     return is_solved ? std::optional(std::move(next)) : std::nullopt;
   }
