@@ -54,7 +54,7 @@ class Fitter {
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
     if (quality_.clock_jitter > thresholds::kWeighedClock) fit = with_clock_weights(std::move(*fit));
-    refuse_negative_damping(*fit, kFinal);
+    if (!refuse_negative_damping(*fit, kFinal)) return std::nullopt;
     return with_uncertainty(
         {std::move(*fit), false, held_, refused_damping_, half_width_s(start_stiffness_, scales_), excluded_, {}, {}},
         tolerated_misfit(quality_));
@@ -99,7 +99,7 @@ class Fitter {
       auto wandering = fit_from(probe, {true, 0, level.lines_Hz, level.reloading}, globals, kProbeIterations, kRough);
       if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
     }
-    refuse_negative_damping(*fit, kRough);
+    if (!refuse_negative_damping(*fit, kRough)) return std::nullopt;
     return fit;
   }
 
@@ -168,18 +168,20 @@ class Fitter {
   }
 
   /// A damping ratio clearly below 0 (jackknife where residuals are not white) means that slips are not shaped like the
-  /// model's: zeta is held at 0 from here on, and called unidentified.
-  void refuse_negative_damping(BlockFit& fit, double tolerance) {
+  /// model's: zeta is held at 0 from here on, and called unidentified. False where the fit is of no use then.
+  [[nodiscard]] bool refuse_negative_damping(BlockFit& fit, double tolerance) {
     const double zeta = fit.parameters.globals[2];
-    if (held_[kDamping] || !(zeta < 0.0) || reduced_chi2(fit) < thresholds::kSuspectChi2) return;
+    if (held_[kDamping] || !(zeta < 0.0) || reduced_chi2(fit) < thresholds::kSuspectChi2) return true;
     const Uncertainty uncertainty = estimate_uncertainty(fit, {held_, false});
     const double se = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
-    if (!(zeta + thresholds::kNegativeSigmas * se < 0.0)) return;
+    if (!(zeta + thresholds::kNegativeSigmas * se < 0.0)) return true;
+    if (near_.needs_damping) return false;
     refused_damping_ = zeta;
     held_[kDamping] = true;
     // Start again from the features: the other parameters have followed the wrong zeta.
     set_start(fit, segmentation_, {start_[0], start_[1], 0.0});
     solve(fit, {held_, false, true, kMaxIterations, tolerance});
+    return true;
   }
 
   /// Leaves out samples far from the fit and slips that it cannot explain, takes mains hum into the model, and refits.

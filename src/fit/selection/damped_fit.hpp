@@ -26,6 +26,7 @@ struct Near {
   bool level_per_cycle = false;  ///< the other one has a level of its own in every cycle, which is tried then
   int most_iterations = 60;      ///< of a solve of all cycles
   GiveUp give_up{};              ///< empty: never
+  bool needs_damping = false;    ///< a fit whose damping ratio is clearly below 0 is empty
 };
 
 /// `fit_damped` without what finish_fit adds to the uncertainty: all that a comparison of fits needs.

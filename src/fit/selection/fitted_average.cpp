@@ -60,6 +60,20 @@ struct Trial {
   [[nodiscard]] bool is_settled() const { return off() < thresholds::kSettledAverage; }
 };
 
+/// Mean square that a fit leaves in those slips that `some` cycles of the recording hold.
+double mean_square_in(const BlockFit& some, const BlockFit& fit) {
+  double sum = 0.0;
+  std::size_t residuals = 0;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < fit.size() && next < some.size(); ++i) {
+    while (next < some.size() && some.data(next).slip < fit.data(i).slip) ++next;
+    if (next == some.size() || some.data(next).slip != fit.data(i).slip) continue;
+    sum += fit.cycle_sum_of_squares(i);
+    residuals += fit.data(i).residuals();
+  }
+  return sum / static_cast<double>(residuals);
+}
+
 /// Fits of all cycles with an average of about the given variance.
 class Trials {
  public:
@@ -78,9 +92,9 @@ class Trials {
       if (!beyond) break;
       Trial trial{*std::move(fit), *beyond, variance_s2};
       if (!best || trial.off() < best->off()) best = std::move(trial);
-      const bool is_hopeless = !follows_slips(best->fit, recording_.sample_interval_s()) ||
-                               best->fit.uncertainty.noise > plain_.uncertainty.noise;
-      if (fits == most_fits || is_hopeless || best->is_settled()) break;
+      const bool is_worse = !follows_slips(best->fit, recording_.sample_interval_s()) ||
+                            best->fit.uncertainty.noise > plain_.uncertainty.noise;
+      if (fits == most_fits || is_worse || best->is_settled()) break;
       variance_s2 += beyond->variance_s2;
       if (!(variance_s2 > 0.0)) break;
       fit = beside(best->fit, variance_s2, nullptr);
@@ -101,8 +115,14 @@ class Trials {
     std::optional<DampedFit> fit =
         draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_,
                      {near, plain_.excluded, reloading(std::sqrt(12.0 * variance_s2)), plain_.blocks.level().per_cycle,
-                      kAveragedIterations, [](const BlockFit& some) { return resting_share(some) < kFewRest; }});
+                      kAveragedIterations, [this](const BlockFit& some) { return is_hopeless(some); }, true});
     return settle_rise(recording_.sample_interval_s(), quality_, std::move(fit));
+  }
+
+  /// A fit of some cycles whose slips do not come to rest, or that explains them less well than the fit without
+  /// average.
+  [[nodiscard]] bool is_hopeless(const BlockFit& some) const {
+    return resting_share(some) < kFewRest || mean_square_in(some, some) > mean_square_in(some, plain_.blocks);
   }
 
   /// The same cycles and samples with another average, and the rise after the slips that it shows. From the other's
