@@ -43,6 +43,7 @@ const kGermanWarnings = {
   recordings_disagree: "Kein gemeinsamer Satz von Parametern erklärt alle Aufzeichnungen; die Bereiche sind breiter.",
   recording_disagrees: "Eine Aufzeichnung passt nicht zu den anderen.",
   slips_not_resolved: "Aufzeichnungen mit weniger als 1,5 Messwerten je Rutscher wurden ausgelassen.",
+  stiffness_goes_with_speed: "Die Steifigkeit geht mit einer Potenz der Antriebsgeschwindigkeit.",
   static_friction_ages: "Die Haftreibung wächst mit der Dauer des Haftens.",
   static_friction_differs: "Die Haftreibung ist in den Aufzeichnungen verschieden (andere Oberfläche?).",
   level_differs: "Das Kraftniveau ist stärker verschieden, als das Reibgesetz erklärt (Nullpunkt, andere Oberfläche?).",

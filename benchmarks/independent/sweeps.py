@@ -177,6 +177,39 @@ def trended_model(first, speeds, total, speed):
     return model
 
 
+def with_stiffness(first, factor):
+    """Another k and the same mass."""
+    model = Model.from_buffer_copy(first)
+    model.stiffness *= factor
+    model.omega *= np.sqrt(factor)
+    return model
+
+
+def grown(rng, scatter=0.0):
+    """k goes as a power of the speed, and scatters between the runs."""
+    sweep = draw(rng, int(rng.integers(4, 7)), rng.uniform(4, 12))
+    exponent = rng.uniform(0.02, 0.12) * rng.choice([-1, 1])
+    first, slowest = sweep.runs[0].model, sweep.runs[0].speed
+    sweep.model_at = lambda v: with_stiffness(first, (v / slowest) ** exponent)
+    for run in sweep.runs:
+        run.model = with_stiffness(sweep.model_at(run.speed), np.exp(scatter * rng.standard_normal()))
+    return sweep
+
+
+def grown_loosely(rng):
+    return grown(rng, rng.uniform(0.005, 0.03))
+
+
+def loose(rng):
+    """k scatters between the runs, and does not go with the speed."""
+    sweep = draw(rng, int(rng.integers(4, 7)), rng.uniform(4, 12))
+    first, scatter = sweep.runs[0].model, rng.uniform(0.01, 0.06)
+    sweep.model_at = lambda v: first
+    for run in sweep.runs:
+        run.model = with_stiffness(first, np.exp(scatter * rng.standard_normal()))
+    return sweep
+
+
 def averaging(rng):
     sweep = draw(rng, 4, rng.uniform(4, 8))
     width = int(rng.integers(3, 9))
@@ -334,11 +367,9 @@ def truth_of(sweep):
 
 
 def parameters_of(sweep, sound):
-    """What all recordings share; F_s - F_k(0+) where they do, by the manifest's mean load."""
-    model = sound.model
-    truth = {"natural_frequency_rad_per_s": model.omega, "damping_ratio": model.damping_ratio}
-    if not sweep.model_at:
-        truth["stiffness_N_per_m"] = model.stiffness
+    """What all recordings share, k and w_n at the mean of ln V; F_s - F_k(0+) where they do, by the manifest's mean load."""
+    model = sweep.model_at(np.exp(np.mean([np.log(r.speed) for r in sweep.runs]))) if sweep.model_at else sound.model
+    truth = {"stiffness_N_per_m": model.stiffness, "natural_frequency_rad_per_s": model.omega, "damping_ratio": model.damping_ratio}
     loads = [r.stated_load / sound.stated_load if r.stated_load else 1.0 for r in sweep.runs]
     drops = [r.drop / load for r, load in zip(sweep.runs, loads)]
     if model.ageing_time <= 0 and max(drops) < 1.2 * min(drops) and sweep.bad is None:
@@ -348,5 +379,5 @@ def parameters_of(sweep, sound):
 
 
 FAMILIES = [coulomb5, coulomb3, exponential, age_ln3, age_ln4, age_ln6, age_cutoff, age_power, age_saturating, age_exponential, log_falling,
-            log_rising, hyperbolic, two, two_coulomb, narrow, trended, averaging, drifting, zeros, wrong_loads, adhesion, undersampled,
-            near_critical, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]
+            log_rising, hyperbolic, two, two_coulomb, narrow, trended, grown, grown_loosely, loose, averaging, drifting, zeros, wrong_loads,
+            adhesion, undersampled, near_critical, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]

@@ -106,8 +106,16 @@ std::vector<Apart> from_middle(const std::vector<Own>& values, double middle, do
 
 std::optional<Apart> by_stiffness(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
                                   const SweepFit& fit) {
-  const std::vector<Own> values = own_values(ParameterId::Stiffness, analyses, fit);
+  std::vector<Own> values = own_values(ParameterId::Stiffness, analyses, fit);
   if (values.empty()) return std::nullopt;
+  for (Own& own : values) {
+    if (!fit.result.estimate || !fit.result.estimate->stiffness_trend) break;
+    const auto [exponent, speed_m_per_s] = *fit.result.estimate->stiffness_trend;
+    const double growth =
+        std::pow(entries[own.recording].recording.conditions().speed_m_per_s / speed_m_per_s, exponent);
+    own.value /= growth;
+    own.standard_error /= growth;
+  }
   const double middle = middle_of(values);
   return furthest(entries, from_middle(values, middle, middle), Agreeing::Half);
 }

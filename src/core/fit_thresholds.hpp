@@ -207,6 +207,10 @@ inline constexpr double kCutoffChance = 0.005;
 /// convention]
 inline constexpr double kCutoffStickRatio = 30.0;
 
+/// Least recordings that show that k goes with the speed. [1; derived: a line through three has one degree of freedom
+/// left]
+inline constexpr std::size_t kStiffnessRecordings = 4;
+
 /// Least recordings that show a trend of static friction over the speed. [1; convention: two always lie on a line]
 inline constexpr std::size_t kTrendRecordings = 3;
 

@@ -21,13 +21,14 @@ enum Coordinate : Eigen::Index {
   kFrictionSlope,
   kFrictionRate,  ///< a = alpha v_c
   kGlobals,
-  kLevel = kGlobals,  ///< F_k(0+) / Units::force, from Units::level
-  kDifference,        ///< (F_s - F_k(0+)) / Units::force
-  kAgeing,            ///< rate of ageing / Units::force
-  kAgeingTime,        ///< cut-off of ageing / Units::stick_s
-  kSlipDistance,      ///< sqrt(D_c / Units::slip_distance_m): the limit of Coulomb friction is reached as it goes to 0
-  kReloadForce,       ///< A / Units::force, of the rise after a slip
-  kReloadLength,      ///< ln (l / m), of the path over which it rises
+  kLevel = kGlobals,   ///< F_k(0+) / Units::force, from Units::level
+  kDifference,         ///< (F_s - F_k(0+)) / Units::force
+  kAgeing,             ///< rate of ageing / Units::force
+  kAgeingTime,         ///< cut-off of ageing / Units::stick_s
+  kSlipDistance,       ///< sqrt(D_c / Units::slip_distance_m): the limit of Coulomb friction is reached as it goes to 0
+  kReloadForce,        ///< A / Units::force, of the rise after a slip
+  kReloadLength,       ///< ln (l / m), of the path over which it rises
+  kStiffnessExponent,  ///< d ln k / d ln V, of a sweep; k and w_n are those at Units::speed_m_per_s
   kCoordinates
 };
 
@@ -79,6 +80,7 @@ struct Units {
   double slip_speed_m_per_s = 1.0;  ///< typical fastest sliding, (F_s - F_k) w_n / k
   double stick_s = 1.0;             ///< typical stick time: static friction that ages is stated for it
   double slip_distance_m = 1.0;     ///< typical half drop over k
+  double speed_m_per_s = 1.0;       ///< mean of ln V of a sweep's recordings with cycles
 };
 
 }  // namespace slipfit::fit

@@ -12,6 +12,8 @@ using Id = ParameterId;
 // docs/accuracy.md.
 constexpr std::array kTable{
     ParameterInfo{Id::Stiffness, "stiffness_N_per_m", "tangential stiffness k", "N/m", kNotNegative, 0.05, true},
+    ParameterInfo{Id::StiffnessExponent, "stiffness_exponent", "exponent p of the stiffness, k as V^p", "", kAnyNumber,
+                  0.25},
     ParameterInfo{Id::FrictionDifference, "friction_difference_N", "static minus kinetic friction", "N", kNotNegative,
                   0.1},
     ParameterInfo{Id::FrictionCoefficientDifference, "friction_coefficient_difference",

@@ -134,6 +134,7 @@ class Assembler {
     }
     findings.law = fit::LawFindings{choice.velocity, choice.reason};
     findings.law->ageing = outcome_.static_friction;
+    findings.law->stiffness_grows = solution.recordings.front().model(0).has_exponent();
     findings.law->at_one_speed = fit::speed_ratio(recordings_) < thresholds::kLeastSpeedRatio;
     findings.law->reference_normal_force_N = data_.mean_load_N;
     return findings;
@@ -203,6 +204,13 @@ class Assembler {
            "static friction differs between the recordings (ageing, or another state of the "
            "surface): F_s - F_k is their mean"});
     }
+    if (outcome_.solution.recordings.front().model(0).has_exponent()) {
+      sweep.result.warnings.push_back(
+          {"stiffness_goes_with_speed",
+           fmt::format(
+               "the stiffness goes with the driving speed, about as V to the power {:.2g}: predictions take it on",
+               model_.stiffness_exponent.a)});
+    }
     if (!sweep.level_shared) {
       sweep.result.warnings.push_back(
           {"level_differs",
@@ -239,7 +247,7 @@ class Assembler {
   [[nodiscard]] Estimate spacing_without(const std::optional<LeftOut>& one, double speed, double load) const {
     if (!one) return unknown("too few recordings to leave one out");
     const fit::SlidingModel model(fit::with_damping_cut(one->values, one->spread.covariance), data_.units);
-    return spacing_of(model.spacing(speed, load), fit::Intervals(fit::spread_at(*one, speed)),
+    return spacing_of(model.spacing(speed, load), fit::Intervals(fit::spread_at(*one, data_.units, speed)),
                       "no stick-slip at this speed by the others");
   }
 
@@ -260,22 +268,9 @@ std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, 
   if (options.tell_step) options.tell_step(fmt::format("fitting {} recordings together", data.fitted.size()));
   std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
   if (!fits) return std::nullopt;
-  fit::LawChoice choice = options.tier ? fit::LawChoice{*options.tier == Tier::Velocity, "asked for by --tier"}
-                                       : fit::choose_by_chance(*fits, fit::speed_ratio(recordings));
-  // It fits once without each recording: not for a law that is left.
-  std::optional<SweepOutcome> outcome;
-  if (choice.velocity || !fits->coulomb) {
-    fits->velocity = fit::settled(fits->velocity);
-    outcome.emplace(fit::outcome_of(data, fits->velocity));
-  }
-  if (choice.velocity && !options.tier && fits->coulomb && fit::is_misfit(fits->velocity)) {
-    SweepOutcome coulomb = fit::outcome_of(data, *fits->coulomb);
-    choice = fit::choose_by_left_out(fit::left_out_error(*outcome), fit::left_out_error(coulomb));
-    if (!choice.velocity) outcome.emplace(std::move(coulomb));
-  }
-  if (!outcome) outcome.emplace(fit::outcome_of(data, *fits->coulomb));
-  SweepFit sweep = Assembler(recordings, data, *outcome).assemble(choice);
-  sweep.result.candidates = fit::candidates_of(*fits, choice);
+  const fit::ChosenLaw law = fit::choose_law(data, *std::move(fits), options.tier, fit::speed_ratio(recordings));
+  SweepFit sweep = Assembler(recordings, data, law.outcome).assemble(law.choice);
+  sweep.result.candidates = law.candidates;
   return sweep;
 }
 

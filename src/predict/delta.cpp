@@ -1,6 +1,7 @@
 #include "predict/delta.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -19,6 +20,13 @@ Jet positive_parameter(double value, int i) {
   return jet;
 }
 
+constexpr std::size_t kExponent = 10;              // place in kModelParameters
+constexpr std::array<double, 2> kShare{1.0, 0.5};  // that ln k and ln w_n have in exponent times ln V
+
+double log_ratio(const ModelEstimate& model, double speed_m_per_s) {
+  return std::log(speed_m_per_s / model.stiffness_trend->speed_m_per_s);
+}
+
 }  // namespace
 
 ModelJets jets_of(const ModelEstimate& model) {
@@ -35,6 +43,28 @@ ModelJets jets_of(const ModelEstimate& model) {
           Jet(ageing.cutoff_s, 7),
           Jet(reloading.force_N, 8),
           positive_parameter(reloading.length_m, 9)};
+}
+
+ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s) {
+  if (!model.stiffness_trend) return model;
+  ModelEstimate own = model;
+  const double log_growth = model.stiffness_trend->exponent * log_ratio(model, speed_m_per_s);
+  own.stiffness_N_per_m *= std::exp(kShare[0] * log_growth);
+  own.natural_frequency_rad_per_s *= std::exp(kShare[1] * log_growth);
+  own.stiffness_trend.reset();
+  for (std::size_t i = 0; i < kShare.size(); ++i) {
+    const double share = kShare[i] * log_ratio(model, speed_m_per_s);
+    for (std::size_t j = 0; j < kModelValues; ++j) own.covariance[i][j] += share * own.covariance[kExponent][j];
+    for (std::size_t j = 0; j < kModelValues; ++j) own.covariance[j][i] += share * own.covariance[j][kExponent];
+  }
+  return own;
+}
+
+Jet from_speed(Jet y, const ModelEstimate& model, double speed_m_per_s) {
+  if (!model.stiffness_trend) return y;
+  const double log_speed = log_ratio(model, speed_m_per_s);
+  y.v[kExponent] += log_speed * (kShare[0] * y.v[0] + kShare[1] * y.v[1]);
+  return y;
 }
 
 Propagation::Propagation(ModelEstimate model)
@@ -68,6 +98,13 @@ std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_p
   constexpr std::size_t kDifference = 3;
   wider.covariance[kDifference][kDifference] +=
       std::pow(model.reach->half_width_at(speed_m_per_s) / fit::t_quantile(model.degrees_of_freedom), 2);
+  if (model.stiffness_trend) {
+    // It may end there, or double.
+    const double half_width = model.stiffness_trend->exponent * model.reach->distance_beyond(speed_m_per_s);
+    const double exponent_half_width = half_width / log_ratio(model, speed_m_per_s);
+    wider.covariance[kExponent][kExponent] +=
+        std::pow(exponent_half_width / fit::t_quantile(model.degrees_of_freedom), 2);
+  }
   return wider;
 }
 

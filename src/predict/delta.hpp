@@ -15,7 +15,7 @@
 namespace slipfit::predict {
 
 /// Numbers that know their derivatives with respect to (ln k, ln w_n, zeta, ln dF, b, alpha, rate and
-/// cut-off of ageing, A and ln l of reloading).
+/// cut-off of ageing, A and ln l of reloading, exponent of k).
 using Jet = ceres::Jet<double, static_cast<int>(kModelValues)>;
 
 struct ModelJets {
@@ -24,6 +24,12 @@ struct ModelJets {
 };
 
 ModelJets jets_of(const ModelEstimate& model);
+
+/// The model with k and w_n of a speed, where they go with it, and the covariance of these.
+ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s);
+
+/// From derivatives with respect to k and w_n of a speed to those of the model's parameters.
+Jet from_speed(Jet y, const ModelEstimate& model, double speed_m_per_s);
 
 /// From derivatives to standard errors and 95 % intervals.
 class Propagation {

@@ -18,9 +18,13 @@ CriticalPoint critical_point_by_law(const ModelEstimate& model) {
   return coulomb_critical_point(model, propagation);
 }
 
-}  // namespace
+MotionJets motion_by_law(const ModelEstimate& model, double speed_m_per_s) {
+  if (model.ageing) return ageing_motion_at(model, speed_m_per_s);
+  if (model.speed_dependence) return velocity_motion_at(model, speed_m_per_s);
+  return coulomb_motion_at(model, speed_m_per_s);
+}
 
-CriticalPoint critical_point(const ModelEstimate& model) {
+CriticalPoint critical_point_of(const ModelEstimate& model) {
   CriticalPoint point = critical_point_by_law(model);
   const std::optional<double> speed = point.speed_m_per_s.value;
   if (!speed || !(*speed > 0.0) || !model.reach) return point;
@@ -39,10 +43,37 @@ CriticalPoint critical_point(const ModelEstimate& model) {
   return point;
 }
 
+}  // namespace
+
+CriticalPoint critical_point(const ModelEstimate& model) {
+  if (!model.stiffness_trend) return critical_point_of(model);
+  // By k and w_n of the speed itself, on which it depends as about V^(-exponent / 2).
+  constexpr int kMostSteps = 30;
+  constexpr double kSame = 1e-12;  // of ln V
+  double speed_m_per_s = model.stiffness_trend->speed_m_per_s;
+  CriticalPoint point;
+  for (int step = 0; step < kMostSteps; ++step) {
+    point = critical_point_of(at_speed(model, speed_m_per_s));
+    const std::optional<double> next = point.speed_m_per_s.value;
+    if (!next || !(*next > 0.0) || std::abs(std::log(*next / speed_m_per_s)) < kSame) break;
+    speed_m_per_s = *next;
+  }
+  return point;
+}
+
 MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s) {
-  if (model.ageing) return ageing_motion_at(model, speed_m_per_s);
-  if (model.speed_dependence) return velocity_motion_at(model, speed_m_per_s);
-  return coulomb_motion_at(model, speed_m_per_s);
+  MotionJets motion = motion_by_law(at_speed(model, speed_m_per_s), speed_m_per_s);
+  const auto follow = [&](Jet& y) { y = from_speed(y, model, speed_m_per_s); };
+  if (motion.aged_difference_N) follow(*motion.aged_difference_N);
+  if (motion.restick_margin) follow(*motion.restick_margin);
+  follow(motion.total_damping_ratio);
+  if (!motion.cycle) return motion;
+  CycleJets& cycle = *motion.cycle;
+  for (Jet* const y : {&cycle.slip_s, &cycle.stick_s, &cycle.period_s, &cycle.periodic_displacement_m,
+                       &cycle.force_peak_N, &cycle.force_trough_N}) {
+    follow(*y);
+  }
+  return motion;
 }
 
 }  // namespace slipfit::predict

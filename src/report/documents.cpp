@@ -75,6 +75,7 @@ Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole ro
 /// What a prediction needs to know of the recordings.
 void add_reach(Json& json, const ModelEstimate& model) {
   if (model.ageing) json["ageing_reference_s"] = number(model.ageing->reference_stick_s);
+  if (model.stiffness_trend) json["stiffness_speed_m_per_s"] = number(model.stiffness_trend->speed_m_per_s);
   if (model.normal_force_N) json["normal_force_N"] = number(model.normal_force_N);
   if (!model.reach) return;
   json["speeds_m_per_s"] = {number(model.reach->slowest_m_per_s), number(model.reach->fastest_m_per_s)};

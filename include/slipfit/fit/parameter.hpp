@@ -14,6 +14,7 @@ namespace slipfit {
 /// The parameters of a fit, in the order of every report.
 enum class ParameterId : std::size_t {
   Stiffness,
+  StiffnessExponent,
   FrictionDifference,
   FrictionCoefficientDifference,
   Ageing,
@@ -73,11 +74,12 @@ struct HeldParameters {
 };
 
 /// What a model's covariance is of, in its order; of the positive ones the logarithm.
-inline constexpr std::array kModelParameters{ParameterId::Stiffness,     ParameterId::NaturalFrequency,
-                                             ParameterId::DampingRatio,  ParameterId::FrictionDifference,
-                                             ParameterId::FrictionSlope, ParameterId::Alpha,
-                                             ParameterId::Ageing,        ParameterId::AgeingTime,
-                                             ParameterId::ReloadForce,   ParameterId::ReloadLength};
+inline constexpr std::array kModelParameters{ParameterId::Stiffness,        ParameterId::NaturalFrequency,
+                                             ParameterId::DampingRatio,     ParameterId::FrictionDifference,
+                                             ParameterId::FrictionSlope,    ParameterId::Alpha,
+                                             ParameterId::Ageing,           ParameterId::AgeingTime,
+                                             ParameterId::ReloadForce,      ParameterId::ReloadLength,
+                                             ParameterId::StiffnessExponent};
 inline constexpr std::size_t kModelValues = kModelParameters.size();
 
 }  // namespace slipfit

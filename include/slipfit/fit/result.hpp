@@ -92,6 +92,12 @@ struct Reloading {
   double length_m = 0.0;  ///< l > 0
 };
 
+/// Stiffness that goes with the driving speed, k as V^exponent, and w_n of the same mass. docs/model.md (26)
+struct StiffnessTrend {
+  double exponent = 0.0;
+  double speed_m_per_s = 1.0;  ///< at which ModelEstimate has k and w_n
+};
+
 /// What a sweep tells of F_s - F_k(0+) at speeds beyond its own, where no law of friction is sure to hold.
 struct SpeedReach {
   double slowest_m_per_s = 0.0;
@@ -102,6 +108,8 @@ struct SpeedReach {
 
   /// ln of the ratio to the nearest of its speeds; 0 among them.
   [[nodiscard]] double distance_to(double speed_m_per_s) const;
+  /// From where on a law that was fitted to the recordings is not sure: as distance_to(), begun before their ends.
+  [[nodiscard]] double distance_beyond(double speed_m_per_s) const;
   /// Of the 95 % interval of ln(F_s - F_k(0+)) there, as far as the trend makes it; 0 without one, and among the speeds
   /// but near their ends: a line through the recordings misses what bends there before it leaves them.
   [[nodiscard]] double half_width_at(double speed_m_per_s) const;
@@ -114,14 +122,15 @@ struct ModelEstimate {
   double damping_ratio = 0.0;          ///< >= 0
   double friction_difference_N = 0.0;  ///< F_s - F_k(0+)
   /// Of kModelParameters, (ln k, ln w_n, zeta, ln (F_s - F_k(0+)), b, alpha, rate and cut-off of ageing, A and ln l of
-  /// reloading), scatter of the cycles included; b and alpha are exactly 0 under Coulomb friction, the others where the
-  /// model does not have them.
+  /// reloading, exponent of k), scatter of the cycles included; b and alpha are exactly 0 under Coulomb friction, the
+  /// others where the model does not have them.
   std::array<std::array<double, kModelValues>, kModelValues> covariance{};
   double degrees_of_freedom = 1.0;                    ///< of Student's t
   bool damping_identified = false;                    ///< zeta is known well enough to ask for critical speeds
   std::optional<SpeedDependence> speed_dependence{};  ///< empty: Coulomb friction
   std::optional<Ageing> ageing{};                     ///< empty: the same static friction after every stick
   std::optional<Reloading> reloading{};               ///< empty: sticks are straight
+  std::optional<StiffnessTrend> stiffness_trend{};    ///< empty: the same k at every speed
   std::optional<SpeedReach> reach{};                  ///< of a sweep
   std::optional<double> normal_force_N{};             ///< that the forces belong to, where loads are known
 };

@@ -21,6 +21,8 @@ struct Population {
   /// Spread with which a cycle's own level follows F_k(0+); 0 where the level is common to the cycles.
   double level_sd = 0.0;
   double slip_speed_m_per_s = 1.0;  ///< Units::slip_speed_m_per_s
+  /// Of the speed over Units::speed_m_per_s, where k goes with the speed; empty where it does not.
+  std::optional<double> log_speed{};
 };
 
 /// How a recording enters a fit: what makes its numbers of order one, and how its samples see a slip.

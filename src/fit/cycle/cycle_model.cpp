@@ -98,6 +98,15 @@ CycleModel::CycleModel(const CycleSet& set, std::size_t cycle, const Scales& sca
       reference_s_(set.reference_s[cycle]),
       even_step_s_(set.even_step_s[cycle]) {}
 
+Globals CycleModel::globals_at_speed(const double* globals, double exponent) const {
+  Globals own{};
+  std::copy_n(globals, this->globals(), own.begin());
+  if (!has_exponent()) return own;
+  own[kLogStiffness] += exponent * *scales_.population->log_speed;
+  own[kLogFrequency] += 0.5 * exponent * *scales_.population->log_speed;
+  return own;
+}
+
 CycleFrame CycleModel::frame(const double* globals, const double* local) const {
   CycleFrame frame;
   frame.stiffness_N_per_m = std::exp(globals[kLogStiffness]);
@@ -140,6 +149,7 @@ class CycleModel::Rows {
         scales_(cycle.scales_),
         drifts_(cycle.drift_parameters()),
         first_drift_(cycle.level_->terms > 0 ? 1 : 0),
+        has_exponent_(cycle.has_exponent()),
         level_per_cycle_(cycle.level_->per_cycle),
         has_constant_(cycle.has_constant()) {}
 
@@ -160,6 +170,7 @@ class CycleModel::Rows {
     begin_row(weight * (data - (level + model)));
     if (jacobian_ != nullptr) {
       for (const double derivative : by_global) add(-weight * derivative);
+      if (has_exponent_) add(-weight * by_exponent(by_global[kLogStiffness], by_global[kLogFrequency]));
       if (scales_.population) add(0.0);
       if (has_constant_) add(level_per_cycle_ ? 0.0 : -weight * constant_share * scales_.level_unit());
       for (std::size_t i = 0; i < drifts_; ++i) add(-weight * scales_.force * drift[i]);
@@ -178,6 +189,7 @@ class CycleModel::Rows {
     if (jacobian_ == nullptr) return;
     for (const double derivative : {drag, -drag, 2.0 * frame.force_scale}) add(-weight * derivative);
     for (std::size_t i = kFrictionSlope; i < globals; ++i) add(0.0);
+    if (has_exponent_) add(-weight * by_exponent(drag, -drag));
     add(weight * scales_.population->force);
     if (has_constant_) add(0.0);
     for (std::size_t i = 0; i < drifts_; ++i) add(0.0);
@@ -193,6 +205,7 @@ class CycleModel::Rows {
     begin_row(weight * (unit * *values_.constant - scales_.level - scales_.force * values_.local[2]));
     if (jacobian_ == nullptr) return;
     for (std::size_t i = 0; i < globals; ++i) add(0.0);
+    if (has_exponent_) add(0.0);
     add(0.0);
     add(weight * unit);
     for (std::size_t i = 0; i < drifts_; ++i) add(0.0);
@@ -202,6 +215,11 @@ class CycleModel::Rows {
   }
 
  private:
+  /// Of the derivatives by ln k and ln w_n. docs/model.md (26)
+  [[nodiscard]] double by_exponent(double by_log_stiffness, double by_log_frequency) const {
+    return *scales_.population->log_speed * (by_log_stiffness + 0.5 * by_log_frequency);
+  }
+
   void begin_row(double residual) {
     *residuals_++ = residual;
     at_ = jacobian_ != nullptr ? jacobian_++ : nullptr;
@@ -220,6 +238,7 @@ class CycleModel::Rows {
   const Scales& scales_;
   std::size_t drifts_;
   std::size_t first_drift_;  // behind the constant, where the basis has one
+  bool has_exponent_;
   bool level_per_cycle_;
   bool has_constant_;
 };
@@ -265,13 +284,14 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, Rows& rows) const
 
 bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* jacobian) const {
   Rows rows(*this, values, residuals, jacobian);
+  const Globals globals = globals_at_speed(values.globals, has_exponent() ? *values.exponent : 0.0);
   if (!is_integrated()) {
-    const std::optional<CycleState> now = state(values.globals, values.local);
+    const std::optional<CycleState> now = state(globals.data(), values.local);
     if (now) std::visit([&](const auto& law) { fill(law, *now, rows); }, now->motion);
     return now.has_value();
   }
-  const CycleFrame f = frame(values.globals, values.local);
-  const auto motion = SpeedDependentCycle::solve(f.z0(), values.globals, scales_);
+  const CycleFrame f = frame(globals.data(), values.local);
+  const auto motion = SpeedDependentCycle::solve(f.z0(), globals.data(), scales_);
   if (motion) fill(*motion, f, rows);
   return motion.has_value();
 }

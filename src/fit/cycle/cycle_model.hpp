@@ -61,6 +61,7 @@ struct CycleValues {
   const double* constant = nullptr;
   const double* drift = nullptr;  ///< the level's other columns
   const double* local = nullptr;
+  const double* exponent = nullptr;  ///< d ln k / d ln V, where k goes with the speed
 };
 
 /// What the physical numbers are for one cycle, whatever the friction law.
@@ -117,10 +118,13 @@ class CycleModel {
   [[nodiscard]] bool has_constant() const { return level_->terms > 0 || scales_.population.has_value(); }
   [[nodiscard]] std::size_t drift_parameters() const { return level_->columns() - (level_->terms > 0 ? 1 : 0); }
   [[nodiscard]] std::size_t globals() const { return globals_of(scales_.law); }
-  /// Columns of the Jacobian: globals, difference, constant, drift, own; those that there are.
+  [[nodiscard]] bool has_difference() const { return scales_.population.has_value(); }
+  [[nodiscard]] bool has_exponent() const { return scales_.population && scales_.population->log_speed; }
+  /// Columns of the Jacobian: globals, exponent, difference, constant, drift, own; those that there are.
   [[nodiscard]] std::size_t columns() const { return common_parameters() + local_parameters(); }
   [[nodiscard]] std::size_t common_parameters() const {
-    return globals() + (scales_.population ? 1 : 0) + (has_constant() ? 1 : 0) + drift_parameters();
+    return globals() + (has_exponent() ? 1 : 0) + (scales_.population ? 1 : 0) + (has_constant() ? 1 : 0) +
+           drift_parameters();
   }
   [[nodiscard]] const CycleData& data() const { return *data_; }
   /// Friction that depends on the speed has no closed form.
@@ -132,6 +136,9 @@ class CycleModel {
   /// has no solution.
   bool evaluate(const CycleValues& values, double* residuals, double* jacobian) const;
 
+  /// The globals at the recording's speed: k goes with it, and w_n of the same mass.
+  [[nodiscard]] Globals globals_at_speed(const double* globals, double exponent) const;
+  /// `globals`: at the recording's speed, here and in state().
   [[nodiscard]] CycleFrame frame(const double* globals, const double* local) const;
   /// Empty where the slip has no solution.
   [[nodiscard]] std::optional<CycleState> state(const double* globals, const double* local) const;

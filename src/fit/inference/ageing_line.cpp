@@ -32,6 +32,7 @@ VectorXd log_sticks(const SweepSolution& solution) {
   const Units& units = solution.sweep.units;
   Coordinates values = Coordinates::Zero();
   for (std::size_t i = 0; i < globals.size(); ++i) values(static_cast<Index>(i)) = globals[i];
+  values(kStiffnessExponent) = solution.recordings.front().parameters.exponent;
   if (solution.reload) {
     values(kReloadLength) = std::log(solution.reload->metres);
     if (const VectorXd rises = rises_of(solution); rises.size() > 0) values(kReloadForce) = rises.mean();

@@ -12,6 +12,7 @@ CommonColumns::CommonColumns(const Problem& problem) {
   const std::size_t count = problem.recordings.size();
   const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
   size_ = globals;
+  if (problem.recordings.front().model(0).has_exponent()) exponent_ = size_++;
   const auto add = [&](std::vector<Index>& columns, auto&& width_of, bool shared) {
     for (std::size_t r = 0; r < count; ++r) {
       const Index width = width_of(problem.recordings[r]);
@@ -30,6 +31,7 @@ CommonColumns::CommonColumns(const Problem& problem) {
     const BlockFit& recording = problem.recordings[r];
     of_.emplace_back();
     for (Index i = 0; i < globals; ++i) of_.back().push_back(i);
+    if (exponent_) of_.back().push_back(*exponent_);
     if (populations(recording) > 0) of_.back().push_back(differences_[r]);
     if (constants(recording) > 0) of_.back().push_back(levels_[r]);
     for (Index i = 0; i < drifts(recording); ++i) of_.back().push_back(drifts_[r] + i);

@@ -25,7 +25,13 @@ SlidingModel::SlidingModel(const Coordinates& values, const Units& units) {
   ageing_time = units.stick_s * jet(kAgeingTime);
   slip_distance = units.slip_distance_m * jet(kSlipDistance) * jet(kSlipDistance);
   if (values(kReloadForce) > 0.0) reload = Reload{units.force * jet(kReloadForce), exp(jet(kReloadLength))};
+  stiffness_exponent = jet(kStiffnessExponent);
   reference_stick_s_ = units.stick_s;
+  reference_speed_m_per_s_ = units.speed_m_per_s;
+}
+
+Jet SlidingModel::growth_at(double speed_m_per_s) const {
+  return exp(stiffness_exponent * std::log(speed_m_per_s / reference_speed_m_per_s_));
 }
 
 Jet SlidingModel::excess_friction(double speed_m_per_s) const {
@@ -44,9 +50,12 @@ std::optional<Jet> SlidingModel::spacing(double speed_m_per_s, double load) cons
 
 std::optional<SlidingModel::Cycle> SlidingModel::cycle(double speed_m_per_s, double load,
                                                        const Jet& difference_N) const {
-  const Jet u = stiffness * speed_m_per_s / omega;
+  const Jet growth = growth_at(speed_m_per_s);
+  const Jet k = stiffness * growth;
+  const Jet w = omega * sqrt(growth);  // of the same mass
+  const Jet u = k * speed_m_per_s / w;
   const Jet z0 = load * difference_N / u - 2.0 * zeta;  // the slip starts from F_s - cV
-  const Jet scaled_slope = load * slope * omega / stiffness;
+  const Jet scaled_slope = load * slope * w / k;
   const Jet rate = alpha * speed_m_per_s;
   const auto track = model::VelocityTrack::solve(z0.a, zeta.a, scaled_slope.a, rate.a);
   if (!track || !track->resticks()) return std::nullopt;
@@ -60,11 +69,10 @@ std::optional<SlidingModel::Cycle> SlidingModel::cycle(double speed_m_per_s, dou
   const model::TrackEnd& end = track->end();
   Jet tau_slip(end.tau);
   tau_slip.v = -jet(end.first.value, end.first).v / end.second.value;  // z'(tau) = 1 holds at the end
-  const Jet straight_s = (tau_period - tau_slip) / omega;
-  if (!reload) return Cycle{tau_period / omega, straight_s};
-  const Jet stick_m =
-      model::reloaded_stick_m(speed_m_per_s * straight_s, load * reload->force_N / stiffness, reload->length_m);
-  return Cycle{tau_slip / omega + stick_m / speed_m_per_s, stick_m / speed_m_per_s};
+  const Jet straight_s = (tau_period - tau_slip) / w;
+  if (!reload) return Cycle{tau_period / w, straight_s};
+  const Jet stick_m = model::reloaded_stick_m(speed_m_per_s * straight_s, load * reload->force_N / k, reload->length_m);
+  return Cycle{tau_slip / w + stick_m / speed_m_per_s, stick_m / speed_m_per_s};
 }
 
 std::optional<Jet> SlidingModel::aged_difference_N(double speed_m_per_s, double load) const {

@@ -13,7 +13,8 @@ struct Reload {
 
 /// The coordinates in SI with their derivatives. Forces at the reference load.
 struct SlidingModel {
-  Jet stiffness, omega, zeta, slope, alpha, level, difference, ageing, ageing_time, slip_distance;
+  Jet stiffness, omega, zeta, slope, alpha, level, difference, ageing, ageing_time, slip_distance,
+      stiffness_exponent;        // k and w_n are those at Units::speed_m_per_s
   std::optional<Reload> reload;  ///< empty: sticks are straight
 
   SlidingModel(const Coordinates& values, const Units& units);
@@ -30,10 +31,13 @@ struct SlidingModel {
   [[nodiscard]] std::optional<Cycle> cycle(double speed_m_per_s, double load, const Jet& difference_N) const;
 
  private:
+  /// Of k at a speed over that at Units::speed_m_per_s.
+  [[nodiscard]] Jet growth_at(double speed_m_per_s) const;
   /// After the sticks of this speed.
   [[nodiscard]] std::optional<Jet> aged_difference_N(double speed_m_per_s, double load) const;
 
   double reference_stick_s_ = 1.0;
+  double reference_speed_m_per_s_ = 1.0;
 };
 
 }  // namespace slipfit::fit

@@ -50,6 +50,7 @@ Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
   for (Index i = 0; i < static_cast<Index>(solution.recordings.front().model(0).globals()); ++i) {
     selection.common(i, i) = 1.0;
   }
+  if (const auto exponent = columns.exponent()) selection.common(*exponent, kStiffnessExponent) = 1.0;
   const Index levels = levels_of(solution).size();
   for (Index r = 0; r < levels; ++r) {
     selection.common(columns.level(static_cast<std::size_t>(r)), kLevel) = 1.0 / static_cast<double>(levels);
@@ -85,6 +86,7 @@ Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& 
   Coordinates values;
   const Globals& globals = solution.recordings.front().parameters.globals;
   for (std::size_t i = 0; i < globals.size(); ++i) values(static_cast<Index>(i)) = globals[i];
+  values(kStiffnessExponent) = solution.recordings.front().parameters.exponent;
   values(kLevel) = levels_of(solution).mean();
   values(kDifference) = line.difference_weights.dot(differences);
   values(kAgeing) = line.rate_weights.dot(differences);

@@ -141,7 +141,8 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
   if (outcome.disagree) {
     Spread& spread = outcome.spread;
     spread.covariance += jackknife_over(outcome.left_out);
-    spread.degrees_of_freedom = std::max(1.0, std::min(spread.degrees_of_freedom, count_of(outcome.left_out) - 1.0));
+    const double fitted = solution.recordings.front().model(0).has_exponent() ? 2.0 : 1.0;  // of a line, of a mean
+    spread.degrees_of_freedom = std::max(1.0, std::min(spread.degrees_of_freedom, count_of(outcome.left_out) - fitted));
   }
   if (outcome.reach.trend) outcome.reach.trend = std::hypot(*outcome.reach.trend, error_beyond(outcome));
   add_cutoff(solution, kind, outcome.spread);
@@ -151,10 +152,16 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
   return outcome;
 }
 
-Spread spread_at(const LeftOut& fit, double speed_m_per_s) {
+Spread spread_at(const LeftOut& fit, const Units& units, double speed_m_per_s) {
   Spread spread = fit.spread;
   const double half_width = fit.reach.half_width_at(speed_m_per_s) * fit.values(kDifference);
-  spread.covariance(kDifference, kDifference) += std::pow(half_width / t_quantile(spread.degrees_of_freedom), 2);
+  const double quantile = t_quantile(spread.degrees_of_freedom);
+  spread.covariance(kDifference, kDifference) += std::pow(half_width / quantile, 2);
+  const double exponent = fit.values(kStiffnessExponent);
+  if (const double log_speed = std::log(speed_m_per_s / units.speed_m_per_s); exponent != 0.0 && log_speed != 0.0) {
+    spread.covariance(kStiffnessExponent, kStiffnessExponent) +=
+        std::pow(exponent * fit.reach.distance_beyond(speed_m_per_s) / log_speed / quantile, 2);
+  }
   return spread;
 }
 

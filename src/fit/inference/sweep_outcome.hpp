@@ -18,7 +18,7 @@ struct LeftOut {
 
 /// A solution with its intervals.
 struct SweepOutcome {
-  const SweepSolution& solution;
+  SweepSolution solution;
   StaticFriction static_friction{};
   Coordinates values;  ///< zeta may be negative
   Spread spread;
@@ -31,8 +31,8 @@ struct SweepOutcome {
 /// Fits once without each recording.
 SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution);
 
-/// With the trend of F_s - F_k at a speed beyond its own.
-Spread spread_at(const LeftOut& fit, double speed_m_per_s);
+/// With the trends of F_s - F_k and k at a speed beyond its own.
+Spread spread_at(const LeftOut& fit, const Units& units, double speed_m_per_s);
 
 /// Root mean square of ln (spacing predicted without a recording / its own); no prediction counts as a factor of 2.
 double left_out_error(const SweepOutcome& outcome);

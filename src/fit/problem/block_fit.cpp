@@ -24,6 +24,7 @@ BlockFit::BlockFit(std::vector<CycleData> cycles, std::vector<double> reference_
 CycleValues BlockFit::values(std::size_t cycle) const {
   CycleValues values;
   values.globals = parameters.globals.data();
+  values.exponent = &parameters.exponent;
   values.difference = &parameters.difference;
   values.constant = parameters.level.data();
   values.drift = parameters.level.data() + (models_[cycle].has_constant() ? 1 : 0);
@@ -32,7 +33,9 @@ CycleValues BlockFit::values(std::size_t cycle) const {
 }
 
 CycleState BlockFit::state(std::size_t cycle) const {
-  return models_[cycle].state(parameters.globals.data(), parameters.cycles[cycle].data()).value();
+  const CycleModel& model = models_[cycle];
+  const Globals globals = model.globals_at_speed(parameters.globals.data(), parameters.exponent);
+  return model.state(globals.data(), parameters.cycles[cycle].data()).value();
 }
 
 double BlockFit::cycle_sum_of_squares(std::size_t cycle) const {

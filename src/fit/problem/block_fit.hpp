@@ -14,6 +14,7 @@ namespace slipfit::fit {
 /// The parameters of a recording in a fit.
 struct Parameters {
   Globals globals{};
+  double exponent = 0.0;      ///< d ln k / d ln V, in a sweep where k goes with the speed
   double difference = 0.0;    ///< F_s - F_k(0+) / Population::force, in a sweep
   std::vector<double> level;  ///< constant, where there is one, and drift; scaled by Scales::level_unit and force
   std::vector<Local> cycles;

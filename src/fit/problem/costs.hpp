@@ -16,21 +16,19 @@
 
 namespace slipfit::fit {
 
-/// Parameter blocks: globals, [difference,] [constant,] [drift,] own. The cycle's rows are reduced to one a parameter
-/// and one more, which must not be asked of two threads at a time.
+/// Parameter blocks: globals, [exponent,] [difference,] [constant,] [drift,] own. The cycle's rows are reduced to one a
+/// parameter and one more, which must not be asked of two threads at a time.
 class CycleCost : public ceres::CostFunction {
  public:
   explicit CycleCost(const CycleModel& model)
       : model_(model),
-        has_difference_(model.common_parameters() >
-                        model.globals() + (model.has_constant() ? 1 : 0) + model.drift_parameters()),
         residuals_(model.residuals()),
         jacobian_(model.residuals(), model.columns()),
         reduced_(model.columns() + 1, model.columns() + 1) {
     set_num_residuals(static_cast<int>(model.columns() + 1));
     for (const std::size_t size :
-         {model.globals(), std::size_t{has_difference_ ? 1U : 0U}, std::size_t{model.has_constant() ? 1U : 0U},
-          model.drift_parameters(), model.local_parameters()}) {
+         {model.globals(), std::size_t{model.has_exponent() ? 1U : 0U}, std::size_t{model.has_difference() ? 1U : 0U},
+          std::size_t{model.has_constant() ? 1U : 0U}, model.drift_parameters(), model.local_parameters()}) {
       if (size > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(size));
     }
   }
@@ -67,7 +65,8 @@ class CycleCost : public ceres::CostFunction {
     const auto next_if = [&](bool present) { return present ? *parameters++ : nullptr; };
     CycleValues values;
     values.globals = next_if(true);
-    values.difference = next_if(has_difference_);
+    values.exponent = next_if(model_.has_exponent());
+    values.difference = next_if(model_.has_difference());
     values.constant = next_if(model_.has_constant());
     values.drift = next_if(model_.drift_parameters() > 0);
     values.local = next_if(true);
@@ -86,7 +85,6 @@ class CycleCost : public ceres::CostFunction {
   }
 
   const CycleModel& model_;
-  bool has_difference_;
   mutable std::vector<double> point_;  ///< at which both are, where the slip is integrated
   mutable Eigen::VectorXd residuals_;
   mutable Eigen::MatrixXd jacobian_;

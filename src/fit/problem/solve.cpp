@@ -51,6 +51,7 @@ class Bundle {
       parameters.globals = globals_;
       if (sweep_.sharing.level && !parameters.level.empty()) parameters.level[0] = shared.level[0];
       if (sweep_.sharing.difference) parameters.difference = shared.difference;
+      parameters.exponent = shared.exponent;
       for (Local& local : parameters.cycles) local = owns_[next++];
     }
     return summary.IsSolutionUsable() ? 2.0 * summary.final_cost : std::numeric_limits<double>::infinity();
@@ -76,8 +77,8 @@ class Bundle {
       blocks.push_back(block);
       if (!ordering_->IsMember(block)) ordering_->AddElementToGroup(block, group_++);
     };
-    if (recording.scales().population)
-      add_block(sweep_.sharing.difference ? &first().difference : &parameters.difference);
+    if (any.has_exponent()) add_block(&first().exponent);
+    if (any.has_difference()) add_block(sweep_.sharing.difference ? &first().difference : &parameters.difference);
     if (any.has_constant()) add_block(sweep_.sharing.level ? first().level.data() : parameters.level.data());
     if (any.drift_parameters() > 0) add_block(parameters.level.data() + (any.has_constant() ? 1 : 0));
     for (std::size_t i = 0; i < recording.size(); ++i, local += std::tuple_size_v<Local>) {

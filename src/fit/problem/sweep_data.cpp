@@ -146,7 +146,9 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
   std::vector<double> forces;
   std::vector<double> impedances;
   std::vector<double> sticks_s;
+  double log_speeds = 0.0;
   for (const std::size_t i : data.fitted) {
+    log_speeds += std::log(data.single[i]->blocks.scales().speed_m_per_s);
     sticks_s.push_back(typical_stick_s(data.single[i]->blocks));
     const Globals& globals = data.single[i]->blocks.parameters.globals;
     forces.push_back(std::abs(mean_onset_force(*data.single[i])) / data.loads[i]);
@@ -156,6 +158,7 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
   data.units.force = signal::median(forces);
   data.units.slip_speed_m_per_s = data.units.force / signal::median(impedances);
   data.units.stick_s = signal::median(sticks_s);
+  data.units.speed_m_per_s = std::exp(log_speeds / static_cast<double>(data.fitted.size()));
   return data;
 }
 

@@ -22,6 +22,7 @@ struct LawFindings {
   std::string reason;                                ///< why it does, or not
   std::optional<AgeingCutoff> ageing{};              ///< where static friction grows with the stick time
   std::optional<double> reference_normal_force_N{};  ///< known for all recordings
+  bool stiffness_grows = false;                      ///< with the speed
   bool at_one_speed = false;                         ///< then no more is told of it than by one recording
 };
 

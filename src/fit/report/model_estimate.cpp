@@ -23,6 +23,21 @@ Correlation correlation_of(const ModelEstimate& estimate, const std::vector<std:
   return correlation;
 }
 
+/// In the order of kModelParameters; of the positive ones the logarithm.
+std::array<Jet, kModelValues> values_of(const SlidingModel& model) {
+  return {log(model.stiffness),
+          log(model.omega),
+          model.zeta,
+          log(model.difference),
+          model.slope,
+          model.alpha,
+          model.ageing,
+          model.ageing_time,
+          model.reload ? model.reload->force_N : Jet(0.0),
+          model.reload ? log(model.reload->length_m) : Jet(0.0),
+          model.stiffness_exponent};
+}
+
 }  // namespace
 
 std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingModel& model) {
@@ -30,17 +45,7 @@ std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingMo
   const bool resolved =
       !findings.weakens && findings.slip_unresolved.empty() && !findings.difference_bounds && findings.in_newtons;
   if (!resolved || !damping_known || !(model.difference.a > 0.0)) return std::nullopt;
-  // In the order of kModelParameters; of the positive ones the logarithm.
-  const std::array<Jet, kModelValues> all{log(model.stiffness),
-                                          log(model.omega),
-                                          model.zeta,
-                                          log(model.difference),
-                                          model.slope,
-                                          model.alpha,
-                                          model.ageing,
-                                          model.ageing_time,
-                                          model.reload ? model.reload->force_N : Jet(0.0),
-                                          model.reload ? log(model.reload->length_m) : Jet(0.0)};
+  const std::array<Jet, kModelValues> all = values_of(model);
   ModelEstimate estimate{model.stiffness.a, model.omega.a, model.zeta.a, model.difference.a};
   std::vector<std::size_t> used{0, 1, 2, 3};
   if (findings.law && findings.law->depends_on_speed) {
@@ -54,6 +59,10 @@ std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingMo
   if (model.reload) {
     estimate.reloading = Reloading{model.reload->force_N.a, model.reload->length_m.a};
     used.insert(used.end(), {8, 9});
+  }
+  if (findings.law && findings.law->stiffness_grows) {
+    estimate.stiffness_trend = StiffnessTrend{model.stiffness_exponent.a, findings.units.speed_m_per_s};
+    used.push_back(10);
   }
   for (const std::size_t i : used) {
     for (const std::size_t j : used) estimate.covariance[i][j] = findings.intervals.whole_covariance(all[i], all[j]);

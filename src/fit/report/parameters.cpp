@@ -98,6 +98,11 @@ class Reporter {
       std::string note = f_.stiffness_doubt.empty() ? f_.stiffness_note : f_.stiffness_doubt;
       add_graded(Id::Stiffness, k, f_.stiffness_doubt, or_few_cycles(note));
     }
+    if (!f_.law || !f_.law->stiffness_grows) return;
+    result_.parameters.back().estimate.note += fmt::format(
+        "{}at {:.4g} m/s", result_.parameters.back().estimate.note.empty() ? "" : "; ", f_.units.speed_m_per_s);
+    add_graded(Id::StiffnessExponent, f_.intervals.interval_of(model_.stiffness_exponent), f_.stiffness_doubt,
+               or_few_cycles(f_.stiffness_doubt));
   }
 
   void report_friction() {

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
+#include "fit/inference/student.hpp"
 
 namespace slipfit::fit {
 
@@ -26,6 +27,8 @@ double speed_ratio(std::span<const SweepRecording> recordings) {
   return high / low;
 }
 
+namespace {
+
 LawChoice choose_by_chance(const SweepFits& fits, double speeds) {
   if (speeds < thresholds::kLeastSpeedRatio) {
     return {false, fmt::format("the speeds span a factor of {:.2g} only: one speed cannot tell alpha", speeds)};
@@ -36,6 +39,7 @@ LawChoice choose_by_chance(const SweepFits& fits, double speeds) {
   return {true, chance};
 }
 
+/// Where residuals are larger than the noise, by what is predicted of a recording left out.
 LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
   return {velocity_error < coulomb_error,
           fmt::format(
@@ -44,6 +48,7 @@ LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
               100.0 * std::expm1(velocity_error), 100.0 * std::expm1(coulomb_error))};
 }
 
+/// Speed-dependent friction has two parameters more, its mean slope and its rate.
 std::vector<Candidate> candidates_of(const SweepFits& fits, const LawChoice& choice) {
   const double noise2 = fits.velocity.chi2 / fits.velocity.degrees_of_freedom;
   const auto cycles = static_cast<double>(fits.velocity.cycles());
@@ -54,6 +59,42 @@ std::vector<Candidate> candidates_of(const SweepFits& fits, const LawChoice& cho
   const std::optional<double> of_coulomb = fits.coulomb ? aicc(fits.coulomb_chi2, 5.0) : std::nullopt;
   return {{Tier::Damped, 5, std::nullopt, of_coulomb, !choice.velocity, choice.reason},
           {Tier::Velocity, 7, std::nullopt, aicc(fits.velocity.chi2, 7.0), choice.velocity, choice.reason}};
+}
+
+/// zeta may be above 0 by its interval, or is held.
+bool allows_damping(const SweepOutcome& outcome) {
+  const double error = std::sqrt(outcome.spread.covariance(kDamping, kDamping));
+  return outcome.solution.held[kDamping] ||
+         outcome.values(kDamping) + t_quantile(outcome.spread.degrees_of_freedom) * error > 0.0;
+}
+
+/// Under Coulomb friction; with k that goes with the speed where recordings left out are predicted better so.
+SweepOutcome coulomb_outcome(const SweepData& data, const SweepFits& fits) {
+  SweepOutcome same = outcome_of(data, *fits.coulomb);
+  if (!fits.growing) return same;
+  SweepOutcome growing = outcome_of(data, *fits.growing);
+  const bool is_better = allows_damping(growing) && left_out_error(growing) < left_out_error(same);
+  return is_better ? growing : same;
+}
+
+}  // namespace
+
+ChosenLaw choose_law(const SweepData& data, SweepFits fits, std::optional<Tier> tier, double speeds) {
+  LawChoice choice = tier ? LawChoice{*tier == Tier::Velocity, "asked for by --tier"} : choose_by_chance(fits, speeds);
+  // It fits once without each recording: not for a law that is left.
+  std::optional<SweepOutcome> outcome;
+  if (choice.velocity || !fits.coulomb) {
+    fits.velocity = settled(fits.velocity);
+    outcome.emplace(outcome_of(data, fits.velocity));
+  }
+  if (choice.velocity && !tier && fits.coulomb && is_misfit(fits.velocity)) {
+    SweepOutcome coulomb = coulomb_outcome(data, fits);
+    choice = choose_by_left_out(left_out_error(*outcome), left_out_error(coulomb));
+    if (!choice.velocity) outcome.emplace(std::move(coulomb));
+  }
+  if (!outcome) outcome.emplace(coulomb_outcome(data, fits));
+  std::vector<Candidate> candidates = candidates_of(fits, choice);
+  return {*std::move(outcome), std::move(choice), std::move(candidates)};
 }
 
 }  // namespace slipfit::fit

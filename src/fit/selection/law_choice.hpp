@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "fit/inference/sweep_outcome.hpp"
 #include "fit/selection/sweep_fit.hpp"
 #include "slipfit/fit/result.hpp"
 #include "slipfit/fit/sweep_recording.hpp"
@@ -22,13 +24,15 @@ bool is_misfit(const SweepSolution& solution);
 /// Of the fastest recording in the fit over the slowest.
 double speed_ratio(std::span<const SweepRecording> recordings);
 
-LawChoice choose_by_chance(const SweepFits& fits, double speeds);
+struct ChosenLaw {
+  SweepOutcome outcome;
+  LawChoice choice;
+  std::vector<Candidate> candidates;
+};
 
-/// Where residuals are larger than the noise, more parameters fit the model's error as well: the law is then chosen by
-/// how well it predicts a recording left out (left_out_error).
-LawChoice choose_by_left_out(double velocity_error, double coulomb_error);
-
-/// Speed-dependent friction has two parameters more, its mean slope and its rate.
-std::vector<Candidate> candidates_of(const SweepFits& fits, const LawChoice& choice);
+/// The law by chance; where residuals are larger than the noise, more parameters fit the model's error as well, and it
+/// is the one that predicts recordings left out better (left_out_error). So is k that goes with the speed. `tier`:
+/// asked for; `speeds`: speed_ratio().
+ChosenLaw choose_law(const SweepData& data, SweepFits fits, std::optional<Tier> tier, double speeds);
 
 }  // namespace slipfit::fit

@@ -5,6 +5,7 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
@@ -47,26 +48,32 @@ class SweepFitter {
 
   [[nodiscard]] std::optional<SweepFits> fit() const {
     constexpr Sharing kAll{true, true};
-    std::optional<SweepSolution> velocity = with_shares(FrictionLaw::Exponential, kAll);
+    std::optional<SweepSolution> velocity = with_shares({FrictionLaw::Exponential}, kAll);
     if (!velocity) return std::nullopt;
     SweepFits fits{at_best_average(*std::move(velocity)), std::nullopt};
     const Sharing shares = fits.velocity.sweep.sharing;
-    std::optional<SweepSolution> coulomb = fit(FrictionLaw::Coulomb, shares);
+    std::optional<SweepSolution> coulomb = fit({FrictionLaw::Coulomb}, shares);
     if (coulomb) {
       coulomb = at_best_average(*std::move(coulomb));
       constexpr double kExtra = 2.0;  // slope and rate
       fits.coulomb_chi2 = coulomb->chi2;
       fits.p_value = chance(coulomb->chi2 - fits.velocity.chi2, kExtra, fits.velocity);
       // Friction that depends on the speed may explain levels that differ under Coulomb friction.
-      std::optional<SweepSolution> own = with_shares(FrictionLaw::Coulomb, shares);
+      std::optional<SweepSolution> own = with_shares({FrictionLaw::Coulomb}, shares);
       const bool shares_less = own && own->sweep.sharing != shares;
       fits.coulomb = shares_less ? at_best_average(*std::move(own)) : std::move(coulomb);
+      fits.growing = with_growing_stiffness(*fits.coulomb);
     }
     fits.depends_on_speed = fits.p_value < thresholds::kLawChance;
     return fits;
   }
 
  private:
+  struct Kind {
+    FrictionLaw law;
+    bool stiffness_grows = false;  ///< with the speed
+  };
+
   /// Chance of such a gain in chi2 by `extra` parameters (or constraints taken off).
   static double chance(double gain, double extra, const SweepSolution& rich) {
     const double ratio = gain / extra / (rich.chi2 / rich.degrees_of_freedom);
@@ -120,23 +127,23 @@ class SweepFitter {
     return best ? at_minimum(std::move(*best), held, kSweepCompared) : std::nullopt;
   }
 
-  [[nodiscard]] std::optional<SweepSolution> fit_coulomb(Sharing sharing) const {
+  [[nodiscard]] std::optional<SweepSolution> fit_coulomb(Sharing sharing, bool grows) const {
     SweepSolution start = start_of(data_, sharing, FrictionLaw::Coulomb, data_.fitted);
     set_globals(start);
-    return at_minimum(std::move(start), held_of(fixed_));
+    return grows ? with_exponent(std::move(start), held_of(fixed_)) : at_minimum(std::move(start), held_of(fixed_));
   }
 
-  [[nodiscard]] std::optional<SweepSolution> fit(FrictionLaw law, Sharing sharing) const {
-    return law == FrictionLaw::Coulomb ? fit_coulomb(sharing) : fit_velocity(sharing);
+  [[nodiscard]] std::optional<SweepSolution> fit(const Kind& kind, Sharing sharing) const {
+    return kind.law == FrictionLaw::Coulomb ? fit_coulomb(sharing, kind.stiffness_grows) : fit_velocity(sharing);
   }
 
   /// Sharing as much of `most` as the data agree with: both, then one of the two, else nothing.
-  [[nodiscard]] std::optional<SweepSolution> with_shares(FrictionLaw law, Sharing most) const {
-    std::optional<SweepSolution> free = fit(law, {false, false});
+  [[nodiscard]] std::optional<SweepSolution> with_shares(const Kind& kind, Sharing most) const {
+    std::optional<SweepSolution> free = fit(kind, {false, false});
     if (!free) return free;
     for (const Sharing sharing : {Sharing{true, true}, Sharing{false, true}, Sharing{true, false}}) {
       if ((sharing.level && !most.level) || (sharing.difference && !most.difference)) continue;
-      std::optional<SweepSolution> shared = fit(law, sharing);
+      std::optional<SweepSolution> shared = fit(kind, sharing);
       if (!shared) continue;
       // With more freedom no fit can be worse: where it is, it had ended in another minimum.
       if (shared->chi2 < free->chi2) {
@@ -146,6 +153,25 @@ class SweepFitter {
       if (chance_of_sharing(*shared, *free) > thresholds::kShareChance) return shared;
     }
     return free;
+  }
+
+  /// With k that goes with the speed, where one k of all does not explain the recordings.
+  [[nodiscard]] std::optional<SweepSolution> with_growing_stiffness(const SweepSolution& same) const {
+    const bool may_grow = !fixed_.stiffness_N_per_m && same.recordings.size() >= thresholds::kStiffnessRecordings &&
+                          span_of_speeds(same) > thresholds::kAgeingSpeedRatio;
+    if (!may_grow) return std::nullopt;
+    const std::optional<SweepSolution> growing = with_exponent(same, same.held);
+    if (!growing || !(chance(same.chi2 - growing->chi2, 1.0, *growing) < thresholds::kLawChance)) return std::nullopt;
+    std::optional<SweepSolution> sharing = with_shares({FrictionLaw::Coulomb, true}, {true, true});
+    return sharing ? std::optional(at_best_average(*std::move(sharing))) : std::nullopt;
+  }
+
+  static double span_of_speeds(const SweepSolution& solution) {
+    const auto [slowest, fastest] =
+        std::ranges::minmax(solution.recordings | std::views::transform([](const BlockFit& recording) {
+                              return recording.scales().speed_m_per_s;
+                            }));
+    return fastest / slowest;
   }
 
   /// Of so much more misfit by what the recordings share.
@@ -194,14 +220,24 @@ std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& op
   std::vector<double> logs;
   for (const std::size_t i : data.fitted) logs.push_back(data.single[i]->blocks.parameters.globals[kLogStiffness]);
   double stiffness = std::exp(median(std::move(logs)));
+  const auto log_stiffness = [](const SweepSolution& solution) {
+    return solution.recordings.front().parameters.globals[kLogStiffness];
+  };
   std::optional<SweepFits> fits;
   for (int round = 0; round < kMostRounds; ++round) {
     held.natural_frequency_rad_per_s = data.mass->frequency_rad_per_s(stiffness);
     fits = SweepFitter(data, held).fit();
     if (!fits) return fits;
     const SweepSolution& solution = fits->coulomb ? *fits->coulomb : fits->velocity;
-    const double next = std::exp(solution.recordings.front().parameters.globals[kLogStiffness]);
+    const double next = std::exp(log_stiffness(solution));
     if (std::abs(std::log(next / std::exchange(stiffness, next))) < 2.0 * kSmallChange) break;
+  }
+  for (int round = 0; round < kMostRounds && fits->growing; ++round) {
+    const Globals& globals = fits->growing->recordings.front().parameters.globals;
+    const double log_frequency = std::log(data.mass->frequency_rad_per_s(std::exp(log_stiffness(*fits->growing))));
+    const double change = log_frequency - globals[kLogFrequency];
+    if (std::abs(change) < kSmallChange) break;
+    fits->growing = with_frequency(*fits->growing, change);
   }
   return fits;
 }

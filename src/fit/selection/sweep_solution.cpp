@@ -42,6 +42,7 @@ SweepSolution moved_by(SweepSolution solution, const NewtonStep& step) {
     Parameters& parameters = recording.parameters;
     const CycleModel& any = recording.model(0);
     for (std::size_t i = 0; i < any.globals(); ++i) parameters.globals[i] += step.step(static_cast<Eigen::Index>(i));
+    if (columns.exponent()) parameters.exponent += step.step(*columns.exponent());
     parameters.difference += step.step(columns.difference(r));
     parameters.level[0] += step.step(columns.level(r));
     for (std::size_t i = 0; i < any.drift_parameters(); ++i) {
@@ -109,6 +110,15 @@ std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolu
     other.recordings[f] = with_scales(other.recordings[f], scales);
   }
   return at_minimum(std::move(other), solution.held);
+}
+
+std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& held) {
+  for (BlockFit& recording : solution.recordings) {
+    Scales scales = recording.scales();
+    scales.population->log_speed = std::log(scales.speed_m_per_s / solution.sweep.units.speed_m_per_s);
+    recording = with_scales(recording, scales);
+  }
+  return at_minimum(std::move(solution), held);
 }
 
 std::optional<SweepSolution> with_frequency(const SweepSolution& solution, double log_change) {

@@ -46,6 +46,9 @@ std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw
 /// The same fit with another average in the recordings that have the one which was found.
 std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolution& solution, double average_s);
 
+/// The solution with k that goes with the speed as V^p, p free, moved to its minimum with these globals held.
+std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& held);
+
 /// The same fit with ln w_n, which is held, elsewhere.
 std::optional<SweepSolution> with_frequency(const SweepSolution& solution, double log_change);
 

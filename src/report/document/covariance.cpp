@@ -10,13 +10,15 @@ namespace slipfit::documents {
 namespace {
 
 /// Rows of ModelEstimate::covariance that the model has: the four, of friction that depends on the speed its slope and
-/// rate, of static friction that ages its rate and, where `names` has it, its cut-off, of reloading both.
+/// rate, of static friction that ages its rate and, where `names` has it, its cut-off, of reloading both, the exponent
+/// of k that goes with the speed.
 std::vector<std::size_t> places_of(const ModelEstimate& estimate, const JsonNode& names) {
   std::vector<std::size_t> places{0, 1, 2, 3};
   if (estimate.speed_dependence) places.insert(places.end(), {4, 5});
   if (estimate.ageing) places.push_back(6);
   if (estimate.ageing && find_row(names, key_of(ParameterId::AgeingTime))) places.push_back(7);
   if (estimate.reloading) places.insert(places.end(), {8, 9});
+  if (estimate.stiffness_trend) places.push_back(10);
   return places;
 }
 
@@ -63,7 +65,7 @@ std::optional<std::vector<double>> standard_errors(const JsonNode& document, con
   const JsonNode correlation = document.member("correlation");
   const std::size_t size = correlation.member("names").array_size();
   const bool scaled = correlation.has("scaled_se") && correlation.member("scaled_se").array_size() == size;
-  if (!estimate.speed_dependence && !estimate.ageing && !estimate.reloading) {
+  if (!estimate.speed_dependence && !estimate.ageing && !estimate.reloading && !estimate.stiffness_trend) {
     std::optional<std::vector<double>> errors = parameter_errors(document.member("parameters"), estimate);
     if (!errors || !scaled) return errors;
   }

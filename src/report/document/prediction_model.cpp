@@ -105,6 +105,12 @@ std::optional<Reloading> reloading(const std::string& file, const JsonNode& docu
   return reloading;
 }
 
+std::optional<StiffnessTrend> stiffness_trend(const std::string& file, const JsonNode& document) {
+  const auto speed = document.known("model", "stiffness_speed_m_per_s");
+  if (!speed) return std::nullopt;
+  return StiffnessTrend{working_value(file, document, key_of(ParameterId::StiffnessExponent)), speed->positive()};
+}
+
 std::optional<Estimate> kinetic_friction_N(const JsonNode& parameters) {
   const auto parameter = parameters.known("kinetic_friction_N");
   if (!parameter) return std::nullopt;
@@ -186,6 +192,7 @@ FitDocument fit_document_from(const JsonNode& document, const std::string& name)
   estimate.speed_dependence = speed_dependence(name, document);
   estimate.ageing = ageing(name, document);
   estimate.reloading = reloading(name, document);
+  estimate.stiffness_trend = stiffness_trend(name, document);
   estimate.damping_identified = damping_identified(parameters.member(key_of(ParameterId::DampingRatio)));
   estimate.degrees_of_freedom = degrees_of_freedom(document);
   read_covariance(document, result.model);
