@@ -24,6 +24,14 @@ MotionJets motion_by_law(const ModelEstimate& model, double speed_m_per_s) {
   return coulomb_motion_at(model, speed_m_per_s);
 }
 
+/// Of a positive quantity, whose interval is symmetric in its logarithm.
+void scale_log_interval(Estimate& estimate, double factor) {
+  if (!estimate.standard_error || !estimate.ci95) return;
+  *estimate.standard_error *= factor;
+  estimate.ci95->low = *estimate.value * std::pow(estimate.ci95->low / *estimate.value, factor);
+  estimate.ci95->high = *estimate.value * std::pow(estimate.ci95->high / *estimate.value, factor);
+}
+
 CriticalPoint critical_point_of(const ModelEstimate& model) {
   CriticalPoint point = critical_point_by_law(model);
   const std::optional<double> speed = point.speed_m_per_s.value;
@@ -47,18 +55,26 @@ CriticalPoint critical_point_of(const ModelEstimate& model) {
 
 CriticalPoint critical_point(const ModelEstimate& model) {
   if (!model.stiffness_trend) return critical_point_of(model);
-  // By k and w_n of the speed itself, on which it depends as about V^(-exponent / 2).
-  constexpr int kMostSteps = 30;
+  // By k and w_n of the speed itself: where V = g(V), and ln V moves by 1 / (1 - d ln g / d ln V) times what ln g does.
+  constexpr int kMostSteps = 50;
   constexpr double kSame = 1e-12;  // of ln V
   double speed_m_per_s = model.stiffness_trend->speed_m_per_s;
-  CriticalPoint point;
-  for (int step = 0; step < kMostSteps; ++step) {
-    point = critical_point_of(at_speed(model, speed_m_per_s));
-    const std::optional<double> next = point.speed_m_per_s.value;
-    if (!next || !(*next > 0.0) || std::abs(std::log(*next / speed_m_per_s)) < kSame) break;
-    speed_m_per_s = *next;
+  double step_before = 0.0;
+  double slope = 0.0;
+  for (int i = 0; i < kMostSteps; ++i) {
+    CriticalPoint point = critical_point_of(at_speed(model, speed_m_per_s));
+    Estimate& end = point.speed_m_per_s;
+    if (!end.value || !(*end.value > 0.0)) return point;
+    const double step = std::log(*end.value / speed_m_per_s);
+    if (i > 0 && std::abs(step) > kSame) slope = step / step_before;
+    if (std::abs(step) < kSame) {
+      scale_log_interval(end, 1.0 / (1.0 - slope));
+      return point;
+    }
+    step_before = step;
+    speed_m_per_s = *end.value;
   }
-  return point;
+  return CriticalPoint::unknown("the stiffness changes too much with the speed to tell where stick-slip ends");
 }
 
 MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s) {

@@ -46,11 +46,13 @@ Scales example_scales(ForceView view, double sensor_lag_s = 0.0) {
 
 namespace {
 
-/// Of a vector that holds globals, difference, constant, drift and own, as the Jacobian's columns do.
+/// Of a vector that holds globals, exponent, difference, constant, drift and own, as the Jacobian's columns do.
 CycleValues values_in(const CycleModel& model, bool has_difference, const double* x) {
   CycleValues values;
   values.globals = x;
   x += model.globals();
+  values.exponent = x;
+  x += model.has_exponent() ? 1 : 0;
   values.difference = x;
   x += has_difference ? 1 : 0;
   values.constant = x;
@@ -75,6 +77,7 @@ void check_derivatives(const Scales& scales, const LevelModel& level, double ste
     } else if (model.globals() > 3) {
       x.insert(x.end(), {0.05, trial % 2 == 0 || scales.law != FrictionLaw::Exponential ? -1.5 : 0.4});
     }
+    if (model.has_exponent()) x.push_back(0.07);
     if (sweep) x.push_back(0.9);
     x.resize(model.columns(), 0.1);
     x[model.common_parameters()] = 0.0;
@@ -135,6 +138,8 @@ TEST_CASE("residual derivatives of Coulomb friction agree with central differenc
     // first derivative, its second one jumps: h times that jump.
     check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);
     scales.population = example_population();
+    check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);
+    scales.population->log_speed = 0.7;
     check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);
   }
 }

@@ -21,6 +21,7 @@ inline slipfit::PredictionModel moved(slipfit::PredictionModel model, std::size_
   if (i == 7 && e.ageing) e.ageing->cutoff_s += step;
   if (i == 8 && e.reloading) e.reloading->force_N += step;
   if (i == 9 && e.reloading) e.reloading->length_m *= std::exp(step);
+  if (i == 10 && e.stiffness_trend) e.stiffness_trend->exponent += step;
   return model;
 }
 
@@ -37,6 +38,7 @@ double standard_error_by_differences(const slipfit::PredictionModel& model, doub
   if (e.ageing) sizes[6] = e.ageing->rate_N;
   if (e.ageing && e.ageing->cutoff_s > 0.0) sizes[7] = e.ageing->cutoff_s;
   if (e.reloading) sizes[8] = e.reloading->force_N;
+  if (e.stiffness_trend) sizes[10] = 0.1;
   std::array<double, slipfit::kModelValues> gradient{};
   for (std::size_t i = 0; i < gradient.size(); ++i) {
     const auto slope = [&](double step) {
