@@ -16,7 +16,7 @@ struct Part {
   Segmentation slips;
 };
 
-Part part_of(const Recording& recording, signal::Stretch stretch) {
+Part part_of(const Recording& recording, SampleRange stretch) {
   Recording part = recording.part(stretch.begin, stretch.end);
   Quality quality = assess_quality(part);
   Segmentation slips = find_slips(part, quality);
@@ -35,16 +35,16 @@ void take(Detected& detected, Part part, std::size_t begin) {
 void narrow(Detected& detected) {
   const Recording& recording = detected.recording();
   const Segmentation& slips = detected.signals.segmentation;
-  const auto is_whole = [&](signal::Stretch s) { return s.begin == 0 && s.end == recording.size(); };
-  const signal::Stretch sliding{slips.sliding_begin, slips.sliding_end};
-  if (!is_whole(sliding)) {
+  const SampleRange whole{0, recording.size()};
+  const SampleRange sliding{slips.sliding_begin, slips.sliding_end};
+  if (sliding != whole) {
     Part part = part_of(recording, sliding);
     if (slips_are_sudden(part.slips)) return take(detected, std::move(part), sliding.begin);
   } else if (slips_are_sudden(slips)) {
     return;
   }
-  const signal::Stretch plateau = signal::plateau(recording.force());
-  if (!is_whole(plateau)) take(detected, part_of(recording, plateau), plateau.begin);
+  const SampleRange plateau = signal::plateau(recording.force());
+  if (plateau != whole) take(detected, part_of(recording, plateau), plateau.begin);
 }
 
 }  // namespace

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
 #include <string_view>
 #include <utility>
 
 #include "core/thresholds.hpp"
+#include "fit/inference/student.hpp"
 
 namespace slipfit {
 namespace {
@@ -74,8 +74,7 @@ Column without_trend(Column values, const Column& time) {
 /// Two-sided, of a correlation r with this many degrees of freedom; no number where r is none.
 double chance_of(double r, double freedom) {
   if (std::isnan(r)) return r;
-  const double t = std::abs(r) * std::sqrt(freedom / std::max(1e-12, 1.0 - r * r));
-  return 2.0 * boost::math::cdf(boost::math::complement(boost::math::students_t_distribution<double>(freedom), t));
+  return fit::t_chance(r * std::sqrt(freedom / std::max(1e-12, 1.0 - r * r)), freedom);
 }
 
 std::string seen(double p) {

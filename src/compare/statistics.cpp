@@ -1,7 +1,6 @@
 #include "compare/statistics.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -147,9 +146,7 @@ std::optional<double> p_value_of(const Pair& pair) {
   const double reach =
       *difference.value > 0.0 ? *difference.value - difference.ci95->low : difference.ci95->high - *difference.value;
   if (!(reach > 0.0)) return std::nullopt;
-  const double t = size / reach * fit::t_quantile(pair.degrees_of_freedom);
-  const boost::math::students_t_distribution<double> student(std::max(1.0, pair.degrees_of_freedom));
-  return 2.0 * boost::math::cdf(boost::math::complement(student, t));
+  return fit::t_chance(size / reach * fit::t_quantile(pair.degrees_of_freedom), pair.degrees_of_freedom);
 }
 
 std::vector<double> holm(const std::vector<double>& p_values) {

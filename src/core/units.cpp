@@ -9,6 +9,7 @@
 
 #include "core/number_text.hpp"
 #include "core/unit_text.hpp"
+#include "core/word_list.hpp"
 
 namespace slipfit {
 namespace {
@@ -36,13 +37,6 @@ constexpr std::array<DimensionInfo, 8> kDimensions{
 
 const DimensionInfo& info_of(Dimension dimension) {
   return kDimensions.at(static_cast<std::size_t>(dimension));
-}
-
-std::string_view trim(std::string_view text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
 }
 
 std::string join(std::initializer_list<std::string_view> parts) {

@@ -17,6 +17,18 @@ inline bool is_in(std::string_view list, std::string_view word, char separator =
   }
 }
 
+/// What parts words on a line, and the line's end.
+inline bool is_blank(char c) {
+  return std::string_view(" \t\r\n\v\f").find(c) != std::string_view::npos;
+}
+
+/// Without blanks on either side.
+inline std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
 /// ASCII letters only.
 inline std::string lower(std::string_view text) {
   std::string result(text);

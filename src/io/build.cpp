@@ -77,16 +77,15 @@ Result<Recording> create(Interpreted part, const std::string& file) {
 SampleRange at_full_speed(const Interpreted& part, const Stroke& stroke) {
   constexpr std::size_t kBlocks = 32;
   constexpr double kFull = 0.9;
-  const std::size_t size = stroke.end - stroke.begin;
-  if (part.displacement_m.empty() || size < 2 * kBlocks) return {stroke.begin, stroke.end};
-  const auto of = [&](const std::vector<double>& column) { return std::span(column).subspan(stroke.begin, size); };
-  const std::vector<double> speeds = block_speeds_m_per_s(of(part.time_s), of(part.displacement_m), kBlocks);
+  if (part.displacement_m.empty() || stroke.size() < 2 * kBlocks) return stroke;
+  const std::vector<double> speeds =
+      block_speeds_m_per_s(stroke.of(part.time_s), stroke.of(part.displacement_m), kBlocks);
   const double full = kFull * quantile_of(speeds, 0.9);
   const auto is_full = [full](double speed) { return speed >= full; };
   const auto first = std::ranges::find_if(speeds, is_full);
   const auto last = std::find_if(speeds.rbegin(), speeds.rend(), is_full);
-  if (first == speeds.end()) return {stroke.begin, stroke.end};
-  const std::size_t step = size / kBlocks;
+  if (first == speeds.end()) return stroke;
+  const std::size_t step = stroke.size() / kBlocks;
   return {stroke.begin + step * static_cast<std::size_t>(first - speeds.begin()),
           std::min(stroke.end, stroke.begin + step * (1 + static_cast<std::size_t>(speeds.rend() - last)))};
 }
@@ -94,7 +93,7 @@ SampleRange at_full_speed(const Interpreted& part, const Stroke& stroke) {
 /// Of the displacement in what is kept of a stroke with the stated speed.
 std::optional<Warning> compare_speed(const Interpreted& part, const SampleRange& kept) {
   constexpr double kTolerance = 0.05;
-  if (part.displacement_m.empty() || kept.end - kept.begin < 2) return std::nullopt;
+  if (part.displacement_m.empty() || kept.size() < 2) return std::nullopt;
   const double moved_m = std::abs(part.displacement_m[kept.end - 1] - part.displacement_m[kept.begin]);
   const double speed = moved_m / (part.time_s[kept.end - 1] - part.time_s[kept.begin]);
   const double stated = part.conditions.speed_m_per_s;
@@ -109,8 +108,8 @@ Result<NamedRecording> record(const Interpreted& part, const Stroke& stroke, std
                               const std::string& file) {
   const SampleRange kept = at_full_speed(part, stroke);
   const auto cut = [&](const std::vector<double>& column) {
-    return std::vector<double>(column.begin() + static_cast<std::ptrdiff_t>(kept.begin),
-                               column.begin() + static_cast<std::ptrdiff_t>(kept.end));
+    const auto part_of_it = kept.of(column);
+    return std::vector<double>(part_of_it.begin(), part_of_it.end());
   };
   const char sign = stroke.is_positive ? '+' : '-';
   Interpreted own{cut(part.time_s), cut(part.force), {}, part.conditions, part.provenance};

@@ -18,10 +18,6 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLongestNumber = 63;
 constexpr double kOverload = 9e36;  // SCPI instruments write 9.9e37 for infinity and 9.91e37 for what is not a number
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
 struct Parsed {
   double value = kNone;
   std::size_t length = 0;  ///< characters used, 0 where there is no number
@@ -145,12 +141,6 @@ std::string_view skip_blanks(std::string_view text, char delimiter) {
 }
 
 }  // namespace
-
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 std::string_view unquote(std::string_view text) {
   text = trim(text);

@@ -59,7 +59,7 @@ inline const char* end_of_cell(const char* cell, const char* line_end, char deli
 /// quote is not closed, or is followed by more text.
 std::optional<std::vector<std::string>> csv_fields(std::string_view line, char delimiter);
 
-std::string_view trim(std::string_view text);
+/// Without blanks and one pair of quotes around it.
 std::string_view unquote(std::string_view text);
 
 struct DateStart {

@@ -2,6 +2,7 @@
 #include <array>
 #include <map>
 
+#include "core/word_list.hpp"
 #include "io/layout.hpp"
 #include "io/short_decimal.hpp"
 

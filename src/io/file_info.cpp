@@ -50,7 +50,7 @@ TakenColumns taken_columns(const Layout& layout, const Choice& choice) {
 
 std::optional<double> value_of(const std::vector<double>& column, const Step& step) {
   if (column.empty()) return std::nullopt;
-  const auto level = level_of(std::span(column).subspan(step.begin, step.end - step.begin));
+  const auto level = level_of(step.of(column));
   return level && level->is_steady ? std::optional(level->value) : std::nullopt;
 }
 

@@ -1,3 +1,4 @@
+#include "core/word_list.hpp"
 #include "io/layout.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include "io/layout.hpp"
+#include "core/word_list.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/sample_range.hpp"
+
 namespace slipfit::reading {
 
 /// The level that a measured speed or load holds while it is on.
@@ -21,12 +23,6 @@ std::optional<Level> level_of(std::span<const double> values);
 /// How fast a displacement moves in each of so many parts, without sign; parts without a duration are left out.
 std::vector<double> block_speeds_m_per_s(std::span<const double> time_s, std::span<const double> displacement_m,
                                          std::size_t blocks);
-
-/// Samples [begin, end).
-struct SampleRange {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
 
 /// The stretches in which the column holds one level each, to the given relative tolerance, where there are several
 /// levels; a stretch of less than a twentieth of the samples is none. Empty where the column drifts.

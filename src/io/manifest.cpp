@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/word_list.hpp"
 #include "io/cells.hpp"
 #include "io/line_reader.hpp"
 #include "io/manifest_fields.hpp"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/word_list.hpp"
 #include "io/cells.hpp"
 #include "io/message.hpp"
 

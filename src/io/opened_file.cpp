@@ -8,6 +8,7 @@
 #include <new>
 #include <utility>
 
+#include "core/word_list.hpp"
 #include "io/column_search.hpp"
 #include "io/line_reader.hpp"
 #include "io/message.hpp"

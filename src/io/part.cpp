@@ -24,7 +24,7 @@ std::string several(std::size_t steps) {
 Result<Part> take_step(Rows rows, const ReadOptions& options, const std::string& file) {
   Part part;
   const auto steps = find_steps(rows);
-  Step taken{1, 0, rows.time_s.size()};
+  Step taken{{0, rows.time_s.size()}};
   if (options.step) {
     const auto step = step_with_number(steps, *options.step, file);
     if (!step) return step.error();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/unit_text.hpp"
+#include "core/word_list.hpp"
 #include "io/cells.hpp"
 #include "slipfit/core/units.hpp"
 
@@ -28,7 +29,7 @@ std::optional<Pieces> parse_strokes(std::string_view text) {
 std::optional<ForceScale> parse_force_scale(std::string_view text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) return std::nullopt;
-  const std::string_view unit = reading::trim(text.substr(slash + 1));
+  const std::string_view unit = trim(text.substr(slash + 1));
   const auto force = parse_quantity(text.substr(0, slash), Dimension::Force);
   const auto per = read_unit(unit);
   if (!force || !per || !(std::abs(force.value()) > 0.0)) return std::nullopt;
@@ -38,8 +39,8 @@ std::optional<ForceScale> parse_force_scale(std::string_view text) {
 std::optional<ColumnValue> parse_column_value(std::string_view text) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string_view::npos) return std::nullopt;
-  const std::string_view column = reading::trim(text.substr(0, equals));
-  const std::string_view value = reading::trim(text.substr(equals + 1));
+  const std::string_view column = trim(text.substr(0, equals));
+  const std::string_view value = trim(text.substr(equals + 1));
   if (column.empty() || value.empty()) return std::nullopt;
   return ColumnValue{std::string(column), std::string(value)};
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/word_list.hpp"
 #include "io/short_decimal.hpp"
 #include "io/text_lines.hpp"
 

@@ -32,7 +32,7 @@ std::vector<Stroke> sides_of(std::span<const double> force, double threshold) {
   for (std::size_t i = 0; i < force.size(); ++i) {
     if (!(std::abs(force[i]) > threshold)) continue;
     const bool is_positive = force[i] > 0.0;
-    if (sides.empty() || sides.back().is_positive != is_positive) sides.push_back({i, i, is_positive});
+    if (sides.empty() || sides.back().is_positive != is_positive) sides.push_back({{i, i}, is_positive});
     sides.back().end = i + 1;
   }
   return sides;
@@ -44,14 +44,14 @@ Stroke without_ends(Stroke stroke, std::span<const double> force, double samples
   constexpr double kReserve = 1.25;
   constexpr double kLeast = 0.05;
   std::vector<double> sizes;
-  for (const double f : force.subspan(stroke.begin, stroke.end - stroke.begin)) sizes.push_back(std::abs(f));
+  for (const double f : stroke.of(force)) sizes.push_back(std::abs(f));
   const double rise = quantile_of(std::move(sizes), 0.95) - threshold;
-  const auto length = static_cast<double>(stroke.end - stroke.begin);
+  const auto length = static_cast<double>(stroke.size());
   const auto ends = static_cast<std::size_t>(
       std::ceil(std::max(kReserve * rise * samples_through_zero / (2.0 * threshold), kLeast * length)));
-  const bool is_left = 3 * ends < stroke.end - stroke.begin;
-  return is_left ? Stroke{stroke.begin + ends, stroke.end - ends, stroke.is_positive}
-                 : Stroke{stroke.begin, stroke.begin, stroke.is_positive};
+  const bool is_left = 3 * ends < stroke.size();
+  const SampleRange kept{stroke.begin + (is_left ? ends : 0), is_left ? stroke.end - ends : stroke.begin};
+  return {kept, stroke.is_positive};
 }
 
 std::vector<Stroke> parted(std::span<const double> force, double near) {

@@ -1,15 +1,14 @@
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "core/sample_range.hpp"
+
 namespace slipfit::reading {
 
-/// Samples [begin, end) of a stroke, without the ends in which the force turns. Empty where it does nothing but turn.
-struct Stroke {
-  std::size_t begin = 0;
-  std::size_t end = 0;
+/// A stroke without the ends in which the force turns. Empty where it does nothing but turn.
+struct Stroke : SampleRange {
   bool is_positive = true;
 };
 

@@ -81,8 +81,8 @@ std::vector<Step> steps_of_levels(const Rows& rows) {
   if (stretches.empty()) stretches = stretches_of_levels(rows.normal_force_N, kLoadStep);
   std::vector<Step> steps;
   steps.reserve(stretches.size());
-  for (const SampleRange& stretch : stretches) steps.push_back({steps.size() + 1, stretch.begin, stretch.end});
-  if (steps.empty()) steps.push_back({1, 0, rows.time_s.size()});
+  for (const SampleRange& stretch : stretches) steps.push_back({stretch, steps.size() + 1});
+  if (steps.empty()) steps.push_back({{0, rows.time_s.size()}});
   return steps;
 }
 
@@ -90,7 +90,7 @@ bool is_level_kept(const std::vector<double>& column, std::span<const Step> step
   if (column.empty()) return true;
   std::vector<double> levels;
   for (const Step& step : steps) {
-    const auto level = level_of(std::span(column).subspan(step.begin, step.end - step.begin));
+    const auto level = level_of(step.of(column));
     if (level) levels.push_back(level->value);
   }
   if (levels.empty()) return true;
@@ -101,13 +101,13 @@ bool is_level_kept(const std::vector<double>& column, std::span<const Step> step
 }  // namespace
 
 std::vector<Step> find_steps(const Rows& rows) {
-  if (rows.time_s.empty()) return {{1, 0, 0}};
+  if (rows.time_s.empty()) return {Step{}};
   auto begins = joined(joined(changes_of(rows.step), rows.blocks), clock_begins(rows.time_s));
   if (begins.empty()) return steps_of_levels(rows);
   begins.insert(begins.begin(), 0);
   std::vector<Step> steps;
   for (std::size_t i = 0; i < begins.size(); ++i) {
-    steps.push_back({i + 1, begins[i], i + 1 < begins.size() ? begins[i + 1] : rows.time_s.size()});
+    steps.push_back({{begins[i], i + 1 < begins.size() ? begins[i + 1] : rows.time_s.size()}});
   }
   number(steps, rows.step);
   return steps;
@@ -126,19 +126,19 @@ std::vector<Step> segments_of_steps(const Rows& rows, std::span<const Step> step
   if (rows.speed_m_per_s.empty()) return {steps.begin(), steps.end()};
   std::vector<Step> segments;
   for (const Step& step : steps) {
-    const auto speed = std::span(rows.speed_m_per_s).subspan(step.begin, step.end - step.begin);
+    const auto speed = step.of(rows.speed_m_per_s);
     auto levels = stretches_of_levels(speed, kSpeedStep);
     const auto level = level_of(speed);
     if (levels.empty() && level && level->is_steady) levels.push_back({0, speed.size()});
     for (const SampleRange& range : levels) {
-      segments.push_back({segments.size() + 1, step.begin + range.begin, step.begin + range.end});
+      segments.push_back({{step.begin + range.begin, step.begin + range.end}, segments.size() + 1});
     }
   }
   return segments;
 }
 
 const Step& main_step(std::span<const Step> steps) {
-  const auto length = [](const Step& step) { return static_cast<double>(step.end - step.begin); };
+  const auto length = [](const Step& step) { return static_cast<double>(step.size()); };
   double longest = 0.0;
   for (const Step& step : steps) longest = std::max(longest, length(step));
   return *std::ranges::find_if(steps, [&](const Step& step) { return length(step) >= kAboutAsLong * longest; });

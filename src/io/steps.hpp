@@ -5,16 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "core/sample_range.hpp"
 #include "io/rows.hpp"
 #include "slipfit/core/result.hpp"
 
 namespace slipfit::reading {
 
-/// A part of a file that was recorded in one go: samples [begin, end).
-struct Step {
+/// A part of a file that was recorded in one go.
+struct Step : SampleRange {
   std::size_t number = 1;  ///< the file's own where each has another, else counted from 1
-  std::size_t begin = 0;
-  std::size_t end = 0;
 };
 
 /// At least one. A new step begins where a column of step numbers changes, where the line of names stands again, where

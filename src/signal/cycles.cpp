@@ -105,7 +105,7 @@ Segmentation find_slips_in(std::span<const double> raw, const Recording& recordi
     }
     slips.push_back(describe(fall, recording.time_s(), events.trace));
   }
-  const signal::Stretch sliding = signal::sliding_stretch(events.trace, events.falls);
+  const SampleRange sliding = signal::sliding_stretch(events.trace, events.falls);
   segmentation.sliding_begin = sliding.begin;
   segmentation.sliding_end = sliding.end;
   return segmentation;

@@ -117,15 +117,15 @@ std::size_t end_of(const std::vector<double>& force, const std::vector<Fall>& fa
 
 }  // namespace
 
-Stretch sliding_stretch(const std::vector<double>& force, const std::vector<Fall>& falls) {
-  const Stretch whole{0, force.size()};
+SampleRange sliding_stretch(const std::vector<double>& force, const std::vector<Fall>& falls) {
+  const SampleRange whole{0, force.size()};
   if (falls.size() < thresholds::kFewestInStretch) return whole;
   const Train train(force, falls);
   if (!(train.usual().rise_rate > 0.0)) return whole;
   Run run = longest_run(train, falls.size());
   if (run.count() < thresholds::kFewestInStretch) return whole;
   Band band = band_of(train, run);
-  Stretch stretch;
+  SampleRange stretch;
   // The last fall is the release where the force does not stay among the others' troughs.
   const bool released = train.trough(run.last) < band.low;
   if (released) {
@@ -198,23 +198,23 @@ Split split_of(std::vector<double> levels) {
 }
 
 /// Blocks [begin, end) of the longest run above this level.
-Stretch longest_above(const std::vector<double>& levels, double middle) {
-  Stretch best, run;
+SampleRange longest_above(const std::vector<double>& levels, double middle) {
+  SampleRange best, run;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (levels[i] <= middle) {
       run = {i + 1, i + 1};
       continue;
     }
     run.end = i + 1;
-    if (run.end - run.begin > best.end - best.begin) best = run;
+    if (run.size() > best.size()) best = run;
   }
   return best;
 }
 
 }  // namespace
 
-Stretch plateau(std::span<const double> force) {
-  const Stretch whole{0, force.size()};
+SampleRange plateau(std::span<const double> force) {
+  const SampleRange whole{0, force.size()};
   const Blocks blocks = blocks_of(force);
   if (blocks.level.size() < thresholds::kFewestPlateauBlocks) return whole;
   const Split split = split_of(blocks.level);
@@ -223,10 +223,10 @@ Stretch plateau(std::span<const double> force) {
   // Where the sensor's zero is not known, rest is told by its place.
   const bool rests_at_both_ends = blocks.level.front() <= middle && blocks.level.back() <= middle;
   if (!rests_at_both_ends && std::abs(split.low) > thresholds::kRestLevel * split.high) return whole;
-  Stretch run = longest_above(blocks.level, middle);
-  if (run.begin == run.end) return whole;  // levels that differ by their rounding alone
+  SampleRange run = longest_above(blocks.level, middle);
+  if (run.size() == 0) return whole;  // levels that differ by their rounding alone
   // What the level does in the middle of the run is how it moves while the body slides.
-  const std::size_t edge = (run.end - run.begin) / 4;
+  const std::size_t edge = run.size() / 4;
   const auto [low, high] = std::minmax_element(blocks.level.begin() + static_cast<std::ptrdiff_t>(run.begin + edge),
                                                blocks.level.begin() + static_cast<std::ptrdiff_t>(run.end - edge));
   const double movement = *high - *low + (rests_at_both_ends ? 0.0 : blocks.movement);
@@ -236,7 +236,7 @@ Stretch plateau(std::span<const double> force) {
   const auto is_loading = [&](std::size_t i) { return blocks.level[i] < lowest || blocks.level[i] > highest; };
   while (run.begin < run.end && is_loading(run.begin)) ++run.begin;
   while (run.begin < run.end && is_loading(run.end - 1)) --run.end;
-  if (run.begin == run.end) return whole;
+  if (run.size() == 0) return whole;
   // The blocks at its ends are partly of the loading and of the release.
   const std::size_t begin = run.begin == 0 ? 0 : (run.begin + 1) * blocks.samples;
   const std::size_t end = run.end == blocks.level.size() ? force.size() : (run.end - 1) * blocks.samples;

@@ -54,7 +54,7 @@ SdfHeader text_header(std::string_view bytes, std::string_view& rest) {
   rest = {};
   for (std::size_t begin = 0; begin < bytes.size();) {
     const std::size_t end = std::min(bytes.find_first_of("\r\n", begin), bytes.size());
-    const std::string_view line = reading::trim(bytes.substr(begin, end - begin));
+    const std::string_view line = trim(bytes.substr(begin, end - begin));
     begin = end + 1;
     if (line.starts_with('*')) {
       rest = bytes.substr(std::min(begin, bytes.size()));
@@ -62,8 +62,7 @@ SdfHeader text_header(std::string_view bytes, std::string_view& rest) {
     }
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos) continue;
-    fields[lower(reading::trim(line.substr(0, equals)))] =
-        reading::plain_number(reading::trim(line.substr(equals + 1)), false);
+    fields[lower(trim(line.substr(0, equals)))] = reading::plain_number(trim(line.substr(equals + 1)), false);
   }
   const auto value = [&](const char* name) { return fields.contains(name) ? fields.at(name) : kHole; };
   return {value("numpoints"), value("numprofiles"), value("xscale"),  value("yscale"),

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/word_list.hpp"
 #include "io/cells.hpp"
 #include "io/container/formats.hpp"
 #include "io/container/zip_archive.hpp"
@@ -40,13 +41,13 @@ struct Axis {
 
 Axis axis_of(const pugi::xml_node& axes, const char* name) {
   const pugi::xml_node node = axes.child(name);
-  const std::string_view type = reading::trim(node.child("DataType").text().as_string("D"));
+  const std::string_view type = trim(node.child("DataType").text().as_string("D"));
   const auto number = [&](const char* field, double standard) {
-    const double value = reading::plain_number(reading::trim(node.child(field).text().as_string()), false);
+    const double value = reading::plain_number(trim(node.child(field).text().as_string()), false);
     return std::isfinite(value) ? value : standard;
   };
-  return {reading::trim(node.child("AxisType").text().as_string("A")).starts_with('A'),
-          type.empty() ? 'D' : type.front(), number("Increment", 1.0), number("Offset", 0.0)};
+  return {trim(node.child("AxisType").text().as_string("A")).starts_with('A'), type.empty() ? 'D' : type.front(),
+          number("Increment", 1.0), number("Offset", 0.0)};
 }
 
 double number_of(std::string_view bytes, std::size_t place, const Axis& axis) {
@@ -73,7 +74,7 @@ struct X3p {
 
 /// "bindata/data.bin" and the like: of this archive, whatever stands before it.
 Result<std::string> linked(const X3p& x3p, const char* link, std::size_t most) {
-  const std::string name(reading::trim(x3p.record3.child("DataLink").child(link).text().as_string()));
+  const std::string name(trim(x3p.record3.child("DataLink").child(link).text().as_string()));
   if (name.empty() || x3p.archive.find(name) == nullptr) {
     return damaged_surface(x3p.file, "it names a part '" + reading::printable(name) + "' that it does not hold");
   }
@@ -82,8 +83,7 @@ Result<std::string> linked(const X3p& x3p, const char* link, std::size_t most) {
 
 /// A bit of each point: whether it was measured.
 std::optional<Error> leave_out_invalid(X3p& x3p, std::vector<double>& heights) {
-  if (reading::trim(x3p.record3.child("DataLink").child("ValidPointsLink").text().as_string()).empty())
-    return std::nullopt;
+  if (trim(x3p.record3.child("DataLink").child("ValidPointsLink").text().as_string()).empty()) return std::nullopt;
   auto valid = linked(x3p, "ValidPointsLink", kMostPoints);
   if (!valid) return valid.error();
   if (valid.value().size() < (heights.size() + 7) / 8)
@@ -121,10 +121,9 @@ Result<std::vector<double>> listed_heights(X3p& x3p) {
     if (heights.size() == count) break;
     const std::string_view text = datum.text().as_string();
     const std::size_t last = text.rfind(';');
-    const double z =
-        reading::plain_number(reading::trim(last == std::string_view::npos ? text : text.substr(last + 1)), false);
+    const double z = reading::plain_number(trim(last == std::string_view::npos ? text : text.substr(last + 1)), false);
     if (x3p.x.is_absolute) {
-      const double x = reading::plain_number(reading::trim(text.substr(0, text.find(';'))), false);
+      const double x = reading::plain_number(trim(text.substr(0, text.find(';'))), false);
       if (!std::isfinite(x)) continue;
       x3p.places_m.push_back(x3p.x.offset + x3p.x.increment * x);
     }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
 #include "fit/inference/sliding_model.hpp"
+#include "fit/inference/student.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -144,8 +144,7 @@ double quantile_of(const AgeingCutoff& cutoff, double part) {
 /// Ageing without a cut-off is left behind by more than chance: by Student's t with the recordings' own degrees of
 /// freedom even where they lie on the line within their errors, since few may do so by chance.
 bool is_excluded(double gain, double freedom) {
-  const boost::math::students_t_distribution<double> by_chance(freedom);
-  const double least = boost::math::quantile(by_chance, 1.0 - thresholds::kCutoffChance);
+  const double least = t_quantile(freedom, 1.0 - thresholds::kCutoffChance);
   return gain > least * least;
 }
 
@@ -248,8 +247,8 @@ StaticFriction static_friction_of(const SweepSolution& solution) {
   if (solution.sweep.sharing.difference || !can_show_trend(speeds)) return std::nullopt;
   const Line line = line_over(speeds, differences);
   if (!(line.slope < 0.0)) return std::nullopt;
-  const boost::math::students_t_distribution<double> by_chance(static_cast<double>(differences.size()) - 2.0);
-  const double least = boost::math::quantile(by_chance, 1.0 - thresholds::kAgeingChance) * line.slope_error;
+  const double freedom = static_cast<double>(differences.size()) - 2.0;
+  const double least = t_quantile(freedom, 1.0 - thresholds::kAgeingChance) * line.slope_error;
   if (!(-line.slope > least) && !within_own_errors(line.residuals, variances_of(solution))) return std::nullopt;
   return cutoff_of(LinesOverSticks(solution));
 }

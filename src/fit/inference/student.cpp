@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
+#include <cmath>
 
 namespace slipfit::fit {
 
-double t_quantile(double degrees_of_freedom) {
-  return boost::math::quantile(boost::math::students_t_distribution<double>(std::max(1.0, degrees_of_freedom)), 0.975);
+using StudentsT = boost::math::students_t_distribution<double>;
+
+double t_quantile(double degrees_of_freedom, double probability) {
+  return boost::math::quantile(StudentsT(std::max(1.0, degrees_of_freedom)), probability);
+}
+
+double t_chance(double t, double degrees_of_freedom) {
+  return 2.0 * boost::math::cdf(boost::math::complement(StudentsT(std::max(1.0, degrees_of_freedom)), std::abs(t)));
 }
 
 Estimate symmetric(double value, double se, double degrees_of_freedom) {

@@ -43,8 +43,7 @@ std::vector<Point> laid(const Source& source, std::span<const double> force, con
   const SampleRange range =
       samples_between(source.recording, anchor.time_s - window.before_s, anchor.time_s + window.after_s);
   const double scale = source.force_unit.per_SI;
-  std::vector<Point> points = envelope(source.recording.time_s().subspan(range.first, range.last - range.first),
-                                       force.subspan(range.first, range.last - range.first), kCycleColumns);
+  std::vector<Point> points = envelope(range.of(source.recording.time_s()), range.of(force), kCycleColumns);
   for (Point& point : points) point = {point.x - anchor.time_s, scale * (point.y - anchor.force)};
   return points;
 }

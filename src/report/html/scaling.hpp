@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "chart/chart.hpp"
+#include "core/sample_range.hpp"
 #include "report/format.hpp"
 #include "slipfit/core/recording.hpp"
 
@@ -48,11 +49,6 @@ class Span {
   double high_ = 0.0;
 };
 
-/// Samples first to last - 1 of a recording.
-struct SampleRange {
-  std::size_t first = 0;
-  std::size_t last = 0;
-};
 SampleRange samples_between(const Recording& recording, double begin_s, double end_s);
 
 /// At most 2 * `columns` points: the lowest and the highest of each column, in order of time; all where they are fewer.

@@ -24,7 +24,7 @@ Piece cut(const Source& source, SampleRange range) {
   const std::vector<double>& fitted = source.fitted;
   const double scale = source.force_unit.per_SI;
   Piece piece;
-  for (std::size_t i = range.first; i < range.last; ++i) {
+  for (std::size_t i = range.begin; i < range.end; ++i) {
     piece.time_s.push_back(recording.time_s()[i]);
     piece.force.push_back(scale * recording.force()[i]);
     piece.fitted.push_back(scale * fitted[i]);
@@ -128,7 +128,7 @@ Figure trace_figure(const Source& source) {
   chart.panels.push_back(force_panel(cut(source, {0, recording.size()}), label, 1.0));
   mark_sliding(chart.panels.back(), source);
   const SampleRange close = shows_cycles(source.analysis) ? middle_cycles(source) : SampleRange{};
-  if (close.last > close.first + 2) {
+  if (close.size() > 2) {
     const Piece piece = cut(source, close);
     chart.panels.push_back(close_up(piece, source, label));
     if (has_fit) chart.panels.push_back(residual_panel(piece, unit));
