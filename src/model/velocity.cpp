@@ -15,13 +15,6 @@ using model::is_positive;
 
 namespace {
 
-Regime regime_of(const model::ScaledSlip& slip, model::SlipOutcome outcome) {
-  const double total = slip.total_damping_ratio();
-  if (outcome == model::SlipOutcome::Resticks) return total > 0.0 ? Regime::StickSlipBistable : Regime::StickSlip;
-  if (total < 0.0) return Regime::UnstableSteady;  // by round-off at best: docs/model.md (17)
-  return total < 1.0 ? Regime::OscillatorySlip : Regime::ContinuousSlip;
-}
-
 LimitCycle limit_cycle(const model::SpeedUnits& units, const model::SlipPath<model::kPlain>& path, const Slider& slider,
                        const VelocityFriction& friction, double speed_m_per_s) {
   const double w_n = slider.natural_frequency_rad_per_s();
@@ -63,11 +56,10 @@ Result<VelocityMotion> velocity_motion(const Slider& slider, const VelocityFrict
   if (path.outcome == model::SlipOutcome::NotSolved) return model::no_convergence(slip);
   VelocityMotion result;
   result.motion.lambda = slip.lambda;
-  result.motion.regime = regime_of(slip, path.outcome);
-  if (path.outcome == model::SlipOutcome::Resticks) {
-    result.motion.cycle = limit_cycle(in_units.value(), path, slider, friction, speed_m_per_s);
-  }
+  const bool sticks = path.outcome == model::SlipOutcome::Resticks;
+  if (sticks) result.motion.cycle = limit_cycle(in_units.value(), path, slider, friction, speed_m_per_s);
   result.total_damping_ratio = slip.total_damping_ratio();
+  result.motion.regime = model::regime_of(result.total_damping_ratio, sticks);
   result.stability_speed_m_per_s = stability_speed_m_per_s(slider, friction);
   return result;
 }

@@ -32,6 +32,13 @@ inline Result<SpeedUnits> in_speed_units(const Slider& slider, const VelocityFri
   return SpeedUnits{force_N, {lambda, slider.damping_ratio(), law}};
 }
 
+/// `sticks`: from stick, at the first return.
+inline Regime regime_of(double total_damping_ratio, bool sticks) {
+  if (sticks) return total_damping_ratio > 0.0 ? Regime::StickSlipBistable : Regime::StickSlip;
+  if (total_damping_ratio < 0.0) return Regime::UnstableSteady;  // by round-off at best: docs/model.md (17)
+  return total_damping_ratio < 1.0 ? Regime::OscillatorySlip : Regime::ContinuousSlip;
+}
+
 inline Error no_convergence(const ScaledSlip& slip) {
   const auto text = [](double value) { return short_text(value); };
   return {"no_convergence", "the slip with lambda " + text(slip.lambda) + ", damping ratio " + text(slip.zeta) +

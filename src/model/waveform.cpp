@@ -1,5 +1,7 @@
 #include "slipfit/model/waveform.hpp"
 
+#include <ceres/jet.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -94,42 +96,31 @@ std::optional<std::vector<double>> damped_waveform(const Slider& slider, const F
 
 namespace {
 
-/// Turns d force / d (z0, zeta at fixed tau, tau) of a sample into derivatives with respect to the model's parameters.
-class ChainRule {
+using Jet = ceres::Jet<double, static_cast<int>(kSensitivityParameters)>;
+
+/// Derivatives with respect to the model's parameters.
+class ForceJets {
  public:
-  ChainRule(const Periodic& p, const Slider& slider, const Friction& friction, double speed_m_per_s)
-      : scale_N_(p.scale_N), w_n_(p.w_n) {
-    const CycleSensitivity cycle = *damped_sensitivity(slider, friction, speed_m_per_s);
-    period_ = cycle.period_s.gradient;
-    const double k = slider.stiffness_N_per_m();
-    log_scale_[kStiffness] = 1.0 / k;
-    log_scale_[kNaturalFrequency] = -1.0 / w_n_;
-    log_scale_[kDrivingSpeed] = 1.0 / speed_m_per_s;
-    // z0 = (F_s - F_k) / scale - 2 zeta
-    const double lambda = friction.difference_N() / scale_N_;
-    for (std::size_t i = 0; i < kSensitivityParameters; ++i) z0_gradient_[i] = -lambda * log_scale_[i];
-    z0_gradient_[kStaticFriction] = 1.0 / scale_N_;
-    z0_gradient_[kKineticFriction] = -1.0 / scale_N_;
-    z0_gradient_[kDampingRatio] = -2.0;
-  }
+  ForceJets(const Periodic& p, const Slider& slider, const Friction& friction, double speed_m_per_s)
+      : w_n_(p.w_n, static_cast<int>(kNaturalFrequency)),
+        zeta_(p.zeta, static_cast<int>(kDampingRatio)),
+        kinetic_N_(p.kinetic_N, static_cast<int>(kKineticFriction)),
+        scale_N_(Jet(slider.stiffness_N_per_m(), static_cast<int>(kStiffness)) *
+                 Jet(speed_m_per_s, static_cast<int>(kDrivingSpeed)) / w_n_),
+        z0_((Jet(friction.static_N(), static_cast<int>(kStaticFriction)) - kinetic_N_) / scale_N_ - 2.0 * zeta_),
+        period_by_(damped_sensitivity(slider, friction, speed_m_per_s)->period_s.gradient.data()) {}
 
   /// tau = w_n (t - cycle * T): moves with w_n and with the period.
-  void put(const model::WavePoint& wave, double tau, std::size_t cycle, double* row) const {
-    const auto periods = static_cast<double>(cycle);
-    const double tau_by_period = -periods * w_n_ * wave.d_tau;
-    for (std::size_t i = 0; i < kSensitivityParameters; ++i) {
-      row[i] = scale_N_ * (wave.z * log_scale_[i] + wave.d_z0 * z0_gradient_[i] + tau_by_period * period_[i]);
-    }
-    row[kDampingRatio] += scale_N_ * wave.d_zeta;
-    row[kNaturalFrequency] += scale_N_ * wave.d_tau * tau / w_n_;
-    row[kKineticFriction] += 1.0;
+  [[nodiscard]] Jet force_N(const model::WavePoint& wave, double tau, std::size_t cycle) const {
+    Jet z(wave.z);
+    z.v = wave.d_z0 * z0_.v + wave.d_zeta * zeta_.v +
+          wave.d_tau * (tau / w_n_.a * w_n_.v - static_cast<double>(cycle) * w_n_.a * period_by_);
+    return kinetic_N_ + scale_N_ * z;
   }
 
  private:
-  double scale_N_, w_n_;
-  std::array<double, kSensitivityParameters> period_{};
-  std::array<double, kSensitivityParameters> log_scale_{};
-  std::array<double, kSensitivityParameters> z0_gradient_{};
+  Jet w_n_, zeta_, kinetic_N_, scale_N_, z0_;
+  decltype(Jet::v) period_by_;
 };
 
 }  // namespace
@@ -140,11 +131,12 @@ std::optional<WaveformSensitivity> damped_waveform_sensitivity(const Slider& sli
   if (!p) return std::nullopt;
   WaveformSensitivity result{std::vector<double>(times.count),
                              std::vector<double>(times.count * kSensitivityParameters)};
-  const ChainRule chain(*p, slider, friction, speed_m_per_s);
+  const ForceJets jets(*p, slider, friction, speed_m_per_s);
   const double step = p->w_n * times.step_s;
   const auto put = [&](std::size_t i, const model::WavePoint& wave, double tau, std::size_t cycle) {
-    result.force_N[i] = p->kinetic_N + p->scale_N * wave.z;
-    chain.put(wave, tau, cycle, result.gradient.data() + i * kSensitivityParameters);
+    const Jet force_N = jets.force_N(wave, tau, cycle);
+    result.force_N[i] = force_N.a;
+    std::copy_n(force_N.v.data(), kSensitivityParameters, result.gradient.data() + i * kSensitivityParameters);
   };
   Phasor phasor(p->zeta, p->slip.b, step);
   const auto slips = [&](std::size_t first, std::size_t last, double tau, std::size_t cycle) {

@@ -125,19 +125,9 @@ Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s) {
 }
 
 std::string name_of(Regime regime) {
-  switch (regime) {
-    case Regime::StickSlip:
-      return "stick_slip";
-    case Regime::StickSlipBistable:
-      return "stick_slip_bistable";
-    case Regime::OscillatorySlip:
-      return "oscillatory_slip";
-    case Regime::ContinuousSlip:
-      return "continuous_slip";
-    case Regime::UnstableSteady:
-      return "unstable_steady";
-  }
-  return {};
+  constexpr std::array<const char*, 5> kNames{"stick_slip", "stick_slip_bistable", "oscillatory_slip",
+                                              "continuous_slip", "unstable_steady"};
+  return kNames.at(static_cast<std::size_t>(regime));
 }
 
 }  // namespace slipfit::predict

@@ -4,6 +4,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "model/velocity_track.hpp"
+#include "model/velocity_units.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -65,8 +66,7 @@ std::optional<CycleJets> cycle_of(const SlipJets& slip, const model::VelocityTra
   const model::TrackEnd& end = track.end();
   Jet tau_slip(end.tau);
   tau_slip.v = -slip.jet(end.first).v / end.second.value;  // z'(tau) = 1 holds at the end
-  const model::TrackValue after = track.after();
-  const Jet tau_period = slip.z0 - slip.jet(after.value, after.d_z0, after.d_zeta, after.d_slope, after.d_rate);
+  const Jet tau_period = slip.z0 - slip.jet(track.after());
   if (!(tau_period.a > tau_slip.a)) return std::nullopt;
   const double falling = time_of_falling_force(track);
   const Jet period_s = tau_period / omega;
@@ -87,12 +87,6 @@ Jet margin_of(const SlipJets& slip, const model::VelocityTrack& track) {
   Jet margin(end.second.value * end.second.value);
   margin.v = 2.0 * (end.second.value * slip.jet(end.second).v - end.third * first.v);
   return margin;
-}
-
-Regime regime_of(double total_damping_ratio, bool sticks) {
-  if (sticks) return total_damping_ratio > 0.0 ? Regime::StickSlipBistable : Regime::StickSlip;
-  if (total_damping_ratio < 0.0) return Regime::UnstableSteady;
-  return total_damping_ratio < 1.0 ? Regime::OscillatorySlip : Regime::ContinuousSlip;
 }
 
 bool sticks_at(const ModelJets& p, double speed_m_per_s) {
@@ -133,7 +127,7 @@ MotionJets velocity_motion_at(const ModelEstimate& model, double speed_m_per_s) 
     if (motion.cycle) motion.cycle = reloaded(*motion.cycle, model, speed_m_per_s);
     motion.restick_margin = margin_of(slip, *track);
   }
-  motion.regime = regime_of(motion.total_damping_ratio.a, motion.cycle.has_value());
+  motion.regime = model::regime_of(motion.total_damping_ratio.a, motion.cycle.has_value());
   return motion;
 }
 
