@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/line_sums.hpp"
 #include "fit/inference/student.hpp"
 #include "signal/robust.hpp"
 
@@ -47,27 +48,18 @@ struct Line {
 };
 
 Line line_through(const std::vector<Onset>& onsets) {
-  const auto count = static_cast<double>(onsets.size());
-  double mean_index = 0.0, mean_s = 0.0, square = 0.0, cross = 0.0;
-  for (const Onset& onset : onsets) {
-    mean_index += onset.index / count;
-    mean_s += onset.time_s / count;
-  }
-  for (const Onset& onset : onsets) {
-    square += (onset.index - mean_index) * (onset.index - mean_index);
-    cross += (onset.index - mean_index) * (onset.time_s - mean_s);
-  }
-  const double period_s = cross / square;
+  const LineSums line = line_sums(
+      onsets.size(), [&](std::size_t i) { return onsets[i].index; }, [&](std::size_t i) { return onsets[i].time_s; });
   double rest = 0.0, product = 0.0, previous_s = 0.0;
   for (const Onset& onset : onsets) {
-    const double residual_s = onset.time_s - mean_s - period_s * (onset.index - mean_index);
+    const double residual_s = onset.time_s - line.mean_y - line.slope() * (onset.index - line.mean_x);
     rest += residual_s * residual_s;
     product += residual_s * previous_s;
     previous_s = residual_s;
   }
   const double correlation = rest > 0.0 ? std::clamp(product / rest, 0.0, 0.9) : 0.0;
   const double fewer = (1.0 + correlation) / (1.0 - correlation);
-  return {period_s, std::sqrt(fewer * rest / (count - 2.0) / square)};
+  return {line.slope(), std::sqrt(fewer * rest / (line.count - 2.0) / line.square)};
 }
 
 /// Whether onset forces differ no more than their errors, and neighbouring periods are correlated as those of even

@@ -88,10 +88,8 @@ Band band_of(const Train& train, Run run) {
   return {*std::ranges::min_element(troughs) - room, *std::ranges::max_element(peaks) + room};
 }
 
-bool within(const std::vector<double>& force, std::size_t begin, std::size_t end, Band band) {
-  return std::all_of(force.begin() + static_cast<std::ptrdiff_t>(begin),
-                     force.begin() + static_cast<std::ptrdiff_t>(end),
-                     [&](double f) { return f >= band.low && f <= band.high; });
+bool within(std::span<const double> force, Band band) {
+  return std::ranges::all_of(force, [&](double f) { return f >= band.low && f <= band.high; });
 }
 
 /// Back from the first peak along its stick, down to the trough of the slips that follow.
@@ -138,8 +136,10 @@ SampleRange sliding_stretch(const std::vector<double>& force, const std::vector<
   stretch.begin = begin_of(force, falls, train, run, 1.2 * longest);
   if (!released) stretch.end = end_of(force, falls, run, band, 1.2 * longest);
   const double usual = train.usual().interval;
-  if (static_cast<double>(stretch.begin) < usual && within(force, 0, stretch.begin, band)) stretch.begin = 0;
-  if (static_cast<double>(force.size() - stretch.end) < usual && within(force, stretch.end, force.size(), band)) {
+  const SampleRange before{0, stretch.begin};
+  const SampleRange behind{stretch.end, force.size()};
+  if (static_cast<double>(before.size()) < usual && within(before.of(force), band)) stretch.begin = 0;
+  if (static_cast<double>(behind.size()) < usual && within(behind.of(force), band)) {
     stretch.end = force.size();
   }
   return stretch;

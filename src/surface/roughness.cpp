@@ -13,8 +13,7 @@ double mean_height(std::span<const double> heights, std::size_t sampling) {
   double sum = 0.0;
   double count = 0.0;
   for (std::size_t begin = 0; begin + sampling <= heights.size(); begin += sampling) {
-    const auto [low, high] = std::minmax_element(heights.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                 heights.begin() + static_cast<std::ptrdiff_t>(begin + sampling));
+    const auto [low, high] = std::ranges::minmax_element(heights.subspan(begin, sampling));
     sum += *high - *low;
     count += 1.0;
   }

@@ -5,17 +5,14 @@
 #include <span>
 #include <utility>
 
+#include "core/line_sums.hpp"
+
 namespace slipfit::fit {
 namespace {
 
 /// The smaller of the two falls of a slip, over the whole swing: below it noise might be taken for an edge.
 constexpr double kSmallestFall = 0.1;
 constexpr double kGapSteps = 1.5;  // a longer step hides when the edge was
-
-/// Sums of a straight stretch about its own means.
-struct Stretch {
-  double count = 0.0, time_s = 0.0, force = 0.0, spread = 0.0, cross = 0.0, scatter = 0.0;
-};
 
 class Finder {
  public:
@@ -71,30 +68,19 @@ class Finder {
     if (cycle.end <= cycle.onset || !is_short(cycle.onset) || !is_short(cycle.end)) return std::nullopt;
     cycle.onset_s = 0.5 * (time_s_[cycle.onset] + time_s_[cycle.onset + 1]);
     cycle.end_s = 0.5 * (time_s_[cycle.end] + time_s_[cycle.end + 1]);
-    cycle.plateau = reduce(cycle.onset + 1, cycle.end + 1).force;
+    cycle.plateau = reduce(cycle.onset + 1, cycle.end + 1).mean_y;
     return cycle;
   }
 
-  /// Samples [begin, end).
-  [[nodiscard]] Stretch reduce(std::size_t begin, std::size_t end) const {
-    Stretch s;
-    s.count = static_cast<double>(end - begin);
-    for (std::size_t i = begin; i < end; ++i) {
-      s.time_s += time_s_[i] / s.count;
-      s.force += force_[i] / s.count;
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-      const double dt = time_s_[i] - s.time_s;
-      const double df = force_[i] - s.force;
-      s.spread += dt * dt;
-      s.cross += dt * df;
-      s.scatter += df * df;
-    }
-    return s;
+  /// Force over time in the samples [begin, end).
+  [[nodiscard]] LineSums reduce(std::size_t begin, std::size_t end) const {
+    return line_sums(
+        end - begin, [&](std::size_t i) { return time_s_[begin + i]; },
+        [&](std::size_t i) { return force_[begin + i]; });
   }
 
   /// Samples of the ramp between two neighbouring slips; empty (end <= begin) where there is none.
-  [[nodiscard]] Stretch ramp_after(std::size_t i) const {
+  [[nodiscard]] LineSums ramp_after(std::size_t i) const {
     const ContactCycle& before = found_.cycles[i];
     const ContactCycle& after = found_.cycles[i + 1];
     if (after.slip != before.slip + 1 || after.onset + 1 < before.end + 3) return {};
@@ -105,26 +91,26 @@ class Finder {
   void fit_ramps() {
     double spread = 0.0, cross = 0.0, rest = 0.0, freedom = -1.0;
     for (std::size_t i = 0; i < found_.cycles.size(); ++i) {
-      ramps_.push_back(i + 1 < found_.cycles.size() ? ramp_after(i) : Stretch{});
-      spread += ramps_.back().spread;
+      ramps_.push_back(i + 1 < found_.cycles.size() ? ramp_after(i) : LineSums{});
+      spread += ramps_.back().square;
       cross += ramps_.back().cross;
     }
     if (!(spread > 0.0)) return;
     const double slope = cross / spread;
-    for (const Stretch& ramp : ramps_) {
+    for (const LineSums& ramp : ramps_) {
       if (ramp.count == 0.0) continue;
-      rest += ramp.scatter - 2.0 * slope * ramp.cross + slope * slope * ramp.spread;
+      rest += ramp.scatter - 2.0 * slope * ramp.cross + slope * slope * ramp.square;
       freedom += ramp.count - 1.0;
     }
     for (const ContactCycle& cycle : found_.cycles) {
-      const Stretch plateau = reduce(cycle.onset + 1, cycle.end + 1);
+      const LineSums plateau = reduce(cycle.onset + 1, cycle.end + 1);
       rest += plateau.scatter;
       freedom += plateau.count - 1.0;
     }
-    const Stretch level = level_of_plateaus();
-    const double drift = level.spread > 0.0 ? level.cross / level.spread : 0.0;
+    const LineSums level = level_of_plateaus();
+    const double drift = level.square > 0.0 ? level.slope() : 0.0;
     const double level_rest = std::max(0.0, level.scatter - drift * level.cross);
-    const double drift_error2 = level_rest / std::max(1.0, level.count - 2.0) / level.spread;
+    const double drift_error2 = level_rest / std::max(1.0, level.count - 2.0) / level.square;
     found_.noise = std::sqrt(std::max(0.0, rest / std::max(1.0, freedom)));
     // A drift within its error is none: taking it off would only add its noise.
     const bool drifts = drift * drift > 9.0 * drift_error2;
@@ -135,22 +121,10 @@ class Finder {
   }
 
   /// Plateau means as points of a line.
-  [[nodiscard]] Stretch level_of_plateaus() const {
-    Stretch level;
-    const auto count = static_cast<double>(found_.cycles.size());
-    level.count = count;
-    for (const ContactCycle& cycle : found_.cycles) {
-      level.time_s += cycle.onset_s / count;
-      level.force += cycle.plateau / count;
-    }
-    for (const ContactCycle& cycle : found_.cycles) {
-      const double dt = cycle.onset_s - level.time_s;
-      const double df = cycle.plateau - level.force;
-      level.spread += dt * dt;
-      level.cross += dt * df;
-      level.scatter += df * df;
-    }
-    return level;
+  [[nodiscard]] LineSums level_of_plateaus() const {
+    return line_sums(
+        found_.cycles.size(), [&](std::size_t i) { return found_.cycles[i].onset_s; },
+        [&](std::size_t i) { return found_.cycles[i].plateau; });
   }
 
   /// Jumps against the ramps on either side; cycles without both ramps are dropped.
@@ -158,12 +132,12 @@ class Finder {
     std::vector<ContactCycle> kept;
     for (std::size_t i = 1; i + 1 < found_.cycles.size(); ++i) {
       ContactCycle cycle = found_.cycles[i];
-      const Stretch& before = ramps_[i - 1];
-      const Stretch& after = ramps_[i];
+      const LineSums& before = ramps_[i - 1];
+      const LineSums& after = ramps_[i];
       if (before.count == 0.0 || after.count == 0.0) continue;
       const double moved = 0.5 * found_.drift * (cycle.end_s - cycle.onset_s);  // of the level, in half a plateau
-      cycle.onset_jump = before.force + ramp_slope_ * (cycle.onset_s - before.time_s) - cycle.plateau + moved;
-      cycle.end_jump = cycle.plateau + moved - after.force - ramp_slope_ * (cycle.end_s - after.time_s);
+      cycle.onset_jump = before.mean_y + ramp_slope_ * (cycle.onset_s - before.mean_x) - cycle.plateau + moved;
+      cycle.end_jump = cycle.plateau + moved - after.mean_y - ramp_slope_ * (cycle.end_s - after.mean_x);
       kept.push_back(cycle);
     }
     found_.cycles = std::move(kept);
@@ -173,8 +147,8 @@ class Finder {
   std::span<const double> force_;
   const std::vector<DetectedSlip>& slips_;
   ContactCycles found_;
-  std::vector<Stretch> ramps_;  // after each cycle
-  double ramp_slope_ = 0.0;     // of the ramps as they stand, drift included
+  std::vector<LineSums> ramps_;  // after each cycle
+  double ramp_slope_ = 0.0;      // of the ramps as they stand, drift included
 };
 
 }  // namespace

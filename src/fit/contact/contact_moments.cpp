@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/line_sums.hpp"
 #include "model/slip.hpp"
 
 namespace slipfit::fit {
@@ -48,20 +49,13 @@ std::optional<double> log_omega_for(const Eigen::Vector4d& moments, double zeta)
 /// tells.
 double phase_gap(const ContactCycles& found, double ContactCycle::*edge) {
   const std::size_t count = found.cycles.size();
-  double mean_i = 0.0, mean_s = 0.0, square = 0.0, cross = 0.0;
-  for (const ContactCycle& c : found.cycles) {
-    mean_i += static_cast<double>(c.slip) / static_cast<double>(count);
-    mean_s += c.*edge / static_cast<double>(count);
-  }
-  for (const ContactCycle& c : found.cycles) {
-    square += (static_cast<double>(c.slip) - mean_i) * (static_cast<double>(c.slip) - mean_i);
-    cross += (static_cast<double>(c.slip) - mean_i) * (c.*edge - mean_s);
-  }
-  const double period_s = cross / square;
+  const LineSums line = line_sums(
+      count, [&](std::size_t i) { return static_cast<double>(found.cycles[i].slip); },
+      [&](std::size_t i) { return found.cycles[i].*edge; });
   double scatter = 0.0;
   std::vector<double> phases;
   for (const ContactCycle& c : found.cycles) {
-    const double line_s = mean_s + period_s * (static_cast<double>(c.slip) - mean_i);
+    const double line_s = line.at(static_cast<double>(c.slip));
     scatter += (c.*edge - line_s) * (c.*edge - line_s);
     phases.push_back(line_s / found.step_s - std::floor(line_s / found.step_s));
   }

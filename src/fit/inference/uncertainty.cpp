@@ -30,10 +30,18 @@ void measure_lag1(const BlockFit& fit, const std::vector<Normal>& normals, Uncer
   if (square > 0.0) result.lag1_correlation = product / square;
 }
 
-void count_residuals(const BlockFit& fit, const std::vector<Normal>& normals, Uncertainty& result) {
+struct ChiSquare {
+  double chi2 = 0.0;
+  double samples = 0.0;
+};
+
+/// `sum_of_squares(i)`: of the residuals of cycle i; what scatters within its stick bins is added.
+template <class SumOfSquares>
+ChiSquare chi_square(const BlockFit& fit, const SumOfSquares& sum_of_squares) {
   const double noise2 = fit.scales().noise * fit.scales().noise;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    result.chi2 += normals[i].residuals.squaredNorm();
+  ChiSquare result;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    result.chi2 += sum_of_squares(i);
     result.samples += static_cast<double>(fit.data(i).time_s.size());
     for (const auto* bins : {&fit.data(i).bins_before, &fit.data(i).bins_after}) {
       for (const StickBin& bin : *bins) {
@@ -42,6 +50,7 @@ void count_residuals(const BlockFit& fit, const std::vector<Normal>& normals, Un
       }
     }
   }
+  return result;
 }
 
 /// Noise in slips and sticks differs: white-noise formulas do not hold. Compares the variances of samples around the
@@ -96,19 +105,7 @@ double parameters_of(const BlockFit& fit) {
 }  // namespace
 
 double reduced_chi2(const BlockFit& fit) {
-  double chi2 = 0.0;
-  double samples = 0.0;
-  const double noise2 = fit.scales().noise * fit.scales().noise;
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    chi2 += fit.cycle_sum_of_squares(i);
-    samples += static_cast<double>(fit.data(i).time_s.size());
-    for (const auto* bins : {&fit.data(i).bins_before, &fit.data(i).bins_after}) {
-      for (const StickBin& bin : *bins) {
-        chi2 += bin.scatter / noise2;
-        samples += bin.count;
-      }
-    }
-  }
+  const auto [chi2, samples] = chi_square(fit, [&](std::size_t i) { return fit.cycle_sum_of_squares(i); });
   return chi2 / std::max(1.0, samples - parameters_of(fit));
 }
 
@@ -178,7 +175,9 @@ Uncertainty estimate_uncertainty(const BlockFit& fit, const SolveOptions& solved
   const Problem problem{{&fit, 1}};
   const std::vector<Normal> normals = normals_of(problem);
   Uncertainty result;
-  count_residuals(fit, normals, result);
+  const ChiSquare sum = chi_square(fit, [&](std::size_t i) { return normals[i].residuals.squaredNorm(); });
+  result.chi2 = sum.chi2;
+  result.samples = sum.samples;
   measure_lag1(fit, normals, result);
   result.onset_force_sd = spread_of_onset_force(fit);
   const auto cycles = static_cast<double>(fit.size());

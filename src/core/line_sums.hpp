@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+
+namespace slipfit {
+
+/// Sums of points about their own means, of which a line of least squares is made.
+struct LineSums {
+  double count = 0.0, mean_x = 0.0, mean_y = 0.0;
+  double square = 0.0, cross = 0.0;  ///< of x, of x and y
+  double scatter = 0.0;              ///< of y
+
+  [[nodiscard]] double slope() const { return cross / square; }
+  [[nodiscard]] double at(double x) const { return mean_y + slope() * (x - mean_x); }
+};
+
+/// Of the points x(0), y(0) to x(count - 1), y(count - 1).
+template <class X, class Y>
+LineSums line_sums(std::size_t count, const X& x, const Y& y) {
+  LineSums sums;
+  sums.count = static_cast<double>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    sums.mean_x += x(i) / sums.count;
+    sums.mean_y += y(i) / sums.count;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const double dx = x(i) - sums.mean_x;
+    const double dy = y(i) - sums.mean_y;
+    sums.square += dx * dx;
+    sums.cross += dx * dy;
+    sums.scatter += dy * dy;
+  }
+  return sums;
+}
+
+}  // namespace slipfit
