@@ -1,6 +1,5 @@
 #include "slipfit/pipeline.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>

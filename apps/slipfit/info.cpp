@@ -1,6 +1,5 @@
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "commands.hpp"
 #include "failure.hpp"

@@ -1,7 +1,5 @@
 #include "model_options.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "analysis/slip_shape.hpp"
 #include "core/thresholds.hpp"

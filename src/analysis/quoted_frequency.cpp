@@ -6,7 +6,6 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <utility>
 
 #include "analysis/fitted_frequency.hpp"
 #include "analysis/slip_intervals.hpp"

@@ -1,6 +1,5 @@
 #include "analysis/ranges.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>

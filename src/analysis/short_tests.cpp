@@ -6,7 +6,6 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 #include <utility>
 
 #include "core/thresholds.hpp"

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "core/file_handle.hpp"
 #include "slipfit/core/digest.hpp"

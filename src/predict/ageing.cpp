@@ -1,7 +1,6 @@
 #include "predict/motion.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 

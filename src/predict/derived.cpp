@@ -1,7 +1,5 @@
 #include "slipfit/predict/derived.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,7 +1,5 @@
 #include "predict/motion.hpp"
 
-#include <numbers>
-
 #include "core/fit_thresholds.hpp"
 #include "model/velocity_track.hpp"
 #include "model/velocity_units.hpp"

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <string_view>
 
 #include "report/format.hpp"
 #include "report/names.hpp"

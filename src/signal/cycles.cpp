@@ -1,8 +1,6 @@
 #include "slipfit/signal/cycles.hpp"
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 
 #include "signal/events.hpp"
 #include "signal/mains.hpp"

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/slip_thresholds.hpp"
-#include "core/thresholds.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::signal {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/thresholds.hpp"
-#include "signal/robust.hpp"
 
 namespace slipfit::signal {
 namespace {

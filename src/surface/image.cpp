@@ -1,5 +1,4 @@
 #include <array>
-#include <cstdio>
 
 #include "io/container/formats.hpp"
 #include "surface/readers.hpp"

@@ -1,6 +1,5 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "batch/work_list.hpp"
 #include "manifests.hpp"

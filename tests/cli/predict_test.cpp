@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 

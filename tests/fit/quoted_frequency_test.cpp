@@ -1,7 +1,6 @@
 // Which method the quoted frequency comes from, and that its interval holds the truth either way.
 
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/pipeline.hpp"

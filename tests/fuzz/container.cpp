@@ -3,7 +3,6 @@
 #include <minizip/zip.h>
 #include <zlib.h>
 
-#include <array>
 #include <string>
 #include <string_view>
 

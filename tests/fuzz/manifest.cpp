@@ -1,6 +1,5 @@
 // Bytes as a manifest: rows that keep their promises, errors of one line, and an end.
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "demand.hpp"

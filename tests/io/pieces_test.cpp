@@ -1,5 +1,4 @@
 #include <cmath>
-#include <random>
 
 #include "temp_file.hpp"
 

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "io/sign.hpp"

@@ -1,11 +1,9 @@
 // Derivatives of velocity-dependent slips, events on the end of a step, waveforms, and what is refused.
 
-#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <random>
 #include <string>
 #include <utility>

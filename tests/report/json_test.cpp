@@ -1,7 +1,6 @@
 #include "slipfit/report/json.hpp"
 
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 #include <limits>
 #include <sstream>
-#include <vector>
 
 #include "examples.hpp"
 #include "slipfit/report/csv.hpp"

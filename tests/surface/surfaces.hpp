@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <random>
-#include <vector>
 
 #include "slipfit/surface/surface.hpp"
 

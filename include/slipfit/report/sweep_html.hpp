@@ -3,7 +3,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"

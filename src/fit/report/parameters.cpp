@@ -5,7 +5,6 @@
 #include <functional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/fit_thresholds.hpp"
 #include "fit/report/findings.hpp"

@@ -1,6 +1,7 @@
 #include "io/arrays/tables.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace slipfit::reading {
