@@ -1,6 +1,7 @@
 #include "analysis/estimate.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <future>
@@ -8,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/excerpt.hpp"
 #include "analysis/ranges.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/slip_shape.hpp"
@@ -52,6 +52,38 @@ double misfit_of(const std::optional<FitResult>& fit) {
   const auto offered = std::ranges::count_if(cycles, [](const Cycle& cycle) { return cycle.selected; });
   if (2 * used < offered) return std::numeric_limits<double>::infinity();
   return misfit_of(fit->diagnostics.relative_residual, fit->diagnostics.onset_force_spread);
+}
+
+/// A part of a recording with its quality and slips, as found in the whole.
+struct Excerpt {
+  Recording recording;
+  Quality quality;
+  Segmentation segmentation;
+};
+
+/// So many neighbouring slips from the middle of a recording that has two more.
+Excerpt excerpt_of(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
+                   std::size_t slips) {
+  const std::vector<DetectedSlip>& all = segmentation.slips;
+  assert(all.size() >= slips + 2);
+  const auto first = static_cast<std::ptrdiff_t>((all.size() - slips) / 2);
+  const auto last = first + static_cast<std::ptrdiff_t>(slips);
+  const std::size_t begin = (all.begin() + first - 1)->trough;
+  const std::size_t end = (all.begin() + last)->peak + 1;
+  Excerpt excerpt{recording.part(begin, end), quality, segmentation};
+  if (!quality.impulse_mask.empty()) {
+    const auto mask = quality.impulse_mask.begin();
+    excerpt.quality.impulse_mask.assign(mask + static_cast<std::ptrdiff_t>(begin),
+                                        mask + static_cast<std::ptrdiff_t>(end));
+  }
+  excerpt.segmentation.slips.assign(all.begin() + first, all.begin() + last);
+  for (DetectedSlip& slip : excerpt.segmentation.slips) {
+    slip.peak -= begin;
+    slip.trough -= begin;
+  }
+  excerpt.segmentation.sliding_begin = 0;
+  excerpt.segmentation.sliding_end = end - begin;
+  return excerpt;
 }
 
 /// Where lines of the mains may hide slips or pass for them: the slips beneath, and whether they are fitted better.
