@@ -77,14 +77,14 @@ Result<Recording> create(Interpreted part, const std::string& file) {
 SampleRange at_full_speed(const Interpreted& part, const Stroke& stroke) {
   constexpr std::size_t kBlocks = 32;
   constexpr double kFull = 0.9;
-  if (part.displacement_m.empty() || stroke.size() < 2 * kBlocks) return stroke;
+  if (part.displacement_m.empty() || stroke.size() < 2 * kBlocks) return {stroke.begin, stroke.end};
   const std::vector<double> speeds =
       block_speeds_m_per_s(stroke.of(part.time_s), stroke.of(part.displacement_m), kBlocks);
   const double full = kFull * quantile_of(speeds, 0.9);
   const auto is_full = [full](double speed) { return speed >= full; };
   const auto first = std::ranges::find_if(speeds, is_full);
   const auto last = std::find_if(speeds.rbegin(), speeds.rend(), is_full);
-  if (first == speeds.end()) return stroke;
+  if (first == speeds.end()) return {stroke.begin, stroke.end};
   const std::size_t step = stroke.size() / kBlocks;
   return {stroke.begin + step * static_cast<std::size_t>(first - speeds.begin()),
           std::min(stroke.end, stroke.begin + step * (1 + static_cast<std::size_t>(speeds.rend() - last)))};
