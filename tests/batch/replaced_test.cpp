@@ -24,7 +24,7 @@ nlohmann::json line(const std::string& folder, std::size_t number) {
 TEST_CASE("a document has the digest and the number of the bytes that were parsed") {
   const BatchScene scene(2);
   REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 0);
-  for (const std::size_t i : {0, 1}) {
+  for (const std::size_t i : {0U, 1U}) {
     const std::string bytes = content_of(scene.path("r" + std::to_string(i) + ".csv"));
     const auto recording = line(scene.path("out"), i)["recording"];
     CHECK(recording["input_digest"] == slipfit::digest_of(bytes).text());
