@@ -20,7 +20,6 @@ Jet positive_parameter(double value, int i) {
   return jet;
 }
 
-constexpr std::size_t kExponent = 10;              // place in kModelParameters
 constexpr std::array<double, 2> kShare{1.0, 0.5};  // that ln k and ln w_n have in exponent times ln V
 
 double log_ratio(const ModelEstimate& model, double speed_m_per_s) {
@@ -58,13 +57,6 @@ ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s) {
     for (std::size_t j = 0; j < kModelValues; ++j) own.covariance[j][i] += share * own.covariance[j][kExponent];
   }
   return own;
-}
-
-Jet from_speed(Jet y, const ModelEstimate& model, double speed_m_per_s) {
-  if (!model.stiffness_trend) return y;
-  const double log_speed = log_ratio(model, speed_m_per_s);
-  y.v[kExponent] += log_speed * (kShare[0] * y.v[0] + kShare[1] * y.v[1]);
-  return y;
 }
 
 Propagation::Propagation(ModelEstimate model)

@@ -4,6 +4,7 @@
 
 #include <ceres/jet.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -28,8 +29,17 @@ ModelJets jets_of(const ModelEstimate& model);
 /// The model with k and w_n of a speed, where they go with it, and the covariance of these.
 ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s);
 
-/// From derivatives with respect to k and w_n of a speed to those of the model's parameters.
-Jet from_speed(Jet y, const ModelEstimate& model, double speed_m_per_s);
+/// Place of the exponent of k in kModelParameters.
+inline constexpr int kExponent = 10;
+
+/// From derivatives with respect to k and w_n of a speed to those of the model's parameters, which stand first in y.
+template <class AnyJet>
+AnyJet from_speed(AnyJet y, const ModelEstimate& model, double speed_m_per_s) {
+  if (!model.stiffness_trend) return y;
+  const double log_speed = std::log(speed_m_per_s / model.stiffness_trend->speed_m_per_s);
+  y.v[kExponent] += log_speed * (y.v[0] + 0.5 * y.v[1]);
+  return y;
+}
 
 /// From derivatives to standard errors and 95 % intervals.
 class Propagation {

@@ -23,14 +23,15 @@ using CycleMatrix = Eigen::Matrix<double, kColumns, kColumns>;
 class Cycle {
  public:
   Cycle(const ModelEstimate& model, double speed_m_per_s, double excess_N)
-      : stiffness_(exponential(model.stiffness_N_per_m, 0)),
-        omega_(exponential(model.natural_frequency_rad_per_s, 1)),
+      : stiffness_(from_speed(exponential(at_speed(model, speed_m_per_s).stiffness_N_per_m, 0), model, speed_m_per_s)),
+        omega_(from_speed(exponential(at_speed(model, speed_m_per_s).natural_frequency_rad_per_s, 1), model,
+                          speed_m_per_s)),
         zeta_(model.damping_ratio, 2),
         difference_(exponential(model.friction_difference_N, 3)),
         unit_(stiffness_ * speed_m_per_s / omega_) {
     if (model.ageing) {
       // After the sticks of this speed; that these follow F_s - F_k is a small part of what they tell of the rate.
-      const double aged_N = aged_difference_N(model, speed_m_per_s).value_or(0.0);
+      const double aged_N = aged_difference_N(at_speed(model, speed_m_per_s), speed_m_per_s).value_or(0.0);
       const auto [rate_N, reference_s, cutoff_s] = *model.ageing;
       const double log_stick = (aged_N - model.friction_difference_N) / rate_N;
       const double by_cutoff = (std::exp(-log_stick) - 1.0) / (reference_s + cutoff_s);

@@ -39,6 +39,9 @@ std::vector<NamedJet> parameters_of(const ModelEstimate& model) {
     all.push_back({"ageing_N", p.ageing_N});
     all.push_back({"ageing_time_s", p.ageing_cutoff_s});
   }
+  if (model.stiffness_trend) {
+    all.push_back({"stiffness_exponent", Jet(model.stiffness_trend->exponent, predict::kExponent)});
+  }
   if (model.reloading) {
     all.push_back({"reload_force_N", p.reload_force_N});
     all.push_back({"reload_length_m", p.reload_length_m});
