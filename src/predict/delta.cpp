@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "core/fit_thresholds.hpp"
 #include "fit/inference/student.hpp"
@@ -59,8 +58,8 @@ ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s) {
   return own;
 }
 
-Propagation::Propagation(ModelEstimate model)
-    : model_(std::move(model)), quantile_(fit::t_quantile(model_.degrees_of_freedom)) {}
+Propagation::Propagation(const ModelEstimate& model)
+    : model_(model), quantile_(fit::t_quantile(model_.degrees_of_freedom)) {}
 
 double Propagation::standard_error(const Jet& y) const {
   double variance = 0.0;

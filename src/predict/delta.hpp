@@ -44,7 +44,7 @@ AnyJet from_speed(AnyJet y, const ModelEstimate& model, double speed_m_per_s) {
 /// From derivatives to standard errors and 95 % intervals.
 class Propagation {
  public:
-  explicit Propagation(ModelEstimate model);
+  explicit Propagation(const ModelEstimate& model);
 
   [[nodiscard]] double standard_error(const Jet& y) const;
   /// 97.5 % quantile of Student's t

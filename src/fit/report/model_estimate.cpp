@@ -71,7 +71,7 @@ std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingMo
       std::min(findings.intervals.degrees_of_freedom(model.difference), findings.intervals.spread().degrees_of_freedom);
   estimate.damping_identified = findings.held[kDamping] || findings.damping.ci95->low > 0.0;
   Correlation correlation = correlation_of(estimate, used);
-  return EstimatedModel{std::move(estimate), std::move(correlation)};
+  return EstimatedModel{estimate, std::move(correlation)};
 }
 
 }  // namespace slipfit::fit

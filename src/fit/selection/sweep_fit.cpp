@@ -5,8 +5,8 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <utility>
+#include <vector>
 
 #include "core/fit_thresholds.hpp"
 #include "core/parallel.hpp"
@@ -70,7 +70,7 @@ class SweepFitter {
 
  private:
   struct Kind {
-    FrictionLaw law;
+    FrictionLaw law = FrictionLaw::Coulomb;
     bool stiffness_grows = false;  ///< with the speed
   };
 
@@ -167,11 +167,10 @@ class SweepFitter {
   }
 
   static double span_of_speeds(const SweepSolution& solution) {
-    const auto [slowest, fastest] =
-        std::ranges::minmax(solution.recordings | std::views::transform([](const BlockFit& recording) {
-                              return recording.scales().speed_m_per_s;
-                            }));
-    return fastest / slowest;
+    std::vector<double> speeds;
+    for (const BlockFit& recording : solution.recordings) speeds.push_back(recording.scales().speed_m_per_s);
+    const auto [slowest, fastest] = std::minmax_element(speeds.begin(), speeds.end());
+    return *fastest / *slowest;
   }
 
   /// Of so much more misfit by what the recordings share.
