@@ -247,7 +247,7 @@ class Assembler {
   [[nodiscard]] Estimate spacing_without(const std::optional<LeftOut>& one, double speed, double load) const {
     if (!one) return unknown("too few recordings to leave one out");
     const fit::SlidingModel model(fit::with_damping_cut(one->values, one->spread.covariance), data_.units);
-    return spacing_of(model.spacing(speed, load), fit::Intervals(fit::spread_at(*one, data_.units, speed)),
+    return spacing_of(model.spacing(speed, load), fit::Intervals(fit::spread_at(*one, speed)),
                       "no stick-slip at this speed by the others");
   }
 

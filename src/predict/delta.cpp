@@ -92,9 +92,10 @@ std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_p
   if (model.stiffness_trend) {
     // It may end there, or double.
     const double half_width = model.stiffness_trend->exponent * model.reach->distance_beyond(speed_m_per_s);
-    const double exponent_half_width = half_width / log_ratio(model, speed_m_per_s);
-    wider.covariance[kExponent][kExponent] +=
-        std::pow(exponent_half_width / fit::t_quantile(model.degrees_of_freedom), 2);
+    const double variance = std::pow(half_width / fit::t_quantile(model.degrees_of_freedom), 2);
+    for (std::size_t i = 0; i < kShare.size(); ++i) {
+      for (std::size_t j = 0; j < kShare.size(); ++j) wider.covariance[i][j] += kShare[i] * kShare[j] * variance;
+    }
   }
   return wider;
 }

@@ -16,6 +16,8 @@
 #include "speed_sweep.hpp"
 
 using namespace slipfit;
+using test::critical_speed;
+using test::predicted;
 
 namespace {
 
@@ -28,15 +30,6 @@ PredictionModel example() {
   }
   model.has_covariance = true;
   return model;
-}
-
-PredictedMotion predicted(const PredictionModel& model, double speed_m_per_s) {
-  const std::array<double, 1> speeds{speed_m_per_s};
-  return predict_at(model, speeds).rows.front();
-}
-
-Estimate critical_speed(const PredictionModel& model) {
-  return predict_at(model, std::vector<double>{}).critical_speed_m_per_s;
 }
 
 /// Under Coulomb friction that ages.
@@ -171,23 +164,8 @@ TEST_CASE("ageing: the limit of no cut-off is ageing without one") {
 
 TEST_CASE("ageing: intervals follow from derivatives that agree with differences") {
   const PredictionModel model = GENERATE(example(), cut_off_example(), reloading_example());
-  for (const double speed : {0.0005, 0.001, 0.003}) {
-    CAPTURE(speed);
-    for (const auto quantity :
-         {&PredictedMotion::period_s, &PredictedMotion::stick_time_s, &PredictedMotion::slip_time_s,
-          &PredictedMotion::periodic_displacement_m, &PredictedMotion::lambda}) {
-      const double expected = test::standard_error_by_differences(
-          model, 1e-3, [&](const PredictionModel& at) { return *(predicted(at, speed).*quantity).value; });
-      CHECK(*(predicted(model, speed).*quantity).standard_error == Approx(expected).epsilon(1e-7));
-    }
-  }
-  const double expected = test::standard_error_by_differences(
-      model, 1e-3, [](const PredictionModel& at) { return *critical_speed(at).value; });
   // The end is bracketed to 1e-14 of the speed, its F_s - F_k thereby to the root of that.
-  CHECK(*critical_speed(model).standard_error == Approx(expected).epsilon(1e-6));
-  const double end = *critical_speed(model).value;
-  CHECK(predicted(model, 0.999 * end).period_s.value);
-  CHECK_FALSE(predicted(model, 1.001 * end).period_s.value);
+  test::check_intervals(model, 1e-6);
 }
 
 TEST_CASE("ageing: a plan for its rate stays below the end of stick-slip and narrows it") {

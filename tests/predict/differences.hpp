@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstddef>
 
@@ -52,6 +53,37 @@ double standard_error_by_differences(const slipfit::PredictionModel& model, doub
     for (std::size_t j = 0; j < gradient.size(); ++j) variance += gradient[i] * e.covariance[i][j] * gradient[j];
   }
   return std::sqrt(variance);
+}
+
+inline slipfit::PredictedMotion predicted(const slipfit::PredictionModel& model, double speed_m_per_s) {
+  const std::array<double, 1> speeds{speed_m_per_s};
+  return slipfit::predict_at(model, speeds).rows.front();
+}
+
+inline slipfit::Estimate critical_speed(const slipfit::PredictionModel& model) {
+  return slipfit::predict_at(model, {}).critical_speed_m_per_s;
+}
+
+/// Standard errors of the motion at three speeds, to 1e-7, and of the speed at which stick-slip ends against
+/// differences; the motion sticks just below that and not above.
+inline void check_intervals(const slipfit::PredictionModel& model, double tolerance_of_end) {
+  using slipfit::PredictedMotion;
+  for (const double speed : {0.0005, 0.001, 0.003}) {
+    CAPTURE(speed);
+    for (const auto quantity :
+         {&PredictedMotion::period_s, &PredictedMotion::stick_time_s, &PredictedMotion::slip_time_s,
+          &PredictedMotion::periodic_displacement_m, &PredictedMotion::lambda}) {
+      const double expected = standard_error_by_differences(
+          model, 1e-3, [&](const slipfit::PredictionModel& at) { return *(predicted(at, speed).*quantity).value; });
+      CHECK(*(predicted(model, speed).*quantity).standard_error == Approx(expected).epsilon(1e-7));
+    }
+  }
+  const double expected = standard_error_by_differences(
+      model, 1e-3, [](const slipfit::PredictionModel& at) { return *critical_speed(at).value; });
+  CHECK(*critical_speed(model).standard_error == Approx(expected).epsilon(tolerance_of_end));
+  const double end = *critical_speed(model).value;
+  CHECK(predicted(model, 0.999 * end).period_s.value);
+  CHECK_FALSE(predicted(model, 1.001 * end).period_s.value);
 }
 
 }  // namespace test

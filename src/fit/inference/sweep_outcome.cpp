@@ -152,16 +152,16 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
   return outcome;
 }
 
-Spread spread_at(const LeftOut& fit, const Units& units, double speed_m_per_s) {
+Spread spread_at(const LeftOut& fit, double speed_m_per_s) {
   Spread spread = fit.spread;
   const double half_width = fit.reach.half_width_at(speed_m_per_s) * fit.values(kDifference);
   const double quantile = t_quantile(spread.degrees_of_freedom);
   spread.covariance(kDifference, kDifference) += std::pow(half_width / quantile, 2);
-  const double exponent = fit.values(kStiffnessExponent);
-  if (const double log_speed = std::log(speed_m_per_s / units.speed_m_per_s); exponent != 0.0 && log_speed != 0.0) {
-    spread.covariance(kStiffnessExponent, kStiffnessExponent) +=
-        std::pow(exponent * fit.reach.distance_beyond(speed_m_per_s) / log_speed / quantile, 2);
-  }
+  const double of_stiffness = fit.values(kStiffnessExponent) * fit.reach.distance_beyond(speed_m_per_s);
+  Coordinates growth = Coordinates::Zero();
+  growth(kLogStiffness) = of_stiffness / quantile;
+  growth(kLogFrequency) = 0.5 * of_stiffness / quantile;  // of the same mass
+  spread.covariance += growth * growth.transpose();
   return spread;
 }
 

@@ -32,7 +32,7 @@ struct SweepOutcome {
 SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution);
 
 /// With the trends of F_s - F_k and k at a speed beyond its own.
-Spread spread_at(const LeftOut& fit, const Units& units, double speed_m_per_s);
+Spread spread_at(const LeftOut& fit, double speed_m_per_s);
 
 /// Root mean square of ln (spacing predicted without a recording / its own); no prediction counts as a factor of 2.
 double left_out_error(const SweepOutcome& outcome);

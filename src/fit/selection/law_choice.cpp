@@ -74,7 +74,7 @@ SweepOutcome coulomb_outcome(const SweepData& data, const SweepFits& fits) {
   if (!fits.growing) return same;
   SweepOutcome growing = outcome_of(data, *fits.growing);
   const bool is_better = allows_damping(growing) && left_out_error(growing) < left_out_error(same);
-  return is_better ? growing : same;
+  return is_better ? std::move(growing) : std::move(same);
 }
 
 }  // namespace
