@@ -16,6 +16,7 @@
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/rival.hpp"
 #include "fit/selection/stated_mass.hpp"
 #include "fit/selection/tiers.hpp"
 #include "fit/selection/weakening_fit.hpp"
@@ -190,7 +191,7 @@ struct Chosen {
 /// Friction that weakens over a slip distance in place of Coulomb friction where the data, or the user, want it.
 Chosen with_weakening(Chosen chosen, const fit::FitInput& input, std::optional<Tier> forced) {
   const bool is_asked = forced == Tier::Weakening;
-  if (!is_asked && (forced || !fit::may_weaken(chosen.fits.damped))) return chosen;
+  if (!is_asked && (forced || !fit::may_weaken(chosen.fits.damped, input.recording.sample_interval_s()))) return chosen;
   fit::WeakeningTrial trial = fit::try_weakening(input, chosen.fits.damped, forced);
   Candidate& candidate = trial.candidate;
   const std::string doubt = candidate.chosen ? "" : candidate.reason;
@@ -210,6 +211,7 @@ Chosen with_weakening(Chosen chosen, const fit::FitInput& input, std::optional<T
       chosen.resolution.reason = doubt;
     }
   }
+  if (trial.rival) chosen.fits.damped = fit::beside_rival(std::move(chosen.fits.damped), *trial.rival);
   if (chosen.fits.damped.fall_doubt.empty()) chosen.fits.damped.fall_doubt = trial.fall_doubt;
   chosen.candidates.push_back(std::move(candidate));
   if (trial.warning) chosen.warnings.push_back(*std::move(trial.warning));

@@ -46,6 +46,13 @@ TEST_CASE("slips seen through an average that nobody stated: its time and the ma
                                     std::pair{"damping_ratio", 0.15}, std::pair{"friction_difference_N", 0.2}}) {
     INFO(name);
     const Estimate& estimate = parameter(analysis, name).estimate;
+    // Behind the longest average friction that weakens is not ruled out, and F_s - F_k is told by its bounds alone.
+    if (samples == 61 && parameter(analysis, name).status == ParameterStatus::Bounded) {
+      REQUIRE(estimate.ci95);
+      CHECK(estimate.ci95->low <= truth);
+      CHECK(estimate.ci95->high >= truth);
+      continue;
+    }
     REQUIRE(estimate.standard_error);
     // Twelve numbers: one in twenty lies outside its interval, one in four hundred outside three standard errors.
     CHECK(std::abs(*estimate.value - truth) < 3.0 * *estimate.standard_error);

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -93,6 +94,30 @@ TEST_CASE("Coulomb friction gets no slip distance, and is not asked for one") {
   REQUIRE(analysis.fit);
   CHECK(analysis.fit->tier != Tier::Weakening);
   CHECK(weakening_candidate(analysis) == nullptr);
+}
+
+TEST_CASE("intervals behind an average hold what a slip distance too short to be told does to them") {
+  Scene s = soft_contact();
+  s.noise = 0.0;
+  s.zeta = 0.1;
+  s.samples_per_slip = 60.0;
+  s.seed = GENERATE(range<std::uint64_t>(1, 5));
+  CAPTURE(s.seed);
+  const Recording recording =
+      moving_average(weakening_recording(s, 0.04), 45, 0.01 * (s.static_N - s.kinetic_N), s.seed);
+  const Analysis analysis = analyze_and_fit(recording, {});
+  REQUIRE(analysis.fit);
+  for (const auto& [name, truth] :
+       {std::pair{"natural_frequency_rad_per_s", s.omega}, std::pair{"damping_ratio", s.zeta}}) {
+    INFO(name);
+    const std::optional<Interval>& ci95 = parameter(analysis, name).estimate.ci95;
+    REQUIRE(ci95);
+    // Eight numbers: one in twenty lies outside its interval, one in four hundred outside one that is half as wide
+    // again.
+    const double room = 0.25 * (ci95->high - ci95->low);
+    CHECK(ci95->low - room <= truth);
+    CHECK(ci95->high + room >= truth);
+  }
 }
 
 TEST_CASE("a slip distance that is asked for in vain is unknown with the reason") {

@@ -97,6 +97,7 @@ double upper_quantile(double best, double distance_of_zero, double quantile) {
 bool needs_profile(const DampedFit& fit) {
   const Uncertainty& uncertainty = fit.uncertainty;
   if (fit.held[kDamping] || uncertainty.from_cycles || uncertainty.from_refits) return false;
+  if (fit.average || fit.rival) return false;  // zeta would be profiled with the average held, and these terms alone
   return std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping))) > thresholds::kWideDamping;
 }
 

@@ -13,6 +13,7 @@
 #include "fit/level/mains_hum.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/ramps.hpp"
+#include "fit/selection/rival.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -149,10 +150,9 @@ DampingFindings damping_of(const TierFits& fits, const Resolution& resolution, c
   }
   if (along) result.estimate.ci95 = along->interval;
   if (!along && !at_bound) return result;
+  const bool has_more = uncertainty.from_refits || fits.damped.average || fits.damped.rival;
   result.profile = Profile{
-      at_bound && !uncertainty.from_refits ? fits.undamped->uncertainty.covariance : given(covariance, kDamping),
-      {},
-      at_bound};
+      at_bound && !has_more ? fits.undamped->uncertainty.covariance : given(covariance, kDamping), {}, at_bound};
   if (along) {
     result.profile->moves = {along->move_low, along->move_high};
   } else if (variance > 0.0) {
@@ -260,7 +260,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   const BlockFit& blocks = reported(fits);
   Spread spread = spread_of(fits.damped);
   AveragingFindings averaging = averaging_of(recording, fits.damped, blocks);
-  spread.one_sided = averaging.one_sided;
+  spread.one_sided = averaging.one_sided + moves_to_rival(fits.damped, blocks);
   DampingFindings damping = damping_of(fits, resolution, blocks);
   damping.estimate.ci95 = lengthened(*damping.estimate.ci95, spread.one_sided(kDamping));
   spread.profile = std::move(damping.profile);

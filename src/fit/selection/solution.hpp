@@ -39,9 +39,11 @@ struct DampedFit {
   std::optional<Smoothing> rounding{};     ///< of the slips beyond what is stated of the sensor; empty: not told
   std::optional<StickRipple> ripple{};     ///< left in the sticks
   std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none
-  std::string fall_doubt{};                ///< why w_n and zeta cannot be read from the slips; empty: they can
-  bool mass_gives_frequency = false;       ///< w_n is held at sqrt(k / m) of a stated m; the covariance holds its error
-  std::string law_doubt{};                 ///< why the friction law was not the data's choice; empty: it was
+  /// Where a fit with more terms lies that the data do not rule out: intervals hold its values, too.
+  std::optional<Coordinates> rival{};
+  std::string fall_doubt{};           ///< why w_n and zeta cannot be read from the slips; empty: they can
+  bool mass_gives_frequency = false;  ///< w_n is held at sqrt(k / m) of a stated m; the covariance holds its error
+  std::string law_doubt{};            ///< why the friction law was not the data's choice; empty: it was
 };
 
 }  // namespace slipfit::fit

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/misfit.hpp"
 #include "fit/selection/carried_fit.hpp"
+#include "fit/selection/rival.hpp"
 #include "fit/selection/weakening_fitter.hpp"
 
 namespace slipfit::fit {
@@ -49,28 +51,6 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
   return candidate;
 }
 
-/// Where a search for an average beside the slip distance begins; empty: one of the two explains the slips.
-std::optional<double> start_of_average_s(const FitInput& input, const DampedFit& coulomb,
-                                         const std::optional<DampedFit>& weakening) {
-  if (input.recording.conditions().sensor_average_s) return std::nullopt;
-  if (coulomb.average) return coulomb.average->seconds;
-  const double step_s = input.recording.sample_interval_s();
-  if (!weakening || !weakening->rounding || !weakening->rounding->exceeds_step(step_s)) return std::nullopt;
-  return std::sqrt(12.0 * weakening->rounding->variance_s2);
-}
-
-/// Where a search for the other minimum begins: much averaging of quick slips looks like little of slow ones. The
-/// shares of the average in what draws the fall out add up to about 0.75 then (docs/model.md section 7).
-double mirrored_s(const DampedFit& fit) {
-  constexpr double kBoth = 0.75;
-  constexpr double kLeast = 0.05;
-  constexpr double kSlip2 = 5.6;  // W^2 of an average that draws the fall out as much as the slip itself does
-  const double omega = std::exp(fit.blocks.parameters.globals[kLogFrequency]);
-  const double seen2 = std::pow(omega * fit.average->seconds, 2) + kSlip2;
-  const double share = 1.0 - kSlip2 / seen2;
-  return std::sqrt(std::max(kLeast, kBoth - share) * seen2) / omega;
-}
-
 /// A fit of both, by how much its AICc is lower than the rival's, and whether no other minimum is as good.
 struct Minimum {
   DampedFit fit;
@@ -78,18 +58,20 @@ struct Minimum {
   bool is_sure = true;
 };
 
-/// The better of two fits from either minimum.
-Minimum better_minimum(const FitInput& input, const DampedFit& coulomb, const DampedFit& rival, Minimum first) {
-  std::optional<DampedFit> second = fit_averaged_weakening(input, coulomb, mirrored_s(first.fit), rival);
-  if (!second) return first;
-  const double ahead = gain_on_same_samples(*second, first.fit) + 2.0;  // as many parameters
-  const FittedAverage& average = *first.fit.average;
+std::optional<Minimum> best_of_both(const FitInput& input, const DampedFit& coulomb, const DampedFit& rival) {
+  std::vector<DampedFit> fits = fit_averaged_weakening(input, coulomb);
+  if (fits.empty()) return std::nullopt;
+  if (fits.size() == 1) {
+    const double gain = gain_on_same_samples(fits[0], rival);
+    return Minimum{std::move(fits[0]), gain};
+  }
+  const double ahead = gain_on_same_samples(fits[1], fits[0]) + 2.0;  // as many parameters
+  const FittedAverage& average = *fits[0].average;
   const bool is_same =
-      std::abs(second->average->seconds - average.seconds) < thresholds::kSureTerm * average.standard_error_s;
-  first.is_sure = is_same || std::abs(ahead) > thresholds::kTierPrice;
-  if (!(ahead > 0.0)) return first;
-  const double gain = gain_on_same_samples(*second, rival);
-  return {*std::move(second), gain, first.is_sure};
+      std::abs(fits[1].average->seconds - average.seconds) < thresholds::kSureTerm * average.standard_error_s;
+  DampedFit& best = fits[ahead > 0.0 ? 1 : 0];
+  const double gain = gain_on_same_samples(best, rival);
+  return Minimum{std::move(best), gain, is_same || std::abs(ahead) > thresholds::kSurelyAhead};
 }
 
 /// F_s - F_k lies between half of the fall and the drop between the ramps whatever D_c and zeta are, and slips rest:
@@ -118,22 +100,24 @@ Candidate judged_both(const Minimum& both, const DampedFit& single, double befor
 
 /// Friction that weakens, seen through an average, where this explains more than either of the two.
 WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const DampedFit& coulomb) {
-  const std::optional<double> start_s = start_of_average_s(input, coulomb, trial.fit);
-  if (!start_s) return trial;
+  if (input.recording.conditions().sensor_average_s) return trial;
   const DampedFit& single = trial.candidate.chosen ? *trial.fit : coulomb;
   const StackedResidual before = stacked_residual(single.blocks, coulomb.blocks);
-  if (before.size < before.by_chance) return trial;
-  std::optional<DampedFit> first = fit_averaged_weakening(input, coulomb, *start_s, single);
-  if (!first) return trial;
-  const double gain = gain_on_same_samples(*first, single);
-  if (!(gain > thresholds::kTierPrice)) return trial;
-  Minimum both{*std::move(first), gain};
-  if (judged_both(both, single, before.size).chosen) {
-    both = better_minimum(input, coulomb, single, std::move(both));
-    Candidate candidate = judged_both(both, single, before.size);
-    if (both.is_sure && candidate.chosen) return {std::move(both.fit), std::move(candidate), {}, std::nullopt};
+  if (!coulomb.average && before.size < before.by_chance) return trial;
+  std::optional<Minimum> both = best_of_both(input, coulomb, single);
+  if (!both) return trial;
+  Candidate candidate = judged_both(*both, single, before.size);
+  if (both->is_sure && candidate.chosen) return {std::move(both->fit), std::move(candidate), {}, {}, std::nullopt};
+  // A stated mass tells w_n, which the rival does not know of.
+  if (!coulomb.mass_gives_frequency && both->gain > -thresholds::kTierPrice && has_slips_of_the_model(both->fit)) {
+    if (trial.candidate.chosen) {
+      trial.fit = beside_rival(*std::move(trial.fit), both->fit);
+    } else {
+      trial.rival = both->fit;
+    }
   }
-  if (stacked_residual(both.fit.blocks, coulomb.blocks).size > thresholds::kHalvedStack * before.size) return trial;
+  if (!(both->gain > thresholds::kTierPrice)) return trial;
+  if (stacked_residual(both->fit.blocks, coulomb.blocks).size > thresholds::kHalvedStack * before.size) return trial;
   trial.fall_doubt =
       "friction that weakens over a slip distance and an average of the sensor together explain the slips better "
       "than either, and cannot be told apart: state the average with --sensor-average";
@@ -142,12 +126,13 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Damp
 
 }  // namespace
 
-bool may_weaken(const DampedFit& coulomb) {
-  return coulomb.misfit || coulomb.refused_damping || coulomb.average;
+bool may_weaken(const DampedFit& coulomb, double sample_interval_s) {
+  const bool is_rounded = coulomb.rounding && coulomb.rounding->exceeds_step(sample_interval_s);
+  return coulomb.misfit || coulomb.refused_damping || coulomb.average || is_rounded;
 }
 
 WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<Tier> forced) {
-  WeakeningTrial trial{std::nullopt, {Tier::Weakening, 4, std::nullopt, std::nullopt, false, {}}, {}, std::nullopt};
+  WeakeningTrial trial{std::nullopt, {Tier::Weakening, 4, std::nullopt, std::nullopt, false, {}}, {}, {}, std::nullopt};
   trial.candidate.reason = hindrance(input, coulomb);
   if (!trial.candidate.reason.empty()) return trial;
   const double missed = stacked_residual(coulomb.blocks, coulomb.blocks).size;

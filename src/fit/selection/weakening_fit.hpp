@@ -12,15 +12,16 @@ namespace slipfit::fit {
 struct WeakeningTrial {
   std::optional<DampedFit> fit;  ///< empty: there is none
   Candidate candidate;
-  std::string fall_doubt{};        ///< of the fit that stays where this is not chosen: DampedFit::fall_doubt
-  std::optional<Warning> warning;  ///< an average of the sensor explains the slips as well
+  std::string fall_doubt{};          ///< of the fit that stays where this is not chosen: DampedFit::fall_doubt
+  std::optional<DampedFit> rival{};  ///< of the fit that stays where this is not chosen: both terms, not ruled out
+  std::optional<Warning> warning;    ///< an average of the sensor explains the slips as well
 };
 
 /// `coulomb`: the fit of the same recording under Coulomb friction. `forced`: a tier that the user asks for; this one
 /// is then fitted to all cycles, however little some of them promise.
 WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<Tier> forced);
 
-/// The Coulomb fit shows a sign of it: slips that are not shaped like the model's.
-bool may_weaken(const DampedFit& coulomb);
+/// The Coulomb fit shows a sign of it: slips that are not shaped like the model's, or rounded.
+bool may_weaken(const DampedFit& coulomb, double sample_interval_s);
 
 }  // namespace slipfit::fit

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/fit_thresholds.hpp"
+#include "fit/selection/carried_fit.hpp"
+#include "fit/selection/fitted_average.hpp"
+#include "fit/selection/weakening_fitter.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+using Draft = WeakeningSolver::Draft;
+
+/// T_b^2 over what slip and average together draw the fall out by, to begin with: W = w_n T_b of 1, 2.4, 4 and 8.
+constexpr std::array kSharesOfFall{0.15, 0.5, 0.75, 0.92};
+/// k D_c / (F_s - F_k) beside each of them.
+constexpr std::array kBesideAverage{0.1, 0.45};
+constexpr double kSlip2 = 5.6;  // W^2 of an average that draws the fall out as much as the slip itself does
+constexpr std::size_t kDraftCycles = 16;
+constexpr int kDraftIterations = 10;
+constexpr std::size_t kDescents = 3;                          // of the starts
+constexpr int kDescentSteps = 6;                              // in sigma^2, of a few cycles
+constexpr double kSameAverage = 0.1;                          // of ln T_b: two starts that led to one minimum
+constexpr double kRuledOut = 2.0 * thresholds::kSurelyAhead;  // few of the cycles tell less surely
+
+bool explains_more(const Draft& a, const Draft& b) {
+  return a.sum_of_squares < b.sum_of_squares;
+}
+
+/// What slip and average together draw the fall out by, T_b^2 + kSlip2 / w_n^2.
+double squared_fall_s2(const DampedFit& coulomb) {
+  const double average_s = coulomb.blocks.scales().sensor_average_s;
+  return average_s * average_s + kSlip2 * std::exp(-2.0 * coulomb.blocks.parameters.globals[kLogFrequency]);
+}
+
+class AveragedWeakening {
+ public:
+  AveragedWeakening(const FitInput& input, const DampedFit& coulomb)
+      : coulomb_(coulomb),
+        sample_interval_s_(input.recording.sample_interval_s()),
+        fall_s2_(squared_fall_s2(coulomb)),
+        solver_(input, coulomb, 1.1 * median_slip_s(coulomb.blocks) + 0.5 * std::sqrt(fall_s2_)) {}
+
+  [[nodiscard]] std::vector<DampedFit> minima() const {
+    std::vector<DampedFit> fits;
+    const std::vector<CycleData> cycles = solver_.cycles();
+    if (cycles.size() < thresholds::kFewestFitted) return fits;
+    for (const Draft& draft : minima_of(solver_.some_of(cycles, kDraftCycles))) {
+      const double average_s = draft.blocks.scales().sensor_average_s;
+      std::optional<DampedFit> fit = with_free_average(solver_.fit(cycles, average_s, draft.blocks.parameters.globals));
+      if (fit) fits.push_back(*std::move(fit));
+    }
+    return fits;
+  }
+
+ private:
+  /// Of some of the cycles, from averages that take from little to nearly all of the fall.
+  [[nodiscard]] std::vector<Draft> drafts_of(const std::vector<CycleData>& some) const {
+    std::vector<double> shares(kSharesOfFall.begin(), kSharesOfFall.end());
+    if (coulomb_.average) shares.push_back(std::pow(coulomb_.average->seconds, 2) / fall_s2_);
+    std::vector<Draft> drafts;
+    for (const double share : shares) {
+      const double log_omega = 0.5 * std::log(kSlip2 / ((1.0 - share) * fall_s2_));
+      std::optional<Draft> draft =
+          solver_.draft(some, std::sqrt(share * fall_s2_), {log_omega, kBesideAverage, kDraftIterations});
+      if (draft) drafts.push_back(*std::move(draft));
+    }
+    std::sort(drafts.begin(), drafts.end(), explains_more);
+    return drafts;
+  }
+
+  /// The best minimum of some of the cycles, and the next one where they do not rule it out.
+  [[nodiscard]] std::vector<Draft> minima_of(const std::vector<CycleData>& some) const {
+    std::vector<Draft> drafts = drafts_of(some);
+    if (drafts.empty()) return drafts;
+    drafts.erase(drafts.begin() + static_cast<std::ptrdiff_t>(std::min(drafts.size(), kDescents)), drafts.end());
+    for (Draft& draft : drafts) draft = descended(std::move(draft));
+    std::sort(drafts.begin(), drafts.end(), explains_more);
+    const auto next = std::find_if(drafts.begin() + 1, drafts.end(),
+                                   [&](const Draft& draft) { return is_another(draft, drafts.front()); });
+    std::vector<Draft> minima{drafts.front()};
+    if (next != drafts.end()) minima.push_back(*next);
+    return minima;
+  }
+
+  [[nodiscard]] bool is_another(const Draft& draft, const Draft& best) const {
+    const double ratio = draft.blocks.scales().sensor_average_s / best.blocks.scales().sensor_average_s;
+    const double behind = effective_samples(coulomb_) * std::log(draft.sum_of_squares / best.sum_of_squares);
+    return std::abs(std::log(ratio)) > kSameAverage && behind < kRuledOut;
+  }
+
+  /// Newton's steps in sigma^2 as long as they lead down.
+  [[nodiscard]] Draft descended(Draft draft) const {
+    for (int step = 0; step < kDescentSteps; ++step) {
+      const auto beyond = estimate_smoothing(draft.blocks, solver_.held(), sample_interval_s_);
+      if (!beyond || is_settled(*beyond)) break;
+      std::optional<BlockFit> next = WeakeningSolver::with_next_average(draft.blocks, *beyond, solver_.held());
+      if (!next) break;
+      const double sum = sum_of_squares(*next);
+      if (!(sum < draft.sum_of_squares)) break;
+      draft = {*std::move(next), sum};
+    }
+    return draft;
+  }
+
+  /// Newton's steps in sigma^2 of all cycles. Empty where they do not settle.
+  [[nodiscard]] std::optional<DampedFit> with_free_average(std::optional<DampedFit> fit) const {
+    constexpr int kMostSteps = 5;
+    for (int step = 0; fit && step < kMostSteps; ++step) {
+      const auto beyond = estimate_smoothing(fit->blocks, fit->held, sample_interval_s_);
+      if (!beyond) break;
+      if (is_settled(*beyond)) {
+        const double average_s = fit->blocks.scales().sensor_average_s;
+        return with_average_error(*std::move(fit), average_s * average_s / 12.0, *beyond);
+      }
+      std::optional<BlockFit> blocks = WeakeningSolver::with_next_average(fit->blocks, *beyond, fit->held);
+      if (!blocks) break;
+      fit->blocks = *std::move(blocks);
+      fit = solver_.finished(*std::move(fit));
+    }
+    return std::nullopt;
+  }
+
+  static bool is_settled(const Smoothing& beyond) {
+    return std::abs(beyond.variance_s2) < thresholds::kSettledAverage * beyond.standard_error_s2;
+  }
+
+  const DampedFit& coulomb_;
+  double sample_interval_s_;
+  double fall_s2_;
+  WeakeningSolver solver_;
+};
+
+}  // namespace
+
+std::vector<DampedFit> fit_averaged_weakening(const FitInput& input, const DampedFit& coulomb) {
+  return AveragedWeakening(input, coulomb).minima();
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,166 @@
+#include "fit/selection/weakening_solver.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "core/fit_thresholds.hpp"
+#include "fit/cycle/start.hpp"
+#include "fit/problem/solve.hpp"
+#include "fit/selection/carried_fit.hpp"
+#include "fit/selection/clipping.hpp"
+#include "fit/selection/finish.hpp"
+#include "fit/selection/first_guess.hpp"
+#include "fit/selection/outliers.hpp"
+#include "fit/selection/reloading_fit.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+constexpr int kOwnIterations = 6;  // of onsets and forces by themselves
+constexpr int kFullIterations = 60;
+constexpr int kStepIterations = 20;      // beside a solution for another average
+constexpr double kDraftTolerance = 0.1;  // SolveOptions::tolerance of a draft
+/// SolveOptions::tolerance. Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them
+/// an error off.
+constexpr double kTolerance = 1e-7;
+
+/// From where it stands.
+std::optional<BlockFit> settled(BlockFit blocks, const Held& held, double tolerance) {
+  const bool is_solved =
+      std::isfinite(solve(blocks, {held, false, true, kFullIterations, tolerance})) && has_slips(blocks);
+  return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
+}
+
+/// Onsets and forces of the cycles by themselves; false where a slip has no solution.
+bool solve_own(BlockFit& blocks, SolveOptions options) {
+  options.held.fill(true);
+  options.max_iterations = kOwnIterations;
+  return std::isfinite(solve(blocks, options));
+}
+
+/// The best zeta is below 0 clearly, or it is not told.
+bool is_negative(const DampedFit& fit) {
+  const double zeta = fit.blocks.parameters.globals[kDamping];
+  const double error = damping_error(fit);
+  const bool is_told = error < thresholds::kTellingDamping;
+  return !fit.held[kDamping] && zeta < (is_told ? -thresholds::kNegativeSigmas * error : 0.0);
+}
+
+}  // namespace
+
+WeakeningSolver::WeakeningSolver(const FitInput& input, const DampedFit& coulomb, double half_width_s)
+    : input_(input),
+      coulomb_(coulomb),
+      scales_(coulomb.blocks.scales()),
+      held_(held_of(input.held)),
+      half_width_s_(half_width_s) {
+  scales_.law = FrictionLaw::Weakening;
+  scales_.slip_distance_m = scales_.force / std::exp(coulomb.blocks.parameters.globals[kLogStiffness]);
+}
+
+std::vector<CycleData> WeakeningSolver::cycles() const {
+  return cycles_without(coulomb_.excluded);
+}
+
+std::vector<CycleData> WeakeningSolver::some_of(const std::vector<CycleData>& cycles, std::size_t count) const {
+  std::vector<CycleData> some = spread_subset(cycles, count);
+  for (CycleData& cycle : some) {
+    const double middle_s = input_.segmentation.slips[cycle.slip].middle_s;
+    cycle = thinned(std::move(cycle), middle_s, scales_.half_period_s, input_.recording.sample_interval_s());
+  }
+  return some;
+}
+
+std::optional<WeakeningSolver::Draft> WeakeningSolver::draft(const std::vector<CycleData>& cycles, double average_s,
+                                                             const Start& start) const {
+  SolveOptions options{held_, false, true, start.most_iterations};
+  options.tolerance = kDraftTolerance;
+  std::optional<Draft> best;
+  for (const double weakening : start.weakenings) {
+    Globals globals = coulomb_.blocks.parameters.globals;
+    // The slower onset makes a slip longer: so much slower is w_n of the Coulomb fit.
+    if (!held_[kLogFrequency]) globals[kLogFrequency] = start.log_omega + std::log1p(0.6 * weakening);
+    if (!held_[kDamping]) globals[kDamping] = 0.05;
+    globals[kFrictionSlope] = std::sqrt(weakening);
+    BlockFit blocks = blocks_of(cycles, average_s);
+    set_start(blocks, input_.segmentation, globals);
+    if (!solve_own(blocks, options)) continue;
+    const double sum = solve(blocks, options);
+    if (std::isfinite(sum) && (!best || sum < best->sum_of_squares)) best = Draft{std::move(blocks), sum};
+  }
+  return best;
+}
+
+std::optional<BlockFit> WeakeningSolver::solved(const std::vector<CycleData>& cycles, double average_s,
+                                                const Globals& start, double tolerance) const {
+  BlockFit blocks = blocks_of(cycles, average_s);
+  set_start(blocks, input_.segmentation, start);
+  if (!solve_own(blocks, {held_, false, true})) return std::nullopt;
+  return settled(std::move(blocks), held_, tolerance);
+}
+
+std::optional<DampedFit> WeakeningSolver::fit(const std::vector<CycleData>& cycles, double average_s,
+                                              const Globals& start) const {
+  std::optional<BlockFit> blocks = solved(cycles, average_s, start, kTolerance);
+  if (!blocks) return std::nullopt;
+  std::optional<DampedFit> fit = without_outliers(*std::move(blocks));
+  if (fit) fit = finished(*std::move(fit));
+  return fit && is_negative(*fit) ? without_damping(*std::move(fit)) : std::move(fit);
+}
+
+std::optional<BlockFit> WeakeningSolver::with_next_average(const BlockFit& blocks, const Smoothing& beyond,
+                                                           const Held& held) {
+  const double average_s = blocks.scales().sensor_average_s;
+  BlockFit next = averaged_by(blocks, beyond.next_variance_s2(average_s * average_s / 12.0));
+  const bool is_solved = std::isfinite(solve(next, {held, false, true, kStepIterations})) && has_slips(next);
+  return is_solved ? std::optional(std::move(next)) : std::nullopt;
+}
+
+std::optional<DampedFit> WeakeningSolver::finished(DampedFit fit) const {
+  std::optional<DampedFit> draft = with_uncertainty(std::move(fit), tolerated_misfit(input_.quality));
+  draft = settle_rise(input_.recording.sample_interval_s(), input_.quality, std::move(draft));
+  return draft ? finish_fit(input_.recording, input_.quality, input_.segmentation, *std::move(draft)) : std::nullopt;
+}
+
+std::vector<CycleData> WeakeningSolver::cycles_without(const std::vector<std::size_t>& excluded) const {
+  const HumLines hum{coulomb_.blocks.level().lines_Hz, scales_.time_begin_s};
+  return same_cycles_of(coulomb_.blocks,
+                        cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded, hum));
+}
+
+BlockFit WeakeningSolver::blocks_of(const std::vector<CycleData>& cycles, double average_s) const {
+  Scales scales = scales_;
+  scales.sensor_average_s = average_s;
+  return {cycles, middles_s(input_.segmentation, cycles), scales, coulomb_.blocks.level()};
+}
+
+DampedFit WeakeningSolver::unfinished(BlockFit blocks, std::vector<std::size_t> excluded) const {
+  return {std::move(blocks), false, held_, std::nullopt, half_width_s_, std::move(excluded), {}, {}};
+}
+
+/// Outliers of the Coulomb fit may be what that law misses.
+std::optional<DampedFit> WeakeningSolver::without_outliers(BlockFit blocks) const {
+  const std::vector<std::size_t> initial = initial_exclusions(input_.recording, input_.quality);
+  const Residuals residuals = without(residuals_of(input_.recording, blocks), initial);
+  const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
+  const std::vector<std::size_t> censored = beyond_clip(input_.recording, input_.quality, residuals, scales_.noise);
+  std::vector<std::size_t> excluded = united(initial, united(outliers, censored));
+  if (excluded == coulomb_.excluded) return unfinished(std::move(blocks), std::move(excluded));
+  BlockFit clean = blocks_of(cycles_without(excluded), blocks.scales().sensor_average_s);
+  carry_over(blocks, clean);
+  std::optional<BlockFit> again = settled(std::move(clean), held_, kTolerance);
+  return again ? std::optional(unfinished(*std::move(again), std::move(excluded))) : std::nullopt;
+}
+
+/// zeta is held at 0, and called unknown, as under Coulomb friction.
+std::optional<DampedFit> WeakeningSolver::without_damping(DampedFit fit) const {
+  fit.refused_damping = fit.blocks.parameters.globals[kDamping];
+  fit.held[kDamping] = true;
+  fit.blocks.parameters.globals[kDamping] = 0.0;
+  std::optional<BlockFit> blocks = settled(std::move(fit.blocks), fit.held, kTolerance);
+  if (!blocks) return std::nullopt;
+  fit.blocks = *std::move(blocks);
+  return finished(std::move(fit));
+}
+
+}  // namespace slipfit::fit

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fit/inference/smoothing.hpp"
+#include "fit/selection/tiers.hpp"
+#include "slipfit/fit/parameter.hpp"
+
+namespace slipfit::fit {
+
+/// A recording as fits see it.
+struct FitInput {
+  const Recording& recording;
+  const Quality& quality;
+  const Segmentation& segmentation;
+  const HeldParameters& held;
+};
+
+/// Fits of the law of friction that weakens over a slip distance (docs/model.md section 9) to the cycles that the
+/// Coulomb fit of the same recording has.
+class WeakeningSolver {
+ public:
+  /// A fit of some of the cycles.
+  struct Draft {
+    BlockFit blocks;
+    double sum_of_squares = 0.0;
+  };
+
+  /// Where drafts of the shared parameters begin.
+  struct Start {
+    double log_omega = 0.0;              ///< ln w_n of slips under Coulomb friction: those that weaken last longer
+    std::span<const double> weakenings;  ///< of k D_c / (F_s - F_k), of which the best one counts
+    int most_iterations = 0;
+  };
+
+  /// `half_width_s`: around the middle of a slip, that cycles are cut with.
+  WeakeningSolver(const FitInput& input, const DampedFit& coulomb, double half_width_s);
+
+  /// Cycles of the Coulomb fit, cut wider.
+  [[nodiscard]] std::vector<CycleData> cycles() const;
+  /// So many of the cycles, their slips with no more samples than their shape needs.
+  [[nodiscard]] std::vector<CycleData> some_of(const std::vector<CycleData>& cycles, std::size_t count) const;
+  /// Rough, of the sensor's `average_s`. Empty where no start has a solution.
+  [[nodiscard]] std::optional<Draft> draft(const std::vector<CycleData>& cycles, double average_s,
+                                           const Start& start) const;
+  /// A solution from there on, to `tolerance`. Empty where a slip has none.
+  [[nodiscard]] std::optional<BlockFit> solved(const std::vector<CycleData>& cycles, double average_s,
+                                               const Globals& start, double tolerance) const;
+  /// Of all cycles, without the outliers of this law, with what finish_fit adds to the uncertainty. zeta is held at 0
+  /// where it came out below.
+  [[nodiscard]] std::optional<DampedFit> fit(const std::vector<CycleData>& cycles, double average_s,
+                                             const Globals& start) const;
+  /// The same cycles seen through an average of another variance, by Newton's step. Empty where a slip has no solution.
+  [[nodiscard]] static std::optional<BlockFit> with_next_average(const BlockFit& blocks, const Smoothing& beyond,
+                                                                 const Held& held);
+  /// The uncertainty of a solution of all cycles. Empty where they do not tell the parameters apart.
+  [[nodiscard]] std::optional<DampedFit> finished(DampedFit fit) const;
+
+  [[nodiscard]] const Held& held() const { return held_; }
+
+ private:
+  [[nodiscard]] std::vector<CycleData> cycles_without(const std::vector<std::size_t>& excluded) const;
+  [[nodiscard]] BlockFit blocks_of(const std::vector<CycleData>& cycles, double average_s) const;
+  [[nodiscard]] DampedFit unfinished(BlockFit blocks, std::vector<std::size_t> excluded) const;
+  [[nodiscard]] std::optional<DampedFit> without_outliers(BlockFit blocks) const;
+  [[nodiscard]] std::optional<DampedFit> without_damping(DampedFit fit) const;
+
+  const FitInput& input_;
+  const DampedFit& coulomb_;
+  Scales scales_;
+  Held held_;
+  double half_width_s_ = 0.0;
+};
+
+}  // namespace slipfit::fit
