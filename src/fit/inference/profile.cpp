@@ -77,7 +77,7 @@ class Profiler {
   const DampedFit& fit_;
   BlockFit blocks_;
   Parameters best_;
-  Held held_;
+  Held held_{};
   double smallest_ = 0.0;
   double variance_ = 1.0;
 };
