@@ -15,9 +15,9 @@
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
 #include "slipfit/model/sensitivity.hpp"
-#include "slipfit/model/velocity.hpp"
-#include "slipfit/model/waveform.hpp"
 #include "slipfit/predict/prediction.hpp"
+#include "support/velocity_motion.hpp"
+#include "support/waveform.hpp"
 
 namespace {
 

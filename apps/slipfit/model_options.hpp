@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "slipfit/model/motion.hpp"
-#include "slipfit/model/velocity.hpp"
+#include "slipfit/model/velocity_friction.hpp"
 
 /// The model on the command line.
 struct ModelArguments {

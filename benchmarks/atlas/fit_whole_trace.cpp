@@ -5,7 +5,7 @@
 #include <random>
 
 #include "fit_methods.hpp"
-#include "slipfit/model/waveform.hpp"
+#include "support/waveform.hpp"
 
 namespace atlas {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "frequency_methods.hpp"
 #include "scenes.hpp"
-#include "slipfit/model/waveform.hpp"
+#include "support/waveform.hpp"
 
 namespace atlas {
 namespace {

@@ -6,7 +6,7 @@
 #include "rivals.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
-#include "slipfit/model/waveform.hpp"
+#include "support/waveform.hpp"
 
 namespace atlas {
 namespace {

@@ -110,9 +110,8 @@ std::optional<Apart> by_stiffness(std::span<const SweepEntry> entries, const std
   if (values.empty()) return std::nullopt;
   for (Own& own : values) {
     if (!fit.result.estimate || !fit.result.estimate->stiffness_trend) break;
-    const auto [exponent, speed_m_per_s] = *fit.result.estimate->stiffness_trend;
-    const double growth =
-        std::pow(entries[own.recording].recording.conditions().speed_m_per_s / speed_m_per_s, exponent);
+    const double speed_m_per_s = entries[own.recording].recording.conditions().speed_m_per_s;
+    const double growth = std::exp(fit.result.estimate->stiffness_trend->log_growth_at(speed_m_per_s));
     own.value /= growth;
     own.standard_error /= growth;
   }

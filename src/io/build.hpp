@@ -7,7 +7,6 @@
 #include "io/opened_file.hpp"
 #include "io/part.hpp"
 #include "slipfit/core/recording.hpp"
-#include "slipfit/core/result.hpp"
 #include "slipfit/io/named_recording.hpp"
 
 namespace slipfit::reading {

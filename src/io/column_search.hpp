@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/layout.hpp"
-#include "slipfit/core/result.hpp"
 
 namespace slipfit::reading {
 

@@ -7,7 +7,6 @@
 
 #include "io/layout.hpp"
 #include "slipfit/core/recording.hpp"
-#include "slipfit/core/result.hpp"
 #include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {

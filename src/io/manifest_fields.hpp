@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "slipfit/core/result.hpp"
 #include "slipfit/core/units.hpp"
 #include "slipfit/io/manifest_entry.hpp"
 

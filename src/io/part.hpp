@@ -1,13 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/opened_file.hpp"
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
-#include "slipfit/core/result.hpp"
 #include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {

@@ -7,7 +7,6 @@
 
 #include "core/sample_range.hpp"
 #include "io/rows.hpp"
-#include "slipfit/core/result.hpp"
 
 namespace slipfit::reading {
 

@@ -10,7 +10,6 @@
 #include "io/container/byte_stream.hpp"
 #include "io/line_reader.hpp"
 #include "slipfit/core/digest.hpp"
-#include "slipfit/core/result.hpp"
 
 namespace slipfit::reading {
 

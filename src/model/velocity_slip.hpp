@@ -140,33 +140,11 @@ SlipEnd<N> follow_slip(const ScaledSlip& slip, const SlipAccuracy& accuracy, con
   return {};
 }
 
-/// The instants that matter: s is largest and smallest where v = 1.
-template <std::size_t N>
-struct SlipPath {
-  SlipOutcome outcome = SlipOutcome::NotSolved;
-  StepNode<N> peak, trough, end;
-};
-
-template <std::size_t N>
-SlipPath<N> follow_slip(const ScaledSlip& slip) {
-  SlipPath<N> path;
-  const auto keep_extremes = [&path](SlipWalker<N>& walker) {
-    if (walker.from.x[kSpeed] < 1.0 && walker.to.x[kSpeed] >= 1.0) path.peak = locate_level(walker, 1.0, walker.to);
-    if (falls_below_drive(walker)) path.trough = locate_level(walker, 1.0, walker.to);
-  };
-  const SlipEnd<N> last = follow_slip<N>(slip, kExact, keep_extremes);
-  path.outcome = last.outcome;
-  path.end = last.node;
-  return path;
-}
-
-/// As follow_slip, without the work where an overdamped slip cannot even slow down to the driving speed again.
-template <std::size_t N>
-SlipPath<N> first_slip(const ScaledSlip& slip) {
-  if (2.0 * slip.zeta + slip.law.smallest_slope_of_fast_slip() < 2.0) return follow_slip<N>(slip);
-  SlipPath<N> path;
-  path.outcome = SlipOutcome::Settles;
-  return path;
+/// As follow_slip to 1e-10, without the work where an overdamped slip cannot even slow down to the driving speed again.
+template <std::size_t N, class AfterStep>
+SlipEnd<N> first_slip(const ScaledSlip& slip, const AfterStep& after_step) {
+  if (!(2.0 * slip.zeta + slip.law.smallest_slope_of_fast_slip() < 2.0)) return {SlipOutcome::Settles, {}};
+  return follow_slip<N>(slip, kExact, after_step);
 }
 
 struct TracePoint {

@@ -12,10 +12,14 @@
 namespace slipfit::predict {
 namespace {
 
-/// A quantity whose logarithm is parameter i.
-Jet positive_parameter(double value, int i) {
+Jet parameter(double value, ParameterId id) {
+  return {value, static_cast<int>(place_in_model(id))};
+}
+
+/// One whose logarithm the model has.
+Jet positive_parameter(double value, ParameterId id) {
   Jet jet(value);
-  jet.v[i] = value;
+  jet.v[static_cast<int>(place_in_model(id))] = value;
   return jet;
 }
 
@@ -31,22 +35,23 @@ ModelJets jets_of(const ModelEstimate& model) {
   const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
   const Ageing ageing = model.ageing.value_or(Ageing{});
   const Reloading reloading = model.reloading.value_or(Reloading{});
-  return {positive_parameter(model.stiffness_N_per_m, 0),
-          positive_parameter(model.natural_frequency_rad_per_s, 1),
-          Jet(model.damping_ratio, 2),
-          positive_parameter(model.friction_difference_N, 3),
-          Jet(law.slope_N_s_per_m, 4),
-          Jet(law.alpha_s_per_m, 5),
-          Jet(ageing.rate_N, 6),
-          Jet(ageing.cutoff_s, 7),
-          Jet(reloading.force_N, 8),
-          positive_parameter(reloading.length_m, 9)};
+  using Id = ParameterId;
+  return {positive_parameter(model.stiffness_N_per_m, Id::Stiffness),
+          positive_parameter(model.natural_frequency_rad_per_s, Id::NaturalFrequency),
+          parameter(model.damping_ratio, Id::DampingRatio),
+          positive_parameter(model.friction_difference_N, Id::FrictionDifference),
+          parameter(law.slope_N_s_per_m, Id::FrictionSlope),
+          parameter(law.alpha_s_per_m, Id::Alpha),
+          parameter(ageing.rate_N, Id::Ageing),
+          parameter(ageing.cutoff_s, Id::AgeingTime),
+          parameter(reloading.force_N, Id::ReloadForce),
+          positive_parameter(reloading.length_m, Id::ReloadLength)};
 }
 
 ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s) {
   if (!model.stiffness_trend) return model;
   ModelEstimate own = model;
-  const double log_growth = model.stiffness_trend->exponent * log_ratio(model, speed_m_per_s);
+  const double log_growth = model.stiffness_trend->log_growth_at(speed_m_per_s);
   own.stiffness_N_per_m *= std::exp(kShare[0] * log_growth);
   own.natural_frequency_rad_per_s *= std::exp(kShare[1] * log_growth);
   own.stiffness_trend.reset();
@@ -86,7 +91,7 @@ std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_p
   const bool is_far = !(model.reach->distance_to(speed_m_per_s) < std::log(thresholds::kUntrendedRatio));
   if (!model.reach->trend && is_far) return std::nullopt;
   ModelEstimate wider = model;
-  constexpr std::size_t kDifference = 3;
+  constexpr std::size_t kDifference = place_in_model(ParameterId::FrictionDifference);
   wider.covariance[kDifference][kDifference] +=
       std::pow(model.reach->half_width_at(speed_m_per_s) / fit::t_quantile(model.degrees_of_freedom), 2);
   if (model.stiffness_trend) {

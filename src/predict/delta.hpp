@@ -29,8 +29,7 @@ ModelJets jets_of(const ModelEstimate& model);
 /// The model with k and w_n of a speed, where they go with it, and the covariance of these.
 ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s);
 
-/// Place of the exponent of k in kModelParameters.
-inline constexpr int kExponent = 10;
+inline constexpr int kExponent = static_cast<int>(place_in_model(ParameterId::StiffnessExponent));
 
 /// From derivatives with respect to k and w_n of a speed to those of the model's parameters, which stand first in y.
 template <class AnyJet>

@@ -21,13 +21,16 @@ using CycleMatrix = Eigen::Matrix<double, kColumns, kColumns>;
 
 /// One cycle of the recording, whose static friction is by `excess_N` above the mean.
 class Cycle {
+  using Id = ParameterId;
+
  public:
   Cycle(const ModelEstimate& model, double speed_m_per_s, double excess_N)
-      : stiffness_(from_speed(exponential(at_speed(model, speed_m_per_s).stiffness_N_per_m, 0), model, speed_m_per_s)),
-        omega_(from_speed(exponential(at_speed(model, speed_m_per_s).natural_frequency_rad_per_s, 1), model,
-                          speed_m_per_s)),
-        zeta_(model.damping_ratio, 2),
-        difference_(exponential(model.friction_difference_N, 3)),
+      : stiffness_(from_speed(exponential(at_speed(model, speed_m_per_s).stiffness_N_per_m, Id::Stiffness), model,
+                              speed_m_per_s)),
+        omega_(from_speed(exponential(at_speed(model, speed_m_per_s).natural_frequency_rad_per_s, Id::NaturalFrequency),
+                          model, speed_m_per_s)),
+        zeta_(parameter(model.damping_ratio, Id::DampingRatio)),
+        difference_(exponential(model.friction_difference_N, Id::FrictionDifference)),
         unit_(stiffness_ * speed_m_per_s / omega_) {
     if (model.ageing) {
       // After the sticks of this speed; that these follow F_s - F_k is a small part of what they tell of the rate.
@@ -35,11 +38,11 @@ class Cycle {
       const auto [rate_N, reference_s, cutoff_s] = *model.ageing;
       const double log_stick = (aged_N - model.friction_difference_N) / rate_N;
       const double by_cutoff = (std::exp(-log_stick) - 1.0) / (reference_s + cutoff_s);
-      difference_ += CycleJet(rate_N, 6) * log_stick + rate_N * by_cutoff * CycleJet(0.0, 7);
+      difference_ += parameter(rate_N, Id::Ageing) * log_stick + rate_N * by_cutoff * parameter(0.0, Id::AgeingTime);
     }
     const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
-    slope_ = CycleJet(law.slope_N_s_per_m, 4) * omega_ / stiffness_;
-    rate_ = CycleJet(law.alpha_s_per_m, 5) * speed_m_per_s;
+    slope_ = parameter(law.slope_N_s_per_m, Id::FrictionSlope) * omega_ / stiffness_;
+    rate_ = parameter(law.alpha_s_per_m, Id::Alpha) * speed_m_per_s;
     onset_force_ = CycleJet((difference_ - 2.0 * zeta_ * unit_).a + excess_N, kOnsetForce);  // F_s - cV
     z0_ = onset_force_ / unit_;
     track_ = model::VelocityTrack::solve(z0_.a, zeta_.a, slope_.a, rate_.a);
@@ -64,9 +67,11 @@ class Cycle {
   [[nodiscard]] CycleJet onset_departure() const { return onset_force_ - (difference_ - 2.0 * zeta_ * unit_); }
 
  private:
-  static CycleJet exponential(double value, int i) {
+  static CycleJet parameter(double value, Id id) { return {value, static_cast<int>(place_in_model(id))}; }
+  /// A quantity whose logarithm the model has.
+  static CycleJet exponential(double value, Id id) {
     CycleJet jet(value);
-    jet.v(i) = value;
+    jet.v(static_cast<Eigen::Index>(place_in_model(id))) = value;
     return jet;
   }
 

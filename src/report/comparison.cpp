@@ -24,13 +24,13 @@ Json side_json(const ComparisonSide& side) {
                                       return Json{{"id", fit.id},
                                                   {"file", fit.file.empty() ? Json() : Json(fit.file)},
                                                   {"status", fit.motion},
-                                                  {"speed_m_per_s", number(fit.speed_m_per_s)},
-                                                  {"normal_force_N", number(fit.normal_force_N)}};
+                                                  {"speed_m_per_s", fit.speed_m_per_s},
+                                                  {"normal_force_N", fit.normal_force_N}};
                                     })}};
 }
 
 Json side_estimate_json(const SideEstimate& side) {
-  Json json = estimate(side.estimate);
+  Json json = side.estimate;
   json["recordings"] = side.recordings;
   if (!side.status.empty()) json["status"] = side.status;
   return json;
@@ -39,10 +39,10 @@ Json side_estimate_json(const SideEstimate& side) {
 Json quantity_json(const QuantityComparison& quantity) {
   return Json{{"a", side_estimate_json(quantity.a)},
               {"b", side_estimate_json(quantity.b)},
-              {"difference", estimate(quantity.difference)},
-              {"ratio", estimate(quantity.ratio)},
-              {"p_value", number(quantity.p_value)},
-              {"p_adjusted", number(quantity.p_adjusted)},
+              {"difference", quantity.difference},
+              {"ratio", quantity.ratio},
+              {"p_value", quantity.p_value},
+              {"p_adjusted", quantity.p_adjusted},
               {"method", quantity.method ? Json(name_of(*quantity.method)) : Json()}};
 }
 
@@ -157,7 +157,7 @@ std::string to_json(const Comparison& comparison) {
                       {"version", SLIPFIT_VERSION},
                       {"a", side_json(comparison.a)},
                       {"b", side_json(comparison.b)},
-                      {"warnings", warnings_json(comparison.warnings)},
+                      {"warnings", comparison.warnings},
                       {"quantities", std::move(quantities)}});
 }
 

@@ -10,10 +10,10 @@ namespace slipfit {
 namespace {
 
 Json timing_json(const Timing& timing) {
-  return Json{{"read_s", number(timing.read_s)},
-              {"frequency_s", number(timing.frequency_s)},
-              {"fit_s", number(timing.fit_s)},
-              {"total_s", number(timing.total_s)}};
+  return Json{{"read_s", timing.read_s},
+              {"frequency_s", timing.frequency_s},
+              {"fit_s", timing.fit_s},
+              {"total_s", timing.total_s}};
 }
 
 /// What one recording shows, alone or in a sweep.
@@ -22,7 +22,7 @@ void add_analysis(Json& json, const Recording& recording, const Analysis& analys
   json["status"] = name_of(analysis.motion);
   json["status_reason"] = analysis.motion_reason;
   if (role) json["role"] = name_of(*role);
-  json["warnings"] = warnings_json(analysis.warnings);
+  json["warnings"] = analysis.warnings;
   json["frequency"] = frequency_json(analysis.frequency);
   json["cycles"] = cycles_json(analysis.cycles, recording.conditions().quantity);
 }
@@ -61,32 +61,32 @@ Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole ro
   json["derived"] = derived_json(analysis.derived);
   if (point != nullptr) {
     json["joint"] = {{"cycles_used", point->cycles_used},
-                     {"rms_N", number(point->rms)},
-                     {"kinetic_friction_N", estimate(point->kinetic_friction_N)},
-                     {"mean_steady_force_N", estimate(point->mean_steady_force_N)},
-                     {"spacing_m", estimate(point->spacing_m)},
-                     {"spacing_left_out_m", estimate(point->spacing_left_out_m)},
-                     {"stiffness_left_out_N_per_m", number(point->stiffness_left_out_N_per_m)},
-                     {"friction_difference_left_out_N", number(point->friction_difference_left_out_N)}};
+                     {"rms_N", point->rms},
+                     {"kinetic_friction_N", point->kinetic_friction_N},
+                     {"mean_steady_force_N", point->mean_steady_force_N},
+                     {"spacing_m", point->spacing_m},
+                     {"spacing_left_out_m", point->spacing_left_out_m},
+                     {"stiffness_left_out_N_per_m", point->stiffness_left_out_N_per_m},
+                     {"friction_difference_left_out_N", point->friction_difference_left_out_N}};
   }
   return json;
 }
 
 /// What a prediction needs to know of the recordings.
 void add_reach(Json& json, const ModelEstimate& model) {
-  if (model.ageing) json["ageing_reference_s"] = number(model.ageing->reference_stick_s);
-  if (model.stiffness_trend) json["stiffness_speed_m_per_s"] = number(model.stiffness_trend->speed_m_per_s);
-  if (model.normal_force_N) json["normal_force_N"] = number(model.normal_force_N);
+  if (model.ageing) json["ageing_reference_s"] = model.ageing->reference_stick_s;
+  if (model.stiffness_trend) json["stiffness_speed_m_per_s"] = model.stiffness_trend->speed_m_per_s;
+  if (model.normal_force_N) json["normal_force_N"] = model.normal_force_N;
   if (!model.reach) return;
-  json["speeds_m_per_s"] = {number(model.reach->slowest_m_per_s), number(model.reach->fastest_m_per_s)};
-  json["trend_beyond"] = number(model.reach->trend);
+  json["speeds_m_per_s"] = {model.reach->slowest_m_per_s, model.reach->fastest_m_per_s};
+  json["trend_beyond"] = model.reach->trend;
 }
 
 Json repeats_json(const std::vector<Repeat>& repeats) {
   Json json = Json::object();
   for (const Repeat& repeat : repeats) {
-    json[repeat.name] = estimate(repeat.mean);
-    json[repeat.name]["sd"] = number(repeat.standard_deviation);
+    json[repeat.name] = repeat.mean;
+    json[repeat.name]["sd"] = repeat.standard_deviation;
     json[repeat.name]["count"] = repeat.count;
   }
   return json;
@@ -105,7 +105,7 @@ std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   if (!sweep.repeats.empty()) json["repeats"] = repeats_json(sweep.repeats);
   json["status"] = name_of(sweep.fit ? MotionClass::StickSlip : MotionClass::Undetermined);
   json["status_reason"] = sweep.fit_reason;
-  json["warnings"] = warnings_json(sweep.warnings);
+  json["warnings"] = sweep.warnings;
   if (sweep.fit) {
     add_fit(json, sweep.fit->result, ForceQuantity::Force_N);
     json["model"]["level_shared"] = sweep.fit->level_shared;

@@ -11,11 +11,6 @@
 namespace slipfit {
 namespace {
 
-template <class Value>
-Json known_or_null(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json();
-}
-
 Json text_or_null(const std::string& text) {
   return text.empty() ? Json() : Json(text);
 }
@@ -31,8 +26,8 @@ Json step_json(const StepInfo& step) {
   return {{"step", step.step},
           {"rows", {step.rows.first, step.rows.last}},
           {"time_s", step.time_s ? Json{step.time_s->begin_s, step.time_s->end_s} : Json()},
-          {"speed_m_per_s", known_or_null(step.speed_m_per_s)},
-          {"normal_force_N", known_or_null(step.normal_force_N)}};
+          {"speed_m_per_s", step.speed_m_per_s},
+          {"normal_force_N", step.normal_force_N}};
 }
 
 std::string info_steps_text(const std::vector<StepInfo>& steps) {
@@ -79,15 +74,15 @@ std::string to_json(const Inspection& inspection, const std::string& file) {
                       {"file", file},
                       {"columns", array_of(info.columns, column_json)},
                       {"rows", info.rows},
-                      {"sample_rate_Hz", known_or_null(info.sample_rate_Hz)},
+                      {"sample_rate_Hz", info.sample_rate_Hz},
                       {"steps", array_of(info.steps, step_json)},
                       {"strokes", info.strokes},
                       {"sliding_s", sliding},
                       {"taken",
-                       {{"time_column", known_or_null(info.taken.time_column)},
-                        {"force_column", known_or_null(info.taken.force_column)},
-                        {"normal_force_column", known_or_null(info.taken.normal_force_column)},
-                        {"speed_m_per_s", known_or_null(info.taken.speed_m_per_s)}}},
+                       {{"time_column", info.taken.time_column},
+                        {"force_column", info.taken.force_column},
+                        {"normal_force_column", info.taken.normal_force_column},
+                        {"speed_m_per_s", info.taken.speed_m_per_s}}},
                       {"assumed", info.assumed},
                       {"refusal", info.refusal ? Json(info.refusal->message) : Json()}});
 }

@@ -21,8 +21,8 @@ Json quality_json(const Recording& recording, const Quality& quality) {
   json["clipped_samples"] = quality.clipped_samples;
   json["impulses"] = quality.impulses;
   json["gaps"] = quality.gaps;
-  json["longest_gap_s"] = number(quality.longest_gap_s);
-  json["clock_jitter"] = number(quality.clock_jitter);
+  json["longest_gap_s"] = quality.longest_gap_s;
+  json["clock_jitter"] = quality.clock_jitter;
   json["rows_without_number"] = provenance.rows_without_number;
   json["rows_backward_in_time"] = provenance.rows_backward_in_time;
   json["rows_repeating_time"] = provenance.rows_repeating_time;
@@ -37,24 +37,24 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
   const Provenance& provenance = recording.provenance();
   Json json{{"file", provenance.file},
             {"input_digest", provenance.input_digest ? Json(provenance.input_digest->text()) : Json()},
-            {"input_bytes", provenance.input_bytes ? Json(*provenance.input_bytes) : Json()},
+            {"input_bytes", provenance.input_bytes},
             {"samples", recording.size()},
-            {"sample_rate_Hz", number(1.0 / recording.sample_interval_s())},
-            {"duration_s", number(recording.duration_s())},
-            {"speed_m_per_s", number(conditions.speed_m_per_s)},
-            {"speed_se_m_per_s", number(conditions.speed_standard_error_m_per_s)},
-            {"normal_force_N", number(conditions.normal_force_N)},
+            {"sample_rate_Hz", 1.0 / recording.sample_interval_s()},
+            {"duration_s", recording.duration_s()},
+            {"speed_m_per_s", conditions.speed_m_per_s},
+            {"speed_se_m_per_s", conditions.speed_standard_error_m_per_s},
+            {"normal_force_N", conditions.normal_force_N},
             {"force_view", name_of(conditions.force_view)},
             {"force_quantity", name_of(conditions.quantity)},
-            {"zero_force_N", number(conditions.zero_force_N)},
-            {"mass_kg", number(conditions.mass_kg)},
-            {"mass_se_kg", number(conditions.mass_standard_error_kg)},
-            {"sensor_bandwidth_Hz", number(conditions.sensor_bandwidth_Hz)},
-            {"drive_period_s", number(conditions.drive_period_s)},
-            {"sensor_average_s", number(conditions.sensor_average_s)},
-            {"sensor_resonance_Hz", number(conditions.sensor_resonance_Hz)},
+            {"zero_force_N", conditions.zero_force_N},
+            {"mass_kg", conditions.mass_kg},
+            {"mass_se_kg", conditions.mass_standard_error_kg},
+            {"sensor_bandwidth_Hz", conditions.sensor_bandwidth_Hz},
+            {"drive_period_s", conditions.drive_period_s},
+            {"sensor_average_s", conditions.sensor_average_s},
+            {"sensor_resonance_Hz", conditions.sensor_resonance_Hz},
             {"assumed", provenance.assumed},
-            {"sliding_s", {number(analysis.sliding.begin_s), number(analysis.sliding.end_s)}},
+            {"sliding_s", {analysis.sliding.begin_s, analysis.sliding.end_s}},
             {"quality", quality_json(recording, analysis.quality)}};
   const Labels& labels = conditions.labels;
   for (const auto& [key, label] : {std::pair{"group", &labels.group},
@@ -66,54 +66,45 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
   return json;
 }
 
-Json warnings_json(const Warnings& warnings) {
-  return array_of(warnings, [](const Warning& warning) {
-    return Json{{"code", warning.code}, {"message", warning.message}};
-  });
-}
-
 Json frequency_json(const FrequencyReport& frequency) {
   Json json{
-      {"value_Hz", number(frequency.quoted.value)},
-      {"se_Hz", number(frequency.quoted.standard_error)},
-      {"ci95_Hz", interval(frequency.quoted.ci95)},
+      {"value_Hz", frequency.quoted.value},
+      {"se_Hz", frequency.quoted.standard_error},
+      {"ci95_Hz", frequency.quoted.ci95},
       {"method", frequency.method.empty() ? "none" : frequency.method},
-      {"false_alarm_probability", number(frequency.spectral.false_alarm_probability)},
-      {"harmonics", array_of(frequency.spectral.harmonics_Hz, number)},
+      {"false_alarm_probability", frequency.spectral.false_alarm_probability},
+      {"harmonics", frequency.spectral.harmonics_Hz},
       {"suspicious_lines", array_of(frequency.spectral.suspicious_lines,
                                     [](const SuspiciousLine& line) {
-                                      return Json{{"frequency_Hz", number(line.frequency_Hz)}, {"reason", line.reason}};
+                                      return Json{{"frequency_Hz", line.frequency_Hz}, {"reason", line.reason}};
                                     })},
-      {"lines", array_of(frequency.lines,
-                         [](const SuspiciousLine& line) {
-                           return Json{{"frequency_Hz", number(line.frequency_Hz)},
-                                       {"swing", number(line.swing)},
-                                       {"reason", line.reason}};
-                         })},
-      {"spectral",
-       {{"value_Hz", number(frequency.spectral.value_Hz)}, {"se_Hz", number(frequency.spectral.standard_error_Hz)}}},
+      {"lines",
+       array_of(frequency.lines,
+                [](const SuspiciousLine& line) {
+                  return Json{{"frequency_Hz", line.frequency_Hz}, {"swing", line.swing}, {"reason", line.reason}};
+                })},
+      {"spectral", {{"value_Hz", frequency.spectral.value_Hz}, {"se_Hz", frequency.spectral.standard_error_Hz}}},
       {"counted",
-       {{"value_Hz", number(frequency.counted.value)},
-        {"se_Hz", number(frequency.counted.standard_error)},
-        {"ci95_Hz", interval(frequency.counted.ci95)}}}};
+       {{"value_Hz", frequency.counted.value},
+        {"se_Hz", frequency.counted.standard_error},
+        {"ci95_Hz", frequency.counted.ci95}}}};
   if (!frequency.quoted.note.empty()) json["note"] = frequency.quoted.note;
   return json;
 }
 
 Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity) {
-  Json json{
-      {"count", cycles.count},
-      {"minor", cycles.minor},
-      {"used", cycles.used},
-      {"period_s", number(cycles.period_s)},
-      {"period_sd_s", number(cycles.period_sd_s)},
-      {"slip_time_s", number(cycles.slip_time_s)},
-      {"stick_time_s", number(cycles.stick_time_s)},
-      {"sticking_degree", number(cycles.sticking_degree)},
-      {"drop_cv", number(cycles.drop_cv)},
-      {"period_cv", number(cycles.period_cv)},
-      {"regularity", cycles.regularity ? Json(name_of(*cycles.regularity)) : Json()},
-      {"stick_stiffness_N_per_m", quantity == ForceQuantity::Force_N ? estimate(cycles.stick_stiffness) : Json()}};
+  Json json{{"count", cycles.count},
+            {"minor", cycles.minor},
+            {"used", cycles.used},
+            {"period_s", cycles.period_s},
+            {"period_sd_s", cycles.period_sd_s},
+            {"slip_time_s", cycles.slip_time_s},
+            {"stick_time_s", cycles.stick_time_s},
+            {"sticking_degree", cycles.sticking_degree},
+            {"drop_cv", cycles.drop_cv},
+            {"period_cv", cycles.period_cv},
+            {"regularity", cycles.regularity ? Json(name_of(*cycles.regularity)) : Json()},
+            {"stick_stiffness_N_per_m", quantity == ForceQuantity::Force_N ? Json(cycles.stick_stiffness) : Json()}};
   ForceKeys forces(json, quantity);
   forces.put("peak_force", cycles.peak_force);
   forces.put("peak_force_sd", cycles.peak_force_sd);
@@ -130,7 +121,7 @@ Json candidate_json(const Candidate& candidate, ForceQuantity quantity) {
   Json json{{"tier", name_of(candidate.tier)}, {"parameters", candidate.parameters}};
   ForceKeys forces(json, quantity);
   forces.put("rms", candidate.rms);
-  json["aicc"] = number(candidate.aicc);
+  json["aicc"] = candidate.aicc;
   json["chosen"] = candidate.chosen;
   json["reason"] = candidate.reason;
   forces.finish();
@@ -148,14 +139,14 @@ std::size_t place_of(const std::string& name) {
 /// whose parameter is therefore null, still stands here: together with the others it predicts.
 Json working_values_json(const Correlation& correlation, const ModelEstimate& estimate) {
   const std::array<double, kModelValues> values = values_of(estimate);
-  return array_of(correlation.names, [&values](const std::string& name) { return number(values[place_of(name)]); });
+  return array_of(correlation.names, [&values](const std::string& name) { return values[place_of(name)]; });
 }
 
 /// With the matrix this is the whole covariance. Where zeta lies at 0 the se of the parameters is wider.
 Json scaled_errors_json(const Correlation& correlation, const ModelEstimate& estimate) {
   return array_of(correlation.names, [&estimate](const std::string& name) {
     const std::size_t i = place_of(name);
-    return number(std::sqrt(std::max(0.0, estimate.covariance[i][i])));
+    return std::sqrt(std::max(0.0, estimate.covariance[i][i]));
   });
 }
 
@@ -165,23 +156,23 @@ Json model_json(const FitResult& fit, ForceQuantity quantity) {
   Json residual = Json::object();
   ForceKeys forces(residual, quantity);
   forces.put("rms", fit.residual.rms);
-  residual["reduced_chi2"] = number(fit.residual.reduced_chi2);
-  residual["whiteness_p"] = number(fit.residual.whiteness_p);
+  residual["reduced_chi2"] = fit.residual.reduced_chi2;
+  residual["whiteness_p"] = fit.residual.whiteness_p;
   forces.finish();
   return Json{
       {"tier", name_of(fit.tier)},
       {"conditional_on", fit.conditional_on},
       {"candidates", array_of(fit.candidates, [quantity](const Candidate& c) { return candidate_json(c, quantity); })},
       {"residual", std::move(residual)},
-      {"degrees_of_freedom", fit.estimate ? number(fit.estimate->degrees_of_freedom) : Json(nullptr)}};
+      {"degrees_of_freedom", fit.estimate ? Json(fit.estimate->degrees_of_freedom) : Json()}};
 }
 
 Json parameters_json(const FitResult& fit) {
   Json json = Json::object();
   for (const Parameter& parameter : fit.parameters) {
-    json[std::string(parameter.name())] = {{"value", number(parameter.estimate.value)},
-                                           {"se", number(parameter.estimate.standard_error)},
-                                           {"ci95", interval(parameter.estimate.ci95)},
+    json[std::string(parameter.name())] = {{"value", parameter.estimate.value},
+                                           {"se", parameter.estimate.standard_error},
+                                           {"ci95", parameter.estimate.ci95},
                                            {"status", name_of(parameter.status)},
                                            {"note", parameter.estimate.note}};
   }
@@ -190,8 +181,7 @@ Json parameters_json(const FitResult& fit) {
 
 Json correlation_json(const FitResult& fit) {
   if (!fit.correlation) return nullptr;
-  Json json{{"names", fit.correlation->names},
-            {"matrix", array_of(fit.correlation->matrix, [](const auto& row) { return array_of(row, number); })}};
+  Json json{{"names", fit.correlation->names}, {"matrix", fit.correlation->matrix}};
   if (fit.estimate) {
     json["values"] = working_values_json(*fit.correlation, *fit.estimate);
     json["scaled_se"] = scaled_errors_json(*fit.correlation, *fit.estimate);
@@ -202,30 +192,28 @@ Json correlation_json(const FitResult& fit) {
 Json tests_json(const std::vector<ShortTest>& tests) {
   return array_of(tests, [](const ShortTest& test) {
     return Json{{"name", test.name},
-                {"value", number(test.value)},
-                {"se", number(test.standard_error)},
-                {"p_value", number(test.p_value)},
+                {"value", test.value},
+                {"se", test.standard_error},
+                {"p_value", test.p_value},
                 {"finding", test.finding}};
   });
 }
 
 Json derived_json(const Derived& derived) {
-  Json json{{"regime", derived.regime ? Json(*derived.regime) : Json(nullptr)},
-            {"bistable", derived.bistable ? Json(*derived.bistable) : Json(nullptr)}};
-  for (const auto& quantity : kPredicted) json[std::string(quantity.key)] = estimate(derived.*quantity.estimate);
-  for (const auto& quantity : kMeasured) json[std::string(quantity.key)] = estimate(derived.*quantity.estimate);
-  json["pattern_spacing_sd_m"] = estimate(Estimate{derived.pattern_spacing_sd_m, {}, {}, {}});
+  Json json{{"regime", derived.regime}, {"bistable", derived.bistable}};
+  for (const auto& quantity : kPredicted) json[std::string(quantity.key)] = derived.*quantity.estimate;
+  for (const auto& quantity : kMeasured) json[std::string(quantity.key)] = derived.*quantity.estimate;
+  json["pattern_spacing_sd_m"] = Estimate{derived.pattern_spacing_sd_m, {}, {}, {}};
   if (derived.observed_end) {
-    json["observed_end_m_per_s"] = {number(derived.observed_end->sticks_m_per_s),
-                                    number(derived.observed_end->slides_m_per_s)};
+    json["observed_end_m_per_s"] = {derived.observed_end->sticks_m_per_s, derived.observed_end->slides_m_per_s};
   }
   if (derived.surface_spacing_m) {
-    json["surface_spacing_m"] = estimate(*derived.surface_spacing_m);
-    json["surface_ratio"] = estimate(derived.surface_ratio.value_or(Estimate{}));
-    json["surface_En"] = estimate(derived.surface_En.value_or(Estimate{}));
+    json["surface_spacing_m"] = *derived.surface_spacing_m;
+    json["surface_ratio"] = derived.surface_ratio.value_or(Estimate{});
+    json["surface_En"] = derived.surface_En.value_or(Estimate{});
     json["surface_verdict"] = derived.surface_verdict;
   }
-  if (derived.measured_spacing_En) json["measured_spacing_En"] = estimate(*derived.measured_spacing_En);
+  if (derived.measured_spacing_En) json["measured_spacing_En"] = *derived.measured_spacing_En;
   return json;
 }
 
@@ -233,14 +221,14 @@ Json derived_json(const Derived& derived) {
 Json coefficients_json(const std::optional<Coefficients>& coefficients) {
   if (!coefficients) return {};
   Json json = Json::object();
-  for (const auto& row : kCoefficients) json[std::string(row.key)] = estimate((*coefficients).*row.estimate);
-  for (const auto& row : kCoefficientThirds) json[std::string(row.key)] = estimate((*coefficients).*row.estimate);
-  for (const auto& row : kCoefficientSpreads) json[std::string(row.key)] = number((*coefficients).*row.value);
+  for (const auto& row : kCoefficients) json[std::string(row.key)] = (*coefficients).*row.estimate;
+  for (const auto& row : kCoefficientThirds) json[std::string(row.key)] = (*coefficients).*row.estimate;
+  for (const auto& row : kCoefficientSpreads) json[std::string(row.key)] = (*coefficients).*row.value;
   json["standards"] = array_of(coefficients->standards, [](const StandardCoefficients& standard) {
     return Json{{"standard", standard.standard},
                 {"prescribes", standard.prescribes},
-                {"static_coefficient", estimate(standard.static_coefficient)},
-                {"kinetic_coefficient", estimate(standard.kinetic_coefficient)},
+                {"static_coefficient", standard.static_coefficient},
+                {"kinetic_coefficient", standard.kinetic_coefficient},
                 {"differs", standard.differs}};
   });
   return json;
@@ -251,9 +239,9 @@ Json transients_json(const Transients& transients, ForceQuantity quantity) {
   Json json = Json::object();
   for (const auto& row : kTransients) {
     const bool is_force = row.unit.starts_with('N');
-    json[std::string(row.key)] = newtons || !is_force ? estimate(transients.*row.estimate) : Json();
+    json[std::string(row.key)] = newtons || !is_force ? Json(transients.*row.estimate) : Json();
   }
-  if (!newtons) json["breakaway_coefficient"] = estimate(transients.breakaway_force);
+  if (!newtons) json["breakaway_coefficient"] = transients.breakaway_force;
   return json;
 }
 

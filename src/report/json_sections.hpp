@@ -7,7 +7,6 @@ namespace slipfit {
 
 // One function a section of the document (docs/formats.md).
 Json recording_json(const Recording& recording, const Analysis& analysis);
-Json warnings_json(const Warnings& warnings);
 Json frequency_json(const FrequencyReport& frequency);
 Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity);
 Json model_json(const FitResult& fit, ForceQuantity quantity);

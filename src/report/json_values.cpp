@@ -4,21 +4,17 @@
 
 namespace slipfit {
 
-Json number(std::optional<double> value) {
-  if (!value || !std::isfinite(*value)) return nullptr;
-  return *value;
+void to_json(Json& json, const Interval& bounds) {
+  if (std::isfinite(bounds.low) && std::isfinite(bounds.high)) json = {bounds.low, bounds.high};
 }
 
-Json interval(const std::optional<Interval>& bounds) {
-  if (!bounds || !std::isfinite(bounds->low) || !std::isfinite(bounds->high)) return nullptr;
-  return Json::array({bounds->low, bounds->high});
-}
-
-Json estimate(const Estimate& quantity) {
-  Json json{
-      {"value", number(quantity.value)}, {"se", number(quantity.standard_error)}, {"ci95", interval(quantity.ci95)}};
+void to_json(Json& json, const Estimate& quantity) {
+  json = {{"value", quantity.value}, {"se", quantity.standard_error}, {"ci95", quantity.ci95}};
   if (!quantity.note.empty()) json["note"] = quantity.note;
-  return json;
+}
+
+void to_json(Json& json, const Warning& warning) {
+  json = {{"code", warning.code}, {"message", warning.message}};
 }
 
 Json child(const Json& json, const std::string& key) {
@@ -52,10 +48,10 @@ std::string text_of(const Json& json, JsonLayout layout) {
 
 void ForceKeys::put(const std::string& name, std::optional<double> value) {
   if (quantity_ == ForceQuantity::Force_N) {
-    object_[name + "_N"] = number(value);
+    object_[name + "_N"] = value;
   } else {
     object_[name + "_N"] = nullptr;
-    coefficient_[name] = number(value);
+    coefficient_[name] = value;
   }
 }
 

@@ -8,18 +8,29 @@
 #include "slipfit/core/recording.hpp"
 #include "slipfit/report/json.hpp"
 
+template <class Value>
+struct nlohmann::adl_serializer<std::optional<Value>> {
+  /// null where it is empty.
+  static void to_json(nlohmann::ordered_json& json, const std::optional<Value>& value) {
+    if (value) {
+      json = *value;
+    } else {
+      json = nullptr;
+    }
+  }
+};
+
 namespace slipfit {
 
 using Json = nlohmann::ordered_json;  // keys in the order of writing: same input, same bytes
 
-/// null where the number is absent or not finite.
-Json number(std::optional<double> value);
+// What nlohmann::json makes of our types. A number that is not finite is null, as it makes it itself.
 
-/// [low, high], or null where it is absent or a bound is not finite.
-Json interval(const std::optional<Interval>& bounds);
-
+/// [low, high], or null where a bound is not finite.
+void to_json(Json& json, const Interval& bounds);
 /// { value, se, ci95 }, and a note where there is one.
-Json estimate(const Estimate& quantity);
+void to_json(Json& json, const Estimate& quantity);
+void to_json(Json& json, const Warning& warning);
 
 // Documents come from files: what is absent, or of another kind, is null or empty.
 Json child(const Json& json, const std::string& key);

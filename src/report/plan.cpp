@@ -65,19 +65,16 @@ std::string limits_text(const Plan& plan) {
 }
 
 Json option_json(const PlanOption& option) {
-  return {{"speed_m_per_s", number(option.recording.speed_m_per_s)},
-          {"sample_rate_Hz", number(option.recording.sample_rate_Hz)},
-          {"duration_s", number(option.recording.duration_s)},
-          {"cycles", number(option.cycles)},
-          {"samples_per_slip", number(option.samples_per_slip)},
-          {"se", number(option.standard_error)}};
+  return {{"speed_m_per_s", option.recording.speed_m_per_s}, {"sample_rate_Hz", option.recording.sample_rate_Hz},
+          {"duration_s", option.recording.duration_s},       {"cycles", option.cycles},
+          {"samples_per_slip", option.samples_per_slip},     {"se", option.standard_error}};
 }
 
 Json limit_json(const ParameterLimit& limit) {
   return {{"name", limit.name},
-          {"value", number(limit.value)},
-          {"se", number(limit.standard_error)},
-          {"explained_se", number(limit.explained_error)},
+          {"value", limit.value},
+          {"se", limit.standard_error},
+          {"explained_se", limit.explained_error},
           {"limited_by", words_of(limit.limit).name}};
 }
 
@@ -90,11 +87,11 @@ std::string to_json(const Plan& plan, const PredictionSource& source) {
                   {"conditional_on", source.conditional_on},
                   {"target",
                    {{"name", plan.target.name},
-                    {"speed_m_per_s", number(plan.target.speed_m_per_s)},
-                    {"value", number(plan.value)},
-                    {"se", number(plan.standard_error)}}},
+                    {"speed_m_per_s", plan.target.speed_m_per_s},
+                    {"value", plan.value},
+                    {"se", plan.standard_error}}},
                   {"options", array_of(plan.options, option_json)},
-                  {"halving_s", number(plan.halving_s)},
+                  {"halving_s", plan.halving_s},
                   {"limits", array_of(plan.limits, limit_json)}};
   return text_of(json);
 }

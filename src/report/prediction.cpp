@@ -38,13 +38,13 @@ constexpr std::array<PredictedQuantity, 10> kPredictedQuantities{{
 }};
 
 Json quantity_json(const Estimate& quantity) {
-  Json json{{"value", number(quantity.value)}, {"ci95", interval(quantity.ci95)}};
+  Json json{{"value", quantity.value}, {"ci95", quantity.ci95}};
   if (!quantity.note.empty()) json["note"] = quantity.note;
   return json;
 }
 
 Json row_json(const PredictedMotion& row) {
-  Json json{{"speed_m_per_s", number(row.speed_m_per_s)}, {"regime", row.regime}, {"bistable", row.bistable}};
+  Json json{{"speed_m_per_s", row.speed_m_per_s}, {"regime", row.regime}, {"bistable", row.bistable}};
   for (const PredictedQuantity& quantity : kPredictedQuantities) {
     json[std::string(quantity.name) + std::string(quantity.unit_suffix)] = quantity_json(row.*quantity.estimate);
   }
@@ -93,7 +93,7 @@ std::string to_json(const Prediction& prediction, const PredictionSource& source
                   {"version", SLIPFIT_VERSION},
                   {"source", source.name},
                   {"conditional_on", source.conditional_on},
-                  {"warnings", warnings_json(source.warnings)},
+                  {"warnings", source.warnings},
                   {"critical_speed_m_per_s", quantity_json(prediction.critical_speed_m_per_s)},
                   {"lambda_critical", quantity_json(prediction.lambda_critical)},
                   {"rows", array_of(prediction.rows, row_json)}};

@@ -36,25 +36,24 @@ std::string to_json(const Profile& profile, const Surface& surface) {
   json["profile"] = {
       {"file", profile.file},
       {"points", profile.height.size()},
-      {"pitch_m", number(profile.pitch_m)},
+      {"pitch_m", profile.pitch_m},
       {"rows", profile.rows},
-      {"along_degrees", profile.along_rad ? number(*profile.along_rad * 180.0 / std::numbers::pi) : Json()}};
+      {"along_degrees", profile.along_rad ? Json(*profile.along_rad * 180.0 / std::numbers::pi) : Json()}};
   json["status"] = name_of(surface.status);
-  json["spacing_m"] = estimate(surface.spacing_m);
-  json["fine_spacing_m"] = estimate(surface.fine_spacing_m);
-  const bool in_metres = profile.height_in_metres;
+  json["spacing_m"] = surface.spacing_m;
+  json["fine_spacing_m"] = surface.fine_spacing_m;
   json["ridge_height_m"] =
-      in_metres ? estimate(surface.ridge_height) : estimate(Estimate{{}, {}, {}, "the heights have no unit"});
+      profile.height_in_metres ? surface.ridge_height : Estimate{{}, {}, {}, "the heights have no unit"};
   json["ridges"] = surface.ridges;
-  json["spacing_sd_m"] = number(surface.spacing_sd_m);
-  json["spacing_begin_m"] = estimate(surface.begin_spacing_m);
-  json["spacing_end_m"] = estimate(surface.end_spacing_m);
-  json["asymmetry"] = number(surface.asymmetry);
-  json["rsm_m"] = number(surface.rsm_m);
-  json["cutoff_m"] = number(surface.cutoff_m);
-  json["smoothed_over_m"] = number(surface.smoothed_over_m);
+  json["spacing_sd_m"] = surface.spacing_sd_m;
+  json["spacing_begin_m"] = surface.begin_spacing_m;
+  json["spacing_end_m"] = surface.end_spacing_m;
+  json["asymmetry"] = surface.asymmetry;
+  json["rsm_m"] = surface.rsm_m;
+  json["cutoff_m"] = surface.cutoff_m;
+  json["smoothed_over_m"] = surface.smoothed_over_m;
   json["method"] = surface.method.empty() ? Json() : Json(surface.method);
-  json["warnings"] = warnings_json(surface.warnings);
+  json["warnings"] = surface.warnings;
   json["assumed"] = profile.assumed;
   return text_of(json);
 }

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "slipfit/core/result.hpp"
 #include "slipfit/surface/surface.hpp"
 
 namespace slipfit::surface {

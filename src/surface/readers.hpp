@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <string>
 
-#include "slipfit/core/result.hpp"
 #include "slipfit/surface/surface.hpp"
 #include "surface/areal.hpp"
 

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run_program.hpp"
-#include "slipfit/model/velocity.hpp"
+#include "support/velocity_motion.hpp"
 
 TEST_CASE("predict from stated friction that depends on the speed gives the exact cycle") {
   const test::ProgramResult result = test::slipfit(

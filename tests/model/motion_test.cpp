@@ -10,8 +10,8 @@
 #include "reference_table.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
-#include "slipfit/model/velocity.hpp"
-#include "slipfit/model/waveform.hpp"
+#include "support/velocity_motion.hpp"
+#include "support/waveform.hpp"
 
 namespace {
 

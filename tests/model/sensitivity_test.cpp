@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "slipfit/model/waveform.hpp"
+#include "support/waveform.hpp"
 
 using namespace slipfit;
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "slipfit/model/velocity.hpp"
+#include "support/velocity_motion.hpp"
 
 using namespace slipfit;
 

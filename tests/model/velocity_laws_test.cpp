@@ -12,7 +12,7 @@
 
 #include "model/velocity_law.hpp"
 #include "slipfit/model/motion.hpp"
-#include "slipfit/model/velocity.hpp"
+#include "support/velocity_motion.hpp"
 
 using namespace slipfit;
 

@@ -10,7 +10,7 @@
 #include "model/velocity_slip.hpp"
 #include "reference_table.hpp"
 #include "slipfit/model/motion.hpp"
-#include "slipfit/model/velocity.hpp"
+#include "support/velocity_motion.hpp"
 
 using namespace slipfit;
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "model/slip.hpp"
-#include "slipfit/model/velocity.hpp"
+#include "support/velocity_motion.hpp"
 
 using namespace slipfit;
 using model::VelocityTrack;

@@ -82,4 +82,11 @@ inline constexpr std::array kModelParameters{ParameterId::Stiffness,        Para
                                              ParameterId::StiffnessExponent};
 inline constexpr std::size_t kModelValues = kModelParameters.size();
 
+/// The place of one of them.
+constexpr std::size_t place_in_model(ParameterId id) {
+  std::size_t place = 0;
+  while (place < kModelValues && kModelParameters[place] != id) ++place;
+  return place;
+}
+
 }  // namespace slipfit

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -96,6 +97,11 @@ struct Reloading {
 struct StiffnessTrend {
   double exponent = 0.0;
   double speed_m_per_s = 1.0;  ///< at which ModelEstimate has k and w_n
+
+  /// ln of k at a speed over that k.
+  [[nodiscard]] double log_growth_at(double at_m_per_s) const {
+    return exponent * std::log(at_m_per_s / speed_m_per_s);
+  }
 };
 
 /// What a sweep tells of F_s - F_k(0+) at speeds beyond its own, where no law of friction is sure to hold.

@@ -6,7 +6,7 @@
 #include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"
 #include "slipfit/model/motion.hpp"
-#include "slipfit/model/velocity.hpp"
+#include "slipfit/model/velocity_friction.hpp"
 
 namespace slipfit {
 
@@ -34,7 +34,9 @@ struct SimulatedTrace {
 SimulatedTrace simulate(const Slider& slider, const Friction& friction, double speed_m_per_s,
                         const SimulationOptions& options);
 
-/// The same with friction that depends on the speed. Errors as velocity_motion.
+/// The same with friction that depends on the speed. Errors: parameter_out_of_range (speed <= 0 or not finite; lambda
+/// or alpha * speed that overflows), no_convergence (the slip runs away, or is so stiff that the bounded work does not
+/// reach its end).
 Result<SimulatedTrace> simulate(const Slider& slider, const VelocityFriction& friction, double speed_m_per_s,
                                 const SimulationOptions& options);
 

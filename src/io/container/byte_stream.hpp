@@ -10,7 +10,6 @@
 #include "core/thrown_error.hpp"
 #include "slipfit/core/digest.hpp"
 #include "slipfit/core/estimate.hpp"
-#include "slipfit/core/result.hpp"
 
 namespace slipfit::reading {
 

@@ -13,12 +13,21 @@ namespace {
 /// rate, of static friction that ages its rate and, where `names` has it, its cut-off, of reloading both, the exponent
 /// of k that goes with the speed.
 std::vector<std::size_t> places_of(const ModelEstimate& estimate, const JsonNode& names) {
-  std::vector<std::size_t> places{0, 1, 2, 3};
-  if (estimate.speed_dependence) places.insert(places.end(), {4, 5});
-  if (estimate.ageing) places.push_back(6);
-  if (estimate.ageing && find_row(names, key_of(ParameterId::AgeingTime))) places.push_back(7);
-  if (estimate.reloading) places.insert(places.end(), {8, 9});
-  if (estimate.stiffness_trend) places.push_back(10);
+  using Id = ParameterId;
+  std::vector<std::size_t> places;
+  const auto add = [&places](Id id) { places.push_back(place_in_model(id)); };
+  for (const Id id : kNeeded) add(id);
+  if (estimate.speed_dependence) {
+    add(Id::FrictionSlope);
+    add(Id::Alpha);
+  }
+  if (estimate.ageing) add(Id::Ageing);
+  if (estimate.ageing && find_row(names, key_of(Id::AgeingTime))) add(Id::AgeingTime);
+  if (estimate.reloading) {
+    add(Id::ReloadForce);
+    add(Id::ReloadLength);
+  }
+  if (estimate.stiffness_trend) add(Id::StiffnessExponent);
   return places;
 }
 

@@ -1,4 +1,4 @@
-#include "slipfit/model/velocity.hpp"
+#include "support/velocity_motion.hpp"
 
 #include <ceres/jet.h>
 
@@ -15,7 +15,29 @@ using model::is_positive;
 
 namespace {
 
-LimitCycle limit_cycle(const model::SpeedUnits& units, const model::SlipPath<model::kPlain>& path, const Slider& slider,
+/// The instants that matter: s is largest and smallest where v = 1.
+template <std::size_t N>
+struct SlipPath {
+  model::SlipOutcome outcome = model::SlipOutcome::NotSolved;
+  model::StepNode<N> peak, trough, end;
+};
+
+template <std::size_t N>
+SlipPath<N> path_of(const model::ScaledSlip& slip) {
+  SlipPath<N> path;
+  const auto keep_extremes = [&path](model::SlipWalker<N>& walker) {
+    if (walker.from.x[model::kSpeed] < 1.0 && walker.to.x[model::kSpeed] >= 1.0) {
+      path.peak = locate_level(walker, 1.0, walker.to);
+    }
+    if (falls_below_drive(walker)) path.trough = locate_level(walker, 1.0, walker.to);
+  };
+  const model::SlipEnd<N> last = model::first_slip<N>(slip, keep_extremes);
+  path.outcome = last.outcome;
+  path.end = last.node;
+  return path;
+}
+
+LimitCycle limit_cycle(const model::SpeedUnits& units, const SlipPath<model::kPlain>& path, const Slider& slider,
                        const VelocityFriction& friction, double speed_m_per_s) {
   const double w_n = slider.natural_frequency_rad_per_s();
   const double zeta = slider.damping_ratio();
@@ -52,7 +74,7 @@ Result<VelocityMotion> velocity_motion(const Slider& slider, const VelocityFrict
   const Result<model::SpeedUnits> in_units = model::in_speed_units(slider, friction, speed_m_per_s);
   if (!in_units) return in_units.error();
   const model::ScaledSlip& slip = in_units.value().slip;
-  const auto path = model::first_slip<model::kPlain>(slip);
+  const auto path = path_of<model::kPlain>(slip);
   if (path.outcome == model::SlipOutcome::NotSolved) return model::no_convergence(slip);
   VelocityMotion result;
   result.motion.lambda = slip.lambda;
@@ -116,7 +138,7 @@ Result<std::optional<VelocityDerivatives>> velocity_derivatives(const Slider& sl
   using Answer = std::optional<VelocityDerivatives>;
   const Result<model::SpeedUnits> in_units = model::in_speed_units(slider, friction, speed_m_per_s);
   if (!in_units) return in_units.error();
-  const auto path = model::first_slip<model::kSensitive>(in_units.value().slip);
+  const auto path = path_of<model::kSensitive>(in_units.value().slip);
   if (path.outcome == model::SlipOutcome::NotSolved) return model::no_convergence(in_units.value().slip);
   if (path.outcome != model::SlipOutcome::Resticks) return Answer();
 
@@ -145,13 +167,7 @@ Result<VelocityWaveform> velocity_waveform(const Slider& slider, const VelocityF
   const double w_n = slider.natural_frequency_rad_per_s();
   model::SlipTrace trace(in_units.value().slip);
   VelocityWaveform waveform;
-  double last_s = 0.0;
   for (const double time_s : slip_time_s) {
-    if (!(std::isfinite(time_s) && time_s >= last_s)) {
-      return Error{"times_not_ascending", "time " + model::short_text(time_s) + " s follows " +
-                                              model::short_text(last_s) + " s, expected finite, ascending times >= 0"};
-    }
-    last_s = time_s;
     const std::optional<model::TracePoint> point = trace.at(w_n * time_s);
     if (!point) return model::no_convergence(in_units.value().slip);
     waveform.spring_force_N.push_back(friction.onset_N() +

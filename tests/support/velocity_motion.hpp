@@ -1,5 +1,8 @@
 #pragma once
 
+// The exact motion under friction that depends on the speed, which fits and predictions (model/velocity_track.hpp, to
+// 1e-7) and simulations are held against.
+
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -68,7 +71,7 @@ struct VelocityWaveform {
 };
 
 /// One slip from F_s - cV and the stick after it (a straight ramp without end), by dense output: 1e-10 of the largest
-/// force above F_k(0+). Times >= 0, finite, ascending. Errors as velocity_motion, and times_not_ascending.
+/// force above F_k(0+). Times >= 0, finite, ascending. Errors as velocity_motion.
 Result<VelocityWaveform> velocity_waveform(const Slider& slider, const VelocityFriction& friction, double speed_m_per_s,
                                            std::span<const double> slip_time_s);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// The periodic motion of the Coulomb model as a sensor samples it, for tests and benchmarks.
+
 #include <cstddef>
 #include <optional>
 #include <vector>

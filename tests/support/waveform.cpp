@@ -1,4 +1,4 @@
-#include "slipfit/model/waveform.hpp"
+#include "support/waveform.hpp"
 
 #include <ceres/jet.h>
 
