@@ -71,4 +71,12 @@ double median_stick_s(const BlockFit& fit) {
   return median(std::move(sticks_s));
 }
 
+double median_period_s(const BlockFit& fit) {
+  std::vector<double> intervals_s;
+  for (std::size_t c = 1; c < fit.size(); ++c) {
+    intervals_s.push_back(fit.reference_s(c) - fit.reference_s(c - 1));
+  }
+  return median(std::move(intervals_s));
+}
+
 }  // namespace slipfit::fit

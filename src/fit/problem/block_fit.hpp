@@ -61,6 +61,8 @@ double median_slip_s(const BlockFit& fit);
 
 /// Median time from the end of one slip to the onset of the next.
 double median_stick_s(const BlockFit& fit);
+/// From onset to onset; a cycle that could not be fitted makes one interval long.
+double median_period_s(const BlockFit& fit);
 
 /// What the recordings of a sweep have in common beside the globals; otherwise each has its own.
 struct Sharing {

@@ -113,14 +113,6 @@ Scales scales_in_sweep(const SweepData& data, std::size_t recording, FrictionLaw
   return scales;
 }
 
-double median_period_s(const BlockFit& blocks) {
-  std::vector<double> intervals_s;
-  for (std::size_t c = 1; c < blocks.size(); ++c) {
-    intervals_s.push_back(blocks.reference_s(c) - blocks.reference_s(c - 1));
-  }
-  return signal::median(intervals_s);
-}
-
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options,
                         const std::optional<FittedAverage>& known) {
   SweepData data;

@@ -36,9 +36,6 @@ struct SweepData {
   std::function<void(const std::string&)> tell_step;  ///< FitOptions
 };
 
-/// From onset to onset; a cycle that could not be fitted makes one interval long.
-double median_period_s(const BlockFit& blocks);
-
 /// `known`: fit_each.
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options,
                         const std::optional<FittedAverage>& known = {});

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/weakening_fitter.hpp"
@@ -23,6 +24,7 @@ constexpr std::size_t kDraftCycles = 16;
 constexpr int kDraftIterations = 10;
 constexpr std::size_t kDescents = 3;                          // of the starts
 constexpr int kDescentSteps = 6;                              // in sigma^2, of a few cycles
+constexpr int kMostSteps = 5;                                 // in sigma^2, to a minimum
 constexpr double kSameAverage = 0.1;                          // of ln T_b: two starts that led to one minimum
 constexpr double kRuledOut = 2.0 * thresholds::kSurelyAhead;  // few of the cycles tell less surely
 
@@ -48,15 +50,35 @@ class AveragedWeakening {
     std::vector<DampedFit> fits;
     const std::vector<CycleData> cycles = solver_.cycles();
     if (cycles.size() < thresholds::kFewestFitted) return fits;
+    const std::vector<CycleData> enough = solver_.enough_of(cycles);
     for (const Draft& draft : minima_of(solver_.some_of(cycles, kDraftCycles))) {
-      const double average_s = draft.blocks.scales().sensor_average_s;
-      std::optional<DampedFit> fit = with_free_average(solver_.fit(cycles, average_s, draft.blocks.parameters.globals));
+      const std::optional<BlockFit> start =
+          enough.empty() ? std::optional(draft.blocks) : refined(draft.blocks, enough);
+      if (!start) continue;
+      const double average_s = start->scales().sensor_average_s;
+      std::optional<DampedFit> fit = with_free_average(solver_.fit(cycles, average_s, start->parameters.globals));
       if (fit) fits.push_back(*std::move(fit));
     }
     return fits;
   }
 
  private:
+  /// Of more cycles. Empty where their average does not settle, or where their best slip distance is none: the simpler
+  /// fit is the same one then.
+  [[nodiscard]] std::optional<BlockFit> refined(const BlockFit& draft, const std::vector<CycleData>& enough) const {
+    std::optional<BlockFit> some = solver_.solved(enough, draft.scales().sensor_average_s, draft.parameters.globals,
+                                                  WeakeningSolver::kRoughTolerance);
+    if (some) some = with_settled_average(*std::move(some));
+    return some && has_slips_of_its_own(*some) && solver_.tells_distance(*some) ? some : std::nullopt;
+  }
+
+  /// They rest where those of Coulomb friction do, and the average is shorter than a stick.
+  [[nodiscard]] bool has_slips_of_its_own(const BlockFit& fit) const {
+    if (resting_share(fit) < thresholds::kRestickShare && resting_share(coulomb_.blocks) >= thresholds::kRestickShare)
+      return false;
+    return fit.scales().sensor_average_s + median_slip_s(fit) < median_period_s(coulomb_.blocks);
+  }
+
   /// Of some of the cycles, from averages that take from little to nearly all of the fall.
   [[nodiscard]] std::vector<Draft> drafts_of(const std::vector<CycleData>& some) const {
     std::vector<double> shares(kSharesOfFall.begin(), kSharesOfFall.end());
@@ -106,9 +128,21 @@ class AveragedWeakening {
     return draft;
   }
 
-  /// Newton's steps in sigma^2 of all cycles. Empty where they do not settle.
+  /// After Newton's steps in sigma^2. Empty where they do not settle.
+  [[nodiscard]] std::optional<BlockFit> with_settled_average(BlockFit blocks) const {
+    std::optional<BlockFit> fit = std::move(blocks);
+    for (int step = 0; fit && step < kMostSteps; ++step) {
+      const auto beyond = estimate_smoothing(*fit, solver_.held(), sample_interval_s_);
+      if (!beyond) break;
+      if (is_settled(*beyond)) return fit;
+      fit = WeakeningSolver::with_next_average(*fit, *beyond, solver_.held());
+    }
+    return std::nullopt;
+  }
+
+  /// Newton's steps in sigma^2 of all cycles, each finished: the rise after a slip follows the average. Empty where
+  /// they do not settle.
   [[nodiscard]] std::optional<DampedFit> with_free_average(std::optional<DampedFit> fit) const {
-    constexpr int kMostSteps = 5;
     for (int step = 0; fit && step < kMostSteps; ++step) {
       const auto beyond = estimate_smoothing(fit->blocks, fit->held, sample_interval_s_);
       if (!beyond) break;

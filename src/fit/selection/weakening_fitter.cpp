@@ -14,12 +14,8 @@ namespace slipfit::fit {
 namespace {
 
 constexpr std::size_t kTrialCycles = 16;
-constexpr std::size_t kFewCycles = 40;   // enough to see that the slips are explained no better
-constexpr std::size_t kSomeCycles = 64;  // of many
 constexpr double kHopeful = 1.1 * thresholds::kHalvedStack;
-constexpr double kNothing = 0.1;  // of its error: a slip distance that is none
 constexpr int kTrialIterations = 40;
-constexpr double kSomeTolerance = 1e-4;  // where a tenth of an error decides nothing
 
 /// k D_c / (F_s - F_k) to begin with: the sum of squares has several minima.
 constexpr std::array kStarts{0.05, 0.2, 0.45, 0.75};
@@ -29,24 +25,17 @@ class WeakeningTest {
   WeakeningTest(const WeakeningSolver& solver, const DampedFit& coulomb, double average_s, double missed)
       : solver_(solver), coulomb_(coulomb), average_s_(average_s), missed_(missed) {}
 
-  /// False where some of the cycles show that the law will not be taken. They are not asked where all of them are not
-  /// much more work.
+  /// False where some of the cycles show that the law will not be taken.
   [[nodiscard]] bool promises(const std::vector<CycleData>& cycles, const Globals& start) const {
-    const std::vector<CycleData> some = solver_.some_of(cycles, std::clamp(cycles.size() / 3, kFewCycles, kSomeCycles));
-    if (2 * samples_of(some) >= samples_of(cycles)) return true;
-    const std::optional<BlockFit> blocks = solver_.solved(some, average_s_, start, kSomeTolerance);
+    const std::vector<CycleData> some = solver_.enough_of(cycles);
+    if (some.empty()) return true;
+    const std::optional<BlockFit> blocks = solver_.solved(some, average_s_, start, WeakeningSolver::kRoughTolerance);
     if (!blocks || is_beaten(*blocks) || loses_sticks(*blocks)) return false;
     // In place of an average it need not explain more.
-    return coulomb_.average || (explains_enough(*blocks) && tells_distance(*blocks));
+    return coulomb_.average || (explains_enough(*blocks) && solver_.tells_distance(*blocks));
   }
 
  private:
-  [[nodiscard]] static std::size_t samples_of(const std::vector<CycleData>& cycles) {
-    std::size_t samples = 0;
-    for (const CycleData& cycle : cycles) samples += cycle.time_s.size();
-    return samples;
-  }
-
   /// Slips that come to rest under Coulomb friction would not.
   [[nodiscard]] bool loses_sticks(const BlockFit& some) const {
     return resting_share(some) < thresholds::kRestickShare &&
@@ -66,13 +55,6 @@ class WeakeningTest {
   [[nodiscard]] bool explains_enough(const BlockFit& some) const {
     const StackedResidual after = stacked_residual(some, coulomb_.blocks);
     return after.size * after.size - after.by_chance * after.by_chance < std::pow(kHopeful * missed_, 2);
-  }
-
-  /// Waves and slips of Coulomb friction have a minimum at D_c = 0.
-  [[nodiscard]] bool tells_distance(const BlockFit& some) const {
-    DampedFit fit{some, false, solver_.held(), std::nullopt, 0.0, {}, {}, {}};
-    fit.uncertainty = estimate_uncertainty(some, {solver_.held(), false});
-    return sigmas_of_distance(fit) > kNothing;
   }
 
   const WeakeningSolver& solver_;

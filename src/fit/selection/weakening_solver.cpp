@@ -1,5 +1,6 @@
 #include "fit/selection/weakening_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,13 +17,22 @@
 namespace slipfit::fit {
 namespace {
 
-constexpr int kOwnIterations = 6;  // of onsets and forces by themselves
+constexpr std::size_t kFewCycles = 40;   // enough to see that the slips are explained no better
+constexpr std::size_t kSomeCycles = 64;  // of many
+constexpr int kOwnIterations = 6;        // of onsets and forces by themselves
 constexpr int kFullIterations = 60;
 constexpr int kStepIterations = 20;      // beside a solution for another average
+constexpr double kNothing = 0.1;         // of its error: a slip distance that is none
 constexpr double kDraftTolerance = 0.1;  // SolveOptions::tolerance of a draft
 /// SolveOptions::tolerance. Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them
 /// an error off.
 constexpr double kTolerance = 1e-7;
+
+std::size_t samples_of(const std::vector<CycleData>& cycles) {
+  std::size_t samples = 0;
+  for (const CycleData& cycle : cycles) samples += cycle.time_s.size();
+  return samples;
+}
 
 /// From where it stands.
 std::optional<BlockFit> settled(BlockFit blocks, const Held& held, double tolerance) {
@@ -71,6 +81,12 @@ std::vector<CycleData> WeakeningSolver::some_of(const std::vector<CycleData>& cy
   return some;
 }
 
+std::vector<CycleData> WeakeningSolver::enough_of(const std::vector<CycleData>& cycles) const {
+  std::vector<CycleData> some = some_of(cycles, std::clamp(cycles.size() / 3, kFewCycles, kSomeCycles));
+  if (2 * samples_of(some) >= samples_of(cycles)) some.clear();
+  return some;
+}
+
 std::optional<WeakeningSolver::Draft> WeakeningSolver::draft(const std::vector<CycleData>& cycles, double average_s,
                                                              const Start& start) const {
   SolveOptions options{held_, false, true, start.most_iterations};
@@ -114,6 +130,12 @@ std::optional<BlockFit> WeakeningSolver::with_next_average(const BlockFit& block
   BlockFit next = averaged_by(blocks, beyond.next_variance_s2(average_s * average_s / 12.0));
   const bool is_solved = std::isfinite(solve(next, {held, false, true, kStepIterations})) && has_slips(next);
   return is_solved ? std::optional(std::move(next)) : std::nullopt;
+}
+
+bool WeakeningSolver::tells_distance(const BlockFit& blocks) const {
+  DampedFit fit{blocks, false, held_, std::nullopt, 0.0, {}, {}, {}};
+  fit.uncertainty = estimate_uncertainty(blocks, {held_, false});
+  return sigmas_of_distance(fit) > kNothing;
 }
 
 std::optional<DampedFit> WeakeningSolver::finished(DampedFit fit) const {

@@ -36,6 +36,8 @@ class WeakeningSolver {
     int most_iterations = 0;
   };
 
+  static constexpr double kRoughTolerance = 1e-4;  ///< SolveOptions::tolerance: a tenth of an error decides nothing
+
   /// `half_width_s`: around the middle of a slip, that cycles are cut with.
   WeakeningSolver(const FitInput& input, const DampedFit& coulomb, double half_width_s);
 
@@ -43,6 +45,8 @@ class WeakeningSolver {
   [[nodiscard]] std::vector<CycleData> cycles() const;
   /// So many of the cycles, their slips with no more samples than their shape needs.
   [[nodiscard]] std::vector<CycleData> some_of(const std::vector<CycleData>& cycles, std::size_t count) const;
+  /// Some that show what the law explains. Empty where all of them are not much more work.
+  [[nodiscard]] std::vector<CycleData> enough_of(const std::vector<CycleData>& cycles) const;
   /// Rough, of the sensor's `average_s`. Empty where no start has a solution.
   [[nodiscard]] std::optional<Draft> draft(const std::vector<CycleData>& cycles, double average_s,
                                            const Start& start) const;
@@ -56,6 +60,8 @@ class WeakeningSolver {
   /// The same cycles seen through an average of another variance, by Newton's step. Empty where a slip has no solution.
   [[nodiscard]] static std::optional<BlockFit> with_next_average(const BlockFit& blocks, const Smoothing& beyond,
                                                                  const Held& held);
+  /// False where the best slip distance is none: waves and slips of Coulomb friction have a minimum at D_c = 0.
+  [[nodiscard]] bool tells_distance(const BlockFit& blocks) const;
   /// The uncertainty of a solution of all cycles. Empty where they do not tell the parameters apart.
   [[nodiscard]] std::optional<DampedFit> finished(DampedFit fit) const;
 
