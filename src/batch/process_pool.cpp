@@ -18,6 +18,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/parallel.hpp"
+
 namespace slipfit::batch {
 namespace {
 
@@ -138,6 +140,7 @@ ProcessPool::Child* ProcessPool::start_child() {
   if (pid == 0) {
     for (Child& sibling : children_) sibling.socket = {};  // else they would outlive the parent: no end of file
     ours = {};
+    share_processors(std::min(most_, children_.size() + waiting_.size()));
     serve(theirs.get(), parent);
   }
   if (pid < 0) {

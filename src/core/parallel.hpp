@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <functional>
 #include <future>
+#include <limits>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -18,26 +18,57 @@ inline constexpr std::launch kLaunch = std::launch::deferred;
 inline constexpr std::launch kLaunch = std::launch::async | std::launch::deferred;
 #endif
 
-/// f(0) ... f(count - 1), in this order, worked out side by side on the processors that there are. `f` must not change
-/// what another call reads: results are then the same on any number of processors.
-template <class F>
-auto in_parallel(std::size_t count, const F& f) {
-  using Result = decltype(f(std::size_t{}));
-  std::vector<std::optional<Result>> slots(count);
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) slots[i].emplace(f(i));
-  };
-  const std::size_t workers = std::min<std::size_t>(count, std::max(1U, std::thread::hardware_concurrency()));
+/// Processors that this process may use at a time, at least 1: those of the machine, or fewer after share_processors.
+[[nodiscard]] std::size_t usable_processors();
+
+/// For a process of several that compute at the same time: it takes its share of the machine's processors, at least
+/// one. To be called before the process starts threads. `processes`: how many there are, at least 1.
+void share_processors(std::size_t processes);
+
+/// async or, where one processor is all there is, deferred: the caller then does it when it needs the result.
+[[nodiscard]] inline std::launch beside_caller() {
+  return usable_processors() > 1 ? kLaunch : std::launch::deferred;
+}
+
+/// Calls `work` once on each of as many threads as there are processors to use, at most `most`, and waits for them.
+/// Threads that cannot be started are done without: `work` takes what there is to do until nothing is left.
+template <class Work>
+void on_processors(std::size_t most, const Work& work) {
+  const std::size_t workers = std::min(most, usable_processors());
   std::vector<std::future<void>> others;
-  others.reserve(workers);
   for (std::size_t i = 1; i < workers; ++i) others.push_back(std::async(kLaunch, std::cref(work)));
   work();
   for (std::future<void>& other : others) other.get();
+}
+
+/// f(0) ... f(count - 1), in this order, worked out side by side on the processors that there are. `f` must not change
+/// what another call reads: results are then the same on any number of processors. `most`: so many threads, for work
+/// that may be too little for several.
+template <class F>
+auto in_parallel(std::size_t count, const F& f, std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  using Result = decltype(f(std::size_t{}));
+  std::vector<std::optional<Result>> slots(count);
+  std::atomic<std::size_t> next = 0;
+  on_processors(std::min(count, most), [&] {
+    for (std::size_t i = next++; i < count; i = next++) slots[i].emplace(f(i));
+  });
   std::vector<Result> results;
   results.reserve(count);
   for (std::optional<Result>& slot : slots) results.push_back(*std::move(slot));
   return results;
+}
+
+/// Calls f(begin, end) for neighbouring ranges of `grain` indices that together make [0, count), side by side on the
+/// processors that there are. `grain`: at least 1; the work of so many indices should take longer than it takes to
+/// start a thread, some 50 us. `f` must not change what another call reads or writes.
+template <class F>
+void for_ranges(std::size_t count, std::size_t grain, const F& f) {
+  std::atomic<std::size_t> next = 0;
+  on_processors((count + grain - 1) / grain, [&] {
+    for (std::size_t begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain)) {
+      f(begin, std::min(count, begin + grain));
+    }
+  });
 }
 
 }  // namespace slipfit

@@ -97,6 +97,7 @@ double recovery_s(const BlockFit& blocks, const CycleState& state) {
 void tabulate(const Recording& recording, const Segmentation& segmentation, const BlockFit& blocks, FitResult& result) {
   result.cycles = fit::detected_cycles(recording, segmentation);
   tell_selection(result);
+  const std::vector<double> sums_of_squares = blocks.sums_of_squares();
   for (std::size_t c = 0; c < blocks.size(); ++c) {
     const CycleState state = blocks.state(c);
     const double* local = blocks.parameters.cycles[c].data();
@@ -107,8 +108,8 @@ void tabulate(const Recording& recording, const Segmentation& segmentation, cons
     row.level_force = blocks.model(c).level_at(state.onset_s, blocks.level_data(), local);
     row.onset_force = *row.level_force + state.onset_force;
     row.recovery_s = recovery_s(blocks, state);
-    row.residual_rms = blocks.scales().noise *
-                       std::sqrt(blocks.cycle_sum_of_squares(c) / static_cast<double>(blocks.data(c).residuals()));
+    row.residual_rms =
+        blocks.scales().noise * std::sqrt(sums_of_squares[c] / static_cast<double>(blocks.data(c).residuals()));
   }
 }
 

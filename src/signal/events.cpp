@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/parallel.hpp"
 #include "core/slip_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "signal/falls.hpp"
@@ -166,15 +167,23 @@ void place_on_samples(const Scale& scale, Events& events) {
 }  // namespace
 
 Events find_events(std::vector<double> force, double noise) {
+  constexpr std::size_t kLarge = 50000;  // samples from which a second thread is worth its start
   const RunningMeans means(force);
-  std::vector<Scale> scales;
-  std::size_t best = 0;
+  std::vector<double> widths;
   for (double width = 1.0; width <= 0.02 * static_cast<double>(force.size()) || width < 2.0; width *= 1.5) {
-    const auto samples = static_cast<std::size_t>(std::lround(width));
+    widths.push_back(width);
+  }
+  const auto look = [&](std::size_t i) {
+    const auto samples = static_cast<std::size_t>(std::lround(widths[i]));
     const Means trace(force, means, samples, std::max<std::size_t>(1, samples / 3));
-    const double left = std::max(noise / std::sqrt(width), samples == 1 ? 0.0 : noise_of(trace));
-    scales.push_back(look_at_scale(trace, left));
-    if (scales.back().best.score > scales[best].best.score) best = scales.size() - 1;
+    const double left = std::max(noise / std::sqrt(widths[i]), samples == 1 ? 0.0 : noise_of(trace));
+    return look_at_scale(trace, left);
+  };
+  const std::size_t threads = force.size() < kLarge ? 1 : widths.size();
+  const std::vector<Scale> scales = in_parallel(widths.size(), look, threads);
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    if (scales[i].best.score > scales[best].best.score) best = i;
   }
   std::size_t chosen = 0;
   while (chosen < best && !shows_the_same(scales[chosen].best, scales[best].best)) ++chosen;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/thresholds.hpp"
+#include "fit/cycle/side_by_side.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -31,10 +32,17 @@ class Cutter {
   }
 
   [[nodiscard]] std::vector<CycleData> cut() const {
-    std::vector<CycleData> cycles;
+    std::vector<std::size_t> selected;
     for (std::size_t i = 1; i < slips_.size(); ++i) {
-      if (!is_selected(i, slips_.size())) continue;
-      CycleData cycle = cut_one(i);
+      if (is_selected(i, slips_.size())) selected.push_back(i);
+    }
+    std::vector<CycleData> all(selected.size());
+    for_cycles(all.size(), time_s_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) all[k] = cut_one(selected[k]);
+    });
+    std::vector<CycleData> cycles;
+    for (CycleData& cycle : all) {
+      const std::size_t i = cycle.slip;
       const DetectedSlip& slip = slips_[i];
       const bool has_ramps = index_at(cycle.window_begin_s) + kMinRampSamples <= slip.peak &&
                              slip.trough + kMinRampSamples < index_at(cycle.window_end_s);

@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "core/fit_thresholds.hpp"
+#include "fit/cycle/side_by_side.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -52,16 +54,26 @@ struct StackedCycles {
 
 /// Over the slips of `phases`, a fit of the same recording.
 StackedCycles stacked(const BlockFit& fit, const BlockFit& phases) {
+  std::vector<std::optional<std::size_t>> same(fit.size());
+  for (std::size_t i = 0, next = 0; i < fit.size(); ++i) {
+    while (next < phases.size() && phases.data(next).slip < fit.data(i).slip) ++next;
+    if (next < phases.size() && phases.data(next).slip == fit.data(i).slip) same[i] = next;
+  }
+  std::vector<Means> means(fit.size());
+  std::vector<double> onset_forces(fit.size());
+  for_cycles(fit.size(), fit.residuals(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!same[i]) continue;
+      const CycleState slip = phases.state(*same[i]);
+      onset_forces[i] = slip.onset_force;
+      means[i] = means_of(fit, i, slip);
+    }
+  });
   StackedCycles result;
-  std::size_t same = 0;
   for (std::size_t i = 0; i < fit.size(); ++i) {
-    while (same < phases.size() && phases.data(same).slip < fit.data(i).slip) ++same;
-    if (same == phases.size() || phases.data(same).slip != fit.data(i).slip) continue;
-    const CycleState slip = phases.state(same);
-    result.onset_force += slip.onset_force / static_cast<double>(fit.size());
-    const Means means = means_of(fit, i, slip);
+    if (same[i]) result.onset_force += onset_forces[i] / static_cast<double>(fit.size());
     for (std::size_t p = 0; p < kSegments; ++p) {
-      if (means[p]) result.stacks[p].add(*means[p]);
+      if (means[i][p]) result.stacks[p].add(*means[i][p]);
     }
   }
   return result;

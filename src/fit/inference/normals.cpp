@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "fit/cycle/side_by_side.hpp"
+
 namespace slipfit::fit {
 
 using Eigen::Index;
@@ -85,9 +87,11 @@ std::vector<Normal> normals_of(const Problem& problem) {
   std::vector<Normal> normals;
   for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
     const BlockFit& recording = problem.recordings[r];
-    for (std::size_t c = 0; c < recording.size(); ++c) {
-      normals.push_back(normal_of(linearise(recording, c), columns.of(r)));
-    }
+    const std::size_t first = normals.size();
+    normals.resize(first + recording.size());
+    for_cycles(recording.size(), recording.residuals(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) normals[first + c] = normal_of(linearise(recording, c), columns.of(r));
+    });
   }
   for (std::size_t i = 0; problem.sweep.sharing.level && i < problem.sweep.steady.size(); ++i) {
     normals.push_back(normal_of(problem.sweep.steady[i], problem, columns));

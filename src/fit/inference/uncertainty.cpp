@@ -105,7 +105,8 @@ double parameters_of(const BlockFit& fit) {
 }  // namespace
 
 double reduced_chi2(const BlockFit& fit) {
-  const auto [chi2, samples] = chi_square(fit, [&](std::size_t i) { return fit.cycle_sum_of_squares(i); });
+  const std::vector<double> sums = fit.sums_of_squares();
+  const auto [chi2, samples] = chi_square(fit, [&](std::size_t i) { return sums[i]; });
   return chi2 / std::max(1.0, samples - parameters_of(fit));
 }
 

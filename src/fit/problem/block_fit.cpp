@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/quantile.hpp"
+#include "fit/cycle/side_by_side.hpp"
 
 namespace slipfit::fit {
 
@@ -46,6 +47,20 @@ double BlockFit::cycle_sum_of_squares(std::size_t cycle) const {
   double sum = 0.0;
   for (const double r : residuals) sum += r * r;
   return sum;
+}
+
+std::vector<double> BlockFit::sums_of_squares() const {
+  std::vector<double> sums(size());
+  for_cycles(size(), residuals(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) sums[i] = cycle_sum_of_squares(i);
+  });
+  return sums;
+}
+
+std::size_t BlockFit::residuals() const {
+  std::size_t rows = 0;
+  for (const CycleModel& model : models_) rows += model.residuals();
+  return rows;
 }
 
 double resting_share(const BlockFit& fit) {

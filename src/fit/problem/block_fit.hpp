@@ -28,6 +28,11 @@ class BlockFit {
 
   /// Weighted sum of squares of one cycle's residuals at the solution; the part inside stick bins is not in it.
   [[nodiscard]] double cycle_sum_of_squares(std::size_t cycle) const;
+  /// The same of every cycle, on all processors where they are large.
+  [[nodiscard]] std::vector<double> sums_of_squares() const;
+
+  /// Rows of residuals of all cycles together.
+  [[nodiscard]] std::size_t residuals() const;
 
   [[nodiscard]] std::size_t size() const { return models_.size(); }
   [[nodiscard]] const CycleModel& model(std::size_t cycle) const { return models_[cycle]; }

@@ -4,7 +4,8 @@
 
 namespace slipfit::fit {
 
-void reduce_rows(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals, RowMajor& reduced) {
+void reduce_rows(const Eigen::Ref<const Eigen::MatrixXd>& jacobian, const Eigen::Ref<const Eigen::VectorXd>& residuals,
+                 RowMajor& reduced) {
   const Eigen::Index columns = jacobian.cols();
   reduced.setZero();
   for (Eigen::Index a = 0; a < columns; ++a) {

@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "fit/problem/costs.hpp"
-#include "fit/problem/last_point.hpp"
+#include "fit/problem/cycle_cost.hpp"
+#include "fit/problem/evaluations.hpp"
 #include "fit/problem/solver_log.hpp"
 
 namespace slipfit::fit {
@@ -41,9 +42,9 @@ class Bundle {
 
   double solve() {
     ceres::Solver::Summary summary;
-    last_.watch(ceres_);
+    evaluations_.watch(ceres_);
     ceres::Solve(solver_options(), &ceres_, &summary);
-    if (summary.termination_type == ceres::CONVERGENCE) last_.restore();
+    if (summary.termination_type == ceres::CONVERGENCE) evaluations_.restore_last_point();
     const Parameters& shared = first();
     std::size_t next = 0;
     for (BlockFit& recording : recordings_) {
@@ -60,7 +61,7 @@ class Bundle {
  private:
   ceres::Problem::Options make_options() {
     ceres::Problem::Options options;
-    options.evaluation_callback = &last_;
+    options.evaluation_callback = &evaluations_;
     options.enable_fast_removal = false;
     return options;
   }
@@ -85,7 +86,9 @@ class Bundle {
       const CycleModel& model = recording.model(i);
       blocks.push_back(local);
       auto* loss = options_.robust ? new ceres::HuberLoss(huber_bound(model.residuals())) : nullptr;
-      ceres_.AddResidualBlock(new CycleCost(model), loss, blocks);
+      auto* cost = new CycleCost(model, room_);
+      ceres_.AddResidualBlock(cost, loss, blocks);
+      evaluations_.add(*cost, blocks);
       blocks.pop_back();
       ordering_->AddElementToGroup(local, 0);
       residuals_ += model.residuals();
@@ -155,7 +158,8 @@ class Bundle {
   const SolveOptions& options_;
   Globals globals_;
   std::vector<Local> owns_;
-  LastPoint last_;
+  CycleRows room_;
+  Evaluations evaluations_;
   ceres::Problem ceres_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
   int group_ = 1;

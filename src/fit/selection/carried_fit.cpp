@@ -22,7 +22,7 @@ void carry_over(const BlockFit& from, BlockFit& to) {
 
 double sum_of_squares(const BlockFit& fit) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < fit.size(); ++i) sum += fit.cycle_sum_of_squares(i);
+  for (const double of_cycle : fit.sums_of_squares()) sum += of_cycle;
   return sum;
 }
 

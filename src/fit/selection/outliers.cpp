@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "fit/cycle/side_by_side.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -31,7 +32,9 @@ class ResidualsOfCycles {
   ResidualsOfCycles(const Recording& recording, const BlockFit& fit)
       : recording_(recording), fit_(fit), result_{std::vector<double>(recording.size(), 0.0), {}} {
     result_.part.assign(recording.size(), CyclePart::None);
-    for (std::size_t c = 0; c < fit.size(); ++c) add(c);
+    for_cycles(fit.size(), recording.size(), [&](std::size_t begin, std::size_t end) {  // no two share a sample
+      for (std::size_t c = begin; c < end; ++c) add(c);
+    });
   }
 
   [[nodiscard]] Residuals take() { return std::move(result_); }
@@ -114,10 +117,8 @@ std::vector<std::size_t> find_outliers(const Residuals& residuals, double noise)
 }
 
 std::vector<std::size_t> unexplained_slips(const BlockFit& fit) {
-  std::vector<double> mean_squares;
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    mean_squares.push_back(fit.cycle_sum_of_squares(i) / static_cast<double>(fit.data(i).residuals()));
-  }
+  std::vector<double> mean_squares = fit.sums_of_squares();
+  for (std::size_t i = 0; i < fit.size(); ++i) mean_squares[i] /= static_cast<double>(fit.data(i).residuals());
   const double bound = thresholds::kUnexplainedRatio * std::max(1.0, signal::median(mean_squares));
   std::vector<std::size_t> bad;
   for (std::size_t i = 0; i < fit.size(); ++i) {

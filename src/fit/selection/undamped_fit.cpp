@@ -12,7 +12,7 @@ namespace {
 bool is_lost(double loose_chi2, const DampedFit& damped) {
   constexpr double kLost = 20.0;
   double damped_chi2 = 0.0;
-  for (std::size_t i = 0; i < damped.blocks.size(); ++i) damped_chi2 += damped.blocks.cycle_sum_of_squares(i);
+  for (const double sum : damped.blocks.sums_of_squares()) damped_chi2 += sum;
   const double worse = (loose_chi2 - damped_chi2) / damped.uncertainty.chi2;
   return effective_samples(damped) * std::log1p(worse) > kLost;
 }

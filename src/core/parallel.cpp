@@ -1,0 +1,25 @@
+#include "core/parallel.hpp"
+
+#include <thread>
+
+namespace slipfit {
+namespace {
+
+/// Of the machine that every process of a batch shares, and so one value for the whole process.
+std::atomic<std::size_t>& processes_sharing() {
+  static std::atomic<std::size_t> processes = 1;
+  return processes;
+}
+
+}  // namespace
+
+std::size_t usable_processors() {
+  static const std::size_t present = std::max(1U, std::thread::hardware_concurrency());
+  return std::max<std::size_t>(1, present / processes_sharing());
+}
+
+void share_processors(std::size_t processes) {
+  processes_sharing() = std::max<std::size_t>(1, processes);
+}
+
+}  // namespace slipfit
