@@ -63,13 +63,13 @@ class AveragedWeakening {
   }
 
  private:
-  /// Of more cycles. Empty where their average does not settle, or where their best slip distance is none: the simpler
-  /// fit is the same one then.
+  /// Of more cycles. Empty where their best slip distance is none, and so the simpler fit the same one, or where their
+  /// average does not settle.
   [[nodiscard]] std::optional<BlockFit> refined(const BlockFit& draft, const std::vector<CycleData>& enough) const {
     std::optional<BlockFit> some = solver_.solved(enough, draft.scales().sensor_average_s, draft.parameters.globals,
                                                   WeakeningSolver::kRoughTolerance);
-    if (some) some = with_settled_average(*std::move(some));
-    return some && has_slips_of_its_own(*some) && solver_.tells_distance(*some) ? some : std::nullopt;
+    if (!some || !has_slips_of_its_own(*some) || !solver_.tells_distance(*some)) return std::nullopt;
+    return with_settled_average(*std::move(some));
   }
 
   /// They rest where those of Coulomb friction do, and the average is shorter than a stick.
