@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
   const std::map<std::string, Study> studies{{"forward", atlas::study_forward},
                                              {"frequency", atlas::study_frequency},
                                              {"fits", atlas::study_fits},
-                                             {"failures", atlas::map_failures}};
+                                             {"failures", atlas::map_failures},
+                                             {"terms", atlas::map_term_failures}};
   bool quick = false;
   std::string out = "atlas_out";
   std::vector<std::string> chosen;

@@ -33,14 +33,26 @@ Mark judge(const FitMethod& method, const Factors& factors, std::size_t trials) 
   return 2 * unsure > trials ? Mark::Doubtful : Mark::Fine;
 }
 
-/// `methods`: by their place in `fit_methods()`.
+/// So many of `fit_methods()`, by their place.
+std::vector<FitMethod> of_all(const std::vector<std::size_t>& places) {
+  std::vector<FitMethod> methods;
+  for (const std::size_t i : places) methods.push_back(fit_methods()[i]);
+  return methods;
+}
+
+/// Those that explain what bends slips, and those that do not.
+std::vector<FitMethod> beside_terms() {
+  std::vector<FitMethod> methods = of_all({0, 1, 4});
+  methods.insert(methods.begin() + 2, fit_without_terms());
+  return methods;
+}
+
 chart::Chart over(const std::string& title, const Plane& plane, double Factors::*x, double Factors::*y,
-                  const std::vector<std::size_t>& methods, std::size_t trials) {
+                  const std::vector<FitMethod>& methods, std::size_t trials) {
   chart::Chart chart{title, explain_marks({Mark::Silent, Mark::Doubtful, Mark::Wrong}), {}};
   chart.remarks.emplace_back(
       "wrong: more than a tenth of the fits claim a parameter that is 4 standard errors and 2 % off");
-  for (const std::size_t i : methods) {
-    const FitMethod method = fit_methods()[i];
+  for (const FitMethod& method : methods) {
     chart.panels.push_back(draw_plane(plane, method.look.name, [&](double at_x, double at_y) {
       Factors factors;
       factors.*x = at_x;
@@ -81,14 +93,29 @@ std::vector<File> map_fit_failures(Effort effort) {
   const PlaneAxis jitter{"scatter of the static friction over the drop  [-]", log_spaced(0.001, 0.3, full ? 9 : 4)};
   const PlaneAxis cycles{"cycles  [-]", log_spaced(6.0, 100.0, full ? 6 : 3)};
   const PlaneAxis hum{"amplitude of the 50 Hz hum over the drop  [-]", log_spaced(0.02, 4.0, full ? 10 : 4)};
-  return {
-      {"failures_fit_start.svg", to_svg(false_minima(effort, trials))},
-      {"failures_fit_sampling.svg", to_svg(over("Where fits fail: few samples and noise", {samples, noise, 200.0, {}},
-                                                &Factors::samples_per_slip, &Factors::noise, {0, 1, 4}, trials))},
-      {"failures_fit_scatter.svg", to_svg(over("Where fits fail: scatter and few cycles", {jitter, cycles, 200.0, {}},
-                                               &Factors::jitter, &Factors::cycles, {0, 1, 4, 5}, full ? 8 : 2))},
-      {"failures_fit_hum.svg", to_svg(over("Where fits fail: hum and noise", {hum, noise, 200.0, {}}, &Factors::hum,
-                                           &Factors::noise, {0, 1, 4}, trials))}};
+  return {{"failures_fit_start.svg", to_svg(false_minima(effort, trials))},
+          {"failures_fit_sampling.svg",
+           to_svg(over("Where fits fail: few samples and noise", {samples, noise, 200.0, {}},
+                       &Factors::samples_per_slip, &Factors::noise, of_all({0, 1, 4}), trials))},
+          {"failures_fit_scatter.svg",
+           to_svg(over("Where fits fail: scatter and few cycles", {jitter, cycles, 200.0, {}}, &Factors::jitter,
+                       &Factors::cycles, of_all({0, 1, 4, 5}), full ? 8 : 2))},
+          {"failures_fit_hum.svg", to_svg(over("Where fits fail: hum and noise", {hum, noise, 200.0, {}}, &Factors::hum,
+                                               &Factors::noise, of_all({0, 1, 4}), trials))}};
+}
+
+std::vector<File> map_term_failures(Effort effort) {
+  const bool full = effort == Effort::Full;
+  const std::size_t trials = full ? 12 : 3;
+  const PlaneAxis noise{"noise over the drop  [-]", log_spaced(0.002, 0.6, full ? 8 : 4)};
+  const PlaneAxis average{"average of the sensor times natural frequency  [-]", log_spaced(0.1, 8.0, full ? 10 : 4)};
+  const PlaneAxis weakening{"slip distance times stiffness over the drop  [-]", log_spaced(0.01, 0.8, full ? 10 : 4)};
+  return {{"failures_fit_average.svg",
+           to_svg(over("Where fits fail: an average of the sensor that is not stated", {average, noise, 200.0, {}},
+                       &Factors::average, &Factors::noise, beside_terms(), trials))},
+          {"failures_fit_weakening.svg",
+           to_svg(over("Where fits fail: friction that weakens over a slip distance", {weakening, noise, 200.0, {}},
+                       &Factors::weakening, &Factors::noise, beside_terms(), trials))}};
 }
 
 }  // namespace atlas

@@ -115,4 +115,20 @@ std::vector<FitMethod> fit_methods() {
           {{"three speeds jointly (slipfit fit --joint)", Colour::Blue, Shape::Ring, Stroke::Solid}, run_sweep}};
 }
 
+FitMethod fit_without_terms() {
+  const auto fit = [](const Scene& scene, std::uint64_t) {
+    slipfit::Conditions conditions = scene.recording.conditions();
+    conditions.sensor_average_s = 0.0;
+    const auto time_s = scene.recording.time_s();
+    const auto force_N = scene.recording.force();
+    const auto recording =
+        slipfit::Recording::create({time_s.begin(), time_s.end()}, {force_N.begin(), force_N.end()}, conditions);
+    slipfit::FitOptions options;
+    options.tier = slipfit::Tier::Damped;
+    const slipfit::Analysis analysis = slipfit::analyze_and_fit(recording.value(), options);
+    return analysis.fit ? read_parameters(analysis.fit->parameters) : FitAnswer{};
+  };
+  return on_one_recording({"cycles as blocks, Coulomb friction alone", chart::Colour::Grey}, fit);
+}
+
 }  // namespace atlas

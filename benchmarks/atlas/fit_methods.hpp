@@ -32,6 +32,8 @@ struct FitMethod {
 };
 
 std::vector<FitMethod> fit_methods();
+/// slipfit's fit of Coulomb friction without an average of the sensor, where the two are not asked for.
+FitMethod fit_without_terms();
 
 std::array<double, kFitParameters> truth_of(const Scene& scene);
 

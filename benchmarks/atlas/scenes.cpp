@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "bent_trace.hpp"
 #include "slipfit/model/simulation.hpp"
 
 namespace atlas {
@@ -17,6 +18,54 @@ constexpr double kUsualFrequency_Hz = 17.3;
 
 double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1.0p-53;
+}
+
+/// What slides.
+struct Contact {
+  slipfit::Slider slider;
+  slipfit::Friction friction;
+  double speed_m_per_s = 0.0;
+};
+
+/// How it is sampled.
+struct Sampling {
+  double rate_Hz = 0.0;
+  double duration_s = 0.0;
+  double sliding_s = 0.0;  ///< of it, that the recording holds
+  std::uint64_t noise_seed = 0;
+};
+
+struct Trace {
+  std::vector<double> time_s, force_N;
+};
+
+Trace simulated(const Factors& factors, const Contact& contact, const Sampling& sampling) {
+  slipfit::SimulationOptions options;
+  options.sample_rate_Hz = sampling.rate_Hz;
+  options.duration_s = sampling.duration_s;
+  options.static_friction_sd_N = factors.jitter * kDifference_N;
+  options.noise_rms_N = factors.noise * kDifference_N;
+  options.drift_N_per_s = factors.drift * kDifference_N / sampling.sliding_s;
+  options.hum_N = factors.hum * kDifference_N;
+  options.seed = sampling.noise_seed;
+  slipfit::SimulatedTrace trace = slipfit::simulate(contact.slider, contact.friction, contact.speed_m_per_s, options);
+  return {std::move(trace.time_s), std::move(trace.force_N)};
+}
+
+Trace bent(const Factors& factors, const Contact& contact, const Sampling& sampling) {
+  const Bends bends{factors.average / contact.slider.natural_frequency_rad_per_s(),
+                    factors.weakening * kDifference_N / kStiffness_N_per_m};
+  const auto count = static_cast<std::size_t>(sampling.duration_s * sampling.rate_Hz);
+  Trace trace;
+  trace.force_N = BentTrace(contact.slider, contact.friction, contact.speed_m_per_s, bends)
+                      .force_N(0.0, 1.0 / sampling.rate_Hz, count);
+  std::mt19937_64 random(sampling.noise_seed);
+  std::normal_distribution<double> noise_N(0.0, factors.noise * kDifference_N);
+  for (std::size_t i = 0; i < count; ++i) {
+    trace.time_s.push_back(static_cast<double>(i) / sampling.rate_Hz);
+    trace.force_N[i] += noise_N(random);
+  }
+  return trace;
 }
 
 }  // namespace
@@ -33,16 +82,13 @@ Scene make_scene(const Factors& factors, std::uint64_t seed) {
 
   const double first_onset_s = (friction.static_N() / kStiffness_N_per_m) / speed_m_per_s;
   const double begin_s = first_onset_s + cycle.period_s * uniform(random, 0.1, 1.1);
-  slipfit::SimulationOptions options;
-  options.sample_rate_Hz = factors.samples_per_slip / cycle.slip_s;
-  options.duration_s = begin_s + factors.cycles * cycle.period_s;
-  options.static_friction_sd_N = factors.jitter * kDifference_N;
-  options.noise_rms_N = factors.noise * kDifference_N;
-  options.drift_N_per_s = factors.drift * kDifference_N / (factors.cycles * cycle.period_s);
-  options.hum_N = factors.hum * kDifference_N;
+  const double sliding_s = factors.cycles * cycle.period_s;
   // Recordings of one seed at several speeds share the body, not the noise.
-  options.seed = 64 * seed + static_cast<std::uint64_t>(8.0 * factors.speedup);
-  const slipfit::SimulatedTrace trace = slipfit::simulate(slider, friction, speed_m_per_s, options);
+  const Sampling sampling{factors.samples_per_slip / cycle.slip_s, begin_s + sliding_s, sliding_s,
+                          64 * seed + static_cast<std::uint64_t>(8.0 * factors.speedup)};
+  const bool is_bent = factors.average > 0.0 || factors.weakening > 0.0;
+  const Contact contact{slider, friction, speed_m_per_s};
+  const Trace trace = is_bent ? bent(factors, contact, sampling) : simulated(factors, contact, sampling);
   std::size_t first = 0;
   while (trace.time_s[first] < begin_s) ++first;
   std::vector<double> time_s, force_N(trace.force_N.begin() + static_cast<std::ptrdiff_t>(first), trace.force_N.end());
@@ -55,7 +101,7 @@ Scene make_scene(const Factors& factors, std::uint64_t seed) {
           slider,
           friction,
           cycle,
-          options.noise_rms_N,
+          factors.noise * kDifference_N,
           std::fmod(trace.time_s[first] - onset_s, cycle.period_s)};
 }
 

@@ -11,11 +11,13 @@ namespace atlas {
 struct Factors {
   double cycles = 40.0;
   double samples_per_slip = 20.0;
-  double noise = 0.02;   ///< rms
-  double jitter = 0.0;   ///< standard deviation of the static friction
-  double drift = 0.0;    ///< over the whole recording
-  double hum = 0.0;      ///< amplitude at 50 Hz
-  double speedup = 1.0;  ///< driving speed over the usual one: lambda is 10 / speedup
+  double noise = 0.02;     ///< rms
+  double jitter = 0.0;     ///< standard deviation of the static friction
+  double drift = 0.0;      ///< over the whole recording
+  double hum = 0.0;        ///< amplitude at 50 Hz
+  double average = 0.0;    ///< of the sensor: w_n T_b
+  double weakening = 0.0;  ///< slip distance: k D_c over the friction drop. Neither scatter, drift nor hum with the two
+  double speedup = 1.0;    ///< driving speed over the usual one: lambda is 10 / speedup
 };
 
 struct Scene {

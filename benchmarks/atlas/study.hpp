@@ -62,5 +62,7 @@ std::vector<File> study_forward(Effort effort);
 std::vector<File> study_frequency(Effort effort);
 std::vector<File> study_fits(Effort effort);
 std::vector<File> map_failures(Effort effort);
+/// Of fits, where an average of the sensor or friction that weakens bends the slips.
+std::vector<File> map_term_failures(Effort effort);
 
 }  // namespace atlas

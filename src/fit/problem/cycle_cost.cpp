@@ -27,7 +27,8 @@ bool CycleCost::Evaluate(const double* const* parameters, double* residuals, dou
   const bool is_prepared = prepared_ == Prepared::OutsideModel || prepared_ == Prepared::Rows ||
                            (prepared_ == Prepared::Norm && !with_jacobian);
   const Prepared found = is_prepared ? prepared_ : work_out(parameters, with_jacobian, room_);
-  if (found == Prepared::OutsideModel) return false;
+  was_outside_model_ = found == Prepared::OutsideModel;
+  if (was_outside_model_) return false;
   put(with_jacobian, residuals, jacobians);
   return true;
 }

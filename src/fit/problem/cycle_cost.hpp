@@ -35,6 +35,8 @@ class CycleCost : public ceres::CostFunction {
   void forget() { prepared_ = Prepared::Nothing; }
 
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override;
+  /// The slip had no solution where it was evaluated last.
+  [[nodiscard]] bool was_outside_model() const { return was_outside_model_; }
 
  private:
   enum class Prepared { Nothing, OutsideModel, Norm, Rows };
@@ -48,6 +50,7 @@ class CycleCost : public ceres::CostFunction {
   CycleRows& room_;
   Prepared prepared_ = Prepared::Nothing;
   mutable std::vector<double> point_;  ///< at which the norm and the reduced rows are, where the slip is integrated
+  mutable bool was_outside_model_ = false;
   mutable double norm_ = 0.0;
   mutable RowMajor reduced_;
 };

@@ -27,6 +27,8 @@ void Evaluations::watch(const ceres::Problem& problem) {
 }
 
 void Evaluations::restore_last_point() const {
+  const auto was_outside = [](const Asked& cycle) { return cycle.cost->was_outside_model(); };
+  if (std::any_of(cycles_.begin(), cycles_.end(), was_outside)) return;
   auto value = values_.begin();
   for (const auto& [block, size] : blocks_) {
     std::copy_n(value, size, block);

@@ -23,7 +23,8 @@ class Evaluations : public ceres::EvaluationCallback {
   void watch(const ceres::Problem& problem);
 
   /// Sets the problem's blocks to the point at which Ceres evaluated it last. At the end of a solve this is the step
-  /// whose gain was small enough to end it, the best point known, but Ceres returns the point before it.
+  /// whose gain was small enough to end it, the best point known, but Ceres returns the point before it. Does nothing
+  /// where that step led out of the model: steps that are refused shorten until they end the solve, too.
   void restore_last_point() const;
 
  private:

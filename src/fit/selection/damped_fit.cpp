@@ -180,8 +180,7 @@ class Fitter {
     held_[kDamping] = true;
     // Start again from the features: the other parameters have followed the wrong zeta.
     set_start(fit, segmentation_, {start_[0], start_[1], 0.0});
-    solve(fit, {held_, false, true, kMaxIterations, tolerance});
-    return true;
+    return std::isfinite(solve(fit, {held_, false, true, kMaxIterations, tolerance}));
   }
 
   /// Leaves out samples far from the fit and slips that it cannot explain, takes mains hum into the model, and refits.
