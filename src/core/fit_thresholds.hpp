@@ -194,6 +194,9 @@ inline constexpr double kShiftSigmas = 4.5;
 /// longer by the average than by itself. [1; derived]
 inline constexpr double kHidingAverage = 2.0;
 
+/// Chi-square by which a fit with an average is worse and not ruled out. [1; convention: 95 % of one parameter]
+inline constexpr double kNotRuledOut = 3.84;
+
 /// Residual with w_n by a stated mass over that with w_n free, above which the mass is not that of the slips. [1;
 /// convention]
 inline constexpr double kContradictedMass = 1.25;

@@ -10,22 +10,25 @@
 
 namespace slipfit::fit {
 
-/// The recording with a stated average whose impulse response has this variance.
-Recording with_average(const Recording& recording, double variance_s2);
-
 /// With an average of this variance as a parameter of the fit that its model has, and what W is not known by in the
 /// covariance. `beyond`: what is left to smooth.
 DampedFit with_average_error(DampedFit fit, double variance_s2, const Smoothing& beyond);
 
-/// The fit with one parameter more, the time W over which the instrument averages its samples (docs/model.md section
-/// 7), where it is not stated and `plain`, the fit without, shows a sign of it. Its covariance holds that of W. Empty
-/// where W does not explain all that `plain` misses of the slips or a sensor of first order explains it as well. Where
-/// W cannot be told from the slips behind it, or another W explains them as well, DampedFit::fall_doubt says so.
-std::optional<DampedFit> fit_average(const Recording& recording, const Quality& quality,
-                                     const Segmentation& segmentation, const HeldParameters& held,
-                                     const DampedFit& plain);
+/// What an average of the instrument explains that a fit without does not.
+struct AverageTrial {
+  std::optional<DampedFit> fit{};    ///< empty: not taken
+  std::optional<DampedFit> rival{};  ///< not taken, but not ruled out, though its w_n and zeta are others
+};
 
-/// `plain` finished, with the average that the slips show where the recording states none.
+/// The fit with one parameter more, the time W over which the instrument averages its samples (docs/model.md section
+/// 7), where it is not stated and `plain`, the fit without, shows a sign of it. Its covariance holds that of W. Not
+/// taken where W does not explain all that `plain` misses of the slips or a sensor of first order explains it as well.
+/// Where W cannot be told from the slips behind it, or another W explains them as well, DampedFit::fall_doubt says so.
+AverageTrial try_average(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
+                         const HeldParameters& held, const DampedFit& plain);
+
+/// `plain` finished, with the average that the slips show where the recording states none. Where one is not ruled out,
+/// intervals hold what it would make of the slips.
 std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality& quality,
                                        const Segmentation& segmentation, const HeldParameters& held, DampedFit plain);
 

@@ -42,7 +42,7 @@ KernelSearch::KernelSearch(const Recording& recording, const Segmentation& segme
   cycles_ = std::make_shared<CycleSet>(std::move(cycles), std::move(middles), plain_.level(), scales);
 }
 
-std::vector<KernelSearch::Least> KernelSearch::minima(double least_share) const {
+std::vector<KernelSearch::Least> KernelSearch::minima(double least_gain) const {
   // The variances of the average and of the slip's own velocity add up to what is seen.
   const double seen_s2 = seen_variance_s2();
   std::vector<double> shares{0.0, 0.125 * kShareStep, 0.25 * kShareStep, 0.5 * kShareStep};
@@ -58,7 +58,8 @@ std::vector<KernelSearch::Least> KernelSearch::minima(double least_share) const 
                                                              shares[i - 1], shares[i + 1], kMinimumBits, most);
     minima.push_back(at(least.first * seen_s2));
   }
-  std::erase_if(minima, [&](const Least& least) { return !(least.sum < (1.0 - least_share) * sums.front()); });
+  for (Least& least : minima) least.gain = 1.0 - least.sum / sums.front();
+  std::erase_if(minima, [&](const Least& least) { return !(least.gain > least_gain); });
   std::sort(minima.begin(), minima.end(), [](const Least& a, const Least& b) { return a.sum < b.sum; });
   return minima;
 }

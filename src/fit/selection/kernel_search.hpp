@@ -33,11 +33,11 @@ class KernelSearch {
     double variance_s2 = 0.0;
     Globals globals{};
     double resting = 0.0;  ///< share of the slips that come to rest
+    double gain = 0.0;     ///< of `minima`: share of the sum without an average by which it is smaller
   };
   /// Where the sum of squares of a moving average is least, the smallest first. There are two where the time of the
-  /// fall may be either W's or the slip's own (docs/model.md section 7). Empty where none is smaller than without an
-  /// average by this share of it.
-  [[nodiscard]] std::vector<Least> minima(double least_share) const;
+  /// fall may be either W's or the slip's own (docs/model.md section 7). Those of at least this gain.
+  [[nodiscard]] std::vector<Least> minima(double least_gain) const;
 
   /// The least near one of another search, and near a kernel of this variance: over a few of Newton's steps, infinity
   /// without a solution.

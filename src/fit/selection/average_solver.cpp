@@ -1,0 +1,100 @@
+#include "fit/selection/average_solver.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/thresholds.hpp"
+#include "fit/cycle/start.hpp"
+#include "fit/problem/solve.hpp"
+#include "fit/selection/carried_fit.hpp"
+#include "fit/selection/finish.hpp"
+#include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/tiers.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+constexpr int kAveragedIterations = 30;                        // a fit that explains the slips settles in fewer
+constexpr double kFewRest = 0.95 * thresholds::kRestickShare;  // of 64 slips a standard error below it
+
+/// Mean square that a fit leaves in those slips that `some` cycles of the recording hold.
+double mean_square_in(const BlockFit& some, const BlockFit& fit) {
+  double sum = 0.0;
+  std::size_t residuals = 0;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < fit.size() && next < some.size(); ++i) {
+    while (next < some.size() && some.data(next).slip < fit.data(i).slip) ++next;
+    if (next == some.size() || some.data(next).slip != fit.data(i).slip) continue;
+    sum += fit.cycle_sum_of_squares(i);
+    residuals += fit.data(i).residuals();
+  }
+  return sum / static_cast<double>(residuals);
+}
+
+}  // namespace
+
+Recording with_average(const Recording& recording, double variance_s2) {
+  Conditions conditions = recording.conditions();
+  conditions.sensor_average_s = std::sqrt(12.0 * variance_s2);
+  const auto time_s = recording.time_s();
+  const auto force = recording.force();
+  return Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()}, conditions,
+                           recording.provenance())
+      .value();
+}
+
+bool follows_slips(const DampedFit& fit, double sample_interval_s) {
+  const double negative = -thresholds::kNegativeSigmas * damping_error(fit);
+  return !fit.misfit && !fit.refused_damping && fit.blocks.parameters.globals[kDamping] > negative &&
+         resting_share(fit.blocks) >= thresholds::kRestickShare && median_slip_s(fit.blocks) > sample_interval_s;
+}
+
+std::optional<AveragedFit> AverageSolver::fit(double variance_s2, const Globals& near, const DampedFit* other) const {
+  const int most_fits = plain_.blocks.level().reloading ? 6 : 3;
+  std::optional<AveragedFit> best;
+  std::optional<DampedFit> fit = other != nullptr ? beside(*other, variance_s2, &near) : drafted(variance_s2, near);
+  for (int fits = 1; fit; ++fits) {
+    const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
+    if (!beyond) break;
+    AveragedFit trial{*std::move(fit), *beyond, variance_s2};
+    if (!best || trial.off() < best->off()) best = std::move(trial);
+    const bool is_worse = !follows_slips(best->fit, recording_.sample_interval_s()) ||
+                          best->fit.uncertainty.noise > plain_.uncertainty.noise;
+    if (fits == most_fits || is_worse || best->is_settled()) break;
+    variance_s2 += beyond->variance_s2;
+    if (!(variance_s2 > 0.0)) break;
+    fit = beside(best->fit, variance_s2, nullptr);
+  }
+  return best;
+}
+
+std::shared_ptr<const RiseAfterSlip> AverageSolver::reloading(double average_s) const {
+  if (!plain_.blocks.level().reloading) return nullptr;
+  RiseAfterSlip reloading = *plain_.blocks.level().reloading;
+  reloading.average_s = average_s;
+  return std::make_shared<const RiseAfterSlip>(std::move(reloading));
+}
+
+std::optional<DampedFit> AverageSolver::drafted(double variance_s2, const Globals& near) const {
+  std::optional<DampedFit> fit =
+      draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_,
+                   {near, plain_.excluded, reloading(std::sqrt(12.0 * variance_s2)), plain_.blocks.level().per_cycle,
+                    kAveragedIterations, [this](const BlockFit& some) { return is_hopeless(some); }, true});
+  return settle_rise(recording_.sample_interval_s(), quality_, std::move(fit));
+}
+
+bool AverageSolver::is_hopeless(const BlockFit& some) const {
+  return resting_share(some) < kFewRest || mean_square_in(some, some) > mean_square_in(some, plain_.blocks);
+}
+
+std::optional<DampedFit> AverageSolver::beside(const DampedFit& other, double variance_s2, const Globals* start) const {
+  BlockFit blocks = averaged_by(other.blocks, variance_s2);
+  if (start != nullptr) set_start(blocks, segmentation_, *start);
+  if (!std::isfinite(solve(blocks, {other.held, false, true}))) return std::nullopt;
+  std::optional<DampedFit> fit =
+      with_uncertainty({std::move(blocks), false, other.held, {}, other.half_width_s, other.excluded, {}, {}},
+                       tolerated_misfit(quality_));
+  return settle_rise(recording_.sample_interval_s(), quality_, std::move(fit));
+}
+
+}  // namespace slipfit::fit
