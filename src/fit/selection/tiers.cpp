@@ -39,7 +39,8 @@ double damping_error(const DampedFit& fit) {
 
 double sigmas_of_distance(const DampedFit& fit) {
   const double root = fit.blocks.parameters.globals[kFrictionSlope];
-  return 0.5 * std::abs(root) / std::sqrt(fit.uncertainty.covariance(kSlipDistance, kSlipDistance));
+  const double variance = fit.uncertainty.covariance(kSlipDistance, kSlipDistance);
+  return variance > 0.0 ? 0.5 * std::abs(root) / std::sqrt(variance) : 0.0;
 }
 
 double effective_samples(const DampedFit& fit) {

@@ -48,7 +48,7 @@ struct Resolution {
 /// Standard error of zeta.
 double damping_error(const DampedFit& fit);
 
-/// D_c over its standard error.
+/// D_c over its standard error; 0 where that is not known.
 double sigmas_of_distance(const DampedFit& fit);
 
 /// Independent residuals: neighbours that correlate by rho count as (1 - rho) / (1 + rho) of themselves; a cycle counts
