@@ -167,7 +167,7 @@ void place_on_samples(const Scale& scale, Events& events) {
 }  // namespace
 
 Events find_events(std::vector<double> force, double noise) {
-  constexpr std::size_t kLarge = 50000;  // samples from which a second thread is worth its start
+  constexpr std::size_t kLarge = 200000;  // samples from which a second thread is worth its start
   const RunningMeans means(force);
   std::vector<double> widths;
   for (double width = 1.0; width <= 0.02 * static_cast<double>(force.size()) || width < 2.0; width *= 1.5) {
