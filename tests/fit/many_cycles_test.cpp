@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "fit/cycle/cycle_data.hpp"
+#include "fit/cycle/start.hpp"
 #include "scene.hpp"
 
 using namespace slipfit;
@@ -107,6 +109,33 @@ TEST_CASE("lines that keep the phase of the slips are of the cycles' shape and n
   REQUIRE(analysis.motion == MotionClass::StickSlip);
   CHECK(!has_warning(analysis, "hum_fitted"));
   CHECK(std::abs(*parameter(analysis, "stiffness_N_per_m").estimate.value - 2500.0) < 1.0);
+}
+
+TEST_CASE("the fit beneath hum begins with the slope of the sticks, not with that of the hum beside them") {
+  // Ramps at 24.9 Hz: in 40 of them hum of 50 Hz keeps nearly its phase, and falls in the middle of the ramps in some.
+  constexpr int kPeriod = 402;
+  constexpr int kFall = 36;
+  constexpr double kSlope = 1.0 / (1e-4 * (kPeriod - kFall));  // N/s
+  for (const double phase_rad : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0}) {
+    std::vector<double> time_s, force;
+    for (int i = 0; i < 40 * kPeriod; ++i) {
+      const int at = i % kPeriod;
+      const double share = at < kPeriod - kFall ? at : static_cast<double>(kPeriod - kFall) / kFall * (kPeriod - at);
+      time_s.push_back(1e-4 * i);
+      force.push_back(3.0 + share / (kPeriod - kFall) +
+                      0.3 * std::sin(2.0 * std::numbers::pi * 50.0 * time_s.back() + phase_rad));
+    }
+    Conditions conditions;
+    conditions.speed_m_per_s = 0.01;
+    const Recording recording = Recording::create(time_s, force, conditions).value();
+    const Quality quality = assess_quality(recording);
+    const auto beneath = find_slips_beneath_hum(recording, quality, find_slips(recording, quality));
+    INFO("phase " << phase_rad << " rad");
+    REQUIRE(beneath);
+    // The line of 50 Hz takes the second harmonic of the slips with it, of amplitude 1 / (2 pi) of a fall: at most
+    // twice that between trough and peak. The slope of the hum itself is 2 pi * 50 * 0.3 = 94 N/s, of either sign.
+    CHECK(fit::stiffness_of(recording, *beneath) * 0.01 == Approx(kSlope).epsilon(1.0 / std::numbers::pi));
+  }
 }
 
 TEST_CASE("hum beside a part of the cycles is one line, not one for each gap between the runs") {

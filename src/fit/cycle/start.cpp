@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "signal/robust.hpp"
 
@@ -40,6 +41,39 @@ std::vector<double> level_through(const BlockFit& fit, const std::vector<double>
   return coefficients;
 }
 
+/// Of the line through the middle of a rise: stick wherever there is any, and the steepest part of a rise without.
+/// Empty where it has one sample.
+std::optional<double> slope_in_middle(const Recording& recording, const DetectedSlip& before,
+                                      const DetectedSlip& after) {
+  const auto time_s = recording.time_s();
+  const auto force = recording.force();
+  const auto share = [&](double x) {
+    return before.trough + static_cast<std::size_t>(x * static_cast<double>(after.peak - before.trough));
+  };
+  const std::size_t begin = share(0.3);
+  const std::size_t end = share(0.7) + 1;
+  const auto count = static_cast<double>(end - begin);
+  if (count < 2.0) return std::nullopt;
+  double mean_s = 0.0;
+  double cross = 0.0;
+  double spread = 0.0;
+  for (std::size_t j = begin; j < end; ++j) mean_s += (time_s[j] - time_s[begin]) / count;
+  for (std::size_t j = begin; j < end; ++j) {
+    const double dt = time_s[j] - time_s[begin] - mean_s;
+    cross += dt * (force[j] - force[begin]);
+    spread += dt * dt;
+  }
+  return spread > 0.0 ? std::optional(cross / spread) : std::nullopt;
+}
+
+/// From trough to peak, which were found without the mains: samples between them still hold it. Empty where they are
+/// one sample.
+std::optional<double> slope_of_whole(const Recording& recording, const DetectedSlip& before,
+                                     const DetectedSlip& after) {
+  const double duration_s = recording.time_s()[after.peak] - recording.time_s()[before.trough];
+  return duration_s > 0.0 ? std::optional((after.peak_force - before.trough_force) / duration_s) : std::nullopt;
+}
+
 }  // namespace
 
 Scales scales_of(const Recording& recording, const Quality& quality, const Segmentation& segmentation) {
@@ -65,30 +99,13 @@ Scales scales_of(const Recording& recording, const Quality& quality, const Segme
 }
 
 double stiffness_of(const Recording& recording, const Segmentation& segmentation) {
-  const auto time_s = recording.time_s();
-  const auto force = recording.force();
   std::vector<double> slopes;
   for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
-    const std::size_t trough = segmentation.slips[i - 1].trough;
-    const std::size_t peak = segmentation.slips[i].peak;
-    // The middle of the rise: stick wherever there is any, and the steepest part of a rise without.
-    const auto share = [&](double x) {
-      return trough + static_cast<std::size_t>(x * static_cast<double>(peak - trough));
-    };
-    const std::size_t begin = share(0.3);
-    const std::size_t end = share(0.7) + 1;
-    const auto count = static_cast<double>(end - begin);
-    if (count < 2.0) continue;
-    double mean_s = 0.0;
-    double cross = 0.0;
-    double spread = 0.0;
-    for (std::size_t j = begin; j < end; ++j) mean_s += (time_s[j] - time_s[begin]) / count;
-    for (std::size_t j = begin; j < end; ++j) {
-      const double dt = time_s[j] - time_s[begin] - mean_s;
-      cross += dt * (force[j] - force[begin]);
-      spread += dt * dt;
-    }
-    if (spread > 0.0) slopes.push_back(cross / spread);
+    const DetectedSlip& before = segmentation.slips[i - 1];
+    const DetectedSlip& after = segmentation.slips[i];
+    const std::optional<double> slope = segmentation.mains_Hz.empty() ? slope_in_middle(recording, before, after)
+                                                                      : slope_of_whole(recording, before, after);
+    if (slope) slopes.push_back(*slope);
   }
   return signal::median(slopes) / recording.conditions().speed_m_per_s;
 }
