@@ -25,6 +25,10 @@ inline constexpr double kModestSpread = 0.5;
 /// Smallest share of slips that come to rest in stick-slip. [1; convention]
 inline constexpr double kRestickShare = 0.8;
 
+/// Smallest share of slips that come to rest in a fit of some cycles, for all of them to be fitted. [1; derived: of 64
+/// slips a standard error below kRestickShare]
+inline constexpr double kFewRest = 0.95 * kRestickShare;
+
 /// Time of a fall from 80 % to 20 % over the period, above which a trace is as round as a sine. [1; derived: 0.205 for
 /// a sine, 0.3 for an even triangle, less for slips]
 inline constexpr double kSineFall = 0.17;

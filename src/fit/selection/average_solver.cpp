@@ -14,8 +14,7 @@
 namespace slipfit::fit {
 namespace {
 
-constexpr int kAveragedIterations = 30;                        // a fit that explains the slips settles in fewer
-constexpr double kFewRest = 0.95 * thresholds::kRestickShare;  // of 64 slips a standard error below it
+constexpr int kAveragedIterations = 30;  // a fit that explains the slips settles in fewer
 
 /// Mean square that a fit leaves in those slips that `some` cycles of the recording hold.
 double mean_square_in(const BlockFit& some, const BlockFit& fit) {
@@ -84,7 +83,7 @@ std::optional<DampedFit> AverageSolver::drafted(double variance_s2, const Global
 }
 
 bool AverageSolver::is_hopeless(const BlockFit& some) const {
-  return resting_share(some) < kFewRest || mean_square_in(some, some) > mean_square_in(some, plain_.blocks);
+  return resting_share(some) < thresholds::kFewRest || mean_square_in(some, some) > mean_square_in(some, plain_.blocks);
 }
 
 std::optional<DampedFit> AverageSolver::beside(const DampedFit& other, double variance_s2, const Globals* start) const {

@@ -72,10 +72,9 @@ class AveragedWeakening {
     return with_settled_average(*std::move(some));
   }
 
-  /// They rest where those of Coulomb friction do, and the average is shorter than a stick.
+  /// They come to rest, and the average is shorter than a stick.
   [[nodiscard]] bool has_slips_of_its_own(const BlockFit& fit) const {
-    if (resting_share(fit) < thresholds::kRestickShare && resting_share(coulomb_.blocks) >= thresholds::kRestickShare)
-      return false;
+    if (resting_share(fit) < thresholds::kFewRest) return false;
     return fit.scales().sensor_average_s + median_slip_s(fit) < median_period_s(coulomb_.blocks);
   }
 

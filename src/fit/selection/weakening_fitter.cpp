@@ -30,18 +30,12 @@ class WeakeningTest {
     const std::vector<CycleData> some = solver_.enough_of(cycles);
     if (some.empty()) return true;
     const std::optional<BlockFit> blocks = solver_.solved(some, average_s_, start, WeakeningSolver::kRoughTolerance);
-    if (!blocks || is_beaten(*blocks) || loses_sticks(*blocks)) return false;
+    if (!blocks || is_beaten(*blocks) || resting_share(*blocks) < thresholds::kFewRest) return false;
     // In place of an average it need not explain more.
     return coulomb_.average || (explains_enough(*blocks) && solver_.tells_distance(*blocks));
   }
 
  private:
-  /// Slips that come to rest under Coulomb friction would not.
-  [[nodiscard]] bool loses_sticks(const BlockFit& some) const {
-    return resting_share(some) < thresholds::kRestickShare &&
-           resting_share(coulomb_.blocks) >= thresholds::kRestickShare;
-  }
-
   /// The Coulomb fit explains these cycles better, beyond chance.
   [[nodiscard]] bool is_beaten(const BlockFit& some) const {
     BlockFit coulomb(some.set(), coulomb_.blocks.scales());
