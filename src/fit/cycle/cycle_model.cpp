@@ -55,48 +55,48 @@ std::optional<CycleState> CycleModel::state(const double* globals, const double*
   return CycleState{f, CoulombCycle(f.z0(), f.zeta, sensor)};
 }
 
-/// Writes residual rows one after the other, and their derivatives column after column.
+/// Writes residual rows one after the other, and their derivatives column after column. It holds copies of what every
+/// row needs: a value behind a reference would have to be read again after each one that is written.
 class CycleModel::Rows {
  public:
   Rows(const CycleModel& cycle, const CycleValues& values, double* residuals, double* jacobian)
       : values_(values),
         residuals_(residuals),
         jacobian_(jacobian),
-        basis_(cycle.basis_->data()),
+        basis_(cycle.basis_->data() + (cycle.level_->terms > 0 ? 1 : 0)),
+        columns_(cycle.level_->columns()),
         stride_(static_cast<std::ptrdiff_t>(cycle.residuals())),
         scales_(cycle.scales_),
+        force_(scales_.force),
+        level_unit_(scales_.level_unit()),
         drifts_(cycle.drift_parameters()),
-        first_drift_(cycle.level_->terms > 0 ? 1 : 0),
+        log_speed_(cycle.has_exponent() ? *scales_.population->log_speed : 0.0),
         has_exponent_(cycle.has_exponent()),
+        has_difference_(cycle.has_difference()),
         level_per_cycle_(cycle.level_->per_cycle),
-        has_constant_(cycle.has_constant()) {}
+        has_constant_(cycle.has_constant()),
+        constant_(level_per_cycle_ ? scales_.level + force_ * values.local[2]
+                                   : scales_.level_zero() + level_unit_ * *values.constant) {}
 
   /// `model`: force above the level; `by_global`, `by_onset`, `by_onset_force`: its derivatives. `constant_share`: 1,
   /// but 0 in rows of slopes, which no constant enters.
   template <std::size_t N>
   void put(double weight, double data, double model, const std::array<double, N>& by_global, double by_onset,
            double by_onset_force, double constant_share) {
-    const double* drift = basis_ + first_drift_;
-    double level = 0.0;
-    for (std::size_t i = 0; i < drifts_; ++i) level += values_.drift[i] * drift[i];
-    level *= scales_.force;
-    if (level_per_cycle_) {
-      level += constant_share * (scales_.level + scales_.force * values_.local[2]);
-    } else {
-      level += constant_share * (scales_.level_zero() + scales_.level_unit() * *values_.constant);
-    }
-    begin_row(weight * (data - (level + model)));
+    double drift = 0.0;
+    for (std::size_t i = 0; i < drifts_; ++i) drift += values_.drift[i] * basis_[i];
+    begin_row(weight * (data - (force_ * drift + constant_share * constant_ + model)));
     if (jacobian_ != nullptr) {
       for (const double derivative : by_global) add(-weight * derivative);
       if (has_exponent_) add(-weight * by_exponent(by_global[kLogStiffness], by_global[kLogFrequency]));
-      if (scales_.population) add(0.0);
-      if (has_constant_) add(level_per_cycle_ ? 0.0 : -weight * constant_share * scales_.level_unit());
-      for (std::size_t i = 0; i < drifts_; ++i) add(-weight * scales_.force * drift[i]);
+      if (has_difference_) add(0.0);
+      if (has_constant_) add(level_per_cycle_ ? 0.0 : -weight * constant_share * level_unit_);
+      for (std::size_t i = 0; i < drifts_; ++i) add(-weight * force_ * basis_[i]);
       add(-weight * by_onset);
       add(-weight * by_onset_force);
-      if (level_per_cycle_) add(-weight * constant_share * scales_.force);
+      if (level_per_cycle_) add(-weight * constant_share * force_);
     }
-    basis_ += first_drift_ + drifts_;
+    basis_ += columns_;
   }
 
   /// F_s of this cycle against the population's: A + c V - (F_s - F_k(0+)).
@@ -135,7 +135,7 @@ class CycleModel::Rows {
  private:
   /// Of the derivatives by ln k and ln w_n. docs/model.md (26)
   [[nodiscard]] double by_exponent(double by_log_stiffness, double by_log_frequency) const {
-    return *scales_.population->log_speed * (by_log_stiffness + 0.5 * by_log_frequency);
+    return log_speed_ * (by_log_stiffness + 0.5 * by_log_frequency);
   }
 
   void begin_row(double residual) {
@@ -147,45 +147,56 @@ class CycleModel::Rows {
     at_ += stride_;
   }
 
-  const CycleValues& values_;
+  const CycleValues values_;
   double* residuals_;
   double* jacobian_;
   double* at_ = nullptr;  // next column of the row
-  const double* basis_;
+  const double* basis_;   // of the level's columns behind the constant
+  std::size_t columns_;   // of the level
   std::ptrdiff_t stride_;
   const Scales& scales_;
+  double force_;
+  double level_unit_;
   std::size_t drifts_;
-  std::size_t first_drift_;  // behind the constant, where the basis has one
+  double log_speed_;
   bool has_exponent_;
+  bool has_difference_;
   bool level_per_cycle_;
   bool has_constant_;
+  double constant_;  // force of the level without its drift
 };
 
 /// F = level + u z(tau; z0, law), tau = w_n (t - onset), z0 = A / u, u = k V / w_n
 template <class Law>
-void CycleModel::fill(const Law& law, const CycleFrame& frame, Rows& rows) const {
+void CycleModel::fill(const Law& law, const CycleFrame& frame, Rows rows) const {
   const double u = frame.force_scale;
   const double w = frame.omega_rad_per_s;
   const double z0 = frame.z0();
+  const double by_noise = 1.0 / scales_.noise;
+  const double onset_unit = -u * w * scales_.half_period_s;
+  const double force_unit = scales_.force;
   constexpr std::size_t kOfLaw = std::tuple_size_v<decltype(law.by_law(typename Law::Point{}))>;
   const auto put_point = [&](double weight, double force, double tau, const typename Law::Point& p) {
     const double scale_part = u * (p.z - z0 * p.d_z0);  // d / d ln u at fixed tau
     std::array<double, 2 + kOfLaw> by_global{scale_part, -scale_part + u * (p.d_tau * tau + law.by_log_omega(p))};
     const std::array<double, kOfLaw> by_law = law.by_law(p);
     for (std::size_t i = 0; i < kOfLaw; ++i) by_global[2 + i] = u * by_law[i];
-    rows.put(weight, force, u * p.z, by_global, -u * p.d_tau * w * scales_.half_period_s, scales_.force * p.d_z0, 1.0);
+    rows.put(weight, force, u * p.z, by_global, onset_unit * p.d_tau, force_unit * p.d_z0, 1.0);
   };
   typename Law::Samples samples(law, w * even_step_s_);
-  for (std::size_t i = 0; i < data_->time_s.size(); ++i) {
-    const double tau = frame.tau_at(data_->time_s[i]);
-    const double weight = (data_->weight.empty() ? 1.0 : data_->weight[i]) / scales_.noise;
-    put_point(weight, data_->force[i], tau, samples.at(tau));
+  const std::size_t count = data_->time_s.size();
+  const double* const time_s = data_->time_s.data();
+  const double* const force = data_->force.data();
+  const double* const weight = data_->weight.empty() ? nullptr : data_->weight.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double tau = frame.tau_at(time_s[i]);
+    put_point(weight == nullptr ? by_noise : by_noise * weight[i], force[i], tau, samples.at(tau));
   }
   const double rate = u * w;  // k V
   const auto put_bin = [&](const StickBin& bin, double tau, const typename Law::Point& p) {
-    put_point(std::sqrt(bin.count) / scales_.noise, bin.force, tau, p);
-    rows.put(std::sqrt(bin.time_spread) / scales_.noise, bin.slope, rate, std::array<double, 2 + kOfLaw>{rate}, 0.0,
-             0.0, 0.0);
+    put_point(by_noise * std::sqrt(bin.count), bin.force, tau, p);
+    rows.put(by_noise * std::sqrt(bin.time_spread), bin.slope, rate, std::array<double, 2 + kOfLaw>{rate}, 0.0, 0.0,
+             0.0);
   };
   for (const StickBin& bin : data_->bins_before) {
     const double tau = frame.tau_at(bin.time_s);

@@ -153,7 +153,7 @@ class CycleModel {
 
   [[nodiscard]] std::size_t ties() const { return scales_.population ? 1 + (level_->per_cycle ? 1 : 0) : 0; }
   template <class Law>
-  void fill(const Law& law, const CycleFrame& frame, Rows& rows) const;
+  void fill(const Law& law, const CycleFrame& frame, Rows rows) const;
 
   const CycleData* data_;
   const LevelModel* level_;

@@ -125,10 +125,13 @@ class Bundle {
   /// What a fit can explain settles in some five steps from a solution of fewer cycles, however large it is. What it
   /// cannot may creep along a valley: not for longer than the rest of the program takes.
   [[nodiscard]] int most_iterations() const {
-    constexpr double kMostEvaluations = 1.2e6;  // of a sample
+    constexpr double kMostEvaluations = 1.2e6;  // of a sample under Coulomb friction
     constexpr double kCycle = 24.0;             // evaluations that a cycle takes as long as beside those of its samples
+    constexpr double kTerm = 2.0;               // by which weakening and an average each make an evaluation longer
     constexpr double kFewest = 6.0;
-    const double evaluations = static_cast<double>(residuals_) + kCycle * static_cast<double>(owns_.size());
+    double evaluations = static_cast<double>(residuals_) + kCycle * static_cast<double>(owns_.size());
+    if (scales().law == FrictionLaw::Weakening) evaluations *= kTerm;
+    if (scales().sensor_average_s > 0.0) evaluations *= kTerm;
     const double most = std::max(kFewest, kMostEvaluations / evaluations);
     return recordings_.size() > 1 ? options_.max_iterations
                                   : static_cast<int>(std::min<double>(options_.max_iterations, most));

@@ -65,9 +65,8 @@ BlockFit averaged_by(const BlockFit& fit, double variance_s2) {
 
 double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor) {
   constexpr int kMostIterations = 60;
-  constexpr double kTolerance = 1e-7;  // SolveOptions::tolerance: as near as the richer one is
   BlockFit again = carried_to(rich.blocks.set(), poor.blocks);
-  if (!std::isfinite(solve(again, {poor.held, false, true, kMostIterations, kTolerance}))) return 0.0;
+  if (!std::isfinite(solve(again, {poor.held, false, true, kMostIterations}))) return 0.0;
   return effective_samples(rich) * std::log(sum_of_squares(again) / sum_of_squares(rich.blocks)) - 2.0;
 }
 

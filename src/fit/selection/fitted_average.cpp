@@ -42,7 +42,7 @@ bool hides_damping(double variance_s2, double log_omega) {
   return std::exp(log_omega) * std::sqrt(12.0 * variance_s2) > thresholds::kHidingAverage;
 }
 bool hides_damping(const KernelSearch::Least& least) {
-  return hides_damping(least.variance_s2, least.globals[kLogFrequency]);
+  return hides_damping(least.variance_s2, least.parameters.globals[kLogFrequency]);
 }
 
 /// Slips and W can be told apart.
@@ -96,7 +96,8 @@ Found best_trial(const AverageSolver& solver, const DampedFit& plain, const std:
   Found found;
   std::optional<AveragedFit>& trial = found.trial;
   for (const KernelSearch::Least& start : starts) {
-    std::optional<AveragedFit> next = solver.fit(start.variance_s2, start.globals, trial ? &trial->fit : nullptr);
+    std::optional<AveragedFit> next =
+        solver.fit(start.variance_s2, start.parameters.globals, trial ? &trial->fit : nullptr);
     const bool is_better =
         next && follows_slips(next->fit, sample_interval_s) && gain_of(next->fit, plain) > least_gain;
     if (!is_better) continue;

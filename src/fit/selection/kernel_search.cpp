@@ -47,18 +47,20 @@ std::vector<KernelSearch::Least> KernelSearch::minima(double least_gain) const {
   const double seen_s2 = seen_variance_s2();
   std::vector<double> shares{0.0, 0.125 * kShareStep, 0.25 * kShareStep, 0.5 * kShareStep};
   for (double share = kShareStep; share < kLargestShare; share += kShareStep) shares.push_back(share);
-  std::vector<double> sums;
-  sums.reserve(shares.size());
-  for (const double share : shares) sums.push_back(at(share * seen_s2).sum);
+  std::vector<Least> scan;
+  Least start;
+  start.parameters = started(Kernel::MovingAverage, 0.0).parameters;
+  for (const double share : shares) scan.push_back(at(share * seen_s2, scan.empty() ? start : scan.back()));
   std::vector<Least> minima;
-  for (std::size_t i = 1; i + 1 < sums.size(); ++i) {
-    if (!(sums[i] < sums[i - 1] && sums[i] <= sums[i + 1])) continue;
+  for (std::size_t i = 1; i + 1 < scan.size(); ++i) {
+    if (!(scan[i].sum < scan[i - 1].sum && scan[i].sum <= scan[i + 1].sum)) continue;
     std::uintmax_t most = 8;
-    const auto least = boost::math::tools::brent_find_minima([&](double share) { return at(share * seen_s2).sum; },
-                                                             shares[i - 1], shares[i + 1], kMinimumBits, most);
-    minima.push_back(at(least.first * seen_s2));
+    const auto least =
+        boost::math::tools::brent_find_minima([&](double share) { return at(share * seen_s2, scan[i]).sum; },
+                                              shares[i - 1], shares[i + 1], kMinimumBits, most);
+    minima.push_back(at(least.first * seen_s2, scan[i]));
   }
-  for (Least& least : minima) least.gain = 1.0 - least.sum / sums.front();
+  for (Least& least : minima) least.gain = 1.0 - least.sum / scan.front().sum;
   std::erase_if(minima, [&](const Least& least) { return !(least.gain > least_gain); });
   std::sort(minima.begin(), minima.end(), [](const Least& a, const Least& b) { return a.sum < b.sum; });
   return minima;
@@ -69,13 +71,19 @@ double KernelSearch::seen_variance_s2() const {
   return kSlipVariance * slip_s * slip_s;
 }
 
-KernelSearch::Least KernelSearch::at(double variance_s2) const {
-  BlockFit fit = started(Kernel::MovingAverage, variance_s2);
+KernelSearch::Least KernelSearch::at(double variance_s2, const Least& near) const {
   Least least;
   least.variance_s2 = variance_s2;
+  least.parameters = near.parameters;
+  if (!held_[kLogFrequency]) {
+    least.parameters.globals[kLogFrequency] += log_frequency_gain(variance_s2) - log_frequency_gain(near.variance_s2);
+  }
+  BlockFit fit(cycles_, plain_.scales());
+  fit.parameters = least.parameters;
+  fit = with_kernel(fit, Kernel::MovingAverage, variance_s2);
   if (!solve_with_damping(fit)) return least;
   least.sum = sum_of_squares(fit);
-  least.globals = fit.parameters.globals;
+  least.parameters = fit.parameters;
   least.resting = resting_share(fit);
   return least;
 }
@@ -86,7 +94,7 @@ KernelSearch::Least KernelSearch::least_squares(Kernel kernel, double variance_s
 
 KernelSearch::Least KernelSearch::refined(const Least& near) const {
   BlockFit fit(cycles_, plain_.scales());
-  set_start(fit, segmentation_, near.globals);
+  set_start(fit, segmentation_, near.parameters.globals);
   fit.parameters.level = plain_.parameters.level;
   return descended(with_kernel(fit, Kernel::MovingAverage, near.variance_s2), Kernel::MovingAverage, near.variance_s2);
 }
@@ -100,7 +108,7 @@ KernelSearch::Least KernelSearch::descended(BlockFit fit, Kernel kernel, double 
     if (!held) break;
     const double sum = sum_of_squares(fit);
     if (!(sum < least.sum)) break;
-    least = {sum, variance_s2, fit.parameters.globals, resting_share(fit)};
+    least = {sum, variance_s2, fit.parameters, resting_share(fit)};
     const std::optional<Smoothing> beyond = estimate_smoothing(fit, *held, step_s_);
     if (!beyond) break;
     const double next_s2 = beyond->next_variance_s2(variance_s2);
@@ -124,12 +132,16 @@ BlockFit KernelSearch::with_kernel(const BlockFit& fit, Kernel kernel, double va
   return with_rise_after(fit, scales);
 }
 
-BlockFit KernelSearch::started(Kernel kernel, double variance_s2) const {
+/// By which ln w_n of the slips grows where an average of this variance takes its part of what is seen.
+double KernelSearch::log_frequency_gain(double variance_s2) const {
   constexpr double kLeast = 0.03;
-  const double own = std::max(kLeast, 1.0 - variance_s2 / seen_variance_s2());
+  return -0.5 * std::log(std::max(kLeast, 1.0 - variance_s2 / seen_variance_s2()));
+}
+
+BlockFit KernelSearch::started(Kernel kernel, double variance_s2) const {
   BlockFit fit(cycles_, plain_.scales());
   Globals globals{plain_.parameters.globals[kLogStiffness],
-                  plain_.parameters.globals[kLogFrequency] - 0.5 * std::log(own), 0.1};
+                  plain_.parameters.globals[kLogFrequency] + log_frequency_gain(variance_s2), 0.1};
   for (std::size_t i = 0; i < globals.size(); ++i) {
     if (held_[i]) globals[i] = plain_.parameters.globals[i];
   }
@@ -138,17 +150,31 @@ BlockFit KernelSearch::started(Kernel kernel, double variance_s2) const {
   return with_kernel(fit, kernel, variance_s2);
 }
 
+/// Whether zeta = 0, at which this fit has been solved, is better than any above it: where all else is at its best, a
+/// small step tells.
+bool KernelSearch::is_best_undamped(BlockFit fit) const {
+  constexpr double kStep = 1e-3;
+  const double sum = sum_of_squares(fit);
+  fit.parameters.globals[kDamping] = kStep;
+  return !(sum_of_squares(fit) < sum);
+}
+
 /// What is held at the solution: zeta at 0 where its best value is negative. Empty: no solution.
 std::optional<Held> KernelSearch::solve_with_damping(BlockFit& fit) const {
   constexpr int kIterations = 12;
   constexpr double kRough = 0.1;  // SolveOptions::tolerance
-  Held held = held_;
-  if (!std::isfinite(solve(fit, {held, false, true, kIterations, kRough}))) return std::nullopt;
-  if (held[kDamping] || fit.parameters.globals[kDamping] >= 0.0) return held;
-  fit.parameters.globals[kDamping] = 0.0;
-  held[kDamping] = true;
-  if (!std::isfinite(solve(fit, {held, false, true, kIterations, kRough}))) return std::nullopt;
-  return held;
+  const auto solve_holding = [&](const Held& held) {
+    return std::isfinite(solve(fit, {held, false, true, kIterations, kRough}));
+  };
+  Held undamped = held_;
+  undamped[kDamping] = true;
+  if (held_[kDamping]) return solve_holding(held_) ? std::optional(held_) : std::nullopt;
+  double& zeta = fit.parameters.globals[kDamping];
+  if (zeta == 0.0 && solve_holding(undamped) && is_best_undamped(fit)) return undamped;
+  if (!solve_holding(held_)) return std::nullopt;
+  if (zeta >= 0.0) return held_;
+  zeta = 0.0;
+  return solve_holding(undamped) ? std::optional(undamped) : std::nullopt;
 }
 
 }  // namespace slipfit::fit

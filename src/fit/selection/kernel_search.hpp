@@ -31,7 +31,7 @@ class KernelSearch {
   struct Least {
     double sum = std::numeric_limits<double>::infinity();
     double variance_s2 = 0.0;
-    Globals globals{};
+    Parameters parameters{};
     double resting = 0.0;  ///< share of the slips that come to rest
     double gain = 0.0;     ///< of `minima`: share of the sum without an average by which it is smaller
   };
@@ -49,10 +49,13 @@ class KernelSearch {
 
  private:
   [[nodiscard]] double seen_variance_s2() const;
-  [[nodiscard]] Least at(double variance_s2) const;
+  /// From the solution at another variance.
+  [[nodiscard]] Least at(double variance_s2, const Least& near) const;
   [[nodiscard]] Least descended(BlockFit fit, Kernel kernel, double variance_s2) const;
   [[nodiscard]] BlockFit with_kernel(const BlockFit& fit, Kernel kernel, double variance_s2) const;
   [[nodiscard]] BlockFit started(Kernel kernel, double variance_s2) const;
+  [[nodiscard]] double log_frequency_gain(double variance_s2) const;
+  [[nodiscard]] bool is_best_undamped(BlockFit fit) const;
   [[nodiscard]] std::optional<Held> solve_with_damping(BlockFit& fit) const;
 
   const Segmentation& segmentation_;

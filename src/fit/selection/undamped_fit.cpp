@@ -17,27 +17,37 @@ bool is_lost(double loose_chi2, const DampedFit& damped) {
   return effective_samples(damped) * std::log1p(worse) > kLost;
 }
 
+/// The damped fit does not rule zeta = 0 out, and its cycles stand where the undamped fit has them.
+bool is_near(const DampedFit& damped) {
+  constexpr double kNear = 2.0;
+  return std::abs(damped.blocks.parameters.globals[kDamping]) < kNear * damping_error(damped);
+}
+
 }  // namespace
 
 std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
   const BlockFit& from = damped.blocks;
   BlockFit blocks = from;
-  blocks.parameters.globals[2] = 0.0;
+  blocks.parameters.globals[kDamping] = 0.0;
   Held held = damped.held;
   held[kDamping] = true;
-  // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
-  SolveOptions rough{held, false, true};
-  rough.tolerance = 0.1;
-  const double loose_chi2 = solve(blocks, rough);
-  if (!std::isfinite(loose_chi2)) return std::nullopt;
-  const bool lost = may_lose && is_lost(loose_chi2, damped);
+  bool lost = false;
+  if (!is_near(damped)) {
+    // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
+    SolveOptions rough{held, false, true};
+    rough.tolerance = 0.1;
+    const double loose_chi2 = solve(blocks, rough);
+    if (!std::isfinite(loose_chi2)) return std::nullopt;
+    lost = may_lose && is_lost(loose_chi2, damped);
+  }
   const bool joined = damped.continuous && !lost;
   if (!lost && !std::isfinite(solve(blocks, {held, joined, true}))) return std::nullopt;
   DampedFit result{std::move(blocks),   joined,          held, damped.refused_damping,
                    damped.half_width_s, damped.excluded, {},   damped.misfit};
   result.uncertainty = estimate_uncertainty(result.blocks, {held, joined});
   // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.
-  const bool is_false = from.parameters.globals[2] < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
+  const bool is_false =
+      from.parameters.globals[kDamping] < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
   return is_false ? std::nullopt : std::optional(std::move(result));
 }
 

@@ -21,7 +21,7 @@ constexpr std::size_t kFewCycles = 40;   // enough to see that the slips are exp
 constexpr std::size_t kSomeCycles = 64;  // of many
 constexpr int kOwnIterations = 6;        // of onsets and forces by themselves
 constexpr int kFullIterations = 60;
-constexpr int kStepIterations = 20;      // beside a solution for another average
+constexpr int kStepIterations = 8;       // beside a solution for another average
 constexpr double kNothing = 0.1;         // of its error: a slip distance that is none
 constexpr double kDraftTolerance = 0.1;  // SolveOptions::tolerance of a draft
 /// SolveOptions::tolerance. Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them
