@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "fit/cycle/cycle_model.hpp"
@@ -20,20 +21,32 @@ void legendre(double x, std::size_t terms, double* values, double* derivatives) 
 
 namespace {
 
-/// The step of evenly spaced times, some of which may be left out; 0 of others: an uneven clock. A billionth of a step
-/// is far below any noise and far above the rounding of written times.
-double even_step_of(const std::vector<double>& time_s) {
+constexpr double kLeastTolerance = 1e-9;  // of a step: what is left of binary fractions
+
+/// The step of times that are even to `tolerance_s`, some of which may be left out; 0 of others: an uneven clock.
+double even_step_of(const std::vector<double>& time_s, double tolerance_s) {
   if (time_s.size() < 2) return 0.0;
   const double span_s = time_s.back() - time_s.front();
   double smallest_s = span_s;
   for (std::size_t i = 1; i < time_s.size(); ++i) smallest_s = std::min(smallest_s, time_s[i] - time_s[i - 1]);
   if (!(smallest_s > 0.0)) return 0.0;
-  const double step_s = span_s / std::round(span_s / smallest_s);
-  for (const double at_s : time_s) {
-    const double since_s = at_s - time_s.front();
-    if (std::abs(since_s - step_s * std::round(since_s / step_s)) > 1e-9 * step_s) return 0.0;
+  // From neighbour to neighbour: over the whole span what times are rounded by may add up to a step.
+  std::vector<double> steps{0.0};
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    steps.push_back(steps.back() + std::round((time_s[i] - time_s[i - 1]) / smallest_s));
+  }
+  const double step_s = span_s / steps.back();
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    const double off_s = time_s[i] - time_s.front() - step_s * steps[i];
+    if (std::abs(off_s) > std::max(kLeastTolerance * step_s, tolerance_s)) return 0.0;
   }
   return step_s;
+}
+
+/// What written times are rounded by changes the force on the steepest part of a slip by this little of the noise.
+double tolerated_rounding_s(const Scales& scales) {
+  constexpr double kOfNoise = 0.01;
+  return kOfNoise * scales.noise / scales.force * scales.half_period_s / std::numbers::pi;
 }
 
 double* put_share(const RiseAfterSlip::Share& share, const LevelModel& level, double* out) {
@@ -90,7 +103,7 @@ CycleSet::CycleSet(std::vector<CycleData> of_cycles, std::vector<double> of_refe
   for_cycles(cycles.size(), samples, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       basis[i] = basis_of(cycles[i], level, scales);
-      even_step_s[i] = even_step_of(cycles[i].time_s);
+      even_step_s[i] = even_step_of(cycles[i].time_s, tolerated_rounding_s(scales));
     }
   });
 }

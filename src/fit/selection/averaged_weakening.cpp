@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,10 @@ using Draft = WeakeningSolver::Draft;
 
 /// T_b^2 over what slip and average together draw the fall out by, to begin with: W = w_n T_b of 1, 2.4, 4 and 8.
 constexpr std::array kSharesOfFall{0.15, 0.5, 0.75, 0.92};
-/// k D_c / (F_s - F_k) beside each of them.
-constexpr std::array kBesideAverage{0.1, 0.45};
+/// k D_c / (F_s - F_k) beside each of them, and beside the best of them.
+constexpr std::array kBesideEach{0.1};
+constexpr std::array kBesideBest{0.45};
+constexpr std::size_t kBest = 2;
 constexpr double kSlip2 = 5.6;  // W^2 of an average that draws the fall out as much as the slip itself does
 constexpr std::size_t kDraftCycles = 16;
 constexpr int kDraftIterations = 10;
@@ -84,13 +87,24 @@ class AveragedWeakening {
     if (coulomb_.average) shares.push_back(std::pow(coulomb_.average->seconds, 2) / fall_s2_);
     std::vector<Draft> drafts;
     for (const double share : shares) {
-      const double log_omega = 0.5 * std::log(kSlip2 / ((1.0 - share) * fall_s2_));
-      std::optional<Draft> draft =
-          solver_.draft(some, std::sqrt(share * fall_s2_), {log_omega, kBesideAverage, kDraftIterations});
+      std::optional<Draft> draft = draft_of(some, share, kBesideEach);
       if (draft) drafts.push_back(*std::move(draft));
     }
     std::sort(drafts.begin(), drafts.end(), explains_more);
+    for (std::size_t i = 0; i < std::min(kBest, drafts.size()); ++i) {
+      const double average_s = drafts[i].blocks.scales().sensor_average_s;
+      std::optional<Draft> draft = draft_of(some, average_s * average_s / fall_s2_, kBesideBest);
+      if (draft && explains_more(*draft, drafts[i])) drafts[i] = *std::move(draft);
+    }
+    std::sort(drafts.begin(), drafts.end(), explains_more);
     return drafts;
+  }
+
+  /// Beside an average that takes this share of the fall.
+  [[nodiscard]] std::optional<Draft> draft_of(const std::vector<CycleData>& some, double share,
+                                              std::span<const double> weakenings) const {
+    const double log_omega = 0.5 * std::log(kSlip2 / ((1.0 - share) * fall_s2_));
+    return solver_.draft(some, std::sqrt(share * fall_s2_), {log_omega, weakenings, kDraftIterations});
   }
 
   /// The best minimum of some of the cycles, and the next one where they do not rule it out.

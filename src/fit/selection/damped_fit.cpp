@@ -48,6 +48,7 @@ class Fitter {
       auto middle = fit_middle(*start, start->level().lines_Hz);
       if (middle) start = with_settled_hum(*std::move(middle));
       if (near_.give_up && near_.give_up(*start)) return std::nullopt;
+      if (near_.needs_damping && !refuse_negative_damping(*start, kRough)) return std::nullopt;
     }
     std::optional<BlockFit> fit =
         fit_from(std::move(cycles_), start->level(), start->parameters.globals, near_.most_iterations, kRough);

@@ -81,7 +81,7 @@ std::vector<KernelSearch::Least> best_averages(const std::vector<KernelSearch::L
 /// search for it begins on both sides.
 bool rules_out_lag(const KernelSearch::Least& average, const KernelSearch& search, const DampedFit& plain) {
   return std::ranges::all_of(std::array{1.0, kLongTail}, [&](double tail) {
-    const KernelSearch::Least lag = search.least_squares(Kernel::FirstOrder, tail * average.variance_s2);
+    const KernelSearch::Least lag = search.least_lag(average, tail * average.variance_s2);
     return evidence(average, lag, search, plain) > thresholds::kEvidence;
   });
 }

@@ -49,7 +49,7 @@ std::vector<KernelSearch::Least> KernelSearch::minima(double least_gain) const {
   for (double share = kShareStep; share < kLargestShare; share += kShareStep) shares.push_back(share);
   std::vector<Least> scan;
   Least start;
-  start.parameters = started(Kernel::MovingAverage, 0.0).parameters;
+  start.parameters = started().parameters;
   for (const double share : shares) scan.push_back(at(share * seen_s2, scan.empty() ? start : scan.back()));
   std::vector<Least> minima;
   for (std::size_t i = 1; i + 1 < scan.size(); ++i) {
@@ -88,8 +88,10 @@ KernelSearch::Least KernelSearch::at(double variance_s2, const Least& near) cons
   return least;
 }
 
-KernelSearch::Least KernelSearch::least_squares(Kernel kernel, double variance_s2) const {
-  return descended(started(kernel, variance_s2), kernel, variance_s2);
+KernelSearch::Least KernelSearch::least_lag(const Least& near, double variance_s2) const {
+  BlockFit fit(cycles_, plain_.scales());
+  fit.parameters = near.parameters;
+  return descended(with_kernel(fit, Kernel::FirstOrder, variance_s2), Kernel::FirstOrder, variance_s2);
 }
 
 KernelSearch::Least KernelSearch::refined(const Least& near) const {
@@ -138,16 +140,16 @@ double KernelSearch::log_frequency_gain(double variance_s2) const {
   return -0.5 * std::log(std::max(kLeast, 1.0 - variance_s2 / seen_variance_s2()));
 }
 
-BlockFit KernelSearch::started(Kernel kernel, double variance_s2) const {
+/// Without a kernel.
+BlockFit KernelSearch::started() const {
   BlockFit fit(cycles_, plain_.scales());
-  Globals globals{plain_.parameters.globals[kLogStiffness],
-                  plain_.parameters.globals[kLogFrequency] + log_frequency_gain(variance_s2), 0.1};
+  Globals globals{plain_.parameters.globals[kLogStiffness], plain_.parameters.globals[kLogFrequency], 0.1};
   for (std::size_t i = 0; i < globals.size(); ++i) {
     if (held_[i]) globals[i] = plain_.parameters.globals[i];
   }
   set_start(fit, segmentation_, globals);
   fit.parameters.level = plain_.parameters.level;
-  return with_kernel(fit, kernel, variance_s2);
+  return with_rise_after(fit, plain_.scales());
 }
 
 /// Whether zeta = 0, at which this fit has been solved, is better than any above it: where all else is at its best, a

@@ -39,10 +39,10 @@ class KernelSearch {
   /// fall may be either W's or the slip's own (docs/model.md section 7). Those of at least this gain.
   [[nodiscard]] std::vector<Least> minima(double least_gain) const;
 
-  /// The least near one of another search, and near a kernel of this variance: over a few of Newton's steps, infinity
-  /// without a solution.
+  /// The least near one of another search, over a few of Newton's steps: infinity without a solution.
   [[nodiscard]] Least refined(const Least& near) const;
-  [[nodiscard]] Least least_squares(Kernel kernel, double variance_s2) const;
+  /// The same of a sensor of first order near a lag of this variance, from one of this search.
+  [[nodiscard]] Least least_lag(const Least& near, double variance_s2) const;
 
   /// In the sum of squares.
   [[nodiscard]] double residuals() const;
@@ -53,7 +53,7 @@ class KernelSearch {
   [[nodiscard]] Least at(double variance_s2, const Least& near) const;
   [[nodiscard]] Least descended(BlockFit fit, Kernel kernel, double variance_s2) const;
   [[nodiscard]] BlockFit with_kernel(const BlockFit& fit, Kernel kernel, double variance_s2) const;
-  [[nodiscard]] BlockFit started(Kernel kernel, double variance_s2) const;
+  [[nodiscard]] BlockFit started() const;
   [[nodiscard]] double log_frequency_gain(double variance_s2) const;
   [[nodiscard]] bool is_best_undamped(BlockFit fit) const;
   [[nodiscard]] std::optional<Held> solve_with_damping(BlockFit& fit) const;
