@@ -101,7 +101,11 @@ inline constexpr double kKnownRate = 0.15;
 /// the model's. [1; derived: 5e-5 by chance in eight parts]
 inline constexpr double kMisfitSigmas = 4.5;
 
-/// The same residual over the onset force, above which it matters. [1; convention]
+/// Chance of a mean residual in one of eight parts of the slip, below which an average does not explain the slips.
+/// [1; derived: that of kMisfitSigmas for many cycles]
+inline constexpr double kMisfitChance = 5e-5;
+
+/// Mean residual in a part of the slip over the onset force, above which it matters. [1; convention]
 inline constexpr double kMisfitShare = 0.01;
 
 /// Stacked residual of the slips under friction that weakens over a slip distance over that under Coulomb friction, at

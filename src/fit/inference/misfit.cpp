@@ -7,6 +7,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "fit/cycle/side_by_side.hpp"
+#include "fit/inference/student.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -110,7 +111,8 @@ std::optional<SegmentMisfit> find_misfit(const BlockFit& fit, double tolerated) 
       continue;
     if (worst && size <= std::abs(worst->size * onset_force)) continue;
     const double position = (static_cast<double>(p) + 0.5) / kSegments * (1.0 + 2.0 * kMargin) - kMargin;
-    worst = SegmentMisfit{position, stack.mean / onset_force};
+    const double chance = kSegments * t_chance(size / stack.standard_error(), stack.count - 1.0);
+    worst = SegmentMisfit{position, stack.mean / onset_force, chance};
   }
   return worst;
 }

@@ -15,6 +15,7 @@ inline constexpr int kSegments = 8;
 struct SegmentMisfit {
   double position = 0.0;  ///< middle of the worst stretch: 0 at the onset, 1 at the end of slip
   double size = 0.0;      ///< mean residual there over the mean onset force, signed
+  double chance = 1.0;    ///< of a mean as far from 0 in one of the stretches, by Student's t over the cycles
 };
 
 /// Stretch of a sample; empty outside all.

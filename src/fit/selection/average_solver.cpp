@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "fit/cycle/start.hpp"
 #include "fit/problem/solve.hpp"
@@ -44,7 +45,8 @@ Recording with_average(const Recording& recording, double variance_s2) {
 
 bool follows_slips(const DampedFit& fit, double sample_interval_s) {
   const double negative = -thresholds::kNegativeSigmas * damping_error(fit);
-  return !fit.misfit && !fit.refused_damping && fit.blocks.parameters.globals[kDamping] > negative &&
+  const bool is_shaped = !fit.misfit || fit.misfit->chance > thresholds::kMisfitChance;
+  return is_shaped && !fit.refused_damping && fit.blocks.parameters.globals[kDamping] > negative &&
          resting_share(fit.blocks) >= thresholds::kRestickShare && median_slip_s(fit.blocks) > sample_interval_s;
 }
 

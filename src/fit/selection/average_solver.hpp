@@ -14,7 +14,8 @@ namespace slipfit::fit {
 /// The recording with a stated average whose impulse response has this variance.
 Recording with_average(const Recording& recording, double variance_s2);
 
-/// The slips that are left behind the average are those of the model, and longer than a step of the clock.
+/// The slips that are left behind the average are those of the model as far as so few cycles tell, and longer than a
+/// step of the clock.
 bool follows_slips(const DampedFit& fit, double sample_interval_s);
 
 /// A fit of all cycles with an average in it, and what is left to smooth.

@@ -23,6 +23,7 @@ namespace {
 constexpr double kSmallStep = 0.05;                                                   // in ln sigma^2
 constexpr double kSlipVariance = 0.25 - 2.0 / (std::numbers::pi * std::numbers::pi);  // of half a sine that lasts 1
 constexpr double kLargestShare = 1.4;  // of the seen variance: damping and the drive make a slip last longer
+constexpr double kBeyondSlip = 2.0;    // where the sum still falls at the largest
 constexpr double kShareStep = 0.1;
 constexpr int kMinimumBits = 6;
 
@@ -51,6 +52,11 @@ std::vector<KernelSearch::Least> KernelSearch::minima(double least_gain) const {
   Least start;
   start.parameters = started().parameters;
   for (const double share : shares) scan.push_back(at(share * seen_s2, scan.empty() ? start : scan.back()));
+  const auto is_falling = [&] { return scan.back().sum < scan[scan.size() - 2].sum; };
+  while (is_falling() && shares.back() < kBeyondSlip) {
+    shares.push_back(shares.back() + kShareStep);
+    scan.push_back(at(shares.back() * seen_s2, scan.back()));
+  }
   std::vector<Least> minima;
   for (std::size_t i = 1; i + 1 < scan.size(); ++i) {
     if (!(scan[i].sum < scan[i - 1].sum && scan[i].sum <= scan[i + 1].sum)) continue;
