@@ -203,7 +203,7 @@ class Cutter {
 
 bool is_selected(std::size_t slip, std::size_t slips) {
   constexpr std::size_t kRun = 32;  // neighbours, whose joined ramps halve the error of k
-  constexpr std::size_t kRuns = 16;
+  constexpr std::size_t kRuns = 64;
   const std::size_t runs = (slips + kRun - 1) / kRun;
   const std::size_t run = slip / kRun;
   return runs <= kRuns || (run + 1) * kRuns / runs > run * kRuns / runs;

@@ -198,14 +198,9 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, Rows rows) const 
     rows.put(by_noise * std::sqrt(bin.time_spread), bin.slope, rate, std::array<double, 2 + kOfLaw>{rate}, 0.0, 0.0,
              0.0);
   };
-  for (const StickBin& bin : data_->bins_before) {
-    const double tau = frame.tau_at(bin.time_s);
-    put_bin(bin, tau, law.before_slip(tau));
-  }
-  for (const StickBin& bin : data_->bins_after) {
-    const double tau = frame.tau_at(bin.time_s);
-    put_bin(bin, tau, law.after_slip(tau));
-  }
+  const auto tau_of = [&](const StickBin& bin) { return frame.tau_at(bin.time_s); };
+  for (const StickBin& bin : data_->bins_before) put_bin(bin, tau_of(bin), law.before_slip(tau_of(bin)));
+  for (const StickBin& bin : data_->bins_after) put_bin(bin, tau_of(bin), law.after_slip(tau_of(bin)));
   if (!scales_.population) return;
   rows.tie_static_friction(frame, globals());
   if (level_->per_cycle) rows.tie_level(globals());
