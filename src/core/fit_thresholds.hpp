@@ -91,9 +91,6 @@ inline constexpr double kWhiteCorrelation = 0.08;
 /// white-noise intervals are short by less than an eighth]
 inline constexpr double kUnequalNoise = 0.25;
 
-/// Standard error of zeta, above which its interval comes from a profile. [1; calibrated: docs/accuracy.md]
-inline constexpr double kWideDamping = 0.02;
-
 /// Relative standard error of alpha, from which on its interval comes from a profile. [1; calibrated: sweep_coverage]
 inline constexpr double kKnownRate = 0.15;
 

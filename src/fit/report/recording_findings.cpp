@@ -8,7 +8,6 @@
 
 #include "core/fit_thresholds.hpp"
 #include "fit/inference/covariance.hpp"
-#include "fit/inference/profile.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/level/mains_hum.hpp"
 #include "fit/selection/fitted_average.hpp"
@@ -127,13 +126,13 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
   return result;
 }
 
-/// zeta with its interval, and how the other coordinates follow it where the sum of squares is no parabola.
+/// zeta with its interval, and how the other coordinates follow it where zeta = 0 is the best.
 struct DampingFindings {
   Estimate estimate;
   std::optional<Profile> profile;
 };
 
-DampingFindings damping_of(const TierFits& fits, const Resolution& resolution, const BlockFit& blocks) {
+DampingFindings damping_of(const TierFits& fits, const BlockFit& blocks) {
   const Uncertainty& uncertainty = fits.damped.uncertainty;
   const CoordinateMatrix& covariance = uncertainty.covariance;
   const double variance = covariance(kDamping, kDamping);
@@ -143,19 +142,10 @@ DampingFindings damping_of(const TierFits& fits, const Resolution& resolution, c
   DampingFindings result{{zeta, se, Interval{zeta, zeta}, {}}, std::nullopt};
   if (fits.damped.held[kDamping]) return result;
   result.estimate.ci95 = damping_interval(fits.damped.blocks.parameters.globals[kDamping], se, quantile);
-  const bool at_bound = is_at_bound(fits);
-  std::optional<DampingProfile> along;
-  if (resolution.slip_resolved && needs_profile(fits.damped)) {
-    along = profile_damping(fits.damped, blocks);
-  }
-  if (along) result.estimate.ci95 = along->interval;
-  if (!along && !at_bound) return result;
+  if (!is_at_bound(fits)) return result;
   const bool has_more = uncertainty.from_refits || fits.damped.average || fits.damped.rival;
-  result.profile = Profile{
-      at_bound && !has_more ? fits.undamped->uncertainty.covariance : given(covariance, kDamping), {}, at_bound};
-  if (along) {
-    result.profile->moves = {along->move_low, along->move_high};
-  } else if (variance > 0.0) {
+  result.profile = Profile{has_more ? given(covariance, kDamping) : fits.undamped->uncertainty.covariance, {}, true};
+  if (variance > 0.0) {
     result.profile->moves = {covariance.col(kDamping) / variance * result.estimate.ci95->high};
   }
   return result;
@@ -261,7 +251,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   Spread spread = spread_of(fits.damped);
   AveragingFindings averaging = averaging_of(recording, fits.damped, blocks);
   spread.one_sided = averaging.one_sided + moves_to_rival(fits.damped, blocks);
-  DampingFindings damping = damping_of(fits, resolution, blocks);
+  DampingFindings damping = damping_of(fits, blocks);
   damping.estimate.ci95 = lengthened(*damping.estimate.ci95, spread.one_sided(kDamping));
   spread.profile = std::move(damping.profile);
   Held held = fits.damped.held;

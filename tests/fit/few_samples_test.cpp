@@ -1,11 +1,7 @@
-#include "fit/inference/profile.hpp"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "families.hpp"
-#include "fit/inference/intervals.hpp"
-#include "fit/selection/damped_fit.hpp"
 #include "scene.hpp"
 
 using namespace slipfit;
@@ -25,30 +21,7 @@ Scene few_samples(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("at the ends of its profile interval zeta costs the square of the quantile") {
-  Scene scene = few_samples(4);
-  scene.noise = 0.02;
-  const Recording recording = record(scene);
-  const Quality quality = assess_quality(recording);
-  const Segmentation slips = find_slips(recording, quality);
-  const auto free = fit::fit_damped(recording, quality, slips, {});
-  REQUIRE(free);
-  REQUIRE(fit::needs_profile(*free));
-  const auto profile = fit::profile_damping(*free, free->blocks);
-  REQUIRE(profile);
-  const double noise = free->uncertainty.noise / free->blocks.scales().noise;
-  const double quantile = fit::t_quantile(free->uncertainty.degrees_of_freedom);
-  for (const double end : {profile->interval.low, profile->interval.high}) {
-    REQUIRE(end > 0.0);
-    const auto held = fit::fit_damped(recording, quality, slips, {{}, {}, end});
-    REQUIRE(held);
-    REQUIRE(held->continuous == free->continuous);
-    const double distance = std::sqrt(held->uncertainty.chi2 - free->uncertainty.chi2) / noise;
-    CHECK(distance == Approx(quantile).epsilon(0.05));  // the search for the ends stops within 2 %
-  }
-}
-
-TEST_CASE("profile intervals of few samples a slip hold zeta, F_s - F_k and w_n") {
+TEST_CASE("intervals of few samples a slip hold zeta, F_s - F_k and w_n") {
   int given = 0;
   int inside = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
