@@ -83,13 +83,10 @@ inline constexpr double kNegativeSigmas = 2.5;
 
 // ## Intervals
 
-/// Correlation of neighbouring residuals, above which intervals come from the scatter over the cycles. [1; derived:
-/// below it white-noise intervals are short by less than 8 %]
-inline constexpr double kWhiteCorrelation = 0.08;
-
-/// Logarithm of the ratio of the residual variances in slips and sticks, above which they do. [1; derived: below it
-/// white-noise intervals are short by less than an eighth]
-inline constexpr double kUnequalNoise = 0.25;
+/// Standard errors of the correlation of neighbouring residuals, and of the logarithm of the ratio of the residual
+/// variances in slips and sticks, beyond which intervals come from the scatter over the cycles. [1; derived: 6e-5 by
+/// chance]
+inline constexpr double kWhiteSigmas = 4.0;
 
 /// Relative standard error of alpha, from which on its interval comes from a profile. [1; calibrated: sweep_coverage]
 inline constexpr double kKnownRate = 0.15;
