@@ -112,10 +112,6 @@ inline constexpr double kShapeSamples = 6.0;
 /// Standard errors between the slopes of early and late sticks, beyond which sticks bend. [1; derived: 0.3 % by chance]
 inline constexpr double kBendSigmas = 3.0;
 
-/// Share by which sticks begin more steeply than they end, at least, where a rise after slips is tried. [1; convention:
-/// k is wrong by half of it]
-inline constexpr double kLeastBend = 0.01;
-
 /// Chance at which a line in the sticks is none. [1; convention]
 inline constexpr double kRippleChance = 1e-6;
 

@@ -131,7 +131,7 @@ bool is_length_settled(const DampedFit& fit) {
 }
 
 bool bends(const std::optional<RampBend>& bend) {
-  return bend && bend->log_ratio > std::max(thresholds::kLeastBend, thresholds::kBendSigmas * bend->standard_error);
+  return bend && bend->log_ratio > thresholds::kBendSigmas * bend->standard_error;
 }
 
 /// These few cycles do not exclude that the rise takes half of the bend away.
