@@ -7,11 +7,8 @@ namespace slipfit::thresholds {
 
 // ## Slips in the trace
 
-/// Rise between two falls over the smaller of them, below which they may be a slip in two steps. [1; convention]
+/// Rise between two falls over the smaller of them, below which they are one slip in two steps. [1; convention]
 inline constexpr double kPauseRise = 0.5;
-
-/// Time of that rise over the time of both falls, below which they are one slip. [1; convention]
-inline constexpr double kPauseTime = 0.75;
 
 /// Rate of a rise over that of the fall before it, above which it belongs to ringing. [1; calibrated: measured slips
 /// with ringing and benchmarks/independent, seeds 1 to 6]

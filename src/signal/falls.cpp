@@ -57,13 +57,10 @@ double range_of(const Means& trace) {
   return extent.range();
 }
 
-/// A slip in two steps: what rises between is small and short.
+/// A slip in two steps: what rises between is small.
 bool is_pause(const SeenFall& first, const SeenFall& second) {
   const double rise = second.peak.value - first.trough.value;
-  const auto rise_time = static_cast<double>(second.peak.at - first.trough.at);
-  const auto fall_time = static_cast<double>(first.trough.at - first.peak.at + second.trough.at - second.peak.at);
-  return rise < thresholds::kPauseRise * std::min(first.drop(), second.drop()) &&
-         rise_time < thresholds::kPauseTime * fall_time;
+  return rise < thresholds::kPauseRise * std::min(first.drop(), second.drop());
 }
 
 /// Falls whose rise between is nearly as quick as they are belong together: the body or the load cell rings. Where the
