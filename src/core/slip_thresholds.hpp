@@ -34,9 +34,6 @@ inline constexpr std::size_t kFewestInStretch = 4;
 /// slips. [1; convention]
 inline constexpr double kPatience = 2.5;
 
-/// Step of the peaks over a large drop (90 % are smaller), beyond which the level is another. [1; convention]
-inline constexpr double kOtherLevel = 1.5;
-
 /// Step from rest to sliding over how much the force moves while the body slides, above which a run without slips is
 /// cut out. [1; convention]
 inline constexpr double kPlateauStep = 3.0;

@@ -41,11 +41,11 @@ class Train {
   }
   [[nodiscard]] const Usual& usual() const { return usual_; }
 
-  /// Whether fall i belongs to the same sliding as the one before: no pause between them, no other level.
+  /// Whether fall i belongs to the same sliding as the one before: no pause between them.
   [[nodiscard]] bool follows(std::size_t i) const {
     const double loading = (peak(i) - trough(i - 1)) / usual_.rise_rate;
     const double patience = thresholds::kPatience * std::max(usual_.long_interval, loading);
-    return interval(i) < patience && std::abs(peak(i) - peak(i - 1)) < thresholds::kOtherLevel * usual_.large_drop;
+    return interval(i) < patience;
   }
 
  private:
