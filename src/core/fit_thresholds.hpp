@@ -151,9 +151,6 @@ inline constexpr double kSureTerm = 3.0;
 /// convention]
 inline constexpr double kAverageShare = 0.01;
 
-/// Relative effect on k of a level that rises all along, above which k is not identified. [1; convention]
-inline constexpr double kDriftShare = 0.02;
-
 /// Reduced chi2 above which residuals are warned of. [1; calibrated: at most 1.21 for 480 recordings inside the model]
 inline constexpr double kLargeChi2 = 2.0;
 

@@ -29,7 +29,7 @@ const BlockFit& reported(const TierFits& fits) {
 /// What makes k uncertain beside the fit.
 struct StiffnessFindings {
   double variance = 0.0;  ///< of ln k
-  std::string doubt, note;
+  std::string note;
   Warnings warnings;
 };
 
@@ -66,7 +66,6 @@ StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits,
     result.note =
         fmt::format("the mean force rises or falls throughout: k is wrong by {:.1f} % if that is drift of the sensor",
                     100.0 * drift);
-    if (drift > thresholds::kDriftShare) result.doubt = result.note;
   }
   // The data give k V.
   result.variance += std::pow(conditions.speed_standard_error_m_per_s.value_or(0.0) / conditions.speed_m_per_s, 2);
@@ -272,7 +271,6 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   state_conditions(recording, findings);
   findings.cycles = blocks.size();
   findings.samples_per_slip = resolution.samples_per_slip;
-  findings.stiffness_doubt = std::move(stiffness.doubt);
   findings.stiffness_note = std::move(stiffness.note);
   findings.warnings = std::move(stiffness.warnings);
   findings.fitted_average = fitted_average_of(fits.damped);
