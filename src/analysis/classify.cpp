@@ -171,10 +171,6 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   if (used < 5 && !sudden && (e.onset_force_spread > 0.2 || e.relative_residual > 0.04)) {
     return {MotionClass::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
   }
-  // Hum as large as the drop is what the detector sees, and the fit that follows it finds wrong slips good.
-  if (is_sine_like(segmentation) && e.hum_share > thresholds::kMuchHum) {
-    return {MotionClass::Undetermined, "the swings are as round as the mains hum in them: it hides what else there is"};
-  }
   const bool close = e.relative_residual < thresholds::kCloseFit && e.onset_force_spread < thresholds::kWideSpread;
   const bool loose = e.relative_residual < thresholds::kLooseFit && e.onset_force_spread < thresholds::kModestSpread;
   const bool died =

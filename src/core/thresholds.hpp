@@ -59,9 +59,6 @@ inline constexpr double kDecay = 1.7;
 /// Share of the recording that cycles have to cover: swings that end earlier died out. [1; convention]
 inline constexpr double kSpanShare = 0.5;
 
-/// Mains hum over onset force, below which it cannot pass for slips. [1; convention]
-inline constexpr double kMuchHum = 0.1;
-
 /// Relative distance of the cycles' rhythm from the mains', below which round swings may be its hum. [1; derived: the
 /// mains keeps its frequency to 0.1 %, intervals of few samples are less exact]
 inline constexpr double kMainsRhythm = 5e-3;
