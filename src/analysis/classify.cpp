@@ -109,12 +109,8 @@ Classification without_model(const Recording& recording, const Segmentation& seg
 }
 
 /// Swings without sticks that can be told; empty where slips come to rest.
-std::optional<Classification> as_round_swings(const Recording& recording, const Segmentation& segmentation,
-                                              const FitDiagnostics& e) {
+std::optional<Classification> as_round_swings(const Segmentation& segmentation, const FitDiagnostics& e) {
   const bool sine_like = is_sine_like(segmentation);
-  if (e.restick_share < thresholds::kSineRestickShare) {
-    if (auto ripple = as_ripple(recording, segmentation)) return ripple;
-  }
   if (!sine_like && rise_over_fall(segmentation) < thresholds::kSquare) {
     return Classification{MotionClass::Undetermined, "the force rises as suddenly as it falls: no sticks"};
   }
@@ -122,7 +118,7 @@ std::optional<Classification> as_round_swings(const Recording& recording, const 
     return Classification{MotionClass::Undetermined,
                           "the swings are not much larger than the noise: no sticks can be told from it"};
   }
-  if (sine_like && (e.restick_share < thresholds::kSineRestickShare || e.relative_residual > thresholds::kSineFit)) {
+  if (sine_like && e.relative_residual > thresholds::kSineFit) {
     return Classification{MotionClass::OscillatorySlip,
                           "nearly sinusoidal: no straight sticks can be told from an oscillation"};
   }
@@ -183,7 +179,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   if (is_sine_like(segmentation) && std::abs(mains_share(segmentation) - 1.0) < thresholds::kMainsRhythm) {
     return {MotionClass::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
   }
-  if (auto round = as_round_swings(recording, segmentation, e)) return *round;
+  if (auto round = as_round_swings(segmentation, e)) return *round;
   const std::optional<double> evidence =
       sudden ? std::nullopt : evidence_of_sticks(recording, estimates.signals, *estimates.fit, used);
   if (evidence && *evidence < thresholds::kEvidence) return as_wave(*evidence);

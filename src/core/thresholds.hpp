@@ -33,10 +33,6 @@ inline constexpr double kFewRest = 0.95 * kRestickShare;
 /// a sine, 0.3 for an even triangle, less for slips]
 inline constexpr double kSineFall = 0.17;
 
-/// Smallest share of slips that come to rest where falls are as slow as a sine's. [1; calibrated: simulated cycles just
-/// above the limit of stick-slip all rest]
-inline constexpr double kSineRestickShare = 0.95;
-
 /// Largest residual over onset force where falls are as slow as a sine's. [1; calibrated: below 0.02 for simulated
 /// cycles just above the limit of stick-slip]
 inline constexpr double kSineFit = 0.05;
