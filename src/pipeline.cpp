@@ -22,8 +22,7 @@ namespace slipfit {
 namespace {
 
 /// The fit as far as its numbers can be believed: no parameters where the motion is not the model's, no natural
-/// frequency where the slips are not inertial, nothing identified where the cycles are nearly waves or keep in step
-/// with the mains.
+/// frequency where the slips are not inertial, nothing identified where the cycles keep in step with the mains.
 std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classification& classification,
                                  const Analysis& analysis, double duration_s) {
   if (!fit) return fit;
@@ -32,7 +31,6 @@ std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classificat
   const std::optional<double>& slips_Hz = analysis.frequency.quoted.value;
   const std::optional<double>& drop = analysis.cycles.force_drop;
   if (ring_Hz && drop) fit = fit::qualified_by_ring_down(*std::move(fit), *ring_Hz, *drop);
-  if (classification.nearly_wave) fit = fit::qualified_by_waves(*std::move(fit));
   if (slips_Hz) fit = fit::qualified_by_mains(*std::move(fit), *slips_Hz, duration_s);
   return fit;
 }

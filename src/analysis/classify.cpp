@@ -187,7 +187,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   return {MotionClass::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
                       100.0 * e.relative_residual),
-          false, true, evidence && *evidence < thresholds::kPlainEvidence};
+          false, true};
 }
 
 }  // namespace

@@ -12,9 +12,8 @@ namespace slipfit {
 struct Classification {
   MotionClass motion = MotionClass::Undetermined;
   std::string reason;
-  bool dies_out = false;     ///< an oscillation that shrinks to steady sliding
-  bool model_fits = false;   ///< the fitted cycles are the model's: its parameters mean something
-  bool nearly_wave = false;  ///< three sines follow the swings nearly as well: the parameters hang on small differences
+  bool dies_out = false;    ///< an oscillation that shrinks to steady sliding
+  bool model_fits = false;  ///< the fitted cycles are the model's: its parameters mean something
 };
 
 /// From slips, spectrum and fitted cycles. No fit: too few cycles could be fitted.

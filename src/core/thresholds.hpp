@@ -41,10 +41,6 @@ inline constexpr double kSineFit = 0.05;
 /// sticks, below which the two cannot be told apart. [1; convention: odds of ten to one]
 inline constexpr double kEvidence = 4.6;
 
-/// The same below which the parameters that hang on this difference are no more than weak. [1; calibrated: sines with
-/// noise stay below, of cycles just above the limit of stick-slip three in four lie above]
-inline constexpr double kPlainEvidence = 60.0;
-
 /// Scatter of the periods, over the period, below which what repeats keeps time like a clock. [1; convention: pick-up
 /// and drives scatter by less, friction by more]
 inline constexpr double kClockScatter = 0.01;

@@ -27,23 +27,6 @@ FitResult without_parameters(FitResult fit) {
   return fit;
 }
 
-namespace {
-
-FitResult at_best_weak(FitResult fit, const std::string& reason) {
-  for (Parameter& parameter : fit.parameters) {
-    if (parameter.status != ParameterStatus::Identified) continue;
-    parameter.status = ParameterStatus::Weak;
-    parameter.estimate.note = reason;
-  }
-  return fit;
-}
-
-}  // namespace
-
-FitResult qualified_by_waves(FitResult fit) {
-  return at_best_weak(std::move(fit), "three sines follow the cycles nearly as well as sticks and slips do");
-}
-
 FitResult qualified_by_mains(FitResult fit, double frequency_Hz, double duration_s) {
   const bool hum_found = fit.diagnostics.hum_share > 0.0;
   const std::optional<double> mains_Hz = signal::mains_in_step(frequency_Hz, hum_found ? 2 : 1, duration_s);
@@ -53,7 +36,12 @@ FitResult qualified_by_mains(FitResult fit, double frequency_Hz, double duration
       {"mains_in_step",
        fmt::format("the cycles ({:.4g} Hz) keep {}{}; another speed or a longer recording sets them apart",
                    frequency_Hz, reason, hum_found ? "" : ", and is taken to be absent")});
-  return hum_found ? at_best_weak(std::move(fit), reason) : fit;
+  for (Parameter& parameter : fit.parameters) {
+    if (!hum_found || parameter.status != ParameterStatus::Identified) continue;
+    parameter.status = ParameterStatus::Weak;
+    parameter.estimate.note = reason;
+  }
+  return fit;
 }
 
 namespace {

@@ -12,9 +12,6 @@ FitResult without_parameters(FitResult fit);
 /// for granted, with a warning. The third harmonic does no harm (docs/accuracy.md).
 FitResult qualified_by_mains(FitResult fit, double frequency_Hz, double duration_s);
 
-/// Cycles that waves without sticks follow nearly as well: nothing is identified.
-FitResult qualified_by_waves(FitResult fit);
-
 /// Slips far slower than the rig's own free ring-down may not be inertial: friction that weakens slowly or a viscous
 /// film sets their time, unless what rings is lighter than the body that slips. Natural frequency, mass and damping are
 /// weak; where the slips do not follow the model either (warning model_misfit) they are unknown, and F_s - F_k lies
