@@ -31,9 +31,6 @@ inline constexpr double kRandomVariation = 0.33;
 /// exp(-7) for each of some 30 scales with four features]
 inline constexpr double kPatternChance = -7.0;
 
-/// The same at a distance that has been found. [1; derived: exp(-3) is one in twenty]
-inline constexpr double kStillRegular = -3.0;
-
 /// The same of a distance that a comb of lines has. [1; calibrated: controls of benchmarks/surface]
 inline constexpr double kHintOfRidges = -1.5;
 

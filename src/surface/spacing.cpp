@@ -162,10 +162,8 @@ Pattern choose(std::vector<Pattern> looks, const std::optional<Clock>& clock) {
 Pattern measured(std::span<const double> heights, const Combs& combs, const Pattern& seen) {
   const double distance = mean_distance(seen);
   std::vector<Pattern> looks = looked_at(heights, distance);
-  std::erase_if(looks, [&](const Pattern& p) {
-    return p.log_chance > thresholds::kStillRegular ||
-           std::abs(mean_distance(p) / distance - 1.0) > thresholds::kSameRidges;
-  });
+  std::erase_if(
+      looks, [&](const Pattern& p) { return std::abs(mean_distance(p) / distance - 1.0) > thresholds::kSameRidges; });
   const auto comb = combs.find(distance);
   const bool agrees = comb && comb->is_sure() && std::abs(comb->value / distance - 1.0) < thresholds::kCombAgrees;
   std::optional<Clock> clock;
