@@ -90,18 +90,11 @@ SampleRange at_full_speed(const Interpreted& part, const Stroke& stroke) {
           std::min(stroke.end, stroke.begin + step * (1 + static_cast<std::size_t>(speeds.rend() - last)))};
 }
 
-/// Of the displacement in what is kept of a stroke with the stated speed.
-std::optional<Warning> compare_speed(const Interpreted& part, const SampleRange& kept) {
-  constexpr double kTolerance = 0.05;
+/// Over what is kept of a stroke. Empty where no displacement is known.
+std::optional<double> moved_m_per_s(const Interpreted& part, const SampleRange& kept) {
   if (part.displacement_m.empty() || kept.size() < 2) return std::nullopt;
   const double moved_m = std::abs(part.displacement_m[kept.end - 1] - part.displacement_m[kept.begin]);
-  const double speed = moved_m / (part.time_s[kept.end - 1] - part.time_s[kept.begin]);
-  const double stated = part.conditions.speed_m_per_s;
-  if (!std::isfinite(speed) || std::abs(speed - stated) <= kTolerance * stated) return std::nullopt;
-  return Warning{
-      "speed_differs_from_displacement",
-      fmt::format("the speed is given as {:.6g} m/s, but in this stroke the displacement moves at {:.6g} m/s", stated,
-                  speed)};
+  return moved_m / (part.time_s[kept.end - 1] - part.time_s[kept.begin]);
 }
 
 Result<NamedRecording> record(const Interpreted& part, const Stroke& stroke, std::size_t number,
@@ -118,7 +111,10 @@ Result<NamedRecording> record(const Interpreted& part, const Stroke& stroke, std
       fmt::format("Stroke {} is {:.6g} to {:.6g} s, without the ends in which the force turns; its force has the sign "
                   "{} in the file.",
                   number, own.time_s.front(), own.time_s.back(), sign));
-  if (auto warning = compare_speed(part, kept)) own.provenance.warnings.push_back(*std::move(warning));
+  if (const auto moved = moved_m_per_s(part, kept)) {
+    auto warning = compare_speed(part.conditions.speed_m_per_s, *moved, "in this stroke the displacement");
+    if (warning) own.provenance.warnings.push_back(*std::move(warning));
+  }
   auto recording = create(std::move(own), file);
   if (!recording) return recording.error();
   return NamedRecording{fmt::format("stroke {} ({})", number, sign), std::move(recording).value()};

@@ -33,4 +33,7 @@ struct StatedConditions {
 Result<StatedConditions> state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
                                           const Conditions& conditions, const std::string& file);
 
+/// Where a displacement moves at another speed than the stated one. `what`: the displacement, in words.
+std::optional<Warning> compare_speed(double stated_m_per_s, double moved_m_per_s, const std::string& what);
+
 }  // namespace slipfit::reading

@@ -38,17 +38,6 @@ std::optional<double> steady_speed_m_per_s(const Rows& rows) {
   return is_steady ? std::optional(speed_m_per_s) : std::nullopt;
 }
 
-/// A displacement column that moves steadily at another speed than the stated one.
-std::optional<Warning> compare_with_displacement(const Rows& rows, const Choice& choice, const Layout& layout,
-                                                 double stated_m_per_s) {
-  if (!choice.displacement || rows.displacement_m.empty()) return std::nullopt;
-  const auto speed_m_per_s = steady_speed_m_per_s(rows);
-  if (!speed_m_per_s || std::abs(*speed_m_per_s - stated_m_per_s) <= kTolerance * stated_m_per_s) return std::nullopt;
-  return Warning{"speed_differs_from_displacement",
-                 fmt::format("the speed is given as {:.6g} m/s, but {} moves at {:.6g} m/s", stated_m_per_s,
-                             describe(layout, choice.displacement->column), *speed_m_per_s)};
-}
-
 Error no_speed(const Choice& choice, const Layout& layout, const std::string& file) {
   if (!choice.speed) {
     return {"no_speed",
@@ -83,6 +72,14 @@ void state_normal_force(StatedConditions& stated, const Rows& rows, const Choice
 
 }  // namespace
 
+std::optional<Warning> compare_speed(double stated_m_per_s, double moved_m_per_s, const std::string& what) {
+  const double off_m_per_s = std::abs(moved_m_per_s - stated_m_per_s);
+  if (!std::isfinite(off_m_per_s) || off_m_per_s <= kTolerance * stated_m_per_s) return std::nullopt;
+  return Warning{
+      "speed_differs_from_displacement",
+      fmt::format("the speed is given as {:.6g} m/s, but {} moves at {:.6g} m/s", stated_m_per_s, what, moved_m_per_s)};
+}
+
 Result<StatedConditions> state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
                                           const Conditions& conditions, const std::string& file) {
   StatedConditions stated{conditions, {}, {}};
@@ -100,8 +97,11 @@ Result<StatedConditions> state_conditions(const Rows& rows, const Choice& choice
                                       "used, and stiffness and spacing follow it",
                                       speed_m_per_s, describe(layout, choice.speed->column), measured->value)});
   }
-  if (auto warning = compare_with_displacement(rows, choice, layout, speed_m_per_s)) {
-    stated.warnings.push_back(*std::move(warning));
+  if (choice.displacement && !rows.displacement_m.empty()) {
+    if (const auto moved_m_per_s = steady_speed_m_per_s(rows)) {
+      const std::string name = describe(layout, choice.displacement->column);
+      if (auto warning = compare_speed(speed_m_per_s, *moved_m_per_s, name)) stated.warnings.push_back(*warning);
+    }
   }
   if (choice.normal_force) state_normal_force(stated, rows, choice, layout);
   return stated;
