@@ -9,6 +9,7 @@
 #include "fit/inference/uncertainty.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/damped_fit.hpp"
+#include "fit/selection/finish.hpp"
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/signal/quality.hpp"
 
@@ -33,6 +34,13 @@ Recording misshapen() {
   return Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value();
 }
 
+std::optional<fit::DampedFit> fitted(const Recording& recording) {
+  const Quality quality = assess_quality(recording);
+  const Segmentation slips = find_slips(recording, quality);
+  auto draft = fit::draft_damped(recording, quality, slips, {});
+  return draft ? fit::finish_fit(recording, quality, slips, *std::move(draft)) : std::nullopt;
+}
+
 fit::BlockFit without(const fit::BlockFit& fit, std::size_t phase) {
   std::vector<fit::CycleData> cycles;
   std::vector<double> references_s;
@@ -54,8 +62,7 @@ fit::BlockFit without(const fit::BlockFit& fit, std::size_t phase) {
 
 TEST_CASE("one step without a stretch of the slips moves the quantities nearly as far as a refit") {
   const Recording recording = misshapen();
-  const Quality quality = assess_quality(recording);
-  const auto damped = fit::fit_damped(recording, quality, find_slips(recording, quality), {});
+  const auto damped = fitted(recording);
   REQUIRE(damped);
   REQUIRE(damped->misfit);
   const fit::Moves moves = fit::influence_of_segments(damped->blocks, damped->held);
@@ -76,8 +83,7 @@ TEST_CASE("one step without a stretch of the slips moves the quantities nearly a
 
 TEST_CASE("influences of residuals tell where a refit to other samples goes") {
   const Recording recording = misshapen();
-  const Quality quality = assess_quality(recording);
-  const auto damped = fit::fit_damped(recording, quality, find_slips(recording, quality), {});
+  const auto damped = fitted(recording);
   REQUIRE(damped);
   const fit::BlockFit& fit = damped->blocks;
   const auto influences = fit::influences_of(fit, fit::select(fit), {damped->held, false});

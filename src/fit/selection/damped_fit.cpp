@@ -291,10 +291,4 @@ std::optional<BlockFit> rough_fit(const Recording& recording, const Quality& qua
   return Fitter(recording, quality, segmentation, held, {}).rough();
 }
 
-std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& quality,
-                                    const Segmentation& segmentation, const HeldParameters& held) {
-  std::optional<DampedFit> draft = draft_damped(recording, quality, segmentation, held);
-  return draft ? finish_fit(recording, quality, segmentation, *std::move(draft)) : std::nullopt;
-}
-
 }  // namespace slipfit::fit

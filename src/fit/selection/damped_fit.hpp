@@ -29,7 +29,9 @@ struct Near {
   bool needs_damping = false;    ///< a fit whose damping ratio is clearly below 0 is empty
 };
 
-/// `fit_damped` without what finish_fit adds to the uncertainty: all that a comparison of fits needs.
+/// The per-cycle block fit with all that makes it stand real recordings: several starts in zeta, a level that may
+/// drift or wander, outliers left out. What finish_fit adds is missing: joined ramps, and more to the uncertainty.
+/// Empty: fewer than 3 cycles to fit, or no start converges.
 std::optional<DampedFit> draft_damped(const Recording& recording, const Quality& quality,
                                       const Segmentation& segmentation, const HeldParameters& held,
                                       const Near& near = {});
@@ -37,12 +39,6 @@ std::optional<DampedFit> draft_damped(const Recording& recording, const Quality&
 /// All cycles with no sample, no slip and no line looked for: how badly they fit, roughly.
 std::optional<BlockFit> rough_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
                                   const HeldParameters& held);
-
-/// The per-cycle block fit with all that makes it stand real recordings: several starts in zeta, a level that may
-/// drift or wander, outliers left out, ramps joined where the data allow it. Empty: fewer than 3 cycles to fit, or no
-/// start converges.
-std::optional<DampedFit> fit_damped(const Recording& recording, const Quality& quality,
-                                    const Segmentation& segmentation, const HeldParameters& held);
 
 /// The same cycles and level with zeta held at 0, from the damped solution. Where it `may_lose` and has clearly lost to
 /// the damped fit, it stays rough and its ramps are not joined.
