@@ -38,9 +38,6 @@ inline constexpr double kPatience = 2.5;
 /// cut out. [1; convention]
 inline constexpr double kPlateauStep = 3.0;
 
-/// Force at rest over that of sliding, above which the lower of two levels is sliding as well. [1; convention]
-inline constexpr double kRestLevel = 0.3;
-
 /// Fewest two-hundredths of a trace that make a plateau. [1; convention]
 inline constexpr std::size_t kFewestPlateauBlocks = 20;
 

@@ -147,11 +147,10 @@ SampleRange sliding_stretch(const std::vector<double>& force, const std::vector<
 
 namespace {
 
-/// Medians of blocks of the trace, and the largest movement that is usual within a block (90 % move less).
+/// Medians of blocks of the trace.
 struct Blocks {
   std::size_t samples = 0;  ///< a block
   std::vector<double> level;
-  double movement = 0.0;
 };
 
 Blocks blocks_of(std::span<const double> force) {
@@ -159,14 +158,10 @@ Blocks blocks_of(std::span<const double> force) {
   constexpr std::size_t kFewestSamples = 5;
   Blocks blocks;
   blocks.samples = std::max(kFewestSamples, force.size() / kBlocks);
-  std::vector<double> movements;
   for (std::size_t begin = 0; begin + blocks.samples <= force.size(); begin += blocks.samples) {
     const auto block = force.subspan(begin, blocks.samples);
     blocks.level.push_back(median({block.begin(), block.end()}));
-    const auto [low, high] = std::ranges::minmax_element(block);
-    movements.push_back(*high - *low);
   }
-  blocks.movement = quantile_of(std::move(movements), 0.9);
   return blocks;
 }
 
@@ -220,16 +215,15 @@ SampleRange plateau(std::span<const double> force) {
   const Split split = split_of(blocks.level);
   if (!(split.high > split.low)) return whole;
   const double middle = 0.5 * (split.low + split.high);
-  // Where the sensor's zero is not known, rest is told by its place.
-  const bool rests_at_both_ends = blocks.level.front() <= middle && blocks.level.back() <= middle;
-  if (!rests_at_both_ends && std::abs(split.low) > thresholds::kRestLevel * split.high) return whole;
+  // The sensor's zero may not be known: rest is told by its place.
+  if (blocks.level.front() > middle || blocks.level.back() > middle) return whole;
   SampleRange run = longest_above(blocks.level, middle);
   if (run.size() == 0) return whole;  // levels that differ by their rounding alone
   // What the level does in the middle of the run is how it moves while the body slides.
   const std::size_t edge = run.size() / 4;
   const auto [low, high] = std::minmax_element(blocks.level.begin() + static_cast<std::ptrdiff_t>(run.begin + edge),
                                                blocks.level.begin() + static_cast<std::ptrdiff_t>(run.end - edge));
-  const double movement = *high - *low + (rests_at_both_ends ? 0.0 : blocks.movement);
+  const double movement = *high - *low;
   const double lowest = *low - 0.5 * movement;
   const double highest = *high + 0.5 * movement;
   if (split.high - split.low < thresholds::kPlateauStep * movement) return whole;
