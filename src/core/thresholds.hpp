@@ -142,9 +142,6 @@ inline constexpr std::size_t kFewestClipped = 8;
 /// Samples at such a level over those at the next value. [1; convention]
 inline constexpr double kClippedPile = 6.0;
 
-/// Share of clipped samples that have a clipped neighbour. [1; convention]
-inline constexpr double kClippedRuns = 0.7;
-
 /// Probability that noise shows such a comb somewhere, below which a repetition is found. [1; convention]
 inline constexpr double kSignificant = 0.01;
 

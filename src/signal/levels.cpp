@@ -60,19 +60,11 @@ std::size_t piled_up(std::span<const double> values, double sign, double end) {
   // Half of all samples at one level is a force at rest, not a sensor at its end.
   if (at_end < thresholds::kFewestClipped || 2 * at_end >= values.size()) return 0;
   double next = -sign * HUGE_VAL;
-  std::size_t in_runs = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] == end) {
-      const bool run = (i > 0 && values[i - 1] == end) || (i + 1 < values.size() && values[i + 1] == end);
-      if (run) ++in_runs;
-    } else if (sign * values[i] > sign * next) {
-      next = values[i];
-    }
+  for (const double value : values) {
+    if (value != end && sign * value > sign * next) next = value;
   }
   const auto at_next = std::ranges::count(values, next);
-  const bool piled = static_cast<double>(at_end) > thresholds::kClippedPile * static_cast<double>(at_next) &&
-                     static_cast<double>(in_runs) > thresholds::kClippedRuns * static_cast<double>(at_end);
-  return piled ? at_end : 0;
+  return static_cast<double>(at_end) > thresholds::kClippedPile * static_cast<double>(at_next) ? at_end : 0;
 }
 
 }  // namespace
