@@ -205,6 +205,13 @@ inline constexpr double kNotRuledOut = 3.84;
 /// convention]
 inline constexpr double kContradictedMass = 1.25;
 
+/// Standard error of ln w_n from which on slips do not tell whether a ring-down is their motion: another mode of the
+/// rig would agree by chance. [1; derived: 3 of them are a factor of 1.6]
+inline constexpr double kTellingFrequency = 0.15;
+
+/// Chance below which slips and a ring-down are not one motion. [1; convention]
+inline constexpr double kMotionChance = 0.01;
+
 /// Least ratio of speeds that shows ageing. [1; convention]
 inline constexpr double kAgeingSpeedRatio = 2.0;
 

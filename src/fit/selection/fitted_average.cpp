@@ -195,4 +195,9 @@ bool repeats_rounding(const DampedFit& fit) {
   return fit.uncertainty.from_refits && !fit.misfit;
 }
 
+double unstated_variance_s2(const DampedFit& fit, const Smoothing& seen, double sample_interval_s) {
+  const double step_s2 = sample_interval_s * sample_interval_s / 12.0;
+  return !repeats_rounding(fit) && seen.variance_s2 > step_s2 ? seen.largest_variance_s2() : step_s2;
+}
+
 }  // namespace slipfit::fit

@@ -36,4 +36,8 @@ std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality
 /// is known.
 bool repeats_rounding(const DampedFit& fit);
 
+/// sigma^2 of averaging that may be in the slips, stated by nobody and not in the fit, where they show `seen`: one step
+/// of the clock, which most instruments average over, or what they do not exclude where their best estimate is more.
+double unstated_variance_s2(const DampedFit& fit, const Smoothing& seen, double sample_interval_s);
+
 }  // namespace slipfit::fit
