@@ -112,6 +112,10 @@ inline constexpr double kMisfitShare = 0.01;
 /// most. [1; convention: what is left is smaller than what is explained]
 inline constexpr double kHalvedStack = 0.5;
 
+/// Stacked residual over its standard errors, up to which it is chance. [1; derived: 1.6 for 1 % of slips that are the
+/// model's, in eight stretches]
+inline constexpr double kChanceStack = 1.5;
+
 /// Fewest samples of a slip that tell how its friction weakens. [count; derived: onset, fall and end are two each]
 inline constexpr double kShapeSamples = 6.0;
 

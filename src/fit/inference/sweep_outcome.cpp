@@ -115,13 +115,13 @@ std::optional<Coordinates> moves_by(Coordinate global, const SweepSolution& solu
   return (coordinates_of(*other, outcome.static_friction) - outcome.values) / kStep;
 }
 
-/// With the errors of w_n and zeta, held in `outcome` at what a stated mass or ring-downs tell of them.
+/// With the errors of w_n and zeta, held in `outcome` at what ring-downs, or a stated mass alone, tell of them.
 CoordinateMatrix with_errors_of_held(const SweepData& data, const SweepSolution& solution,
                                      const SweepOutcome& outcome) {
   const CoordinateMatrix& held = outcome.spread.covariance;
   const std::optional<Coordinates> by_frequency = moves_by(kLogFrequency, solution, outcome);
   if (!by_frequency) return held;
-  if (data.mass) return with_mass(held, *by_frequency, data.mass->relative_error);
+  if (!data.motion) return with_mass(held, *by_frequency, data.mass->relative_error);
   const std::optional<Coordinates> by_damping = moves_by(kDamping, solution, outcome);
   if (!by_damping) return held;
   MotionMoves moves;

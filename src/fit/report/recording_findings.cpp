@@ -183,6 +183,7 @@ void state_conditions(const Recording& recording, Findings& findings) {
 void state_law(const DampedFit& fit, Findings& findings) {
   findings.weakens = fit.blocks.scales().law == FrictionLaw::Weakening;
   findings.mass_gives_frequency = fit.mass_gives_frequency;
+  findings.average_unknown = fit.average_doubt;
   if (!fit.law_doubt.empty()) (findings.weakens ? findings.slip_doubt : findings.slip_distance_unknown) = fit.law_doubt;
 }
 

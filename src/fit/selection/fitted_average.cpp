@@ -47,8 +47,7 @@ bool hides_damping(const KernelSearch::Least& least) {
 
 /// Slips and W can be told apart.
 bool tells_slips(const DampedFit& fit) {
-  return damping_error(fit) < thresholds::kTellingDamping &&
-         fit.average->seconds > thresholds::kSureTerm * fit.average->standard_error_s;
+  return damping_error(fit) < thresholds::kTellingDamping && tells_average(*fit.average);
 }
 
 /// Logarithm of how much more likely `better` is on these cycles. `plain` tells how far samples are independent.
@@ -128,6 +127,10 @@ std::string doubt_beside(const DampedFit& fit, std::optional<double> other_s) {
 }
 
 }  // namespace
+
+bool tells_average(const FittedAverage& average) {
+  return average.seconds > 2.0 * thresholds::kSureTerm * average.standard_error_s;
+}
 
 DampedFit with_average_error(DampedFit fit, double variance_s2, const Smoothing& beyond) {
   const double error_s2 =

@@ -14,6 +14,10 @@ namespace slipfit::fit {
 /// covariance. `beyond`: what is left to smooth.
 DampedFit with_average_error(DampedFit fit, double variance_s2, const Smoothing& beyond);
 
+/// Its variance, which is what rounds the slips, is more than kSureTerm of its errors: T_b itself, a root, is twice as
+/// many of its own.
+bool tells_average(const FittedAverage& average);
+
 /// What an average of the instrument explains that a fit without does not.
 struct AverageTrial {
   std::optional<DampedFit> fit{};    ///< empty: not taken

@@ -145,7 +145,7 @@ std::optional<RingEvidence> ring_evidence(std::span<const SweepRecording> record
                                           const SweepOutcome& outcome) {
   const SweepSolution& solution = outcome.solution;
   const bool is_coulomb = solution.recordings.front().scales().law == FrictionLaw::Coulomb;
-  if (!is_coulomb || solution.held[kLogFrequency]) return std::nullopt;
+  if (!is_coulomb) return std::nullopt;
   std::vector<FreeMotion> rings;
   for (const SweepRecording& sweep : recordings) {
     if (!sweep.ring_down) continue;
