@@ -124,6 +124,22 @@ def age_cutoff(rng):
     return draw(rng, 4, rng.uniform(4, 8), ageing(rng, cut_off=(-0.7, 0.3)))
 
 
+def age_wide(rng):
+    """Sticks that span a factor of 30 and more: they tell the cut-off."""
+    return draw(rng, 6, rng.uniform(30, 60), ageing(rng, cut_off=(-1.0, 0.3), share=(0.05, 0.1)))
+
+
+def age_terms(rng):
+    """Static friction that ages, seen through an average, beside sticks that rise more steeply after a slip."""
+    sweep = draw(rng, 5, rng.uniform(5, 10), ageing(rng, cut_off=(-0.7, 0.3), share=(0.05, 0.1)))
+    first = sweep.runs[0]
+    first.model.reload_force = first.drop * rng.uniform(0.1, 0.3)
+    first.model.reload_length = first.drop / first.model.stiffness * rng.uniform(0.2, 0.5)
+    for run in sweep.runs:
+        run.average = max(1, round(0.3 * sweep.per_slip))
+    return sweep
+
+
 def age_power(rng):
     return draw(rng, 4, rng.uniform(4, 8), ageing(rng, 1))
 
@@ -396,6 +412,8 @@ def parameters_of(sweep, sound):
     """What all recordings share, k and w_n at the mean of ln V; F_s - F_k(0+) where they do, by the manifest's mean load."""
     model = sweep.model_at(np.exp(np.mean([np.log(r.speed) for r in sweep.runs]))) if sweep.model_at else sound.model
     truth = {"stiffness_N_per_m": model.stiffness, "natural_frequency_rad_per_s": model.omega, "damping_ratio": model.damping_ratio}
+    if model.ageing_time > 0 and model.ageing_law == 0:
+        truth |= {"ageing_N": model.ageing, "ageing_time_s": model.ageing_time}
     loads = [r.stated_load / sound.stated_load if r.stated_load else 1.0 for r in sweep.runs]
     drops = [r.drop / load for r, load in zip(sweep.runs, loads)]
     if model.ageing_time <= 0 and max(drops) < 1.2 * min(drops) and sweep.bad is None:
@@ -404,6 +422,6 @@ def parameters_of(sweep, sound):
     return truth
 
 
-FAMILIES = [coulomb5, coulomb3, exponential, age_ln3, age_ln4, age_ln6, age_cutoff, age_power, age_saturating, age_exponential, log_falling,
+FAMILIES = [coulomb5, coulomb3, exponential, age_ln3, age_ln4, age_ln6, age_cutoff, age_wide, age_terms, age_power, age_saturating, age_exponential, log_falling,
             log_rising, hyperbolic, two, two_coulomb, narrow, trended, grown, grown_loosely, loose, averaging, rings, rings_otherwise, drifting, zeros, wrong_loads,
             adhesion, undersampled, near_critical, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]
