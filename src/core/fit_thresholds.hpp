@@ -63,9 +63,8 @@ inline constexpr double kBlurringHum = 0.5;
 inline constexpr double kTierPrice = 10.0;
 
 /// AICc by which one of two minima of the same law is ahead where the other one is ruled out: much averaging of quick
-/// slips looks like little of slow ones, and what the law leaves out moves their sums. [1; calibrated: simulated
-/// recordings of average and weakening, where the true minimum was behind by 14]
-inline constexpr double kSurelyAhead = 30.0;
+/// slips looks like little of slow ones. [1; convention: as kTierPrice]
+inline constexpr double kSurelyAhead = 10.0;
 
 /// Samples of a slip, below which w_n and zeta have no single minimum. [count; calibrated: simulated slips of few
 /// samples]

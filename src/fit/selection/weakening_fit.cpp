@@ -144,8 +144,7 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
   if (trial.fit) {
     const double effective = effective_samples(*trial.fit);
     trial.candidate = candidate_of(*trial.fit, Tier::Weakening, 4, effective);
-    const Candidate other = candidate_of(coulomb, Tier::Damped, coulomb.average ? 4 : 3, effective);
-    const double gain = *other.aicc - *trial.candidate.aicc;
+    const double gain = gain_on_same_samples(*trial.fit, coulomb) + (coulomb.average ? 2.0 : 0.0);
     trial.candidate = judged(std::move(trial.candidate), *trial.fit, coulomb, gain, missed);
     if (coulomb.average && !trial.candidate.chosen && gain > -thresholds::kTierPrice) {
       trial.fall_doubt = fmt::format(
