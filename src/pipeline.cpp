@@ -11,6 +11,7 @@
 #include "analysis/detect.hpp"
 #include "analysis/estimate.hpp"
 #include "analysis/ranges.hpp"
+#include "analysis/ring_down.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/sweep_checks.hpp"
 #include "fit/cycle/cycle_table.hpp"
@@ -64,6 +65,11 @@ std::optional<FitResult> told_of_whole(std::optional<FitResult> fit, const Detec
   return fit;
 }
 
+std::optional<RingDown> ring_down_of(const Transients& transients) {
+  if (!transients.ring_down_frequency_Hz.value) return std::nullopt;
+  return RingDown{transients.ring_down_frequency_Hz, transients.ring_down_damping_ratio};
+}
+
 /// Everything that follows from slips, spectrum and fit of the stretch that slides.
 Analysis conclude(const Detected& detected, Estimates estimates, Classification classification) {
   const Recording& recording = detected.recording();
@@ -108,7 +114,9 @@ struct Member {
 /// `options`: of the recording's own fit.
 Member analyze_member(const Recording& recording, const FitOptions& options) {
   Member member{detect(recording), {}, {}};
-  member.estimates = estimate(member.detected, options);
+  FitOptions informed = options;
+  informed.ring_down = ring_down_after_release(member.detected);
+  member.estimates = estimate(member.detected, informed);
   const Classification classification = classify(member.detected.recording(), member.estimates);
   member.analysis = conclude(member.detected, member.estimates, classification);
   return member;
@@ -125,7 +133,9 @@ Analysis analyze(const Recording& recording) {
 
 Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) {
   const Detected detected = detect(recording);
-  Estimates estimates = estimate(detected, options);
+  FitOptions informed = options;
+  informed.ring_down = ring_down_after_release(detected);
+  Estimates estimates = estimate(detected, informed);
   Classification classification = classify(detected.recording(), estimates);
   return conclude(detected, std::move(estimates), std::move(classification));
 }
@@ -148,7 +158,8 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   sweep.roles = roles_of(entries, sweep.recordings);
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Signals& signals = members[i].estimates.signals;
-    recordings.push_back({members[i].detected.recording(), signals.quality, signals.segmentation, sweep.roles[i]});
+    recordings.push_back({members[i].detected.recording(), signals.quality, signals.segmentation, sweep.roles[i],
+                          ring_down_of(sweep.recordings[i].transients)});
   }
   sweep.fit = in_range(fit_sweep(recordings, options));
   const FitResult result = sweep.fit ? sweep.fit->result : FitResult{};

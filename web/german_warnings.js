@@ -34,6 +34,7 @@ const kGermanWarnings = {
   clocked: "Die Rutscher folgen dem Takt des angegebenen Antriebs; er bestimmt Frequenz und Abstand.",
   repeated_values: "Jeder Wert steht mehrfach da (der Schreiber ist schneller als der Wandler); jeder zählt einmal.",
   slips_not_inertial: "Die Rutscher sind viel langsamer als die freie Schwingung des Aufbaus: Eigenfrequenz, Masse und Dämpfung sind unsicher.",
+  ring_down_differs: "Die Rutscher und die freie Schwingung des Aufbaus sind nicht dieselbe Bewegung; die Anpassung nutzt nur die Rutscher.",
   sensor_too_slow: "Der Sensor ist für diese Zyklen zu träge; von den Rampen bleibt wenig für die Anpassung.",
   hum_fitted: "Eine Störlinie (Netz, Einstreuung, Antrieb) wurde neben den Zyklen mit angepasst.",
   part_of_cycles_fitted: "Angepasst wurde eine Auswahl der Zyklen; Frequenz und Anzahl nutzen alle.",

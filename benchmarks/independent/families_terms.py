@@ -18,7 +18,15 @@ def _averaged(time_s, force, window_s, every):
     return centre, (np.interp(centre + 0.5 * window_s, time_s, integral) - np.interp(centre - 0.5 * window_s, time_s, integral)) / window_s
 
 
-def _scene(rng, average=False, weakens=False, reloads=False):
+def _release(omega, zeta, force, step, seconds):
+    """Free oscillation to 0 of a spring force that is let go at rest: values after the one given."""
+    t = np.arange(1, int(seconds / step)) * step
+    damped = math.sqrt(1 - zeta * zeta)
+    return force * np.exp(-zeta * omega * t) * (np.cos(damped * omega * t) + zeta / damped * np.sin(damped * omega * t))
+
+
+def _scene(rng, average=False, weakens=False, reloads=False, rings=None):
+    """`rings`: by which w_n of the slips differs from that of the ring-down after a release at the end; None: no release."""
     rig = draw_rig(rng, per_slip=(20, 60), ratio=(5, 25))
     rig.step /= FINE
     if weakens:
@@ -28,14 +36,19 @@ def _scene(rng, average=False, weakens=False, reloads=False):
         rig.model.reload_length = rig.drop / rig.model.stiffness * rng.uniform(0.2, 0.5)
     motion = rig.run((rig.count + 2) * rig.period_s)
     window_s = _log_uniform(rng, 0.3, 6.0) / rig.model.omega if average else 0.0
+    time_s, force, end_s = motion.time_s, motion.force, motion.time_s[-1]
+    if rings:
+        ring = _release(rings * rig.model.omega, rig.model.damping_ratio, force[-1], rig.step, rng.uniform(2, 4) * rig.period_s)
+        force = np.concatenate([force, ring])
+        time_s = np.arange(len(force)) * rig.step
     if average:
-        time_s, force = _averaged(motion.time_s, motion.force, window_s, FINE)
+        time_s, force = _averaged(time_s, force, window_s, FINE)
     else:
-        time_s, force = motion.time_s[::FINE], motion.force[::FINE]
-    stretch = (time_s[0], time_s[-1])
+        time_s, force = time_s[::FINE], force[::FINE]
+    stretch = (time_s[0], min(time_s[-1], end_s))
     truth = truth_of(rig, motion.slips, stretch, PARAMETERS)
     truth["slips_s"] = [slip - time_s[0] for slip in truth["slips_s"]]
-    truth["stretch_s"] = [0.0, float(time_s[-1] - time_s[0])]
+    truth["stretch_s"] = [0.0, float(stretch[1] - stretch[0])]
     if average:
         truth["parameters"]["sensor_average_s"] = window_s
     return Scene(time_s - time_s[0], force + rig.white(len(force)), truth)
@@ -73,4 +86,18 @@ def average_weakens_reloads(rng):
     return _scene(rng, average=True, weakens=True, reloads=True)
 
 
-FAMILIES = [none, average, weakens, reloads, average_weakens, average_reloads, weakens_reloads, average_weakens_reloads]
+def rings(rng):
+    return _scene(rng, rings=1.0)
+
+
+def average_rings(rng):
+    return _scene(rng, average=True, rings=1.0)
+
+
+def rings_otherwise(rng):
+    """Another mode than that of the slips rings after the release."""
+    return _scene(rng, rings=rng.uniform(1.15, 2.0))
+
+
+FAMILIES = [none, average, weakens, reloads, average_weakens, average_reloads, weakens_reloads, average_weakens_reloads,
+            rings, average_rings, rings_otherwise]

@@ -24,6 +24,7 @@ class Run:
     offset: float = 0.0  # N
     source: int = None   # the trace is that of this other recording
     per_slip: float = None  # samples; None: the sweep's
+    start: float = None  # force; None: that of kinetic friction
 
 
 @dataclasses.dataclass
@@ -37,6 +38,7 @@ class Sweep:
     slips: tuple = (14, 25)
     drop: float = None       # F_s - F_k at the speeds predicted; None: that of a sound recording
     model_at: object = None  # of a speed; None: that of a sound recording
+    fastest: float = None  # m/s, of the recordings with slips; None: of all
 
 
 def base_model(rng, zeta=(0.03, 0.2)):
@@ -120,6 +122,22 @@ def age_ln6(rng):
 
 def age_cutoff(rng):
     return draw(rng, 4, rng.uniform(4, 8), ageing(rng, cut_off=(-0.7, 0.3)))
+
+
+def age_wide(rng):
+    """Sticks that span a factor of 30 and more: they tell the cut-off."""
+    return draw(rng, 6, rng.uniform(30, 60), ageing(rng, cut_off=(-1.0, 0.3), share=(0.05, 0.1)))
+
+
+def age_terms(rng):
+    """Static friction that ages, seen through an average, beside sticks that rise more steeply after a slip."""
+    sweep = draw(rng, 5, rng.uniform(5, 10), ageing(rng, cut_off=(-0.7, 0.3), share=(0.05, 0.1)))
+    first = sweep.runs[0]
+    first.model.reload_force = first.drop * rng.uniform(0.1, 0.3)
+    first.model.reload_length = first.drop / first.model.stiffness * rng.uniform(0.2, 0.5)
+    for run in sweep.runs:
+        run.average = max(1, round(0.3 * sweep.per_slip))
+    return sweep
 
 
 def age_power(rng):
@@ -216,6 +234,29 @@ def averaging(rng):
     for run in sweep.runs:
         run.average = width
     return sweep
+
+
+def _rings(rng, times):
+    """Seen through an average that hides w_n, with a run beyond the end of stick-slip that rings down after its first slip.
+    `times`: w_n there over that of the slips."""
+    sweep = draw(rng, 4, rng.uniform(4, 8))
+    width = max(1, round(rng.uniform(1, 3.5) * sweep.per_slip / (1.1 * np.pi)))
+    first = sweep.runs[0]
+    ringing = Model(stiffness=first.model.stiffness, omega=times * first.model.omega, damping_ratio=first.model.damping_ratio)
+    beyond = first.drop * ringing.omega / ringing.stiffness / 0.3
+    sweep.fastest = max(run.speed for run in sweep.runs)
+    sweep.runs.append(Run(beyond, ringing, first.drop, first.kinetic, start=0.0))
+    for run in sweep.runs:
+        run.average = width
+    return sweep
+
+
+def rings(rng):
+    return _rings(rng, 1.0)
+
+
+def rings_otherwise(rng):
+    return _rings(rng, rng.uniform(1.4, 2.0))
 
 
 def drifting(rng):
@@ -320,7 +361,8 @@ def trace(sweep, run):
     period = 1.1 * np.pi / model.omega + stick_s(model, run.drop, run.speed)
     n = int(np.ceil(rng.integers(*sweep.slips) * period / step))
     full = np.full(fine * n, run.speed)
-    motion = simulate(model, step / fine, full, run.kinetic + run.drop, run.kinetic, start_force=run.kinetic)
+    motion = simulate(model, step / fine, full, run.kinetic + run.drop, run.kinetic,
+                      start_force=run.kinetic if run.start is None else run.start)
     force = motion.force[::fine] + run.offset
     if run.average:
         force = np.convolve(np.pad(force, run.average, "edge"), np.ones(run.average) / run.average, "same")[run.average:-run.average]
@@ -343,7 +385,7 @@ def limit_period(model, drop, kinetic, speed):
 
 def truth_of(sweep):
     sound = next(r for i, r in enumerate(sweep.runs) if i != sweep.bad and (r.stated_load or 5.0) == 5.0)
-    fastest = max(r.speed for r in sweep.runs)
+    fastest = sweep.fastest or max(r.speed for r in sweep.runs)
     model_at = sweep.model_at or (lambda v: sound.model)
     drop = sweep.drop or sound.drop  # of the first recording where loads differ
     rows = []
@@ -370,6 +412,8 @@ def parameters_of(sweep, sound):
     """What all recordings share, k and w_n at the mean of ln V; F_s - F_k(0+) where they do, by the manifest's mean load."""
     model = sweep.model_at(np.exp(np.mean([np.log(r.speed) for r in sweep.runs]))) if sweep.model_at else sound.model
     truth = {"stiffness_N_per_m": model.stiffness, "natural_frequency_rad_per_s": model.omega, "damping_ratio": model.damping_ratio}
+    if model.ageing_time > 0 and model.ageing_law == 0:
+        truth |= {"ageing_N": model.ageing, "ageing_time_s": model.ageing_time}
     loads = [r.stated_load / sound.stated_load if r.stated_load else 1.0 for r in sweep.runs]
     drops = [r.drop / load for r, load in zip(sweep.runs, loads)]
     if model.ageing_time <= 0 and max(drops) < 1.2 * min(drops) and sweep.bad is None:
@@ -378,6 +422,6 @@ def parameters_of(sweep, sound):
     return truth
 
 
-FAMILIES = [coulomb5, coulomb3, exponential, age_ln3, age_ln4, age_ln6, age_cutoff, age_power, age_saturating, age_exponential, log_falling,
-            log_rising, hyperbolic, two, two_coulomb, narrow, trended, grown, grown_loosely, loose, averaging, drifting, zeros, wrong_loads,
+FAMILIES = [coulomb5, coulomb3, exponential, age_ln3, age_ln4, age_ln6, age_cutoff, age_wide, age_terms, age_power, age_saturating, age_exponential, log_falling,
+            log_rising, hyperbolic, two, two_coulomb, narrow, trended, grown, grown_loosely, loose, averaging, rings, rings_otherwise, drifting, zeros, wrong_loads,
             adhesion, undersampled, near_critical, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]

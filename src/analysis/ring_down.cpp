@@ -6,6 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "analysis/damped_sine.hpp"
+#include "analysis/slip_shape.hpp"
 #include "analysis/statistics.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/student.hpp"
@@ -20,6 +22,7 @@ namespace {
 struct Swings {
   std::vector<double> half_periods_s;
   std::vector<double> log_sizes;
+  std::vector<std::size_t> turns;  ///< samples where they begin, and where the last one ends
 };
 
 struct Start {
@@ -44,7 +47,9 @@ Swings swings_of(const Recording& recording, const Start& start, std::size_t wid
     swings.half_periods_s.push_back(recording.time_s()[start.begin + turns[i + 1]] -
                                     recording.time_s()[start.begin + turns[i]]);
     swings.log_sizes.push_back(std::log(size_of(i)));
+    swings.turns.push_back(start.begin + turns[i] + width / 2);
   }
+  if (!swings.turns.empty()) swings.turns.push_back(start.begin + turns.back() + width / 2);
   return swings;
 }
 
@@ -58,7 +63,35 @@ Swings ring_of(Swings swings) {
   while (count < swings.half_periods_s.size() && in_rhythm(count)) ++count;
   swings.half_periods_s.resize(count);
   swings.log_sizes.resize(count);
+  swings.turns.resize(count > 0 ? count + 1 : 0);
   return swings;
+}
+
+/// By least squares of the samples of so many swings, from what their turning points tell.
+std::optional<RingDown> by_least_squares(const Recording& recording, const Swings& swings, std::size_t count,
+                                         const RingDown& start) {
+  constexpr std::size_t kEnough = 20000;  // samples
+  const std::size_t begin = swings.turns.front();
+  const std::size_t end = std::min(recording.size(), swings.turns[count] + 1);
+  const std::size_t every = (end - begin) / kEnough + 1;
+  std::vector<double> time_s;
+  std::vector<double> force;
+  for (std::size_t i = begin; i < end; i += every) {
+    time_s.push_back(recording.time_s()[i]);
+    force.push_back(recording.force()[i]);
+  }
+  const double omega = 2.0 * std::numbers::pi * *start.frequency_Hz.value;
+  const double ratio = *start.damping_ratio.value;
+  const auto sine = fit_damped_sine(time_s, force, omega, omega * ratio / std::sqrt(1.0 - ratio * ratio));
+  if (!sine || !(sine->decay_per_s > 0.0)) return std::nullopt;
+  const double natural = std::hypot(sine->omega_rad_per_s, sine->decay_per_s);
+  const double ratio_error =
+      std::hypot(sine->omega_rad_per_s * sine->decay_error_per_s, sine->decay_per_s * sine->omega_error_rad_per_s) *
+      sine->omega_rad_per_s / std::pow(natural, 3);
+  const double per_turn = 2.0 * std::numbers::pi;
+  const double freedom = sine->half_periods - 1.0;
+  return RingDown{fit::symmetric(sine->omega_rad_per_s / per_turn, sine->omega_error_rad_per_s / per_turn, freedom),
+                  fit::symmetric(sine->decay_per_s / natural, ratio_error, freedom)};
 }
 
 }  // namespace
@@ -94,8 +127,16 @@ std::optional<RingDown> find_ring_down(const Recording& recording, std::size_t b
   const double frequency_Hz = 0.5 / half.mean;
   const double timing = recording.sample_interval_s() / half.mean / half.count;
   const double frequency_se_Hz = frequency_Hz * std::hypot(half.sd / half.mean / std::sqrt(half.count), timing);
-  return RingDown{fit::symmetric(frequency_Hz, frequency_se_Hz, half.count - 1.0),
-                  fit::symmetric(ratio, ratio_se, static_cast<double>(large) - 2.0)};
+  const RingDown by_turns{fit::symmetric(frequency_Hz, frequency_se_Hz, half.count - 1.0),
+                          fit::symmetric(ratio, ratio_se, static_cast<double>(large) - 2.0)};
+  return by_least_squares(recording, swings, large, by_turns).value_or(by_turns);
+}
+
+std::optional<RingDown> ring_down_after_release(const Detected& detected) {
+  if (detected.signals.segmentation.slips.empty()) return std::nullopt;
+  const double noise = detected.whole_quality.noise_rms;
+  const double fall = std::max(median_drop(detected.signals.segmentation), thresholds::kNoiseDrop * noise);
+  return find_ring_down(*detected.whole, detected.sample_of(detected.recording().size() - 1), noise, fall);
 }
 
 }  // namespace slipfit

@@ -113,14 +113,10 @@ Estimate loading_stiffness(const Recording& recording, const Trace& trace, const
 
 /// After the release where there is one, after the first peak of a motion that died out otherwise.
 std::optional<RingDown> ring_down_of(const Detected& detected, MotionClass motion, const std::optional<RunUp>& ramp) {
-  const Recording& recording = *detected.whole;
-  const Segmentation& slips = detected.signals.segmentation;
-  const bool slides = motion == MotionClass::StickSlip;
-  if (!slides && !ramp) return std::nullopt;
+  if (motion == MotionClass::StickSlip) return ring_down_after_release(detected);
+  if (!ramp) return std::nullopt;
   const double noise = detected.whole_quality.noise_rms;
-  const double fall = std::max(slides ? median_drop(slips) : 0.3 * ramp->rise, thresholds::kNoiseDrop * noise);
-  const std::size_t end = detected.sample_of(detected.recording().size() - 1);
-  return find_ring_down(recording, slides ? end : ramp->peak, noise, fall);
+  return find_ring_down(*detected.whole, ramp->peak, noise, std::max(0.3 * ramp->rise, thresholds::kNoiseDrop * noise));
 }
 
 }  // namespace

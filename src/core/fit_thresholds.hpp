@@ -63,9 +63,8 @@ inline constexpr double kBlurringHum = 0.5;
 inline constexpr double kTierPrice = 10.0;
 
 /// AICc by which one of two minima of the same law is ahead where the other one is ruled out: much averaging of quick
-/// slips looks like little of slow ones, and what the law leaves out moves their sums. [1; calibrated: simulated
-/// recordings of average and weakening, where the true minimum was behind by 14]
-inline constexpr double kSurelyAhead = 30.0;
+/// slips looks like little of slow ones. [1; convention: as kTierPrice]
+inline constexpr double kSurelyAhead = 10.0;
 
 /// Samples of a slip, below which w_n and zeta have no single minimum. [count; calibrated: simulated slips of few
 /// samples]
@@ -105,6 +104,10 @@ inline constexpr double kMisfitShare = 0.01;
 /// Stacked residual of the slips under friction that weakens over a slip distance over that under Coulomb friction, at
 /// most. [1; convention: what is left is smaller than what is explained]
 inline constexpr double kHalvedStack = 0.5;
+
+/// Stacked residual over its standard errors, up to which it is chance. [1; derived: 1.6 for 1 % of slips that are the
+/// model's, in eight stretches]
+inline constexpr double kChanceStack = 1.5;
 
 /// Fewest samples of a slip that tell how its friction weakens. [count; derived: onset, fall and end are two each]
 inline constexpr double kShapeSamples = 6.0;
@@ -191,6 +194,13 @@ inline constexpr double kNotRuledOut = 3.84;
 /// Residual with w_n by a stated mass over that with w_n free, above which the mass is not that of the slips. [1;
 /// convention]
 inline constexpr double kContradictedMass = 1.25;
+
+/// Standard error of ln w_n from which on slips do not tell whether a ring-down is their motion: another mode of the
+/// rig would agree by chance. [1; derived: 3 of them are a factor of 1.6]
+inline constexpr double kTellingFrequency = 0.15;
+
+/// Chance below which slips and a ring-down are not one motion. [1; convention]
+inline constexpr double kMotionChance = 0.01;
 
 /// Least ratio of speeds that shows ageing. [1; convention]
 inline constexpr double kAgeingSpeedRatio = 2.0;

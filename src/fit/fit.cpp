@@ -13,13 +13,8 @@
 #include "fit/fit_unless.hpp"
 #include "fit/level/mains_hum.hpp"
 #include "fit/report/recording_findings.hpp"
-#include "fit/selection/damped_fit.hpp"
-#include "fit/selection/fitted_average.hpp"
-#include "fit/selection/reloading_fit.hpp"
-#include "fit/selection/rival.hpp"
-#include "fit/selection/stated_mass.hpp"
+#include "fit/selection/chosen_fit.hpp"
 #include "fit/selection/tiers.hpp"
-#include "fit/selection/weakening_fit.hpp"
 #include "model/reloading.hpp"
 #include "signal/robust.hpp"
 
@@ -181,54 +176,6 @@ Warnings one_of_each_code(const Warnings& warnings) {
   return merged;
 }
 
-/// The fits of one recording, and what was chosen of them.
-struct Chosen {
-  fit::TierFits fits;
-  fit::Resolution resolution;
-  std::vector<Candidate> candidates;
-  Warnings warnings{};
-};
-
-/// Friction that weakens over a slip distance in place of Coulomb friction where the data, or the user, want it.
-Chosen with_weakening(Chosen chosen, const fit::FitInput& input, std::optional<Tier> forced) {
-  const bool is_asked = forced == Tier::Weakening;
-  if (!is_asked && (forced || !fit::may_weaken(chosen.fits.damped, input.recording.sample_interval_s()))) return chosen;
-  fit::WeakeningTrial trial = fit::try_weakening(input, chosen.fits.damped, forced);
-  Candidate& candidate = trial.candidate;
-  const std::string doubt = candidate.chosen ? "" : candidate.reason;
-  if (is_asked) candidate = fit::requested(std::move(candidate));
-  if (candidate.chosen) {
-    for (Candidate& other : chosen.candidates) other.chosen = false;
-    if (trial.fit) {
-      trial.fit->law_doubt = doubt;
-      chosen.fits = {fit::fit_sawtooth(*trial.fit), std::nullopt, *std::move(trial.fit)};
-      chosen.resolution = fit::resolution_of(input.recording, chosen.fits);
-      const bool is_negative = chosen.fits.damped.blocks.parameters.globals[fit::kDamping] < 0.0;
-      if (is_negative && !chosen.fits.damped.held[fit::kDamping])
-        chosen.fits.undamped = fit::fit_undamped(chosen.fits.damped, false);
-    } else {
-      chosen.fits.damped.law_doubt = doubt;
-      chosen.resolution.slip_resolved = chosen.resolution.damping_resolved = false;
-      chosen.resolution.reason = doubt;
-    }
-  }
-  if (trial.rival) chosen.fits.damped = fit::beside_rival(std::move(chosen.fits.damped), *trial.rival);
-  if (chosen.fits.damped.fall_doubt.empty()) chosen.fits.damped.fall_doubt = trial.fall_doubt;
-  chosen.candidates.push_back(std::move(candidate));
-  if (trial.warning) chosen.warnings.push_back(*std::move(trial.warning));
-  return chosen;
-}
-
-Chosen choose(const fit::FitInput& input, DampedFit damped, std::optional<Tier> forced) {
-  fit::TierFits fits{fit::fit_sawtooth(damped), std::nullopt, std::move(damped)};
-  const fit::Resolution resolution = fit::resolution_of(input.recording, fits);
-  const bool undamped_may_lose = resolution.damping_resolved && forced != Tier::Undamped;
-  if (!fits.damped.held[fit::kDamping]) fits.undamped = fit::fit_undamped(fits.damped, undamped_may_lose);
-  const std::optional<Tier> of_coulomb = forced == Tier::Weakening ? std::nullopt : forced;
-  std::vector<Candidate> candidates = fit::choose_tier(fits, resolution, of_coulomb);
-  return with_weakening({std::move(fits), resolution, std::move(candidates)}, input, forced);
-}
-
 }  // namespace
 
 std::optional<FitResult> fit::fit_unless(const std::function<bool()>& is_other_kept, const Recording& recording,
@@ -240,12 +187,10 @@ std::optional<FitResult> fit::fit_unless(const std::function<bool()>& is_other_k
   if (is_other_kept) {
     give_up = [&](const BlockFit& some) { return reduced_chi2(some) > thresholds::kLargeChi2 && is_other_kept(); };
   }
-  std::optional<DampedFit> damped = draft_with_rise(recording, quality, segmentation, held, give_up);
-  if (damped) damped = fit::fit_as_sensed(recording, quality, segmentation, held, *std::move(damped));
-  if (!damped) return std::nullopt;
-  damped = fit::fit_with_mass(recording, quality, segmentation, held, *std::move(damped));
-  const auto [fits, resolution, candidates, of_choice] =
-      choose({recording, quality, segmentation, held}, *std::move(damped), options.tier);
+  const std::optional<Chosen> chosen_of =
+      choose_with_ring_down({recording, quality, segmentation, held}, options, give_up);
+  if (!chosen_of) return std::nullopt;
+  const auto& [fits, resolution, candidates, of_choice] = *chosen_of;
 
   FitResult result;
   result.candidates = candidates;
@@ -257,6 +202,7 @@ std::optional<FitResult> fit::fit_unless(const std::function<bool()>& is_other_k
   result.diagnostics = diagnostics_of(recording, fits.damped, resolution);
   result.conditional_on = fit::conditions_of(recording, result.tier);
   result.residual = residual_of(chosen, quality);
+  if (fits.damped.motion) result.conditional_on.emplace_back(fit::kRingDown);
   result.mass_gives_frequency = fits.damped.mass_gives_frequency;
   fit::report_parameters(fit::findings_of(recording, fits, resolution, result.residual), result);
   tabulate(recording, segmentation, chosen.blocks, result);

@@ -15,6 +15,7 @@
 #include "fit/report/findings.hpp"
 #include "fit/report/open_damping.hpp"
 #include "fit/selection/law_choice.hpp"
+#include "fit/selection/ring_down_fit.hpp"
 #include "fit/selection/sweep_solution.hpp"
 #include "signal/robust.hpp"
 
@@ -71,7 +72,7 @@ class Assembler {
         outcome_(outcome),
         values_(fit::with_damping_cut(outcome.values, outcome.spread.covariance)),
         model_(values_, data.units),
-        averaging_(fit::effect_of_averaging(recordings, outcome, data)),
+        averaging_(data.motion ? 0.0 : fit::effect_of_averaging(recordings, outcome, data)),
         intervals_(spread_of(outcome, averaging_)) {}
 
   [[nodiscard]] SweepFit assemble(const fit::LawChoice& choice) const {
@@ -96,6 +97,7 @@ class Assembler {
           fmt::format("normal force {:.6g} N, the mean of the recordings", *data_.mean_load_N));
     }
     sweep.result.residual.reduced_chi2 = solution.chi2 / solution.degrees_of_freedom;
+    if (data_.motion) sweep.result.conditional_on.emplace_back(fit::kRingDown);
     add_warnings(sweep);
     fit::report_parameters(findings(choice), sweep.result);
     if (sweep.result.estimate) {
@@ -114,6 +116,7 @@ class Assembler {
     findings.zero_known = std::all_of(recordings_.begin(), recordings_.end(), [](const SweepRecording& sweep) {
       return sweep.recording.conditions().zero_force_N.has_value();
     });
+    if (data_.motion) findings.held[fit::kLogFrequency] = findings.held[fit::kDamping] = false;
     findings.cycles = solution.cycles();
     findings.mass_gives_frequency = data_.mass.has_value();
     findings.samples_per_slip = samples_per_slip(recordings_, data_);
@@ -260,16 +263,19 @@ class Assembler {
   fit::Intervals intervals_;
 };
 
-/// `known`: an average of the sensor that was found before.
-std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, const FitOptions& options,
-                                    const std::optional<fit::FittedAverage>& known = {}) {
-  const SweepData data = fit::prepare_sweep(recordings, options, known);
+/// `asked`: of the user. `known`: an average of the sensor that was found before.
+std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, const FitOptions& asked,
+                                    const FitOptions& options, const std::optional<fit::FittedAverage>& known = {}) {
+  SweepData data = fit::prepare_sweep(recordings, options, known);
   if (data.fitted.size() < 2) return std::nullopt;
   if (options.tell_step) options.tell_step(fmt::format("fitting {} recordings together", data.fitted.size()));
   std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
   if (!fits) return std::nullopt;
-  const fit::ChosenLaw law = fit::choose_law(data, *std::move(fits), options.tier, fit::speed_ratio(recordings));
+  fit::ChosenLaw law = fit::choose_law(data, *std::move(fits), options.tier, fit::speed_ratio(recordings));
+  const std::optional<Warning> ring_doubt = fit::join_ring_downs(recordings, asked.held, data, law.outcome);
   SweepFit sweep = Assembler(recordings, data, law.outcome).assemble(law.choice);
+  if (ring_doubt) sweep.result.warnings.push_back(*ring_doubt);
+  sweep.ring_down_used = data.motion.has_value();
   sweep.result.candidates = law.candidates;
   return sweep;
 }
@@ -277,13 +283,14 @@ std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, 
 }  // namespace
 
 std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
-  std::optional<SweepFit> sweep = fit_at_once(recordings, options);
-  if (!sweep || options.held.damping_ratio || !fit::is_damping_open(sweep->result, recordings)) return sweep;
+  std::optional<SweepFit> sweep = fit_at_once(recordings, options, options);
+  if (!sweep || options.held.damping_ratio || sweep->ring_down_used) return sweep;
+  if (!fit::is_damping_open(sweep->result, recordings)) return sweep;
   FitOptions undamped = options;
   undamped.held.damping_ratio = 0.0;
-  std::optional<SweepFit> simpler = fit_at_once(recordings, undamped, fit::found_average(sweep->result));
+  std::optional<SweepFit> simpler = fit_at_once(recordings, options, undamped, fit::found_average(sweep->result));
   if (!simpler) return sweep;
-  fit::tell_open_damping(simpler->result);
+  if (!simpler->ring_down_used) fit::tell_open_damping(simpler->result);
   return simpler;
 }
 

@@ -120,6 +120,29 @@ TEST_CASE("intervals behind an average hold what a slip distance too short to be
   }
 }
 
+TEST_CASE("slips that weaken show no average of the sensor: it would have to explain them better, and surely") {
+  const auto [share, noise, samples, seed] =
+      GENERATE(table<double, double, double, std::uint64_t>({{0.08, 0.025, 25.0, 4},
+                                                             {0.08, 0.025, 25.0, 12},
+                                                             {0.08, 0.025, 25.0, 13},
+                                                             {0.04, 0.025, 50.0, 8},
+                                                             {0.08, 0.002, 25.0, 12},
+                                                             {0.04, 0.002, 50.0, 14}}));
+  Scene s = soft_contact();
+  s.zeta = 0.12;
+  s.jitter = 0.0;
+  s.cycles = 30.0;
+  s.noise = noise;
+  s.samples_per_slip = samples;
+  s.seed = seed;
+  CAPTURE(share, noise, samples, seed);
+  const Analysis analysis = analyze_and_fit(weakening_recording(s, share), {});
+  REQUIRE(analysis.fit);
+  CHECK_FALSE(analysis.fit->estimate_of(ParameterId::SensorAverage).value);
+  const Estimate omega = analysis.fit->natural_frequency();
+  if (omega.value) CHECK(std::abs(*omega.value - s.omega) < 3.5 * *omega.standard_error);
+}
+
 TEST_CASE("a slip distance that is asked for in vain is unknown with the reason") {
   FitOptions options;
   options.tier = Tier::Weakening;

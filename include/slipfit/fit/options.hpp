@@ -8,12 +8,15 @@
 #include "slipfit/core/result.hpp"
 #include "slipfit/fit/parameter.hpp"
 #include "slipfit/fit/result.hpp"
+#include "slipfit/fit/ring_down.hpp"
 
 namespace slipfit {
 
 struct FitOptions {
   std::optional<Tier> tier{};  ///< empty: chosen by the data
   HeldParameters held{};
+  /// Of the rig of one recording, after its release: data of w_n and zeta where the slips are the same motion.
+  std::optional<RingDown> ring_down{};
   bool curve = false;  ///< fill FitResult::curve (16 bytes a sample)
   /// Told of each step of a fit of several recordings ("fitting without recording 3 of 13"); may be empty.
   std::function<void(const std::string&)> tell_step{};

@@ -32,6 +32,7 @@ struct SweepFit {
   std::vector<SweepPoint> points;  ///< in the order of the recordings
   bool level_shared = false;       ///< one F_k(0+) for all recordings: the data agree with it
   bool difference_shared = false;  ///< one F_s for all speeds: the data agree with it
+  bool ring_down_used = false;     ///< as data of w_n and zeta: it is the motion of the slips
 };
 
 /// Fits k, w_n, zeta, F_s, f0, f1, alpha to all recordings at once; each cycle keeps its own onset and static friction.

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "slipfit/core/recording.hpp"
+#include "slipfit/fit/ring_down.hpp"
 #include "slipfit/signal/cycles.hpp"
 #include "slipfit/signal/quality.hpp"
 
@@ -19,6 +22,7 @@ struct SweepRecording {
   const Quality& quality;
   const Segmentation& segmentation;
   SweepRole role = SweepRole::Cycles;
+  std::optional<RingDown> ring_down{};  ///< that it shows, whatever its role
 };
 
 }  // namespace slipfit

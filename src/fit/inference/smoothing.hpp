@@ -23,6 +23,9 @@ struct Smoothing {
   [[nodiscard]] double largest_variance_s2() const { return 1.25 * variance_s2 + 2.0 * standard_error_s2; }
 };
 
+/// d ln w_n / d (w_n sigma)^2 of damped slips that are averaged.
+inline constexpr double kFrequencyByAverage = 0.62;
+
 /// sigma^2 as one parameter more at the solution of the fit: one Gauss-Newton step, errors from the scatter over the
 /// cycles. Ramps count as not joined. Empty where the data cannot tell it.
 std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& held, double sample_interval_s);

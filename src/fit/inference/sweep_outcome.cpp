@@ -12,6 +12,7 @@
 #include "fit/inference/ageing_line.hpp"
 #include "fit/inference/rate_profile.hpp"
 #include "fit/inference/sliding_model.hpp"
+#include "fit/inference/smoothing.hpp"
 #include "fit/selection/sweep_solution.hpp"
 
 namespace slipfit::fit {
@@ -106,13 +107,26 @@ CoordinateMatrix by_error(const std::optional<SweepSolution>& other, const Sweep
   return move * move.transpose();
 }
 
-/// With w_n by the stated mass; w_n is held in `outcome`.
-CoordinateMatrix with_stated_mass(const SweepData& data, const SweepSolution& solution, const SweepOutcome& outcome) {
-  constexpr double kStep = 0.01;  // of ln w_n
-  const std::optional<SweepSolution> other = with_frequency(solution, kStep);
-  if (!other) return outcome.spread.covariance;
-  const Coordinates move = coordinates_of(*other, outcome.static_friction) - outcome.values;
-  return with_mass(outcome.spread.covariance, move / kStep, data.mass->relative_error);
+/// What the coordinates of `outcome` move by with a global that is held.
+std::optional<Coordinates> moves_by(Coordinate global, const SweepSolution& solution, const SweepOutcome& outcome) {
+  constexpr double kStep = 0.01;  // of ln w_n or zeta
+  const std::optional<SweepSolution> other = with_held(solution, global, kStep);
+  if (!other) return std::nullopt;
+  return (coordinates_of(*other, outcome.static_friction) - outcome.values) / kStep;
+}
+
+/// With the errors of w_n and zeta, held in `outcome` at what ring-downs, or a stated mass alone, tell of them.
+CoordinateMatrix with_errors_of_held(const SweepData& data, const SweepSolution& solution,
+                                     const SweepOutcome& outcome) {
+  const CoordinateMatrix& held = outcome.spread.covariance;
+  const std::optional<Coordinates> by_frequency = moves_by(kLogFrequency, solution, outcome);
+  if (!by_frequency) return held;
+  if (!data.motion) return with_mass(held, *by_frequency, data.mass->relative_error);
+  const std::optional<Coordinates> by_damping = moves_by(kDamping, solution, outcome);
+  if (!by_damping) return held;
+  MotionMoves moves;
+  moves << *by_frequency, *by_damping;
+  return with_motion(held, moves, *data.motion);
 }
 
 bool depends_on_speed(const SweepSolution& solution) {
@@ -131,7 +145,7 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
     const double average_s = average->seconds + average->standard_error_s;
     outcome.spread.covariance += by_error(with_average(data, solution, average_s), outcome);
   }
-  if (data.mass) outcome.spread.covariance = with_stated_mass(data, solution, outcome);
+  if (data.mass || data.motion) outcome.spread.covariance = with_errors_of_held(data, solution, outcome);
   if (const auto& reload = solution.reload) {
     const double length_m = reload->metres * std::exp(reload->relative_error);
     outcome.spread.covariance += by_error(with_length(solution, length_m), outcome);
@@ -188,7 +202,6 @@ double residual_over_noise(std::span<const SweepRecording> recordings, const Swe
 
 double effect_of_averaging(std::span<const SweepRecording> recordings, const SweepOutcome& outcome,
                            const SweepData& data) {
-  constexpr double kByVariance = 0.62;  // d ln w_n / d (w_n sigma)^2 of damped slips, sigma^2 that of the average
   const double omega = std::exp(outcome.values(kLogFrequency));
   double variance_s2 = 0.0;
   for (const std::size_t i : data.fitted) {
@@ -197,7 +210,7 @@ double effect_of_averaging(std::span<const SweepRecording> recordings, const Swe
     const double step_s = recording.sample_interval_s();
     variance_s2 += data.rounding_s2.value_or(step_s * step_s / 12.0) / static_cast<double>(data.fitted.size());
   }
-  return kByVariance * omega * omega * variance_s2;
+  return kFrequencyByAverage * omega * omega * variance_s2;
 }
 
 }  // namespace slipfit::fit

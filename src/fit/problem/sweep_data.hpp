@@ -26,6 +26,8 @@ struct SweepData {
   std::optional<FittedLength> reload{};          ///< OwnFits
   std::optional<double> rounding_s2{};           ///< OwnFits
   std::optional<StatedMass> mass{};              ///< OwnFits
+  /// Of slips and ring-downs together, at which w_n and zeta are held: what follows has its errors.
+  std::optional<FreeMotion> motion{};
   std::vector<SteadyRun> steady;
   std::vector<std::optional<std::size_t>> steady_of;  ///< index into `steady` of each recording
   std::vector<double> onset_sd;                       ///< spread of F_s over the cycles of each recording, N

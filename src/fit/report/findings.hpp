@@ -54,6 +54,7 @@ struct Findings {
   std::string frequency_unknown{};  ///< why there is no natural frequency to read from the slips; empty: there is
   std::optional<double> sensor_average_s{};     ///< stated, in the model
   std::optional<Estimate> fitted_average{};     ///< s, found by the fit
+  std::string average_unknown{};                ///< why it is not told whether there is one
   std::string damping_doubt{};                  ///< why zeta is not identified
   std::string slip_unresolved{};                ///< why w_n and F_s - F_k cannot be read from the slip; empty: they can
   std::optional<Interval> difference_bounds{};  ///< all that is known of F_s - F_k

@@ -24,6 +24,7 @@ inline constexpr const char* kOneSpeed =
     "known if friction does not depend on the sliding speed, which one driving speed cannot show";
 
 /// Why w_n and mass are not read from the slips.
+inline constexpr const char* kRingDown = "the free ring-down as the motion of the slips: it is data of w_n and zeta";
 inline constexpr const char* kStatedMass = "by the stated mass: averaging of the samples hides w_n";
 
 /// That an average of the samples is fitted.

@@ -32,7 +32,7 @@ class Reporter {
     report_slip_distance();
     if (model_.reload) report_reload(*model_.reload);
     if (f_.sensor_average_s) add_held(Id::SensorAverage, *f_.sensor_average_s);
-    if (f_.fitted_average) add_graded(Id::SensorAverage, *f_.fitted_average, slip_doubt(), slip_note());
+    if (f_.fitted_average) report_average(*f_.fitted_average);
     if (auto model = model_of(f_, model_)) {
       result_.estimate = model->estimate;
       result_.correlation = std::move(model->correlation);
@@ -219,6 +219,11 @@ class Reporter {
     if (!tells) return add_unknown(Id::SlipDistance, "it cannot be distinguished from 0, Coulomb friction");
     const ParameterStatus status = at_one_speed(graded(Id::SlipDistance, distance, slip_doubt()));
     add(Id::SlipDistance, distance, status, status == ParameterStatus::Conditional ? kOneSpeed : slip_note());
+  }
+
+  void report_average(const Estimate& average) {
+    if (!f_.average_unknown.empty()) return add_unknown(Id::SensorAverage, f_.average_unknown);
+    add_graded(Id::SensorAverage, average, slip_doubt(), slip_note());
   }
 
   void report_reload(const Reload& reload) {

@@ -106,9 +106,9 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
       &blocks == &fit.blocks ? fit.rounding : estimate_smoothing(blocks, fit.held, step_s);
   if (!seen) return result;
   const bool rounded = !repeats_rounding(fit) && seen->exceeds_step(step_s);
-  // One step is what most instruments do; the slips speak for more where their best estimate is more.
-  const bool is_seen = !repeats_rounding(fit) && seen->variance_s2 > step_s * step_s / 12.0;
-  result.one_sided = (is_seen ? seen->largest_variance_s2() : step_s * step_s / 12.0) * seen->move_per_s2;
+  const double variance_s2 = unstated_variance_s2(fit, *seen, step_s);
+  const bool is_seen = variance_s2 > step_s * step_s / 12.0;
+  result.one_sided = variance_s2 * seen->move_per_s2;
   const double change = std::abs(result.one_sided(kLogFrequency));
   if (rounded) {
     const double average_s = std::sqrt(12.0 * seen->variance_s2);
@@ -119,8 +119,7 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
                                  " (or friction that changes in the slip): intervals allow for it; state it with "
                                  "--sensor-average where it is known"});
   } else if (change > thresholds::kAverageShare) {
-    result.small_doubt =
-        is_seen ? unexcluded_average(std::sqrt(12.0 * seen->largest_variance_s2()), change) : averaging_doubt(change);
+    result.small_doubt = is_seen ? unexcluded_average(std::sqrt(12.0 * variance_s2), change) : averaging_doubt(change);
   }
   return result;
 }
@@ -139,7 +138,7 @@ DampingFindings damping_of(const TierFits& fits, const BlockFit& blocks) {
   const double quantile = t_quantile(uncertainty.degrees_of_freedom);
   const double zeta = std::max(0.0, blocks.parameters.globals[kDamping]);
   DampingFindings result{{zeta, se, Interval{zeta, zeta}, {}}, std::nullopt};
-  if (fits.damped.held[kDamping]) return result;
+  if (fits.damped.held[kDamping] && !fits.damped.motion) return result;
   result.estimate.ci95 = damping_interval(fits.damped.blocks.parameters.globals[kDamping], se, quantile);
   if (!is_at_bound(fits)) return result;
   const bool has_more = uncertainty.from_refits || fits.damped.average || fits.damped.rival;
@@ -173,6 +172,7 @@ void state_conditions(const Recording& recording, Findings& findings) {
 void state_law(const DampedFit& fit, Findings& findings) {
   findings.weakens = fit.blocks.scales().law == FrictionLaw::Weakening;
   findings.mass_gives_frequency = fit.mass_gives_frequency;
+  findings.average_unknown = fit.average_doubt;
   if (!fit.law_doubt.empty()) (findings.weakens ? findings.slip_doubt : findings.slip_distance_unknown) = fit.law_doubt;
 }
 
@@ -182,7 +182,7 @@ std::string doubt_of_fall(const DampedFit& fit, const Residual& residual, const 
   if (!fit.fall_doubt.empty()) return fit.fall_doubt;
   const bool coloured = residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance;
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
-  if (!large || !coloured || fit.mass_gives_frequency) return {};
+  if (!large || !coloured || fit.mass_gives_frequency || fit.motion) return {};
   const double average_s = fit.blocks.scales().sensor_average_s;
   if (std::exp(fit.blocks.parameters.globals[kLogFrequency]) * average_s > thresholds::kHidingAverage) {
     return "averaging over most of the slip hides w_n and zeta where residuals are larger than the noise and not "
@@ -253,8 +253,6 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   DampingFindings damping = damping_of(fits, blocks);
   damping.estimate.ci95 = lengthened(*damping.estimate.ci95, spread.one_sided(kDamping));
   spread.profile = std::move(damping.profile);
-  Held held = fits.damped.held;
-  held[kDamping] = fits.damping_held();
   StiffnessFindings stiffness = stiffness_of(recording, fits, spread);
   spread.covariance(kLogStiffness, kLogStiffness) += stiffness.variance;
   if (spread.profile) spread.profile->held(kLogStiffness, kLogStiffness) += stiffness.variance;
@@ -267,7 +265,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
                      .slip_distance_m = blocks.scales().slip_distance_m},
                     Intervals(std::move(spread)),
                     std::move(damping.estimate),
-                    held};
+                    fits.held_by_user()};
   state_conditions(recording, findings);
   findings.cycles = blocks.size();
   findings.samples_per_slip = resolution.samples_per_slip;

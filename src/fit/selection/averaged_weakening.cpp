@@ -25,11 +25,11 @@ constexpr std::size_t kBest = 2;
 constexpr double kSlip2 = 5.6;  // W^2 of an average that draws the fall out as much as the slip itself does
 constexpr std::size_t kDraftCycles = 16;
 constexpr int kDraftIterations = 10;
-constexpr std::size_t kDescents = 3;                          // of the starts
-constexpr int kDescentSteps = 6;                              // in sigma^2, of a few cycles
-constexpr int kMostSteps = 5;                                 // in sigma^2, to a minimum
-constexpr double kSameAverage = 0.1;                          // of ln T_b: two starts that led to one minimum
-constexpr double kRuledOut = 2.0 * thresholds::kSurelyAhead;  // few of the cycles tell less surely
+constexpr std::size_t kDescents = 3;  // of the starts
+constexpr int kDescentSteps = 6;      // in sigma^2, of a few cycles
+constexpr int kMostSteps = 5;         // in sigma^2, to a minimum
+constexpr double kSameAverage = 0.1;  // of ln T_b: two starts that led to one minimum
+constexpr double kRuledOut = 60.0;    // of AICc by all samples: few of the cycles tell less
 
 bool explains_more(const Draft& a, const Draft& b) {
   return a.sum_of_squares < b.sum_of_squares;

@@ -47,8 +47,7 @@ bool hides_damping(const KernelSearch::Least& least) {
 
 /// Slips and W can be told apart.
 bool tells_slips(const DampedFit& fit) {
-  return damping_error(fit) < thresholds::kTellingDamping &&
-         fit.average->seconds > thresholds::kSureTerm * fit.average->standard_error_s;
+  return damping_error(fit) < thresholds::kTellingDamping && tells_average(*fit.average);
 }
 
 /// Logarithm of how much more likely `better` is on these cycles. `plain` tells how far samples are independent.
@@ -129,6 +128,10 @@ std::string doubt_beside(const DampedFit& fit, std::optional<double> other_s) {
 
 }  // namespace
 
+bool tells_average(const FittedAverage& average) {
+  return average.seconds > 2.0 * thresholds::kSureTerm * average.standard_error_s;
+}
+
 DampedFit with_average_error(DampedFit fit, double variance_s2, const Smoothing& beyond) {
   const double error_s2 =
       std::hypot(beyond.standard_error_s2, beyond.variance_s2, thresholds::kKernelShape * variance_s2);
@@ -193,6 +196,11 @@ std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality
 
 bool repeats_rounding(const DampedFit& fit) {
   return fit.uncertainty.from_refits && !fit.misfit;
+}
+
+double unstated_variance_s2(const DampedFit& fit, const Smoothing& seen, double sample_interval_s) {
+  const double step_s2 = sample_interval_s * sample_interval_s / 12.0;
+  return !repeats_rounding(fit) && seen.variance_s2 > step_s2 ? seen.largest_variance_s2() : step_s2;
 }
 
 }  // namespace slipfit::fit

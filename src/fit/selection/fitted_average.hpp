@@ -14,6 +14,10 @@ namespace slipfit::fit {
 /// covariance. `beyond`: what is left to smooth.
 DampedFit with_average_error(DampedFit fit, double variance_s2, const Smoothing& beyond);
 
+/// Its variance, which is what rounds the slips, is more than kSureTerm of its errors: T_b itself, a root, is twice as
+/// many of its own.
+bool tells_average(const FittedAverage& average);
+
 /// What an average of the instrument explains that a fit without does not.
 struct AverageTrial {
   std::optional<DampedFit> fit{};    ///< empty: not taken
@@ -35,5 +39,9 @@ std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality
 /// Rounding to steps of the converter repeats its errors in every cycle: their scatter does not show how well averaging
 /// is known.
 bool repeats_rounding(const DampedFit& fit);
+
+/// sigma^2 of averaging that may be in the slips, stated by nobody and not in the fit, where they show `seen`: one step
+/// of the clock, which most instruments average over, or what they do not exclude where their best estimate is more.
+double unstated_variance_s2(const DampedFit& fit, const Smoothing& seen, double sample_interval_s);
 
 }  // namespace slipfit::fit

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/inference/free_motion.hpp"
 #include "fit/inference/misfit.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/inference/uncertainty.hpp"
@@ -41,9 +42,12 @@ struct DampedFit {
   std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none
   /// Where a fit with more terms lies that the data do not rule out: intervals hold its values, too.
   std::optional<Coordinates> rival{};
+  std::string average_doubt{};        ///< why it is not told whether there is one; empty: it is, or there is none
   std::string fall_doubt{};           ///< why w_n and zeta cannot be read from the slips; empty: they can
   bool mass_gives_frequency = false;  ///< w_n is held at sqrt(k / m) of a stated m; the covariance holds its error
-  std::string law_doubt{};            ///< why the friction law was not the data's choice; empty: it was
+  /// Of slips and ring-down together, at which w_n and zeta are held; the covariance holds its errors.
+  std::optional<FreeMotion> motion{};
+  std::string law_doubt{};  ///< why the friction law was not the data's choice; empty: it was
 };
 
 }  // namespace slipfit::fit

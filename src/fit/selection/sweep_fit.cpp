@@ -50,18 +50,18 @@ class SweepFitter {
     constexpr Sharing kAll{true, true};
     std::optional<SweepSolution> velocity = with_shares({FrictionLaw::Exponential}, kAll);
     if (!velocity) return std::nullopt;
-    SweepFits fits{at_best_average(*std::move(velocity)), std::nullopt};
+    SweepFits fits{at_best_average(data_, *std::move(velocity)), std::nullopt};
     const Sharing shares = fits.velocity.sweep.sharing;
     std::optional<SweepSolution> coulomb = fit({FrictionLaw::Coulomb}, shares);
     if (coulomb) {
-      coulomb = at_best_average(*std::move(coulomb));
+      coulomb = at_best_average(data_, *std::move(coulomb));
       constexpr double kExtra = 2.0;  // slope and rate
       fits.coulomb_chi2 = coulomb->chi2;
       fits.p_value = chance(coulomb->chi2 - fits.velocity.chi2, kExtra, fits.velocity);
       // Friction that depends on the speed may explain levels that differ under Coulomb friction.
       std::optional<SweepSolution> own = with_shares({FrictionLaw::Coulomb}, shares);
       const bool shares_less = own && own->sweep.sharing != shares;
-      fits.coulomb = shares_less ? at_best_average(*std::move(own)) : std::move(coulomb);
+      fits.coulomb = shares_less ? at_best_average(data_, *std::move(own)) : std::move(coulomb);
       fits.growing = with_growing_stiffness(*fits.coulomb);
     }
     fits.depends_on_speed = fits.p_value < thresholds::kLawChance;
@@ -163,7 +163,7 @@ class SweepFitter {
     const std::optional<SweepSolution> growing = with_exponent(same, same.held);
     if (!growing || !(chance(same.chi2 - growing->chi2, 1.0, *growing) < thresholds::kLawChance)) return std::nullopt;
     std::optional<SweepSolution> sharing = with_shares({FrictionLaw::Coulomb, true}, {true, true});
-    return sharing ? std::optional(at_best_average(*std::move(sharing))) : std::nullopt;
+    return sharing ? std::optional(at_best_average(data_, *std::move(sharing))) : std::nullopt;
   }
 
   static double span_of_speeds(const SweepSolution& solution) {
@@ -187,22 +187,6 @@ class SweepFitter {
     SweepSolution free = shared;
     free.sweep.sharing = {};
     return at_minimum(std::move(free), shared.held, kSweepCompared);
-  }
-
-  /// At the average that explains all recordings best, where their own fits found one: by the parabola through the sums
-  /// of squares beside that. Each law has its own: none may stand for the error of the average.
-  [[nodiscard]] SweepSolution at_best_average(SweepSolution solution) const {
-    if (!solution.average) return solution;
-    const double step_s = solution.average->standard_error_s;
-    const double middle_s = solution.average->seconds;
-    const auto less = with_average(data_, solution, middle_s - step_s);
-    const auto more = with_average(data_, solution, middle_s + step_s);
-    if (!less || !more) return solution;
-    const double bend = less->chi2 - 2.0 * solution.chi2 + more->chi2;
-    if (!(bend > 0.0)) return solution;
-    const double steps = std::clamp(0.5 * (less->chi2 - more->chi2) / bend, -3.0, 3.0);
-    auto best = with_average(data_, solution, middle_s + steps * step_s);
-    return best && best->chi2 < solution.chi2 ? *std::move(best) : solution;
   }
 
   const SweepData& data_;
@@ -236,7 +220,7 @@ std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& op
     const double log_frequency = std::log(data.mass->frequency_rad_per_s(std::exp(log_stiffness(*fits->growing))));
     const double change = log_frequency - globals[kLogFrequency];
     if (std::abs(change) < kSmallChange) break;
-    fits->growing = with_frequency(*fits->growing, change);
+    fits->growing = with_held(*fits->growing, kLogFrequency, change);
   }
   return fits;
 }

@@ -121,10 +121,36 @@ std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& h
   return at_minimum(std::move(solution), held);
 }
 
-std::optional<SweepSolution> with_frequency(const SweepSolution& solution, double log_change) {
+std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate global, double change) {
   SweepSolution other = solution;
-  for (BlockFit& recording : other.recordings) recording.parameters.globals[kLogFrequency] += log_change;
+  for (BlockFit& recording : other.recordings) recording.parameters.globals[global] += change;
   return at_minimum(std::move(other), solution.held);
+}
+
+SweepSolution at_best_average(const SweepData& data, SweepSolution solution) {
+  if (!solution.average) return solution;
+  const double step_s = solution.average->standard_error_s;
+  const double middle_s = solution.average->seconds;
+  const auto less = with_average(data, solution, middle_s - step_s);
+  const auto more = with_average(data, solution, middle_s + step_s);
+  if (!less || !more) return solution;
+  const double bend = less->chi2 - 2.0 * solution.chi2 + more->chi2;
+  if (!(bend > 0.0)) return solution;
+  const double steps = std::clamp(0.5 * (less->chi2 - more->chi2) / bend, -3.0, 3.0);
+  auto best = with_average(data, solution, middle_s + steps * step_s);
+  return best && best->chi2 < solution.chi2 ? *std::move(best) : solution;
+}
+
+std::optional<SweepSolution> with_motion(const SweepData& data, SweepSolution solution, const FreeMotion& motion) {
+  Held held = solution.held;
+  held[kLogFrequency] = held[kDamping] = true;
+  for (BlockFit& recording : solution.recordings) {
+    recording.parameters.globals[kLogFrequency] = motion.values(0);
+    recording.parameters.globals[kDamping] = motion.values(1);
+  }
+  std::optional<SweepSolution> moved = at_minimum(std::move(solution), held);
+  if (moved) moved = at_best_average(data, *std::move(moved));
+  return moved;
 }
 
 std::optional<SweepSolution> with_length(const SweepSolution& solution, double length_m) {

@@ -49,8 +49,15 @@ std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolu
 /// The solution with k that goes with the speed as V^p, p free, moved to its minimum with these globals held.
 std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& held);
 
-/// The same fit with ln w_n, which is held, elsewhere.
-std::optional<SweepSolution> with_frequency(const SweepSolution& solution, double log_change);
+/// The same fit with a global that is held elsewhere.
+std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate global, double change);
+
+/// At the average that explains all recordings best, where their own fits found one: by the parabola through the sums
+/// of squares beside that. Each law has its own: none may stand for the error of the average.
+SweepSolution at_best_average(const SweepData& data, SweepSolution solution);
+
+/// The solution with this w_n and zeta held.
+std::optional<SweepSolution> with_motion(const SweepData& data, SweepSolution solution, const FreeMotion& motion);
 
 /// The same fit with a rise over another length in the recordings that have one.
 std::optional<SweepSolution> with_length(const SweepSolution& solution, double length_m);

@@ -31,6 +31,13 @@ struct TierFits {
 
   /// zeta was held by the user.
   [[nodiscard]] bool damping_held() const { return damped.held[kDamping] && !damped.refused_damping; }
+  /// Neither a refused zeta nor what a ring-down tells.
+  [[nodiscard]] Held held_by_user() const {
+    Held held = damped.held;
+    held[kDamping] = damping_held() && !damped.motion;
+    if (damped.motion) held[kLogFrequency] = false;
+    return held;
+  }
   [[nodiscard]] const DampedFit* without_damping() const {
     if (damped.refused_damping) return &damped;
     return undamped ? &*undamped : nullptr;

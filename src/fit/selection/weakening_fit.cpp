@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -32,7 +33,8 @@ std::string hindrance(const FitInput& input, const DampedFit& coulomb) {
 /// Sets what the fit says for and against it. `before`: stacked residual of the Coulomb fit.
 Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& coulomb, double gain, double before) {
   const double sigmas = sigmas_of_distance(fit);
-  const double after = stacked_residual(fit.blocks, coulomb.blocks).size;
+  const StackedResidual left = stacked_residual(fit.blocks, coulomb.blocks);
+  const double after = left.size;
   candidate.reason = fmt::format(
       "AICc {:.1f} {} than under Coulomb friction, D_c {:.1f} of its standard errors, mean residual over the phase of "
       "the slip {:.2g} % of the onset force in place of {:.2g} %",
@@ -41,10 +43,12 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
     candidate.reason += fmt::format("; the standard error of the damping ratio is {:.2g}", damping_error(fit));
     return candidate;
   }
-  // An average of the sensor takes as many parameters and explains the roundness, not the asymmetry of the slip.
+  // An average of the sensor takes as many parameters and explains the roundness, not the asymmetry of the slip. What
+  // either leaves may be chance.
   const bool is_rounded = coulomb.average || coulomb.blocks.scales().law == FrictionLaw::Weakening;
-  const double share = is_rounded ? 1.0 : thresholds::kHalvedStack;
-  candidate.chosen = gain > thresholds::kTierPrice && sigmas > thresholds::kSureTerm && after <= share * before;
+  const double most =
+      is_rounded ? std::max(before, thresholds::kChanceStack * left.by_chance) : thresholds::kHalvedStack * before;
+  candidate.chosen = gain > thresholds::kTierPrice && sigmas > thresholds::kSureTerm && after <= most;
   candidate.reason += candidate.chosen ? ": the slip distance is justified"
                                        : fmt::format(": it takes {:g} lower, {:g} standard errors and half",
                                                      thresholds::kTierPrice, thresholds::kSureTerm);
@@ -93,8 +97,7 @@ Candidate judged_both(const Minimum& both, const DampedFit& single, double befor
   const DampedFit& fit = both.fit;
   Candidate candidate =
       judged(candidate_of(fit, Tier::Weakening, 5, effective_samples(fit)), fit, single, both.gain, before);
-  const bool tells_average = fit.average->seconds > thresholds::kSureTerm * fit.average->standard_error_s;
-  if (!tells_average || !has_slips_of_the_model(fit)) candidate.chosen = false;
+  if (!tells_average(*fit.average) || !has_slips_of_the_model(fit)) candidate.chosen = false;
   return candidate;
 }
 
@@ -141,10 +144,9 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
   if (trial.fit) {
     const double effective = effective_samples(*trial.fit);
     trial.candidate = candidate_of(*trial.fit, Tier::Weakening, 4, effective);
-    const Candidate other = candidate_of(coulomb, Tier::Damped, coulomb.average ? 4 : 3, effective);
-    const double gain = *other.aicc - *trial.candidate.aicc;
+    const double gain = gain_on_same_samples(*trial.fit, coulomb) + (coulomb.average ? 2.0 : 0.0);
     trial.candidate = judged(std::move(trial.candidate), *trial.fit, coulomb, gain, missed);
-    if (coulomb.average && !trial.candidate.chosen && std::abs(gain) < thresholds::kTierPrice) {
+    if (coulomb.average && !trial.candidate.chosen && gain > -thresholds::kTierPrice) {
       trial.fall_doubt = fmt::format(
           "friction that weakens over a slip distance of {:.2g} um explains the slips as well as the average of the "
           "sensor: the two cannot be told apart",

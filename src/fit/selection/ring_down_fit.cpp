@@ -1,0 +1,199 @@
+#include "fit/selection/ring_down_fit.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/fit_thresholds.hpp"
+#include "fit/inference/smoothing.hpp"
+#include "fit/inference/student.hpp"
+#include "fit/problem/solve.hpp"
+#include "fit/selection/carried_fit.hpp"
+#include "fit/selection/finish.hpp"
+#include "fit/selection/fitted_average.hpp"
+#include "fit/selection/reloading_fit.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+/// How far averaging that neither the user states nor the fit has may move ln w_n.
+double off_by_averaging(const Recording& recording, const DampedFit& fit) {
+  if (recording.conditions().sensor_average_s || fit.average) return 0.0;
+  const Smoothing seen = fit.rounding.value_or(Smoothing{});
+  const double omega = std::exp(fit.blocks.parameters.globals[kLogFrequency]);
+  return kFrequencyByAverage * omega * omega * unstated_variance_s2(fit, seen, recording.sample_interval_s());
+}
+
+/// A solution with w_n and zeta held, and what an average that was found is still off by there.
+struct Settled {
+  Coordinates coordinates;
+  double variance_s2 = 0.0;
+};
+
+/// `averaged`: the fit found its average, which goes with w_n and zeta.
+std::optional<Settled> settled(const BlockFit& blocks, const Held& held, double sample_interval_s, bool averaged) {
+  Settled settled{coordinates_of(blocks)};
+  if (!averaged) return settled;
+  const std::optional<Smoothing> beyond = estimate_smoothing(blocks, held, sample_interval_s);
+  if (!beyond) return std::nullopt;
+  settled.coordinates += beyond->variance_s2 * beyond->move_per_s2;
+  settled.variance_s2 = beyond->variance_s2;
+  return settled;
+}
+
+/// As the ring-down at a speed tells it of the mean of the speeds, by how k goes with the speed.
+FreeMotion at_mean_speed(FreeMotion ring, double speed_m_per_s, const SweepOutcome& outcome) {
+  const double log_ratio = std::log(speed_m_per_s / outcome.solution.sweep.units.speed_m_per_s);
+  const double exponent = outcome.values(kStiffnessExponent);
+  ring.values(0) -= 0.5 * exponent * log_ratio;
+  const double variance = outcome.spread.covariance(kStiffnessExponent, kStiffnessExponent);
+  // It may end there, or double: no more is as unlikely as the ends of the interval.
+  const double beyond = exponent * outcome.reach.distance_beyond(speed_m_per_s);
+  const double beyond_error = beyond / t_quantile(outcome.spread.degrees_of_freedom);
+  ring.covariance(0, 0) += 0.25 * (variance * log_ratio * log_ratio + beyond_error * beyond_error);
+  return ring;
+}
+
+/// Mean by their errors, which are larger where the motions scatter by more.
+FreeMotion mean_of(const std::vector<FreeMotion>& motions) {
+  Eigen::Matrix2d weights = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const FreeMotion& motion : motions) {
+    weights += motion.covariance.inverse();
+    sum += motion.covariance.inverse() * motion.values;
+  }
+  FreeMotion mean{weights.inverse() * sum, weights.inverse()};
+  double chi2 = 0.0;
+  for (const FreeMotion& motion : motions) {
+    const Eigen::Vector2d apart = motion.values - mean.values;
+    chi2 += apart.dot(motion.covariance.inverse() * apart);
+  }
+  const double freedom = 2.0 * (static_cast<double>(motions.size()) - 1.0);
+  if (freedom > 0.0) mean.covariance *= std::max(1.0, chi2 / freedom);
+  return mean;
+}
+
+/// The uncertainty of a solution.
+std::optional<DampedFit> finished(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
+                                  DampedFit fit) {
+  std::optional<DampedFit> next = with_uncertainty(std::move(fit), tolerated_misfit(quality));
+  next = settle_rise(recording.sample_interval_s(), quality, std::move(next));
+  return next ? finish_fit(recording, quality, segmentation, *std::move(next)) : std::nullopt;
+}
+
+/// At the average that explains most beside what is held, by Newton's steps. Empty where they do not settle.
+std::optional<DampedFit> with_average_settled(const Recording& recording, const Quality& quality,
+                                              const Segmentation& segmentation, DampedFit fit) {
+  constexpr int kNewtonSteps = 5;
+  std::optional<DampedFit> next = std::move(fit);
+  for (int step = 0; next && step < kNewtonSteps; ++step) {
+    const double variance_s2 = std::pow(next->blocks.scales().sensor_average_s, 2) / 12.0;
+    const auto beyond = estimate_smoothing(next->blocks, next->held, recording.sample_interval_s());
+    if (!beyond) return std::nullopt;
+    if (std::abs(beyond->variance_s2) < thresholds::kSettledAverage * beyond->standard_error_s2) {
+      return with_average_error(*std::move(next), variance_s2, *beyond);
+    }
+    next->blocks = averaged_by(next->blocks, beyond->next_variance_s2(variance_s2));
+    if (!std::isfinite(solve(next->blocks, {next->held, false, true}))) return std::nullopt;
+    next = finished(recording, quality, segmentation, *std::move(next));
+  }
+  return std::nullopt;
+}
+
+/// With the errors of w_n and zeta, which are held at `motion`.
+std::optional<DampedFit> with_errors_of(const FreeMotion& motion, DampedFit fit, double sample_interval_s) {
+  constexpr double kStep = 0.01;  // of ln w_n and zeta
+  const bool averaged = fit.average.has_value();
+  const std::optional<Settled> here = settled(fit.blocks, fit.held, sample_interval_s, averaged);
+  if (!here) return std::nullopt;
+  MotionMoves moves;
+  Eigen::RowVector2d by_variance;
+  for (const Coordinate i : {kLogFrequency, kDamping}) {
+    BlockFit other = fit.blocks;
+    other.parameters.globals[i] += kStep;
+    if (!std::isfinite(solve(other, {fit.held, fit.continuous, true}))) return std::nullopt;
+    const std::optional<Settled> there = settled(other, fit.held, sample_interval_s, averaged);
+    if (!there) return std::nullopt;
+    moves.col(i - kLogFrequency) = (there->coordinates - here->coordinates) / kStep;
+    by_variance(i - kLogFrequency) = (there->variance_s2 - here->variance_s2) / kStep;
+  }
+  fit.uncertainty.covariance = with_motion(fit.uncertainty.covariance, moves, motion);
+  if (averaged) {
+    const double error_s2 = std::sqrt(by_variance * motion.covariance * by_variance.transpose());
+    fit.average->standard_error_s = std::hypot(fit.average->standard_error_s, 6.0 * error_s2 / fit.average->seconds);
+  }
+  fit.motion = motion;
+  return fit;
+}
+
+}  // namespace
+
+std::optional<RingEvidence> ring_evidence(const Recording& recording, const DampedFit& fit, const RingDown& ring) {
+  if (fit.held[kLogFrequency] || fit.held[kDamping]) return std::nullopt;  // by the user, or zeta is refused
+  const FreeMotion slips =
+      motion_of_slips(coordinates_of(fit.blocks), fit.uncertainty.covariance, off_by_averaging(recording, fit));
+  const FreeMotion rings = motion_of(ring, fit.uncertainty.degrees_of_freedom);
+  const SameMotion same = compare_motions(slips, rings);
+  if (same.differs && !fit.fall_doubt.empty()) return std::nullopt;
+  return RingEvidence{slips, rings, same};
+}
+
+std::optional<RingEvidence> ring_evidence(std::span<const SweepRecording> recordings, const SweepData& data,
+                                          const SweepOutcome& outcome) {
+  const SweepSolution& solution = outcome.solution;
+  const bool is_coulomb = solution.recordings.front().scales().law == FrictionLaw::Coulomb;
+  if (!is_coulomb) return std::nullopt;
+  std::vector<FreeMotion> rings;
+  for (const SweepRecording& sweep : recordings) {
+    if (!sweep.ring_down) continue;
+    const FreeMotion ring = motion_of(*sweep.ring_down, outcome.spread.degrees_of_freedom);
+    rings.push_back(at_mean_speed(ring, sweep.recording.conditions().speed_m_per_s, outcome));
+  }
+  if (rings.empty()) return std::nullopt;
+  const double off = effect_of_averaging(recordings, outcome, data);
+  const FreeMotion mean = mean_of(rings);
+  FreeMotion slips = motion_of_slips(outcome.values, outcome.spread.covariance, off);
+  if (solution.held[kDamping]) {
+    const auto beside = with_held(solution, kDamping, mean.values(1) - outcome.values(kDamping));
+    if (!beside) return std::nullopt;
+    const SweepOutcome given = outcome_of(data, *beside);
+    slips = motion_of_slips(given.values, given.spread.covariance, off);
+    slips.covariance(1, 1) = 1.0 / 12.0;  // anything between 0 and 1 is as likely
+  }
+  return RingEvidence{slips, mean, compare_motions(slips, mean)};
+}
+
+std::optional<Warning> join_ring_downs(std::span<const SweepRecording> recordings, const HeldParameters& held,
+                                       SweepData& data, SweepOutcome& outcome) {
+  if (held.natural_frequency_rad_per_s || held.damping_ratio) return std::nullopt;
+  const std::optional<RingEvidence> evidence = ring_evidence(recordings, data, outcome);
+  if (!evidence) return std::nullopt;
+  if (evidence->same.differs) return differing_motions(evidence->slips, evidence->rings);
+  if (!evidence->same.both) return std::nullopt;
+  const std::optional<SweepSolution> informed = with_motion(data, outcome.solution, *evidence->same.both);
+  if (!informed) return std::nullopt;
+  data.motion = evidence->same.both;
+  outcome = outcome_of(data, *informed);
+  return std::nullopt;
+}
+
+std::optional<DampedFit> held_at(const FreeMotion& motion, const Recording& recording, const Quality& quality,
+                                 const Segmentation& segmentation, DampedFit fit) {
+  fit.held[kLogFrequency] = fit.held[kDamping] = true;
+  fit.blocks.parameters.globals[kLogFrequency] = motion.values(0);
+  fit.blocks.parameters.globals[kDamping] = motion.values(1);
+  fit.continuous = false;
+  if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
+  const bool averaged = fit.average.has_value();
+  std::optional<DampedFit> next = finished(recording, quality, segmentation, std::move(fit));
+  if (next && averaged) next = with_average_settled(recording, quality, segmentation, *std::move(next));
+  if (next && next->rounding) {
+    next->rounding = estimate_smoothing(next->blocks, next->held, recording.sample_interval_s());
+  }
+  return next ? with_errors_of(motion, *std::move(next), recording.sample_interval_s()) : std::nullopt;
+}
+
+}  // namespace slipfit::fit

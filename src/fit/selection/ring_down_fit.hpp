@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "fit/inference/free_motion.hpp"
+#include "fit/inference/sweep_outcome.hpp"
+#include "fit/problem/sweep_data.hpp"
+#include "fit/selection/solution.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/sweep_recording.hpp"
+#include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
+
+namespace slipfit::fit {
+
+/// What slips and ring-downs tell of w_n and zeta, beside each other.
+struct RingEvidence {
+  FreeMotion slips, rings;
+  SameMotion same;
+};
+
+/// Of one recording. Empty where `fit`, that of its slips, has no w_n and zeta of its own, or where these are in doubt
+/// and differ from the ring-down's.
+std::optional<RingEvidence> ring_evidence(const Recording& recording, const DampedFit& fit, const RingDown& ring);
+
+/// Of a sweep under Coulomb friction, w_n at the mean of its speeds, beside `outcome`, that of its slips. Where zeta is
+/// held there because the slips say nothing of it, w_n of the slips is the one that belongs to the zeta of the
+/// ring-downs. Empty where no recording shows one.
+std::optional<RingEvidence> ring_evidence(std::span<const SweepRecording> recordings, const SweepData& data,
+                                          const SweepOutcome& outcome);
+
+/// `outcome` with w_n and zeta by slips and ring-downs together where these are of one motion; why not, where they are
+/// not. `held`: by the user, who knows better.
+std::optional<Warning> join_ring_downs(std::span<const SweepRecording> recordings, const HeldParameters& held,
+                                       SweepData& data, SweepOutcome& outcome);
+
+/// `fit` under its law with w_n and zeta held at `motion`, whose errors are in its covariance; an average that it found
+/// goes with them. Empty where it has no solution there.
+std::optional<DampedFit> held_at(const FreeMotion& motion, const Recording& recording, const Quality& quality,
+                                 const Segmentation& segmentation, DampedFit fit);
+
+}  // namespace slipfit::fit
