@@ -18,6 +18,13 @@ inline constexpr double kRingingRise = 0.4;
 /// kRingingRise]
 inline constexpr double kRingApart = 0.15;
 
+/// Rate of a rise over that of its fall, above which the fall is a wave's. [1; calibrated: as kRingingRise]
+inline constexpr double kWaveRise = 0.65;
+
+/// Median rate of the rises over that of the falls, above which there may be waves alone. [1; calibrated: as
+/// kRingingRise]
+inline constexpr double kSuddenRate = 0.3;
+
 /// Time before a single fall over its own, below which it is none. [1; convention]
 inline constexpr double kLeastAlone = 2.5;
 

@@ -39,6 +39,27 @@ double asymmetry_of(const std::vector<SeenFall>& falls) {
   return median(std::move(rises)) / std::max(1.0, median(std::move(times)));
 }
 
+/// Falls on either side of which the force rises as quickly are a wave's, where most are sudden; small ones already
+/// where it does on one side.
+void leave_waves(std::vector<SeenFall>& falls, double usual_drop) {
+  std::vector<double> rises, own_rates;
+  for (std::size_t i = 1; i < falls.size(); ++i) {
+    rises.push_back(rate(falls[i - 1].trough, falls[i].peak));
+    own_rates.push_back(rate(falls[i]));
+  }
+  if (median(std::move(rises)) > thresholds::kSuddenRate * median(std::move(own_rates))) return;
+  std::vector<SeenFall> sudden;
+  const double small = 0.5 * usual_drop;
+  for (std::size_t i = 0; i < falls.size(); ++i) {
+    const double own = thresholds::kWaveRise * rate(falls[i]);
+    const bool before = i > 0 && rate(falls[i - 1].trough, falls[i].peak) > own;
+    const bool after = i + 1 < falls.size() && rate(falls[i].trough, falls[i + 1].peak) > own;
+    const bool is_wave = falls[i].drop() < small ? before || after : before && after;
+    if (!is_wave) sudden.push_back(falls[i]);
+  }
+  falls = std::move(sudden);
+}
+
 /// Falls of at least a quarter of the median, seen with a hysteresis to match.
 Look look_beyond(const Falls& falls, double hysteresis) {
   Look look;
@@ -48,6 +69,9 @@ Look look_beyond(const Falls& falls, double hysteresis) {
   const double quarter = thresholds::kCountedDrop * look.drop;
   const auto is_small = [quarter](const SeenFall& fall) { return fall.drop() < quarter; };
   if (std::erase_if(look.falls, is_small) > 0) look.drop = median(drops_of(look.falls));
+  const std::size_t counted = look.falls.size();
+  leave_waves(look.falls, look.drop);
+  if (look.falls.size() < counted) look.drop = median(drops_of(look.falls));
   look.asymmetry = asymmetry_of(look.falls);
   return look;
 }
