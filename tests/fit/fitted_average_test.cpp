@@ -31,7 +31,7 @@ Recording averaged(const Scene& s, std::size_t samples) {
 }  // namespace
 
 TEST_CASE("slips seen through an average that nobody stated: its time and the mass are found") {
-  const std::size_t samples = GENERATE(15, 31, 61);
+  const std::size_t samples = GENERATE(15U, 31U, 61U);
   CAPTURE(samples);
   const Scene s = printed_plastic();
   const Recording recording = averaged(s, samples);
