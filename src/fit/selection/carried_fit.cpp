@@ -64,9 +64,8 @@ BlockFit averaged_by(const BlockFit& fit, double variance_s2) {
 }
 
 double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor) {
-  constexpr int kMostIterations = 60;
   BlockFit again = carried_to(rich.blocks.set(), poor.blocks);
-  if (!std::isfinite(solve(again, {poor.held, false, true, kMostIterations}))) return 0.0;
+  if (!std::isfinite(solve(again, {poor.held, false, true}))) return 0.0;
   // What scatters within the bins of the sticks is in neither sum.
   const double independent =
       effective_samples(rich) * static_cast<double>(residuals_in(rich.blocks)) / rich.uncertainty.samples;
