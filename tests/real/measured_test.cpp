@@ -125,6 +125,32 @@ TEST_CASE("printed plastic: spacing agrees with the authors' own") {
   CHECK(0.5 * (ratios[(ratios.size() - 1) / 2] + ratios[ratios.size() / 2]) == Approx(1.0).epsilon(0.05));
 }
 
+TEST_CASE(
+    "printed plastic: the mass of the sled is found by its statement, another one is said not to be that of the "
+    "slips") {
+  const std::optional<Recording> untold = read_file("real/fdm/fdm_232g_50mm_min.csv", 50.0 / 60000.0);
+  if (!untold) return;
+  const auto fit_with = [&](double mass_kg) {
+    Conditions conditions = untold->conditions();
+    conditions.mass_kg = mass_kg;
+    const auto time_s = untold->time_s();
+    const auto force = untold->force();
+    return analyze_and_fit(
+        Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()}, conditions).value(), {});
+  };
+  const Analysis sled = fit_with(0.232);
+  const Parameter* const mass = find(sled, "mass_kg");
+  REQUIRE(mass != nullptr);
+  REQUIRE(mass->estimate.ci95);
+  CHECK(mass->estimate.ci95->low < 0.232);
+  CHECK(mass->estimate.ci95->high > 0.232);
+  const Analysis other = fit_with(5.0);
+  const Parameter* const frequency = find(other, "natural_frequency_rad_per_s");
+  REQUIRE(frequency != nullptr);
+  CHECK(!frequency->estimate.value);
+  CHECK(frequency->estimate.note.find("the stated mass of 5 kg is not that of these slips") != std::string::npos);
+}
+
 TEST_CASE("printed plastic: slow recordings predict the spacing at speeds up to 2.7 times as fast") {
   std::map<int, double> published_m;
   for (auto& row : table(kData / "real/fdm/published_spacing.csv")) {

@@ -178,15 +178,20 @@ void state_law(const DampedFit& fit, Findings& findings) {
 
 /// Why w_n and zeta cannot be read from the slips of a contact that is not the model's and not seen as it is; empty:
 /// they can. A fall that the sensor's average draws out fits as well as a slow slip then.
-std::string doubt_of_fall(const DampedFit& fit, const Residual& residual, const Findings& findings) {
+std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, const Residual& residual,
+                          const Findings& findings) {
   if (!fit.fall_doubt.empty()) return fit.fall_doubt;
   const bool coloured = residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance;
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
   if (!large || !coloured || fit.mass_gives_frequency || fit.motion) return {};
   const double average_s = fit.blocks.scales().sensor_average_s;
   if (std::exp(fit.blocks.parameters.globals[kLogFrequency]) * average_s > thresholds::kHidingAverage) {
+    const std::string remedy =
+        conditions.mass_kg ? fmt::format("the stated mass of {:.3g} kg is not that of these slips", *conditions.mass_kg)
+                           : std::string("state the mass with --mass");
     return "averaging over most of the slip hides w_n and zeta where residuals are larger than the noise and not "
-           "random: state the mass with --mass";
+           "random: " +
+           remedy;
   }
   if (!fit.blocks.level().reloading || findings.sensor_average_s || fit.average) return {};
   return "beside sticks that rise more steeply after a slip the residuals are larger than the noise and not random: an "
@@ -194,7 +199,8 @@ std::string doubt_of_fall(const DampedFit& fit, const Residual& residual, const 
 }
 
 /// Why what is read from the slip cannot be told, or not surely.
-void state_doubts(const TierFits& fits, const Resolution& resolution, const Residual& residual, Findings& findings) {
+void state_doubts(const Conditions& conditions, const TierFits& fits, const Resolution& resolution,
+                  const Residual& residual, Findings& findings) {
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
   if (large) {
     findings.warnings.push_back(
@@ -215,7 +221,7 @@ void state_doubts(const TierFits& fits, const Resolution& resolution, const Resi
     findings.slip_doubt = "residuals are larger than the noise and not random: the interval may be too short";
   }
   findings.slip_unresolved =
-      resolution.slip_resolved ? doubt_of_fall(fits.damped, residual, findings) : resolution.reason;
+      resolution.slip_resolved ? doubt_of_fall(conditions, fits.damped, residual, findings) : resolution.reason;
   const bool is_resolved = findings.slip_unresolved.empty() && resolution.damping_resolved;
   if (!is_resolved) {
     const std::string& why = findings.slip_unresolved.empty() ? resolution.reason : findings.slip_unresolved;
@@ -279,7 +285,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
                                                     : findings.stiffness_note;
   findings.warnings.insert(findings.warnings.end(), averaging.warnings.begin(), averaging.warnings.end());
   state_law(fits.damped, findings);
-  state_doubts(fits, resolution, residual, findings);
+  state_doubts(recording.conditions(), fits, resolution, residual, findings);
   return findings;
 }
 
