@@ -182,6 +182,13 @@ std::optional<DampedFit> settle_rise(double sample_interval_s, const Quality& qu
   return std::nullopt;
 }
 
+std::optional<DampedFit> finish_settled(const Recording& recording, const Quality& quality,
+                                        const Segmentation& segmentation, DampedFit fit) {
+  std::optional<DampedFit> next = with_uncertainty(std::move(fit), tolerated_misfit(quality));
+  next = settle_rise(recording.sample_interval_s(), quality, std::move(next));
+  return next ? finish_fit(recording, quality, segmentation, *std::move(next)) : std::nullopt;
+}
+
 std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quality& quality,
                                          const Segmentation& segmentation, const HeldParameters& held,
                                          const GiveUp& give_up) {

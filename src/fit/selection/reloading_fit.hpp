@@ -25,6 +25,11 @@ BlockFit with_rise_after(const BlockFit& fit, const Scales& scales);
 /// Empty where the data do not sample it. Without a rise `fit` as it is.
 std::optional<DampedFit> settle_rise(double sample_interval_s, const Quality& quality, std::optional<DampedFit> fit);
 
+/// A solution with its uncertainty, its rise settled. Empty where the data do not tell the parameters apart or do not
+/// sample the rise.
+std::optional<DampedFit> finish_settled(const Recording& recording, const Quality& quality,
+                                        const Segmentation& segmentation, DampedFit fit);
+
 /// With the rise over a given length, after slips that begin and end where `near`, another fit of the recording, has
 /// them. Empty where the force falls after a slip in place of rising.
 std::optional<DampedFit> draft_with_rise_over(double length_m, const Recording& recording, const Quality& quality,

@@ -12,7 +12,6 @@
 #include "fit/inference/student.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/carried_fit.hpp"
-#include "fit/selection/finish.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/reloading_fit.hpp"
 
@@ -76,14 +75,6 @@ FreeMotion mean_of(const std::vector<FreeMotion>& motions) {
   return mean;
 }
 
-/// The uncertainty of a solution.
-std::optional<DampedFit> finished(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-                                  DampedFit fit) {
-  std::optional<DampedFit> next = with_uncertainty(std::move(fit), tolerated_misfit(quality));
-  next = settle_rise(recording.sample_interval_s(), quality, std::move(next));
-  return next ? finish_fit(recording, quality, segmentation, *std::move(next)) : std::nullopt;
-}
-
 /// At the average that explains most beside what is held, by Newton's steps. Empty where they do not settle.
 std::optional<DampedFit> with_average_settled(const Recording& recording, const Quality& quality,
                                               const Segmentation& segmentation, DampedFit fit) {
@@ -98,7 +89,7 @@ std::optional<DampedFit> with_average_settled(const Recording& recording, const 
     }
     next->blocks = averaged_by(next->blocks, beyond->next_variance_s2(variance_s2));
     if (!std::isfinite(solve(next->blocks, {next->held, false, true}))) return std::nullopt;
-    next = finished(recording, quality, segmentation, *std::move(next));
+    next = finish_settled(recording, quality, segmentation, *std::move(next));
   }
   return std::nullopt;
 }
@@ -188,7 +179,7 @@ std::optional<DampedFit> held_at(const FreeMotion& motion, const Recording& reco
   fit.continuous = false;
   if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
   const bool averaged = fit.average.has_value();
-  std::optional<DampedFit> next = finished(recording, quality, segmentation, std::move(fit));
+  std::optional<DampedFit> next = finish_settled(recording, quality, segmentation, std::move(fit));
   if (next && averaged) next = with_average_settled(recording, quality, segmentation, *std::move(next));
   if (next && next->rounding) {
     next->rounding = estimate_smoothing(next->blocks, next->held, recording.sample_interval_s());

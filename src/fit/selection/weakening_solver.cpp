@@ -9,7 +9,6 @@
 #include "fit/problem/solve.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/clipping.hpp"
-#include "fit/selection/finish.hpp"
 #include "fit/selection/first_guess.hpp"
 #include "fit/selection/outliers.hpp"
 #include "fit/selection/reloading_fit.hpp"
@@ -139,9 +138,7 @@ bool WeakeningSolver::tells_distance(const BlockFit& blocks) const {
 }
 
 std::optional<DampedFit> WeakeningSolver::finished(DampedFit fit) const {
-  std::optional<DampedFit> draft = with_uncertainty(std::move(fit), tolerated_misfit(input_.quality));
-  draft = settle_rise(input_.recording.sample_interval_s(), input_.quality, std::move(draft));
-  return draft ? finish_fit(input_.recording, input_.quality, input_.segmentation, *std::move(draft)) : std::nullopt;
+  return finish_settled(input_.recording, input_.quality, input_.segmentation, std::move(fit));
 }
 
 std::vector<CycleData> WeakeningSolver::cycles_without(const std::vector<std::size_t>& excluded) const {
