@@ -104,7 +104,7 @@ std::optional<DampedFit> with_errors_of(const FreeMotion& motion, DampedFit fit,
   Eigen::RowVector2d by_variance;
   for (const Coordinate i : {kLogFrequency, kDamping}) {
     BlockFit other = fit.blocks;
-    other.parameters.globals[i] += kStep;
+    other.parameters.globals[static_cast<std::size_t>(i)] += kStep;
     if (!std::isfinite(solve(other, {fit.held, fit.continuous, true}))) return std::nullopt;
     const std::optional<Settled> there = settled(other, fit.held, sample_interval_s, averaged);
     if (!there) return std::nullopt;
