@@ -102,12 +102,6 @@ class SparseNormal {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
-/// Only the globals that the law has can be held.
-Held held_in(const Problem& problem, Held held) {
-  for (std::size_t i = problem.recordings.front().model(0).globals(); i < held.size(); ++i) held[i] = false;
-  return held;
-}
-
 }  // namespace
 
 void hold_rows(MatrixXd& matrix, const Held& held) {

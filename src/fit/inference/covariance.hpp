@@ -5,6 +5,7 @@
 
 #include "fit/coordinates.hpp"
 #include "fit/inference/normals.hpp"
+#include "fit/problem/solve.hpp"
 
 namespace slipfit::fit {
 

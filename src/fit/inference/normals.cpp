@@ -10,36 +10,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-CommonColumns::CommonColumns(const Problem& problem) {
-  const std::size_t count = problem.recordings.size();
-  const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
-  size_ = globals;
-  if (problem.recordings.front().model(0).has_exponent()) exponent_ = size_++;
-  const auto add = [&](std::vector<Index>& columns, auto&& width_of, bool shared) {
-    for (std::size_t r = 0; r < count; ++r) {
-      const Index width = width_of(problem.recordings[r]);
-      const bool again = shared && r > 0;
-      columns.push_back(again ? columns.front() : size_);
-      if (!again) size_ += width;
-    }
-  };
-  const auto constants = [](const BlockFit& r) { return r.model(0).has_constant() ? Index{1} : Index{0}; };
-  const auto populations = [](const BlockFit& r) { return r.scales().population ? Index{1} : Index{0}; };
-  const auto drifts = [](const BlockFit& r) { return static_cast<Index>(r.model(0).drift_parameters()); };
-  add(levels_, constants, problem.sweep.sharing.level);
-  add(differences_, populations, problem.sweep.sharing.difference);
-  add(drifts_, drifts, false);
-  for (std::size_t r = 0; r < count; ++r) {
-    const BlockFit& recording = problem.recordings[r];
-    of_.emplace_back();
-    for (Index i = 0; i < globals; ++i) of_.back().push_back(i);
-    if (exponent_) of_.back().push_back(*exponent_);
-    if (populations(recording) > 0) of_.back().push_back(differences_[r]);
-    if (constants(recording) > 0) of_.back().push_back(levels_[r]);
-    for (Index i = 0; i < drifts(recording); ++i) of_.back().push_back(drifts_[r] + i);
-  }
-}
-
 Linearised linearise(const BlockFit& fit, std::size_t cycle) {
   const CycleModel& model = fit.model(cycle);
   const auto rows = static_cast<Index>(model.residuals());
@@ -71,9 +41,8 @@ Normal normal_of(const SteadyRun& run, const Problem& problem, const CommonColum
   const Parameters& parameters = problem.recordings.front().parameters;
   const SteadyResidual steady = steady_residual(run, problem.sweep.units, problem.recordings.front().scales().law,
                                                 parameters.globals.data(), parameters.level.front());
-  const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
-  std::vector<Index> of_row(columns.of(0).begin(), columns.of(0).begin() + globals);
-  of_row.push_back(columns.level(0));
+  std::vector<Index> of_row = columns.of_steady(problem.recordings.front().model(0).globals());
+  const Index globals = static_cast<Index>(of_row.size()) - 1;
   Linearised lines{VectorXd::Constant(1, steady.value), MatrixXd(1, globals + 1), MatrixXd(1, 0)};
   for (Index i = 0; i < globals; ++i) lines.common(0, i) = steady.by_global[static_cast<std::size_t>(i)];
   lines.common(0, globals) = steady.by_level;

@@ -5,179 +5,176 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
-#include "fit/problem/costs.hpp"
-#include "fit/problem/cycle_cost.hpp"
-#include "fit/problem/evaluations.hpp"
+#include "fit/problem/bundle.hpp"
 #include "fit/problem/solver_log.hpp"
 
 namespace slipfit::fit {
 namespace {
 
-/// A Ceres problem of recordings. Inside a group Ceres orders blocks by their address: cycles stand in one array and
-/// every other block is a group, so that the same input gives the same rounding.
-class Bundle {
+using Eigen::Index;
+
+/// A bundle as Ceres sees it. Its parameters are the common ones and the share that the cycles' own take of the steps
+/// that they have to gain by, in units of what moves the residuals by 1 at the start while all others stand still. Its
+/// residuals are one a common parameter, one that no parameter changes, and one for what the own parameters have to
+/// gain. In these units Ceres damps steps as Levenberg and Marquardt do in the problem of all parameters.
+class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
  public:
-  Bundle(std::span<BlockFit> recordings, const SweepTerms& sweep, const SolveOptions& options)
-      : recordings_(recordings),
-        sweep_(sweep),
-        options_(options),
-        globals_(recordings.front().parameters.globals),
-        ceres_(make_options()),
-        ordering_(std::make_shared<ceres::ParameterBlockOrdering>()) {
-    for (const BlockFit& recording : recordings_) {
-      owns_.insert(owns_.end(), recording.parameters.cycles.begin(), recording.parameters.cycles.end());
-    }
-    double* local = owns_.empty() ? nullptr : owns_.front().data();
-    for (BlockFit& recording : recordings_) local = add(recording, local);
-    for (const SteadyRun& run : sweep_.steady) {
-      if (!sweep_.sharing.level) break;
-      ceres_.AddResidualBlock(new SteadyCost(run, sweep_.units, scales().law), nullptr, globals_.data(),
-                              first().level.data());
-    }
-    ordering_->AddElementToGroup(globals_.data(), group_);
-    hold();
+  /// `radius`: of the region in which Ceres trusts the derivatives at `start`.
+  BundleCost(const Bundle& bundle, Bundle::Point start, double radius)
+      : bundle_(bundle),
+        radius_(radius),
+        units_(units_of(start)),
+        base_{std::make_shared<const Bundle::Point>(std::move(start)), Eigen::VectorXd::Zero(bundle.common() + 1)} {
+    base_.at.head(bundle.common()) = base_.point->common.cwiseQuotient(units_.head(bundle.common()));
+    latest_ = base_;
+    set_num_residuals(static_cast<int>(bundle.common() + 2));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(bundle.common() + 1));
   }
 
-  double solve() {
-    ceres::Solver::Summary summary;
-    evaluations_.watch(ceres_);
-    ceres::Solve(solver_options(), &ceres_, &summary);
-    if (summary.termination_type == ceres::CONVERGENCE) evaluations_.restore_last_point();
-    const Parameters& shared = first();
-    std::size_t next = 0;
-    for (BlockFit& recording : recordings_) {
-      Parameters& parameters = recording.parameters;
-      parameters.globals = globals_;
-      if (sweep_.sharing.level && !parameters.level.empty()) parameters.level[0] = shared.level[0];
-      if (sweep_.sharing.difference) parameters.difference = shared.difference;
-      parameters.exponent = shared.exponent;
-      for (Local& local : parameters.cycles) local = owns_[next++];
+  [[nodiscard]] const Eigen::VectorXd& units() const { return units_; }
+  /// Parameters at `start`.
+  [[nodiscard]] const Eigen::VectorXd& first() const { return base_.at; }
+
+  /// Steps count from the last point whose derivatives were asked for, which is where Ceres is.
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+    const Index common = bundle_.common();
+    const Eigen::Map<const Eigen::VectorXd> at(parameters[0], common + 1);
+    if (at != latest_.at) {
+      const Eigen::VectorXd step = (at - base_.at).cwiseProduct(units_);
+      auto moved = bundle_.moved(*base_.point, step.head(common), step(common), 1.0 / radius_);
+      latest_ = {moved ? std::make_shared<const Bundle::Point>(*std::move(moved)) : nullptr, at};
     }
-    return summary.IsSolutionUsable() ? 2.0 * summary.final_cost : std::numeric_limits<double>::infinity();
+    if (!latest_.point) return false;
+    put(*latest_.point, residuals, jacobians != nullptr ? jacobians[0] : nullptr);
+    if (jacobians != nullptr) base_ = latest_;
+    return true;
+  }
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
+    radius_ = iteration.trust_region_radius;
+    return ceres::SOLVER_CONTINUE;
+  }
+
+  /// The better one of the point where Ceres is and the last that it tried: a step whose gain was small enough to end
+  /// the solve is not taken by Ceres.
+  [[nodiscard]] const Bundle::Point& best() const {
+    return latest_.point && latest_.point->sum < base_.point->sum ? *latest_.point : *base_.point;
   }
 
  private:
-  ceres::Problem::Options make_options() {
-    ceres::Problem::Options options;
-    options.evaluation_callback = &evaluations_;
-    options.enable_fast_removal = false;
-    return options;
+  struct Visited {
+    std::shared_ptr<const Bundle::Point> point;  ///< null: outside the model
+    Eigen::VectorXd at;                          ///< in Ceres' units
+  };
+
+  static Eigen::VectorXd units_of(const Bundle::Point& point) {
+    Eigen::VectorXd squares(point.common.size() + 1);
+    squares << point.normal.common_squares(), point.normal.own_gain();
+    return squares.unaryExpr([](double square) { return square > 0.0 ? 1.0 / std::sqrt(square) : 1.0; });
   }
 
-  [[nodiscard]] Parameters& first() const { return recordings_.front().parameters; }
-  [[nodiscard]] const Scales& scales() const { return recordings_.front().scales(); }
-
-  /// Returns where the cycles of the next recording stand.
-  double* add(BlockFit& recording, double* local) {
-    Parameters& parameters = recording.parameters;
-    const CycleModel& any = recording.model(0);
-    std::vector<double*> blocks{globals_.data()};
-    const auto add_block = [&](double* block) {
-      blocks.push_back(block);
-      if (!ordering_->IsMember(block)) ordering_->AddElementToGroup(block, group_++);
-    };
-    if (any.has_exponent()) add_block(&first().exponent);
-    if (any.has_difference()) add_block(sweep_.sharing.difference ? &first().difference : &parameters.difference);
-    if (any.has_constant()) add_block(sweep_.sharing.level ? first().level.data() : parameters.level.data());
-    if (any.drift_parameters() > 0) add_block(parameters.level.data() + (any.has_constant() ? 1 : 0));
-    for (std::size_t i = 0; i < recording.size(); ++i, local += std::tuple_size_v<Local>) {
-      const CycleModel& model = recording.model(i);
-      blocks.push_back(local);
-      auto* loss = options_.robust ? new ceres::HuberLoss(huber_bound(model.residuals())) : nullptr;
-      auto* cost = new CycleCost(model, room_);
-      ceres_.AddResidualBlock(cost, loss, blocks);
-      evaluations_.add(*cost, blocks);
-      blocks.pop_back();
-      ordering_->AddElementToGroup(local, 0);
-      residuals_ += model.residuals();
-    }
-    if (options_.continuous) join_ramps(recording, local - recording.size() * std::tuple_size_v<Local>);
-    return local;
+  void put(const Bundle::Point& point, double* residuals, double* jacobian) const {
+    const Index common = bundle_.common();
+    RowMajor rows = point.normal.common();
+    factorise(rows, common);
+    Eigen::Map<Eigen::VectorXd> r(residuals, common + 2);
+    r.head(common) = rows.col(common).head(common);
+    r(common + 1) = std::sqrt(point.normal.own_gain());
+    r(common) = std::sqrt(std::max(0.0, point.sum - r.head(common).squaredNorm() - point.normal.own_gain()));
+    if (jacobian == nullptr) return;
+    Eigen::Map<RowMajor> j(jacobian, common + 2, common + 1);
+    j.setZero();
+    j.topLeftCorner(common, common).triangularView<Eigen::Upper>() = rows.topLeftCorner(common, common);
+    j(common + 1, common) = -r(common + 1);
+    j *= units_.asDiagonal();
   }
 
-  void join_ramps(const BlockFit& recording, double* local) {
-    for (std::size_t i = 0; i + 1 < recording.size(); ++i, local += std::tuple_size_v<Local>) {
-      if (!recording.data(i).continuous_with_next) continue;
-      ceres_.AddResidualBlock(new RampCost(recording, i), nullptr, globals_.data(), local,
-                              local + std::tuple_size_v<Local>);
-    }
-  }
-
-  void hold() {
-    std::vector<int> constant;
-    const std::size_t count = globals_of(scales().law);
-    if (count > kFrictionRate && !options_.held[kFrictionRate]) {
-      ceres_.SetParameterLowerBound(globals_.data(), static_cast<int>(kFrictionRate), kLeastRate);
-      ceres_.SetParameterUpperBound(globals_.data(), static_cast<int>(kFrictionRate), kMostRate);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      if (options_.held[i]) constant.push_back(static_cast<int>(i));
-    }
-    if (constant.size() == count) {
-      ceres_.SetParameterBlockConstant(globals_.data());
-    } else if (!constant.empty()) {
-      ceres_.SetManifold(globals_.data(), new ceres::SubsetManifold(static_cast<int>(count), constant));
-    }
-  }
-
-  /// What a fit can explain settles in some five steps from a solution of fewer cycles, however large it is. What it
-  /// cannot may creep along a valley: not for longer than the rest of the program takes.
-  [[nodiscard]] int most_iterations() const {
-    constexpr double kMostEvaluations = 1.2e6;  // of a sample under Coulomb friction
-    constexpr double kCycle = 24.0;             // evaluations that a cycle takes as long as beside those of its samples
-    constexpr double kTerm = 2.0;               // by which weakening and an average each make an evaluation longer
-    constexpr double kFewest = 6.0;
-    double evaluations = static_cast<double>(residuals_) + kCycle * static_cast<double>(owns_.size());
-    if (scales().law == FrictionLaw::Weakening) evaluations *= kTerm;
-    if (scales().sensor_average_s > 0.0) evaluations *= kTerm;
-    const double most = std::max(kFewest, kMostEvaluations / evaluations);
-    return recordings_.size() > 1 ? options_.max_iterations
-                                  : static_cast<int>(std::min<double>(options_.max_iterations, most));
-  }
-
-  [[nodiscard]] ceres::Solver::Options solver_options() const {
-    ceres::Solver::Options solver;
-    solver.max_num_iterations = most_iterations();
-    // Continuity couples neighbouring cycles: a banded matrix with a border instead of independent blocks.
-    solver.linear_solver_type = options_.continuous ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_SCHUR;
-    // Damped steps move a long chain of joined cycles only a part of the way (23 steps at 5000 cycles, 4 undamped); it
-    // starts at the solution for the cycles by themselves.
-    if (options_.continuous) solver.initial_trust_region_radius = 1e10;
-    if (!options_.continuous) solver.linear_solver_ordering = ordering_;
-    solver.function_tolerance = options_.tolerance / static_cast<double>(residuals_);
-    solver.gradient_tolerance = 1e-14;
-    solver.parameter_tolerance = 1e-11;
-    // A step into friction that runs away: shorten it.
-    if (scales().law != FrictionLaw::Coulomb) solver.max_num_consecutive_invalid_steps = 20;
-    solver.logging_type = ceres::SILENT;
-    solver.num_threads = 1;
-    return solver;
-  }
-
-  std::span<BlockFit> recordings_;
-  const SweepTerms& sweep_;
-  const SolveOptions& options_;
-  Globals globals_;
-  std::vector<Local> owns_;
-  CycleRows room_;
-  Evaluations evaluations_;
-  ceres::Problem ceres_;
-  std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
-  int group_ = 1;
-  std::size_t residuals_ = 0;
+  const Bundle& bundle_;
+  double radius_;
+  Eigen::VectorXd units_;
+  mutable Visited base_;
+  mutable Visited latest_;
 };
+
+/// What a fit can explain settles in some five steps from a solution of fewer cycles, however large it is. What it
+/// cannot may creep along a valley: not for longer than the rest of the program takes.
+int most_iterations(const Problem& problem, const SolveOptions& options, std::size_t residuals) {
+  constexpr double kMostEvaluations = 1.2e6;  // of a sample under Coulomb friction
+  constexpr double kCycle = 24.0;             // evaluations that a cycle takes as long as beside those of its samples
+  constexpr double kTerm = 2.0;               // by which weakening and an average each make an evaluation longer
+  constexpr double kFewest = 6.0;
+  if (problem.recordings.size() > 1) return options.max_iterations;
+  const BlockFit& fit = problem.recordings.front();
+  double evaluations = static_cast<double>(residuals) + kCycle * static_cast<double>(fit.size());
+  if (fit.scales().law == FrictionLaw::Weakening) evaluations *= kTerm;
+  if (fit.scales().sensor_average_s > 0.0) evaluations *= kTerm;
+  return static_cast<int>(std::min<double>(options.max_iterations, std::max(kFewest, kMostEvaluations / evaluations)));
+}
+
+void hold(ceres::Problem& ceres, double* parameters, const Problem& problem, const SolveOptions& options,
+          const Eigen::VectorXd& units) {
+  const std::size_t globals = problem.recordings.front().model(0).globals();
+  const int size = ceres.ParameterBlockSize(parameters);
+  std::vector<int> constant;
+  for (std::size_t i = 0; i < globals; ++i) {
+    if (options.held[i]) constant.push_back(static_cast<int>(i));
+  }
+  if (!constant.empty()) ceres.SetManifold(parameters, new ceres::SubsetManifold(size, constant));
+  if (globals > kFrictionRate && !options.held[kFrictionRate]) {
+    ceres.SetParameterLowerBound(parameters, static_cast<int>(kFrictionRate), kLeastRate / units(kFrictionRate));
+    ceres.SetParameterUpperBound(parameters, static_cast<int>(kFrictionRate), kMostRate / units(kFrictionRate));
+  }
+}
+
+/// Joined ramps start at the solution for the cycles by themselves: nearly whole steps. Damped ones move a long chain
+/// of cycles, or a level against the damping, only a part of the way.
+double first_radius(const SolveOptions& options) {
+  return options.continuous ? 1e10 : 1e4;
+}
+
+ceres::Solver::Options solver_options(const Problem& problem, const SolveOptions& options, std::size_t residuals) {
+  ceres::Solver::Options solver;
+  solver.max_num_iterations = most_iterations(problem, options, residuals);
+  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  solver.function_tolerance = options.tolerance / static_cast<double>(residuals);
+  solver.gradient_tolerance = 1e-14;
+  solver.initial_trust_region_radius = first_radius(options);
+  solver.jacobi_scaling = false;  // BundleCost::units
+  solver.min_lm_diagonal = solver.max_lm_diagonal = 1.0;
+  solver.parameter_tolerance = 1e-11;
+  // Steps that bounds cut short are tried as they are: every point whose derivatives are asked for is taken.
+  solver.max_num_line_search_step_size_iterations = 0;
+  // A step into friction that runs away: shorten it.
+  if (problem.recordings.front().scales().law != FrictionLaw::Coulomb) solver.max_num_consecutive_invalid_steps = 20;
+  solver.logging_type = ceres::SILENT;
+  solver.num_threads = 1;
+  return solver;
+}
 
 }  // namespace
 
-double huber_bound(std::size_t residuals) {
-  return 3.0 * std::sqrt(static_cast<double>(residuals));
-}
-
 double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, const SolveOptions& options) {
   silence_solver_log();
-  return Bundle(recordings, sweep, options).solve();
+  const Problem problem{recordings, sweep};
+  const Bundle bundle(problem, options);
+  std::optional<Bundle::Point> start = bundle.start(1.0 / first_radius(options));
+  if (!start) return std::numeric_limits<double>::infinity();
+  ceres::Problem ceres;
+  auto* cost = new BundleCost(bundle, *std::move(start), first_radius(options));
+  Eigen::VectorXd parameters = cost->first();
+  ceres.AddResidualBlock(cost, nullptr, parameters.data());
+  hold(ceres, parameters.data(), problem, options, cost->units());
+  ceres::Solver::Options solver = solver_options(problem, options, bundle.residuals());
+  solver.callbacks.push_back(cost);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &ceres, &summary);
+  bundle.put(cost->best(), recordings);
+  return summary.IsSolutionUsable() ? cost->best().sum : std::numeric_limits<double>::infinity();
 }
 
 double solve(BlockFit& fit, const SolveOptions& options) {

@@ -3,25 +3,13 @@
 #include <span>
 
 #include "fit/problem/block_fit.hpp"
+#include "fit/problem/solve_options.hpp"
 
 namespace slipfit::fit {
 
-struct SolveOptions {
-  Held held{};
-  bool continuous = false;  ///< neighbouring cycles share their ramp (strong coupling, see kRampTolerance)
-  bool robust = false;      ///< a cycle far worse than the others counts linearly, not squared
-  int max_iterations = 60;
-  /// Ends with the step that gains less than this much of one residual's share of the cost: 1e-3 leaves the parameters
-  /// within a thousandth of a standard error (99 of 100 within 0.006), 0.1 is enough for a start.
-  double tolerance = 1e-3;
-};
-
-/// SolveOptions::robust: a cycle whose residuals' root of the sum of squares is beyond it counts linearly.
-double huber_bound(std::size_t residuals);
-
-/// Levenberg-Marquardt by Ceres from the recordings' parameters (globals: the first one's); cycle blocks are eliminated
-/// first (Schur complement). Leaves the solution in all of them. Returns the sum of squared residuals, infinity where
-/// the start is outside the model.
+/// Levenberg-Marquardt by Ceres from the recordings' parameters (globals: the first one's); the cycles' own are
+/// eliminated first (Elimination). Leaves the solution in all of them. Returns the sum of squared residuals, infinity
+/// where the start is outside the model.
 double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, const SolveOptions& options);
 /// Of one recording by itself.
 double solve(BlockFit& fit, const SolveOptions& options);

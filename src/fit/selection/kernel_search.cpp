@@ -51,20 +51,26 @@ std::vector<KernelSearch::Least> KernelSearch::minima(double least_gain) const {
   std::vector<Least> scan;
   Least start;
   start.parameters = started().parameters;
-  for (const double share : shares) scan.push_back(at(share * seen_s2, scan.empty() ? start : scan.back()));
+  const auto scan_next = [&](double share) {
+    const std::size_t known = scan.size();
+    return at(share * seen_s2, known > 0 ? scan.back() : start, known > 1 ? &scan[known - 2] : nullptr);
+  };
+  for (const double share : shares) scan.push_back(scan_next(share));
   const auto is_falling = [&] { return scan.back().sum < scan[scan.size() - 2].sum; };
   while (is_falling() && shares.back() < kBeyondSlip) {
     shares.push_back(shares.back() + kShareStep);
-    scan.push_back(at(shares.back() * seen_s2, scan.back()));
+    scan.push_back(scan_next(shares.back()));
   }
   std::vector<Least> minima;
   for (std::size_t i = 1; i + 1 < scan.size(); ++i) {
     if (!(scan[i].sum < scan[i - 1].sum && scan[i].sum <= scan[i + 1].sum)) continue;
     std::uintmax_t most = 8;
-    const auto least =
-        boost::math::tools::brent_find_minima([&](double share) { return at(share * seen_s2, scan[i]).sum; },
-                                              shares[i - 1], shares[i + 1], kMinimumBits, most);
-    minima.push_back(at(least.first * seen_s2, scan[i]));
+    const auto between = [&](double share) {
+      return at(share * seen_s2, scan[i], &scan[share < shares[i] ? i - 1 : i + 1]);
+    };
+    const auto least = boost::math::tools::brent_find_minima([&](double share) { return between(share).sum; },
+                                                             shares[i - 1], shares[i + 1], kMinimumBits, most);
+    minima.push_back(between(least.first));
   }
   for (Least& least : minima) least.gain = 1.0 - least.sum / scan.front().sum;
   std::erase_if(minima, [&](const Least& least) { return !(least.gain > least_gain); });
@@ -77,16 +83,39 @@ double KernelSearch::seen_variance_s2() const {
   return kSlipVariance * slip_s * slip_s;
 }
 
-KernelSearch::Least KernelSearch::at(double variance_s2, const Least& near) const {
+/// On the line through two solutions.
+Parameters KernelSearch::extrapolated(double variance_s2, const Least& near, const Least& other) const {
+  const double steps = (variance_s2 - near.variance_s2) / (near.variance_s2 - other.variance_s2);
+  const auto follow = [&](double& value, double from) { value += steps * (value - from); };
+  Parameters p = near.parameters;
+  const double bend_before = log_frequency_gain(near.variance_s2) - log_frequency_gain(other.variance_s2);
+  for (std::size_t i = 0; i < p.globals.size(); ++i) {
+    if (!held_[i]) follow(p.globals[i], other.parameters.globals[i] + (i == kLogFrequency ? bend_before : 0.0));
+  }
+  p.globals[kDamping] = std::max(0.0, p.globals[kDamping]);
+  for (std::size_t i = 0; i < p.level.size(); ++i) follow(p.level[i], other.parameters.level[i]);
+  for (std::size_t i = 0; i < p.cycles.size(); ++i) {
+    for (std::size_t j = 0; j < p.cycles[i].size(); ++j) follow(p.cycles[i][j], other.parameters.cycles[i][j]);
+  }
+  return p;
+}
+
+KernelSearch::Least KernelSearch::at(double variance_s2, const Least& near, const Least* other) const {
   Least least;
   least.variance_s2 = variance_s2;
-  least.parameters = near.parameters;
-  if (!held_[kLogFrequency]) {
-    least.parameters.globals[kLogFrequency] += log_frequency_gain(variance_s2) - log_frequency_gain(near.variance_s2);
-  }
   BlockFit fit(cycles_, plain_.scales());
-  fit.parameters = least.parameters;
+  fit.parameters = near.parameters;
   fit = with_kernel(fit, Kernel::MovingAverage, variance_s2);
+  BlockFit start = fit;
+  if (other != nullptr && std::isfinite(other->sum)) {
+    start.parameters = extrapolated(variance_s2, near, *other);
+  }
+  if (!held_[kLogFrequency]) {
+    const double gain = log_frequency_gain(variance_s2) - log_frequency_gain(near.variance_s2);
+    for (BlockFit* any : {&fit, &start}) any->parameters.globals[kLogFrequency] += gain;
+  }
+  if (std::isfinite(sum_of_squares(start))) fit = std::move(start);
+  least.parameters = fit.parameters;
   if (!solve_with_damping(fit)) return least;
   least.sum = sum_of_squares(fit);
   least.parameters = fit.parameters;

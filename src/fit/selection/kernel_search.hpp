@@ -49,8 +49,9 @@ class KernelSearch {
 
  private:
   [[nodiscard]] double seen_variance_s2() const;
-  /// From the solution at another variance.
-  [[nodiscard]] Least at(double variance_s2, const Least& near) const;
+  /// From the solution at another variance, or where the line through two leads if that is nearer.
+  [[nodiscard]] Least at(double variance_s2, const Least& near, const Least* other) const;
+  [[nodiscard]] Parameters extrapolated(double variance_s2, const Least& near, const Least& other) const;
   [[nodiscard]] Least descended(BlockFit fit, Kernel kernel, double variance_s2) const;
   [[nodiscard]] BlockFit with_kernel(const BlockFit& fit, Kernel kernel, double variance_s2) const;
   [[nodiscard]] BlockFit started() const;

@@ -1,0 +1,182 @@
+#include "fit/problem/bundle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fit/cycle/side_by_side.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+using Eigen::Index;
+
+/// Parameters of a recording in the order of its Jacobian, as the cycle model reads them.
+class Gathered {
+ public:
+  Gathered(const CycleModel& any, const std::vector<Index>& columns, const Eigen::VectorXd& common) {
+    for (const Index column : columns) values_.push_back(common(column));
+    const double* next = values_.data();
+    const auto take = [&](std::size_t count) { return count > 0 ? std::exchange(next, next + count) : nullptr; };
+    shared_.globals = take(any.globals());
+    shared_.exponent = take(any.has_exponent() ? 1 : 0);
+    shared_.difference = take(any.has_difference() ? 1 : 0);
+    shared_.constant = take(any.has_constant() ? 1 : 0);
+    shared_.drift = take(any.drift_parameters());
+  }
+  Gathered(const Gathered&) = delete;
+  Gathered& operator=(const Gathered&) = delete;
+
+  [[nodiscard]] CycleValues with(const Local& local) const {
+    CycleValues values = shared_;
+    values.local = local.data();
+    return values;
+  }
+  [[nodiscard]] const double* globals() const { return shared_.globals; }
+
+ private:
+  std::vector<double> values_;
+  CycleValues shared_;
+};
+
+/// What a cycle far worse than the others counts (Huber): the factor of its squares, and what they lack of the sum.
+struct Weight {
+  double factor = 1.0;
+  double rest = 0.0;
+};
+Weight weight_of(double sum, std::size_t residuals) {
+  const double bound = huber_bound(residuals);
+  const double norm = std::sqrt(sum);
+  return norm > bound ? Weight{bound / norm, bound * (norm - bound)} : Weight{};
+}
+
+}  // namespace
+
+Bundle::Bundle(const Problem& problem, const SolveOptions& options)
+    : problem_(problem), options_(options), columns_(problem) {
+  const BlockFit& first = problem.recordings.front();
+  if (problem.sweep.sharing.level) of_steady_ = columns_.of_steady(first.model(0).globals());
+  for (const BlockFit& recording : problem.recordings) residuals_ += recording.residuals();
+}
+
+std::optional<Bundle::Point> Bundle::start(double damping) const {
+  Eigen::VectorXd common(columns_.size());
+  std::vector<Local> cycles;
+  for (std::size_t r = problem_.recordings.size(); r-- > 0;) {  // what is shared is the first one's
+    const Parameters& p = problem_.recordings[r].parameters;
+    const CycleModel& any = problem_.recordings[r].model(0);
+    for (std::size_t i = 0; i < any.globals(); ++i) common(static_cast<Index>(i)) = p.globals[i];
+    if (columns_.exponent()) common(*columns_.exponent()) = p.exponent;
+    if (any.has_difference()) common(columns_.difference(r)) = p.difference;
+    const std::size_t constants = any.has_constant() ? 1 : 0;
+    if (constants > 0) common(columns_.level(r)) = p.level.front();
+    for (std::size_t i = 0; i < any.drift_parameters(); ++i)
+      common(columns_.drift(r) + static_cast<Index>(i)) = p.level[constants + i];
+  }
+  for (const BlockFit& recording : problem_.recordings)
+    cycles.insert(cycles.end(), recording.parameters.cycles.begin(), recording.parameters.cycles.end());
+  return evaluated(std::move(common), std::move(cycles), damping);
+}
+
+std::optional<Bundle::Point> Bundle::moved(const Point& from, const Eigen::VectorXd& step, double share,
+                                           double damping) const {
+  std::vector<Local> cycles = from.cycles;
+  const std::vector<double> steps = from.normal.own_steps(step, share);
+  auto next = steps.begin();
+  auto cycle = cycles.begin();
+  for (const BlockFit& recording : problem_.recordings) {
+    const std::size_t own = recording.model(0).local_parameters();
+    for (std::size_t i = 0; i < recording.size(); ++i, ++cycle) {
+      for (std::size_t j = 0; j < own; ++j) (*cycle)[j] += *next++;
+    }
+  }
+  return evaluated(from.common + step, std::move(cycles), damping);
+}
+
+void Bundle::put(const Point& point, std::span<BlockFit> recordings) const {
+  auto next = point.cycles.begin();
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    Parameters& p = recordings[r].parameters;
+    const CycleModel& any = recordings[r].model(0);
+    for (std::size_t i = 0; i < any.globals(); ++i) p.globals[i] = point.common(static_cast<Index>(i));
+    if (columns_.exponent()) p.exponent = point.common(*columns_.exponent());
+    if (any.has_difference()) p.difference = point.common(columns_.difference(r));
+    const std::size_t constants = any.has_constant() ? 1 : 0;
+    if (constants > 0) p.level.front() = point.common(columns_.level(r));
+    for (std::size_t i = 0; i < any.drift_parameters(); ++i)
+      p.level[constants + i] = point.common(columns_.drift(r) + static_cast<Index>(i));
+    for (Local& cycle : p.cycles) cycle = *next++;
+  }
+}
+
+std::optional<Bundle::Point> Bundle::evaluated(Eigen::VectorXd common, std::vector<Local> cycles,
+                                               double damping) const {
+  Point point{std::move(common), std::move(cycles), 0.0, Elimination(columns_.size(), damping)};
+  std::size_t first = 0;
+  for (std::size_t r = 0; r < problem_.recordings.size(); ++r) {
+    if (!add(r, first, point)) return std::nullopt;
+    first += problem_.recordings[r].size();
+  }
+  if (!add_steady(point)) return std::nullopt;
+  return std::isfinite(point.sum) ? std::optional(std::move(point)) : std::nullopt;
+}
+
+bool Bundle::add(std::size_t recording, std::size_t first_cycle, Point& point) const {
+  const BlockFit& fit = problem_.recordings[recording];
+  const std::vector<Index>& columns = columns_.of(recording);
+  const Gathered common(fit.model(0), columns, point.common);
+  const Local* const cycles = point.cycles.data() + first_cycle;
+  std::vector<std::optional<Part>> parts(fit.size());
+  for_cycles(fit.size(), fit.residuals(), [&](std::size_t begin, std::size_t end) {
+    Eigen::MatrixXd lines;  // it stays in the cache from one cycle to the next
+    for (std::size_t i = begin; i < end; ++i) parts[i] = part_of(fit.model(i), common.with(cycles[i]), lines);
+  });
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    if (!parts[i]) return false;
+    std::optional<RampResidual> ramp;
+    if (options_.continuous && i + 1 < fit.size() && fit.data(i).continuous_with_next) {
+      ramp = ramp_residual(fit, i, common.globals(), cycles[i].data(), cycles[i + 1].data());
+      point.sum += ramp->value * ramp->value;
+    }
+    point.sum += parts[i]->sum;
+    point.normal.add_cycle(parts[i]->normal, columns, ramp ? &*ramp : nullptr);
+  }
+  return true;
+}
+
+std::optional<Bundle::Part> Bundle::part_of(const CycleModel& model, const CycleValues& values,
+                                            Eigen::MatrixXd& lines) const {
+  const auto rows = static_cast<Index>(model.residuals());
+  const auto columns = static_cast<Index>(model.columns());
+  lines.resize(rows, columns + 1);
+  if (!model.evaluate(values, lines.col(columns).data(), lines.data())) return std::nullopt;
+  Part part{RowMajor(columns + 1, columns + 1), lines.col(columns).squaredNorm()};
+  for (Index a = 0; a <= columns; ++a) {  // quicker than a product of matrices of so few columns
+    for (Index b = a; b <= columns; ++b) part.normal(a, b) = lines.col(a).dot(lines.col(b));
+  }
+  if (options_.robust) {
+    const Weight weight = weight_of(part.sum, model.residuals());
+    part.normal.triangularView<Eigen::Upper>() = weight.factor * part.normal;
+    part.sum = weight.factor * part.sum + weight.rest;
+  }
+  return part;
+}
+
+bool Bundle::add_steady(Point& point) const {
+  if (!problem_.sweep.sharing.level) return true;
+  const FrictionLaw law = problem_.recordings.front().scales().law;
+  const auto size = static_cast<Index>(of_steady_.size());
+  for (const SteadyRun& run : problem_.sweep.steady) {
+    const SteadyResidual steady =
+        steady_residual(run, problem_.sweep.units, law, point.common.data(), point.common(of_steady_.back()));
+    Eigen::RowVectorXd row(size + 1);
+    for (Index i = 0; i + 1 < size; ++i) row(i) = steady.by_global[static_cast<std::size_t>(i)];
+    row(size - 1) = steady.by_level;
+    row(size) = steady.value;
+    point.normal.add_common(row.transpose() * row, of_steady_);
+    point.sum += steady.value * steady.value;
+  }
+  return true;
+}
+
+}  // namespace slipfit::fit

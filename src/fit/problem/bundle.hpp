@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fit/problem/block_fit.hpp"
+#include "fit/problem/common_columns.hpp"
+#include "fit/problem/elimination.hpp"
+#include "fit/problem/solve_options.hpp"
+
+namespace slipfit::fit {
+
+/// The sum of squares of a problem as a function of the parameters that its cycles have in common: each cycle's own
+/// follow them (variable projection, one Gauss-Newton step at a time).
+class Bundle {
+ public:
+  /// Both must outlive this.
+  Bundle(const Problem& problem, const SolveOptions& options);
+
+  struct Point {
+    Eigen::VectorXd common;  ///< in the order of CommonColumns
+    std::vector<Local> cycles;
+    double sum = 0.0;  ///< of squares; where SolveOptions::robust, cycles far worse than the others counted linearly
+    Elimination normal;
+  };
+  /// At the parameters of the recordings. `damping`: of the steps of the cycles' own from there (Elimination). Empty:
+  /// outside the model.
+  [[nodiscard]] std::optional<Point> start(double damping) const;
+  /// After a step of the common parameters; the cycles' own follow, and take `share` of the step that they have to gain
+  /// by where the common ones stand still. Empty: outside the model.
+  [[nodiscard]] std::optional<Point> moved(const Point& from, const Eigen::VectorXd& step, double share,
+                                           double damping) const;
+  /// Writes a point to the recordings, which have the problem's order.
+  void put(const Point& point, std::span<BlockFit> recordings) const;
+
+  [[nodiscard]] Eigen::Index common() const { return columns_.size(); }
+  /// Rows of residuals.
+  [[nodiscard]] std::size_t residuals() const { return residuals_; }
+
+ private:
+  /// Of a cycle: [J r]' [J r] as Elimination takes it, and its part of the sum.
+  struct Part {
+    RowMajor normal;
+    double sum = 0.0;
+  };
+
+  [[nodiscard]] std::optional<Point> evaluated(Eigen::VectorXd common, std::vector<Local> cycles, double damping) const;
+  [[nodiscard]] bool add(std::size_t recording, std::size_t first_cycle, Point& point) const;
+  /// `lines`: room for the Jacobian and the residuals.
+  [[nodiscard]] std::optional<Part> part_of(const CycleModel& model, const CycleValues& values,
+                                            Eigen::MatrixXd& lines) const;
+  [[nodiscard]] bool add_steady(Point& point) const;
+
+  const Problem& problem_;
+  const SolveOptions& options_;
+  CommonColumns columns_;
+  std::vector<Eigen::Index> of_steady_;
+  std::size_t residuals_ = 0;
+};
+
+}  // namespace slipfit::fit
