@@ -24,8 +24,7 @@ std::string FreeMotion::words() const {
   const double damped_rad_per_s = std::exp(values(0)) * std::sqrt(std::max(0.0, 1.0 - zeta * zeta));
   const double frequency_Hz = damped_rad_per_s / (2.0 * std::numbers::pi);
   const double zeta_error = std::sqrt(covariance(1, 1));
-  const std::string frequency =
-      fmt::format("{:.3g} ± {:.2g} Hz", frequency_Hz, frequency_Hz * std::sqrt(covariance(0, 0)));
+  std::string frequency = fmt::format("{:.3g} ± {:.2g} Hz", frequency_Hz, frequency_Hz * std::sqrt(covariance(0, 0)));
   if (!(zeta_error < thresholds::kTellingDamping)) return frequency;
   return fmt::format("{} with a damping ratio of {:.2g} ± {:.1g}", frequency, zeta, zeta_error);
 }

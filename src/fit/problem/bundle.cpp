@@ -25,7 +25,10 @@ class Gathered {
     shared_.drift = take(any.drift_parameters());
   }
   Gathered(const Gathered&) = delete;
+  Gathered(Gathered&&) = delete;
   Gathered& operator=(const Gathered&) = delete;
+  Gathered& operator=(Gathered&&) = delete;
+  ~Gathered() = default;
 
   [[nodiscard]] CycleValues with(const Local& local) const {
     CycleValues values = shared_;

@@ -27,6 +27,15 @@ constexpr double kBeyondSlip = 2.0;    // where the sum still falls at the large
 constexpr double kShareStep = 0.1;
 constexpr int kMinimumBits = 6;
 
+/// Whether zeta = 0, at which this fit has been solved, is better than any above it: where all else is at its best, a
+/// small step tells.
+bool is_best_undamped(BlockFit fit) {
+  constexpr double kStep = 1e-3;
+  const double sum = sum_of_squares(fit);
+  fit.parameters.globals[kDamping] = kStep;
+  return !(sum_of_squares(fit) < sum);
+}
+
 }  // namespace
 
 KernelSearch::KernelSearch(const Recording& recording, const Segmentation& segmentation, const HeldParameters& held,
@@ -49,6 +58,7 @@ std::vector<KernelSearch::Least> KernelSearch::minima(double least_gain) const {
   std::vector<double> shares{0.0, 0.125 * kShareStep, 0.25 * kShareStep, 0.5 * kShareStep};
   for (double share = kShareStep; share < kLargestShare; share += kShareStep) shares.push_back(share);
   std::vector<Least> scan;
+  scan.reserve(shares.size());
   Least start;
   start.parameters = started().parameters;
   const auto scan_next = [&](double share) {
@@ -185,15 +195,6 @@ BlockFit KernelSearch::started() const {
   set_start(fit, segmentation_, globals);
   fit.parameters.level = plain_.parameters.level;
   return with_rise_after(fit, plain_.scales());
-}
-
-/// Whether zeta = 0, at which this fit has been solved, is better than any above it: where all else is at its best, a
-/// small step tells.
-bool KernelSearch::is_best_undamped(BlockFit fit) const {
-  constexpr double kStep = 1e-3;
-  const double sum = sum_of_squares(fit);
-  fit.parameters.globals[kDamping] = kStep;
-  return !(sum_of_squares(fit) < sum);
 }
 
 /// What is held at the solution: zeta at 0 where its best value is negative. Empty: no solution.

@@ -56,7 +56,6 @@ class KernelSearch {
   [[nodiscard]] BlockFit with_kernel(const BlockFit& fit, Kernel kernel, double variance_s2) const;
   [[nodiscard]] BlockFit started() const;
   [[nodiscard]] double log_frequency_gain(double variance_s2) const;
-  [[nodiscard]] bool is_best_undamped(BlockFit fit) const;
   [[nodiscard]] std::optional<Held> solve_with_damping(BlockFit& fit) const;
 
   const Segmentation& segmentation_;

@@ -12,6 +12,7 @@
 #include "core/thresholds.hpp"
 #include "fit/inference/misfit.hpp"
 #include "fit/selection/carried_fit.hpp"
+#include "fit/selection/fitted_average.hpp"
 #include "fit/selection/rival.hpp"
 #include "fit/selection/weakening_fitter.hpp"
 
