@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "fit/level/add_hum.hpp"
 #include "fit/level/stick_ripple.hpp"
 #include "signal/mains.hpp"
 #include "signal/transform.hpp"
@@ -50,17 +51,6 @@ std::vector<Run> runs_of(const Recording& recording, const BlockFit& fit) {
 Rest rest_of(const Recording& recording, const BlockFit& fit, std::vector<double> residuals) {
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
   return {std::move(residuals), runs_of(recording, fit), step_s};
-}
-
-/// With the fitted hum put back.
-Rest with_hum(const Recording& recording, const BlockFit& fit, Rest rest) {
-  if (fit.level().lines_Hz.empty()) return rest;
-  for (const Run& run : rest.runs) {
-    for (std::size_t i = run.begin; i < run.end; ++i) {
-      if (rest.values[i] != 0.0) rest.values[i] += fit.model(0).hum_at(recording.time_s()[i], fit.level_data());
-    }
-  }
-  return rest;
 }
 
 /// Sums over samples of one frequency, phase counted from the first sample of the recording. Residuals of 0 are no
@@ -132,10 +122,10 @@ double refine(const Rest& rest, double frequency_Hz, double resolution_Hz) {
 
 /// Of the lines that the fit has, where the rest with its hum put back has them.
 std::vector<double> refine_all(const Recording& recording, const BlockFit& fit, Rest rest) {
-  const Rest with = with_hum(recording, fit, std::move(rest));
+  for (const Run& run : rest.runs) add_hum(recording, fit, run.begin, run.end, 1.0, rest.values);
   std::vector<double> frequencies_Hz;
   for (const double known_Hz : fit.level().lines_Hz) {
-    frequencies_Hz.push_back(refine(with, known_Hz, 1.0 / recording.duration_s()));
+    frequencies_Hz.push_back(refine(rest, known_Hz, 1.0 / recording.duration_s()));
   }
   return frequencies_Hz;
 }
