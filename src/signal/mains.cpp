@@ -20,8 +20,7 @@ double half_width(double resolution_Hz, double line_Hz) {
 }
 
 /// Median power beside the line, 16 resolutions on both sides.
-double level_beside(std::span<const double> power, double bin_Hz, double resolution_Hz, double line_Hz,
-                    double spread_Hz = 0.0) {
+double level_beside(std::span<const double> power, double bin_Hz, double resolution_Hz, double line_Hz) {
   std::vector<double> beside;
   const double top = static_cast<double>(power.size()) - 1.0;
   const auto collect = [&](double low_Hz, double high_Hz) {
@@ -29,7 +28,7 @@ double level_beside(std::span<const double> power, double bin_Hz, double resolut
     const double high = std::clamp(std::floor(high_Hz / bin_Hz), 1.0, top);
     for (double i = low; i <= high; i += 1.0) beside.push_back(power[static_cast<std::size_t>(i)]);
   };
-  const double near = std::max(spread_Hz, half_width(resolution_Hz, line_Hz));
+  const double near = half_width(resolution_Hz, line_Hz);
   const double far = near + 16.0 * resolution_Hz;
   collect(line_Hz - far, line_Hz - near);
   collect(line_Hz + near, line_Hz + far);
@@ -59,8 +58,7 @@ double peak_offset(double before, double here, double after) {
   return rise + fall > 0.0 ? 0.5 * (rise - fall) / (rise + fall) : 0.0;
 }
 
-std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, double resolution_Hz, double target_Hz,
-                                 double spread_Hz) {
+std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, double resolution_Hz, double target_Hz) {
   const double tolerance = tolerance_of(resolution_Hz, target_Hz);
   const auto low = static_cast<std::size_t>(std::floor((target_Hz - tolerance) / bin_Hz));
   const auto high = static_cast<std::size_t>(std::ceil((target_Hz + tolerance) / bin_Hz));
@@ -72,8 +70,7 @@ std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, d
   const double offset = peak_offset(power[peak - 1], power[peak], power[peak + 1]);
   const double frequency = (static_cast<double>(peak) + offset) * bin_Hz;
   if (std::abs(frequency - target_Hz) > tolerance) return std::nullopt;
-  if (power[peak] <=
-      prominence(tolerance / resolution_Hz) * level_beside(power, bin_Hz, resolution_Hz, frequency, spread_Hz)) {
+  if (power[peak] <= prominence(tolerance / resolution_Hz) * level_beside(power, bin_Hz, resolution_Hz, frequency)) {
     return std::nullopt;
   }
   return MainsLine{frequency, 0.0, 1, half_width(resolution_Hz, frequency)};
@@ -82,7 +79,7 @@ std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, d
 }  // namespace
 
 std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz,
-                                  std::span<const double> known_Hz, double spread_Hz) {
+                                  std::span<const double> known_Hz) {
   std::vector<MainsLine> lines;
   const double highest_Hz = bin_Hz * (static_cast<double>(power.size()) - 2.0);
   for (const double mains_Hz : kMains_Hz) {
@@ -92,7 +89,7 @@ std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, 
       if (target_Hz < 4.0 * resolution_Hz) continue;
       has_lower = has_lower ||
                   std::ranges::any_of(known_Hz, [&](double known) { return is_at(known, target_Hz, resolution_Hz); });
-      const auto line = line_at(power, bin_Hz, resolution_Hz, target_Hz, spread_Hz);
+      const auto line = line_at(power, bin_Hz, resolution_Hz, target_Hz);
       const auto same = [&](const MainsLine& other) { return other.frequency_Hz == line->frequency_Hz; };
       if (!line || std::ranges::any_of(lines, same)) continue;
       // High orders come in company: one alone is a line of something else that happens to lie there.

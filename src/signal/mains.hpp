@@ -18,9 +18,9 @@ struct MainsLine {
 };
 
 /// Lines four times (in amplitude) above their neighbours at multiples of 50 and 60 Hz. `known_Hz`: lines that are no
-/// longer in the spectrum. `spread_Hz`: distance up to which a line raises its neighbours.
+/// longer in the spectrum.
 std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz,
-                                  std::span<const double> known_Hz = {}, double spread_Hz = 0.0);
+                                  std::span<const double> known_Hz = {});
 
 /// "mains 50 Hz", "3rd harmonic of 50 Hz mains".
 std::string describe(const MainsLine& line);

@@ -161,20 +161,16 @@ class RestSpectrum {
   explicit RestSpectrum(const Rest& rest) {
     const std::size_t length = signal::good_length(rest.values.size());
     bin_Hz_ = 1.0 / (static_cast<double>(length) * rest.step_s);
-    if (rest.runs.size() == 1) {
-      power_ = signal::hann_power(rest.values, length);
-      return;
-    }
-    power_ = signal::hann_power(tapered(rest), length);
     double samples = 0.0;
     for (const Run& run : rest.runs) samples += run.size();
     reach_Hz_ = 2.0 * static_cast<double>(rest.runs.size()) / (samples * rest.step_s);
+    power_ = signal::hann_power(rest.runs.size() > 1 ? tapered(rest) : rest.values, length);
   }
 
   [[nodiscard]] std::vector<signal::MainsLine> mains(double resolution_Hz, std::span<const double> known_Hz) const {
-    return signal::find_mains(power_, bin_Hz_, resolution_Hz, known_Hz, reach_Hz_);
+    return signal::find_mains(power_, bin_Hz_, resolution_Hz, known_Hz);
   }
-  /// Distance up to which the windows of several runs spread a line.
+  /// Distance up to which the window of a run spreads a line.
   [[nodiscard]] double reach_Hz() const { return reach_Hz_; }
   /// No farther from the frequency than so much.
   [[nodiscard]] double largest_near(double frequency_Hz, double distance_Hz) const {
