@@ -94,7 +94,6 @@ class BeneathHum {
   /// A few neighbouring slips are fitted so much better beneath the mains that the fit of those seen is not needed.
   /// Where it is so much worse, all of them are not tried. For recordings of many slips.
   [[nodiscard]] bool is_sure(const Signals& seen) {
-    constexpr double kSure = 2.0;  // by which the misfit may change from a few slips to all
     look(seen);
     if (!slips_ || slips_->slips.size() < kFewSlips + 2) return false;
     const double ratio = misfit_of_few(seen.quality, *slips_) / misfit_of_few(seen.quality, seen.segmentation);
@@ -106,8 +105,8 @@ class BeneathHum {
   /// Lines of the mains in the level take up some noise by themselves: a fit beneath them has to be clearly better.
   [[nodiscard]] Estimates better_of(Estimates seen) {
     look(seen.signals);
-    if (!slips_) return seen;
     const Quality& quality = seen.signals.quality;
+    if (!slips_ || is_hopeless(quality, misfit_of(seen.fit))) return seen;
     std::optional<FitResult> other = fit_recording(recording_, quality, *slips_, options_);
     const double misfit = misfit_of(other);
     if (is_sure_ && !std::isfinite(misfit)) {
@@ -122,6 +121,7 @@ class BeneathHum {
 
  private:
   static constexpr std::size_t kFewSlips = 64;
+  static constexpr double kSure = 2.0;  // by which the misfit may change from a few slips, or a rough fit
 
   void look(const Signals& seen) {
     if (!has_looked_) slips_ = find_slips_beneath_hum(recording_, seen.quality, seen.segmentation);
@@ -132,9 +132,20 @@ class BeneathHum {
   [[nodiscard]] double misfit_of_few(const Quality& quality, const Segmentation& segmentation) const {
     Excerpt few = excerpt_of(recording_, quality, segmentation, kFewSlips);
     few.segmentation.mains_Hz = slips_->mains_Hz;
-    const auto misfit = fit::rough_misfit(few.recording, few.quality, few.segmentation, options_.held);
-    if (!misfit || 2 * misfit->cycles < kFewSlips) return std::numeric_limits<double>::infinity();
+    return rough_misfit_of(few.recording, few.quality, few.segmentation);
+  }
+
+  [[nodiscard]] double rough_misfit_of(const Recording& recording, const Quality& quality,
+                                       const Segmentation& segmentation) const {
+    const auto misfit = fit::rough_misfit(recording, quality, segmentation, options_.held);
+    if (!misfit || 2 * misfit->cycles < segmentation.slips.size()) return std::numeric_limits<double>::infinity();
     return misfit_of(misfit->relative_residual, misfit->onset_force_spread);
+  }
+
+  /// No more slips than are tried roughly in no time, and beneath the mains they fit much worse.
+  [[nodiscard]] bool is_hopeless(const Quality& quality, double misfit_seen) const {
+    return slips_->slips.size() <= kFewSlips && std::isfinite(misfit_seen) &&
+           rough_misfit_of(recording_, quality, *slips_) > kSure * misfit_seen;
   }
 
   const Recording& recording_;

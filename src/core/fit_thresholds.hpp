@@ -49,6 +49,10 @@ inline constexpr double kDriftHandicap = 10.0;
 /// in white noise]
 inline constexpr double kSureHum = 20.0;
 
+/// Power of a line over that of the strongest in the same residuals, below which it may be an image of it. [1;
+/// calibrated: images are below 0.022 for 60 simulated recordings with hum]
+inline constexpr double kHumImage = 0.1;
+
 /// Mean of the unit vectors of a line's phases at the onsets of the slips, above which it is in step with them.
 /// [1; derived: exp(-0.81 n) by chance with n cycles]
 inline constexpr double kInStep = 0.9;

@@ -35,6 +35,15 @@ double level_beside(std::span<const double> power, double bin_Hz, double resolut
   return median(std::move(beside));
 }
 
+/// The mains keeps its frequency to 0.1 %; the top of a peak is known to a fraction of the resolution.
+double tolerance_of(double resolution_Hz, double target_Hz) {
+  return std::max(0.3 * resolution_Hz, 1e-3 * target_Hz);
+}
+
+bool is_at(double frequency_Hz, double target_Hz, double resolution_Hz) {
+  return std::abs(frequency_Hz - target_Hz) <= tolerance_of(resolution_Hz, target_Hz);
+}
+
 /// Power over the median beside that makes a line: four times in amplitude, more where so many bins are looked at that
 /// noise alone would reach it (one recording in a thousand; the median of noise power is ln 2 of its mean).
 double prominence(double bins) {
@@ -50,8 +59,7 @@ double peak_offset(double before, double here, double after) {
 }
 
 std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, double resolution_Hz, double target_Hz) {
-  // The mains keeps its frequency to 0.1 %; the top of a peak is known to a fraction of the resolution.
-  const double tolerance = std::max(0.3 * resolution_Hz, 1e-3 * target_Hz);
+  const double tolerance = tolerance_of(resolution_Hz, target_Hz);
   const auto low = static_cast<std::size_t>(std::floor((target_Hz - tolerance) / bin_Hz));
   const auto high = static_cast<std::size_t>(std::ceil((target_Hz + tolerance) / bin_Hz));
   if (low < 1 || high + 1 >= power.size()) return std::nullopt;
@@ -70,14 +78,18 @@ std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, d
 
 }  // namespace
 
-std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz) {
+std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz,
+                                  std::span<const double> known_Hz) {
   std::vector<MainsLine> lines;
   const double highest_Hz = bin_Hz * (static_cast<double>(power.size()) - 2.0);
   for (const double mains_Hz : kMains_Hz) {
     bool has_lower = false;
     for (int order = 1; order <= kMostHarmonics && mains_Hz * order < highest_Hz; ++order) {
-      if (mains_Hz * order < 4.0 * resolution_Hz) continue;
-      const auto line = line_at(power, bin_Hz, resolution_Hz, mains_Hz * order);
+      const double target_Hz = mains_Hz * order;
+      if (target_Hz < 4.0 * resolution_Hz) continue;
+      has_lower = has_lower ||
+                  std::ranges::any_of(known_Hz, [&](double known) { return is_at(known, target_Hz, resolution_Hz); });
+      const auto line = line_at(power, bin_Hz, resolution_Hz, target_Hz);
       const auto same = [&](const MainsLine& other) { return other.frequency_Hz == line->frequency_Hz; };
       if (!line || std::ranges::any_of(lines, same)) continue;
       // High orders come in company: one alone is a line of something else that happens to lie there.

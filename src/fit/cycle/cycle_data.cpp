@@ -202,11 +202,17 @@ class Cutter {
 }  // namespace
 
 bool is_selected(std::size_t slip, std::size_t slips) {
-  constexpr std::size_t kRun = 32;  // neighbours, whose joined ramps halve the error of k
   constexpr std::size_t kRuns = 64;
-  const std::size_t runs = (slips + kRun - 1) / kRun;
-  const std::size_t run = slip / kRun;
-  return runs <= kRuns || (run + 1) * kRuns / runs > run * kRuns / runs;
+  constexpr double kGolden = 0.6180339887498949;  // multiples of it are spread evenly and never repeat
+  const std::size_t runs = (slips + kCyclesOfRun - 1) / kCyclesOfRun;
+  if (runs <= kRuns) return true;
+  const std::size_t run = slip / kCyclesOfRun;
+  const std::size_t part = run * kRuns / runs;
+  const std::size_t begin = (part * runs + kRuns - 1) / kRuns;
+  const std::size_t end = ((part + 1) * runs + kRuns - 1) / kRuns;
+  if (part + 1 == kRuns) return run + 1 == end;
+  const double place = kGolden * static_cast<double>(part);
+  return run == begin + static_cast<std::size_t>((place - std::floor(place)) * static_cast<double>(end - begin));
 }
 
 std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,

@@ -86,9 +86,12 @@ struct CycleData {
   [[nodiscard]] std::size_t residuals() const { return time_s.size() + 2 * (bins_before.size() + bins_after.size()); }
 };
 
-/// Whether this slip of so many is selected for the fit: of more than 2048, 64 runs of neighbours from the first to the
-/// last. Shared parameters are then known to a part in ten thousand and what limits them is not the noise; the time of
-/// a fit grows no more.
+/// Neighbours, whose joined ramps halve the error of k.
+constexpr std::size_t kCyclesOfRun = 8;
+
+/// Whether this slip of so many is selected for the fit: of more than 512, 64 runs of neighbours from the first to the
+/// last, at uneven distances, so that a line in the force has no images. What limits the shared parameters then is
+/// rarely the noise; the time of a fit grows no more.
 bool is_selected(std::size_t slip, std::size_t slips);
 
 /// Cuts the recording into cycles, those that are selected for the fit. `excluded` (in ascending order) leaves out

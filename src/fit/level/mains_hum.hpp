@@ -8,17 +8,6 @@
 
 namespace slipfit::fit {
 
-/// Frequencies of the mains lines that stand out of the residuals, and of the line in the sticks, unless they are in
-/// step with the slips. Small hum hides under the cycles' own spectrum; in the residuals it does not. Lines that the
-/// fit has already are looked at again (their hum is put back first), so that their frequency follows the better fit.
-/// Empty on an uneven clock. `residuals`: one a sample (Residuals::value), handed over because a long recording has no
-/// room for a copy.
-std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
-                             const std::vector<std::size_t>& outliers, const std::optional<StickRipple>& in_sticks);
-
-/// Where the residuals of the fit, as for find_hum, have the lines that it has already. On an even clock.
-std::vector<double> refine_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals);
-
 /// Of all fitted lines together, unit of the force; 0 without.
 double hum_amplitude(const BlockFit& fit);
 /// Of those of the mains.

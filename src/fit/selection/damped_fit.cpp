@@ -8,6 +8,7 @@
 #include "core/fit_thresholds.hpp"
 #include "fit/cycle/clock_weights.hpp"
 #include "fit/cycle/start.hpp"
+#include "fit/level/hum_search.hpp"
 #include "fit/level/mains_hum.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/clipping.hpp"
@@ -195,18 +196,19 @@ class Fitter {
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
-      const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals.value), outliers, ripple);
-      const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty();
+      const HumSearch hum = find_hum(recording_, fit, std::move(residuals.value), outliers, ripple);
+      const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && hum.lines_Hz.empty();
       if (is_clean && (pass > 0 || near_.excluded.empty())) {
         if (pass == 0) solve(fit, {held_, false, true, near_.most_iterations, kFinal});  // it was only rough so far
         return fit;
       }
       excluded_ = united(excluded_, united(outliers, censored));
-      const bool is_settled = is_same_hum(fit, lines_Hz);
-      std::optional<BlockFit> next = refit(std::move(fit), bad, lines_Hz);
+      const bool is_settled = is_same_hum(fit, hum.lines_Hz);
+      std::optional<BlockFit> next = refit(std::move(fit), bad, hum.lines_Hz);
       if (!next) return std::nullopt;
       fit = std::move(*next);
       if (is_settled) break;
+      if (hum.others_wait) continue;
       const double hum_power = 0.5 * std::pow(hum_amplitude(fit), 2);
       if (hum_power < thresholds::kBlurringHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
     }

@@ -6,6 +6,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "fit/cycle/side_by_side.hpp"
+#include "fit/level/add_hum.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -69,15 +70,14 @@ class ResidualsOfCycles {
     const CycleModel& model = fit_.model(cycle);
     const double* const level = fit_.level_data();
     const double* const local = fit_.parameters.cycles[cycle].data();
-    const bool hums = !fit_.level().lines_Hz.empty();
     const bool rises = fit_.level().reloading != nullptr;
     for (std::size_t i = begin; i < end; ++i) {
       const double t_s = recording_.time_s()[i];
       result_.value[i] = recording_.force()[i] - (model.level_at(t_s, level, local) + force_at(t_s));
-      if (hums) result_.value[i] -= model.hum_at(t_s, level);
       if (rises) result_.value[i] -= model.rise_at(t_s, level);
       result_.part[i] = part;
     }
+    add_hum(recording_, fit_, begin, end, -1.0, result_.value);
   }
 
   const Recording& recording_;

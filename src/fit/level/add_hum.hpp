@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fit/problem/block_fit.hpp"
+#include "slipfit/core/recording.hpp"
+
+namespace slipfit::fit {
+
+/// The fitted hum at the samples [begin, end) of an even clock, `factor` times, on top of the values that are not 0.
+void add_hum(const Recording& recording, const BlockFit& fit, std::size_t begin, std::size_t end, double factor,
+             std::vector<double>& values);
+
+}  // namespace slipfit::fit
