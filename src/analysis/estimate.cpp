@@ -132,7 +132,7 @@ class BeneathHum {
   [[nodiscard]] double misfit_of_few(const Quality& quality, const Segmentation& segmentation) const {
     Excerpt few = excerpt_of(recording_, quality, segmentation, kFewSlips);
     few.segmentation.mains_Hz = slips_->mains_Hz;
-    const auto misfit = fit::rough_misfit(few.recording, few.quality, few.segmentation, options_.held);
+    const auto misfit = fit::rough_misfit({few.recording, few.quality, few.segmentation, options_.held});
     if (!misfit || 2 * misfit->cycles < kFewSlips) return std::numeric_limits<double>::infinity();
     return misfit_of(misfit->relative_residual, misfit->onset_force_spread);
   }

@@ -7,9 +7,8 @@
 
 namespace slipfit::fit {
 
-std::optional<RoughMisfit> rough_misfit(const Recording& recording, const Quality& quality,
-                                        const Segmentation& segmentation, const HeldParameters& held) {
-  const std::optional<BlockFit> fit = rough_fit(recording, quality, segmentation, held);
+std::optional<RoughMisfit> rough_misfit(const FitInput& few) {
+  const std::optional<BlockFit> fit = rough_fit(few);
   if (!fit) return std::nullopt;
   const auto cycles = static_cast<double>(fit->size());
   double mean = 0.0;

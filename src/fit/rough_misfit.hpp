@@ -3,10 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "slipfit/core/recording.hpp"
-#include "slipfit/fit/parameter.hpp"
-#include "slipfit/signal/cycles.hpp"
-#include "slipfit/signal/quality.hpp"
+#include "fit/selection/fit_input.hpp"
 
 namespace slipfit::fit {
 
@@ -18,7 +15,6 @@ struct RoughMisfit {
 };
 
 /// Of few slips. Empty where there is no fit.
-std::optional<RoughMisfit> rough_misfit(const Recording& recording, const Quality& quality,
-                                        const Segmentation& segmentation, const HeldParameters& held);
+std::optional<RoughMisfit> rough_misfit(const FitInput& few);
 
 }  // namespace slipfit::fit

@@ -27,16 +27,27 @@ constexpr double kBeyondSlip = 2.0;    // where the sum still falls at the large
 constexpr double kShareStep = 0.1;
 constexpr int kMinimumBits = 6;
 
+/// Whether zeta = 0, at which this fit has been solved, is better than any above it: where all else is at its best, a
+/// small step tells.
+bool is_best_undamped(BlockFit fit) {
+  constexpr double kStep = 1e-3;
+  const double sum = sum_of_squares(fit);
+  fit.parameters.globals[kDamping] = kStep;
+  return !(sum_of_squares(fit) < sum);
+}
+
 }  // namespace
 
-KernelSearch::KernelSearch(const Recording& recording, const Segmentation& segmentation, const HeldParameters& held,
-                           const DampedFit& plain, double half_width_s, std::size_t count)
-    : segmentation_(segmentation), held_(held_of(held)), step_s_(recording.sample_interval_s()), plain_(plain.blocks) {
+KernelSearch::KernelSearch(const FitInput& input, const DampedFit& plain, double half_width_s, std::size_t count)
+    : segmentation_(input.segmentation),
+      held_(held_of(input.held)),
+      step_s_(input.recording.sample_interval_s()),
+      plain_(plain.blocks) {
   const Scales& scales = plain_.scales();
   const HumLines hum{plain_.level().lines_Hz, scales.time_begin_s};
   std::vector<CycleData> cycles = spread_subset(
-      same_cycles_of(plain_, cut_cycles(recording, segmentation, half_width_s, plain.excluded, hum)), count);
-  std::vector<double> middles = middles_s(segmentation, cycles);
+      same_cycles_of(plain_, cut_cycles(input.recording, segmentation_, half_width_s, plain.excluded, hum)), count);
+  std::vector<double> middles = middles_s(segmentation_, cycles);
   for (std::size_t i = 0; i < cycles.size(); ++i) {
     cycles[i] = thinned(std::move(cycles[i]), middles[i], scales.half_period_s, step_s_);
   }
@@ -49,6 +60,7 @@ std::vector<KernelSearch::Least> KernelSearch::minima(double least_gain) const {
   std::vector<double> shares{0.0, 0.125 * kShareStep, 0.25 * kShareStep, 0.5 * kShareStep};
   for (double share = kShareStep; share < kLargestShare; share += kShareStep) shares.push_back(share);
   std::vector<Least> scan;
+  scan.reserve(shares.size());
   Least start;
   start.parameters = started().parameters;
   for (const double share : shares) scan.push_back(at(share * seen_s2, scan.empty() ? start : scan.back()));
@@ -156,15 +168,6 @@ BlockFit KernelSearch::started() const {
   set_start(fit, segmentation_, globals);
   fit.parameters.level = plain_.parameters.level;
   return with_rise_after(fit, plain_.scales());
-}
-
-/// Whether zeta = 0, at which this fit has been solved, is better than any above it: where all else is at its best, a
-/// small step tells.
-bool KernelSearch::is_best_undamped(BlockFit fit) const {
-  constexpr double kStep = 1e-3;
-  const double sum = sum_of_squares(fit);
-  fit.parameters.globals[kDamping] = kStep;
-  return !(sum_of_squares(fit) < sum);
 }
 
 /// What is held at the solution: zeta at 0 where its best value is negative. Empty: no solution.
