@@ -15,7 +15,6 @@
 #include "core/parallel.hpp"
 #include "core/thresholds.hpp"
 #include "fit/fit_unless.hpp"
-#include "fit/rough_misfit.hpp"
 
 namespace slipfit {
 namespace {

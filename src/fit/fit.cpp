@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "core/quantile.hpp"
 #include "fit/contact/contact_fit.hpp"
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/fit_unless.hpp"
@@ -212,6 +213,17 @@ std::optional<FitResult> fit::fit_unless(const std::function<bool()>& is_other_k
   result.warnings = one_of_each_code(result.warnings);
   if (options.curve) result.curve = curve_of(recording, chosen.blocks);
   return result;
+}
+
+std::optional<fit::RoughMisfit> fit::rough_misfit(const FitInput& few) {
+  const std::optional<BlockFit> fit = rough_fit(few);
+  if (!fit) return std::nullopt;
+  std::vector<double> onset_forces;
+  for (const Local& local : fit->parameters.cycles) onset_forces.push_back(local[1]);
+  const MeanAndSpread onset = describe(onset_forces);
+  const Scales& scales = fit->scales();
+  return RoughMisfit{scales.noise * std::sqrt(reduced_chi2(*fit)) / std::abs(scales.force * onset.mean),
+                     onset.sd / std::abs(onset.mean), fit->size()};
 }
 
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/fit_thresholds.hpp"
-#include "fit/inference/student.hpp"
+#include "core/student.hpp"
 #include "model/reloading.hpp"
 
 namespace slipfit::predict {
@@ -64,7 +64,7 @@ ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s) {
 }
 
 Propagation::Propagation(const ModelEstimate& model)
-    : model_(model), quantile_(fit::t_quantile(model_.degrees_of_freedom)) {}
+    : model_(model), quantile_(t_quantile(model_.degrees_of_freedom)) {}
 
 double Propagation::standard_error(const Jet& y) const {
   double variance = 0.0;
@@ -93,11 +93,11 @@ std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_p
   ModelEstimate wider = model;
   constexpr std::size_t kDifference = place_in_model(ParameterId::FrictionDifference);
   wider.covariance[kDifference][kDifference] +=
-      std::pow(model.reach->half_width_at(speed_m_per_s) / fit::t_quantile(model.degrees_of_freedom), 2);
+      std::pow(model.reach->half_width_at(speed_m_per_s) / t_quantile(model.degrees_of_freedom), 2);
   if (model.stiffness_trend) {
     // It may end there, or double.
     const double half_width = model.stiffness_trend->exponent * model.reach->distance_beyond(speed_m_per_s);
-    const double variance = std::pow(half_width / fit::t_quantile(model.degrees_of_freedom), 2);
+    const double variance = std::pow(half_width / t_quantile(model.degrees_of_freedom), 2);
     for (std::size_t i = 0; i < kShare.size(); ++i) {
       for (std::size_t j = 0; j < kShare.size(); ++j) wider.covariance[i][j] += kShare[i] * kShare[j] * variance;
     }

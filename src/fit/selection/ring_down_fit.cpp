@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
+#include "core/student.hpp"
 #include "fit/inference/smoothing.hpp"
-#include "fit/inference/student.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/fitted_average.hpp"

@@ -10,6 +10,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/parallel.hpp"
+#include "core/quantile.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/problem/block_fit.hpp"
 #include "signal/robust.hpp"
@@ -158,19 +159,12 @@ class SweepFitter {
   /// With k that goes with the speed, where one k of all does not explain the recordings.
   [[nodiscard]] std::optional<SweepSolution> with_growing_stiffness(const SweepSolution& same) const {
     const bool may_grow = !fixed_.stiffness_N_per_m && same.recordings.size() >= thresholds::kStiffnessRecordings &&
-                          span_of_speeds(same) > thresholds::kAgeingSpeedRatio;
+                          ratio_of_ends(same.speeds_m_per_s()) > thresholds::kAgeingSpeedRatio;
     if (!may_grow) return std::nullopt;
     const std::optional<SweepSolution> growing = with_exponent(same, same.held);
     if (!growing || !(chance(same.chi2 - growing->chi2, 1.0, *growing) < thresholds::kLawChance)) return std::nullopt;
     std::optional<SweepSolution> sharing = with_shares({FrictionLaw::Coulomb, true}, {true, true});
     return sharing ? std::optional(at_best_average(data_, *std::move(sharing))) : std::nullopt;
-  }
-
-  static double span_of_speeds(const SweepSolution& solution) {
-    std::vector<double> speeds;
-    for (const BlockFit& recording : solution.recordings) speeds.push_back(recording.scales().speed_m_per_s);
-    const auto [slowest, fastest] = std::minmax_element(speeds.begin(), speeds.end());
-    return *fastest / *slowest;
   }
 
   /// Of so much more misfit by what the recordings share.

@@ -62,6 +62,12 @@ std::size_t SweepSolution::cycles() const {
   return count;
 }
 
+std::vector<double> SweepSolution::speeds_m_per_s() const {
+  std::vector<double> speeds;
+  for (const BlockFit& recording : recordings) speeds.push_back(recording.scales().speed_m_per_s);
+  return speeds;
+}
+
 double solve(SweepSolution& solution, const Held& held, int max_iterations, double tolerance) {
   return solve_together(solution.recordings, solution.sweep, {held, false, true, max_iterations, tolerance});
 }

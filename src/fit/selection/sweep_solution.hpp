@@ -20,6 +20,8 @@ struct SweepSolution {
 
   [[nodiscard]] Problem problem() const { return {recordings, sweep}; }
   [[nodiscard]] std::size_t cycles() const;
+  /// Of the recordings' speeds, in their order.
+  [[nodiscard]] std::vector<double> speeds_m_per_s() const;
   [[nodiscard]] const Population& population(std::size_t recording) const {
     return *recordings[recording].scales().population;
   }
