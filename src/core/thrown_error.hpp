@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -16,5 +17,11 @@ class ThrownError : public std::runtime_error {
  private:
   Error error_;
 };
+
+template <class T>
+T value_or_throw(Result<T> result) {
+  if (!result) throw ThrownError(result.error());
+  return std::move(result).value();
+}
 
 }  // namespace slipfit
