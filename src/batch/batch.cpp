@@ -92,11 +92,7 @@ BatchOutcome run_or_throw(const BatchOptions& options, const BatchHooks& hooks) 
 }  // namespace
 
 Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& hooks) {
-  try {
-    return run_or_throw(options, hooks);
-  } catch (const ThrownError& refused) {
-    return refused.error();
-  }
+  return result_of([&] { return run_or_throw(options, hooks); });
 }
 
 }  // namespace slipfit

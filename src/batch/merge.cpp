@@ -168,11 +168,7 @@ BatchProgress merge_or_throw(const std::vector<fs::path>& shards, const fs::path
 }  // namespace
 
 Result<BatchProgress> merge_batches(const std::vector<fs::path>& shards, const fs::path& folder) {
-  try {
-    return merge_or_throw(shards, folder);
-  } catch (const ThrownError& refused) {
-    return refused.error();
-  }
+  return result_of([&] { return merge_or_throw(shards, folder); });
 }
 
 }  // namespace slipfit

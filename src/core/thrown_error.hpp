@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +16,16 @@ class ThrownError : public std::runtime_error {
  private:
   Error error_;
 };
+
+/// What `make()` returns, or the error that it throws.
+template <class Make>
+auto result_of(const Make& make) -> Result<decltype(make())> {
+  try {
+    return make();
+  } catch (const ThrownError& thrown) {
+    return thrown.error();
+  }
+}
 
 template <class T>
 T value_or_throw(Result<T> result) {
