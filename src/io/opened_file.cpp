@@ -82,7 +82,7 @@ void make_forces(Rows& rows, Choice& choice, const Layout& layout) {
 OpenedFile open_file(const std::filesystem::path& path, const ReadOptions& options) {
   OpenedFile file;
   file.name = name_of_file(path);
-  file.source = value_or_throw(TextSource::open(path, {options.sheet, options.variable}));
+  file.source = TextSource::open(path, {options.sheet, options.variable});
   file.layout = layout_of_head(*file.source, file.name);
   return file;
 }

@@ -16,7 +16,7 @@ ThrownError damaged_surface(const SurfaceFile& file, const std::string& what) {
 }
 
 std::string whole_file(const SurfaceFile& file, std::size_t most) {
-  auto bytes = reading::read_all(*value_or_throw(reading::open_plain(file.path)).bytes, most);
+  auto bytes = reading::read_all(*reading::open_plain(file.path).bytes, most);
   if (!bytes) throw map_too_large(file.name);
   return *std::move(bytes);
 }
@@ -66,7 +66,7 @@ Result<Profile> read_profile(const std::filesystem::path& path, const ProfileOpt
   const surface::SurfaceFile file{path, reading::printable(path.string())};
   return reading::with_errors_of_reading(file.name, [&] {
     std::array<char, 16> start{};
-    const std::size_t size = value_or_throw(reading::open_plain(path)).bytes->read(start.data(), start.size());
+    const std::size_t size = reading::open_plain(path).bytes->read(start.data(), start.size());
     surface::Magic found;
     for (const surface::Magic& magic : surface::kMagics) {
       if (std::string_view(start.data(), size).starts_with(magic.start)) found = magic;

@@ -76,7 +76,7 @@ std::string linked(const X3p& x3p, const char* link, std::size_t most) {
   if (name.empty() || x3p.archive.find(name) == nullptr) {
     throw damaged_surface(x3p.file, "it names a part '" + reading::printable(name) + "' that it does not hold");
   }
-  return value_or_throw(x3p.archive.content(name, most));
+  return x3p.archive.content(name, most);
 }
 
 /// A bit of each point: whether it was measured.
@@ -160,8 +160,8 @@ HeightMap map_of(X3p& x3p) {
 }
 
 ZipArchive open_archive(const SurfaceFile& file) {
-  reading::TextStream bytes = value_or_throw(reading::open_plain(file.path));
-  return value_or_throw(ZipArchive::open(value_or_throw(reading::read_all(bytes, file.name)), file.name));
+  reading::TextStream bytes = reading::open_plain(file.path);
+  return ZipArchive::open(reading::read_all(bytes, file.name), file.name);
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ HeightMap read_x3p(const SurfaceFile& file) {
         {"not_a_surface",
          file.name + ": a zip archive without main.xml, which is no X3P file; give X3P, SDF, text or an image"});
   }
-  const std::string xml = value_or_throw(archive.content("main.xml", kMostXml));
+  const std::string xml = archive.content("main.xml", kMostXml);
   X3p x3p{file, archive, {}, {}, {}, {}, {}, 0, 1, {}};
   if (!x3p.document.load_buffer(xml.data(), xml.size(), pugi::parse_minimal | pugi::parse_escapes)) {
     throw damaged_surface(file, "its main.xml is no XML");
@@ -191,7 +191,7 @@ HeightMap read_x3p(const SurfaceFile& file) {
 #else
 
 HeightMap read_x3p(const SurfaceFile& file) {
-  throw ThrownError(reading::not_built_in(file.name, "an X3P file", "zlib1g-dev, libminizip-dev and libpugixml-dev"));
+  throw reading::not_built_in(file.name, "an X3P file", "zlib1g-dev, libminizip-dev and libpugixml-dev");
 }
 
 #endif
