@@ -80,7 +80,7 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   const double speed_error = conditions.speed_standard_error_m_per_s.value_or(0.0) / speed;
   const ModelEstimate model = at_the_measured_speed(*fit.estimate, speed_error);
   const predict::Propagation propagation(model);
-  const predict::ModelJets p = predict::jets_of(model);
+  const predict::ModelJets p(model);
   const predict::Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed);  // [Paper] eq. (9)
   derived.lambda = propagation.positive(lambda);
   predict::CriticalPoint critical = predict::critical_point(model);
