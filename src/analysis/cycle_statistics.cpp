@@ -9,6 +9,7 @@
 #include "core/quantile.hpp"
 #include "core/student.hpp"
 #include "core/thresholds.hpp"
+#include "core/unknown.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -27,7 +28,7 @@ Estimate stick_stiffness(const Recording& recording, const Segmentation& segment
     const auto of = [&](std::span<const double> values) { return values.subspan(begin + fifth, 3 * fifth); };
     slopes.push_back(line_sums(of(recording.time_s()), of(recording.force())).slope() / speed_m_per_s);
   }
-  if (slopes.size() < thresholds::kFewestSlips) return {{}, {}, {}, "too few sticks"};
+  if (slopes.size() < thresholds::kFewestSlips) return unknown("too few sticks");
   const double middle = signal::median(slopes);
   std::vector<double> off;
   off.reserve(slopes.size());

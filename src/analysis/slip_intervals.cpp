@@ -8,6 +8,7 @@
 
 #include "core/student.hpp"
 #include "core/thresholds.hpp"
+#include "core/unknown.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -123,7 +124,7 @@ Intervals intervals_of(const Recording& recording, const Segmentation& segmentat
 Estimate count_frequency(const Recording& recording, const Segmentation& segmentation) {
   const std::vector<double> intervals_s = intervals_of(recording, segmentation).seconds;
   const MeanAndSpread interval = describe(intervals_s);
-  if (interval.count < 1.0) return {std::nullopt, std::nullopt, std::nullopt, "fewer than 3 slips"};
+  if (interval.count < 1.0) return unknown("fewer than 3 slips");
   const double value = 1.0 / interval.mean;
   if (interval.count < 2.0) return {value, std::nullopt, std::nullopt, "one interval tells no error"};
   return symmetric(value, value * relative_error(intervals_s, interval), interval.count - 1.0);

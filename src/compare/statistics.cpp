@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/student.hpp"
+#include "core/unknown.hpp"
 
 namespace slipfit::comparing {
 namespace {
@@ -125,8 +126,8 @@ Estimate difference_of(const Pair& pair) {
 Estimate ratio_of(const Pair& pair) {
   const Reach& a = pair.a;
   const Reach& b = pair.b;
-  if (!(a.value - a.down > 0.0)) return {{}, {}, {}, "A may be 0 or below"};
-  if (!(b.value >= 0.0)) return {{}, {}, {}, "B is below 0"};
+  if (!(a.value - a.down > 0.0)) return unknown("A may be 0 or below");
+  if (!(b.value >= 0.0)) return unknown("B is below 0");
   const double ratio = b.value / a.value;
   const double product = a.value * b.value;
   const auto root = [&](double reach_a, double reach_b) {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
-#include "core/quantile.hpp"
 #include "core/student.hpp"
 #include "fit/inference/sliding_model.hpp"
 
@@ -47,11 +46,6 @@ VectorXd log_sticks(const SweepSolution& solution) {
     logs(i) = std::log((cycle && cycle->stick_s.a > 0.0 ? cycle->stick_s.a : ramp_s) / units.stick_s);
   }
   return logs;
-}
-
-bool can_show_trend(const SweepSolution& solution) {
-  return solution.recordings.size() >= thresholds::kTrendRecordings &&
-         ratio_of_ends(solution.speeds_m_per_s()) > thresholds::kAgeingSpeedRatio;
 }
 
 /// Squared standard errors of the recordings' own F_s - F_k(0+), in its unit: by the scatter over their cycles.
@@ -242,7 +236,7 @@ AgeingLine ageing_line(const SweepSolution& solution, const AgeingCutoff& cutoff
 StaticFriction static_friction_of(const SweepSolution& solution) {
   const VectorXd differences = differences_of(solution);
   const VectorXd speeds = log_speeds(solution);
-  if (solution.sweep.sharing.difference || !can_show_trend(solution)) return std::nullopt;
+  if (solution.sweep.sharing.difference || !solution.can_show_trend()) return std::nullopt;
   const Line line = line_over(speeds, differences);
   if (!(line.slope < 0.0)) return std::nullopt;
   const double freedom = static_cast<double>(differences.size()) - 2.0;
@@ -254,7 +248,7 @@ StaticFriction static_friction_of(const SweepSolution& solution) {
 SpeedReach reach_of(const SweepSolution& solution) {
   const VectorXd speeds = log_speeds(solution);
   SpeedReach reach{std::exp(speeds.minCoeff()), std::exp(speeds.maxCoeff()), std::nullopt};
-  if (!can_show_trend(solution)) return reach;
+  if (!solution.can_show_trend()) return reach;
   if (solution.sweep.sharing.difference) {
     const double sum = (speeds.array() - speeds.mean()).square().sum();
     const double slope_error =

@@ -10,7 +10,6 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/parallel.hpp"
-#include "core/quantile.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/problem/block_fit.hpp"
 #include "signal/robust.hpp"
@@ -158,8 +157,7 @@ class SweepFitter {
 
   /// With k that goes with the speed, where one k of all does not explain the recordings.
   [[nodiscard]] std::optional<SweepSolution> with_growing_stiffness(const SweepSolution& same) const {
-    const bool may_grow = !fixed_.stiffness_N_per_m && same.recordings.size() >= thresholds::kStiffnessRecordings &&
-                          ratio_of_ends(same.speeds_m_per_s()) > thresholds::kAgeingSpeedRatio;
+    const bool may_grow = !fixed_.stiffness_N_per_m && same.can_show_trend(thresholds::kStiffnessRecordings);
     if (!may_grow) return std::nullopt;
     const std::optional<SweepSolution> growing = with_exponent(same, same.held);
     if (!growing || !(chance(same.chi2 - growing->chi2, 1.0, *growing) < thresholds::kLawChance)) return std::nullopt;
@@ -196,7 +194,7 @@ std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& op
   HeldParameters held = options.held;
   std::vector<double> logs;
   for (const std::size_t i : data.fitted) logs.push_back(data.single[i]->blocks.parameters.globals[kLogStiffness]);
-  double stiffness = std::exp(median(std::move(logs)));
+  double stiffness = std::exp(signal::median(std::move(logs)));
   const auto log_stiffness = [](const SweepSolution& solution) {
     return solution.recordings.front().parameters.globals[kLogStiffness];
   };

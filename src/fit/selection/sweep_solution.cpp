@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/quantile.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/problem/solve.hpp"
 
@@ -66,6 +67,10 @@ std::vector<double> SweepSolution::speeds_m_per_s() const {
   std::vector<double> speeds;
   for (const BlockFit& recording : recordings) speeds.push_back(recording.scales().speed_m_per_s);
   return speeds;
+}
+
+bool SweepSolution::can_show_trend(std::size_t fewest) const {
+  return recordings.size() >= fewest && ratio_of_ends(speeds_m_per_s()) > thresholds::kTrendSpeedRatio;
 }
 
 double solve(SweepSolution& solution, const Held& held, int max_iterations, double tolerance) {
