@@ -124,9 +124,8 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
   // A repetition near the count may be that of the slips, with some hidden or made by hum. One far from it is another
   // thing: pick-up, ringing.
   const bool near = difference && *difference < thresholds::kAnotherThing;
-  const bool far = !difference || *difference > thresholds::kContradiction;
-  const bool contradict =
-      far && (noise_hides_slips(signals) || (near && may_be_hum(signals)) || (!difference && hum_makes_falls(signals)));
+  const bool contradict = !agree && (noise_hides_slips(signals) || (near && may_be_hum(signals)) ||
+                                     (!difference && hum_makes_falls(signals)));
   const bool hidden =
       classification.motion == MotionClass::OscillatorySlip && !agree;  // the count may be of noise or of hum
   if (classification.dies_out && !agree) {

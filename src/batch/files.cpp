@@ -52,7 +52,7 @@ CheckedFile::CheckedFile(fs::path file, int descriptor) : name(std::move(file)),
 }
 
 bool CheckedFile::check(bool succeeded) {
-  if (!succeeded && !error) error = cannot_write(name, errno);
+  if (!succeeded && !error) error = cannot_write(name, errno).error();
   return !error;
 }
 
@@ -75,7 +75,7 @@ void CheckedFile::sync_folder() {
 }
 
 void CheckedFile::throw_error() const {
-  if (error) throw *error;
+  if (error) throw ThrownError(*error);
 }
 
 void remove_leftovers(const fs::path& folder, const std::function<bool(std::string_view name)>& is_ours) {

@@ -46,7 +46,7 @@ struct CheckedFile {
 
   std::filesystem::path name;
   FileHandle handle;
-  std::optional<ThrownError> error;
+  std::optional<Error> error;
 };
 
 /// Removes the temporary files that a killed process left; `is_ours` is asked for the name of the file that each would

@@ -154,7 +154,7 @@ void Run::wait_and_watch() {
 
 void Run::take_answers() {
   for (const Answer& answer : pool_.wait(kWatchInterval)) {
-    take(std::move(at_work_.extract(answer.job).mapped()), answer);
+    take(at_work_.extract(answer.job).mapped(), answer);
   }
 }
 

@@ -43,7 +43,7 @@ std::optional<Channel> choose_displacement(const Layout& layout, const Choice& c
     const Column& column = layout.columns[c];
     if (column.name.role != Role::Displacement || !column.is_numeric() || column.name.unit.empty()) continue;
     if (c == choice.force.column || (choice.time && c == choice.time->column)) continue;
-    if (const auto channel = channel_in(layout, c, Dimension::Length)) return channel;
+    if (auto channel = channel_in(layout, c, Dimension::Length)) return channel;
   }
   return std::nullopt;
 }
@@ -71,7 +71,7 @@ std::optional<Channel> choose_normal_force(const Layout& layout, const ReadOptio
     return column ? channel_in(layout, *column, Dimension::Force) : std::nullopt;
   }
   const std::size_t column = find_column(layout, *options.normal_force_column, "--normal-force-column", file);
-  const auto channel = channel_in(layout, column, Dimension::Force);
+  auto channel = channel_in(layout, column, Dimension::Force);
   if (!channel) throw side_unit_error(layout, column, file, "a unit of force");
   return channel;
 }
@@ -84,7 +84,7 @@ std::optional<Channel> choose_speed(const Layout& layout, const ReadOptions& opt
     return column ? speed_channel(layout, *column, options.radius_m) : std::nullopt;
   }
   const std::size_t column = find_column(layout, *options.speed_column, "--speed-column", file);
-  const auto channel = speed_channel(layout, column, options.radius_m);
+  auto channel = speed_channel(layout, column, options.radius_m);
   if (!channel) throw side_unit_error(layout, column, file, "a unit of speed, nor of rotation with a --radius");
   return channel;
 }

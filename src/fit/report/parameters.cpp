@@ -67,9 +67,7 @@ class Reporter {
     add(id, estimate, graded(id, estimate, doubt), std::move(note));
   }
   void add_held(Id id, double value) { add(id, {value, 0.0, Interval{value, value}, {}}, ParameterStatus::Fixed); }
-  void add_unknown(Id id, const std::string& why) {
-    add(id, unknown(why), ParameterStatus::Unidentified);
-  }
+  void add_unknown(Id id, const std::string& why) { add(id, unknown(why), ParameterStatus::Unidentified); }
 
   [[nodiscard]] Id in_unit(Id force, Id coefficient) const { return f_.in_newtons ? force : coefficient; }
 

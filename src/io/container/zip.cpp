@@ -137,25 +137,25 @@ const ZipMember* ZipArchive::find(const std::string& member) const {
   return found == members_.end() ? nullptr : &*found;
 }
 
-std::unique_ptr<ByteStream> ZipArchive::stream(ZipArchive archive, const std::string& member) {
-  unzFile const file = archive.handle_->file;
-  const ZipMember* const found = archive.find(member);
+std::unique_ptr<ByteStream> ZipArchive::stream(const std::string& member) const {
+  unzFile const file = handle_->file;
+  const ZipMember* const found = find(member);
   if (found == nullptr || unzLocateFile(file, member.c_str(), 1) != UNZ_OK || unzOpenCurrentFile(file) != UNZ_OK) {
-    throw damaged(archive.name_, fmt::format("'{}' in it cannot be unpacked (encrypted, damaged, or packed by another "
-                                             "method than deflate)",
-                                             printable(member)));
+    throw damaged(name_, fmt::format("'{}' in it cannot be unpacked (encrypted, damaged, or packed by another "
+                                     "method than deflate)",
+                                     printable(member)));
   }
-  return std::make_unique<MemberStream>(file, archive.handle_, archive.name_, found->stored);
+  return std::make_unique<MemberStream>(file, handle_, name_, found->stored);
 }
 
 std::string ZipArchive::content(const std::string& member, std::size_t most) const {
-  auto text = read_all(*stream(*this, member), most);
+  auto text = read_all(*stream(member), most);
   if (!text) throw too_large(name_);
   return *std::move(text);
 }
 
 TextStream open_zip(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  ZipArchive archive = ZipArchive::open(read_all(packed, name), name);
+  const ZipArchive archive = ZipArchive::open(read_all(packed, name), name);
   if (archive.find("xl/workbook.xml") != nullptr) return open_workbook(archive, name, choice);
   std::vector<std::string> names;
   for (const ZipMember& member : archive.members()) {
@@ -170,7 +170,7 @@ TextStream open_zip(TextStream packed, const std::string& name, const ContainerC
   }
   const std::string member = names[choice.sheet ? find_named(names, *choice.sheet, name) : 0];
   TextStream text;
-  text.bytes = ZipArchive::stream(std::move(archive), member);
+  text.bytes = archive.stream(member);
   text.assumed.push_back(fmt::format("The file is packed (zip): '{}' was read.", printable(member)));
   return text;
 }

@@ -23,8 +23,8 @@ class ZipArchive {
 
   [[nodiscard]] const std::vector<ZipMember>& members() const { return members_; }
   [[nodiscard]] const ZipMember* find(const std::string& member) const;
-  /// One at a time; the archive goes into it.
-  static std::unique_ptr<ByteStream> stream(ZipArchive archive, const std::string& member);
+  /// One at a time; it keeps what the archive rests on.
+  [[nodiscard]] std::unique_ptr<ByteStream> stream(const std::string& member) const;
   /// The whole of a member of at most `most` bytes. Errors: damaged_container, container_too_large.
   [[nodiscard]] std::string content(const std::string& member, std::size_t most) const;
 
