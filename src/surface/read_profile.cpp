@@ -62,17 +62,17 @@ Profile read(const SurfaceFile& file, const Magic& magic, const ProfileOptions& 
 }  // namespace
 }  // namespace surface
 
-Result<Profile> read_profile(const std::filesystem::path& path, const ProfileOptions& options) {
-  const surface::SurfaceFile file{path, reading::printable(path.string())};
-  return reading::with_errors_of_reading(file.name, [&] {
+Result<Profile> read_profile(const std::filesystem::path& file, const ProfileOptions& options) {
+  const surface::SurfaceFile opened{file, reading::printable(file.string())};
+  return reading::with_errors_of_reading(opened.name, [&] {
     std::array<char, 16> start{};
-    const std::size_t size = reading::open_plain(path).bytes->read(start.data(), start.size());
+    const std::size_t size = reading::open_plain(file).bytes->read(start.data(), start.size());
     surface::Magic found;
     for (const surface::Magic& magic : surface::kMagics) {
       if (std::string_view(start.data(), size).starts_with(magic.start)) found = magic;
     }
-    Profile profile = surface::read(file, found, options);
-    profile.file = file.name;
+    Profile profile = surface::read(opened, found, options);
+    profile.file = opened.name;
     return profile;
   });
 }

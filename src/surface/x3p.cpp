@@ -130,17 +130,18 @@ std::vector<double> listed_heights(X3p& x3p) {
 void read_sizes(X3p& x3p) {
   const pugi::xml_node matrix = x3p.record3.child("MatrixDimension");
   const auto size = [](const pugi::xml_node& node) { return static_cast<std::size_t>(node.text().as_ullong()); };
-  x3p.columns = matrix ? size(matrix.child("SizeX")) : size(x3p.record3.child("ListDimension"));
-  x3p.rows = matrix ? size(matrix.child("SizeY")) : 1;
+  const bool is_grid = !matrix.empty();
+  x3p.columns = is_grid ? size(matrix.child("SizeX")) : size(x3p.record3.child("ListDimension"));
+  x3p.rows = is_grid ? size(matrix.child("SizeY")) : 1;
   if (x3p.columns == 0 || x3p.rows == 0) throw damaged_surface(x3p.file, "it does not say how many points it holds");
-  if (matrix && size(matrix.child("SizeZ")) > 1) {
+  if (is_grid && size(matrix.child("SizeZ")) > 1) {
     throw damaged_surface(x3p.file, "it holds several layers, and a surface is one");
   }
   if (x3p.columns > kMostPoints || x3p.rows > kMostPoints / x3p.columns) throw map_too_large(x3p.file.name);
 }
 
 HeightMap map_of(X3p& x3p) {
-  std::vector<double> heights = x3p.record3.child("DataLink") ? binary_heights_of(x3p) : listed_heights(x3p);
+  std::vector<double> heights = x3p.record3.child("DataLink").empty() ? listed_heights(x3p) : binary_heights_of(x3p);
   HeightMap map{x3p.columns, x3p.rows, x3p.x.increment, x3p.y.increment, std::move(heights), true};
   if (x3p.x.is_absolute && x3p.rows == 1) {
     Profile even = value_or_throw(profile_of(std::move(x3p.places_m), std::move(map.values), x3p.file.name));
