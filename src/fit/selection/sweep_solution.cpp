@@ -134,7 +134,7 @@ std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& h
 
 std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate global, double change) {
   SweepSolution other = solution;
-  for (BlockFit& recording : other.recordings) recording.parameters.globals[global] += change;
+  for (BlockFit& recording : other.recordings) recording.parameters.globals[static_cast<std::size_t>(global)] += change;
   return at_minimum(std::move(other), solution.held);
 }
 
