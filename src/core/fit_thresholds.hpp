@@ -87,6 +87,9 @@ inline constexpr double kNegativeSigmas = 2.5;
 /// chance]
 inline constexpr double kWhiteSigmas = 4.0;
 
+/// Relative standard error of alpha, from which on its interval comes from a profile. [1; calibrated: sweep_coverage]
+inline constexpr double kKnownRate = 0.15;
+
 /// Standard errors over the cycles of the mean residual in a part of the slip, beyond which the slip is not shaped like
 /// the model's. [1; derived: 5e-5 by chance in eight parts]
 inline constexpr double kMisfitSigmas = 4.5;

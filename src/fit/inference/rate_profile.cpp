@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/fit_thresholds.hpp"
 #include "core/parallel.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/intervals.hpp"
@@ -96,7 +97,7 @@ AlongRate profile_rate(const SweepSolution& solution, const StaticFriction& kind
   if (!(variance > 0.0)) return result;
   const double quantile = t_quantile(spread.degrees_of_freedom);
   Sides sides;
-  if (!solution.held[kFrictionRate]) {
+  if (!solution.held[kFrictionRate] && std::sqrt(variance) >= thresholds::kKnownRate * std::abs(best(kFrictionRate))) {
     const auto side_of = [&](std::size_t i) { return points_on(solution, kind, best, quantile, i == 0 ? -1.0 : 1.0); };
     std::vector<std::vector<Point>> both = in_parallel(2, side_of);
     sides = {std::move(both[0]), std::move(both[1])};
