@@ -14,6 +14,7 @@
 #include "analysis/ring_down.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/sweep_checks.hpp"
+#include "core/unknown.hpp"
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/selection/qualify.hpp"
 #include "slipfit/surface/comparison.hpp"
@@ -52,7 +53,7 @@ Derived derive(const Recording& recording, const Analysis& analysis) {
   Derived derived;
   if (analysis.fit) derived = derive_from_model(*analysis.fit, recording.conditions());
   if (!analysis.fit && recording.conditions().measured_spacing_m) {
-    derived.measured_spacing_En = Estimate{{}, {}, {}, "needs a fitted model"};
+    derived.measured_spacing_En = unknown("needs a fitted model");
   }
   derived = with_measured_spacing(std::move(derived), recording, analysis.frequency, analysis.cycles);
   return in_range(with_worn_track(std::move(derived), recording.conditions()));

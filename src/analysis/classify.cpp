@@ -169,8 +169,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   }
   const bool close = e.relative_residual < thresholds::kCloseFit && e.onset_force_spread < thresholds::kWideSpread;
   const bool loose = e.relative_residual < thresholds::kLooseFit && e.onset_force_spread < thresholds::kModestSpread;
-  const bool died =
-      !sudden && keeps_rhythm(segmentation) && (e.decay > thresholds::kDecay || e.span_share < thresholds::kSpanShare);
+  const bool died = !sudden && keeps_rhythm(segmentation) && e.span_share < thresholds::kSpanShare;
   if (died && (close || loose || e.restick_share < thresholds::kRestickShare)) {
     return {MotionClass::OscillatorySlip, "the swings die out: a ring-down to steady sliding", true};
   }

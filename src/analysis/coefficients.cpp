@@ -7,10 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/statistics.hpp"
 #include "core/quantile.hpp"
+#include "core/student.hpp"
 #include "core/unknown.hpp"
-#include "fit/inference/student.hpp"
 
 namespace slipfit {
 namespace {
@@ -28,7 +27,7 @@ Estimate mean_during_sliding(std::span<const double> force, std::size_t cycles) 
     means.push_back(mean_of(force.subspan(begin, (i + 1) * force.size() / blocks - begin)));
   }
   const MeanAndSpread spread = describe(means);
-  return fit::symmetric(spread.mean, spread.sd / std::sqrt(spread.count), spread.count - 1.0);
+  return symmetric(spread.mean, spread.sd / std::sqrt(spread.count), spread.count - 1.0);
 }
 
 /// By the fit where it knows F_s: the sensor shows F_s - c V there, and samples miss the very peak.
@@ -42,11 +41,10 @@ std::optional<Estimate> fitted_static_friction(const Analysis& analysis) {
 /// The value of the first in an interval that holds both: the fit's takes it for granted that friction does not depend
 /// on the speed, that of the peaks that a sample shows them.
 Estimate in_both_intervals(Estimate estimate, const Estimate& other) {
-  constexpr double kReach = 1.96;  // of a 95 % interval, in standard errors
   if (!estimate.ci95 || !other.ci95) return estimate;
   estimate.ci95 =
       Interval{std::min(estimate.ci95->low, other.ci95->low), std::max(estimate.ci95->high, other.ci95->high)};
-  estimate.standard_error = 0.5 * (estimate.ci95->high - estimate.ci95->low) / kReach;
+  estimate.standard_error = 0.5 * (estimate.ci95->high - estimate.ci95->low) / kNormalQuantile;
   return estimate;
 }
 
@@ -60,7 +58,7 @@ Estimate mean_of_peaks(const Recording& recording, const Analysis& analysis) {
                           ? *cycles.force_drop * recording.sample_interval_s() / *cycles.period_s
                           : 0.0;
   const double se = std::hypot(scatter, analysis.quality.noise_rms, rise);
-  return fit::symmetric(*cycles.peak_force, se, static_cast<double>(cycles.count) - 1.0);
+  return symmetric(*cycles.peak_force, se, static_cast<double>(cycles.count) - 1.0);
 }
 
 Estimate over_load(Estimate force, double load_N, bool zero_is_known) {

@@ -5,9 +5,11 @@
 #include <utility>
 
 #include "analysis/slip_intervals.hpp"
-#include "analysis/statistics.hpp"
+#include "core/line_sums.hpp"
+#include "core/quantile.hpp"
+#include "core/student.hpp"
 #include "core/thresholds.hpp"
-#include "fit/inference/student.hpp"
+#include "core/unknown.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -24,16 +26,16 @@ Estimate stick_stiffness(const Recording& recording, const Segmentation& segment
     const std::size_t fifth = (segmentation.slips[i].peak - begin) / 5;
     if (3 * fifth < kFewestSamples) continue;
     const auto of = [&](std::span<const double> values) { return values.subspan(begin + fifth, 3 * fifth); };
-    slopes.push_back(slope_of(of(recording.time_s()), of(recording.force())).value / speed_m_per_s);
+    slopes.push_back(line_sums(of(recording.time_s()), of(recording.force())).slope() / speed_m_per_s);
   }
-  if (slopes.size() < thresholds::kFewestSlips) return {{}, {}, {}, "too few sticks"};
+  if (slopes.size() < thresholds::kFewestSlips) return unknown("too few sticks");
   const double middle = signal::median(slopes);
   std::vector<double> off;
   off.reserve(slopes.size());
   for (const double slope : slopes) off.push_back(std::abs(slope - middle));
   constexpr double kMedianToSe = signal::kMedianToSigma * 1.2533;  // error of a median over that of a mean
   const auto count = static_cast<double>(slopes.size());
-  return fit::symmetric(middle, kMedianToSe * signal::median(std::move(off)) / std::sqrt(count), count - 1.0);
+  return symmetric(middle, kMedianToSe * signal::median(std::move(off)) / std::sqrt(count), count - 1.0);
 }
 
 /// How long the fitted cycles slip and stick.
@@ -119,9 +121,9 @@ Derived with_measured_spacing(Derived derived, const Recording& recording, const
   const double of_speed = recording.conditions().speed_standard_error_m_per_s.value_or(0.0) / speed;
   const double relative = std::hypot(of_frequency, of_speed);
   const double freedom = std::max(1.0, static_cast<double>(cycles.count) - 3.0);
-  derived.pattern_spacing_m = fit::symmetric(spacing, spacing * relative, freedom);
+  derived.pattern_spacing_m = symmetric(spacing, spacing * relative, freedom);
   derived.pattern_spacing_m.note = "V / f at the measured speed";
-  derived.impulse_rate_per_m = fit::symmetric(1.0 / spacing, relative / spacing, freedom);
+  derived.impulse_rate_per_m = symmetric(1.0 / spacing, relative / spacing, freedom);
   return derived;
 }
 

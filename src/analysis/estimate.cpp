@@ -15,7 +15,6 @@
 #include "core/parallel.hpp"
 #include "core/thresholds.hpp"
 #include "fit/fit_unless.hpp"
-#include "fit/rough_misfit.hpp"
 
 namespace slipfit {
 namespace {
@@ -137,7 +136,7 @@ class BeneathHum {
 
   [[nodiscard]] double rough_misfit_of(const Recording& recording, const Quality& quality,
                                        const Segmentation& segmentation) const {
-    const auto misfit = fit::rough_misfit(recording, quality, segmentation, options_.held);
+    const auto misfit = fit::rough_misfit({recording, quality, segmentation, options_.held});
     if (!misfit || 2 * misfit->cycles < segmentation.slips.size()) return std::numeric_limits<double>::infinity();
     return misfit_of(misfit->relative_residual, misfit->onset_force_spread);
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/line_sums.hpp"
-#include "fit/inference/student.hpp"
+#include "core/student.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -52,7 +52,7 @@ Line line_through(const std::vector<Onset>& onsets) {
       onsets.size(), [&](std::size_t i) { return onsets[i].index; }, [&](std::size_t i) { return onsets[i].time_s; });
   double rest = 0.0, product = 0.0, previous_s = 0.0;
   for (const Onset& onset : onsets) {
-    const double residual_s = onset.time_s - line.mean_y - line.slope() * (onset.index - line.mean_x);
+    const double residual_s = onset.time_s - line.at(onset.index);
     rest += residual_s * residual_s;
     product += residual_s * previous_s;
     previous_s = residual_s;
@@ -96,7 +96,7 @@ double recovery_error(const FitResult& fit) {
 }
 
 Estimate with_relative_error(double value, double relative_error, double degrees_of_freedom) {
-  return fit::symmetric(value, relative_error * value, degrees_of_freedom);
+  return symmetric(value, relative_error * value, degrees_of_freedom);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include "analysis/slip_intervals.hpp"
 #include "analysis/slip_shape.hpp"
 #include "core/quantile.hpp"
+#include "core/student.hpp"
 #include "core/thresholds.hpp"
-#include "fit/inference/student.hpp"
 
 namespace slipfit {
 namespace {
@@ -77,7 +77,7 @@ std::optional<FrequencyReport> of_fit(const Recording& recording, const Signals&
   if (is_sharper(signals.spectral, *fitted)) {
     report.method = "harmonic_least_squares";
     const double freedom = std::max(1.0, static_cast<double>(signals.segmentation.slips.size()) - 3.0);
-    report.quoted = fit::symmetric(*signals.spectral.value_Hz, *signals.spectral.regular_standard_error_Hz, freedom);
+    report.quoted = symmetric(*signals.spectral.value_Hz, *signals.spectral.regular_standard_error_Hz, freedom);
   }
   return report;
 }
@@ -105,7 +105,7 @@ Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
   counted.ci95->low = std::min(counted.ci95->low, spectral_Hz - half_Hz);
   counted.ci95->high = std::max(counted.ci95->high, spectral_Hz + half_Hz);
   const double longer = std::max(*counted.value - counted.ci95->low, counted.ci95->high - *counted.value);
-  counted.standard_error = std::max(*counted.standard_error, longer / 1.96);
+  counted.standard_error = std::max(*counted.standard_error, longer / kNormalQuantile);
   return counted;
 }
 
@@ -124,17 +124,15 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
   // A repetition near the count may be that of the slips, with some hidden or made by hum. One far from it is another
   // thing: pick-up, ringing.
   const bool near = difference && *difference < thresholds::kAnotherThing;
-  const bool far = !difference || *difference > thresholds::kContradiction;
-  const bool contradict =
-      far && (noise_hides_slips(signals) || (near && may_be_hum(signals)) || (!difference && hum_makes_falls(signals)));
+  const bool contradict = !agree && (noise_hides_slips(signals) || (near && may_be_hum(signals)) ||
+                                     (!difference && hum_makes_falls(signals)));
   const bool hidden =
       classification.motion == MotionClass::OscillatorySlip && !agree;  // the count may be of noise or of hum
   if (classification.dies_out && !agree) {
     report.quoted.note = "the swings die out, and spectrum and count do not agree on them";
   } else if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || hidden)) {
     report.method = "harmonic_least_squares";
-    report.quoted =
-        fit::symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
+    report.quoted = symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
   } else if (counted.value && !contradict) {
     report.method = "slip_counting";
     report.quoted = near && !agree ? reaching(counted, spectral) : counted;

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "analysis/statistics.hpp"
-#include "fit/inference/student.hpp"
+#include "core/quantile.hpp"
+#include "core/student.hpp"
 
 namespace slipfit {
 namespace {
@@ -62,7 +62,7 @@ std::vector<Repeat> compare_repeats(std::span<const SweepEntry> entries, std::sp
     }
     if (values.size() < 2) continue;
     const MeanAndSpread spread = describe(values);
-    const Estimate mean = fit::symmetric(spread.mean, spread.sd / std::sqrt(spread.count), spread.count - 1.0);
+    const Estimate mean = symmetric(spread.mean, spread.sd / std::sqrt(spread.count), spread.count - 1.0);
     repeats.push_back({quantity.name, quantity.words, quantity.unit, values.size(), mean, spread.sd});
   }
   return repeats;

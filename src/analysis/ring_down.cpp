@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 #include "analysis/damped_sine.hpp"
 #include "analysis/slip_shape.hpp"
-#include "analysis/statistics.hpp"
+#include "core/line_sums.hpp"
+#include "core/quantile.hpp"
+#include "core/student.hpp"
 #include "core/thresholds.hpp"
-#include "fit/inference/student.hpp"
 #include "signal/robust.hpp"
 #include "signal/smoothing.hpp"
 #include "signal/turning_points.hpp"
@@ -90,8 +90,8 @@ std::optional<RingDown> by_least_squares(const Recording& recording, const Swing
       sine->omega_rad_per_s / std::pow(natural, 3);
   const double per_turn = 2.0 * std::numbers::pi;
   const double freedom = sine->half_periods - 1.0;
-  return RingDown{fit::symmetric(sine->omega_rad_per_s / per_turn, sine->omega_error_rad_per_s / per_turn, freedom),
-                  fit::symmetric(sine->decay_per_s / natural, ratio_error, freedom)};
+  return RingDown{symmetric(sine->omega_rad_per_s / per_turn, sine->omega_error_rad_per_s / per_turn, freedom),
+                  symmetric(sine->decay_per_s / natural, ratio_error, freedom)};
 }
 
 }  // namespace
@@ -113,22 +113,21 @@ std::optional<RingDown> find_ring_down(const Recording& recording, std::size_t b
   std::size_t large = swings.log_sizes.size();
   while (large > thresholds::kFewestSwings && swings.log_sizes[large - 1] < small) --large;
   swings.log_sizes.resize(large);
-  std::vector<double> order(large);
-  std::iota(order.begin(), order.end(), 0.0);
-  const Slope decay = slope_of(order, swings.log_sizes);
-  if (decay.value + 2.0 * decay.standard_error > 0.0) return std::nullopt;
+  const LineSums decay = line_sums(
+      large, [](std::size_t i) { return static_cast<double>(i); }, [&](std::size_t i) { return swings.log_sizes[i]; });
+  if (decay.slope() + 2.0 * decay.slope_error() > 0.0) return std::nullopt;
   // Between turning points the swing shrinks by exp(-pi zeta / sqrt(1 - zeta^2)); a turning point is timed to a sample.
-  const double decrement = -decay.value / std::numbers::pi;
+  const double decrement = -decay.slope() / std::numbers::pi;
   const double ratio = decrement / std::hypot(1.0, decrement);
   // Both ends of the line lie higher or lower by what noise does to the smallest swing.
   const double by_noise = 2.0 * noise / std::exp(swings.log_sizes.back()) / static_cast<double>(large);
-  const double decay_se = std::hypot(decay.standard_error, by_noise);
+  const double decay_se = std::hypot(decay.slope_error(), by_noise);
   const double ratio_se = decay_se / std::numbers::pi / std::pow(std::hypot(1.0, decrement), 3);
   const double frequency_Hz = 0.5 / half.mean;
   const double timing = recording.sample_interval_s() / half.mean / half.count;
   const double frequency_se_Hz = frequency_Hz * std::hypot(half.sd / half.mean / std::sqrt(half.count), timing);
-  const RingDown by_turns{fit::symmetric(frequency_Hz, frequency_se_Hz, half.count - 1.0),
-                          fit::symmetric(ratio, ratio_se, static_cast<double>(large) - 2.0)};
+  const RingDown by_turns{symmetric(frequency_Hz, frequency_se_Hz, half.count - 1.0),
+                          symmetric(ratio, ratio_se, static_cast<double>(large) - 2.0)};
   return by_least_squares(recording, swings, large, by_turns).value_or(by_turns);
 }
 

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/student.hpp"
 #include "core/thresholds.hpp"
-#include "fit/inference/student.hpp"
 
 namespace slipfit {
 namespace {
@@ -73,7 +73,7 @@ Column without_trend(Column values, const Column& time) {
 /// Two-sided, of a correlation r with this many degrees of freedom; no number where r is none.
 double chance_of(double r, double freedom) {
   if (std::isnan(r)) return r;
-  return fit::t_chance(r * std::sqrt(freedom / std::max(1e-12, 1.0 - r * r)), freedom);
+  return t_chance(r * std::sqrt(freedom / std::max(1e-12, 1.0 - r * r)), freedom);
 }
 
 std::string seen(double p) {

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/student.hpp"
 #include "core/thresholds.hpp"
-#include "fit/inference/student.hpp"
+#include "core/unknown.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit {
@@ -123,10 +124,10 @@ Intervals intervals_of(const Recording& recording, const Segmentation& segmentat
 Estimate count_frequency(const Recording& recording, const Segmentation& segmentation) {
   const std::vector<double> intervals_s = intervals_of(recording, segmentation).seconds;
   const MeanAndSpread interval = describe(intervals_s);
-  if (interval.count < 1.0) return {std::nullopt, std::nullopt, std::nullopt, "fewer than 3 slips"};
+  if (interval.count < 1.0) return unknown("fewer than 3 slips");
   const double value = 1.0 / interval.mean;
   if (interval.count < 2.0) return {value, std::nullopt, std::nullopt, "one interval tells no error"};
-  return fit::symmetric(value, value * relative_error(intervals_s, interval), interval.count - 1.0);
+  return symmetric(value, value * relative_error(intervals_s, interval), interval.count - 1.0);
 }
 
 Warnings warn_of_changes(const Recording& recording, const Segmentation& segmentation) {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "analysis/statistics.hpp"
+#include "core/quantile.hpp"
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"

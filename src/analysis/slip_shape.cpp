@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/statistics.hpp"
+#include "core/quantile.hpp"
 #include "core/thresholds.hpp"
 #include "signal/robust.hpp"
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/fit_thresholds.hpp"
+#include "core/quantile.hpp"
 #include "core/thresholds.hpp"
 #include "fit/report/open_damping.hpp"
 
@@ -92,8 +93,7 @@ std::vector<SweepRole> roles_of(std::span<const SweepEntry> entries, const std::
     if (roles[i] != SweepRole::Cycles || is_unresolved(recording, analyses[i])) continue;
     resolved_speeds.push_back(recording.conditions().speed_m_per_s);
   }
-  const auto [slow, fast] = std::ranges::minmax_element(resolved_speeds);
-  if (resolved_speeds.empty() || !(*fast > thresholds::kLeastSpeedRatio * *slow)) return roles;
+  if (resolved_speeds.empty() || !(ratio_of_ends(resolved_speeds) > thresholds::kLeastSpeedRatio)) return roles;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (is_unresolved(entries[i].recording, analyses[i])) roles[i] = SweepRole::LeftOut;
   }

@@ -6,10 +6,11 @@
 
 #include "analysis/ring_down.hpp"
 #include "analysis/slip_shape.hpp"
-#include "analysis/statistics.hpp"
+#include "core/line_sums.hpp"
+#include "core/quantile.hpp"
+#include "core/student.hpp"
 #include "core/thresholds.hpp"
 #include "core/unknown.hpp"
-#include "fit/inference/student.hpp"
 #include "signal/smoothing.hpp"
 #include "signal/turning_points.hpp"
 
@@ -99,16 +100,17 @@ Estimate loading_stiffness(const Recording& recording, const Trace& trace, const
   const std::size_t begin = reaches(0.2);
   const std::size_t count = reaches(0.8) - begin + 1;
   constexpr std::size_t kParts = 5;
-  if (count < 4 * kParts) return {{}, {}, {}, "the loading ramp has too few samples"};
+  if (count < 4 * kParts) return unknown("the loading ramp has too few samples");
   const auto part = [&](std::size_t from, std::size_t samples) {
-    return slope_of(recording.time_s().subspan(begin + from, samples), recording.force().subspan(begin + from, samples))
-        .value;
+    return line_sums(recording.time_s().subspan(begin + from, samples),
+                     recording.force().subspan(begin + from, samples))
+        .slope();
   };
   std::vector<double> slopes;
   for (std::size_t i = 0; i < kParts; ++i) slopes.push_back(part(i * (count / kParts), count / kParts));
   const double speed = recording.conditions().speed_m_per_s;
   const double se = describe(slopes).sd / std::sqrt(static_cast<double>(kParts));
-  return fit::symmetric(part(0, count) / speed, se / speed, kParts - 1.0);
+  return symmetric(part(0, count) / speed, se / speed, kParts - 1.0);
 }
 
 /// After the release where there is one, after the first peak of a motion that died out otherwise.
@@ -130,7 +132,7 @@ Transients find_transients(const Detected& detected, MotionClass motion) {
   transients.ring_down_frequency_Hz = transients.ring_down_damping_ratio = unknown("no free ring-down was found");
   if (ramp) {
     transients.loading_stiffness_N_per_m = loading_stiffness(*detected.whole, trace, *ramp);
-    transients.breakaway_force = fit::symmetric(peak_force(*detected.whole, trace, *ramp), trace.noise, kManyFreedoms);
+    transients.breakaway_force = symmetric(peak_force(*detected.whole, trace, *ramp), trace.noise, kManyFreedoms);
   }
   if (const auto ring = ring_down_of(detected, motion, ramp)) {
     transients.ring_down_frequency_Hz = ring->frequency_Hz;

@@ -37,11 +37,11 @@ fs::path folder_of(const fs::path& file) {
 
 }  // namespace
 
-Error file_error(std::string code, const fs::path& file, std::string_view message) {
-  return {std::move(code), fmt::format("{}: {}", one_line(file.string()), message)};
+ThrownError file_error(std::string code, const fs::path& file, std::string_view message) {
+  return ThrownError({std::move(code), fmt::format("{}: {}", one_line(file.string()), message)});
 }
 
-Error cannot_write(const fs::path& file, int error_number) {
+ThrownError cannot_write(const fs::path& file, int error_number) {
   return file_error(
       "cannot_write", file,
       fmt::format("cannot be written ({}); mend that, then go on with --resume", std::strerror(error_number)));
@@ -52,7 +52,7 @@ CheckedFile::CheckedFile(fs::path file, int descriptor) : name(std::move(file)),
 }
 
 bool CheckedFile::check(bool succeeded) {
-  if (!succeeded && !error) error = cannot_write(name, errno);
+  if (!succeeded && !error) error = cannot_write(name, errno).error();
   return !error;
 }
 
@@ -72,6 +72,10 @@ void CheckedFile::sync_folder() {
   const FileHandle folder(::open(folder_of(name).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!folder) return;                                   // a folder that may be written and not read
   check(::fsync(folder.get()) == 0 || errno == EINVAL);  // some file systems cannot sync folders
+}
+
+void CheckedFile::throw_error() const {
+  if (error) throw ThrownError(*error);
 }
 
 void remove_leftovers(const fs::path& folder, const std::function<bool(std::string_view name)>& is_ours) {
@@ -100,18 +104,13 @@ std::uint64_t LineFile::append(std::string_view line) {
   return std::exchange(size_, size_ + line.size() + 1);
 }
 
-const std::optional<Error>& LineFile::sync() {
-  file_.sync();
-  return file_.error;
-}
-
 Result<std::string> LineFile::line_at(std::uint64_t place) const {
   std::string line;
   std::array<char, 16384> chunk{};
   for (;;) {
     const ssize_t count =
         ::pread(file_.handle.get(), chunk.data(), chunk.size(), static_cast<off_t>(place + line.size()));
-    if (count <= 0) return file_error("not_readable", file_.name, "a line that was written is gone");
+    if (count <= 0) return file_error("not_readable", file_.name, "a line that was written is gone").error();
     const std::string_view text(chunk.data(), static_cast<std::size_t>(count));
     const std::size_t end = text.find('\n');
     line += text.substr(0, end);
@@ -137,19 +136,21 @@ void Replacement::append(std::string_view text) {
   buffer_.clear();
 }
 
-std::optional<Error> Replacement::finish() {
+void Replacement::finish() {
   file_.write(buffer_);
   file_.sync();
-  if (file_.error || !file_.check(::rename(temporary_.c_str(), file_.name.c_str()) == 0)) return file_.error;
+  throw_error();
+  file_.check(::rename(temporary_.c_str(), file_.name.c_str()) == 0);
+  throw_error();
   file_.handle = FileHandle();
   file_.sync_folder();
-  return file_.error;
+  throw_error();
 }
 
-std::optional<Error> replace_file(const fs::path& file, std::string_view content) {
+void replace_file(const fs::path& file, std::string_view content) {
   Replacement replacement(file);
   replacement.append(content);
-  return replacement.finish();
+  replacement.finish();
 }
 
 }  // namespace slipfit::batch

@@ -9,10 +9,12 @@
 #include <string_view>
 
 #include "core/file_handle.hpp"
+#include "core/thrown_error.hpp"
 #include "slipfit/core/digest.hpp"
 #include "slipfit/core/result.hpp"
 
 // Files that survive a kill at any byte. A file keeps its first error (cannot_write, one line) and writes nothing more.
+// In this folder errors are thrown: run_batch and merge_batches return them.
 
 namespace slipfit::batch {
 
@@ -26,8 +28,8 @@ constexpr std::array<std::string_view, 5> kFolderFiles{kResults, kSummary, kFail
 constexpr const char* kLock = "lock";
 
 /// An error about a file, on one line.
-Error file_error(std::string code, const std::filesystem::path& file, std::string_view message);
-Error cannot_write(const std::filesystem::path& file, int error_number);
+ThrownError file_error(std::string code, const std::filesystem::path& file, std::string_view message);
+ThrownError cannot_write(const std::filesystem::path& file, int error_number);
 
 /// An open file that keeps the first error of what is done with it.
 struct CheckedFile {
@@ -40,6 +42,7 @@ struct CheckedFile {
   void sync();
   /// Waits until the disk knows which files are in the folder.
   void sync_folder();
+  void throw_error() const;
 
   std::filesystem::path name;
   FileHandle handle;
@@ -58,9 +61,10 @@ class LineFile {
 
   /// The line must hold no line end; one is added. Returns the place where it begins.
   std::uint64_t append(std::string_view line);
-  /// Waits until the disk has everything that was appended before. The first error of all.
-  const std::optional<Error>& sync();
-  [[nodiscard]] const std::optional<Error>& error() const { return file_.error; }
+  /// Waits until the disk has everything that was appended before.
+  void sync() { file_.sync(); }
+  [[nodiscard]] bool has_failed() const { return file_.error.has_value(); }
+  void throw_error() const { file_.throw_error(); }
   /// The line that begins at `place`, without its end. Errors: not_readable.
   [[nodiscard]] Result<std::string> line_at(std::uint64_t place) const;
 
@@ -81,9 +85,9 @@ class Replacement {
   Replacement& operator=(Replacement&&) = delete;
 
   void append(std::string_view text);
-  /// Writes what is left, waits for the disk and renames. The first error of all.
-  std::optional<Error> finish();
-  [[nodiscard]] const std::optional<Error>& error() const { return file_.error; }
+  /// Writes what is left, waits for the disk and renames.
+  void finish();
+  void throw_error() const { file_.throw_error(); }
   /// Of all that was appended.
   [[nodiscard]] Digest digest() const { return digester_.digest(); }
 
@@ -94,6 +98,6 @@ class Replacement {
   Digester digester_;
 };
 
-std::optional<Error> replace_file(const std::filesystem::path& file, std::string_view content);
+void replace_file(const std::filesystem::path& file, std::string_view content);
 
 }  // namespace slipfit::batch

@@ -20,30 +20,22 @@ void FinalFiles::add_failure(const std::string& failure, const std::string& summ
   summary_.append(summary + "\n");
 }
 
-Result<FileDigests> FinalFiles::finish() {
-  for (const Replacement* const file : {&results_, &failures_, &summary_}) {
-    if (file->error()) return *file->error();
-  }
-  for (Replacement* const file : {&results_, &failures_, &summary_}) {
-    if (auto error = file->finish()) return *error;
-  }
-  return FileDigests{results_.digest().text(), summary_.digest().text(), failures_.digest().text()};
+FileDigests FinalFiles::finish() {
+  for (const Replacement* const file : {&results_, &failures_, &summary_}) file->throw_error();
+  for (Replacement* const file : {&results_, &failures_, &summary_}) file->finish();
+  return {results_.digest().text(), summary_.digest().text(), failures_.digest().text()};
 }
 
-Result<FileDigests> write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
-                                      const WorkList& list, const ResultLog& log) {
+FileDigests write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
+                              const WorkList& list, const ResultLog& log) {
   FinalFiles files(folder);
-  auto failed = for_each_result(manifest, list, log, [&](const LoggedResult& result) -> std::optional<Error> {
+  for_each_result(manifest, list, log, [&](const LoggedResult& result) {
     if (result.has_failed) {
       files.add_failure(result.line, summary_of_failure(result.key, failure_from(result.line).code));
-      return std::nullopt;
+    } else {
+      files.add_result(result.line, summary_of_result(result.key, result.line));
     }
-    const auto summary = summary_of_result(result.key, result.line);
-    if (!summary) return summary.error();
-    files.add_result(result.line, summary.value());
-    return std::nullopt;
   });
-  if (failed) return *failed;
   return files.finish();
 }
 

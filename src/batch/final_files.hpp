@@ -7,7 +7,6 @@
 #include "batch/result_log.hpp"
 #include "batch/run_file.hpp"
 #include "batch/work_list.hpp"
-#include "slipfit/core/result.hpp"
 
 namespace slipfit::batch {
 
@@ -21,7 +20,7 @@ class FinalFiles {
   void add_result(const std::string& document, const std::string& summary);
   void add_failure(const std::string& failure, const std::string& summary);
   /// Errors: cannot_write, of anything before.
-  Result<FileDigests> finish();
+  FileDigests finish();
 
  private:
   Replacement results_;
@@ -30,7 +29,7 @@ class FinalFiles {
 };
 
 /// From what the log holds.
-Result<FileDigests> write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
-                                      const WorkList& list, const ResultLog& log);
+FileDigests write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
+                              const WorkList& list, const ResultLog& log);
 
 }  // namespace slipfit::batch

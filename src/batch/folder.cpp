@@ -43,7 +43,7 @@ struct flock whole_file() {
   return lock;
 }
 
-Error in_use(const fs::path& file, int descriptor) {
+ThrownError in_use(const fs::path& file, int descriptor) {
   struct flock lock = whole_file();
   const bool knows_process = ::fcntl(descriptor, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
   struct stat status {};
@@ -55,7 +55,7 @@ Error in_use(const fs::path& file, int descriptor) {
                   knows_process ? std::to_string(lock.l_pid) : "?", one_line(text_of(descriptor)), status.st_uid));
 }
 
-Error not_opened(const fs::path& file, int reason) {
+ThrownError not_opened(const fs::path& file, int reason) {
   struct stat status {};
   if (reason != EACCES || ::lstat(file.c_str(), &status) != 0) return cannot_write(file, reason);
   return file_error("folder_in_use", file,
@@ -74,52 +74,33 @@ bool is_still(const fs::path& file, int descriptor) {
 
 }  // namespace
 
-Result<FolderLock> FolderLock::take(const fs::path& folder) {
+FolderLock FolderLock::take(const fs::path& folder) {
   std::error_code error;
   fs::create_directory(folder, error);
   if (error) {
-    return file_error("cannot_write", folder,
-                      fmt::format("the folder cannot be written ({}); choose another one with --out", error.message()));
+    throw file_error("cannot_write", folder,
+                     fmt::format("the folder cannot be written ({}); choose another one with --out", error.message()));
   }
   const fs::path file = folder / kLock;
   for (;;) {
     FileHandle handle(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
-    if (!handle) return not_opened(file, errno);
+    if (!handle) throw not_opened(file, errno);
     struct flock lock = whole_file();
     if (::fcntl(handle.get(), F_SETLK, &lock) != 0) {
-      return errno == EACCES || errno == EAGAIN ? in_use(file, handle.get()) : cannot_write(file, errno);
+      throw errno == EACCES || errno == EAGAIN ? in_use(file, handle.get()) : cannot_write(file, errno);
     }
     if (!is_still(file, handle.get())) continue;
     const std::string before = text_of(handle.get());
     if (!before.empty() && !before.starts_with(kMark)) {
-      return file_error("folder_of_another_batch", file, "was not written by slipfit batch; choose another folder");
+      throw file_error("folder_of_another_batch", file, "was not written by slipfit batch; choose another folder");
     }
     write_owner(handle.get());
-    return FolderLock(file, std::move(handle));
+    return {file, std::move(handle)};
   }
 }
 
 FolderLock::~FolderLock() {
   if (handle_) (void)::unlink(file_.c_str());
-}
-
-Result<std::optional<RunRecord>> check_folder(const fs::path& folder) {
-  std::error_code ignored;
-  for (const std::string_view name : kFolderFiles) {
-    if (!fs::is_symlink(folder / name, ignored)) continue;
-    return file_error("cannot_write", folder / name,
-                      "is a symbolic link, which is not followed; remove it, or choose another folder");
-  }
-  auto record = read_record(folder);
-  if (!record) return record;
-  for (const std::string_view name : kFolderFiles) {
-    if (record.value() || !fs::exists(folder / name, ignored)) continue;
-    return file_error("folder_of_another_batch", folder,
-                      fmt::format("holds '{}' without the run.json of its batch; choose another folder", name));
-  }
-  remove_leftovers(folder,
-                   [](std::string_view name) { return std::ranges::find(kFolderFiles, name) != kFolderFiles.end(); });
-  return record;
 }
 
 bool has_results(const fs::path& folder) {
@@ -128,14 +109,27 @@ bool has_results(const fs::path& folder) {
   return std::getline(stream, line) && !stream.eof();
 }
 
-std::optional<Error> check_same_batch(const fs::path& folder, const std::optional<RunRecord>& before,
-                                      const RunRecord& now) {
+std::optional<RunRecord> check_folder(const fs::path& folder, const RunRecord& now) {
+  std::error_code ignored;
+  for (const std::string_view name : kFolderFiles) {
+    if (!fs::is_symlink(folder / name, ignored)) continue;
+    throw file_error("cannot_write", folder / name,
+                     "is a symbolic link, which is not followed; remove it, or choose another folder");
+  }
+  std::optional<RunRecord> before = read_record(folder);
+  for (const std::string_view name : kFolderFiles) {
+    if (before || !fs::exists(folder / name, ignored)) continue;
+    throw file_error("folder_of_another_batch", folder,
+                     fmt::format("holds '{}' without the run.json of its batch; choose another folder", name));
+  }
+  remove_leftovers(folder,
+                   [](std::string_view name) { return std::ranges::find(kFolderFiles, name) != kFolderFiles.end(); });
   const auto differs = before && has_results(folder) ? difference(*before, now) : std::nullopt;
-  if (!differs) return std::nullopt;
-  return file_error("folder_of_another_batch", folder,
-                    fmt::format("holds results of another batch: {}; put that back and use --resume, or choose another "
-                                "folder with --out",
-                                *differs));
+  if (!differs) return before;
+  throw file_error("folder_of_another_batch", folder,
+                   fmt::format("holds results of another batch: {}; put that back and use --resume, or choose another "
+                               "folder with --out",
+                               *differs));
 }
 
 }  // namespace slipfit::batch

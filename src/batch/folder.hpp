@@ -5,7 +5,6 @@
 
 #include "batch/files.hpp"
 #include "batch/run_file.hpp"
-#include "slipfit/core/result.hpp"
 
 namespace slipfit::batch {
 
@@ -15,7 +14,7 @@ class FolderLock {
  public:
   /// Makes the folder where it is missing. Errors: folder_in_use, cannot_write, folder_of_another_batch where the file
   /// `lock` is somebody else's.
-  static Result<FolderLock> take(const std::filesystem::path& folder);
+  static FolderLock take(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(FolderLock&&) noexcept = default;
   FolderLock& operator=(FolderLock&&) noexcept = default;
@@ -30,15 +29,11 @@ class FolderLock {
 };
 
 /// The record of the batch that a folder holds, if any; temporary files that killed processes left are removed. Errors:
-/// folder_of_another_batch where it holds files of a batch's names that no batch wrote, cannot_write where they are
-/// symbolic links, which are not followed.
-Result<std::optional<RunRecord>> check_folder(const std::filesystem::path& folder);
+/// folder_of_another_batch where it holds results of another batch than `now`, or files of a batch's names that no
+/// batch wrote; cannot_write where they are symbolic links, which are not followed.
+std::optional<RunRecord> check_folder(const std::filesystem::path& folder, const RunRecord& now);
 
 /// Whether results.jsonl holds a whole line.
 bool has_results(const std::filesystem::path& folder);
-
-/// Error: folder_of_another_batch where the folder holds results of another batch than `now`.
-std::optional<Error> check_same_batch(const std::filesystem::path& folder, const std::optional<RunRecord>& before,
-                                      const RunRecord& now);
 
 }  // namespace slipfit::batch

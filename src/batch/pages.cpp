@@ -51,26 +51,25 @@ std::string mark_of(std::string_view document) {
 }
 
 /// Only a page is replaced: an input that was named by mistake stays as it is.
-std::optional<Error> check_replaceable(const fs::path& file) {
+void check_replaceable(const fs::path& file) {
   std::error_code ignored;
-  if (!fs::exists(file, ignored)) return std::nullopt;
+  if (!fs::exists(file, ignored)) return;
   std::string begin(kBegin.size(), '\0');
   std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  if (begin == kBegin) return std::nullopt;
-  return file_error("not_a_page", file, "is no page of slipfit and is not replaced; choose another --report");
+  if (begin == kBegin) return;
+  throw file_error("not_a_page", file, "is no page of slipfit and is not replaced; choose another --report");
 }
 
-std::optional<Error> replace_page(const fs::path& file, std::string_view content) {
-  auto error = check_replaceable(file);
-  return error ? error : replace_file(file, content);
+void replace_page(const fs::path& file, std::string_view content) {
+  check_replaceable(file);
+  replace_file(file, content);
 }
 
-std::optional<Error> make_folder(const fs::path& folder) {
+void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directory(folder, error);  // another shard may make it at the same moment
   std::error_code ignored;
-  if (fs::is_directory(folder, ignored)) return std::nullopt;
-  return cannot_write(folder, error ? error.value() : ENOTDIR);
+  if (!fs::is_directory(folder, ignored)) throw cannot_write(folder, error ? error.value() : ENOTDIR);
 }
 
 std::string last_line_of(const fs::path& file) {
@@ -95,18 +94,18 @@ void remove_page_leftovers(const BatchReport& report, const WorkList& list) {
   });
 }
 
-std::optional<Error> prepare_pages(const BatchReport& report, const WorkList& list) {
+void prepare_pages(const BatchReport& report, const WorkList& list) {
   const fs::path folder = report.file.parent_path();
-  if (auto error = make_folder(folder.empty() ? "." : folder)) return error;
-  if (auto error = make_folder(folder / kFolder)) return error;
+  make_folder(folder.empty() ? "." : folder);
+  make_folder(folder / kFolder);
   remove_page_leftovers(report, list);
   remove_leftovers(folder, [&](std::string_view name) { return name == report.file.filename(); });
-  return check_replaceable(report.file);
+  check_replaceable(report.file);
 }
 
-std::optional<Error> write_page(const BatchReport& report, const SlotKey& key, const BatchFit& fit) {
-  return replace_page(page_file(report, key),
-                      fmt::format("{}{}{}{}\n", fit.page, mark_of(fit.document), fit.sparkline, kMarkEnd));
+void write_page(const BatchReport& report, const SlotKey& key, const BatchFit& fit) {
+  replace_page(page_file(report, key),
+               fmt::format("{}{}{}{}\n", fit.page, mark_of(fit.document), fit.sparkline, kMarkEnd));
 }
 
 std::optional<std::string> sparkline_on_page(const BatchReport& report, const SlotKey& key, std::string_view document) {
@@ -117,25 +116,21 @@ std::optional<std::string> sparkline_on_page(const BatchReport& report, const Sl
   return line.substr(mark.size(), line.size() - around);
 }
 
-std::optional<Error> write_index(const BatchReport& report, const fs::path& manifest, const WorkList& list,
-                                 const ResultLog& log) {
+void write_index(const BatchReport& report, const fs::path& manifest, const WorkList& list, const ResultLog& log) {
   BatchPage page{manifest.filename().string(), {}, {}};
-  auto failed = for_each_result(manifest, list, log, [&](const LoggedResult& result) -> std::optional<Error> {
+  for_each_result(manifest, list, log, [&](const LoggedResult& result) {
     if (result.has_failed) {
       page.failures.push_back(failure_from(result.line));
-      return std::nullopt;
+      return;
     }
-    auto row = batch_page_row(result.line);
-    if (!row) return row.error();
-    page.rows.push_back(std::move(row).value());
+    BatchPageRow& row = page.rows.emplace_back(value_or_throw(batch_page_row(result.line)));
     const SlotKey key{result.slot, result.key.id};
     if (auto sparkline = sparkline_on_page(report, key, result.line)) {
-      page.rows.back().report_file = std::string(kFolder) + "/" + page_name(key);
-      page.rows.back().sparkline = *std::move(sparkline);
+      row.report_file = std::string(kFolder) + "/" + page_name(key);
+      row.sparkline = *std::move(sparkline);
     }
-    return std::nullopt;
   });
-  return failed ? failed : replace_page(report.file, to_html(page));
+  replace_page(report.file, to_html(page));
 }
 
 }  // namespace slipfit::batch

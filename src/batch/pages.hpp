@@ -8,7 +8,6 @@
 #include "batch/result_log.hpp"
 #include "batch/work_list.hpp"
 #include "slipfit/batch/options.hpp"
-#include "slipfit/core/result.hpp"
 
 // The pages of a batch. That of a recording is written when it is fitted; its last line says to which document it
 // belongs and holds the sparkline, so that the index can be made at any time from results.jsonl and the pages.
@@ -16,19 +15,19 @@
 namespace slipfit::batch {
 
 /// Errors: cannot_write; not_a_page where the index would replace a file that is none.
-std::optional<Error> prepare_pages(const BatchReport& report, const WorkList& list);
+void prepare_pages(const BatchReport& report, const WorkList& list);
 
 /// Removes the temporary files of pages of this list that killed processes left.
 void remove_page_leftovers(const BatchReport& report, const WorkList& list);
 
 /// Errors: as above.
-std::optional<Error> write_page(const BatchReport& report, const SlotKey& key, const BatchFit& fit);
+void write_page(const BatchReport& report, const SlotKey& key, const BatchFit& fit);
 
 /// From the page; nothing where there is none that belongs to the document.
 std::optional<std::string> sparkline_on_page(const BatchReport& report, const SlotKey& key, std::string_view document);
 
 /// Of what the log holds, in the manifest's order. Errors: those of ManifestReader, cannot_write, not_a_page.
-std::optional<Error> write_index(const BatchReport& report, const std::filesystem::path& manifest, const WorkList& list,
-                                 const ResultLog& log);
+void write_index(const BatchReport& report, const std::filesystem::path& manifest, const WorkList& list,
+                 const ResultLog& log);
 
 }  // namespace slipfit::batch

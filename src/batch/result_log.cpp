@@ -95,13 +95,13 @@ FoundResults find_results(const std::filesystem::path& folder, const RunRecord& 
   return found;
 }
 
-std::optional<Error> write_journal(const std::filesystem::path& folder, const FoundResults& found) {
+void write_journal(const std::filesystem::path& folder, const FoundResults& found) {
   Replacement journal(folder / kJournal);
   for (std::size_t slot = 0; slot < found.tries.size(); ++slot) {
     for (unsigned tries = 0; tries < found.tries[slot]; ++tries) journal.append(begin_line(slot) + "\n");
   }
   for (const FoundResults::Line& line : found.lines) journal.append(done_line(line.slot, line.digest) + "\n");
-  return journal.finish();
+  journal.finish();
 }
 
 void remove_journal(const std::filesystem::path& folder) {
@@ -130,13 +130,13 @@ void ResultLog::begin(std::size_t slot) {
 void ResultLog::add_result(std::size_t slot, std::string_view document) {
   offsets_[slot] = results_.append(document);
   kinds_[slot] = Kind::Result;
-  if (!results_.error()) journal_.append(done_line(slot, digest_of(document)));
+  if (!results_.has_failed()) journal_.append(done_line(slot, digest_of(document)));
 }
 
 void ResultLog::add_failure(std::size_t slot, const std::string& id, const Error& failure) {
   offsets_[slot] = failures_.append(failure_line(id, failure));
   kinds_[slot] = Kind::Failure;
-  if (!failures_.error()) add_end(slot);
+  if (!failures_.has_failed()) add_end(slot);
 }
 
 void ResultLog::add_end(std::size_t slot) {
@@ -147,36 +147,29 @@ void ResultLog::sync() {
   for (LineFile* const file : {&results_, &failures_, &journal_}) file->sync();
 }
 
-std::optional<Error> ResultLog::error() const {
-  for (const LineFile* const file : {&results_, &failures_, &journal_}) {
-    if (file->error()) return file->error();
-  }
-  return std::nullopt;
+void ResultLog::throw_error() const {
+  for (const LineFile* const file : {&results_, &failures_, &journal_}) file->throw_error();
 }
 
 Result<std::string> ResultLog::line_of(std::size_t slot) const {
   return (kinds_[slot] == Kind::Failure ? failures_ : results_).line_at(offsets_[slot]);
 }
 
-std::optional<Error> for_each_result(const std::filesystem::path& manifest, const WorkList& list, const ResultLog& log,
-                                     const std::function<std::optional<Error>(const LoggedResult&)>& use) {
-  const auto use_slot = [&](std::size_t slot, const SummaryKey& key) -> std::optional<Error> {
-    if (log.kind_of(slot) == ResultLog::Kind::Nothing) return std::nullopt;
-    auto line = log.line_of(slot);
-    if (!line) return line.error();
-    return use({slot, key, !log.has_result(slot), std::move(line).value()});
+void for_each_result(const std::filesystem::path& manifest, const WorkList& list, const ResultLog& log,
+                     const std::function<void(const LoggedResult&)>& use) {
+  const auto use_slot = [&](std::size_t slot, const SummaryKey& key) {
+    if (log.kind_of(slot) == ResultLog::Kind::Nothing) return;
+    use({slot, key, !log.has_result(slot), value_or_throw(log.line_of(slot))});
   };
   std::size_t group = 0;
-  return for_each_entry(manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
-    if (auto error = use_slot(entry.row - 1, {entry.row, entry.id, entry.group, one_line(entry.file.string())})) {
-      return error;
-    }
-    for (; group < list.groups.size() && list.groups[group].last_row == entry.row; ++group) {
+  Entries entries(manifest);
+  while (const auto entry = entries.next()) {
+    use_slot(entry->row - 1, {entry->row, entry->id, entry->group, one_line(entry->file.string())});
+    for (; group < list.groups.size() && list.groups[group].last_row == entry->row; ++group) {
       const std::string& name = list.groups[group].name;
-      if (auto error = use_slot(list.slot_of_group(group), {entry.row, id_of_group(name), name, ""})) return error;
+      use_slot(list.slot_of_group(group), {entry->row, id_of_group(name), name, ""});
     }
-    return std::nullopt;
-  });
+  }
 }
 
 }  // namespace slipfit::batch

@@ -41,7 +41,7 @@ struct FoundResults {
 FoundResults find_results(const std::filesystem::path& folder, const RunRecord& before, const WorkList& list);
 
 /// In place of the one of a run before.
-std::optional<Error> write_journal(const std::filesystem::path& folder, const FoundResults& found);
+void write_journal(const std::filesystem::path& folder, const FoundResults& found);
 void remove_journal(const std::filesystem::path& folder);
 
 class ResultLog {
@@ -58,7 +58,7 @@ class ResultLog {
   /// Waits until the disk has what was added before.
   void sync();
   /// The first error of what was done: cannot_write. Nothing is written after it.
-  [[nodiscard]] std::optional<Error> error() const;
+  void throw_error() const;
 
   enum class Kind : unsigned char { Nothing, Result, Failure };
   [[nodiscard]] Kind kind_of(std::size_t slot) const { return kinds_[slot]; }
@@ -85,9 +85,9 @@ struct LoggedResult {
   std::string line;
 };
 
-/// Calls `use` with what the log holds, in the manifest's order, each group behind the last of its recordings, until it
-/// returns an error. Errors: also those of ManifestReader, not_readable.
-std::optional<Error> for_each_result(const std::filesystem::path& manifest, const WorkList& list, const ResultLog& log,
-                                     const std::function<std::optional<Error>(const LoggedResult&)>& use);
+/// Calls `use` with what the log holds, in the manifest's order, each group behind the last of its recordings. Errors:
+/// also those of ManifestReader, not_readable.
+void for_each_result(const std::filesystem::path& manifest, const WorkList& list, const ResultLog& log,
+                     const std::function<void(const LoggedResult&)>& use);
 
 }  // namespace slipfit::batch

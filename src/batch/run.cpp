@@ -17,7 +17,6 @@ constexpr std::chrono::milliseconds kWatchInterval{100};
 constexpr std::chrono::seconds kGrace{1};     // for the fits that run at a stop
 constexpr std::size_t kGroupsAtATime = 1000;  // whose entries are in memory: a few megabytes
 constexpr unsigned kMostTries = 3;
-constexpr const char* kStopped = "stopped";  // ends the loops over the manifest; no error for the caller
 
 Error crashed(const WorkItem& item, const std::string& end) {
   return Error{"crashed",
@@ -37,45 +36,52 @@ Run::Run(const BatchOptions& options, const BatchHooks& hooks, const WorkList& l
   }
 }
 
-std::optional<Error> Run::fit_all() {
-  auto error = finish(for_each_entry(options_.manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
-    const bool is_mine = entry.row <= list_.rows && list_.is_mine[entry.row - 1];  // the file may have grown
-    if (!is_mine) return std::nullopt;
-    return offer(
-        {{entry.row - 1, entry.id}, {entry.file}, [this, entry] { return fit_recording_of(entry, options_); }});
-  }));
-  for (std::size_t first = 0; first < list_.groups.size() && !stopped_ && !error; first += kGroupsAtATime) {
-    error = fit_groups(first, std::min(kGroupsAtATime, list_.groups.size() - first));
+void Run::fit_all() {
+  try {
+    fit_recordings();
+    for (std::size_t first = 0; first < list_.groups.size() && !stopped_; first += kGroupsAtATime) {
+      fit_groups(first, std::min(kGroupsAtATime, list_.groups.size() - first));
+    }
+  } catch (const ThrownError&) {
+    tell_replaced();
+    throw;
   }
-  return error;
+  tell_replaced();
 }
 
-std::optional<Error> Run::fit_groups(std::size_t first_group, std::size_t count) {
-  const auto members = members_of(first_group, count);
-  if (!members) return members.error();
-  std::optional<Error> error;
-  for (std::size_t i = 0; i < count && !error; ++i) {
+void Run::fit_recordings() {
+  Entries entries(options_.manifest);
+  while (const auto entry = stopped_ ? std::nullopt : entries.next()) {
+    const bool is_mine = entry->row <= list_.rows && list_.is_mine[entry->row - 1];  // the file may have grown
+    if (!is_mine) continue;
+    offer({{entry->row - 1, entry->id}, {entry->file}, [this, entry] { return fit_recording_of(*entry, options_); }});
+  }
+  finish();
+}
+
+void Run::fit_groups(std::size_t first_group, std::size_t count) {
+  const std::vector<Members> members = members_of(first_group, count);
+  for (std::size_t i = 0; i < count && !stopped_; ++i) {
     const std::size_t slot = list_.slot_of_group(first_group + i);
     if (!list_.is_mine[slot]) continue;
-    const Members& group = members.value()[i];
+    const Members& group = members[i];
     WorkItem item{{slot, id_of_group(list_.groups[first_group + i].name)}, {}, {}};
     for (const ManifestEntry& member : group) item.inputs.push_back(member.file);
     item.fit = [this, id = item.key.id, &group] { return options_.fit_group(id, group); };
-    error = offer(std::move(item));
+    offer(std::move(item));
   }
-  return finish(std::move(error));
+  finish();
 }
 
-Result<std::vector<Run::Members>> Run::members_of(std::size_t first_group, std::size_t count) const {
+std::vector<Run::Members> Run::members_of(std::size_t first_group, std::size_t count) const {
   std::unordered_map<std::string, std::size_t> wanted;
   for (std::size_t i = 0; i < count; ++i) wanted.emplace(list_.groups[first_group + i].name, i);
   std::vector<Members> members(count);
-  auto failed = for_each_entry(options_.manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
-    const auto place = wanted.find(entry.group);
-    if (place != wanted.end()) members[place->second].push_back(entry);
-    return std::nullopt;
-  });
-  if (failed) return *failed;
+  Entries entries(options_.manifest);
+  while (auto entry = entries.next()) {
+    const auto place = wanted.find(entry->group);
+    if (place != wanted.end()) members[place->second].push_back(*std::move(entry));
+  }
   return members;
 }
 
@@ -96,11 +102,9 @@ BatchProgress Run::progress() const {
 
 /// Waits until the pool takes the item, which may be until others are done. An item whose process died in a run before
 /// waits until nothing else runs.
-std::optional<Error> Run::offer(WorkItem item) {
-  while (!stopped_ && !pool_.wants_more()) {
-    if (auto error = wait_and_watch()) return error;
-  }
-  if (stopped_) return Error{kStopped, {}};
+void Run::offer(WorkItem item) {
+  while (!stopped_ && !pool_.wants_more()) wait_and_watch();
+  if (stopped_) return;
   const unsigned tries = log_.tries_of(item.key.slot);
   if (tries >= kMostTries) {
     take_failure(item, crashed(item, "in runs before"));
@@ -109,25 +113,27 @@ std::optional<Error> Run::offer(WorkItem item) {
   } else {
     begin(std::move(item));
   }
-  return std::nullopt;
 }
 
-/// Waits until all that was offered is done. After an error or a stop it ends early.
-std::optional<Error> Run::finish(std::optional<Error> error) {
-  if (error && error->code == kStopped) error.reset();
-  while (!error && !stopped_ && !(at_work_.empty() && suspects_.empty())) {
+/// Waits until all that was offered is done. After a stop it ends early.
+void Run::finish() {
+  while (!stopped_ && !(at_work_.empty() && suspects_.empty())) {
     if (at_work_.empty()) {
       begin(std::move(suspects_.back()));
       suspects_.pop_back();
     }
-    error = wait_and_watch();
+    wait_and_watch();
   }
-  if (stopped_ && !error) error = wait_for_begun();
+  if (stopped_) wait_for_begun();
+  end();
+  log_.throw_error();
+}
+
+void Run::end() {
   pool_.kill_all();
   if (options_.report && !at_work_.empty()) remove_page_leftovers(*options_.report, list_);
   for (const auto& [job, item] : at_work_) log_.add_end(item.key.slot);
   at_work_.clear();
-  return error ? error : log_.error();
 }
 
 void Run::begin(WorkItem item) {
@@ -135,34 +141,29 @@ void Run::begin(WorkItem item) {
   at_work_.emplace(job, std::move(item));
 }
 
-std::optional<Error> Run::wait_and_watch() {
-  if (auto error = take_answers()) return error;
+void Run::wait_and_watch() {
+  take_answers();
   if (hooks_.show_progress) hooks_.show_progress(progress());
   stopped_ = stopped_ || (hooks_.should_stop && hooks_.should_stop());
   if (Clock::now() - last_sync_ >= kSyncInterval) {
     last_sync_ = Clock::now();
     log_.sync();
   }
-  return log_.error();
+  log_.throw_error();
 }
 
-std::optional<Error> Run::take_answers() {
+void Run::take_answers() {
   for (const Answer& answer : pool_.wait(kWatchInterval)) {
-    const WorkItem item = std::move(at_work_.extract(answer.job).mapped());
-    if (auto error = take(item, answer)) return error;
+    take(at_work_.extract(answer.job).mapped(), answer);
   }
-  return std::nullopt;
 }
 
 /// At a stop: what has not begun is dropped, what has may still come to its end.
-std::optional<Error> Run::wait_for_begun() {
+void Run::wait_for_begun() {
   const std::vector<std::size_t> begun = pool_.drop_waiting();
   std::erase_if(at_work_, [&](const auto& job) { return std::ranges::find(begun, job.first) == begun.end(); });
   const Clock::time_point end = Clock::now() + kGrace;
-  while (!at_work_.empty() && Clock::now() < end) {
-    if (auto error = take_answers()) return error;
-  }
-  return std::nullopt;
+  while (!at_work_.empty() && Clock::now() < end) take_answers();
 }
 
 /// A group has as long as its recordings one after the other.
@@ -170,13 +171,13 @@ double Run::limit_of(const WorkItem& item) const {
   return options_.timeout_s * static_cast<double>(std::max<std::size_t>(1, item.inputs.size()));
 }
 
-std::optional<Error> Run::take(const WorkItem& item, const Answer& answer) {
+void Run::take(const WorkItem& item, const Answer& answer) {
   if (answer.end == Answer::End::TimedOut) {
     take_failure(
         item, Error{"timed_out", fmt::format("{}: no result after {} s; give a part of it as window, or more time with "
                                              "--timeout",
                                              name_of(item), limit_of(item))});
-    return std::nullopt;
+    return;
   }
   if (answer.end == Answer::End::Died) {
     const unsigned tries = log_.tries_of(item.key.slot) + ++deaths_[item.key.slot];
@@ -185,15 +186,14 @@ std::optional<Error> Run::take(const WorkItem& item, const Answer& answer) {
     } else {
       take_failure(item, crashed(item, answer.text));
     }
-    return std::nullopt;
+    return;
   }
   const Reply reply = read_reply(answer.text);
-  if (reply.kind == Reply::Kind::Stop) return reply.error;
+  if (reply.kind == Reply::Kind::Stop) throw ThrownError(reply.error);
   if (reply.kind == Reply::Kind::Failed) take_failure(item, reply.error);
   if (reply.kind == Reply::Kind::KeptUnread) gone_.push_back(item.key.id);
   if (reply.kind == Reply::Kind::FittedAnew) replaced_.push_back(item.key.id);
   if (!reply.document.empty()) take_result(item.key.slot, reply.document);
-  return std::nullopt;
 }
 
 void Run::take_result(std::size_t slot, std::string_view document) {

@@ -13,7 +13,6 @@
 #include "batch/work_list.hpp"
 #include "batch/worker.hpp"
 #include "slipfit/batch/options.hpp"
-#include "slipfit/core/result.hpp"
 
 namespace slipfit::batch {
 
@@ -23,11 +22,15 @@ class Run {
  public:
   /// All outlive the run.
   Run(const BatchOptions& options, const BatchHooks& hooks, const WorkList& list, ResultLog& log);
+  /// Fits that are at work end with it.
+  ~Run() { end(); }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+  Run(Run&&) = delete;
+  Run& operator=(Run&&) = delete;
 
   /// Returns when all is done, or after a stop. Errors: those of ManifestReader, cannot_write.
-  std::optional<Error> fit_all();
-  /// Says which recordings were replaced, or are gone, since they were fitted.
-  void tell_replaced() const;
+  void fit_all();
 
   [[nodiscard]] bool stopped() const { return stopped_; }
   [[nodiscard]] BatchProgress progress() const;
@@ -36,17 +39,21 @@ class Run {
   using Clock = std::chrono::steady_clock;
   using Members = std::vector<ManifestEntry>;
 
-  std::optional<Error> fit_groups(std::size_t first_group, std::size_t count);
+  void fit_recordings();
+  /// Says which recordings were replaced, or are gone, since they were fitted.
+  void tell_replaced() const;
+  void fit_groups(std::size_t first_group, std::size_t count);
   /// Of some groups, in the order of the work list.
-  [[nodiscard]] Result<std::vector<Members>> members_of(std::size_t first_group, std::size_t count) const;
-  std::optional<Error> offer(WorkItem item);
-  std::optional<Error> finish(std::optional<Error> error);
+  [[nodiscard]] std::vector<Members> members_of(std::size_t first_group, std::size_t count) const;
+  void offer(WorkItem item);
+  void finish();
+  void end();
   void begin(WorkItem item);
-  std::optional<Error> wait_and_watch();
-  std::optional<Error> take_answers();
-  std::optional<Error> wait_for_begun();
+  void wait_and_watch();
+  void take_answers();
+  void wait_for_begun();
   [[nodiscard]] double limit_of(const WorkItem& item) const;
-  std::optional<Error> take(const WorkItem& item, const Answer& answer);
+  void take(const WorkItem& item, const Answer& answer);
   void take_result(std::size_t slot, std::string_view document);
   void take_failure(const WorkItem& item, const Error& failure);
 

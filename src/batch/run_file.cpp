@@ -83,17 +83,17 @@ RunRecord begin_record(const BatchOptions& options, const Digest& manifest_diges
   return record;
 }
 
-std::optional<Error> write_record(const std::filesystem::path& folder, const RunRecord& record) {
+void write_record(const std::filesystem::path& folder, const RunRecord& record) {
   Json json;
   json["schema"] = kSchema;
   for_each_member(record, [&](const char* place, const auto& value) { json[Json::json_pointer(place)] = value; });
-  return replace_file(folder / kRunFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  replace_file(folder / kRunFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-Result<std::optional<RunRecord>> read_record(const std::filesystem::path& folder) {
+std::optional<RunRecord> read_record(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kRunFile;
   std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return std::optional<RunRecord>();
+  if (!std::filesystem::exists(file, ignored)) return std::nullopt;
   std::ifstream stream(file, std::ios::binary);
   const Json json = Json::parse(stream, nullptr, false);
   try {
@@ -101,12 +101,12 @@ Result<std::optional<RunRecord>> read_record(const std::filesystem::path& folder
       RunRecord record;
       for_each_member(record,
                       [&](const char* place, auto& value) { json.at(Json::json_pointer(place)).get_to(value); });
-      return std::optional(record);
+      return record;
     }
   } catch (const Json::exception&) {
     // A key is missing or of another kind: no batch wrote the file.
   }
-  return file_error("folder_of_another_batch", file, "was not written by slipfit batch; choose another folder");
+  throw file_error("folder_of_another_batch", file, "was not written by slipfit batch; choose another folder");
 }
 
 std::optional<std::string> difference(const RunRecord& before, const RunRecord& now) {

@@ -7,7 +7,6 @@
 
 #include "slipfit/batch/options.hpp"
 #include "slipfit/core/digest.hpp"
-#include "slipfit/core/result.hpp"
 
 namespace slipfit::batch {
 
@@ -41,10 +40,10 @@ struct RunRecord {
 /// Of a run that begins now.
 RunRecord begin_record(const BatchOptions& options, const Digest& manifest_digest, std::size_t rows);
 
-std::optional<Error> write_record(const std::filesystem::path& folder, const RunRecord& record);
+void write_record(const std::filesystem::path& folder, const RunRecord& record);
 
 /// Nothing where the folder has none. Error: folder_of_another_batch where no batch wrote it.
-Result<std::optional<RunRecord>> read_record(const std::filesystem::path& folder);
+std::optional<RunRecord> read_record(const std::filesystem::path& folder);
 
 /// What keeps `now` from continuing what `before` began ("the manifest has changed"), or nothing.
 std::optional<std::string> difference(const RunRecord& before, const RunRecord& now);

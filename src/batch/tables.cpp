@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/csv_line.hpp"
+#include "core/thrown_error.hpp"
 #include "io/cells.hpp"
 #include "report/quantities.hpp"
 #include "slipfit/fit/parameter.hpp"
@@ -107,9 +108,11 @@ std::string summary_names() {
   return csv_line(names);
 }
 
-Result<std::string> summary_of_result(const SummaryKey& key, const std::string& document) {
+std::string summary_of_result(const SummaryKey& key, const std::string& document) {
   const Json json = Json::parse(document, nullptr, false);
-  if (!json.is_object()) return Error{"not_readable", "results.jsonl: the line of '" + key.id + "' is no document"};
+  if (!json.is_object()) {
+    throw ThrownError({"not_readable", "results.jsonl: the line of '" + key.id + "' is no document"});
+  }
   std::vector<std::string> cells = key_cells(key, cell_at(json, Json::json_pointer("/status")));
   for (const SummaryColumn& column : document_columns()) cells.push_back(cell_at(json, column.place));
   cells.insert(cells.end(), {warning_codes(json), ""});

@@ -22,7 +22,7 @@ struct SummaryKey {
 /// The line of names.
 std::string summary_names();
 /// From a document of `slipfit fit --json`; what it does not know is empty. Error: not_readable.
-Result<std::string> summary_of_result(const SummaryKey& key, const std::string& document);
+std::string summary_of_result(const SummaryKey& key, const std::string& document);
 /// Of a recording that failed.
 std::string summary_of_failure(const SummaryKey& key, const std::string& code);
 

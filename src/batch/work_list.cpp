@@ -10,7 +10,6 @@
 
 #include "batch/files.hpp"
 #include "io/message.hpp"
-#include "slipfit/io/manifest.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit::batch {
@@ -24,16 +23,15 @@ std::uint64_t cost_of(const std::filesystem::path& file) {
 }
 
 /// The manifest or a recording that the batch would write over, by the same name or another (a link).
-std::optional<Error> check_not_written(const std::filesystem::path& input, const std::filesystem::path& folder) {
+void check_not_written(const std::filesystem::path& input, const std::filesystem::path& folder) {
   std::vector<std::string_view> written(kFolderFiles.begin(), kFolderFiles.end());
   written.emplace_back(kLock);
   for (const std::string_view name : written) {
     std::error_code ignored;
     if (!std::filesystem::equivalent(input, folder / name, ignored)) continue;
-    return Error{"output_is_input", fmt::format("--out: '{}' is '{}' of the results, choose another folder",
-                                                one_line(input.string()), name)};
+    throw ThrownError({"output_is_input", fmt::format("--out: '{}' is '{}' of the results, choose another folder",
+                                                      one_line(input.string()), name)});
   }
-  return std::nullopt;
 }
 
 /// Comparing every recording with every written file would be six system calls a row: the name decides which ones are.
@@ -47,18 +45,15 @@ class WorkCollector {
  public:
   explicit WorkCollector(const BatchOptions& options) : options_(options) {}
 
-  std::optional<Error> add(const ManifestEntry& entry) {
-    if (has_written_name(entry)) {
-      if (auto error = check_not_written(entry.file, options_.folder)) return error;
-    }
+  void add(const ManifestEntry& entry) {
+    if (has_written_name(entry)) check_not_written(entry.file, options_.folder);
     list_.slots.add(entry.id, entry.row - 1);
     list_.rows = entry.row;
     const std::size_t first_row = options_.fit_group && !entry.group.empty() ? add_member(entry) : entry.row;
-    if (options_.shard.count == 1) return std::nullopt;
+    if (options_.shard.count == 1) return;
     first_rows_.push_back(static_cast<std::uint32_t>(first_row));
     costs_.push_back(0);
     costs_[first_row - 1] += cost_of(entry.file);
-    return std::nullopt;
   }
 
   WorkList finish() {
@@ -95,15 +90,15 @@ class WorkCollector {
 };
 
 /// Reads the manifest once more, to tell which ids stand in it twice.
-std::optional<Error> find_duplicate(const std::filesystem::path& manifest, const std::vector<Digest>& suspects) {
-  if (suspects.empty()) return std::nullopt;
+void check_duplicates(const std::filesystem::path& manifest, const std::vector<Digest>& suspects) {
+  if (suspects.empty()) return;
   std::unordered_map<std::string, std::size_t> lines;
-  return for_each_entry(manifest, [&](const ManifestEntry& entry) -> std::optional<Error> {
-    if (!std::binary_search(suspects.begin(), suspects.end(), digest_of(entry.id))) return std::nullopt;
-    const auto [first, is_new] = lines.try_emplace(entry.id, entry.line);
-    return is_new ? std::nullopt
-                  : std::optional(reading::duplicate_id(one_line(manifest.string()), entry, first->second));
-  });
+  Entries entries(manifest);
+  while (const auto entry = entries.next()) {
+    if (!std::binary_search(suspects.begin(), suspects.end(), digest_of(entry->id))) continue;
+    const auto [first, is_new] = lines.try_emplace(entry->id, entry->line);
+    if (!is_new) throw ThrownError(reading::duplicate_id(one_line(manifest.string()), *entry, first->second));
+  }
 }
 
 }  // namespace
@@ -143,19 +138,6 @@ std::vector<Digest> IdIndex::repeated() const {
   return digests;
 }
 
-std::optional<Error> for_each_entry(const std::filesystem::path& manifest,
-                                    const std::function<std::optional<Error>(const ManifestEntry&)>& use) {
-  auto opened = ManifestReader::open(manifest);
-  if (!opened) return opened.error();
-  ManifestReader reader = std::move(opened).value();
-  for (;;) {
-    auto next = reader.next();
-    if (!next) return next.error();
-    if (!next.value()) return std::nullopt;
-    if (auto error = use(*next.value())) return error;
-  }
-}
-
 std::string id_of_group(const std::string& name) {
   return "group:" + name;
 }
@@ -163,22 +145,23 @@ std::string id_of_group(const std::string& name) {
 Result<Digest> manifest_digest(const std::filesystem::path& manifest) {
   if (const auto digest = digest_of_file(manifest.string())) return *digest;
   return file_error("not_readable", manifest,
-                    "is no regular file, or cannot be read; a batch reads its manifest several times");
+                    "is no regular file, or cannot be read; a batch reads its manifest several times")
+      .error();
 }
 
-Result<WorkList> list_work(const BatchOptions& options) {
+WorkList list_work(const BatchOptions& options) {
   const auto digest = manifest_digest(options.manifest);
   std::error_code ignored;
-  if (!digest && std::filesystem::is_fifo(options.manifest, ignored)) return digest.error();  // reading it would block
-  if (auto error = check_not_written(options.manifest, options.folder)) return *error;
+  const bool would_block = !digest && std::filesystem::is_fifo(options.manifest, ignored);
+  if (would_block) throw ThrownError(digest.error());
+  check_not_written(options.manifest, options.folder);
   WorkCollector collector(options);
-  auto failed = for_each_entry(options.manifest, [&](const ManifestEntry& entry) { return collector.add(entry); });
-  if (failed) return *failed;
+  Entries entries(options.manifest);
+  while (const auto entry = entries.next()) collector.add(*entry);
   WorkList list = collector.finish();
-  if (list.rows == 0) return reading::empty_manifest(one_line(options.manifest.string()));
-  if (auto error = find_duplicate(options.manifest, list.slots.repeated())) return *error;
-  if (!digest) return digest.error();
-  list.manifest_digest = digest.value();
+  if (list.rows == 0) throw ThrownError(reading::empty_manifest(one_line(options.manifest.string())));
+  check_duplicates(options.manifest, list.slots.repeated());
+  list.manifest_digest = value_or_throw(digest);
   return list;
 }
 

@@ -3,16 +3,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/thrown_error.hpp"
 #include "slipfit/batch/options.hpp"
 #include "slipfit/core/digest.hpp"
-#include "slipfit/core/result.hpp"
+#include "slipfit/io/manifest.hpp"
 
 namespace slipfit::batch {
 
@@ -61,11 +61,18 @@ struct SlotKey {
 
 /// Reads the whole manifest once and checks every row. Errors: those of ManifestReader, duplicate_id, empty_manifest,
 /// output_is_input.
-Result<WorkList> list_work(const BatchOptions& options);
+WorkList list_work(const BatchOptions& options);
 
-/// Calls `use` with every entry of a manifest until it returns an error. Errors: also those of ManifestReader.
-std::optional<Error> for_each_entry(const std::filesystem::path& manifest,
-                                    const std::function<std::optional<Error>(const ManifestEntry&)>& use);
+/// The entries of a manifest, one after the other. Errors: those of ManifestReader.
+class Entries {
+ public:
+  explicit Entries(const std::filesystem::path& manifest) : reader_(value_or_throw(ManifestReader::open(manifest))) {}
+  /// Empty behind the last one.
+  std::optional<ManifestEntry> next() { return value_or_throw(reader_.next()); }
+
+ private:
+  ManifestReader reader_;
+};
 
 /// "group:NAME", the id of a group's result.
 std::string id_of_group(const std::string& name);

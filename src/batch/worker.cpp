@@ -52,15 +52,16 @@ Result<BatchFit> fit_without_exceptions(const WorkItem& item) {
 }
 
 std::string fit_reply(const WorkItem& item, const BatchOptions& options, ResultLog& log, Reply::Kind kind) {
-  log.begin(item.key.slot);
-  if (const auto error = log.error()) return reply_text(Reply::Kind::Stop, *error);
-  const auto fit = fit_without_exceptions(item);
-  if (!fit) return reply_text(Reply::Kind::Failed, fit.error());
-  if (options.report && !fit.value().page.empty()) {
-    const auto error = write_page(*options.report, item.key, fit.value());
-    if (error) return reply_text(Reply::Kind::Stop, *error);
+  try {
+    log.begin(item.key.slot);
+    log.throw_error();
+    const auto fit = fit_without_exceptions(item);
+    if (!fit) return reply_text(Reply::Kind::Failed, fit.error());
+    if (options.report && !fit.value().page.empty()) write_page(*options.report, item.key, fit.value());
+    return reply_text(kind, fit.value().document);
+  } catch (const ThrownError& cause) {
+    return reply_text(Reply::Kind::Stop, cause.error());
   }
-  return reply_text(kind, fit.value().document);
 }
 
 /// Gone: a file cannot be read, and none is known to have changed.

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "fit/inference/student.hpp"
+#include "core/student.hpp"
+#include "core/unknown.hpp"
 
 namespace slipfit::comparing {
 namespace {
@@ -17,12 +18,12 @@ double square(double x) {
 
 /// The degrees of freedom at which Student's t reaches `quantile` standard errors for 95 %.
 double freedom_of(double quantile) {
-  if (!(quantile > fit::t_quantile(kMostFreedom))) return kMostFreedom;
+  if (!(quantile > t_quantile(kMostFreedom))) return kMostFreedom;
   double low = 1.0;
   double high = kMostFreedom;
   while (high / low > 1.0 + 1e-6) {
     const double middle = std::sqrt(low * high);
-    (fit::t_quantile(middle) > quantile ? low : high) = middle;
+    (t_quantile(middle) > quantile ? low : high) = middle;
   }
   return low;
 }
@@ -40,7 +41,7 @@ struct OneFit {
 
 std::optional<OneFit> one_fit(const Estimate& estimate) {
   if (!estimate.value || !estimate.standard_error || !(*estimate.standard_error > 0.0)) return std::nullopt;
-  const double normal = fit::t_quantile(kMostFreedom) * *estimate.standard_error;
+  const double normal = t_quantile(kMostFreedom) * *estimate.standard_error;
   const Interval bounds = estimate.ci95.value_or(Interval{*estimate.value - normal, *estimate.value + normal});
   OneFit one{{*estimate.value, std::max(0.0, *estimate.value - bounds.low),
               std::max(0.0, bounds.high - *estimate.value), *estimate.standard_error}};
@@ -100,7 +101,7 @@ std::optional<Pair> by_scatter(std::span<const Estimate> a, std::span<const Esti
   if (!(variance_a + variance_b > 0.0)) return std::nullopt;
   const double freedom = both ? joined_freedom(variance_a, sample_a.count - 1.0, variance_b, sample_b.count - 1.0)
                               : std::max(sample_a.count, sample_b.count) - 1.0;
-  const double quantile = fit::t_quantile(freedom);
+  const double quantile = t_quantile(freedom);
   return Pair{symmetric_reach(sample_a.mean, variance_a, quantile),
               symmetric_reach(sample_b.mean, variance_b, quantile), freedom};
 }
@@ -108,7 +109,7 @@ std::optional<Pair> by_scatter(std::span<const Estimate> a, std::span<const Esti
 Estimate mean_of(std::span<const Estimate> estimates) {
   if (estimates.size() == 1) return estimates.front();
   const Sample sample = sample_of(estimates);
-  return fit::symmetric(sample.mean, std::sqrt(variance_of_mean(sample, sample.variance)), sample.count - 1.0);
+  return symmetric(sample.mean, std::sqrt(variance_of_mean(sample, sample.variance)), sample.count - 1.0);
 }
 
 // The intervals of both numbers give that of their difference, also where they are lopsided: MOVER, Zou and Donner,
@@ -125,8 +126,8 @@ Estimate difference_of(const Pair& pair) {
 Estimate ratio_of(const Pair& pair) {
   const Reach& a = pair.a;
   const Reach& b = pair.b;
-  if (!(a.value - a.down > 0.0)) return {{}, {}, {}, "A may be 0 or below"};
-  if (!(b.value >= 0.0)) return {{}, {}, {}, "B is below 0"};
+  if (!(a.value - a.down > 0.0)) return unknown("A may be 0 or below");
+  if (!(b.value >= 0.0)) return unknown("B is below 0");
   const double ratio = b.value / a.value;
   const double product = a.value * b.value;
   const auto root = [&](double reach_a, double reach_b) {
@@ -146,7 +147,7 @@ std::optional<double> p_value_of(const Pair& pair) {
   const double reach =
       *difference.value > 0.0 ? *difference.value - difference.ci95->low : difference.ci95->high - *difference.value;
   if (!(reach > 0.0)) return std::nullopt;
-  return fit::t_chance(size / reach * fit::t_quantile(pair.degrees_of_freedom), pair.degrees_of_freedom);
+  return t_chance(size / reach * t_quantile(pair.degrees_of_freedom), pair.degrees_of_freedom);
 }
 
 std::vector<double> holm(const std::vector<double>& p_values) {

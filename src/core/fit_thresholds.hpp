@@ -206,9 +206,6 @@ inline constexpr double kTellingFrequency = 0.15;
 /// Chance below which slips and a ring-down are not one motion. [1; convention]
 inline constexpr double kMotionChance = 0.01;
 
-/// Least ratio of speeds that shows ageing. [1; convention]
-inline constexpr double kAgeingSpeedRatio = 2.0;
-
 /// Chance below which static friction that differs between the speeds ages. [1; convention: static friction of polymers
 /// and rubber does]
 inline constexpr double kAgeingChance = 0.05;
@@ -220,12 +217,14 @@ inline constexpr double kCutoffChance = 0.005;
 /// convention]
 inline constexpr double kCutoffStickRatio = 30.0;
 
-/// Least recordings that show that k goes with the speed. [1; derived: a line through three has one degree of freedom
-/// left]
-inline constexpr std::size_t kStiffnessRecordings = 4;
-
 /// Least recordings that show a trend of static friction over the speed. [1; convention: two always lie on a line]
 inline constexpr std::size_t kTrendRecordings = 3;
+
+/// The same of k. [1; derived: a line through three has one degree of freedom left]
+inline constexpr std::size_t kStiffnessRecordings = 4;
+
+/// Least ratio of their speeds for either. [1; convention]
+inline constexpr double kTrendSpeedRatio = 2.0;
 
 /// Errors by which the spacing predicted without a recording may differ from its own, beyond which it disagrees with
 /// the others. [1; calibrated: benchmarks/independent/sweeps.py]

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <span>
 
 namespace slipfit {
 
@@ -12,6 +15,11 @@ struct LineSums {
 
   [[nodiscard]] double slope() const { return cross / square; }
   [[nodiscard]] double at(double x) const { return mean_y + slope() * (x - mean_x); }
+  /// Variance of a point about the line, for errors of their own each; 0 for two points.
+  [[nodiscard]] double variance() const {
+    return count > 2.0 ? std::max(0.0, scatter - slope() * cross) / (count - 2.0) : 0.0;
+  }
+  [[nodiscard]] double slope_error() const { return std::sqrt(variance() / square); }
 };
 
 /// Of the points x(0), y(0) to x(count - 1), y(count - 1).
@@ -31,6 +39,12 @@ LineSums line_sums(std::size_t count, const X& x, const Y& y) {
     sums.scatter += dy * dy;
   }
   return sums;
+}
+
+/// At least two points, not all at one x.
+inline LineSums line_sums(std::span<const double> x, std::span<const double> y) {
+  return line_sums(
+      x.size(), [&](std::size_t i) { return x[i]; }, [&](std::size_t i) { return y[i]; });
 }
 
 }  // namespace slipfit

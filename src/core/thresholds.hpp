@@ -45,9 +45,6 @@ inline constexpr double kEvidence = 4.6;
 /// and drives scatter by less, friction by more]
 inline constexpr double kClockScatter = 0.01;
 
-/// Onset force of the first half of the cycles over that of the second, above which swings die out. [1; convention]
-inline constexpr double kDecay = 1.7;
-
 /// Share of the recording that cycles have to cover: swings that end earlier died out. [1; convention]
 inline constexpr double kSpanShare = 0.5;
 
@@ -96,10 +93,6 @@ inline constexpr double kRegular = 0.01;
 
 /// Scatter over mean of the intervals, above which slips are counted even beside a fit. [1; convention]
 inline constexpr double kCounted = 0.15;
-
-/// Relative distance of spectrum and count, beyond which they contradict each other. [1; calibrated: scatter of the
-/// cycles sets them less far apart]
-inline constexpr double kContradiction = 0.3;
 
 /// Drop over noise of a sample, below which noise hides slips. [1; calibrated: simulated slips are missed below 3]
 inline constexpr double kHiding = 6.0;

@@ -17,4 +17,20 @@ class ThrownError : public std::runtime_error {
   Error error_;
 };
 
+/// What `make()` returns, or the error that it throws.
+template <class Make>
+auto result_of(const Make& make) -> Result<decltype(make())> {
+  try {
+    return make();
+  } catch (const ThrownError& thrown) {
+    return thrown.error();
+  }
+}
+
+template <class T>
+T value_or_throw(Result<T> result) {
+  if (!result) throw ThrownError(result.error());
+  return std::move(result).value();
+}
+
 }  // namespace slipfit

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "core/quantile.hpp"
 #include "fit/contact/contact_fit.hpp"
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/fit_unless.hpp"
@@ -16,7 +17,6 @@
 #include "fit/selection/chosen_fit.hpp"
 #include "fit/selection/tiers.hpp"
 #include "model/reloading.hpp"
-#include "signal/robust.hpp"
 
 namespace slipfit {
 namespace {
@@ -40,22 +40,14 @@ HeldParameters held_parameters(const FitOptions& options) {
 
 FitDiagnostics diagnostics_of(const Recording& recording, const DampedFit& damped, const fit::Resolution& resolution) {
   const BlockFit& blocks = damped.blocks;
-  std::vector<double> onset_forces;
   double mean = 0.0;
   const auto count = static_cast<double>(blocks.size());
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const CycleState state = blocks.state(i);
-    onset_forces.push_back(state.onset_force);
-    mean += state.onset_force / count;
-  }
-  const auto half = static_cast<std::ptrdiff_t>(onset_forces.size() / 2);
+  for (std::size_t i = 0; i < blocks.size(); ++i) mean += blocks.state(i).onset_force / count;
   FitDiagnostics diagnostics;
   diagnostics.relative_residual = damped.uncertainty.noise / std::abs(mean);
   diagnostics.onset_force_spread = damped.uncertainty.onset_force_sd * blocks.scales().force / std::abs(mean);
   diagnostics.onset_force_error = damped.uncertainty.onset_force_error * blocks.scales().force / std::abs(mean);
   diagnostics.restick_share = resting_share(blocks);
-  diagnostics.decay = signal::median({onset_forces.begin(), onset_forces.begin() + half}) /
-                      signal::median({onset_forces.begin() + half, onset_forces.end()});
   diagnostics.span_share = (blocks.scales().time_end_s - blocks.scales().time_begin_s) / recording.duration_s();
   diagnostics.samples_per_slip = resolution.samples_per_slip;
   diagnostics.hum_share = mains_amplitude(blocks) / std::abs(mean);
@@ -212,6 +204,17 @@ std::optional<FitResult> fit::fit_unless(const std::function<bool()>& is_other_k
   result.warnings = one_of_each_code(result.warnings);
   if (options.curve) result.curve = curve_of(recording, chosen.blocks);
   return result;
+}
+
+std::optional<fit::RoughMisfit> fit::rough_misfit(const FitInput& few) {
+  const std::optional<BlockFit> fit = rough_fit(few);
+  if (!fit) return std::nullopt;
+  std::vector<double> onset_forces;
+  for (const Local& local : fit->parameters.cycles) onset_forces.push_back(local[1]);
+  const MeanAndSpread onset = describe(onset_forces);
+  const Scales& scales = fit->scales();
+  return RoughMisfit{scales.noise * std::sqrt(reduced_chi2(*fit)) / std::abs(scales.force * onset.mean),
+                     onset.sd / std::abs(onset.mean), fit->size()};
 }
 
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,

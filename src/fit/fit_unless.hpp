@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 
+#include "fit/selection/fit_input.hpp"
 #include "slipfit/fit/options.hpp"
 #include "slipfit/fit/result.hpp"
 
@@ -12,5 +15,15 @@ namespace slipfit::fit {
 std::optional<FitResult> fit_unless(const std::function<bool()>& is_other_kept, const Recording& recording,
                                     const Quality& quality, const Segmentation& segmentation,
                                     const FitOptions& options);
+
+/// How badly slips fit before anything is left out of them.
+struct RoughMisfit {
+  double relative_residual = 0.0;   ///< over the mean onset force
+  double onset_force_spread = 0.0;  ///< standard deviation over the cycles, over their mean
+  std::size_t cycles = 0;
+};
+
+/// Of few slips. Empty where there is no fit.
+std::optional<RoughMisfit> rough_misfit(const FitInput& few);
 
 }  // namespace slipfit::fit

@@ -146,7 +146,7 @@ class Assembler {
   void add_average(fit::Findings& findings) const {
     if (const std::optional<fit::FittedAverage>& average = outcome_.solution.average) {
       findings.fitted_average =
-          fit::symmetric(average->seconds, average->standard_error_s, static_cast<double>(data_.fitted.size()));
+          symmetric(average->seconds, average->standard_error_s, static_cast<double>(data_.fitted.size()));
       findings.slip_doubt = fit::kFittedAverage;
       findings.warnings.push_back(fit::averaged_warning(average->seconds));
     }
@@ -242,7 +242,7 @@ class Assembler {
     if (data_.steady_of[i]) {
       const fit::SteadyRun& steady = data_.steady[*data_.steady_of[i]];
       point.mean_steady_force_N =
-          fit::symmetric(steady.mean_force, steady.standard_error, static_cast<double>(fit::kSteadyStretches) - 1.0);
+          symmetric(steady.mean_force, steady.standard_error, static_cast<double>(fit::kSteadyStretches) - 1.0);
     }
     return point;
   }

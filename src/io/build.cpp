@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/quantile.hpp"
+#include "core/thrown_error.hpp"
 #include "io/levels.hpp"
 #include "io/sign.hpp"
 
@@ -42,14 +43,13 @@ void interpret_force(Interpreted& part, ForceQuantity column) {
        "a zero force in newtons cannot be subtracted from a friction coefficient without the normal force"});
 }
 
-Result<Interpreted> interpret(Part part, const LoadedFile& file, const Conditions& conditions) {
-  if (const auto error = check_part(part, file)) return *error;
-  auto stated = state_conditions(part.rows, file.choice, file.layout, conditions, file.name);
-  if (!stated) return stated.error();
-  Interpreted result{{}, {}, {}, stated.value().conditions, describe_part(part, file)};
+Interpreted interpret(Part part, const LoadedFile& file, const Conditions& conditions) {
+  check_part(part, file);
+  const StatedConditions stated = state_conditions(part.rows, file.choice, file.layout, conditions, file.name);
+  Interpreted result{{}, {}, {}, stated.conditions, describe_part(part, file)};
   const auto append = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
-  append(result.provenance.assumed, stated.value().assumed);
-  append(result.provenance.warnings, stated.value().warnings);
+  append(result.provenance.assumed, stated.assumed);
+  append(result.provenance.warnings, stated.warnings);
   result.time_s = std::move(part.rows.time_s);
   result.force = std::move(part.rows.force);
   result.displacement_m = std::move(part.rows.displacement_m);
@@ -57,20 +57,20 @@ Result<Interpreted> interpret(Part part, const LoadedFile& file, const Condition
   return result;
 }
 
-Error reciprocating(const std::vector<double>& time_s, const std::string& file) {
-  return {
-      "reciprocating",
-      fmt::format("{}: the sign of the force turns with every stroke (a reciprocating test), and one "
-                  "stroke is one recording; take them all with --strokes, or one with --window T0:T1 (in s; from {} "
-                  "to {})",
-                  file, time_s.front(), time_s.back())};
+ThrownError reciprocating(const std::vector<double>& time_s, const std::string& file) {
+  return ThrownError(
+      {"reciprocating",
+       fmt::format("{}: the sign of the force turns with every stroke (a reciprocating test), and one "
+                   "stroke is one recording; take them all with --strokes, or one with --window T0:T1 (in s; from {} "
+                   "to {})",
+                   file, time_s.front(), time_s.back())});
 }
 
-Result<Recording> create(Interpreted part, const std::string& file) {
+Recording create(Interpreted part, const std::string& file) {
   auto recording =
       Recording::create(std::move(part.time_s), std::move(part.force), part.conditions, std::move(part.provenance));
-  if (!recording) return Error{recording.error().code, file + ": " + recording.error().message};
-  return recording;
+  if (!recording) throw ThrownError({recording.error().code, file + ": " + recording.error().message});
+  return std::move(recording).value();
 }
 
 /// Where a displacement is known, only what moves at nearly one speed: a crank turns slowly at its ends.
@@ -97,8 +97,7 @@ std::optional<double> moved_m_per_s(const Interpreted& part, const SampleRange& 
   return moved_m / (part.time_s[kept.end - 1] - part.time_s[kept.begin]);
 }
 
-Result<NamedRecording> record(const Interpreted& part, const Stroke& stroke, std::size_t number,
-                              const std::string& file) {
+NamedRecording record(const Interpreted& part, const Stroke& stroke, std::size_t number, const std::string& file) {
   const SampleRange kept = at_full_speed(part, stroke);
   const auto cut = [&](const std::vector<double>& column) {
     const auto part_of_it = kept.of(column);
@@ -115,29 +114,23 @@ Result<NamedRecording> record(const Interpreted& part, const Stroke& stroke, std
     auto warning = compare_speed(part.conditions.speed_m_per_s, *moved, "in this stroke the displacement");
     if (warning) own.provenance.warnings.push_back(*std::move(warning));
   }
-  auto recording = create(std::move(own), file);
-  if (!recording) return recording.error();
-  return NamedRecording{fmt::format("stroke {} ({})", number, sign), std::move(recording).value()};
+  return {fmt::format("stroke {} ({})", number, sign), create(std::move(own), file)};
 }
 
 }  // namespace
 
-Result<Recording> build_recording(Part part, const LoadedFile& file, const Conditions& conditions) {
-  auto interpreted = interpret(std::move(part), file, conditions);
-  if (!interpreted) return interpreted.error();
-  Interpreted one = std::move(interpreted).value();
+Recording build_recording(Part part, const LoadedFile& file, const Conditions& conditions) {
+  Interpreted one = interpret(std::move(part), file, conditions);
   if (is_negative_throughout(one.force)) {
     for (double& force : one.force) force = -force;
     one.provenance.assumed.emplace_back("The force is negative throughout: its sign was turned.");
   }
-  if (is_reciprocating(one.force)) return reciprocating(one.time_s, file.name);
+  if (is_reciprocating(one.force)) throw reciprocating(one.time_s, file.name);
   return create(std::move(one), file.name);
 }
 
-Result<std::vector<NamedRecording>> build_strokes(Part part, const LoadedFile& file, const Conditions& conditions) {
-  auto interpreted = interpret(std::move(part), file, conditions);
-  if (!interpreted) return interpreted.error();
-  const Interpreted& all = interpreted.value();
+std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, const Conditions& conditions) {
+  const Interpreted all = interpret(std::move(part), file, conditions);
   const std::vector<Stroke> strokes = take_strokes(all.force);
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
@@ -151,7 +144,7 @@ Result<std::vector<NamedRecording>> build_strokes(Part part, const LoadedFile& f
                                   "reciprocating test; leave out --strokes"
                                 : ": there is no stroke of this sign in which the force does more than turn; "
                                   "take longer strokes, or a part of one with --window";
-    return Error{"no_strokes", file.name + why};
+    throw ThrownError({"no_strokes", file.name + why});
   }
   // Of both directions a pair at a time, so that each is there as often as the other.
   const std::size_t group = file.options.pieces == Pieces::Strokes ? 2 : 1;
@@ -161,9 +154,7 @@ Result<std::vector<NamedRecording>> build_strokes(Part part, const LoadedFile& f
   for (std::size_t g = 0; g < taken; ++g) {
     const std::size_t first = group * (g * groups / taken);
     for (std::size_t i = first; i < std::min(first + group, wanted.size()); ++i) {
-      auto recording = record(all, strokes[wanted[i]], wanted[i] + 1, file.name);
-      if (!recording) return recording.error();
-      recordings.push_back(std::move(recording).value());
+      recordings.push_back(record(all, strokes[wanted[i]], wanted[i] + 1, file.name));
     }
   }
   return recordings;

@@ -13,11 +13,11 @@ namespace slipfit::reading {
 
 /// Forces that oppose the motion, and what the columns say of speed and load. Errors: those of check_part,
 /// state_conditions and Recording::create; reciprocating.
-Result<Recording> build_recording(Part part, const LoadedFile& file, const Conditions& conditions);
+Recording build_recording(Part part, const LoadedFile& file, const Conditions& conditions);
 
 /// The strokes of a reciprocating test, of those of `file.options.pieces` at most `kMostPieces`, spread evenly. Errors:
 /// those above; no_strokes.
-Result<std::vector<NamedRecording>> build_strokes(Part part, const LoadedFile& file, const Conditions& conditions);
+std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, const Conditions& conditions);
 
 /// A joint fit of more takes minutes.
 constexpr std::size_t kMostPieces = 16;
@@ -30,8 +30,8 @@ struct StatedConditions {
 };
 
 /// What the user states counts; a column fills in what is not stated. Errors: no_speed, speed_varies.
-Result<StatedConditions> state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
-                                          const Conditions& conditions, const std::string& file);
+StatedConditions state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
+                                  const Conditions& conditions, const std::string& file);
 
 /// Where a displacement moves at another speed than the stated one. `what`: the displacement, in words.
 std::optional<Warning> compare_speed(double stated_m_per_s, double moved_m_per_s, const std::string& what);

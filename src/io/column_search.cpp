@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/thrown_error.hpp"
 #include "core/word_list.hpp"
 #include "io/message.hpp"
 
@@ -49,31 +50,31 @@ std::string list_columns(const Layout& layout) {
   return list + (layout.has_names ? "" : " (without names)");
 }
 
-Result<std::size_t> find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
-                                       const std::string& file) {
+std::size_t find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
+                               const std::string& file) {
   auto found = columns_called(layout, printable(wanted));
   const auto place = place_in_list(wanted, layout.columns.size());
   if (found.empty() && place) found = {*place};
   if (found.empty()) {
-    return Error{"unknown_column", fmt::format("{}: no column '{}'; {}; choose one with {}", file, printable(wanted),
-                                               list_columns(layout), option)};
+    throw ThrownError({"unknown_column", fmt::format("{}: no column '{}'; {}; choose one with {}", file,
+                                                     printable(wanted), list_columns(layout), option)});
   }
   if (found.size() > 1) {
-    return Error{"unknown_column", fmt::format("{}: several columns are called '{}'; {}; give the number with {}", file,
-                                               printable(wanted), list_columns(layout), option)};
+    throw ThrownError({"unknown_column", fmt::format("{}: several columns are called '{}'; {}; give the number with {}",
+                                                     file, printable(wanted), list_columns(layout), option)});
   }
   return found.front();
 }
 
-Result<std::size_t> find_column(const Layout& layout, const std::string& wanted, const std::string& option,
-                                const std::string& file) {
-  auto found = find_column_of_any(layout, wanted, option, file);
-  if (!found || layout.columns[found.value()].may_be_numeric()) return found;
-  return Error{"column_not_numeric", fmt::format("{}:{}: {} holds text, not numbers; choose another with {}", file,
-                                                 layout.first_data_line, describe(layout, found.value()), option)};
+std::size_t find_column(const Layout& layout, const std::string& wanted, const std::string& option,
+                        const std::string& file) {
+  const std::size_t found = find_column_of_any(layout, wanted, option, file);
+  if (layout.columns[found].may_be_numeric()) return found;
+  throw ThrownError({"column_not_numeric", fmt::format("{}:{}: {} holds text, not numbers; choose another with {}",
+                                                       file, layout.first_data_line, describe(layout, found), option)});
 }
 
-Result<std::size_t> find_time_column(const Layout& layout, const std::string& file) {
+std::optional<std::size_t> find_time_column(const Layout& layout, const std::string& file) {
   auto found = best_columns(layout, [](const Column& column, std::size_t) {
     if (column.name.role != Role::Time || !column.may_be_numeric()) return 0;
     return column.name.rank + (column.never_decreases ? 8 : 0) +
@@ -92,15 +93,11 @@ Result<std::size_t> find_time_column(const Layout& layout, const std::string& fi
     });
   }
   if (found.size() > 1) {
-    return Error{"ambiguous_time_column",
-                 fmt::format("{}: {} and {} may both be the time; {}; choose one with --time-column", file,
-                             describe(layout, found[0]), describe(layout, found[1]), list_columns(layout))};
+    throw ThrownError({"ambiguous_time_column",
+                       fmt::format("{}: {} and {} may both be the time; {}; choose one with --time-column", file,
+                                   describe(layout, found[0]), describe(layout, found[1]), list_columns(layout))});
   }
-  if (!found.empty()) return found.front();
-  return Error{"no_time_column",
-               fmt::format("{}: no time column; {}; give the sampling rate with --sample-rate, or the "
-                           "column with --time-column",
-                           file, list_columns(layout))};
+  return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 }  // namespace slipfit::reading

@@ -16,12 +16,12 @@ std::string describe(const Layout& layout, std::size_t column);
 std::string list_columns(const Layout& layout);
 
 /// By name (exact, then without unit or case) or 1-based number, whatever it holds. Error: unknown_column.
-Result<std::size_t> find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
-                                       const std::string& file);
+std::size_t find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
+                               const std::string& file);
 
 /// The same of a column of numbers. Errors: unknown_column, column_not_numeric.
-Result<std::size_t> find_column(const Layout& layout, const std::string& wanted, const std::string& option,
-                                const std::string& file);
+std::size_t find_column(const Layout& layout, const std::string& wanted, const std::string& option,
+                        const std::string& file);
 
 /// The columns with the highest score above 0 (several where they tie).
 template <class ScoreOf>
@@ -38,7 +38,7 @@ std::vector<std::size_t> best_columns(const Layout& layout, const ScoreOf& score
   return best;
 }
 
-/// Where the time is. Errors: no_time_column, ambiguous_time_column.
-Result<std::size_t> find_time_column(const Layout& layout, const std::string& file);
+/// Where the time is; empty where no column may be it. Error: ambiguous_time_column.
+std::optional<std::size_t> find_time_column(const Layout& layout, const std::string& file);
 
 }  // namespace slipfit::reading

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/thrown_error.hpp"
 #include "core/unit_text.hpp"
 #include "core/word_list.hpp"
 #include "io/column_search.hpp"
@@ -24,9 +25,10 @@ struct Request {
   double speed_m_per_s = 0.0;  ///< 0: not known
 };
 
-Error unit_error(const Request& request, std::size_t column, const std::string& cause, const std::string& option) {
-  return {"unknown_unit", fmt::format("{}: the unit of {}: {}; give it with {}", request.file,
-                                      describe(request.layout, column), printable(cause), option)};
+ThrownError unit_error(const Request& request, std::size_t column, const std::string& cause,
+                       const std::string& option) {
+  return ThrownError({"unknown_unit", fmt::format("{}: the unit of {}: {}; give it with {}", request.file,
+                                                  describe(request.layout, column), printable(cause), option)});
 }
 
 bool mentions(const std::string& name, std::initializer_list<std::string_view> words) {
@@ -61,7 +63,7 @@ GuessedUnit guess_time_unit(const Column& column) {
 }
 
 /// The unit is that of the option, else that of the name, else a guess.
-Result<Channel> time_channel(const Request& request, std::size_t column) {
+Channel time_channel(const Request& request, std::size_t column) {
   const Column& found = request.layout.columns[column];
   const std::string name = describe(request.layout, column);
   const auto& told = request.options.time_unit;
@@ -74,7 +76,7 @@ Result<Channel> time_channel(const Request& request, std::size_t column) {
     return channel;
   }
   const auto scale = parse_unit(unit, Dimension::Time);
-  if (!scale) return unit_error(request, column, scale.error().message, "--time-unit");
+  if (!scale) throw unit_error(request, column, scale.error().message, "--time-unit");
   channel.scale = scale.value().scale;
   channel.is_clock = is_guess && guess.unit == "d";
   channel.sentence = is_guess ? fmt::format("Time is {}, taken to be in {} ({}).", name, unit, guess.why)
@@ -101,18 +103,18 @@ std::optional<Channel> displacement_as_time(const Request& request) {
 }
 
 /// Nothing where the sampling rate is the clock.
-Result<std::optional<Channel>> choose_time(const Request& request) {
+std::optional<Channel> choose_time(const Request& request) {
   const auto& [layout, options, file, speed_m_per_s] = request;
-  if (!options.time_column && options.sample_rate_Hz) return std::optional<Channel>();
-  const auto column = options.time_column ? find_column(layout, *options.time_column, "--time-column", file)
-                                          : find_time_column(layout, file);
-  if (!column && column.error().code == "no_time_column") {
-    if (auto way = displacement_as_time(request)) return std::optional(*std::move(way));
+  if (options.time_column) {
+    return time_channel(request, find_column(layout, *options.time_column, "--time-column", file));
   }
-  if (!column) return column.error();
-  const auto channel = time_channel(request, column.value());
-  if (!channel) return channel.error();
-  return std::optional(channel.value());
+  if (options.sample_rate_Hz) return std::nullopt;
+  if (const auto column = find_time_column(layout, file)) return time_channel(request, *column);
+  if (auto way = displacement_as_time(request)) return way;
+  throw ThrownError(
+      {"no_time_column", fmt::format("{}: no time column; {}; give the sampling rate with --sample-rate, or the "
+                                     "column with --time-column",
+                                     file, list_columns(layout))});
 }
 
 /// About a clock that is counted from the sampling rate.
@@ -157,7 +159,7 @@ std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<st
   });
 }
 
-Result<std::size_t> choose_force(const Request& request, std::optional<std::size_t> time) {
+std::size_t choose_force(const Request& request, std::optional<std::size_t> time) {
   const auto& [layout, options, file, speed_m_per_s] = request;
   if (options.force_column) return find_column(layout, *options.force_column, "--force-column", file);
   auto candidates = force_candidates(layout, time, options.force_scale);
@@ -166,23 +168,23 @@ Result<std::size_t> choose_force(const Request& request, std::optional<std::size
     candidates = {*std::ranges::find_if(candidates, varies)};
   }
   if (candidates.empty()) {
-    return Error{"no_force_column",
-                 fmt::format("{}: no column is a tangential force; {}; choose one with --force-column", file,
-                             list_columns(layout))};
+    throw ThrownError(
+        {"no_force_column", fmt::format("{}: no column is a tangential force; {}; choose one with --force-column", file,
+                                        list_columns(layout))});
   }
   if (candidates.size() > 1) {
     const std::string others = candidates.size() > 2 ? fmt::format(" (and {} more)", candidates.size() - 2) : "";
-    return Error{
-        "ambiguous_force_column",
-        fmt::format("{}: {} and {}{} may each be the force; {}; choose one with --force-column", file,
-                    describe(layout, candidates[0]), describe(layout, candidates[1]), others, list_columns(layout))};
+    throw ThrownError(
+        {"ambiguous_force_column",
+         fmt::format("{}: {} and {}{} may each be the force; {}; choose one with --force-column", file,
+                     describe(layout, candidates[0]), describe(layout, candidates[1]), others, list_columns(layout))});
   }
   return candidates.front();
 }
 
 /// Of a voltage and its like, by what the user says a unit of it is. Without a unit in the file it is that of the
 /// scale.
-Result<Channel> scaled_channel(const Request& request, std::size_t column, const std::string& text) {
+Channel scaled_channel(const Request& request, std::size_t column, const std::string& text) {
   const auto scale = parse_force_scale(text);
   const std::string described = describe(request.layout, column);
   const std::string& named = request.layout.columns[column].name.unit;
@@ -190,15 +192,15 @@ Result<Channel> scaled_channel(const Request& request, std::size_t column, const
   const auto of_column = read_unit(unit);
   const auto of_scale = scale ? read_unit(scale->unit) : std::nullopt;
   if (!of_scale || !of_column || of_scale->powers != of_column->powers) {
-    return unit_error(request, column, fmt::format("'{}' does not go with --force-scale '{}'", unit, text),
-                      "--force-unit");
+    throw unit_error(request, column, fmt::format("'{}' does not go with --force-scale '{}'", unit, text),
+                     "--force-unit");
   }
   return Channel{column, of_column->factor * scale->N_per_SI, ForceQuantity::Force_N,
                  fmt::format("Force is {}, in {}, at {} (as told).", described, printable(unit), printable(text))};
 }
 
 /// The unit decides between force and coefficient; without one the name does.
-Result<Channel> force_channel(const Request& request, std::size_t column) {
+Channel force_channel(const Request& request, std::size_t column) {
   const ColumnName& name = request.layout.columns[column].name;
   if (request.options.force_scale) return scaled_channel(request, column, *request.options.force_scale);
   const bool is_told = request.options.force_unit.has_value();
@@ -222,8 +224,8 @@ Result<Channel> force_channel(const Request& request, std::size_t column) {
   if (!as_number) {
     const auto known = read_unit(unit);
     const bool is_volt = known && known->powers == kVolt;
-    return unit_error(request, column, as_force.error().message,
-                      is_volt ? "--force-scale '5 N/V' (newtons a volt of this sensor)" : "--force-unit");
+    throw unit_error(request, column, as_force.error().message,
+                     is_volt ? "--force-scale '5 N/V' (newtons a volt of this sensor)" : "--force-unit");
   }
   return Channel{column, as_number.value().scale, ForceQuantity::FrictionCoefficient,
                  fmt::format("Friction coefficient is {}, {}.", described, in_unit)};
@@ -242,26 +244,21 @@ std::vector<std::string> layout_sentences(const Layout& layout) {
 
 }  // namespace
 
-Result<Choice> choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s,
-                              const std::string& file) {
+Choice choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s, const std::string& file) {
   if (options.time_column && options.sample_rate_Hz) {
-    return Error{"conflicting_options",
-                 file + ": both a time column and a sampling rate are given; leave out one of them"};
+    throw ThrownError(
+        {"conflicting_options", file + ": both a time column and a sampling rate are given; leave out one of them"});
   }
   const Request request{layout, options, file, speed_m_per_s};
-  const auto time = choose_time(request);
-  if (!time) return time.error();
   Choice choice;
-  choice.time = time.value();
-  const auto column = choose_force(request, choice.time ? std::optional(choice.time->column) : std::nullopt);
-  if (!column) return column.error();
-  if (choice.time && choice.time->column == column.value()) {
-    return Error{"conflicting_options", fmt::format("{}: {} cannot be both time and force; {}; choose two columns",
-                                                    file, describe(layout, column.value()), list_columns(layout))};
+  choice.time = choose_time(request);
+  const std::size_t column = choose_force(request, choice.time ? std::optional(choice.time->column) : std::nullopt);
+  if (choice.time && choice.time->column == column) {
+    throw ThrownError(
+        {"conflicting_options", fmt::format("{}: {} cannot be both time and force; {}; choose two columns", file,
+                                            describe(layout, column), list_columns(layout))});
   }
-  const auto force = force_channel(request, column.value());
-  if (!force) return force.error();
-  choice.force = force.value();
+  choice.force = force_channel(request, column);
   choice.assumed = layout_sentences(layout);
   choice.assumed.push_back(choice.time ? choice.time->sentence
                                        : counted_clock_sentence(layout, *options.sample_rate_Hz));

@@ -42,14 +42,12 @@ struct Choice {
 /// Errors: unknown_column, column_not_numeric, no_time_column, ambiguous_time_column, no_force_column,
 /// ambiguous_force_column, unknown_unit, conflicting_options. `file` is how messages call the file. A displacement over
 /// `speed_m_per_s` (0: not known) stands in for a clock that is missing.
-Result<Choice> choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s,
-                              const std::string& file);
+Choice choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s, const std::string& file);
 
 /// What stands beside time and force: normal force, speed, displacement, numbers of steps, the column of --where. A
 /// column that nobody named is used where its name and unit leave no doubt, and is otherwise no reason to refuse a
 /// file. Errors: unknown_column, column_not_numeric, unknown_unit, conflicting_options.
-Result<Choice> with_side_columns(Choice choice, const Layout& layout, const ReadOptions& options,
-                                 const std::string& file);
+Choice with_side_columns(Choice choice, const Layout& layout, const ReadOptions& options, const std::string& file);
 
 /// Of several columns that may be the tangential force, those whose quotient with the normal force is the column of
 /// friction coefficients; all of them where that does not tell.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/clock_step.hpp"
+#include "core/thrown_error.hpp"
 #include "io/build.hpp"
 #include "io/columns.hpp"
 #include "io/levels.hpp"
@@ -69,7 +70,7 @@ std::vector<StepInfo> infos_of(const Rows& rows, std::span<const Step> steps, bo
 
 /// What can be chosen; where columns cannot, any column of numbers, for the sake of the rows and their steps.
 Choice choice_for(const Layout& layout, const ReadOptions& options, FileInfo& info, const std::string& file) {
-  auto chosen = choose_columns(layout, options, 0.0, file);
+  auto chosen = result_of([&] { return choose_columns(layout, options, 0.0, file); });
   if (chosen) {
     info.taken = taken_columns(layout, chosen.value());
     return std::move(chosen).value();
@@ -86,7 +87,7 @@ void add_recording(FileInfo& info, Part part, const LoadedFile& file) {
   info.strokes = std::max<std::size_t>(1, find_strokes(part.rows.force).size());
   Conditions conditions;
   conditions.speed_m_per_s = info.taken.speed_m_per_s.value_or(1.0);
-  auto recording = build_recording(std::move(part), file, conditions);
+  auto recording = result_of([&] { return build_recording(std::move(part), file, conditions); });
   if (recording) {
     info.recording = std::move(recording).value();
   } else {
@@ -94,30 +95,27 @@ void add_recording(FileInfo& info, Part part, const LoadedFile& file) {
   }
 }
 
-Result<FileInfo> inspect(const std::filesystem::path& path, const std::string& name, const ReadOptions& options) {
-  if (const auto error = check_options(options, name)) return *error;
-  auto opened = open_file(path, options);
-  if (!opened) return opened.error();
+FileInfo inspect(const std::filesystem::path& path, const std::string& name, const ReadOptions& options) {
+  check_options(options, name);
+  OpenedFile opened = open_file(path, options);
   FileInfo info;
-  info.columns = columns_of(opened.value().layout);
-  Choice choice = choice_for(opened.value().layout, options, info, name);
-  LoadedFile file = load_rows(std::move(opened).value(), std::move(choice), options);
+  info.columns = columns_of(opened.layout);
+  Choice choice = choice_for(opened.layout, options, info, name);
+  LoadedFile file = load_rows(std::move(opened), std::move(choice), options);
   info.rows = file.rows.count;
   const bool has_clock = file.choice.time || options.sample_rate_Hz;
   const std::vector<Step> steps = find_steps(file.rows);
   info.steps = infos_of(file.rows, steps, has_clock);
   info.is_one_recording = file.rows.time_s.empty() || are_one_recording(file.rows, steps);
   info.assumed = file.choice.assumed;
-  auto part = take_part(std::move(file.rows), options, name);
-  if (!part) return part.error();
-  const Rows& taken = part.value().rows;
+  Part part = take_part(std::move(file.rows), options, name);
+  const Rows& taken = part.rows;
   const double step_s = median_positive_step(taken.time_s);
   if (has_clock && step_s > 0.0) info.sample_rate_Hz = 1.0 / step_s;
   const auto speed = level_of(taken.speed_m_per_s);
   if (speed && speed->is_steady) info.taken.speed_m_per_s = speed->value;
-  const std::vector<std::string>& assumed = part.value().assumed;
-  info.assumed.insert(info.assumed.end(), assumed.begin(), assumed.end());
-  if (!info.refusal) add_recording(info, std::move(part).value(), file);
+  info.assumed.insert(info.assumed.end(), part.assumed.begin(), part.assumed.end());
+  if (!info.refusal) add_recording(info, std::move(part), file);
   return info;
 }
 

@@ -4,36 +4,35 @@
 #include <cmath>
 #include <utility>
 
+#include "core/thrown_error.hpp"
 #include "io/opened_file.hpp"
 #include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {
 namespace {
 
-std::optional<Error> check_samples(const Samples& samples, const ReadOptions& options) {
-  if (auto error = check_options(options, samples.name)) return error;
+void check_samples(const Samples& samples, const ReadOptions& options) {
+  check_options(options, samples.name);
   if (samples.time.empty() && !options.sample_rate_Hz) {
-    return Error{"no_time_column",
-                 fmt::format("{}: there is no time; give one for each sample, or --sample-rate", samples.name)};
+    throw ThrownError({"no_time_column",
+                       fmt::format("{}: there is no time; give one for each sample, or --sample-rate", samples.name)});
   }
-  if (samples.time.empty() || samples.time.size() == samples.force.size()) return std::nullopt;
-  return Error{"length_mismatch", fmt::format("{}: {} times and {} forces, expected as many of each", samples.name,
-                                              samples.time.size(), samples.force.size())};
+  if (samples.time.empty() || samples.time.size() == samples.force.size()) return;
+  throw ThrownError({"length_mismatch", fmt::format("{}: {} times and {} forces, expected as many of each",
+                                                    samples.name, samples.time.size(), samples.force.size())});
 }
 
-Result<Channel> time_channel(const ReadOptions& options) {
-  const auto unit = parse_unit(options.time_unit.value_or("s"), Dimension::Time);
-  if (!unit) return unit.error();
+Channel time_channel(const ReadOptions& options) {
   Channel channel;
-  channel.scale = unit.value().scale;
+  channel.scale = value_or_throw(parse_unit(options.time_unit.value_or("s"), Dimension::Time)).scale;
   return channel;
 }
 
-Result<Channel> force_channel(const ReadOptions& options) {
+Channel force_channel(const ReadOptions& options) {
   const std::string text = options.force_unit.value_or("N");
   const auto unit = parse_unit(text, Dimension::Force);
   const auto share = parse_unit(text, Dimension::Dimensionless);
-  if (!unit && !share) return unit.error();
+  if (!unit && !share) throw ThrownError(unit.error());
   Channel channel;
   channel.column = 1;
   channel.scale = unit ? unit.value().scale : share.value().scale;
@@ -77,26 +76,23 @@ void keep_wanted(Rows& rows, const ReadOptions& options) {
 
 }  // namespace
 
-Result<LoadedFile> load_samples(Samples samples, const ReadOptions& options) {
-  if (auto error = check_samples(samples, options)) return *error;
-  const auto time = time_channel(options);
-  if (!time) return time.error();
-  const auto force = force_channel(options);
-  if (!force) return force.error();
+LoadedFile load_samples(Samples samples, const ReadOptions& options) {
+  check_samples(samples, options);
+  const Channel time = time_channel(options);
   LoadedFile file;
   file.name = samples.name;
   file.options = options;
   file.layout.columns.resize(2);
   file.layout.columns[0].name.text = "time";
   file.layout.columns[1].name.text = "force";
-  if (!samples.time.empty()) file.choice.time = time.value();
-  file.choice.force = force.value();
+  if (!samples.time.empty()) file.choice.time = time;
+  file.choice.force = force_channel(options);
   Rows& rows = file.rows;
   rows.force = std::move(samples.force);
   rows.count = rows.force.size();
   rows.time_s = samples.time.empty() ? even_clock(rows.count, *options.sample_rate_Hz) : std::move(samples.time);
-  if (file.choice.time) scale_by(rows.time_s, time.value().scale);
-  scale_by(rows.force, force.value().scale);
+  if (file.choice.time) scale_by(rows.time_s, time.scale);
+  scale_by(rows.force, file.choice.force.scale);
   keep_wanted(rows, options);
   return file;
 }

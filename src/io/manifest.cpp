@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/thrown_error.hpp"
 #include "core/word_list.hpp"
 #include "io/cells.hpp"
 #include "io/line_reader.hpp"
@@ -40,30 +41,20 @@ class ManifestReader::Implementation {
   Implementation(const std::filesystem::path& file, std::unique_ptr<TextSource> source)
       : name_(name_of_file(file)), folder_(file.parent_path()), lines_(name_.c_str(), std::move(source)) {}
 
-  std::optional<Error> read_names() {
-    const auto line = next_line();
-    if (!line) return line.error();
-    if (line.value().data() == nullptr) {
-      return Error{"missing_column", name_ +
-                                         ": holds only blank lines and comments; expected a line of names such as "
-                                         "id,file,speed_m_per_s, then a line for each recording"};
+  void read_names() {
+    const std::string_view line = next_line();
+    if (line.data() == nullptr) {
+      throw ThrownError(
+          {"missing_column", name_ + ": holds only blank lines and comments; expected a line of names such as "
+                                     "id,file,speed_m_per_s, then a line for each recording"});
     }
-    delimiter_ = delimiter_of(line.value());
-    const auto names = csv_fields(line.value(), delimiter_);
-    if (!names) return open_quote();
-    auto columns = find_manifest_columns(*names, place());
-    if (!columns) return columns.error();
-    columns_ = std::move(columns).value();
-    return std::nullopt;
+    delimiter_ = delimiter_of(line);
+    columns_ = value_or_throw(find_manifest_columns(fields_of(line), place()));
   }
 
-  Result<std::optional<ManifestEntry>> next() {
-    const auto line = next_line();
-    if (!line) return line.error();
-    if (line.value().data() == nullptr) return std::optional<ManifestEntry>();
-    auto entry = entry_from(line.value());
-    if (!entry) return entry.error();
-    return std::optional(std::move(entry).value());
+  std::optional<ManifestEntry> next() {
+    const std::string_view line = next_line();
+    return line.data() == nullptr ? std::nullopt : std::optional(entry_from(line));
   }
 
   [[nodiscard]] const ManifestColumns& columns() const { return columns_; }
@@ -71,43 +62,45 @@ class ManifestReader::Implementation {
  private:
   [[nodiscard]] std::string place() const { return fmt::format("{}:{}", name_, lines_.get_file_line()); }
 
-  [[nodiscard]] Error open_quote() const {
-    return {"open_quote", place() +
-                              ": a quote is not closed, or text stands behind a closed one; expected \"...\" "
-                              "around a whole field, on one line"};
+  [[nodiscard]] std::vector<std::string> fields_of(std::string_view line) const {
+    auto fields = csv_fields(line, delimiter_);
+    if (fields) return *std::move(fields);
+    throw ThrownError(
+        {"open_quote", place() + ": a quote is not closed, or text stands behind a closed one; expected \"...\" "
+                                 "around a whole field, on one line"});
   }
 
   /// The next line that says something; without data at the end.
-  Result<std::string_view> next_line() {
+  std::string_view next_line() {
     try {
       for (;;) {
         const char* const line = lines_.next_line();
-        if (line == nullptr) return std::string_view();
-        if (!is_comment_or_blank(line)) return std::string_view(line);
+        if (line == nullptr) return {};
+        if (!is_comment_or_blank(line)) return line;
       }
     } catch (const std::exception& error) {
-      return Error{"not_readable", fmt::format("{}: reading failed ({}); expected a text file with a line for each "
-                                               "recording",
-                                               place(), printable(error.what()))};
+      throw ThrownError(
+          {"not_readable", fmt::format("{}: reading failed ({}); expected a text file with a line for each "
+                                       "recording",
+                                       place(), printable(error.what()))});
     }
   }
 
-  Result<ManifestEntry> entry_from(std::string_view line) {
+  ManifestEntry entry_from(std::string_view line) {
     ManifestEntry entry;
     entry.row = ++row_;
     entry.line = lines_.get_file_line();
-    const auto cells = csv_fields(line, delimiter_);
-    if (!cells) return open_quote();
-    if (cells->size() != columns_.count) {
-      return Error{"wrong_field_count",
-                   fmt::format("{}: {} in '{}', expected {} as in the line of names", place(),
-                               counted(cells->size(), "field"), printable(trim(line)), columns_.count)};
+    const std::vector<std::string> cells = fields_of(line);
+    if (cells.size() != columns_.count) {
+      throw ThrownError(
+          {"wrong_field_count", fmt::format("{}: {} in '{}', expected {} as in the line of names", place(),
+                                            counted(cells.size(), "field"), printable(trim(line)), columns_.count)});
     }
     for (const ManifestColumn& column : columns_.read) {
-      auto result = with_cell(std::move(entry), column, (*cells)[column.index], delimiter_ == ';');
+      auto result = with_cell(std::move(entry), column, cells[column.index], delimiter_ == ';');
       if (!result) {
-        return Error{result.error().code, fmt::format("{}: column '{}': {}", place(), column.name,
-                                                      with_columns_for_options(result.error().message))};
+        throw ThrownError({result.error().code, fmt::format("{}: column '{}': {}", place(), column.name,
+                                                            with_columns_for_options(result.error().message))});
       }
       entry = std::move(result).value();
     }
@@ -132,15 +125,15 @@ ManifestReader& ManifestReader::operator=(ManifestReader&&) noexcept = default;
 ManifestReader::~ManifestReader() = default;
 
 Result<ManifestReader> ManifestReader::open(const std::filesystem::path& file) {
-  auto source = TextSource::open(file);
-  if (!source) return source.error();
-  auto implementation = std::make_unique<Implementation>(file, std::move(source).value());
-  if (const auto error = implementation->read_names()) return *error;
-  return ManifestReader(std::move(implementation));
+  return result_of([&] {
+    auto implementation = std::make_unique<Implementation>(file, TextSource::open(file));
+    implementation->read_names();
+    return ManifestReader(std::move(implementation));
+  });
 }
 
 Result<std::optional<ManifestEntry>> ManifestReader::next() {
-  return implementation_->next();
+  return result_of([&] { return implementation_->next(); });
 }
 
 const std::vector<std::string>& ManifestReader::ignored_columns() const {

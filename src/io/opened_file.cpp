@@ -8,6 +8,7 @@
 #include <new>
 #include <utility>
 
+#include "core/thrown_error.hpp"
 #include "core/word_list.hpp"
 #include "io/column_search.hpp"
 #include "io/line_reader.hpp"
@@ -21,34 +22,36 @@ constexpr std::size_t kLongHead = std::size_t{4} * 1024 * 1024;  // for a preamb
 constexpr std::size_t kMostShown = 40;
 constexpr std::size_t kLongestLine = kLongHead / 4;  // of a file without rows of numbers in its head
 
-Result<Layout> layout_of_head(TextSource& source, const std::string& file) {
+Layout layout_of_head(TextSource& source, const std::string& file) {
   for (const std::size_t size : {kHead, kLongHead}) {
     auto lines = split_lines(source.head(size));
     const std::size_t last_length = lines.empty() ? 0 : lines.back().size();
     if (!source.head_is_everything() && !lines.empty()) lines.pop_back();  // may be cut
     if (auto layout = find_layout(lines)) {
       if (!is_comma_twice(lines, *layout)) return *std::move(layout);
-      return Error{
-          "comma_twice",
-          fmt::format("{}:{}: the comma parts the columns and is the decimal sign, too ('{}'), so that columns "
-                      "cannot be told from decimals; export with semicolons or tabs between the columns, or "
-                      "with decimal points",
-                      file, layout->first_data_line,
-                      printable(lines[layout->first_data_line - 1].substr(0, kMostShown)))};
+      throw ThrownError(
+          {"comma_twice",
+           fmt::format("{}:{}: the comma parts the columns and is the decimal sign, too ('{}'), so that columns "
+                       "cannot be told from decimals; export with semicolons or tabs between the columns, or "
+                       "with decimal points",
+                       file, layout->first_data_line,
+                       printable(lines[layout->first_data_line - 1].substr(0, kMostShown)))});
     }
     if (!source.head_is_everything() && last_length > kLongestLine) {
-      return Error{"line_too_long", fmt::format("{}:{}: the line is longer than {} MB, which is too many columns; a "
-                                                "recording is text with a row a line, of a time and a force",
-                                                file, lines.size() + 1, kLongestLine >> 20)};
+      throw ThrownError(
+          {"line_too_long", fmt::format("{}:{}: the line is longer than {} MB, which is too many columns; a "
+                                        "recording is text with a row a line, of a time and a force",
+                                        file, lines.size() + 1, kLongestLine >> 20)});
     }
     if (!source.head_is_everything()) continue;
     const bool is_blank = std::ranges::all_of(lines, [](std::string_view line) { return trim(line).empty(); });
-    if (is_blank) return Error{"empty_file", file + ": the file holds only blank lines; export the recording again"};
+    if (is_blank)
+      throw ThrownError({"empty_file", file + ": the file holds only blank lines; export the recording again"});
     break;
   }
-  return Error{"no_numeric_column", file +
-                                        ": no rows of numbers found; is this the right file? A recording is text with "
-                                        "a column of times and one of forces"};
+  throw ThrownError(
+      {"no_numeric_column", file + ": no rows of numbers found; is this the right file? A recording is text with "
+                                   "a column of times and one of forces"});
 }
 
 constexpr std::size_t kMostReserved = std::size_t{1} << 27;
@@ -76,15 +79,11 @@ void make_forces(Rows& rows, Choice& choice, const Layout& layout) {
 
 }  // namespace
 
-Result<OpenedFile> open_file(const std::filesystem::path& path, const ReadOptions& options) {
+OpenedFile open_file(const std::filesystem::path& path, const ReadOptions& options) {
   OpenedFile file;
   file.name = name_of_file(path);
-  auto source = TextSource::open(path, {options.sheet, options.variable});
-  if (!source) return source.error();
-  file.source = std::move(source).value();
-  auto layout = layout_of_head(*file.source, file.name);
-  if (!layout) return layout.error();
-  file.layout = std::move(layout).value();
+  file.source = TextSource::open(path, {options.sheet, options.variable});
+  file.layout = layout_of_head(*file.source, file.name);
   return file;
 }
 
@@ -102,31 +101,28 @@ LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options)
           std::move(rows),      std::move(warnings)};
 }
 
-Result<LoadedFile> load_file(const std::filesystem::path& path, double speed_m_per_s, const ReadOptions& options) {
-  if (const auto error = check_options(options, name_of_file(path))) return *error;
-  auto opened = open_file(path, options);
-  if (!opened) return opened.error();
-  auto choice = choose_columns(opened.value().layout, options, speed_m_per_s, opened.value().name);
-  if (!choice) return choice.error();
-  return load_rows(std::move(opened).value(), std::move(choice).value(), options);
+LoadedFile load_file(const std::filesystem::path& path, double speed_m_per_s, const ReadOptions& options) {
+  check_options(options, name_of_file(path));
+  OpenedFile opened = open_file(path, options);
+  Choice choice = choose_columns(opened.layout, options, speed_m_per_s, opened.name);
+  return load_rows(std::move(opened), std::move(choice), options);
 }
 
-std::optional<Error> check_options(const ReadOptions& options, const std::string& file) {
+void check_options(const ReadOptions& options, const std::string& file) {
   if (const auto& window = options.window; window && !(window->begin_s < window->end_s)) {
-    return Error{"bad_window", fmt::format("{}: the window {}:{} s is empty; give T0:T1 in seconds with T0 < T1", file,
-                                           window->begin_s, window->end_s)};
+    throw ThrownError({"bad_window", fmt::format("{}: the window {}:{} s is empty; give T0:T1 in seconds with T0 < T1",
+                                                 file, window->begin_s, window->end_s)});
   }
   if (const auto& rows = options.rows; rows && (rows->first < 1 || rows->first >= rows->last)) {
-    return Error{"bad_rows",
-                 fmt::format("{}: the rows {}:{} are none; give A:B with 1 <= A < B", file, rows->first, rows->last)};
+    throw ThrownError({"bad_rows", fmt::format("{}: the rows {}:{} are none; give A:B with 1 <= A < B", file,
+                                               rows->first, rows->last)});
   }
   if (const auto& rate = options.sample_rate_Hz; rate && !(*rate > 0.0 && std::isfinite(*rate))) {
-    return Error{"bad_sample_rate",
-                 fmt::format("{}: the sampling rate {} is not a positive number of samples a second; "
-                             "correct --sample-rate",
-                             file, *rate)};
+    throw ThrownError(
+        {"bad_sample_rate", fmt::format("{}: the sampling rate {} is not a positive number of samples a second; "
+                                        "correct --sample-rate",
+                                        file, *rate)});
   }
-  return std::nullopt;
 }
 
 Error error_of_reading(const std::string& file) {

@@ -12,6 +12,8 @@
 #include "slipfit/io/read_options.hpp"
 #include "slipfit/io/samples.hpp"
 
+// In this folder errors are thrown (ThrownError); the functions that users call return them.
+
 namespace slipfit::reading {
 
 /// A file whose layout is known; its rows are still to be read.
@@ -22,7 +24,7 @@ struct OpenedFile {
 };
 
 /// Errors: those of TextSource, no_numeric_column, line_too_long, empty_file.
-Result<OpenedFile> open_file(const std::filesystem::path& path, const ReadOptions& options);
+OpenedFile open_file(const std::filesystem::path& path, const ReadOptions& options);
 
 /// A file whose rows are read, and what was asked for.
 struct LoadedFile {
@@ -39,21 +41,21 @@ LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options)
 
 /// The same of the columns that the options and names tell. Errors: those of open_file, check_options and
 /// choose_columns.
-Result<LoadedFile> load_file(const std::filesystem::path& path, double speed_m_per_s, const ReadOptions& options);
+LoadedFile load_file(const std::filesystem::path& path, double speed_m_per_s, const ReadOptions& options);
 
 /// The samples as a file of two columns whose rows are read. Errors: length_mismatch, unknown_unit, no_time_column,
 /// conflicting_options, those of check_options.
-Result<LoadedFile> load_samples(Samples samples, const ReadOptions& options);
+LoadedFile load_samples(Samples samples, const ReadOptions& options);
 
 /// The rows of --rows and --window that cannot be. Errors: bad_window, bad_rows, bad_sample_rate.
-std::optional<Error> check_options(const ReadOptions& options, const std::string& file);
+void check_options(const ReadOptions& options, const std::string& file);
 
 /// The exception in flight as an error. Errors: line_too_long, out_of_memory, not_readable.
 Error error_of_reading(const std::string& file);
 
-/// Runs `read()`, which returns a Result; what the disk, the memory or a line without end throws becomes an error.
+/// What `read()` returns; what it throws (ThrownError), or the disk, the memory or a line without end, as an error.
 template <class Read>
-auto with_errors_of_reading(const std::string& file, const Read& read) -> decltype(read()) {
+auto with_errors_of_reading(const std::string& file, const Read& read) -> Result<decltype(read())> {
   try {
     return read();
   } catch (...) {

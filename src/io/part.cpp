@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/clock_step.hpp"
+#include "core/thrown_error.hpp"
 #include "io/column_search.hpp"
 #include "io/message.hpp"
 #include "io/steps.hpp"
@@ -21,14 +22,12 @@ std::string several(std::size_t steps) {
   return fmt::format("the file holds {} one after another", counted(steps, "step"));
 }
 
-Result<Part> take_step(Rows rows, const ReadOptions& options, const std::string& file) {
+Part take_step(Rows rows, const ReadOptions& options, const std::string& file) {
   Part part;
   const auto steps = find_steps(rows);
   Step taken{{0, rows.time_s.size()}};
   if (options.step) {
-    const auto step = step_with_number(steps, *options.step, file);
-    if (!step) return step.error();
-    taken = step.value();
+    taken = step_with_number(steps, *options.step, file);
     part.assumed.push_back(
         fmt::format("Only step {} was read ({}; {}).", taken.number, rows_of(rows, taken), several(steps.size())));
   } else if (steps.size() > 1 && are_one_recording(rows, steps)) {
@@ -106,23 +105,23 @@ Warnings warn_of_rows(const Part& part) {
 }
 
 /// Nothing, or next to nothing, in what was asked for. Errors: window_empty, part_empty.
-std::optional<Error> check_extent(const Rows& rows, const LoadedFile& file) {
-  if (rows.time_s.size() >= 2) return std::nullopt;
+void check_extent(const Rows& rows, const LoadedFile& file) {
+  if (rows.time_s.size() >= 2) return;
   const std::string held = counted(rows.time_s.size(), "sample");
   if (file.options.window && rows.clock) {
-    return Error{"window_empty",
-                 fmt::format("{}: the window {}:{} s holds {}; {}", file.name, file.options.window->begin_s,
-                             file.options.window->end_s, held, clock_range(rows))};
+    throw ThrownError(
+        {"window_empty", fmt::format("{}: the window {}:{} s holds {}; {}", file.name, file.options.window->begin_s,
+                                     file.options.window->end_s, held, clock_range(rows))});
   }
   const auto& where = file.choice.where;
-  if (!file.options.rows && !where) return std::nullopt;
+  if (!file.options.rows && !where) return;
   const std::string rows_asked =
       file.options.rows ? fmt::format("rows {}:{}", file.options.rows->first, file.options.rows->last) : "all rows";
   const std::string of_where =
       where ? fmt::format(" where {} says '{}'", describe(file.layout, where->column), printable(where->text)) : "";
-  return Error{"part_empty",
-               fmt::format("{}: {}{} hold {}; the file has {}: choose others with {}", file.name, rows_asked, of_where,
-                           held, counted(rows.count, "row"), where ? "--where" : "--rows")};
+  throw ThrownError(
+      {"part_empty", fmt::format("{}: {}{} hold {}; the file has {}: choose others with {}", file.name, rows_asked,
+                                 of_where, held, counted(rows.count, "row"), where ? "--where" : "--rows")});
 }
 
 /// About a part of the file, in words.
@@ -147,10 +146,8 @@ std::vector<std::string> part_sentences(const Part& part, const LoadedFile& file
 
 }  // namespace
 
-Result<Part> take_part(Rows rows, const ReadOptions& options, const std::string& file) {
-  auto taken = take_step(std::move(rows), options, file);
-  if (!taken) return taken;
-  Part part = std::move(taken).value();
+Part take_part(Rows rows, const ReadOptions& options, const std::string& file) {
+  Part part = take_step(std::move(rows), options, file);
   if (options.step && options.window) take_window(part.rows, *options.window);
   order_by_time(part);
   return part;
@@ -169,35 +166,35 @@ std::vector<Part> take_segments(const Rows& rows) {
   return segments;
 }
 
-std::optional<Error> check_part(const Part& part, const LoadedFile& file) {
+void check_part(const Part& part, const LoadedFile& file) {
   const Rows& rows = part.rows;
   const std::string force = describe(file.layout, file.choice.force.column);
   if (static_cast<double>(part.backward) > kMostBackward * static_cast<double>(part.in_window)) {
-    return Error{
-        "time_runs_backwards",
-        fmt::format("{}:{}: time runs backwards in {} of {}; is {} the time? Choose another with --time-column, or a "
-                    "part with --window or --rows",
-                    file.name, part.first_backward_line, part.backward, counted(part.in_window, "row"),
-                    file.choice.time ? describe(file.layout, file.choice.time->column) : "it")};
+    throw ThrownError(
+        {"time_runs_backwards",
+         fmt::format("{}:{}: time runs backwards in {} of {}; is {} the time? Choose another with --time-column, or a "
+                     "part with --window or --rows",
+                     file.name, part.first_backward_line, part.backward, counted(part.in_window, "row"),
+                     file.choice.time ? describe(file.layout, file.choice.time->column) : "it")});
   }
-  if (auto error = check_extent(rows, file)) return error;
+  check_extent(rows, file);
   if (rows.time_s.empty()) {
-    return Error{"no_number_in_column",
-                 fmt::format("{}:{}: {} holds a number with a time in none of {}; choose another with "
-                             "--force-column",
-                             file.name, file.layout.first_data_line, force, counted(rows.without_number, "row"))};
+    throw ThrownError(
+        {"no_number_in_column",
+         fmt::format("{}:{}: {} holds a number with a time in none of {}; choose another with "
+                     "--force-column",
+                     file.name, file.layout.first_data_line, force, counted(rows.without_number, "row"))});
   }
   if (rows.time_s.size() < 2) {
-    return Error{"too_few_samples", fmt::format("{}:{}: only one row of numbers; a recording needs at least 2",
-                                                file.name, file.layout.first_data_line)};
+    throw ThrownError({"too_few_samples", fmt::format("{}:{}: only one row of numbers; a recording needs at least 2",
+                                                      file.name, file.layout.first_data_line)});
   }
   if (rows.time_s.front() == rows.time_s.back()) {
-    return Error{
-        "time_constant",
-        fmt::format("{}:{}: the time is {} s in all of {}; choose another column with --time-column", file.name,
-                    file.layout.first_data_line, rows.time_s.front(), counted(rows.time_s.size(), "row"))};
+    throw ThrownError(
+        {"time_constant",
+         fmt::format("{}:{}: the time is {} s in all of {}; choose another column with --time-column", file.name,
+                     file.layout.first_data_line, rows.time_s.front(), counted(rows.time_s.size(), "row"))});
   }
-  return std::nullopt;
 }
 
 Provenance describe_part(const Part& part, const LoadedFile& file) {

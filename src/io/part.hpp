@@ -23,13 +23,13 @@ struct Part {
 
 /// The step that was asked for, or the main one of several that are no one recording; of that the window; of that the
 /// samples whose time does not run backwards. Error: unknown_step.
-Result<Part> take_part(Rows rows, const ReadOptions& options, const std::string& file);
+Part take_part(Rows rows, const ReadOptions& options, const std::string& file);
 
 /// The stretches of one speed each, in every step of the file.
 std::vector<Part> take_segments(const Rows& rows);
 
 /// Errors: time_runs_backwards, window_empty, part_empty, no_number_in_column, too_few_samples, time_constant.
-std::optional<Error> check_part(const Part& part, const LoadedFile& file);
+void check_part(const Part& part, const LoadedFile& file);
 
 /// Counts, assumptions and warnings.
 Provenance describe_part(const Part& part, const LoadedFile& file);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/thrown_error.hpp"
 #include "io/build.hpp"
 #include "io/message.hpp"
 #include "io/opened_file.hpp"
@@ -14,32 +15,27 @@ namespace {
 
 using namespace reading;
 
-Result<std::vector<NamedRecording>> build_segments(const Rows& rows, const LoadedFile& file,
-                                                   const Conditions& conditions) {
+std::vector<NamedRecording> build_segments(const Rows& rows, const LoadedFile& file, const Conditions& conditions) {
   std::vector<NamedRecording> recordings;
   for (Part& part : take_segments(rows)) {
-    auto recording = build_recording(std::move(part), file, conditions);
-    if (!recording) return recording.error();
-    recordings.push_back({fmt::format("segment {}", recordings.size() + 1), std::move(recording).value()});
+    recordings.push_back(
+        {fmt::format("segment {}", recordings.size() + 1), build_recording(std::move(part), file, conditions)});
     if (recordings.size() == kMostPieces) break;
   }
   if (recordings.size() > 1) return recordings;
-  return Error{"no_segments", file.name +
-                                  ": there are no several stretches of one speed each, neither by a column of "
-                                  "speeds nor by steps; leave out --segments"};
+  throw ThrownError({"no_segments", file.name +
+                                        ": there are no several stretches of one speed each, neither by a column of "
+                                        "speeds nor by steps; leave out --segments"});
 }
 
-Result<std::vector<NamedRecording>> take_apart(LoadedFile file, const Conditions& conditions) {
+std::vector<NamedRecording> take_apart(LoadedFile file, const Conditions& conditions) {
   const ReadOptions& options = file.options;
   if (options.pieces == Pieces::Segments && !options.step) return build_segments(file.rows, file, conditions);
-  auto part = take_part(std::move(file.rows), options, file.name);
-  if (!part) return part.error();
-  if (options.pieces == Pieces::Segments) return build_segments(part.value().rows, file, conditions);
-  if (options.pieces != Pieces::One) return build_strokes(std::move(part).value(), file, conditions);
-  auto recording = build_recording(std::move(part).value(), file, conditions);
-  if (!recording) return recording.error();
+  Part part = take_part(std::move(file.rows), options, file.name);
+  if (options.pieces == Pieces::Segments) return build_segments(part.rows, file, conditions);
+  if (options.pieces != Pieces::One) return build_strokes(std::move(part), file, conditions);
   std::vector<NamedRecording> one;
-  one.push_back({{}, std::move(recording).value()});
+  one.push_back({{}, build_recording(std::move(part), file, conditions)});
   return one;
 }
 
@@ -56,21 +52,15 @@ Result<Recording> read_recording(const std::filesystem::path& file, const Condit
 
 Result<std::vector<NamedRecording>> read_pieces(const std::filesystem::path& file, const Conditions& conditions,
                                                 const ReadOptions& options) {
-  return with_errors_of_reading(name_of_file(file), [&]() -> Result<std::vector<NamedRecording>> {
-    auto loaded = load_file(file, conditions.speed_m_per_s, options);
-    if (!loaded) return loaded.error();
-    return take_apart(std::move(loaded).value(), conditions);
-  });
+  return with_errors_of_reading(
+      name_of_file(file), [&] { return take_apart(load_file(file, conditions.speed_m_per_s, options), conditions); });
 }
 
 Result<std::vector<NamedRecording>> read_samples(Samples samples, const Conditions& conditions,
                                                  const ReadOptions& options) {
   const std::string name = samples.name;
-  return with_errors_of_reading(name, [&]() -> Result<std::vector<NamedRecording>> {
-    auto loaded = load_samples(std::move(samples), options);
-    if (!loaded) return loaded.error();
-    return take_apart(std::move(loaded).value(), conditions);
-  });
+  return with_errors_of_reading(name,
+                                [&] { return take_apart(load_samples(std::move(samples), options), conditions); });
 }
 
 }  // namespace slipfit

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/thrown_error.hpp"
 #include "io/column_search.hpp"
 #include "io/message.hpp"
 #include "slipfit/core/units.hpp"
@@ -42,7 +43,7 @@ std::optional<Channel> choose_displacement(const Layout& layout, const Choice& c
     const Column& column = layout.columns[c];
     if (column.name.role != Role::Displacement || !column.is_numeric() || column.name.unit.empty()) continue;
     if (c == choice.force.column || (choice.time && c == choice.time->column)) continue;
-    if (const auto channel = channel_in(layout, c, Dimension::Length)) return channel;
+    if (auto channel = channel_in(layout, c, Dimension::Length)) return channel;
   }
   return std::nullopt;
 }
@@ -56,49 +57,43 @@ std::optional<std::size_t> find_normal_force(const Layout& layout, std::optional
   }));
 }
 
-Error side_unit_error(const Layout& layout, std::size_t column, const std::string& file, const std::string& expected) {
+ThrownError side_unit_error(const Layout& layout, std::size_t column, const std::string& file,
+                            const std::string& expected) {
   const std::string& unit = layout.columns[column].name.unit;
-  return {"unknown_unit", fmt::format("{}: the unit of {}: '{}' is not {}; leave the option out", file,
-                                      describe(layout, column), printable(unit), expected)};
+  return ThrownError({"unknown_unit", fmt::format("{}: the unit of {}: '{}' is not {}; leave the option out", file,
+                                                  describe(layout, column), printable(unit), expected)});
 }
 
-Result<std::optional<Channel>> choose_normal_force(const Layout& layout, const ReadOptions& options,
-                                                   const Choice& choice, const std::string& file) {
+std::optional<Channel> choose_normal_force(const Layout& layout, const ReadOptions& options, const Choice& choice,
+                                           const std::string& file) {
   if (!options.normal_force_column) {
     const auto column = find_normal_force(layout, choice.force.column);
-    return column ? channel_in(layout, *column, Dimension::Force) : std::optional<Channel>();
+    return column ? channel_in(layout, *column, Dimension::Force) : std::nullopt;
   }
-  const auto column = find_column(layout, *options.normal_force_column, "--normal-force-column", file);
-  if (!column) return column.error();
-  const auto channel = channel_in(layout, column.value(), Dimension::Force);
-  if (!channel) return side_unit_error(layout, column.value(), file, "a unit of force");
+  const std::size_t column = find_column(layout, *options.normal_force_column, "--normal-force-column", file);
+  auto channel = channel_in(layout, column, Dimension::Force);
+  if (!channel) throw side_unit_error(layout, column, file, "a unit of force");
   return channel;
 }
 
-Result<std::optional<Channel>> choose_speed(const Layout& layout, const ReadOptions& options, const std::string& file) {
+std::optional<Channel> choose_speed(const Layout& layout, const ReadOptions& options, const std::string& file) {
   if (!options.speed_column) {
     const auto column = only_one(best_columns(layout, [](const Column& candidate, std::size_t) {
       return candidate.name.role == Role::Speed && candidate.is_numeric() ? candidate.name.rank : 0;
     }));
-    return column ? speed_channel(layout, *column, options.radius_m) : std::optional<Channel>();
+    return column ? speed_channel(layout, *column, options.radius_m) : std::nullopt;
   }
-  const auto column = find_column(layout, *options.speed_column, "--speed-column", file);
-  if (!column) return column.error();
-  const auto channel = speed_channel(layout, column.value(), options.radius_m);
-  if (!channel) {
-    return side_unit_error(layout, column.value(), file, "a unit of speed, nor of rotation with a --radius");
-  }
+  const std::size_t column = find_column(layout, *options.speed_column, "--speed-column", file);
+  auto channel = speed_channel(layout, column, options.radius_m);
+  if (!channel) throw side_unit_error(layout, column, file, "a unit of speed, nor of rotation with a --radius");
   return channel;
 }
 
-Result<std::optional<WhereFilter>> choose_where(const Layout& layout, const ReadOptions& options,
-                                                const std::string& file) {
-  if (!options.where) return std::optional<WhereFilter>();
-  const auto column = find_column_of_any(layout, options.where->column, "--where COLUMN=VALUE", file);
-  if (!column) return column.error();
+std::optional<WhereFilter> choose_where(const Layout& layout, const ReadOptions& options, const std::string& file) {
+  if (!options.where) return std::nullopt;
+  const std::size_t column = find_column_of_any(layout, options.where->column, "--where COLUMN=VALUE", file);
   const double number = plain_number(options.where->value, layout.dialect.decimal_comma);
-  return std::optional(
-      WhereFilter{column.value(), options.where->value, std::isfinite(number) ? std::optional(number) : std::nullopt});
+  return WhereFilter{column, options.where->value, std::isfinite(number) ? std::optional(number) : std::nullopt};
 }
 
 /// The first column of step numbers: further ones repeat it or count within it.
@@ -136,17 +131,10 @@ std::vector<std::size_t> those_of_coefficient(const Layout& layout, std::vector<
   return found.empty() ? candidates : found;
 }
 
-Result<Choice> with_side_columns(Choice choice, const Layout& layout, const ReadOptions& options,
-                                 const std::string& file) {
-  const auto normal_force = choose_normal_force(layout, options, choice, file);
-  if (!normal_force) return normal_force.error();
-  const auto speed = choose_speed(layout, options, file);
-  if (!speed) return speed.error();
-  const auto where = choose_where(layout, options, file);
-  if (!where) return where.error();
-  choice.normal_force = normal_force.value();
-  choice.speed = speed.value();
-  choice.where = where.value();
+Choice with_side_columns(Choice choice, const Layout& layout, const ReadOptions& options, const std::string& file) {
+  choice.normal_force = choose_normal_force(layout, options, choice, file);
+  choice.speed = choose_speed(layout, options, file);
+  choice.where = choose_where(layout, options, file);
   choice.displacement = choose_displacement(layout, choice);
   choice.step = find_steps(layout);
   return choice;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/quantile.hpp"
+#include "core/thrown_error.hpp"
 #include "io/column_search.hpp"
 #include "io/levels.hpp"
 
@@ -38,14 +39,16 @@ std::optional<double> steady_speed_m_per_s(const Rows& rows) {
   return is_steady ? std::optional(speed_m_per_s) : std::nullopt;
 }
 
-Error no_speed(const Choice& choice, const Layout& layout, const std::string& file) {
+ThrownError no_speed(const Choice& choice, const Layout& layout, const std::string& file) {
   if (!choice.speed) {
-    return {"no_speed",
-            file + ": --speed is missing: give the driving speed, for example --speed 10mm/s (no column tells it)"};
+    return ThrownError(
+        {"no_speed",
+         file + ": --speed is missing: give the driving speed, for example --speed 10mm/s (no column tells it)"});
   }
-  return {"speed_varies", fmt::format("{}: {} holds no one speed; take a part of it with --step N, --rows A:B or "
-                                      "--window T0:T1, or give the speed with --speed",
-                                      file, describe(layout, choice.speed->column))};
+  return ThrownError(
+      {"speed_varies", fmt::format("{}: {} holds no one speed; take a part of it with --step N, --rows A:B or "
+                                   "--window T0:T1, or give the speed with --speed",
+                                   file, describe(layout, choice.speed->column))});
 }
 
 void state_normal_force(StatedConditions& stated, const Rows& rows, const Choice& choice, const Layout& layout) {
@@ -80,13 +83,13 @@ std::optional<Warning> compare_speed(double stated_m_per_s, double moved_m_per_s
       fmt::format("the speed is given as {:.6g} m/s, but {} moves at {:.6g} m/s", stated_m_per_s, what, moved_m_per_s)};
 }
 
-Result<StatedConditions> state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
-                                          const Conditions& conditions, const std::string& file) {
+StatedConditions state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
+                                  const Conditions& conditions, const std::string& file) {
   StatedConditions stated{conditions, {}, {}};
   double& speed_m_per_s = stated.conditions.speed_m_per_s;
   const auto measured = level_of(rows.speed_m_per_s);
   if (speed_m_per_s == 0.0) {
-    if (!measured || !measured->is_steady) return no_speed(choice, layout, file);
+    if (!measured || !measured->is_steady) throw no_speed(choice, layout, file);
     speed_m_per_s = measured->value;
     stated.assumed.push_back(fmt::format("Speed is {}: {:.6g} m/s, standard deviation {:.2g} m/s.",
                                          describe(layout, choice.speed->column), speed_m_per_s,

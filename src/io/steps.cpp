@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/clock_step.hpp"
+#include "core/thrown_error.hpp"
 #include "io/levels.hpp"
 #include "io/message.hpp"
 
@@ -144,7 +145,7 @@ const Step& main_step(std::span<const Step> steps) {
   return *std::ranges::find_if(steps, [&](const Step& step) { return length(step) >= kAboutAsLong * longest; });
 }
 
-Result<Step> step_with_number(std::span<const Step> steps, std::size_t number, const std::string& file) {
+Step step_with_number(std::span<const Step> steps, std::size_t number, const std::string& file) {
   const auto found = std::ranges::find_if(steps, [&](const Step& step) { return step.number == number; });
   if (found != steps.end()) return *found;
   if (number >= 1 && number <= steps.size()) return steps[number - 1];
@@ -153,9 +154,10 @@ Result<Step> step_with_number(std::span<const Step> steps, std::size_t number, c
     known += fmt::format("{}{}", i == 0 ? "" : ", ", steps[i].number);
   }
   if (steps.size() > kMostNamed) known += ", ...";
-  return Error{"unknown_step", fmt::format("{}: there is no step {}; the file holds {} ({}); choose one of them with "
-                                           "--step, or leave it out",
-                                           file, number, counted(steps.size(), "step"), known)};
+  throw ThrownError(
+      {"unknown_step", fmt::format("{}: there is no step {}; the file holds {} ({}); choose one of them with "
+                                   "--step, or leave it out",
+                                   file, number, counted(steps.size(), "step"), known)});
 }
 
 }  // namespace slipfit::reading

@@ -30,6 +30,6 @@ std::vector<Step> segments_of_steps(const Rows& rows, std::span<const Step> step
 const Step& main_step(std::span<const Step> steps);
 
 /// By its number, else by its place. Error: unknown_step.
-Result<Step> step_with_number(std::span<const Step> steps, std::size_t number, const std::string& file);
+Step step_with_number(std::span<const Step> steps, std::size_t number, const std::string& file);
 
 }  // namespace slipfit::reading

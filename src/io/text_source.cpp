@@ -45,26 +45,25 @@ void unify_line_ends(char* begin, char* end, char next) {
 
 }  // namespace
 
-Result<std::unique_ptr<TextSource>> TextSource::open(const std::filesystem::path& file) {
+std::unique_ptr<TextSource> TextSource::open(const std::filesystem::path& file) {
   return over(open_plain(file), name_of_file(file));
 }
 
-Result<std::unique_ptr<TextSource>> TextSource::open(const std::filesystem::path& file, const ContainerChoice& choice) {
+std::unique_ptr<TextSource> TextSource::open(const std::filesystem::path& file, const ContainerChoice& choice) {
   return over(open_unpacked(file, choice), name_of_file(file));
 }
 
-Result<std::unique_ptr<TextSource>> TextSource::over(Result<TextStream> stream, const std::string& name) {
-  if (!stream) return stream.error();
+std::unique_ptr<TextSource> TextSource::over(TextStream stream, const std::string& name) {
   std::unique_ptr<TextSource> source(new TextSource);
-  source->stream_ = std::move(stream).value();
+  source->stream_ = std::move(stream);
   source->raw_.resize(kProbe);
   source->raw_.resize(source->stream_.bytes->read(source->raw_.data(), kProbe));
-  if (source->raw_.empty()) return Error{"empty_file", name + ": the file is empty; export the recording again"};
+  if (source->raw_.empty()) throw ThrownError({"empty_file", name + ": the file is empty; export the recording again"});
   source->detect_encoding();
   if (!source->is_utf16() && looks_binary(source->raw_)) {
-    return Error{
-        "binary_file",
-        name + ": not a text file in UTF-8, Latin-1 or UTF-16 with a byte order mark; export it as CSV or text"};
+    throw ThrownError(
+        {"binary_file",
+         name + ": not a text file in UTF-8, Latin-1 or UTF-16 with a byte order mark; export it as CSV or text"});
   }
   if (source->is_utf16()) source->stream_.assumed.emplace_back("The text is in UTF-16.");
   source->estimated_size_ = source->is_utf16() ? source->stream_.size / 2 : source->stream_.size;

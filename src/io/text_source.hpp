@@ -20,9 +20,9 @@ namespace slipfit::reading {
 class TextSource final : public ::io::ByteSourceBase {
  public:
   /// Errors: file_not_found, is_directory, not_readable, empty_file, binary_file.
-  static Result<std::unique_ptr<TextSource>> open(const std::filesystem::path& file);
+  static std::unique_ptr<TextSource> open(const std::filesystem::path& file);
   /// Of what is packed in the file, too. Errors: those above, those of containers.
-  static Result<std::unique_ptr<TextSource>> open(const std::filesystem::path& file, const ContainerChoice& choice);
+  static std::unique_ptr<TextSource> open(const std::filesystem::path& file, const ContainerChoice& choice);
 
   /// The first `size` bytes of the text (fewer when there are no more), without consuming them.
   std::string_view head(std::size_t size);
@@ -41,7 +41,7 @@ class TextSource final : public ::io::ByteSourceBase {
 
  private:
   enum class Encoding { Bytes, Utf16LittleEndian, Utf16BigEndian };
-  static Result<std::unique_ptr<TextSource>> over(Result<TextStream> stream, const std::string& name);
+  static std::unique_ptr<TextSource> over(TextStream stream, const std::string& name);
 
   TextSource() = default;
   void detect_encoding();

@@ -34,7 +34,7 @@ double take_derivative_by_difference(Jet& y, double difference_N) {
 }
 
 model::AgeingLawOf<Jet> law_of(const ModelEstimate& model) {
-  const ModelJets p = jets_of(model);
+  const ModelJets p(model);
   return {p.difference_N, p.ageing_N, model.ageing->reference_stick_s, p.ageing_cutoff_s};
 }
 
@@ -54,7 +54,7 @@ Jet end_speed(const ModelEstimate& model, double difference_N, double speed_m_pe
   held.reloading.reset();
   const Jet straight_s = held_motion_at(held, speed_m_per_s).cycle->stick_s;
   const double straight_by_log_speed =
-      -straight_s.v(kDifference) + jets_of(model).alpha_s_per_m.a * straight_s.v(kRate);
+      -straight_s.v(kDifference) + ModelJets(model).alpha_s_per_m.a * straight_s.v(kRate);
   const double by_straight = stick_s.v(kDifference) / straight_s.v(kDifference);
   const double by_log_speed = by_straight * (straight_s.a + straight_by_log_speed) - stick_s.a;
   take_derivative_by_difference(stick_s, difference_N);
@@ -110,7 +110,7 @@ CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagatio
   constexpr double kFastest = 300.0;
   constexpr double kSharp = 1e-14;
   // The speed goes as exp(-(F_s - F_k) / rate): its logarithm is nearly linear in the parameters.
-  const ModelJets p = jets_of(model);
+  const ModelJets p(model);
   const double unit = (p.omega_rad_per_s * p.difference_N / p.stiffness_N_per_m).a;
   double sticks = kSlowest * unit;
   double slides = kFastest * unit;

@@ -44,7 +44,7 @@ CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagati
     const std::string reason = "no stick-slip at any speed: the damping ratio is not below 1";
     return {unknown(reason), {0.0, std::nullopt, std::nullopt, reason}};
   }
-  const ModelJets p = jets_of(model);
+  const ModelJets p(model);
   const double solution = critical_lambda(model.damping_ratio);
   // One Newton step in dual numbers: derivatives of the root by the implicit function theorem.
   const ceres::Jet<double, 1> at(solution, 0);
@@ -57,7 +57,7 @@ CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagati
 
 MotionJets coulomb_motion_at(const ModelEstimate& model, double speed_m_per_s) {
   const auto [slider, friction] = body_of(model);
-  const ModelJets p = jets_of(model);
+  const ModelJets p(model);
   MotionJets motion;
   motion.regime = damped_motion(slider, friction, speed_m_per_s).regime;
   motion.total_damping_ratio = p.damping_ratio;

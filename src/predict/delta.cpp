@@ -6,22 +6,11 @@
 #include <numbers>
 
 #include "core/fit_thresholds.hpp"
-#include "fit/inference/student.hpp"
+#include "core/student.hpp"
 #include "model/reloading.hpp"
 
 namespace slipfit::predict {
 namespace {
-
-Jet parameter(double value, ParameterId id) {
-  return {value, static_cast<int>(place_in_model(id))};
-}
-
-/// One whose logarithm the model has.
-Jet positive_parameter(double value, ParameterId id) {
-  Jet jet(value);
-  jet.v[static_cast<int>(place_in_model(id))] = value;
-  return jet;
-}
 
 constexpr std::array<double, 2> kShare{1.0, 0.5};  // that ln k and ln w_n have in exponent times ln V
 
@@ -30,23 +19,6 @@ double log_ratio(const ModelEstimate& model, double speed_m_per_s) {
 }
 
 }  // namespace
-
-ModelJets jets_of(const ModelEstimate& model) {
-  const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
-  const Ageing ageing = model.ageing.value_or(Ageing{});
-  const Reloading reloading = model.reloading.value_or(Reloading{});
-  using Id = ParameterId;
-  return {positive_parameter(model.stiffness_N_per_m, Id::Stiffness),
-          positive_parameter(model.natural_frequency_rad_per_s, Id::NaturalFrequency),
-          parameter(model.damping_ratio, Id::DampingRatio),
-          positive_parameter(model.friction_difference_N, Id::FrictionDifference),
-          parameter(law.slope_N_s_per_m, Id::FrictionSlope),
-          parameter(law.alpha_s_per_m, Id::Alpha),
-          parameter(ageing.rate_N, Id::Ageing),
-          parameter(ageing.cutoff_s, Id::AgeingTime),
-          parameter(reloading.force_N, Id::ReloadForce),
-          positive_parameter(reloading.length_m, Id::ReloadLength)};
-}
 
 ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s) {
   if (!model.stiffness_trend) return model;
@@ -64,7 +36,7 @@ ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s) {
 }
 
 Propagation::Propagation(const ModelEstimate& model)
-    : model_(model), quantile_(fit::t_quantile(model_.degrees_of_freedom)) {}
+    : model_(model), quantile_(t_quantile(model_.degrees_of_freedom)) {}
 
 double Propagation::standard_error(const Jet& y) const {
   double variance = 0.0;
@@ -83,7 +55,7 @@ Estimate Propagation::positive(const Jet& y) const {
 }
 
 bool Propagation::law_is_open_at(double speed_m_per_s) const {
-  return quantile_ * standard_error(jets_of(model_).alpha_s_per_m) * speed_m_per_s > thresholds::kStraightLaw;
+  return quantile_ * standard_error(ModelJets(model_).alpha_s_per_m) * speed_m_per_s > thresholds::kStraightLaw;
 }
 
 std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_per_s) {
@@ -93,11 +65,11 @@ std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_p
   ModelEstimate wider = model;
   constexpr std::size_t kDifference = place_in_model(ParameterId::FrictionDifference);
   wider.covariance[kDifference][kDifference] +=
-      std::pow(model.reach->half_width_at(speed_m_per_s) / fit::t_quantile(model.degrees_of_freedom), 2);
+      std::pow(model.reach->half_width_at(speed_m_per_s) / t_quantile(model.degrees_of_freedom), 2);
   if (model.stiffness_trend) {
     // It may end there, or double.
     const double half_width = model.stiffness_trend->exponent * model.reach->distance_beyond(speed_m_per_s);
-    const double variance = std::pow(half_width / fit::t_quantile(model.degrees_of_freedom), 2);
+    const double variance = std::pow(half_width / t_quantile(model.degrees_of_freedom), 2);
     for (std::size_t i = 0; i < kShare.size(); ++i) {
       for (std::size_t j = 0; j < kShare.size(); ++j) wider.covariance[i][j] += kShare[i] * kShare[j] * variance;
     }
@@ -107,7 +79,7 @@ std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_p
 
 CycleJets reloaded(CycleJets cycle, const ModelEstimate& model, double speed_m_per_s) {
   if (!model.reloading) return cycle;
-  const ModelJets p = jets_of(model);
+  const ModelJets p(model);
   const Jet straight_m = speed_m_per_s * cycle.stick_s;
   const Jet rise_m = p.reload_force_N / p.stiffness_N_per_m;
   cycle.stick_s = model::reloaded_stick_m(straight_m, rise_m, p.reload_length_m) / speed_m_per_s;

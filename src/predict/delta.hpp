@@ -19,12 +19,39 @@ namespace slipfit::predict {
 /// cut-off of ageing, A and ln l of reloading, exponent of k).
 using Jet = ceres::Jet<double, static_cast<int>(kModelValues)>;
 
-struct ModelJets {
-  Jet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N, slope_N_s_per_m, alpha_s_per_m, ageing_N,
+/// Of a model whose values stand first among what a number of this kind has derivatives with respect to.
+template <class AnyJet>
+struct ModelJetsOf {
+  AnyJet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N, slope_N_s_per_m, alpha_s_per_m, ageing_N,
       ageing_cutoff_s, reload_force_N, reload_length_m;
+
+  explicit ModelJetsOf(const ModelEstimate& model)
+      : stiffness_N_per_m(positive(model.stiffness_N_per_m, ParameterId::Stiffness)),
+        omega_rad_per_s(positive(model.natural_frequency_rad_per_s, ParameterId::NaturalFrequency)),
+        damping_ratio(parameter(model.damping_ratio, ParameterId::DampingRatio)),
+        difference_N(positive(model.friction_difference_N, ParameterId::FrictionDifference)) {
+    const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
+    const Ageing ageing = model.ageing.value_or(Ageing{});
+    const Reloading reloading = model.reloading.value_or(Reloading{});
+    slope_N_s_per_m = parameter(law.slope_N_s_per_m, ParameterId::FrictionSlope);
+    alpha_s_per_m = parameter(law.alpha_s_per_m, ParameterId::Alpha);
+    ageing_N = parameter(ageing.rate_N, ParameterId::Ageing);
+    ageing_cutoff_s = parameter(ageing.cutoff_s, ParameterId::AgeingTime);
+    reload_force_N = parameter(reloading.force_N, ParameterId::ReloadForce);
+    reload_length_m = positive(reloading.length_m, ParameterId::ReloadLength);
+  }
+
+ private:
+  static AnyJet parameter(double value, ParameterId id) { return {value, static_cast<int>(place_in_model(id))}; }
+  /// One whose logarithm the model has.
+  static AnyJet positive(double value, ParameterId id) {
+    AnyJet jet(value);
+    jet.v[static_cast<int>(place_in_model(id))] = value;
+    return jet;
+  }
 };
 
-ModelJets jets_of(const ModelEstimate& model);
+using ModelJets = ModelJetsOf<Jet>;
 
 /// The model with k and w_n of a speed, where they go with it, and the covariance of these.
 ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s);
@@ -38,6 +65,14 @@ AnyJet from_speed(AnyJet y, const ModelEstimate& model, double speed_m_per_s) {
   const double log_speed = std::log(speed_m_per_s / model.stiffness_trend->speed_m_per_s);
   y.v[kExponent] += log_speed * (y.v[0] + 0.5 * y.v[1]);
   return y;
+}
+
+/// The model at one speed.
+template <class AnyJet>
+ModelJetsOf<AnyJet> jets_at(const ModelEstimate& model, double speed_m_per_s) {
+  ModelJetsOf<AnyJet> jets(at_speed(model, speed_m_per_s));
+  for (AnyJet* const y : {&jets.stiffness_N_per_m, &jets.omega_rad_per_s}) *y = from_speed(*y, model, speed_m_per_s);
+  return jets;
 }
 
 /// From derivatives to standard errors and 95 % intervals.

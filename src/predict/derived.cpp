@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/student.hpp"
 #include "predict/delta.hpp"
 #include "predict/motion.hpp"
 
@@ -23,7 +24,10 @@ Estimate force_ratio(const FitResult& fit, const Conditions& conditions) {
   const double relative = std::hypot(*difference->estimate.standard_error / *difference->estimate.value,
                                      *kinetic->estimate.standard_error / f_k);
   const double se = excess * relative;
-  return {1.0 + excess, se, Interval{1.0 + std::max(0.0, excess - 1.96 * se), 1.0 + excess + 1.96 * se}, {}};
+  return {1.0 + excess,
+          se,
+          Interval{1.0 + std::max(0.0, excess - kNormalQuantile * se), 1.0 + excess + kNormalQuantile * se},
+          {}};
 }
 
 /// E_n of ISO 13528, (predicted - measured) / U with U from the 95 % reach of the prediction and of the measurement.
@@ -32,7 +36,7 @@ Estimate spacing_score(const Estimate& predicted_m, double measured_m, std::opti
   const double difference_m = *predicted_m.value - measured_m;
   const double reach_m =
       difference_m > 0.0 ? *predicted_m.value - predicted_m.ci95->low : predicted_m.ci95->high - *predicted_m.value;
-  const double both_m = std::hypot(reach_m, 1.959963985 * measured_se_m.value_or(0.0));
+  const double both_m = std::hypot(reach_m, kNormalQuantile * measured_se_m.value_or(0.0));
   if (!(both_m > 0.0)) return unknown("the predicted spacing has no width");
   return {difference_m / both_m, std::nullopt, std::nullopt,
           measured_se_m ? "" : "the measured spacing counts as exact: its own uncertainty would make this smaller"};
@@ -76,7 +80,7 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   const double speed_error = conditions.speed_standard_error_m_per_s.value_or(0.0) / speed;
   const ModelEstimate model = at_the_measured_speed(*fit.estimate, speed_error);
   const predict::Propagation propagation(model);
-  const predict::ModelJets p = predict::jets_of(model);
+  const predict::ModelJets p(model);
   const predict::Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed);  // [Paper] eq. (9)
   derived.lambda = propagation.positive(lambda);
   predict::CriticalPoint critical = predict::critical_point(model);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/velocity_track.hpp"
+#include "model/slip_jets.hpp"
 #include "predict/motion.hpp"
 
 namespace slipfit::predict {
@@ -21,37 +21,14 @@ using CycleMatrix = Eigen::Matrix<double, kColumns, kColumns>;
 
 /// One cycle of the recording, whose static friction is by `excess_N` above the mean.
 class Cycle {
-  using Id = ParameterId;
-
  public:
   Cycle(const ModelEstimate& model, double speed_m_per_s, double excess_N)
-      : stiffness_(from_speed(exponential(at_speed(model, speed_m_per_s).stiffness_N_per_m, Id::Stiffness), model,
-                              speed_m_per_s)),
-        omega_(from_speed(exponential(at_speed(model, speed_m_per_s).natural_frequency_rad_per_s, Id::NaturalFrequency),
-                          model, speed_m_per_s)),
-        zeta_(parameter(model.damping_ratio, Id::DampingRatio)),
-        difference_(exponential(model.friction_difference_N, Id::FrictionDifference)),
-        unit_(stiffness_ * speed_m_per_s / omega_) {
-    if (model.ageing) {
-      // After the sticks of this speed; that these follow F_s - F_k is a small part of what they tell of the rate.
-      const double aged_N = aged_difference_N(at_speed(model, speed_m_per_s), speed_m_per_s).value_or(0.0);
-      const auto [rate_N, reference_s, cutoff_s] = *model.ageing;
-      const double log_stick = (aged_N - model.friction_difference_N) / rate_N;
-      const double by_cutoff = (std::exp(-log_stick) - 1.0) / (reference_s + cutoff_s);
-      difference_ += parameter(rate_N, Id::Ageing) * log_stick + rate_N * by_cutoff * parameter(0.0, Id::AgeingTime);
-    }
-    const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
-    slope_ = parameter(law.slope_N_s_per_m, Id::FrictionSlope) * omega_ / stiffness_;
-    rate_ = parameter(law.alpha_s_per_m, Id::Alpha) * speed_m_per_s;
-    onset_force_ = CycleJet((difference_ - 2.0 * zeta_ * unit_).a + excess_N, kOnsetForce);  // F_s - cV
-    z0_ = onset_force_ / unit_;
-    track_ = model::VelocityTrack::solve(z0_.a, zeta_.a, slope_.a, rate_.a);
-  }
+      : Cycle(jets_of(model, speed_m_per_s), speed_m_per_s, excess_N) {}
 
   [[nodiscard]] bool sticks() const { return track_ && track_->resticks() && tau_stick() > 0.0; }
   [[nodiscard]] double omega_rad_per_s() const { return omega_.a; }
   [[nodiscard]] double tau_slip() const { return track_->tau_end(); }
-  [[nodiscard]] double tau_stick() const { return z0_.a - track_->after().value - tau_slip(); }
+  [[nodiscard]] double tau_stick() const { return slip_.tau_period(*track_).a - tau_slip(); }
 
   /// Force of a sample at a fixed time.
   [[nodiscard]] CycleJet force(double at) const {
@@ -59,23 +36,41 @@ class Cycle {
     CycleJet tau(at);
     tau.v = at * omega_.v / omega_.a;
     tau.v(kOnsetTime) -= omega_.a;
-    CycleJet z(p.z);
-    z.v = p.d_tau * tau.v + p.d_z0 * z0_.v + p.d_zeta * zeta_.v + p.d_slope * slope_.v + p.d_rate * rate_.v;
-    return CycleJet(0.0, kLevel) + unit_ * z;
+    CycleJet z = slip_.jet(p.z, p);
+    z.v += p.d_tau * tau.v;
+    return CycleJet(0.0, kLevel) + slip_.force_unit_N * z;
   }
   /// What the population of cycles says of this one's onset force.
-  [[nodiscard]] CycleJet onset_departure() const { return onset_force_ - (difference_ - 2.0 * zeta_ * unit_); }
+  [[nodiscard]] CycleJet onset_departure() const { return onset_force_ - mean_onset_force_; }
 
  private:
-  static CycleJet parameter(double value, Id id) { return {value, static_cast<int>(place_in_model(id))}; }
-  /// A quantity whose logarithm the model has.
-  static CycleJet exponential(double value, Id id) {
-    CycleJet jet(value);
-    jet.v(static_cast<Eigen::Index>(place_in_model(id))) = value;
-    return jet;
+  using Jets = ModelJetsOf<CycleJet>;
+
+  static Jets jets_of(const ModelEstimate& model, double speed_m_per_s) {
+    Jets p = jets_at<CycleJet>(model, speed_m_per_s);
+    if (!model.ageing) return p;
+    // After the sticks of this speed; that these follow F_s - F_k is a small part of what they tell of the rate.
+    const double aged_N = aged_difference_N(at_speed(model, speed_m_per_s), speed_m_per_s).value_or(0.0);
+    const auto [rate_N, reference_s, cutoff_s] = *model.ageing;
+    const double log_stick = (aged_N - model.friction_difference_N) / rate_N;
+    const double by_cutoff = (std::exp(-log_stick) - 1.0) / (reference_s + cutoff_s);
+    p.difference_N += p.ageing_N * log_stick + rate_N * by_cutoff * (p.ageing_cutoff_s - cutoff_s);
+    return p;
   }
 
-  CycleJet stiffness_, omega_, zeta_, difference_, unit_, slope_, rate_, onset_force_, z0_;
+  Cycle(const Jets& p, double speed_m_per_s, double excess_N)
+      : omega_(p.omega_rad_per_s),
+        slip_(p.stiffness_N_per_m, p.omega_rad_per_s, p.damping_ratio, p.difference_N, p.slope_N_s_per_m,
+              p.alpha_s_per_m, speed_m_per_s),
+        mean_onset_force_(slip_.force_unit_N * slip_.z0),  // F_s - cV
+        onset_force_(mean_onset_force_.a + excess_N, kOnsetForce) {
+    slip_.z0 = onset_force_ / slip_.force_unit_N;
+    track_ = slip_.solve();
+  }
+
+  CycleJet omega_;
+  model::SlipJets<CycleJet> slip_;
+  CycleJet mean_onset_force_, onset_force_;
   std::optional<model::VelocityTrack> track_;
 };
 

@@ -23,7 +23,7 @@ struct NamedJet {
 };
 
 std::vector<NamedJet> parameters_of(const ModelEstimate& model) {
-  const predict::ModelJets p = predict::jets_of(model);
+  const predict::ModelJets p(model);
   std::vector<NamedJet> all{
       {"stiffness_N_per_m", p.stiffness_N_per_m},
       {"friction_difference_N", p.difference_N},

@@ -17,14 +17,6 @@ Estimate without_interval(const Estimate& estimate) {
   return {estimate.value, std::nullopt, std::nullopt, estimate.note};
 }
 
-predict::ModelJets jets_at(const ModelEstimate& model, double speed_m_per_s) {
-  predict::ModelJets jets = predict::jets_of(predict::at_speed(model, speed_m_per_s));
-  for (Jet* const y : {&jets.stiffness_N_per_m, &jets.omega_rad_per_s}) {
-    *y = predict::from_speed(*y, model, speed_m_per_s);
-  }
-  return jets;
-}
-
 /// The motion at one speed.
 class Predictor {
  public:
@@ -34,7 +26,7 @@ class Predictor {
         critical_(critical),
         speed_m_per_s_(speed_m_per_s),
         propagation_(wider_.value_or(model.estimate)),
-        jets_(jets_at(model.estimate, speed_m_per_s)) {}
+        jets_(predict::jets_at<Jet>(model.estimate, speed_m_per_s)) {}
 
   [[nodiscard]] PredictedMotion motion() const {
     PredictedMotion row;

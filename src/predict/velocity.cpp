@@ -1,39 +1,18 @@
 #include "predict/motion.hpp"
 
 #include "core/fit_thresholds.hpp"
-#include "model/velocity_track.hpp"
+#include "model/slip_jets.hpp"
 #include "model/velocity_units.hpp"
 
 namespace slipfit::predict {
 namespace {
 
-/// The slip that starts from stick at one speed, in units of docs/model.md section 5 and with its derivatives.
-struct SlipJets {
-  Jet force_unit_N, z0, zeta, slope, rate;
-  double speed_m_per_s = 0.0;
+using SlipJets = model::SlipJets<Jet>;
 
-  SlipJets(const ModelJets& p, double speed)
-      : force_unit_N(p.stiffness_N_per_m * speed / p.omega_rad_per_s),
-        z0(p.difference_N / force_unit_N - 2.0 * p.damping_ratio),  // the slip starts from F_s - cV
-        zeta(p.damping_ratio),
-        slope(p.slope_N_s_per_m * p.omega_rad_per_s / p.stiffness_N_per_m),
-        rate(p.alpha_s_per_m * speed),
-        speed_m_per_s(speed) {}
-
-  [[nodiscard]] std::optional<model::VelocityTrack> solve() const {
-    return model::VelocityTrack::solve(z0.a, zeta.a, slope.a, rate.a);
-  }
-
-  /// At fixed tau.
-  [[nodiscard]] Jet jet(double value, double d_z0, double d_zeta, double d_slope, double d_rate) const {
-    Jet result(value);
-    result.v = d_z0 * z0.v + d_zeta * zeta.v + d_slope * slope.v + d_rate * rate.v;
-    return result;
-  }
-  [[nodiscard]] Jet jet(const model::TrackValue& y) const {
-    return jet(y.value, y.d_z0, y.d_zeta, y.d_slope, y.d_rate);
-  }
-};
+SlipJets slip_at(const ModelJets& p, double speed_m_per_s) {
+  return {p.stiffness_N_per_m, p.omega_rad_per_s, p.damping_ratio, p.difference_N,
+          p.slope_N_s_per_m,   p.alpha_s_per_m,   speed_m_per_s};
+}
 
 /// Force where z' passes 0 between two times; to first order it does not move with that time.
 Jet extreme(const SlipJets& slip, const model::VelocityTrack& track, double before, double after) {
@@ -44,7 +23,7 @@ Jet extreme(const SlipJets& slip, const model::VelocityTrack& track, double befo
     ((track.at(middle).d_tau > 0.0) == rises ? before : after) = middle;
   }
   const model::TrackPoint point = track.at(before);
-  return slip.force_unit_N * slip.jet(point.z, point.d_z0, point.d_zeta, point.d_slope, point.d_rate);
+  return slip.force_unit_N * slip.jet(point.z, point);
 }
 
 /// The force is largest soon after the slip has started and smallest soon before it ends: between those two z' < 0.
@@ -59,21 +38,17 @@ double time_of_falling_force(const model::VelocityTrack& track) {
 }
 
 /// Empty where the slip does not stick, or ends with the force above that of the next slip's start.
-std::optional<CycleJets> cycle_of(const SlipJets& slip, const model::VelocityTrack& track, const Jet& omega) {
+std::optional<CycleJets> cycle_of(const SlipJets& slip, const model::VelocityTrack& track, const Jet& omega,
+                                  double speed_m_per_s) {
   if (!track.resticks()) return std::nullopt;
-  const model::TrackEnd& end = track.end();
-  Jet tau_slip(end.tau);
-  tau_slip.v = -slip.jet(end.first).v / end.second.value;  // z'(tau) = 1 holds at the end
-  const Jet tau_period = slip.z0 - slip.jet(track.after());
+  const Jet tau_slip = slip.tau_slip(track.end());
+  const Jet tau_period = slip.tau_period(track);
   if (!(tau_period.a > tau_slip.a)) return std::nullopt;
   const double falling = time_of_falling_force(track);
   const Jet period_s = tau_period / omega;
-  return CycleJets{tau_slip / omega,
-                   (tau_period - tau_slip) / omega,
-                   period_s,
-                   slip.speed_m_per_s * period_s,
-                   extreme(slip, track, 0.0, falling),
-                   extreme(slip, track, falling, end.tau)};
+  return CycleJets{
+      tau_slip / omega,         (tau_period - tau_slip) / omega,    period_s,
+      speed_m_per_s * period_s, extreme(slip, track, 0.0, falling), extreme(slip, track, falling, track.tau_end())};
 }
 
 /// Positive where the slip sticks: z''^2 at its end is linear in the parameters up to where it vanishes; without stick
@@ -88,7 +63,7 @@ Jet margin_of(const SlipJets& slip, const model::VelocityTrack& track) {
 }
 
 bool sticks_at(const ModelJets& p, double speed_m_per_s) {
-  const auto track = SlipJets(p, speed_m_per_s).solve();
+  const auto track = slip_at(p, speed_m_per_s).solve();
   return track && track->resticks();
 }
 
@@ -115,13 +90,13 @@ Bracket refined(const ModelJets& p, Bracket bracket) {
 }  // namespace
 
 MotionJets velocity_motion_at(const ModelEstimate& model, double speed_m_per_s) {
-  const ModelJets p = jets_of(model);
-  const SlipJets slip(p, speed_m_per_s);
+  const ModelJets p(model);
+  const SlipJets slip = slip_at(p, speed_m_per_s);
   MotionJets motion;
   // Linearised at the driving speed: tangent of the friction law, not its chord. docs/model.md section 5
   motion.total_damping_ratio = slip.zeta + 0.5 * slip.slope * exp(slip.rate);
   if (const auto track = slip.solve()) {
-    motion.cycle = cycle_of(slip, *track, p.omega_rad_per_s);
+    motion.cycle = cycle_of(slip, *track, p.omega_rad_per_s, speed_m_per_s);
     if (motion.cycle) motion.cycle = reloaded(*motion.cycle, model, speed_m_per_s);
     motion.restick_margin = margin_of(slip, *track);
   }
@@ -130,7 +105,7 @@ MotionJets velocity_motion_at(const ModelEstimate& model, double speed_m_per_s) 
 }
 
 CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagation& propagation) {
-  const ModelJets p = jets_of(model);
+  const ModelJets p(model);
   const double unit = (p.omega_rad_per_s * p.difference_N / p.stiffness_N_per_m).a;
   double speed = kFastest * unit;
   if (sticks_at(p, speed)) {
@@ -140,7 +115,7 @@ CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagat
   while (speed > kSlowest * unit && !sticks_at(p, speed / kSearchStep)) speed /= kSearchStep;
   if (speed <= kSlowest * unit) return CriticalPoint::unknown("no stick-slip at any speed");
   const double critical = refined(p, {speed / kSearchStep, speed}).slides;
-  const SlipJets slip(p, critical);
+  const SlipJets slip = slip_at(p, critical);
   const auto track = slip.solve();
   if (!track || track->resticks()) return CriticalPoint::unknown("the end of stick-slip has no solution");
   // The largest z' is 1 there: derivatives of the root by the implicit function theorem.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/student.hpp"
 #include "slipfit/core/units.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -44,11 +45,11 @@ std::string fixed_text(double value, int last_digit) {
   return text;
 }
 
-/// The half width of the interval over 1.96 stands in where no standard error is given.
+/// The half width of the interval over kNormalQuantile stands in where no standard error is given.
 std::optional<double> uncertainty_of(const Estimate& estimate) {
   if (usable(estimate.standard_error)) return estimate.standard_error;
   if (!estimate.ci95) return std::nullopt;
-  return (estimate.ci95->high - estimate.ci95->low) / (2.0 * 1.96);
+  return (estimate.ci95->high - estimate.ci95->low) / (2.0 * kNormalQuantile);
 }
 
 /// The unit that suits the estimate, or the end of its interval.

@@ -65,6 +65,7 @@ inline constexpr std::array<CoefficientSpread, 2> kCoefficientSpreads{
 /// All of them with their words, in the order of the reports.
 inline std::vector<std::pair<std::string_view, Estimate>> coefficient_rows(const Coefficients& coefficients) {
   std::vector<std::pair<std::string_view, Estimate>> rows;
+  rows.reserve(kCoefficients.size() + kCoefficientThirds.size() + kCoefficientSpreads.size());
   for (const auto& row : kCoefficients) rows.emplace_back(row.words, coefficients.*row.estimate);
   for (const auto& row : kCoefficientThirds) rows.emplace_back(row.words, coefficients.*row.estimate);
   for (const auto& row : kCoefficientSpreads) {

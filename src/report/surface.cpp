@@ -5,6 +5,7 @@
 #include <array>
 #include <numbers>
 
+#include "core/unknown.hpp"
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
 #include "report/text_sections.hpp"
@@ -42,8 +43,7 @@ std::string to_json(const Profile& profile, const Surface& surface) {
   json["status"] = name_of(surface.status);
   json["spacing_m"] = surface.spacing_m;
   json["fine_spacing_m"] = surface.fine_spacing_m;
-  json["ridge_height_m"] =
-      profile.height_in_metres ? surface.ridge_height : Estimate{{}, {}, {}, "the heights have no unit"};
+  json["ridge_height_m"] = profile.height_in_metres ? surface.ridge_height : unknown("the heights have no unit");
   json["ridges"] = surface.ridges;
   json["spacing_sd_m"] = surface.spacing_sd_m;
   json["spacing_begin_m"] = surface.begin_spacing_m;

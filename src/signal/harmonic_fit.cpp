@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/student.hpp"
 #include "signal/robust.hpp"
-#include "signal/student.hpp"
 
 namespace slipfit::signal {
 namespace {

@@ -5,9 +5,9 @@
 #include <complex>
 #include <vector>
 
+#include "core/student.hpp"
 #include "signal/robust.hpp"
 #include "signal/segments.hpp"
-#include "signal/student.hpp"
 
 namespace slipfit::signal {
 namespace {
@@ -132,7 +132,7 @@ std::vector<Slope> slopes_of(const std::vector<PhasePoint>& points, Walk kind) {
 }
 
 /// The slopes averaged by a power of their likelihood: few increments do not tell a weak walk from none, and the
-/// standard error has to say so. It contains Student's factor, so that 1.96 of it cover 95 %.
+/// standard error has to say so. It contains Student's factor, so that kNormalQuantile of it covers 95 %.
 Slope average(const std::vector<Slope>& slopes, double power, std::size_t points) {
   double best = -1e300;
   for (const Slope& slope : slopes) best = std::max(best, slope.log_likelihood);

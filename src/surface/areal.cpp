@@ -96,9 +96,10 @@ double find_direction(const HeightMap& map) {
 
 }  // namespace
 
-Error map_too_large(const std::string& file) {
-  return {"map_too_large", fmt::format("{}: holds more than {} million points; cut the track out of it, or thin it out",
-                                       file, kMostPoints >> 20U)};
+ThrownError map_too_large(const std::string& file) {
+  return ThrownError(
+      {"map_too_large", fmt::format("{}: holds more than {} million points; cut the track out of it, or thin it out",
+                                    file, kMostPoints >> 20U)});
 }
 
 Profile profile_of(const HeightMap& map, std::optional<double> along_rad) {

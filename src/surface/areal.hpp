@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/thrown_error.hpp"
 #include "slipfit/surface/surface.hpp"
 
 namespace slipfit::surface {
@@ -24,7 +25,7 @@ struct HeightMap {
 };
 
 constexpr std::size_t kMostPoints = std::size_t{64} << 20U;
-Error map_too_large(const std::string& file);
+ThrownError map_too_large(const std::string& file);
 
 /// All rows averaged across the direction of sliding: the given one, else that in which the averages vary most (form
 /// aside). A single row is the profile itself.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/student.hpp"
 #include "core/surface_thresholds.hpp"
 
 namespace slipfit {
@@ -66,7 +67,7 @@ SpacingComparison compare_spacings(const Estimate& by_force_m, const Estimate& o
   const double ratio = surface_m / force_m;
   const double factor = std::exp(relative_reach);
   compared.En = {(surface_m - force_m) / reach_m, std::nullopt, std::nullopt, {}};
-  compared.ratio = {ratio, ratio * relative_reach / 1.959963985, Interval{ratio / factor, ratio * factor}, {}};
+  compared.ratio = {ratio, ratio * relative_reach / kNormalQuantile, Interval{ratio / factor, ratio * factor}, {}};
   if (std::abs(*compared.En.value) > 1.0) {
     compared.verdict = ratio_verdict(ratio, relative_reach);
   } else {

@@ -5,25 +5,24 @@
 
 namespace slipfit::surface {
 
-Result<HeightMap> read_image(const SurfaceFile& file, const ProfileOptions& options) {
+HeightMap read_image(const SurfaceFile& file, const ProfileOptions& options) {
   if (!options.pixel_m) {
-    return Error{"no_pixel", file.name + ": an image; say how large its pixels are on the surface: --pixel 2.1um"};
+    throw ThrownError(
+        {"no_pixel", file.name + ": an image; say how large its pixels are on the surface: --pixel 2.1um"});
   }
-  auto started =
+  const reading::HelperOutput output =
       reading::run_helper({"slipfit-image", {file.path.string()}, "an image", "libleptonica-dev"}, file.name);
-  if (!started) return started.error();
-  reading::HelperOutput output = std::move(started).value();
   HeightMap map{0, 0, *options.pixel_m, *options.pixel_m, {}, false};
   if (std::sscanf(output.first.c_str(), "%zux%zu", &map.columns, &map.rows) != 2 || map.columns == 0 || map.rows == 0) {
-    return damaged_surface(file, "the image is damaged");
+    throw damaged_surface(file, "the image is damaged");
   }
-  if (map.columns > kMostPoints || map.rows > kMostPoints / map.columns) return map_too_large(file.name);
+  if (map.columns > kMostPoints || map.rows > kMostPoints / map.columns) throw map_too_large(file.name);
   const std::size_t count = map.columns * map.rows;
   map.values.reserve(count);
   std::array<char, 65536> part{};
   while (map.values.size() < count) {
     const std::size_t got = output.bytes->read(part.data(), part.size());
-    if (got == 0) return damaged_surface(file, "the image is damaged");
+    if (got == 0) throw damaged_surface(file, "the image is damaged");
     for (std::size_t i = 0; i + 1 < got && map.values.size() < count; i += 2) {
       map.values.push_back(static_cast<unsigned char>(part[i]) + 256.0 * static_cast<unsigned char>(part[i + 1]));
     }

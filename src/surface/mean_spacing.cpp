@@ -1,4 +1,5 @@
 #include "surface/mean_spacing.hpp"
+#include "core/student.hpp"
 
 #include <algorithm>
 #include <array>
@@ -120,7 +121,7 @@ std::optional<MeanSpacing> mean_spacing(std::span<const double> distances, const
   for (const Component& c : mixture) mean.value += c.weight * c.centre;
   mean.clock_share = mixture.front().weight;
   mean.ci95 = {quantile(mixture, freedom, 0.025), quantile(mixture, freedom, 0.975)};
-  mean.standard_error = 0.5 * (mean.ci95.high - mean.ci95.low) / 1.959963985;
+  mean.standard_error = 0.5 * (mean.ci95.high - mean.ci95.low) / kNormalQuantile;
   return mean;
 }
 

@@ -10,7 +10,7 @@ namespace slipfit::surface {
 /// Mean of a series of distances between neighbours, and how well it is known.
 struct MeanSpacing {
   double value = 0.0;
-  double standard_error = 0.0;  ///< half of the 95 % interval over 1.96
+  double standard_error = 0.0;  ///< half of the 95 % interval over kNormalQuantile
   Interval ci95;
   double clock_share = 0.0;  ///< probability that the places stand about even marks
 };

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/line_sums.hpp"
+#include "core/student.hpp"
 #include "core/surface_thresholds.hpp"
 #include "core/unknown.hpp"
 #include "signal/robust.hpp"
@@ -76,16 +78,11 @@ Estimate estimate(const surface::MeanSpacing& mean, double scale) {
       kPositive);
 }
 
-Estimate normal(double value, double standard_error) {
-  const double half = 1.959963985 * standard_error;
-  return {value, standard_error, Interval{value - half, value + half}, {}};
-}
-
 /// Of each ridge over the next valley; neighbours are taken as independent.
 Estimate mean_height(const std::vector<double>& heights) {
   const auto n = static_cast<double>(heights.size());
   const double mean = mean_of(heights);
-  return within(normal(mean, mean * surface::variation(heights) / std::sqrt(n)), kNotNegative);
+  return within(symmetric(mean, mean * surface::variation(heights) / std::sqrt(n)), kNotNegative);
 }
 
 struct Trend {
@@ -94,24 +91,12 @@ struct Trend {
 
 /// A straight line through the distances over their places along the track.
 Trend trend_of(const std::vector<double>& distances, double pitch_m) {
-  const auto n = static_cast<double>(distances.size());
-  const double mean = mean_of(distances);
-  const double middle = 0.5 * (n - 1.0);
-  double moment = 0.0;
-  for (std::size_t i = 0; i < distances.size(); ++i) moment += (static_cast<double>(i) - middle) * distances[i];
-  const double spread = n * (n * n - 1.0) / 12.0;
-  const double slope = moment / spread;
-  double rest = 0.0;
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    const double off = distances[i] - mean - slope * (static_cast<double>(i) - middle);
-    rest += off * off;
-  }
-  const double variance = rest / std::max(1.0, n - 2.0);
-  const double error = std::sqrt(variance * (1.0 / n + middle * middle / spread));
-  const auto at = [&](double index) {
-    return within(normal((mean + slope * (index - middle)) * pitch_m, error * pitch_m), kPositive);
-  };
-  return {at(0.0), at(n - 1.0)};
+  const LineSums line = line_sums(
+      distances.size(), [](std::size_t i) { return static_cast<double>(i); },
+      [&](std::size_t i) { return distances[i]; });
+  const double error = std::sqrt(line.variance() * (1.0 / line.count + line.mean_x * line.mean_x / line.square));
+  const auto at = [&](double index) { return within(symmetric(line.at(index) * pitch_m, error * pitch_m), kPositive); };
+  return {at(0.0), at(line.count - 1.0)};
 }
 
 /// Median length of a rise over that of a fall.

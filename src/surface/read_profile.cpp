@@ -11,15 +11,13 @@
 namespace slipfit {
 namespace surface {
 
-Error damaged_surface(const SurfaceFile& file, const std::string& what) {
-  return {"damaged_surface", file.name + ": " + what + "; copy or export the file again"};
+ThrownError damaged_surface(const SurfaceFile& file, const std::string& what) {
+  return ThrownError({"damaged_surface", file.name + ": " + what + "; copy or export the file again"});
 }
 
-Result<std::string> whole_file(const SurfaceFile& file, std::size_t most) {
-  auto opened = reading::open_plain(file.path);
-  if (!opened) return opened.error();
-  auto bytes = reading::read_all(*opened.value().bytes, most);
-  if (!bytes) return map_too_large(file.name);
+std::string whole_file(const SurfaceFile& file, std::size_t most) {
+  auto bytes = reading::read_all(*reading::open_plain(file.path).bytes, most);
+  if (!bytes) throw map_too_large(file.name);
   return *std::move(bytes);
 }
 
@@ -50,14 +48,13 @@ void note_blocks(Profile& profile) {
   if (c > 0.99 || c < 0.14) profile.block_samples = 8.0;
 }
 
-Result<Profile> read(const SurfaceFile& file, const Magic& magic, const ProfileOptions& options) {
+Profile read(const SurfaceFile& file, const Magic& magic, const ProfileOptions& options) {
   if (magic.kind == Kind::Text) return read_text_profile(file, options);
-  auto map = magic.kind == Kind::Sdf   ? read_sdf(file)
-             : magic.kind == Kind::X3p ? read_x3p(file)
-                                       : read_image(file, options);
-  if (!map) return map.error();
-  if (map.value().values.size() < 2) return damaged_surface(file, "it holds no points");
-  Profile profile = profile_of(map.value(), options.along_rad);
+  const HeightMap map = magic.kind == Kind::Sdf   ? read_sdf(file)
+                        : magic.kind == Kind::X3p ? read_x3p(file)
+                                                  : read_image(file, options);
+  if (map.values.size() < 2) throw damaged_surface(file, "it holds no points");
+  Profile profile = profile_of(map, options.along_rad);
   if (magic.is_jpeg) note_blocks(profile);
   return profile;
 }
@@ -65,22 +62,18 @@ Result<Profile> read(const SurfaceFile& file, const Magic& magic, const ProfileO
 }  // namespace
 }  // namespace surface
 
-Result<Profile> read_profile(const std::filesystem::path& path, const ProfileOptions& options) {
-  const surface::SurfaceFile file{path, reading::printable(path.string())};
-  return reading::with_errors_of_reading(file.name, [&]() -> Result<Profile> {
-    auto opened = reading::open_plain(path);
-    if (!opened) return opened.error();
+Result<Profile> read_profile(const std::filesystem::path& file, const ProfileOptions& options) {
+  const surface::SurfaceFile opened{file, reading::printable(file.string())};
+  return reading::with_errors_of_reading(opened.name, [&] {
     std::array<char, 16> start{};
-    const std::size_t size = opened.value().bytes->read(start.data(), start.size());
+    const std::size_t size = reading::open_plain(file).bytes->read(start.data(), start.size());
     surface::Magic found;
     for (const surface::Magic& magic : surface::kMagics) {
       if (std::string_view(start.data(), size).starts_with(magic.start)) found = magic;
     }
-    auto profile = surface::read(file, found, options);
-    if (!profile) return profile;
-    Profile named = std::move(profile).value();
-    named.file = file.name;
-    return named;
+    Profile profile = surface::read(opened, found, options);
+    profile.file = opened.name;
+    return profile;
   });
 }
 

@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <string>
 
+#include "core/thrown_error.hpp"
 #include "slipfit/surface/surface.hpp"
 #include "surface/areal.hpp"
 
-// What each kind of file takes to become a profile. `name` is how messages call the file.
+// What each kind of file takes to become a profile. Errors are thrown (ThrownError): read_profile returns them. `name`
+// is how messages call the file.
 
 namespace slipfit::surface {
 
@@ -16,20 +18,20 @@ struct SurfaceFile {
 };
 
 /// Columns of text. Errors: those of opening a text file, no_unit, no_pitch, unknown_column, ambiguous_columns.
-Result<Profile> read_text_profile(const SurfaceFile& file, const ProfileOptions& options);
+Profile read_text_profile(const SurfaceFile& file, const ProfileOptions& options);
 
 /// ISO 25178-71, ASCII ("aISO-1.0") and binary ("bISO-1.0"). Errors: damaged_surface, map_too_large.
-Result<HeightMap> read_sdf(const SurfaceFile& file);
+HeightMap read_sdf(const SurfaceFile& file);
 
 /// ISO 25178-72. Errors: not_built_in, damaged_surface, map_too_large, those of a zip archive.
-Result<HeightMap> read_x3p(const SurfaceFile& file);
+HeightMap read_x3p(const SurfaceFile& file);
 
 /// PNG, TIFF or JPEG through the program slipfit-image. Errors: no_pixel, not_built_in, damaged_container.
-Result<HeightMap> read_image(const SurfaceFile& file, const ProfileOptions& options);
+HeightMap read_image(const SurfaceFile& file, const ProfileOptions& options);
 
-Error damaged_surface(const SurfaceFile& file, const std::string& what);
+ThrownError damaged_surface(const SurfaceFile& file, const std::string& what);
 
 /// The whole file, at most `most` bytes. Errors: those of opening a file, map_too_large.
-Result<std::string> whole_file(const SurfaceFile& file, std::size_t most);
+std::string whole_file(const SurfaceFile& file, std::size_t most);
 
 }  // namespace slipfit::surface

@@ -82,12 +82,8 @@ std::vector<double> distances(std::span<const double> places) {
 }
 
 double variation(std::span<const double> values) {
-  if (values.size() < 2) return 0.0;
-  const auto n = static_cast<double>(values.size());
-  const double mean = mean_of(values);
-  double sum = 0.0;
-  for (const double v : values) sum += (v - mean) * (v - mean);
-  return std::sqrt(sum / (n - 1.0)) / std::abs(mean);
+  const MeanAndSpread found = describe(values);
+  return values.size() < 2 ? 0.0 : found.sd / std::abs(found.mean);
 }
 
 }  // namespace slipfit::surface

@@ -112,19 +112,18 @@ constexpr std::array kHeightTypes{kHeightType<std::uint8_t>, kHeightType<std::ui
                                   kHeightType<float>,        kHeightType<std::int8_t>,   kHeightType<std::int16_t>,
                                   kHeightType<std::int32_t>, kHeightType<double>};
 
-Result<std::vector<double>> binary_heights(const SurfaceFile& file, std::string_view bytes, std::size_t count,
-                                           const SdfHeader& header) {
+std::vector<double> binary_heights(const SurfaceFile& file, std::string_view bytes, std::size_t count,
+                                   const SdfHeader& header) {
   if (!(header.type >= 0.0 && header.type <= 7.0))
-    return damaged_surface(file, "its data type is none of the standard's");
+    throw damaged_surface(file, "its data type is none of the standard's");
   const HeightType& type = kHeightTypes.at(static_cast<std::size_t>(header.type));
   if (bytes.size() / type.bytes < count)
-    return damaged_surface(file, "it ends before the heights that its header announces");
+    throw damaged_surface(file, "it ends before the heights that its header announces");
   return type.read(bytes, count, header.z_scale_m);
 }
 
 /// Numbers parted by blanks or line ends; a word ("BAD") where nothing was measured.
-Result<std::vector<double>> text_heights(const SurfaceFile& file, std::string_view text, std::size_t count,
-                                         double scale) {
+std::vector<double> text_heights(const SurfaceFile& file, std::string_view text, std::size_t count, double scale) {
   constexpr std::string_view kBlanks = " \t\r\n,;";
   std::vector<double> heights;
   std::size_t begin = text.find_first_not_of(kBlanks);
@@ -133,22 +132,21 @@ Result<std::vector<double>> text_heights(const SurfaceFile& file, std::string_vi
     heights.push_back(scale * reading::plain_number(text.substr(begin, end - begin), false));
     begin = text.find_first_not_of(kBlanks, end);
   }
-  if (heights.size() < count) return damaged_surface(file, "it ends before the heights that its header announces");
+  if (heights.size() < count) throw damaged_surface(file, "it ends before the heights that its header announces");
   return heights;
 }
 
 }  // namespace
 
-Result<HeightMap> read_sdf(const SurfaceFile& file) {
-  auto read = whole_file(file, std::size_t{1} << 30U);
-  if (!read) return read.error();
-  const std::string_view bytes = read.value();
+HeightMap read_sdf(const SurfaceFile& file) {
+  const std::string content = whole_file(file, std::size_t{1} << 30U);
+  const std::string_view bytes = content;
   const bool is_binary = bytes.starts_with('b');
-  if (is_binary && bytes.size() < kBinaryHeader) return damaged_surface(file, "its header is cut off");
+  if (is_binary && bytes.size() < kBinaryHeader) throw damaged_surface(file, "its header is cut off");
   std::string_view data = bytes.substr(std::min(kBinaryHeader, bytes.size()));
   const SdfHeader header = is_binary ? binary_header(bytes) : text_header(bytes, data);
-  if (const std::string fault = fault_of(header); !fault.empty()) return damaged_surface(file, fault);
-  if (header.points * header.profiles > static_cast<double>(kMostPoints)) return map_too_large(file.name);
+  if (const std::string fault = fault_of(header); !fault.empty()) throw damaged_surface(file, fault);
+  if (header.points * header.profiles > static_cast<double>(kMostPoints)) throw map_too_large(file.name);
   HeightMap map{static_cast<std::size_t>(header.points),
                 static_cast<std::size_t>(header.profiles),
                 header.x_scale_m,
@@ -156,10 +154,8 @@ Result<HeightMap> read_sdf(const SurfaceFile& file) {
                 {},
                 true};
   const std::size_t count = map.columns * map.rows;
-  auto heights =
+  map.values =
       is_binary ? binary_heights(file, data, count, header) : text_heights(file, data, count, header.z_scale_m);
-  if (!heights) return heights.error();
-  map.values = std::move(heights).value();
   return map;
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/student.hpp"
 #include "core/surface_thresholds.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/signal/spectrum.hpp"
@@ -130,7 +131,7 @@ std::optional<MeanSpacing> mean_of_halves(std::span<const double> heights, const
   }
   const auto [value, known] = comb.clock();
   const double error = std::hypot(known, 0.5 * (found[1] - found[0]));
-  return MeanSpacing{value, error, {value - 1.959963985 * error, value + 1.959963985 * error}, 1.0};
+  return MeanSpacing{value, error, {value - kNormalQuantile * error, value + kNormalQuantile * error}, 1.0};
 }
 
 /// Upper limit (97.5 %) of the variation of the distances: few are alike by luck. Wilson and Hilferty's approximation
@@ -138,7 +139,7 @@ std::optional<MeanSpacing> mean_of_halves(std::span<const double> heights, const
 double largest_variation(const Pattern& pattern) {
   const double freedom = std::max(1.0, static_cast<double>(pattern.places.size()) - 2.0);
   const double spread = 2.0 / (9.0 * freedom);
-  return pattern.variation * std::pow(1.0 - spread - 1.959963985 * std::sqrt(spread), -1.5);
+  return pattern.variation * std::pow(1.0 - spread - kNormalQuantile * std::sqrt(spread), -1.5);
 }
 
 /// Long smoothing joins short ridges, short smoothing leaves roughness between them: the shortest at which they are

@@ -23,12 +23,10 @@ struct Choice {
 };
 
 /// The column that an option names.
-Result<std::optional<std::size_t>> named(const Layout& layout, const std::optional<std::string>& wanted,
-                                         const char* option, const std::string& file) {
-  if (!wanted) return std::optional<std::size_t>();
-  auto found = reading::find_column(layout, *wanted, option, file);
-  if (!found) return found.error();
-  return std::optional<std::size_t>(found.value());
+std::optional<std::size_t> named(const Layout& layout, const std::optional<std::string>& wanted, const char* option,
+                                 const std::string& file) {
+  if (!wanted) return std::nullopt;
+  return reading::find_column(layout, *wanted, option, file);
 }
 
 bool is_counter(const Column& column) {
@@ -36,16 +34,13 @@ bool is_counter(const Column& column) {
 }
 
 /// Places rise along the track in (nearly) even steps; heights are what is left.
-Result<Choice> choose(const Layout& layout, const ProfileOptions& options, const std::string& file) {
-  auto x = named(layout, options.x_column, "--x-column", file);
-  if (!x) return x.error();
-  auto z = named(layout, options.z_column, "--z-column", file);
-  if (!z) return z.error();
-  Choice choice{x.value(), 0};
+Choice choose(const Layout& layout, const ProfileOptions& options, const std::string& file) {
+  Choice choice{named(layout, options.x_column, "--x-column", file), 0};
+  const std::optional<std::size_t> z = named(layout, options.z_column, "--z-column", file);
   std::vector<std::size_t> heights;
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     const Column& column = layout.columns[c];
-    if (!column.is_numeric() || c == z.value() || c == choice.x) continue;
+    if (!column.is_numeric() || c == z || c == choice.x) continue;
     if (column.never_decreases && is_counter(column) && layout.columns.size() > 2) continue;
     if (!choice.x && column.never_decreases && !options.pitch_m) {
       choice.x = c;
@@ -53,15 +48,15 @@ Result<Choice> choose(const Layout& layout, const ProfileOptions& options, const
       heights.push_back(c);
     }
   }
-  if (z.value()) heights = {*z.value()};
+  if (z) heights = {*z};
   if (heights.empty()) {
-    return Error{"no_numeric_column", file + ": no column of heights found; name it with --z-column"};
+    throw ThrownError({"no_numeric_column", file + ": no column of heights found; name it with --z-column"});
   }
   choice.z = heights.front();
   if (heights.size() == 1) return choice;
-  return Error{"ambiguous_columns", fmt::format("{}: several columns may be the heights: {}; choose with --z-column "
-                                                "(and --x-column)",
-                                                file, reading::list_columns(layout))};
+  throw ThrownError({"ambiguous_columns",
+                     fmt::format("{}: several columns may be the heights: {}; choose with --z-column (and --x-column)",
+                                 file, reading::list_columns(layout))});
 }
 
 /// Metres of one unit of a column; empty where nothing tells.
@@ -100,17 +95,15 @@ Columns read_columns(reading::OpenedFile file, const Choice& choice) {
 }
 
 /// The columns as a profile, in metres where their units are known.
-Result<Profile> made(Columns columns, const Choice& choice, const Layout& layout, const ProfileOptions& options,
-                     const std::string& file) {
+Profile made(Columns columns, const Choice& choice, const Layout& layout, const ProfileOptions& options,
+             const std::string& file) {
   const std::optional<double> z_scale = scale_of(layout.columns[choice.z], options);
   for (double& z : columns.z) z *= z_scale.value_or(1.0);
   Profile profile;
   if (choice.x) {
     const double x_scale = *scale_of(layout.columns[*choice.x], options);
     for (double& x : columns.x) x *= x_scale;
-    auto even = profile_of(std::move(columns.x), std::move(columns.z), file);
-    if (!even) return even;
-    profile = std::move(even).value();
+    profile = value_or_throw(profile_of(std::move(columns.x), std::move(columns.z), file));
     profile.assumed.push_back("Places along the track are " + reading::describe(layout, *choice.x) + ".");
   } else {
     profile.pitch_m = *options.pitch_m;
@@ -124,21 +117,18 @@ Result<Profile> made(Columns columns, const Choice& choice, const Layout& layout
 
 }  // namespace
 
-Result<Profile> read_text_profile(const SurfaceFile& file, const ProfileOptions& options) {
-  auto opened = reading::open_file(file.path, {});
-  if (!opened) return opened.error();
-  const Layout layout = opened.value().layout;
-  const auto chosen = choose(layout, options, file.name);
-  if (!chosen) return chosen.error();
-  const Choice choice = chosen.value();
+Profile read_text_profile(const SurfaceFile& file, const ProfileOptions& options) {
+  reading::OpenedFile opened = reading::open_file(file.path, {});
+  const Layout layout = opened.layout;
+  const Choice choice = choose(layout, options, file.name);
   if (!choice.x && !options.pitch_m) {
-    return Error{"no_pitch", file.name + ": a column of heights alone; say how far apart they are: --pitch 1um"};
+    throw ThrownError({"no_pitch", file.name + ": a column of heights alone; say how far apart they are: --pitch 1um"});
   }
   if (choice.x && !scale_of(layout.columns[*choice.x], options)) {
-    return Error{"no_unit", fmt::format("{}: {} has no unit of length; say which with --unit um", file.name,
-                                        reading::describe(layout, *choice.x))};
+    throw ThrownError({"no_unit", fmt::format("{}: {} has no unit of length; say which with --unit um", file.name,
+                                              reading::describe(layout, *choice.x))});
   }
-  return made(read_columns(std::move(opened).value(), choice), choice, layout, options, file.name);
+  return made(read_columns(std::move(opened), choice), choice, layout, options, file.name);
 }
 
 }  // namespace slipfit::surface

@@ -71,48 +71,43 @@ struct X3p {
 };
 
 /// "bindata/data.bin" and the like: of this archive, whatever stands before it.
-Result<std::string> linked(const X3p& x3p, const char* link, std::size_t most) {
+std::string linked(const X3p& x3p, const char* link, std::size_t most) {
   const std::string name(trim(x3p.record3.child("DataLink").child(link).text().as_string()));
   if (name.empty() || x3p.archive.find(name) == nullptr) {
-    return damaged_surface(x3p.file, "it names a part '" + reading::printable(name) + "' that it does not hold");
+    throw damaged_surface(x3p.file, "it names a part '" + reading::printable(name) + "' that it does not hold");
   }
   return x3p.archive.content(name, most);
 }
 
 /// A bit of each point: whether it was measured.
-std::optional<Error> leave_out_invalid(X3p& x3p, std::vector<double>& heights) {
-  if (trim(x3p.record3.child("DataLink").child("ValidPointsLink").text().as_string()).empty()) return std::nullopt;
-  auto valid = linked(x3p, "ValidPointsLink", kMostPoints);
-  if (!valid) return valid.error();
-  if (valid.value().size() < (heights.size() + 7) / 8)
-    return damaged_surface(x3p.file, "its list of valid points is cut off");
+void leave_out_invalid(X3p& x3p, std::vector<double>& heights) {
+  if (trim(x3p.record3.child("DataLink").child("ValidPointsLink").text().as_string()).empty()) return;
+  const std::string valid = linked(x3p, "ValidPointsLink", kMostPoints);
+  if (valid.size() < (heights.size() + 7) / 8) throw damaged_surface(x3p.file, "its list of valid points is cut off");
   for (std::size_t i = 0; i < heights.size(); ++i) {
-    if ((static_cast<unsigned char>(valid.value()[i / 8]) >> (i % 8) & 1U) == 0U) heights[i] = kHole;
+    if ((static_cast<unsigned char>(valid[i / 8]) >> (i % 8) & 1U) == 0U) heights[i] = kHole;
   }
-  return std::nullopt;
 }
 
-Result<std::vector<double>> binary_heights_of(X3p& x3p) {
+std::vector<double> binary_heights_of(X3p& x3p) {
   const std::size_t count = x3p.columns * x3p.rows;
   const std::size_t before = (x3p.x.is_absolute ? x3p.x.bytes() : 0) + (x3p.y.is_absolute ? x3p.y.bytes() : 0);
   const std::size_t point = before + x3p.z.bytes();
-  auto bytes = linked(x3p, "PointDataLink", count * point + 1024);
-  if (!bytes) return bytes.error();
-  if (bytes.value().size() / point < count)
-    return damaged_surface(x3p.file, "it ends before the points that it announces");
+  const std::string bytes = linked(x3p, "PointDataLink", count * point + 1024);
+  if (bytes.size() / point < count) throw damaged_surface(x3p.file, "it ends before the points that it announces");
   std::vector<double> heights(count);
   for (std::size_t i = 0; i < count; ++i) {
     if (x3p.x.is_absolute) {
-      x3p.places_m.push_back(x3p.x.offset + x3p.x.increment * number_of(bytes.value(), i * point, x3p.x));
+      x3p.places_m.push_back(x3p.x.offset + x3p.x.increment * number_of(bytes, i * point, x3p.x));
     }
-    heights[i] = x3p.z.offset + x3p.z.increment * number_of(bytes.value(), i * point + before, x3p.z);
+    heights[i] = x3p.z.offset + x3p.z.increment * number_of(bytes, i * point + before, x3p.z);
   }
-  if (auto error = leave_out_invalid(x3p, heights)) return *error;
+  leave_out_invalid(x3p, heights);
   return heights;
 }
 
 /// "x;y;z" a Datum, empty fields where an axis is incremental or nothing was measured.
-Result<std::vector<double>> listed_heights(X3p& x3p) {
+std::vector<double> listed_heights(X3p& x3p) {
   const std::size_t count = x3p.columns * x3p.rows;
   std::vector<double> heights;
   for (const pugi::xml_node datum : x3p.record3.child("DataList").children("Datum")) {
@@ -127,69 +122,62 @@ Result<std::vector<double>> listed_heights(X3p& x3p) {
     }
     heights.push_back(x3p.z.offset + x3p.z.increment * z);
   }
-  if (heights.size() < count) return damaged_surface(x3p.file, "it ends before the points that it announces");
+  if (heights.size() < count) throw damaged_surface(x3p.file, "it ends before the points that it announces");
   return heights;
 }
 
 /// Numbers of points along x and y. Several layers (SizeZ) are none of a surface.
-std::optional<Error> read_sizes(X3p& x3p) {
+void read_sizes(X3p& x3p) {
   const pugi::xml_node matrix = x3p.record3.child("MatrixDimension");
   const auto size = [](const pugi::xml_node& node) { return static_cast<std::size_t>(node.text().as_ullong()); };
-  x3p.columns = matrix ? size(matrix.child("SizeX")) : size(x3p.record3.child("ListDimension"));
-  x3p.rows = matrix ? size(matrix.child("SizeY")) : 1;
-  if (x3p.columns == 0 || x3p.rows == 0) return damaged_surface(x3p.file, "it does not say how many points it holds");
-  if (matrix && size(matrix.child("SizeZ")) > 1) {
-    return damaged_surface(x3p.file, "it holds several layers, and a surface is one");
+  const bool is_grid = !matrix.empty();
+  x3p.columns = is_grid ? size(matrix.child("SizeX")) : size(x3p.record3.child("ListDimension"));
+  x3p.rows = is_grid ? size(matrix.child("SizeY")) : 1;
+  if (x3p.columns == 0 || x3p.rows == 0) throw damaged_surface(x3p.file, "it does not say how many points it holds");
+  if (is_grid && size(matrix.child("SizeZ")) > 1) {
+    throw damaged_surface(x3p.file, "it holds several layers, and a surface is one");
   }
-  if (x3p.columns > kMostPoints || x3p.rows > kMostPoints / x3p.columns) return map_too_large(x3p.file.name);
-  return std::nullopt;
+  if (x3p.columns > kMostPoints || x3p.rows > kMostPoints / x3p.columns) throw map_too_large(x3p.file.name);
 }
 
-Result<HeightMap> map_of(X3p& x3p) {
-  auto heights = x3p.record3.child("DataLink") ? binary_heights_of(x3p) : listed_heights(x3p);
-  if (!heights) return heights.error();
-  HeightMap map{x3p.columns, x3p.rows, x3p.x.increment, x3p.y.increment, std::move(heights).value(), true};
+HeightMap map_of(X3p& x3p) {
+  std::vector<double> heights = x3p.record3.child("DataLink").empty() ? listed_heights(x3p) : binary_heights_of(x3p);
+  HeightMap map{x3p.columns, x3p.rows, x3p.x.increment, x3p.y.increment, std::move(heights), true};
   if (x3p.x.is_absolute && x3p.rows == 1) {
-    auto even = profile_of(std::move(x3p.places_m), std::move(map.values), x3p.file.name);
-    if (!even) return even.error();
-    map.x_pitch_m = even.value().pitch_m;
-    map.values = even.value().height;
+    Profile even = value_or_throw(profile_of(std::move(x3p.places_m), std::move(map.values), x3p.file.name));
+    map.x_pitch_m = even.pitch_m;
+    map.values = std::move(even.height);
     map.columns = map.values.size();
   } else if (x3p.x.is_absolute || (x3p.rows > 1 && x3p.y.is_absolute)) {
-    return Error{"point_cloud",
-                 x3p.file.name + ": a cloud of points, not a grid; export it as a grid (SUR with incremental axes)"};
+    throw ThrownError({"point_cloud", x3p.file.name +
+                                          ": a cloud of points, not a grid; export it as a grid (SUR with incremental "
+                                          "axes)"});
   }
   const auto is_length = [](double pitch) { return std::isfinite(pitch) && pitch > 0.0; };
   if (!is_length(map.x_pitch_m) || (map.rows > 1 && !is_length(map.y_pitch_m))) {
-    return damaged_surface(x3p.file, "it gives no distance of the points");
+    throw damaged_surface(x3p.file, "it gives no distance of the points");
   }
   return map;
 }
 
-Result<ZipArchive> open_archive(const SurfaceFile& file) {
-  auto packed = reading::open_plain(file.path);
-  if (!packed) return packed.error();
-  reading::TextStream bytes = std::move(packed).value();
-  auto content = reading::read_all(bytes, file.name);
-  if (!content) return content.error();
-  return ZipArchive::open(std::move(content).value(), file.name);
+ZipArchive open_archive(const SurfaceFile& file) {
+  reading::TextStream bytes = reading::open_plain(file.path);
+  return ZipArchive::open(reading::read_all(bytes, file.name), file.name);
 }
 
 }  // namespace
 
-Result<HeightMap> read_x3p(const SurfaceFile& file) {
-  auto opened = open_archive(file);
-  if (!opened) return opened.error();
-  const ZipArchive archive = std::move(opened).value();
+HeightMap read_x3p(const SurfaceFile& file) {
+  const ZipArchive archive = open_archive(file);
   if (archive.find("main.xml") == nullptr) {
-    return Error{"not_a_surface",
-                 file.name + ": a zip archive without main.xml, which is no X3P file; give X3P, SDF, text or an image"};
+    throw ThrownError(
+        {"not_a_surface",
+         file.name + ": a zip archive without main.xml, which is no X3P file; give X3P, SDF, text or an image"});
   }
-  auto xml = archive.content("main.xml", kMostXml);
-  if (!xml) return xml.error();
+  const std::string xml = archive.content("main.xml", kMostXml);
   X3p x3p{file, archive, {}, {}, {}, {}, {}, 0, 1, {}};
-  if (!x3p.document.load_buffer(xml.value().data(), xml.value().size(), pugi::parse_minimal | pugi::parse_escapes)) {
-    return damaged_surface(file, "its main.xml is no XML");
+  if (!x3p.document.load_buffer(xml.data(), xml.size(), pugi::parse_minimal | pugi::parse_escapes)) {
+    throw damaged_surface(file, "its main.xml is no XML");
   }
   const pugi::xml_node root = x3p.document.document_element();
   const pugi::xml_node axes = root.child("Record1").child("Axes");
@@ -197,14 +185,14 @@ Result<HeightMap> read_x3p(const SurfaceFile& file) {
   x3p.x = axis_of(axes, "CX");
   x3p.y = axis_of(axes, "CY");
   x3p.z = axis_of(axes, "CZ");
-  if (auto error = read_sizes(x3p)) return *error;
+  read_sizes(x3p);
   return map_of(x3p);
 }
 
 #else
 
-Result<HeightMap> read_x3p(const SurfaceFile& file) {
-  return reading::not_built_in(file.name, "an X3P file", "zlib1g-dev, libminizip-dev and libpugixml-dev");
+HeightMap read_x3p(const SurfaceFile& file) {
+  throw reading::not_built_in(file.name, "an X3P file", "zlib1g-dev, libminizip-dev and libpugixml-dev");
 }
 
 #endif

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "fit/inference/student.hpp"
+#include "core/student.hpp"
 
 using namespace slipfit;
 using namespace slipfit::comparing;
@@ -86,10 +86,10 @@ TEST_CASE("difference, ratio and p value never disagree, and A and B may change 
 }
 
 TEST_CASE("a ratio has no value where what it is over may be zero, and ends at zero where B may be") {
-  const auto none = by_standard_errors(fit::symmetric(1.0, 0.6, 50.0), fit::symmetric(2.0, 0.1, 50.0));
+  const auto none = by_standard_errors(symmetric(1.0, 0.6, 50.0), symmetric(2.0, 0.1, 50.0));
   CHECK_FALSE(ratio_of(*none).value);
   CHECK_FALSE(ratio_of(*none).note.empty());
-  const auto open = by_standard_errors(fit::symmetric(2.0, 0.1, 50.0), Estimate{0.0, 0.2, Interval{0.0, 0.4}, {}});
+  const auto open = by_standard_errors(symmetric(2.0, 0.1, 50.0), Estimate{0.0, 0.2, Interval{0.0, 0.4}, {}});
   CHECK(ratio_of(*open).ci95->low == 0.0);
   CHECK(ratio_of(*open).ci95->high == Approx(0.2).epsilon(0.02));  // 0.4 / 2
 }
@@ -97,7 +97,7 @@ TEST_CASE("a ratio has no value where what it is over may be zero, and ends at z
 TEST_CASE("recordings that agree by chance, or at a bound, scatter by at least their standard errors") {
   const Estimate at_bound{0.0, 0.02, Interval{0.0, 0.05}, {}};
   const std::vector<Estimate> zeros(3, at_bound);
-  const std::vector<Estimate> small(3, fit::symmetric(0.012, 0.001, 30.0));
+  const std::vector<Estimate> small(3, symmetric(0.012, 0.001, 30.0));
   const auto pair = by_scatter(zeros, small);
   REQUIRE(pair);
   CHECK(*p_value_of(*pair) > 0.05);
@@ -110,7 +110,7 @@ TEST_CASE("one recording beside repeats scatters as they do") {
   REQUIRE(pair);
   CHECK(pair->degrees_of_freedom == 2.0);
   CHECK(difference_of(*pair).standard_error == Approx(std::sqrt(1.0 / 3.0 + 1.0)));
-  const std::vector<Estimate> poor{fit::symmetric(2.5, 4.0, 100.0)};
+  const std::vector<Estimate> poor{symmetric(2.5, 4.0, 100.0)};
   CHECK(difference_of(*by_scatter(exact({1.0, 2.0, 3.0}), poor)).standard_error == Approx(std::sqrt(1.0 / 3.0 + 16.0)));
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("5 in 100 comparisons of equal sides give a p value below 0.05") {
   constexpr int kTrials = 4000;
   const auto measured = [&scene](double scatter) {
     const double se = scene.uniform(0.01, 0.04);
-    return fit::symmetric(1.0 + scatter * scene.normal() + se * scene.normal(), se, 200.0);
+    return symmetric(1.0 + scatter * scene.normal() + se * scene.normal(), se, 200.0);
   };
   int alone = 0;
   int repeats = 0;

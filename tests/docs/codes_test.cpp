@@ -54,7 +54,7 @@ struct Form {
   const char* section;  ///< of docs/formats.md, where the code must stand
 };
 const std::vector<Form> kForms{
-    {R"form(Error(?: \w+)?\{\s*"(\w+)")form", "unknown_column", "## Errors"},
+    {R"form(Error(?: \w+)?\(?\s*\{\s*"(\w+)")form", "unknown_column", "## Errors"},
     // Short tests and what they are called are made so too.
     {R"form(return (?:\{\s*)+"([a-z0-9]+_[a-z0-9_]+)",)form", "parameter_out_of_range", "# Formats"},
     {R"form(refusal\(\s*"(\w+)")form", "bad_rows", "## Errors"},

@@ -37,8 +37,10 @@ Recording misshapen() {
 std::optional<fit::DampedFit> fitted(const Recording& recording) {
   const Quality quality = assess_quality(recording);
   const Segmentation slips = find_slips(recording, quality);
-  auto draft = fit::draft_damped(recording, quality, slips, {});
-  return draft ? fit::finish_fit(recording, quality, slips, *std::move(draft)) : std::nullopt;
+  const HeldParameters held;
+  const fit::FitInput input{recording, quality, slips, held};
+  auto draft = fit::draft_damped(input);
+  return draft ? fit::finish_fit(input, *std::move(draft)) : std::nullopt;
 }
 
 fit::BlockFit without(const fit::BlockFit& fit, std::size_t phase) {

@@ -17,7 +17,7 @@ struct Digest {
 
   /// "xxh128:" and 32 hexadecimal digits, as `xxh128sum` prints them.
   [[nodiscard]] std::string text() const;
-  friend auto operator<=>(const Digest&, const Digest&) = default;
+  friend auto operator<=>(const Digest&, const Digest&) = default;  // NOLINT(modernize-use-nullptr): a wrong alarm
 };
 
 /// The digest of bytes that come piece by piece.

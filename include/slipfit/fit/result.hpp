@@ -65,7 +65,6 @@ struct FitDiagnostics {
   double onset_force_spread = 0.0;  ///< standard deviation over mean of the onset force above F_k
   double onset_force_error = 0.0;   ///< white-noise error of one cycle's onset force, over the mean
   double restick_share = 0.0;       ///< share of the cycles whose slip ends in stick
-  double decay = 1.0;               ///< median onset force, first half of the cycles over second half
   double span_share = 0.0;          ///< duration of the cycles over duration of the recording
   double samples_per_slip = 0.0;
   double hum_share = 0.0;  ///< amplitude of the fitted mains hum over the mean onset force

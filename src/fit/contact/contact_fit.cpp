@@ -10,7 +10,6 @@
 #include "fit/contact/contact_moments.hpp"
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/report/findings.hpp"
-#include "signal/robust.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -21,10 +20,7 @@ double samples_per_slip(const ContactCycles& found, const ContactMoments& moment
 
 FitDiagnostics diagnostics_of(const Recording& recording, const ContactCycles& found, const ContactMoments& moments,
                               double jump) {
-  std::vector<double> jumps;
-  for (const ContactCycle& cycle : found.cycles) jumps.push_back(cycle.onset_jump);
-  const auto count = static_cast<double>(jumps.size());
-  const auto half = static_cast<std::ptrdiff_t>(jumps.size() / 2);
+  const auto count = static_cast<double>(found.cycles.size());
   FitDiagnostics diagnostics;
   diagnostics.samples_per_slip = samples_per_slip(found, moments);
   diagnostics.relative_residual = found.noise / jump;
@@ -33,8 +29,6 @@ FitDiagnostics diagnostics_of(const Recording& recording, const ContactCycles& f
                                              found.noise / std::sqrt(std::max(1.0, diagnostics.samples_per_slip))) /
                                   jump;
   diagnostics.restick_share = count / (count + static_cast<double>(found.without_edges));
-  diagnostics.decay =
-      signal::median({jumps.begin(), jumps.begin() + half}) / signal::median({jumps.begin() + half, jumps.end()});
   diagnostics.span_share =
       (found.cycles.back().end_s - found.cycles.front().onset_s) * (count + 1.0) / count / recording.duration_s();
   return diagnostics;

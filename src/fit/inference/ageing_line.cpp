@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
+#include "core/student.hpp"
 #include "fit/inference/sliding_model.hpp"
-#include "fit/inference/student.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -17,11 +17,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 VectorXd log_speeds(const SweepSolution& solution) {
-  VectorXd logs(static_cast<Index>(solution.recordings.size()));
-  for (Index i = 0; i < logs.size(); ++i) {
-    logs(i) = std::log(solution.recordings[static_cast<std::size_t>(i)].scales().speed_m_per_s);
-  }
-  return logs;
+  const std::vector<double> speeds = solution.speeds_m_per_s();
+  return Eigen::Map<const VectorXd>(speeds.data(), static_cast<Index>(speeds.size())).array().log();
 }
 
 /// ln(stick / Units::stick_s) of the limit cycle with each recording's own F_s - F_k(0+). Where that does not stick,
@@ -49,11 +46,6 @@ VectorXd log_sticks(const SweepSolution& solution) {
     logs(i) = std::log((cycle && cycle->stick_s.a > 0.0 ? cycle->stick_s.a : ramp_s) / units.stick_s);
   }
   return logs;
-}
-
-bool can_show_trend(const VectorXd& log_speeds) {
-  return static_cast<std::size_t>(log_speeds.size()) >= thresholds::kTrendRecordings &&
-         log_speeds.maxCoeff() - log_speeds.minCoeff() > std::log(thresholds::kAgeingSpeedRatio);
 }
 
 /// Squared standard errors of the recordings' own F_s - F_k(0+), in its unit: by the scatter over their cycles.
@@ -244,7 +236,7 @@ AgeingLine ageing_line(const SweepSolution& solution, const AgeingCutoff& cutoff
 StaticFriction static_friction_of(const SweepSolution& solution) {
   const VectorXd differences = differences_of(solution);
   const VectorXd speeds = log_speeds(solution);
-  if (solution.sweep.sharing.difference || !can_show_trend(speeds)) return std::nullopt;
+  if (solution.sweep.sharing.difference || !solution.can_show_trend()) return std::nullopt;
   const Line line = line_over(speeds, differences);
   if (!(line.slope < 0.0)) return std::nullopt;
   const double freedom = static_cast<double>(differences.size()) - 2.0;
@@ -256,15 +248,14 @@ StaticFriction static_friction_of(const SweepSolution& solution) {
 SpeedReach reach_of(const SweepSolution& solution) {
   const VectorXd speeds = log_speeds(solution);
   SpeedReach reach{std::exp(speeds.minCoeff()), std::exp(speeds.maxCoeff()), std::nullopt};
-  if (!can_show_trend(speeds)) return reach;
+  if (!solution.can_show_trend()) return reach;
   if (solution.sweep.sharing.difference) {
     const double sum = (speeds.array() - speeds.mean()).square().sum();
     const double slope_error =
         std::sqrt(variances_of(solution).mean() / sum) / std::abs(differences_of(solution).mean());
     const double chance = 1.0 / (1.0 + std::sqrt(static_cast<double>(solution.cycles())));
-    constexpr double kNormal = 1.959963985;
     // The slope that would be seen by chance, and its own error, are of the same size.
-    reach.trend = kNormal * std::sqrt(2.0 * chance) * slope_error;
+    reach.trend = kNormalQuantile * std::sqrt(2.0 * chance) * slope_error;
     return reach;
   }
   const VectorXd differences = differences_of(solution);

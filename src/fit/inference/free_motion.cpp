@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/fit_thresholds.hpp"
-#include "fit/inference/student.hpp"
+#include "core/student.hpp"
 
 namespace slipfit::fit {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/student.hpp"
 #include "fit/coordinates.hpp"
-#include "fit/inference/student.hpp"
 #include "slipfit/core/estimate.hpp"
 
 namespace slipfit::fit {

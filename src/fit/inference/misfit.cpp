@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
+#include "core/student.hpp"
 #include "fit/cycle/side_by_side.hpp"
-#include "fit/inference/student.hpp"
 
 namespace slipfit::fit {
 namespace {

@@ -6,6 +6,7 @@
 #include "fit/law/speed_dependent.hpp"
 #include "model/ageing.hpp"
 #include "model/reloading.hpp"
+#include "model/slip_jets.hpp"
 
 namespace slipfit::fit {
 
@@ -53,22 +54,11 @@ std::optional<SlidingModel::Cycle> SlidingModel::cycle(double speed_m_per_s, dou
   const Jet growth = growth_at(speed_m_per_s);
   const Jet k = stiffness * growth;
   const Jet w = omega * sqrt(growth);  // of the same mass
-  const Jet u = k * speed_m_per_s / w;
-  const Jet z0 = load * difference_N / u - 2.0 * zeta;  // the slip starts from F_s - cV
-  const Jet scaled_slope = load * slope * w / k;
-  const Jet rate = alpha * speed_m_per_s;
-  const auto track = model::VelocityTrack::solve(z0.a, zeta.a, scaled_slope.a, rate.a);
+  const model::SlipJets<Jet> slip(k, w, zeta, load * difference_N, load * slope, alpha, speed_m_per_s);
+  const auto track = slip.solve();
   if (!track || !track->resticks()) return std::nullopt;
-  const auto jet = [&](double value, const auto& p) {
-    Jet y(value);
-    y.v = p.d_z0 * z0.v + p.d_zeta * zeta.v + p.d_slope * scaled_slope.v + p.d_rate * rate.v;
-    return y;
-  };
-  const model::TrackValue& line = track->after();
-  const Jet tau_period = z0 - jet(line.value, line);
-  const model::TrackEnd& end = track->end();
-  Jet tau_slip(end.tau);
-  tau_slip.v = -jet(end.first.value, end.first).v / end.second.value;  // z'(tau) = 1 holds at the end
+  const Jet tau_period = slip.tau_period(*track);
+  const Jet tau_slip = slip.tau_slip(track->end());
   const Jet straight_s = (tau_period - tau_slip) / w;
   if (!reload) return Cycle{tau_period / w, straight_s};
   const Jet stick_m = model::reloaded_stick_m(speed_m_per_s * straight_s, load * reload->force_N / k, reload->length_m);

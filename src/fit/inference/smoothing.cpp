@@ -77,6 +77,10 @@ bool Smoothing::exceeds_step(double sample_interval_s) const {
   return variance_s2 - thresholds::kRoundedSigmas * standard_error_s2 > sample_interval_s * sample_interval_s / 12.0;
 }
 
+bool Smoothing::is_settled() const {
+  return std::abs(variance_s2) < thresholds::kSettledAverage * standard_error_s2;
+}
+
 double Smoothing::next_variance_s2(double known_s2) const {
   constexpr double kMostChange = 4.0;
   return std::clamp(known_s2 + variance_s2, known_s2 / kMostChange, kMostChange * known_s2);

@@ -16,6 +16,8 @@ struct Smoothing {
 
   /// Beyond what averaging over one step of the clock explains.
   [[nodiscard]] bool exceeds_step(double sample_interval_s) const;
+  /// None is left to find: a search for an average has come to it.
+  [[nodiscard]] bool is_settled() const;
   /// Of a model's average that has this variance, by Newton's step, at most four times as large or as small.
   [[nodiscard]] double next_variance_s2(double known_s2) const;
   /// sigma^2 that what is seen allows for. The move per sigma^2 is that of little averaging: a quarter more of what is

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/fit_thresholds.hpp"
+#include "core/quantile.hpp"
 #include "fit/inference/covariance.hpp"
 
 namespace slipfit::fit {
@@ -81,12 +82,9 @@ double error_of_onset_force(const std::vector<Normal>& normals) {
 }
 
 double spread_of_onset_force(const BlockFit& fit) {
-  double sum = 0.0;
-  double square = 0.0;
-  for (const Local& local : fit.parameters.cycles) sum += local[1];
-  const double mean = sum / static_cast<double>(fit.size());
-  for (const Local& local : fit.parameters.cycles) square += (local[1] - mean) * (local[1] - mean);
-  return std::sqrt(square / std::max(1.0, static_cast<double>(fit.size()) - 1.0));
+  std::vector<double> forces;
+  for (const Local& local : fit.parameters.cycles) forces.push_back(local[1]);
+  return describe(forces).sd;
 }
 
 /// u = k V / w_n

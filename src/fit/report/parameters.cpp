@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "core/unknown.hpp"
 #include "fit/report/findings.hpp"
 #include "fit/report/model_estimate.hpp"
 #include "fit/selection/tiers.hpp"
@@ -66,9 +67,7 @@ class Reporter {
     add(id, estimate, graded(id, estimate, doubt), std::move(note));
   }
   void add_held(Id id, double value) { add(id, {value, 0.0, Interval{value, value}, {}}, ParameterStatus::Fixed); }
-  void add_unknown(Id id, const std::string& why) {
-    add(id, {std::nullopt, std::nullopt, std::nullopt, why}, ParameterStatus::Unidentified);
-  }
+  void add_unknown(Id id, const std::string& why) { add(id, unknown(why), ParameterStatus::Unidentified); }
 
   [[nodiscard]] Id in_unit(Id force, Id coefficient) const { return f_.in_newtons ? force : coefficient; }
 

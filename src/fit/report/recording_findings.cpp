@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "core/unknown.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/level/mains_hum.hpp"
@@ -225,7 +226,7 @@ void state_doubts(const Conditions& conditions, const TierFits& fits, const Reso
   const bool is_resolved = findings.slip_unresolved.empty() && resolution.damping_resolved;
   if (!is_resolved) {
     const std::string& why = findings.slip_unresolved.empty() ? resolution.reason : findings.slip_unresolved;
-    findings.damping = {std::nullopt, std::nullopt, std::nullopt, why};
+    findings.damping = unknown(why);
   }
   // A standard error of a third says less than the bound by the drop.
   const Estimate difference = findings.intervals.interval_of(SlidingModel(findings.values, findings.units).difference);

@@ -33,9 +33,9 @@ double mean_square_in(const BlockFit& some, const BlockFit& fit) {
 
 }  // namespace
 
-Recording with_average(const Recording& recording, double variance_s2) {
+Recording with_average(const Recording& recording, double average_s) {
   Conditions conditions = recording.conditions();
-  conditions.sensor_average_s = std::sqrt(12.0 * variance_s2);
+  conditions.sensor_average_s = average_s;
   const auto time_s = recording.time_s();
   const auto force = recording.force();
   return Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()}, conditions,
@@ -51,17 +51,17 @@ bool follows_slips(const DampedFit& fit, double sample_interval_s) {
 }
 
 std::optional<AveragedFit> AverageSolver::fit(double variance_s2, const Globals& near, const DampedFit* other) const {
+  const double step_s = input_.recording.sample_interval_s();
   const int most_fits = plain_.blocks.level().reloading ? 6 : 3;
   std::optional<AveragedFit> best;
   std::optional<DampedFit> fit = other != nullptr ? beside(*other, variance_s2, &near) : drafted(variance_s2, near);
   for (int fits = 1; fit; ++fits) {
-    const auto beyond = estimate_smoothing(fit->blocks, fit->held, recording_.sample_interval_s());
+    const auto beyond = estimate_smoothing(fit->blocks, fit->held, step_s);
     if (!beyond) break;
     AveragedFit trial{*std::move(fit), *beyond, variance_s2};
     if (!best || trial.off() < best->off()) best = std::move(trial);
-    const bool is_worse = !follows_slips(best->fit, recording_.sample_interval_s()) ||
-                          best->fit.uncertainty.noise > plain_.uncertainty.noise;
-    if (fits == most_fits || is_worse || best->is_settled()) break;
+    const bool is_worse = !follows_slips(best->fit, step_s) || best->fit.uncertainty.noise > plain_.uncertainty.noise;
+    if (fits == most_fits || is_worse || best->beyond.is_settled()) break;
     variance_s2 += beyond->variance_s2;
     if (!(variance_s2 > 0.0)) break;
     fit = beside(best->fit, variance_s2, nullptr);
@@ -77,11 +77,12 @@ std::shared_ptr<const RiseAfterSlip> AverageSolver::reloading(double average_s) 
 }
 
 std::optional<DampedFit> AverageSolver::drafted(double variance_s2, const Globals& near) const {
-  std::optional<DampedFit> fit =
-      draft_damped(with_average(recording_, variance_s2), quality_, segmentation_, held_,
-                   {near, plain_.excluded, reloading(std::sqrt(12.0 * variance_s2)), plain_.blocks.level().per_cycle,
-                    kAveragedIterations, [this](const BlockFit& some) { return is_hopeless(some); }, true});
-  return settle_rise(recording_.sample_interval_s(), quality_, std::move(fit));
+  const double average_s = std::sqrt(12.0 * variance_s2);
+  const Recording averaged = with_average(input_.recording, average_s);
+  return settle_rise(
+      input_, draft_damped({averaged, input_.quality, input_.segmentation, input_.held},
+                           {near, plain_.excluded, reloading(average_s), plain_.blocks.level().per_cycle,
+                            kAveragedIterations, [this](const BlockFit& some) { return is_hopeless(some); }, true}));
 }
 
 bool AverageSolver::is_hopeless(const BlockFit& some) const {
@@ -90,12 +91,10 @@ bool AverageSolver::is_hopeless(const BlockFit& some) const {
 
 std::optional<DampedFit> AverageSolver::beside(const DampedFit& other, double variance_s2, const Globals* start) const {
   BlockFit blocks = averaged_by(other.blocks, variance_s2);
-  if (start != nullptr) set_start(blocks, segmentation_, *start);
+  if (start != nullptr) set_start(blocks, input_.segmentation, *start);
   if (!std::isfinite(solve(blocks, {other.held, false, true}))) return std::nullopt;
-  std::optional<DampedFit> fit =
-      with_uncertainty({std::move(blocks), false, other.held, {}, other.half_width_s, other.excluded, {}, {}},
-                       tolerated_misfit(quality_));
-  return settle_rise(recording_.sample_interval_s(), quality_, std::move(fit));
+  DampedFit fit{std::move(blocks), false, other.held, {}, other.half_width_s, other.excluded};
+  return settle_rise(input_, with_uncertainty(std::move(fit), input_.quality));
 }
 
 }  // namespace slipfit::fit

@@ -4,15 +4,13 @@
 #include <memory>
 #include <optional>
 
-#include "core/fit_thresholds.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/selection/damped_fit.hpp"
-#include "fit/selection/solution.hpp"
 
 namespace slipfit::fit {
 
-/// The recording with a stated average whose impulse response has this variance.
-Recording with_average(const Recording& recording, double variance_s2);
+/// The recording, as if it stated that its samples are averaged over this time.
+Recording with_average(const Recording& recording, double average_s);
 
 /// The slips that are left behind the average are those of the model as far as so few cycles tell, and longer than a
 /// step of the clock.
@@ -26,16 +24,13 @@ struct AveragedFit {
 
   /// In standard errors.
   [[nodiscard]] double off() const { return std::abs(beyond.variance_s2) / beyond.standard_error_s2; }
-  [[nodiscard]] bool is_settled() const { return off() < thresholds::kSettledAverage; }
 };
 
 /// Fits of all cycles with an average of about the given variance.
 class AverageSolver {
  public:
   /// `plain`: without an average. All must outlive this.
-  AverageSolver(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-                const HeldParameters& held, const DampedFit& plain)
-      : recording_(recording), quality_(quality), segmentation_(segmentation), held_(held), plain_(plain) {}
+  AverageSolver(const FitInput& input, const DampedFit& plain) : input_(input), plain_(plain) {}
 
   /// Newton's steps in sigma^2, the nearest of them. `other`: a fit with another average, whose cycles and samples will
   /// do.
@@ -52,10 +47,7 @@ class AverageSolver {
   /// solution on, or from `start`.
   [[nodiscard]] std::optional<DampedFit> beside(const DampedFit& other, double variance_s2, const Globals* start) const;
 
-  const Recording& recording_;
-  const Quality& quality_;
-  const Segmentation& segmentation_;
-  const HeldParameters& held_;
+  const FitInput& input_;
   const DampedFit& plain_;
 };
 

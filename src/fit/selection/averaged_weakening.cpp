@@ -26,8 +26,7 @@ constexpr double kSlip2 = 5.6;  // W^2 of an average that draws the fall out as 
 constexpr std::size_t kDraftCycles = 16;
 constexpr int kDraftIterations = 10;
 constexpr std::size_t kDescents = 3;  // of the starts
-constexpr int kDescentSteps = 6;      // in sigma^2, of a few cycles
-constexpr int kMostSteps = 5;         // in sigma^2, to a minimum
+constexpr int kMostSteps = 6;         // in sigma^2, of a few cycles
 constexpr double kSameAverage = 0.1;  // of ln T_b: two starts that led to one minimum
 constexpr double kRuledOut = 60.0;    // of AICc by all samples: few of the cycles tell less
 
@@ -44,8 +43,8 @@ double squared_fall_s2(const DampedFit& coulomb) {
 class AveragedWeakening {
  public:
   AveragedWeakening(const FitInput& input, const DampedFit& coulomb)
-      : coulomb_(coulomb),
-        sample_interval_s_(input.recording.sample_interval_s()),
+      : input_(input),
+        coulomb_(coulomb),
         fall_s2_(squared_fall_s2(coulomb)),
         solver_(input, coulomb, 1.1 * median_slip_s(coulomb.blocks) + 0.5 * std::sqrt(fall_s2_)) {}
 
@@ -59,7 +58,8 @@ class AveragedWeakening {
           enough.empty() ? std::optional(draft.blocks) : refined(draft.blocks, enough);
       if (!start) continue;
       const double average_s = start->scales().sensor_average_s;
-      std::optional<DampedFit> fit = with_free_average(solver_.fit(cycles, average_s, start->parameters.globals));
+      std::optional<DampedFit> fit = solver_.fit(cycles, average_s, start->parameters.globals);
+      if (fit) fit = with_settled_average(input_, *std::move(fit));
       if (fit) fits.push_back(*std::move(fit));
     }
     return fits;
@@ -72,7 +72,10 @@ class AveragedWeakening {
     std::optional<BlockFit> some = solver_.solved(enough, draft.scales().sensor_average_s, draft.parameters.globals,
                                                   WeakeningSolver::kRoughTolerance);
     if (!some || !has_slips_of_its_own(*some) || !solver_.tells_distance(*some)) return std::nullopt;
-    return with_settled_average(*std::move(some));
+    const double sum = sum_of_squares(*some);
+    Draft descended_to = descended({*std::move(some), sum});
+    const std::optional<Smoothing> left = beyond(descended_to.blocks);
+    return left && left->is_settled() ? std::optional(std::move(descended_to.blocks)) : std::nullopt;
   }
 
   /// They come to rest, and the average is shorter than a stick.
@@ -127,12 +130,17 @@ class AveragedWeakening {
     return std::abs(std::log(ratio)) > kSameAverage && behind < kRuledOut;
   }
 
+  /// What is left to smooth at a solution.
+  [[nodiscard]] std::optional<Smoothing> beyond(const BlockFit& blocks) const {
+    return estimate_smoothing(blocks, solver_.held(), input_.recording.sample_interval_s());
+  }
+
   /// Newton's steps in sigma^2 as long as they lead down.
   [[nodiscard]] Draft descended(Draft draft) const {
-    for (int step = 0; step < kDescentSteps; ++step) {
-      const auto beyond = estimate_smoothing(draft.blocks, solver_.held(), sample_interval_s_);
-      if (!beyond || is_settled(*beyond)) break;
-      std::optional<BlockFit> next = WeakeningSolver::with_next_average(draft.blocks, *beyond, solver_.held());
+    for (int step = 0; step < kMostSteps; ++step) {
+      const std::optional<Smoothing> left = beyond(draft.blocks);
+      if (!left || left->is_settled()) break;
+      std::optional<BlockFit> next = with_next_average(draft.blocks, *left, solver_.held());
       if (!next) break;
       const double sum = sum_of_squares(*next);
       if (!(sum < draft.sum_of_squares)) break;
@@ -141,42 +149,8 @@ class AveragedWeakening {
     return draft;
   }
 
-  /// After Newton's steps in sigma^2. Empty where they do not settle.
-  [[nodiscard]] std::optional<BlockFit> with_settled_average(BlockFit blocks) const {
-    std::optional<BlockFit> fit = std::move(blocks);
-    for (int step = 0; fit && step < kMostSteps; ++step) {
-      const auto beyond = estimate_smoothing(*fit, solver_.held(), sample_interval_s_);
-      if (!beyond) break;
-      if (is_settled(*beyond)) return fit;
-      fit = WeakeningSolver::with_next_average(*fit, *beyond, solver_.held());
-    }
-    return std::nullopt;
-  }
-
-  /// Newton's steps in sigma^2 of all cycles, each finished: the rise after a slip follows the average. Empty where
-  /// they do not settle.
-  [[nodiscard]] std::optional<DampedFit> with_free_average(std::optional<DampedFit> fit) const {
-    for (int step = 0; fit && step < kMostSteps; ++step) {
-      const auto beyond = estimate_smoothing(fit->blocks, fit->held, sample_interval_s_);
-      if (!beyond) break;
-      if (is_settled(*beyond)) {
-        const double average_s = fit->blocks.scales().sensor_average_s;
-        return with_average_error(*std::move(fit), average_s * average_s / 12.0, *beyond);
-      }
-      std::optional<BlockFit> blocks = WeakeningSolver::with_next_average(fit->blocks, *beyond, fit->held);
-      if (!blocks) break;
-      fit->blocks = *std::move(blocks);
-      fit = solver_.finished(*std::move(fit));
-    }
-    return std::nullopt;
-  }
-
-  static bool is_settled(const Smoothing& beyond) {
-    return std::abs(beyond.variance_s2) < thresholds::kSettledAverage * beyond.standard_error_s2;
-  }
-
+  const FitInput& input_;
   const DampedFit& coulomb_;
-  double sample_interval_s_;
   double fall_s2_;
   WeakeningSolver solver_;
 };

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fit/problem/block_fit.hpp"
@@ -20,6 +21,9 @@ std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData
 
 /// The same cycles at the same parameters, seen through an average of this variance.
 BlockFit averaged_by(const BlockFit& fit, double variance_s2);
+
+/// The same, by Newton's step from the solution of an average. Empty where a slip has no solution.
+std::optional<BlockFit> with_next_average(const BlockFit& fit, const Smoothing& beyond, const Held& held);
 
 double sum_of_squares(const BlockFit& fit);
 std::size_t residuals_in(const BlockFit& fit);

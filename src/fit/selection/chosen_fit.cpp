@@ -58,11 +58,10 @@ Chosen choose_law(const FitInput& input, DampedFit damped, std::optional<Tier> f
 
 /// What slips alone tell.
 std::optional<Chosen> choose(const FitInput& input, std::optional<Tier> forced, const GiveUp& give_up) {
-  const auto& [recording, quality, segmentation, held] = input;
-  std::optional<DampedFit> fit = draft_with_rise(recording, quality, segmentation, held, give_up);
-  if (fit) fit = fit_as_sensed(recording, quality, segmentation, held, *std::move(fit));
+  std::optional<DampedFit> fit = draft_with_rise(input, give_up);
+  if (fit) fit = fit_as_sensed(input, *std::move(fit));
   if (!fit) return std::nullopt;
-  return choose_law(input, fit_with_mass(recording, quality, segmentation, held, *std::move(fit)), forced);
+  return choose_law(input, fit_with_mass(input, *std::move(fit)), forced);
 }
 
 /// The law that the slips chose, with w_n and zeta by slips and ring-down together.
@@ -72,7 +71,7 @@ std::optional<Chosen> with_motion(Chosen chosen, const FitInput& input, std::opt
   const std::optional<Coordinates> rival = slips.rival;
   slips.rival.reset();
   slips.fall_doubt.clear();
-  std::optional<DampedFit> fit = held_at(motion, input.recording, input.quality, input.segmentation, std::move(slips));
+  std::optional<DampedFit> fit = held_at(motion, input, std::move(slips));
   if (!fit) return std::nullopt;
   // What another fit makes of w_n and zeta the ring-down has decided.
   fit->rival = rival;

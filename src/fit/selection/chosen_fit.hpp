@@ -5,7 +5,6 @@
 
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/tiers.hpp"
-#include "fit/selection/weakening_solver.hpp"
 #include "slipfit/fit/options.hpp"
 
 namespace slipfit::fit {

@@ -34,13 +34,15 @@ constexpr double kFinal = 1e-3;
 
 class Fitter {
  public:
-  Fitter(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-         const HeldParameters& held, const Near& near)
-      : recording_(recording), quality_(quality), segmentation_(segmentation), held_values_(held), near_(near) {
-    held_ = held_of(held);
-    excluded_ = initial_exclusions(recording, quality);
-    scales_ = scales_of(recording, quality, segmentation);
-  }
+  Fitter(const FitInput& input, const Near& near)
+      : recording_(input.recording),
+        quality_(input.quality),
+        segmentation_(input.segmentation),
+        held_values_(input.held),
+        near_(near),
+        held_(held_of(input.held)),
+        scales_(scales_of(recording_, quality_, segmentation_)),
+        excluded_(initial_exclusions(recording_, quality_)) {}
 
   std::optional<DampedFit> fit() {
     std::optional<BlockFit> start = started();
@@ -58,8 +60,8 @@ class Fitter {
     if (quality_.clock_jitter > thresholds::kWeighedClock) fit = with_clock_weights(std::move(*fit));
     if (!refuse_negative_damping(*fit, kFinal)) return std::nullopt;
     return with_uncertainty(
-        {std::move(*fit), false, held_, refused_damping_, half_width_s(start_stiffness_, scales_), excluded_, {}, {}},
-        tolerated_misfit(quality_));
+        {std::move(*fit), false, held_, refused_damping_, half_width_s(start_stiffness_, scales_), excluded_},
+        quality_);
   }
 
   /// All cycles as they are, roughly.
@@ -268,29 +270,27 @@ class Fitter {
   const Recording& recording_;
   const Quality& quality_;
   const Segmentation& segmentation_;
-  HeldParameters held_values_;
+  const HeldParameters& held_values_;
   const Near& near_;
-  Held held_{};
+  Held held_;
+  Scales scales_;
+  std::vector<std::size_t> excluded_;  // in ascending order
   double start_stiffness_ = 0.0;
   Globals start_{};
   std::optional<double> refused_damping_;
-  Scales scales_;
-  std::vector<std::size_t> excluded_;  // in ascending order
   std::vector<CycleData> cycles_;
 };
 
 }  // namespace
 
-std::optional<DampedFit> draft_damped(const Recording& recording, const Quality& quality,
-                                      const Segmentation& segmentation, const HeldParameters& held, const Near& near) {
-  if (segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
-  return Fitter(recording, quality, segmentation, held, near).fit();
+std::optional<DampedFit> draft_damped(const FitInput& input, const Near& near) {
+  if (input.segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
+  return Fitter(input, near).fit();
 }
 
-std::optional<BlockFit> rough_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-                                  const HeldParameters& held) {
-  if (segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
-  return Fitter(recording, quality, segmentation, held, {}).rough();
+std::optional<BlockFit> rough_fit(const FitInput& input) {
+  if (input.segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
+  return Fitter(input, {}).rough();
 }
 
 }  // namespace slipfit::fit

@@ -6,11 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "fit/selection/fit_input.hpp"
 #include "fit/selection/solution.hpp"
-#include "slipfit/core/recording.hpp"
-#include "slipfit/fit/parameter.hpp"
-#include "slipfit/signal/cycles.hpp"
-#include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
 
@@ -32,13 +29,10 @@ struct Near {
 /// The per-cycle block fit with all that makes it stand real recordings: several starts in zeta, a level that may
 /// drift or wander, outliers left out. What finish_fit adds is missing: joined ramps, and more to the uncertainty.
 /// Empty: fewer than 3 cycles to fit, or no start converges.
-std::optional<DampedFit> draft_damped(const Recording& recording, const Quality& quality,
-                                      const Segmentation& segmentation, const HeldParameters& held,
-                                      const Near& near = {});
+std::optional<DampedFit> draft_damped(const FitInput& input, const Near& near = {});
 
 /// All cycles with no sample, no slip and no line looked for: how badly they fit, roughly.
-std::optional<BlockFit> rough_fit(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-                                  const HeldParameters& held);
+std::optional<BlockFit> rough_fit(const FitInput& input);
 
 /// The same cycles and level with zeta held at 0, from the damped solution. Where it `may_lose` and has clearly lost to
 /// the damped fit, it stays rough and its ramps are not joined.

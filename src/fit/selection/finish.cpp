@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -67,15 +68,15 @@ Eigen::VectorXd residuals_of(const CycleData& cycle, double noise) {
 /// What rounded copies of the model move the quantities by.
 class RoundingMoves {
  public:
-  RoundingMoves(const Recording& recording, const Segmentation& segmentation, const DampedFit& result)
-      : recording_(recording),
-        segmentation_(segmentation),
+  RoundingMoves(const FitInput& input, const DampedFit& result)
+      : input_(input),
         result_(result),
         influences_(influences_of(result.blocks, select(result.blocks), {result.held, result.continuous})) {}
 
   [[nodiscard]] Moves moves(double step) const {
-    const Residuals residuals = residuals_of(recording_, result_.blocks);
-    std::vector<double> model(recording_.force().begin(), recording_.force().end());
+    const Residuals residuals = residuals_of(input_.recording, result_.blocks);
+    const std::span<const double> force = input_.recording.force();
+    std::vector<double> model(force.begin(), force.end());
     for (std::size_t i = 0; i < model.size(); ++i) model[i] -= residuals.value[i];
     const RoundedCopies copies(model, step, result_.uncertainty.noise);
     Moves moves(kRoundedCopies, kCoordinates);
@@ -93,7 +94,8 @@ class RoundingMoves {
     const BlockFit& fit = result_.blocks;
     Eigen::RowVectorXd move = Eigen::RowVectorXd::Zero(kCoordinates);
     std::size_t next = 0;
-    for (CycleData& cycle : cut_cycles_of(errors, recording_, segmentation_, result_.half_width_s, result_.excluded)) {
+    for (CycleData& cycle :
+         cut_cycles_of(errors, input_.recording, input_.segmentation, result_.half_width_s, result_.excluded)) {
       if (next == fit.size() || cycle.slip != fit.data(next).slip) continue;
       cycle.weight = fit.data(next).weight;
       move += residuals_of(cycle, fit.scales().noise).transpose() * influences_[next];
@@ -102,8 +104,7 @@ class RoundingMoves {
     return move;
   }
 
-  const Recording& recording_;
-  const Segmentation& segmentation_;
+  const FitInput& input_;
   const DampedFit& result_;
   std::vector<Eigen::MatrixXd> influences_;
 };
@@ -114,7 +115,7 @@ double tolerated_misfit(const Quality& quality) {
   return 0.5 * quality.quantisation_step.value_or(0.0);
 }
 
-std::optional<DampedFit> with_uncertainty(DampedFit draft, double tolerated_misfit) {
+std::optional<DampedFit> with_uncertainty(DampedFit draft, const Quality& quality) {
   draft.uncertainty = estimate_uncertainty(draft.blocks, {draft.held, false});
   if (!is_regular(draft.uncertainty, draft.held)) return std::nullopt;
   const bool is_coulomb = draft.blocks.scales().law == FrictionLaw::Coulomb;  // RampResidual
@@ -122,19 +123,20 @@ std::optional<DampedFit> with_uncertainty(DampedFit draft, double tolerated_misf
   if (is_coulomb && !level.per_cycle && !level.reloading && !draft.uncertainty.from_cycles) {
     draft = with_joined_ramps(std::move(draft));
   }
-  draft.misfit = find_misfit(draft.blocks, tolerated_misfit);
+  draft.misfit = find_misfit(draft.blocks, tolerated_misfit(quality));
   return draft;
 }
 
-std::optional<DampedFit> finish_fit(const Recording& recording, const Quality& quality,
-                                    const Segmentation& segmentation, DampedFit fit) {
+std::optional<DampedFit> finish_fit(const FitInput& input, DampedFit fit) {
+  const Quality& quality = input.quality;
   // Noise of a step and more spreads the rounding evenly: it is white then.
   if (quality.quantisation_step && fit.uncertainty.noise < *quality.quantisation_step) {
-    const Moves moves = RoundingMoves(recording, segmentation, fit).moves(*quality.quantisation_step);
+    const Moves moves = RoundingMoves(input, fit).moves(*quality.quantisation_step);
     if (!moves.allFinite()) return std::nullopt;
     fit.uncertainty = with_rounding(fit.uncertainty, moves);
   }
-  fit.ripple = find_stick_ripple(recording, fit.blocks, residuals_of(recording, fit.blocks), tolerated_misfit(quality));
+  fit.ripple = find_stick_ripple(input.recording, fit.blocks, residuals_of(input.recording, fit.blocks),
+                                 tolerated_misfit(quality));
   if (fit.misfit) fit.uncertainty = with_misfit(fit.uncertainty, influence_of_segments(fit.blocks, fit.held));
   return fit;
 }

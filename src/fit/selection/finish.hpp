@@ -2,23 +2,19 @@
 
 #include <optional>
 
+#include "fit/selection/fit_input.hpp"
 #include "fit/selection/solution.hpp"
-#include "slipfit/core/recording.hpp"
-#include "slipfit/signal/cycles.hpp"
-#include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
 
 /// Of the mean shape of the slips, unit of the force: what rounding to steps of the converter may do to it.
 double tolerated_misfit(const Quality& quality);
 
-/// From solved blocks to a fit with its uncertainty: joined ramps where the data agree. `tolerated_misfit`: of the mean
-/// shape of the slips, unit of the force. Empty where the normal equations are singular: the cycles do not tell the
-/// shared parameters apart.
-std::optional<DampedFit> with_uncertainty(DampedFit draft, double tolerated_misfit);
+/// From solved blocks to a fit with its uncertainty: joined ramps where the data agree. Empty where the normal
+/// equations are singular: the cycles do not tell the shared parameters apart.
+std::optional<DampedFit> with_uncertainty(DampedFit draft, const Quality& quality);
 
 /// With what rounding and misshapen slips, which repeat from cycle to cycle, add to the uncertainty.
-std::optional<DampedFit> finish_fit(const Recording& recording, const Quality& quality,
-                                    const Segmentation& segmentation, DampedFit fit);
+std::optional<DampedFit> finish_fit(const FitInput& input, DampedFit fit);
 
 }  // namespace slipfit::fit

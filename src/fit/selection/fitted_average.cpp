@@ -13,8 +13,10 @@
 #include "core/thresholds.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/selection/average_solver.hpp"
+#include "fit/selection/carried_fit.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/kernel_search.hpp"
+#include "fit/selection/reloading_fit.hpp"
 #include "fit/selection/rival.hpp"
 #include "fit/selection/tiers.hpp"
 
@@ -126,12 +128,8 @@ std::string doubt_beside(const DampedFit& fit, std::optional<double> other_s) {
          "with --sensor-average, or the mass";
 }
 
-}  // namespace
-
-bool tells_average(const FittedAverage& average) {
-  return average.seconds > 2.0 * thresholds::kSureTerm * average.standard_error_s;
-}
-
+/// With an average of this variance as a parameter of the fit that its model has, and what W is not known by in the
+/// covariance. `beyond`: what is left to smooth.
 DampedFit with_average_error(DampedFit fit, double variance_s2, const Smoothing& beyond) {
   const double error_s2 =
       std::hypot(beyond.standard_error_s2, beyond.variance_s2, thresholds::kKernelShape * variance_s2);
@@ -141,34 +139,42 @@ DampedFit with_average_error(DampedFit fit, double variance_s2, const Smoothing&
   return fit;
 }
 
-AverageTrial try_average(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-                         const HeldParameters& held, const DampedFit& plain) {
+/// What an average of the instrument explains that a fit without does not.
+struct AverageTrial {
+  std::optional<DampedFit> fit{};    ///< empty: not taken
+  std::optional<DampedFit> rival{};  ///< not taken, but not ruled out, though its w_n and zeta are others
+};
+
+/// The fit with one parameter more, the time W over which the instrument averages its samples (docs/model.md section
+/// 7), where it is not stated and `plain`, the fit without, shows a sign of it. Its covariance holds that of W. Not
+/// taken where W does not explain all that `plain` misses of the slips or a sensor of first order explains it as well.
+/// Where W cannot be told from the slips behind it, or another W explains them as well, DampedFit::fall_doubt says so.
+AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
+  const auto& [recording, quality, segmentation, held] = input;
   if (!may_be_averaged(recording, plain)) return {};
   const double width_s = 2.0 * plain.blocks.scales().half_period_s;
   // Half of what all cycles have to gain: a few of them may tell less.
   const double worth = 0.5 * thresholds::kTierPrice / effective_samples(plain);
   const double shown = std::min(1.0, static_cast<double>(kSearchCycles) / static_cast<double>(plain.blocks.size()));
   const double doubtful = -2.0 * thresholds::kNotRuledOut / (shown * effective_samples(plain));  // of a few of them
-  std::vector<KernelSearch::Least> minima =
-      KernelSearch(recording, segmentation, held, plain, width_s, kSearchCycles).minima(doubtful);
+  std::vector<KernelSearch::Least> minima = KernelSearch(input, plain, width_s, kSearchCycles).minima(doubtful);
   std::erase_if(minima, [&](const KernelSearch::Least& least) { return least.gain < worth && !hides_damping(least); });
   if (minima.empty()) return {};
   double longest_s2 = 0.0;
   for (const KernelSearch::Least& least : minima) longest_s2 = std::max(longest_s2, least.variance_s2);
   const double longest_lag_s = std::sqrt(kLongTail * longest_s2);
-  const KernelSearch comparison(recording, segmentation, held, plain, width_s + kForgottenLags * longest_lag_s,
-                                kCompareCycles);
+  const KernelSearch comparison(input, plain, width_s + kForgottenLags * longest_lag_s, kCompareCycles);
   const std::vector<KernelSearch::Least> averages = best_averages(minima, comparison, plain);
   if (averages.empty()) return {};
-  auto [trial, other_s] = best_trial(AverageSolver(recording, quality, segmentation, held, plain), plain, averages,
-                                     recording.sample_interval_s(), -thresholds::kNotRuledOut);
+  auto [trial, other_s] = best_trial(AverageSolver(input, plain), plain, averages, recording.sample_interval_s(),
+                                     -thresholds::kNotRuledOut);
   if (!trial) return {};
   const bool is_taken =
       gain_of(trial->fit, plain) > thresholds::kTierPrice && rules_out_lag(averages.front(), comparison, plain);
   const double log_omega = trial->fit.blocks.parameters.globals[kLogFrequency];
   if (!is_taken && !hides_damping(trial->variance_s2, log_omega)) return {};
-  std::optional<DampedFit> finished =
-      finish_fit(with_average(recording, trial->variance_s2), quality, segmentation, std::move(trial->fit));
+  const Recording averaged = with_average(recording, std::sqrt(12.0 * trial->variance_s2));
+  std::optional<DampedFit> finished = finish_fit({averaged, quality, segmentation, held}, std::move(trial->fit));
   if (!finished) return {};
   trial->fit = *std::move(finished);
   DampedFit fit = with_average_error(std::move(trial->fit), trial->variance_s2, trial->beyond);
@@ -181,16 +187,39 @@ AverageTrial try_average(const Recording& recording, const Quality& quality, con
   return {std::move(fit), std::nullopt};
 }
 
-std::optional<DampedFit> fit_as_sensed(const Recording& recording, const Quality& quality,
-                                       const Segmentation& segmentation, const HeldParameters& held, DampedFit plain) {
+}  // namespace
+
+bool tells_average(const FittedAverage& average) {
+  return average.seconds > 2.0 * thresholds::kSureTerm * average.standard_error_s;
+}
+
+std::optional<DampedFit> with_settled_average(const FitInput& input, DampedFit fit) {
+  constexpr int kMostSteps = 5;
+  std::optional<DampedFit> next = std::move(fit);
+  for (int step = 0; next && step < kMostSteps; ++step) {
+    const auto beyond = estimate_smoothing(next->blocks, next->held, input.recording.sample_interval_s());
+    if (!beyond) break;
+    if (beyond->is_settled()) {
+      const double average_s = next->blocks.scales().sensor_average_s;
+      return with_average_error(*std::move(next), average_s * average_s / 12.0, *beyond);
+    }
+    std::optional<BlockFit> blocks = with_next_average(next->blocks, *beyond, next->held);
+    if (!blocks) break;
+    next->blocks = *std::move(blocks);
+    next = finish_settled(input, *std::move(next));
+  }
+  return std::nullopt;
+}
+
+std::optional<DampedFit> fit_as_sensed(const FitInput& input, DampedFit plain) {
   std::optional<DampedFit> rival;
-  if (!recording.conditions().sensor_average_s) {
-    plain.rounding = estimate_smoothing(plain.blocks, plain.held, recording.sample_interval_s());
-    AverageTrial trial = try_average(recording, quality, segmentation, held, plain);
+  if (!input.recording.conditions().sensor_average_s) {
+    plain.rounding = estimate_smoothing(plain.blocks, plain.held, input.recording.sample_interval_s());
+    AverageTrial trial = try_average(input, plain);
     if (trial.fit) return std::move(trial.fit);
     rival = std::move(trial.rival);
   }
-  std::optional<DampedFit> fit = finish_fit(recording, quality, segmentation, std::move(plain));
+  std::optional<DampedFit> fit = finish_fit(input, std::move(plain));
   return fit && rival ? beside_rival(*std::move(fit), *rival) : std::move(fit);
 }
 

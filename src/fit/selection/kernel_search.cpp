@@ -38,14 +38,16 @@ bool is_best_undamped(BlockFit fit) {
 
 }  // namespace
 
-KernelSearch::KernelSearch(const Recording& recording, const Segmentation& segmentation, const HeldParameters& held,
-                           const DampedFit& plain, double half_width_s, std::size_t count)
-    : segmentation_(segmentation), held_(held_of(held)), step_s_(recording.sample_interval_s()), plain_(plain.blocks) {
+KernelSearch::KernelSearch(const FitInput& input, const DampedFit& plain, double half_width_s, std::size_t count)
+    : segmentation_(input.segmentation),
+      held_(held_of(input.held)),
+      step_s_(input.recording.sample_interval_s()),
+      plain_(plain.blocks) {
   const Scales& scales = plain_.scales();
   const HumLines hum{plain_.level().lines_Hz, scales.time_begin_s};
   std::vector<CycleData> cycles = spread_subset(
-      same_cycles_of(plain_, cut_cycles(recording, segmentation, half_width_s, plain.excluded, hum)), count);
-  std::vector<double> middles = middles_s(segmentation, cycles);
+      same_cycles_of(plain_, cut_cycles(input.recording, segmentation_, half_width_s, plain.excluded, hum)), count);
+  std::vector<double> middles = middles_s(segmentation_, cycles);
   for (std::size_t i = 0; i < cycles.size(); ++i) {
     cycles[i] = thinned(std::move(cycles[i]), middles[i], scales.half_period_s, step_s_);
   }

@@ -7,10 +7,8 @@
 #include <vector>
 
 #include "fit/problem/block_fit.hpp"
+#include "fit/selection/fit_input.hpp"
 #include "fit/selection/solution.hpp"
-#include "slipfit/core/recording.hpp"
-#include "slipfit/fit/parameter.hpp"
-#include "slipfit/signal/cycles.hpp"
 
 namespace slipfit::fit {
 
@@ -24,8 +22,7 @@ class KernelSearch {
  public:
   /// `plain`: the fit of all cycles without a kernel. `count`: of cycles. `half_width_s`: around the middle of a slip,
   /// what the kernel may change.
-  KernelSearch(const Recording& recording, const Segmentation& segmentation, const HeldParameters& held,
-               const DampedFit& plain, double half_width_s, std::size_t count);
+  KernelSearch(const FitInput& input, const DampedFit& plain, double half_width_s, std::size_t count);
 
   /// A sum of squares, in units of the noise, and where it is.
   struct Least {

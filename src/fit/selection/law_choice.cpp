@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "core/quantile.hpp"
+#include "core/student.hpp"
 #include "core/thresholds.hpp"
-#include "fit/inference/student.hpp"
 
 namespace slipfit::fit {
 
@@ -17,14 +18,11 @@ bool is_misfit(const SweepSolution& solution) {
 }
 
 double speed_ratio(std::span<const SweepRecording> recordings) {
-  double low = HUGE_VAL;
-  double high = 0.0;
+  std::vector<double> speeds;
   for (const SweepRecording& sweep : recordings) {
-    if (sweep.role == SweepRole::LeftOut) continue;
-    low = std::min(low, sweep.recording.conditions().speed_m_per_s);
-    high = std::max(high, sweep.recording.conditions().speed_m_per_s);
+    if (sweep.role != SweepRole::LeftOut) speeds.push_back(sweep.recording.conditions().speed_m_per_s);
   }
-  return high / low;
+  return ratio_of_ends(speeds);
 }
 
 namespace {

@@ -99,13 +99,12 @@ class OwnFitter {
     for (const SweepRecording& sweep : recordings_) {
       std::optional<DampedFit>& fit = own.fits.emplace_back();
       if (sweep.role != SweepRole::Cycles) continue;
-      fit = draft_with_rise(sweep.recording, sweep.quality, sweep.segmentation, held_);
+      fit = draft_with_rise({sweep.recording, sweep.quality, sweep.segmentation, held_});
     }
     share_length(own);
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
       if (!own.fits[i] || (known_ && !states_average(i))) continue;
-      const auto& [recording, quality, segmentation] = parts(i);
-      own.fits[i] = fit_as_sensed(recording, quality, segmentation, held_, *std::move(own.fits[i]));
+      own.fits[i] = fit_as_sensed(input(i), *std::move(own.fits[i]));
     }
     if (known_) return averaged(own, *known_);
     share_average(own);
@@ -114,13 +113,8 @@ class OwnFitter {
   }
 
  private:
-  struct Parts {
-    const Recording& recording;
-    const Quality& quality;
-    const Segmentation& segmentation;
-  };
-  [[nodiscard]] Parts parts(std::size_t i) const {
-    return {recordings_[i].recording, recordings_[i].quality, recordings_[i].segmentation};
+  [[nodiscard]] FitInput input(std::size_t i) const {
+    return {recordings_[i].recording, recordings_[i].quality, recordings_[i].segmentation, held_};
   }
 
   [[nodiscard]] bool states_average(std::size_t i) const {
@@ -134,8 +128,7 @@ class OwnFitter {
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
       std::optional<DampedFit>& fit = own.fits[i];
       if (!fit) continue;
-      const auto& [recording, quality, segmentation] = parts(i);
-      auto other = draft_with_rise_over(own.reload->metres, recording, quality, segmentation, held_, *fit);
+      auto other = draft_with_rise_over(own.reload->metres, input(i), *fit);
       if (other && (fit->blocks.level().reloading || gain_of(*other, *fit) > 0.0)) fit = std::move(other);
     }
   }
@@ -174,14 +167,14 @@ class OwnFitter {
 
   [[nodiscard]] std::optional<DampedFit> fit_averaged(std::size_t i, const FittedAverage& average, const DampedFit& own,
                                                       const std::optional<FittedLength>& length) const {
-    const auto& [recording, quality, segmentation] = parts(i);
-    const Recording averaged = with_average(recording, average.seconds * average.seconds / 12.0);
+    const Recording recording = with_average(recordings_[i].recording, average.seconds);
+    const FitInput averaged{recording, recordings_[i].quality, recordings_[i].segmentation, held_};
     std::optional<DampedFit> fit;
     if (length && own.blocks.level().reloading) {
-      fit = draft_with_rise_over(length->metres, averaged, quality, segmentation, held_, own);
+      fit = draft_with_rise_over(length->metres, averaged, own);
     }
-    if (!fit) fit = draft_damped(averaged, quality, segmentation, held_);
-    if (fit) fit = finish_fit(averaged, quality, segmentation, *std::move(fit));
+    if (!fit) fit = draft_damped(averaged);
+    if (fit) fit = finish_fit(averaged, *std::move(fit));
     if (fit) fit->average = average;
     return fit;
   }
@@ -238,8 +231,7 @@ OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameter
   for (const SweepRecording& one : recordings) {
     const Recording& recording = one.recording;
     const bool is_open = own.average && !recording.conditions().sensor_average_s;
-    averaged.push_back(is_open ? with_average(recording, own.average->seconds * own.average->seconds / 12.0)
-                               : recording);
+    averaged.push_back(is_open ? with_average(recording, own.average->seconds) : recording);
   }
   std::vector<SweepRecording> sweep;
   for (std::size_t i = 0; i < recordings.size(); ++i) {

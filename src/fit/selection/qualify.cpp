@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/thresholds.hpp"
+#include "core/unknown.hpp"
 #include "signal/mains.hpp"
 
 namespace slipfit::fit {
@@ -16,7 +17,7 @@ FitResult without_parameters(FitResult fit) {
   for (Parameter& parameter : fit.parameters) {
     if (parameter.status == ParameterStatus::Fixed) continue;
     parameter.status = ParameterStatus::Unidentified;
-    parameter.estimate = {std::nullopt, std::nullopt, std::nullopt, "the motion is not stick-slip of this model"};
+    parameter.estimate = unknown("the motion is not stick-slip of this model");
   }
   fit.correlation.reset();
   fit.estimate.reset();
@@ -58,7 +59,7 @@ FitResult without_inertia(FitResult fit, const std::string& reason, double force
     if (parameter.status == ParameterStatus::Fixed) continue;
     if (hangs_on_inertia(parameter.id)) {
       parameter.status = ParameterStatus::Unidentified;
-      parameter.estimate = {std::nullopt, std::nullopt, std::nullopt, reason};
+      parameter.estimate = unknown(reason);
     } else if (parameter.id == ParameterId::FrictionDifference) {
       parameter.status = ParameterStatus::Bounded;
       parameter.estimate = {0.75 * force_drop, std::nullopt, bounds,

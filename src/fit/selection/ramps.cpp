@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/line_sums.hpp"
+
 namespace slipfit::fit {
 namespace {
 
@@ -85,22 +87,10 @@ std::optional<RampBend> ramp_bend(const BlockFit& fit) {
 
 double level_trend(const BlockFit& fit) {
   if (!fit.level().per_cycle || fit.size() < 3) return 0.0;
-  const auto count = static_cast<double>(fit.size());
-  double mean_s = 0.0, mean = 0.0, spread = 0.0, cross = 0.0, square = 0.0;
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    mean_s += fit.reference_s(i) / count;
-    mean += fit.parameters.cycles[i][2] * fit.scales().force / count;
-  }
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    const double dt = fit.reference_s(i) - mean_s;
-    const double df = fit.parameters.cycles[i][2] * fit.scales().force - mean;
-    spread += dt * dt;
-    cross += dt * df;
-    square += df * df;
-  }
-  const double rate = cross / spread;
-  const double error = std::sqrt(std::max(0.0, square - rate * cross) / (count - 2.0) / spread);
-  return std::abs(rate) > 3.0 * error ? rate : 0.0;
+  const LineSums line = line_sums(
+      fit.size(), [&](std::size_t i) { return fit.reference_s(i); },
+      [&](std::size_t i) { return fit.parameters.cycles[i][2] * fit.scales().force; });
+  return std::abs(line.slope()) > 3.0 * line.slope_error() ? line.slope() : 0.0;
 }
 
 }  // namespace slipfit::fit

@@ -38,12 +38,12 @@ RiseAfterSlip moved(RiseAfterSlip rise, const BlockFit& fit) {
 }
 
 /// The rise over this length after all slips of a recording, those of `fit` where it has them.
-std::shared_ptr<const RiseAfterSlip> rise_over(double length_m, bool is_free, const Recording& recording,
-                                               const Segmentation& segmentation, const BlockFit& fit) {
+std::shared_ptr<const RiseAfterSlip> rise_over(double length_m, bool is_free, const FitInput& input,
+                                               const BlockFit& fit) {
   RiseAfterSlip rise{length_m, is_free, fit.scales().speed_m_per_s, fit.scales().sensor_average_s, {}, {}};
-  for (const DetectedSlip& slip : segmentation.slips) {
-    rise.slip_begin_s.push_back(recording.time_s()[slip.peak]);
-    rise.slip_end_s.push_back(recording.time_s()[slip.trough]);
+  for (const DetectedSlip& slip : input.segmentation.slips) {
+    rise.slip_begin_s.push_back(input.recording.time_s()[slip.peak]);
+    rise.slip_end_s.push_back(input.recording.time_s()[slip.trough]);
   }
   return std::make_shared<const RiseAfterSlip>(moved(std::move(rise), fit));
 }
@@ -86,11 +86,11 @@ double length_of(const DampedFit& fit) {
 }
 
 /// A few cycles of `plain` with the rise over the length that explains them best, of several.
-std::optional<DampedFit> best_of_lengths(const Recording& recording, const Segmentation& segmentation,
-                                         const DampedFit& plain, const Held& held) {
+std::optional<DampedFit> best_of_lengths(const FitInput& input, const DampedFit& plain) {
+  const Held held = held_of(input.held);
   const double speed = plain.blocks.scales().speed_m_per_s;
   const double stick_m = speed * median_stick_s(plain.blocks);
-  const double shortest_m = std::max(2.0 * speed * recording.sample_interval_s(), kShortestShare * stick_m);
+  const double shortest_m = std::max(2.0 * speed * input.recording.sample_interval_s(), kShortestShare * stick_m);
   const double longest_m = kLongestShare * stick_m;
   std::optional<DampedFit> best;
   if (!(longest_m > shortest_m)) return best;
@@ -98,13 +98,13 @@ std::optional<DampedFit> best_of_lengths(const Recording& recording, const Segme
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kLengths; ++i) {
     const double length_m = shortest_m * std::pow(longest_m / shortest_m, static_cast<double>(i) / (kLengths - 1));
-    BlockFit trial = with_rise(plain.blocks, cycles, plain.blocks.scales(),
-                               rise_over(length_m, false, recording, segmentation, plain.blocks));
+    BlockFit trial =
+        with_rise(plain.blocks, cycles, plain.blocks.scales(), rise_over(length_m, false, input, plain.blocks));
     if (!held[kDamping]) trial.parameters.globals[kDamping] = std::max(0.05, plain.blocks.parameters.globals[kDamping]);
     const double sum = solve(trial, {held, false, true, kSearchIterations, kRoughRise});
     if (!(sum < least)) continue;
     least = sum;
-    best.emplace(DampedFit{std::move(trial), false, held, {}, plain.half_width_s, plain.excluded, {}, {}});
+    best.emplace(DampedFit{std::move(trial), false, held, {}, plain.half_width_s, plain.excluded});
   }
   return best;
 }
@@ -117,7 +117,7 @@ std::optional<DampedFit> with_free_length(double length_m, const Quality& qualit
   fit.blocks = with_rise(fit.blocks, cycles_of(fit.blocks), fit.blocks.scales(),
                          std::make_shared<const RiseAfterSlip>(std::move(rise)));
   if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
-  return with_uncertainty(std::move(fit), tolerated_misfit(quality));
+  return with_uncertainty(std::move(fit), quality);
 }
 
 /// What Newton's step in ln l comes to, at most a factor of 2.
@@ -164,61 +164,53 @@ BlockFit with_rise_after(const BlockFit& fit, const Scales& scales) {
   return with_rise(fit, cycles_of(fit), scales, std::make_shared<const RiseAfterSlip>(std::move(rise)));
 }
 
-std::optional<DampedFit> settle_rise(double sample_interval_s, const Quality& quality, std::optional<DampedFit> fit) {
+std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<DampedFit> fit) {
   if (!fit || !fit->blocks.level().reloading || !fit->blocks.level().reloading->is_free) return fit;
   double least_step = std::numeric_limits<double>::infinity();
+  const double step_m = fit->blocks.scales().speed_m_per_s * input.recording.sample_interval_s();
   int larger = 0;
   for (int round = 0; fit && round < kMostRounds; ++round) {
-    const double samples = length_of(*fit) / (fit->blocks.scales().speed_m_per_s * sample_interval_s);
-    if (!(fit->blocks.rise_data()[0] > 0.0) || samples < thresholds::kShapeSamples) return std::nullopt;
+    const bool is_sampled = length_of(*fit) >= thresholds::kShapeSamples * step_m;
+    if (!(fit->blocks.rise_data()[0] > 0.0) || !is_sampled) return std::nullopt;
     const double step = next_length_step(fit->blocks);
     if (std::abs(step) > least_step && ++larger > kMostLarger) return std::nullopt;
     least_step = std::min(least_step, std::abs(step));
     const bool is_last = round > 0 && is_length_settled(*fit);  // the slips may have moved since the first
     const double length_m = length_of(*fit) * std::exp(step);
-    fit = with_free_length(length_m, quality, *std::move(fit));
+    fit = with_free_length(length_m, input.quality, *std::move(fit));
     if (is_last) return fit;
   }
   return std::nullopt;
 }
 
-std::optional<DampedFit> finish_settled(const Recording& recording, const Quality& quality,
-                                        const Segmentation& segmentation, DampedFit fit) {
-  std::optional<DampedFit> next = with_uncertainty(std::move(fit), tolerated_misfit(quality));
-  next = settle_rise(recording.sample_interval_s(), quality, std::move(next));
-  return next ? finish_fit(recording, quality, segmentation, *std::move(next)) : std::nullopt;
+std::optional<DampedFit> finish_settled(const FitInput& input, DampedFit fit) {
+  std::optional<DampedFit> next = settle_rise(input, with_uncertainty(std::move(fit), input.quality));
+  return next ? finish_fit(input, *std::move(next)) : std::nullopt;
 }
 
-std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quality& quality,
-                                         const Segmentation& segmentation, const HeldParameters& held,
-                                         const GiveUp& give_up) {
+std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& give_up) {
   Near from_features;
   from_features.give_up = give_up;
-  std::optional<DampedFit> plain = draft_damped(recording, quality, segmentation, held, from_features);
+  std::optional<DampedFit> plain = draft_damped(input, from_features);
   if (!plain) return plain;
   const std::optional<RampBend> bend = ramp_bend(plain->blocks);
   if (!bends(bend)) return plain;
-  std::optional<DampedFit> few = best_of_lengths(recording, segmentation, *plain, held_of(held));
+  std::optional<DampedFit> few = best_of_lengths(input, *plain);
   if (!few) return plain;
-  const double step_s = recording.sample_interval_s();
-  few = settle_rise(step_s, quality, with_free_length(length_of(*few), quality, *few));
+  few = settle_rise(input, with_free_length(length_of(*few), input.quality, *few));
   if (!few || !promises(*few, *bend)) return plain;
-  std::optional<DampedFit> fit = draft_damped(
-      recording, quality, segmentation, held,
-      {few->blocks.parameters.globals, plain->excluded,
-       rise_over(length_of(*few), true, recording, segmentation, plain->blocks), plain->blocks.level().per_cycle});
-  fit = settle_rise(step_s, quality, std::move(fit));
+  std::optional<DampedFit> fit = settle_rise(
+      input,
+      draft_damped(input, {few->blocks.parameters.globals, plain->excluded,
+                           rise_over(length_of(*few), true, input, plain->blocks), plain->blocks.level().per_cycle}));
   const bool is_better = fit && is_justified(*fit, *plain, *bend);
   return is_better ? std::move(fit) : std::move(plain);
 }
 
-std::optional<DampedFit> draft_with_rise_over(double length_m, const Recording& recording, const Quality& quality,
-                                              const Segmentation& segmentation, const HeldParameters& held,
-                                              const DampedFit& near) {
-  std::optional<DampedFit> fit =
-      draft_damped(recording, quality, segmentation, held,
-                   {std::nullopt, near.excluded, rise_over(length_m, false, recording, segmentation, near.blocks),
-                    near.blocks.level().per_cycle});
+std::optional<DampedFit> draft_with_rise_over(double length_m, const FitInput& input, const DampedFit& near) {
+  std::optional<DampedFit> fit = draft_damped(
+      input,
+      {std::nullopt, near.excluded, rise_over(length_m, false, input, near.blocks), near.blocks.level().per_cycle});
   return fit && fit->blocks.rise_data()[0] > 0.0 ? std::move(fit) : std::nullopt;
 }
 

@@ -3,19 +3,12 @@
 #include <optional>
 
 #include "fit/selection/damped_fit.hpp"
-#include "fit/selection/solution.hpp"
-#include "slipfit/core/recording.hpp"
-#include "slipfit/fit/parameter.hpp"
-#include "slipfit/signal/cycles.hpp"
-#include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
 
 /// The damped fit, its sticks rising more steeply after a slip (level/reloading.hpp) where straight ones bend and the
 /// rise is known and explains it. Before `finish_fit`.
-std::optional<DampedFit> draft_with_rise(const Recording& recording, const Quality& quality,
-                                         const Segmentation& segmentation, const HeldParameters& held,
-                                         const GiveUp& give_up = {});
+std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& give_up = {});
 
 /// The same cycles at the same parameters, their rise after slips that begin and end where `fit` has them, as a sensor
 /// of these scales sees it.
@@ -23,17 +16,14 @@ BlockFit with_rise_after(const BlockFit& fit, const Scales& scales);
 
 /// The fit of the same cycles under the same law, its rise settled: its length, and the slips that it comes after.
 /// Empty where the data do not sample it. Without a rise `fit` as it is.
-std::optional<DampedFit> settle_rise(double sample_interval_s, const Quality& quality, std::optional<DampedFit> fit);
+std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<DampedFit> fit);
 
 /// A solution with its uncertainty, its rise settled. Empty where the data do not tell the parameters apart or do not
 /// sample the rise.
-std::optional<DampedFit> finish_settled(const Recording& recording, const Quality& quality,
-                                        const Segmentation& segmentation, DampedFit fit);
+std::optional<DampedFit> finish_settled(const FitInput& input, DampedFit fit);
 
 /// With the rise over a given length, after slips that begin and end where `near`, another fit of the recording, has
 /// them. Empty where the force falls after a slip in place of rising.
-std::optional<DampedFit> draft_with_rise_over(double length_m, const Recording& recording, const Quality& quality,
-                                              const Segmentation& segmentation, const HeldParameters& held,
-                                              const DampedFit& near);
+std::optional<DampedFit> draft_with_rise_over(double length_m, const FitInput& input, const DampedFit& near);
 
 }  // namespace slipfit::fit

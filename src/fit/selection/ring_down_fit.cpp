@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
+#include "core/student.hpp"
 #include "fit/inference/smoothing.hpp"
-#include "fit/inference/student.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/fitted_average.hpp"
@@ -73,25 +73,6 @@ FreeMotion mean_of(const std::vector<FreeMotion>& motions) {
   const double freedom = 2.0 * (static_cast<double>(motions.size()) - 1.0);
   if (freedom > 0.0) mean.covariance *= std::max(1.0, chi2 / freedom);
   return mean;
-}
-
-/// At the average that explains most beside what is held, by Newton's steps. Empty where they do not settle.
-std::optional<DampedFit> with_average_settled(const Recording& recording, const Quality& quality,
-                                              const Segmentation& segmentation, DampedFit fit) {
-  constexpr int kNewtonSteps = 5;
-  std::optional<DampedFit> next = std::move(fit);
-  for (int step = 0; next && step < kNewtonSteps; ++step) {
-    const double variance_s2 = std::pow(next->blocks.scales().sensor_average_s, 2) / 12.0;
-    const auto beyond = estimate_smoothing(next->blocks, next->held, recording.sample_interval_s());
-    if (!beyond) return std::nullopt;
-    if (std::abs(beyond->variance_s2) < thresholds::kSettledAverage * beyond->standard_error_s2) {
-      return with_average_error(*std::move(next), variance_s2, *beyond);
-    }
-    next->blocks = averaged_by(next->blocks, beyond->next_variance_s2(variance_s2));
-    if (!std::isfinite(solve(next->blocks, {next->held, false, true}))) return std::nullopt;
-    next = finish_settled(recording, quality, segmentation, *std::move(next));
-  }
-  return std::nullopt;
 }
 
 /// With the errors of w_n and zeta, which are held at `motion`.
@@ -171,20 +152,18 @@ std::optional<Warning> join_ring_downs(std::span<const SweepRecording> recording
   return std::nullopt;
 }
 
-std::optional<DampedFit> held_at(const FreeMotion& motion, const Recording& recording, const Quality& quality,
-                                 const Segmentation& segmentation, DampedFit fit) {
+std::optional<DampedFit> held_at(const FreeMotion& motion, const FitInput& input, DampedFit fit) {
   fit.held[kLogFrequency] = fit.held[kDamping] = true;
   fit.blocks.parameters.globals[kLogFrequency] = motion.values(0);
   fit.blocks.parameters.globals[kDamping] = motion.values(1);
   fit.continuous = false;
   if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
   const bool averaged = fit.average.has_value();
-  std::optional<DampedFit> next = finish_settled(recording, quality, segmentation, std::move(fit));
-  if (next && averaged) next = with_average_settled(recording, quality, segmentation, *std::move(next));
-  if (next && next->rounding) {
-    next->rounding = estimate_smoothing(next->blocks, next->held, recording.sample_interval_s());
-  }
-  return next ? with_errors_of(motion, *std::move(next), recording.sample_interval_s()) : std::nullopt;
+  const double step_s = input.recording.sample_interval_s();
+  std::optional<DampedFit> next = finish_settled(input, std::move(fit));
+  if (next && averaged) next = with_settled_average(input, *std::move(next));
+  if (next && next->rounding) next->rounding = estimate_smoothing(next->blocks, next->held, step_s);
+  return next ? with_errors_of(motion, *std::move(next), step_s) : std::nullopt;
 }
 
 }  // namespace slipfit::fit

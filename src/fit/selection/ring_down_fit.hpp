@@ -6,11 +6,9 @@
 #include "fit/inference/free_motion.hpp"
 #include "fit/inference/sweep_outcome.hpp"
 #include "fit/problem/sweep_data.hpp"
+#include "fit/selection/fit_input.hpp"
 #include "fit/selection/solution.hpp"
-#include "slipfit/core/recording.hpp"
 #include "slipfit/fit/sweep_recording.hpp"
-#include "slipfit/signal/cycles.hpp"
-#include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
 
@@ -37,7 +35,6 @@ std::optional<Warning> join_ring_downs(std::span<const SweepRecording> recording
 
 /// `fit` under its law with w_n and zeta held at `motion`, whose errors are in its covariance; an average that it found
 /// goes with them. Empty where it has no solution there.
-std::optional<DampedFit> held_at(const FreeMotion& motion, const Recording& recording, const Quality& quality,
-                                 const Segmentation& segmentation, DampedFit fit);
+std::optional<DampedFit> held_at(const FreeMotion& motion, const FitInput& input, DampedFit fit);
 
 }  // namespace slipfit::fit

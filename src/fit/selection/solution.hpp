@@ -32,11 +32,11 @@ struct DampedFit {
   bool continuous = false;  ///< ramps shared by neighbouring cycles: the data agree with it
   Held held;
   /// Free damping ratio where it came out clearly negative: the slip is not shaped like the model's, zeta is held at 0.
-  std::optional<double> refused_damping;
-  double half_width_s = 0.0;          ///< around the middle of a slip, as the cycles were cut with
-  std::vector<std::size_t> excluded;  ///< samples in ascending order: impulses, clipped, outliers
-  Uncertainty uncertainty;
-  std::optional<SegmentMisfit> misfit;     ///< slips are not shaped like the model's; the covariances allow for it
+  std::optional<double> refused_damping{};
+  double half_width_s = 0.0;            ///< around the middle of a slip, as the cycles were cut with
+  std::vector<std::size_t> excluded{};  ///< samples in ascending order: impulses, clipped, outliers
+  Uncertainty uncertainty{};
+  std::optional<SegmentMisfit> misfit{};   ///< slips are not shaped like the model's; the covariances allow for it
   std::optional<Smoothing> rounding{};     ///< of the slips beyond what is stated of the sensor; empty: not told
   std::optional<StickRipple> ripple{};     ///< left in the sticks
   std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none

@@ -46,26 +46,27 @@ CoordinateMatrix with_mass(const CoordinateMatrix& held, const Coordinates& by_l
   return follows * held * follows.transpose() + by_mass * by_mass.transpose();
 }
 
-DampedFit fit_with_mass(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-                        HeldParameters held, DampedFit fit) {
+DampedFit fit_with_mass(const FitInput& input, DampedFit fit) {
   constexpr int kRounds = 2;  // k changes little with w_n
-  const std::optional<StatedMass> mass =
-      mass_for_frequency(recording.conditions(), held, stiffness_of(fit), fit.blocks.scales().sensor_average_s);
-  if (!mass) return fit;
   const double average_s = fit.blocks.scales().sensor_average_s;
-  const Recording averaged = fit.average ? with_average(recording, average_s * average_s / 12.0) : recording;
+  const std::optional<StatedMass> mass =
+      mass_for_frequency(input.recording.conditions(), input.held, stiffness_of(fit), average_s);
+  if (!mass) return fit;
+  const Recording recording = fit.average ? with_average(input.recording, average_s) : input.recording;
+  HeldParameters held = input.held;
+  const FitInput averaged{recording, input.quality, input.segmentation, held};
   double stiffness = stiffness_of(fit);
   std::optional<DampedFit> by_mass;
   for (int round = 0; round < kRounds; ++round) {
     held.natural_frequency_rad_per_s = mass->frequency_rad_per_s(stiffness);
-    by_mass = draft_with_rise(averaged, quality, segmentation, held);
+    by_mass = draft_with_rise(averaged);
     if (!by_mass) return fit;
     stiffness = stiffness_of(*by_mass);
   }
   const bool contradicts = by_mass->uncertainty.noise > thresholds::kContradictedMass * fit.uncertainty.noise;
   const std::optional<Coordinates> move = by_log_frequency(*by_mass);
   if (contradicts || !move) return fit;
-  by_mass = finish_fit(averaged, quality, segmentation, *std::move(by_mass));
+  by_mass = finish_fit(averaged, *std::move(by_mass));
   if (!by_mass) return fit;
   by_mass->average = fit.average;
   by_mass->mass_gives_frequency = true;

@@ -3,11 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "fit/selection/fit_input.hpp"
 #include "fit/selection/solution.hpp"
-#include "slipfit/core/recording.hpp"
-#include "slipfit/fit/parameter.hpp"
-#include "slipfit/signal/cycles.hpp"
-#include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
 
@@ -28,7 +25,6 @@ std::optional<StatedMass> mass_for_frequency(const Conditions& conditions, const
 CoordinateMatrix with_mass(const CoordinateMatrix& held, const Coordinates& by_log_frequency, double relative_error);
 
 /// `fit` with w_n by the recording's stated mass, where averaging hides it and the slips do not speak against it.
-DampedFit fit_with_mass(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
-                        HeldParameters held, DampedFit fit);
+DampedFit fit_with_mass(const FitInput& input, DampedFit fit);
 
 }  // namespace slipfit::fit

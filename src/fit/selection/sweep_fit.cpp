@@ -157,20 +157,12 @@ class SweepFitter {
 
   /// With k that goes with the speed, where one k of all does not explain the recordings.
   [[nodiscard]] std::optional<SweepSolution> with_growing_stiffness(const SweepSolution& same) const {
-    const bool may_grow = !fixed_.stiffness_N_per_m && same.recordings.size() >= thresholds::kStiffnessRecordings &&
-                          span_of_speeds(same) > thresholds::kAgeingSpeedRatio;
+    const bool may_grow = !fixed_.stiffness_N_per_m && same.can_show_trend(thresholds::kStiffnessRecordings);
     if (!may_grow) return std::nullopt;
     const std::optional<SweepSolution> growing = with_exponent(same, same.held);
     if (!growing || !(chance(same.chi2 - growing->chi2, 1.0, *growing) < thresholds::kLawChance)) return std::nullopt;
     std::optional<SweepSolution> sharing = with_shares({FrictionLaw::Coulomb, true}, {true, true});
     return sharing ? std::optional(at_best_average(data_, *std::move(sharing))) : std::nullopt;
-  }
-
-  static double span_of_speeds(const SweepSolution& solution) {
-    std::vector<double> speeds;
-    for (const BlockFit& recording : solution.recordings) speeds.push_back(recording.scales().speed_m_per_s);
-    const auto [slowest, fastest] = std::minmax_element(speeds.begin(), speeds.end());
-    return *fastest / *slowest;
   }
 
   /// Of so much more misfit by what the recordings share.
@@ -202,7 +194,7 @@ std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& op
   HeldParameters held = options.held;
   std::vector<double> logs;
   for (const std::size_t i : data.fitted) logs.push_back(data.single[i]->blocks.parameters.globals[kLogStiffness]);
-  double stiffness = std::exp(median(std::move(logs)));
+  double stiffness = std::exp(signal::median(std::move(logs)));
   const auto log_stiffness = [](const SweepSolution& solution) {
     return solution.recordings.front().parameters.globals[kLogStiffness];
   };

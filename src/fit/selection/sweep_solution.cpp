@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/quantile.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/problem/solve.hpp"
 
@@ -60,6 +61,16 @@ std::size_t SweepSolution::cycles() const {
   std::size_t count = 0;
   for (const BlockFit& recording : recordings) count += recording.size();
   return count;
+}
+
+std::vector<double> SweepSolution::speeds_m_per_s() const {
+  std::vector<double> speeds;
+  for (const BlockFit& recording : recordings) speeds.push_back(recording.scales().speed_m_per_s);
+  return speeds;
+}
+
+bool SweepSolution::can_show_trend(std::size_t fewest) const {
+  return recordings.size() >= fewest && ratio_of_ends(speeds_m_per_s()) > thresholds::kTrendSpeedRatio;
 }
 
 double solve(SweepSolution& solution, const Held& held, int max_iterations, double tolerance) {
@@ -123,9 +134,7 @@ std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& h
 
 std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate global, double change) {
   SweepSolution other = solution;
-  for (BlockFit& recording : other.recordings) {
-    recording.parameters.globals[static_cast<std::size_t>(global)] += change;
-  }
+  for (BlockFit& recording : other.recordings) recording.parameters.globals[static_cast<std::size_t>(global)] += change;
   return at_minimum(std::move(other), solution.held);
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/inference/normals.hpp"
 #include "fit/problem/sweep_data.hpp"
 
@@ -20,6 +21,10 @@ struct SweepSolution {
 
   [[nodiscard]] Problem problem() const { return {recordings, sweep}; }
   [[nodiscard]] std::size_t cycles() const;
+  /// Of the recordings' speeds, in their order.
+  [[nodiscard]] std::vector<double> speeds_m_per_s() const;
+  /// At least `fewest` recordings at speeds that are far enough apart to show what goes with the speed.
+  [[nodiscard]] bool can_show_trend(std::size_t fewest = thresholds::kTrendRecordings) const;
   [[nodiscard]] const Population& population(std::size_t recording) const {
     return *recordings[recording].scales().population;
   }

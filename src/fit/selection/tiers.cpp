@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "core/quantile.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -85,9 +86,9 @@ SawtoothFit fit_sawtooth(const DampedFit& damped) {
     }
   }
   result.rms = std::sqrt(sum / std::max(1.0, samples));
-  for (const double drop : drops) result.drop += drop / static_cast<double>(drops.size());
-  for (const double drop : drops) result.drop_sd += (drop - result.drop) * (drop - result.drop);
-  result.drop_sd = std::sqrt(result.drop_sd / std::max(1.0, static_cast<double>(drops.size()) - 1.0));
+  const MeanAndSpread jump = describe(drops);
+  result.drop = jump.mean;
+  result.drop_sd = jump.sd;
   return result;
 }
 

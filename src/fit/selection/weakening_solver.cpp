@@ -20,7 +20,6 @@ constexpr std::size_t kFewCycles = 40;   // enough to see that the slips are exp
 constexpr std::size_t kSomeCycles = 64;  // of many
 constexpr int kOwnIterations = 6;        // of onsets and forces by themselves
 constexpr int kFullIterations = 60;
-constexpr int kStepIterations = 8;       // beside a solution for another average
 constexpr double kNothing = 0.1;         // of its error: a slip distance that is none
 constexpr double kDraftTolerance = 0.1;  // SolveOptions::tolerance of a draft
 /// SolveOptions::tolerance. Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them
@@ -119,26 +118,14 @@ std::optional<DampedFit> WeakeningSolver::fit(const std::vector<CycleData>& cycl
   std::optional<BlockFit> blocks = solved(cycles, average_s, start, kTolerance);
   if (!blocks) return std::nullopt;
   std::optional<DampedFit> fit = without_outliers(*std::move(blocks));
-  if (fit) fit = finished(*std::move(fit));
+  if (fit) fit = finish_settled(input_, *std::move(fit));
   return fit && is_negative(*fit) ? without_damping(*std::move(fit)) : std::move(fit);
 }
 
-std::optional<BlockFit> WeakeningSolver::with_next_average(const BlockFit& blocks, const Smoothing& beyond,
-                                                           const Held& held) {
-  const double average_s = blocks.scales().sensor_average_s;
-  BlockFit next = averaged_by(blocks, beyond.next_variance_s2(average_s * average_s / 12.0));
-  const bool is_solved = std::isfinite(solve(next, {held, false, true, kStepIterations})) && has_slips(next);
-  return is_solved ? std::optional(std::move(next)) : std::nullopt;
-}
-
 bool WeakeningSolver::tells_distance(const BlockFit& blocks) const {
-  DampedFit fit{blocks, false, held_, std::nullopt, 0.0, {}, {}, {}};
+  DampedFit fit{blocks, false, held_};
   fit.uncertainty = estimate_uncertainty(blocks, {held_, false});
   return sigmas_of_distance(fit) > kNothing;
-}
-
-std::optional<DampedFit> WeakeningSolver::finished(DampedFit fit) const {
-  return finish_settled(input_.recording, input_.quality, input_.segmentation, std::move(fit));
 }
 
 std::vector<CycleData> WeakeningSolver::cycles_without(const std::vector<std::size_t>& excluded) const {
@@ -154,7 +141,7 @@ BlockFit WeakeningSolver::blocks_of(const std::vector<CycleData>& cycles, double
 }
 
 DampedFit WeakeningSolver::unfinished(BlockFit blocks, std::vector<std::size_t> excluded) const {
-  return {std::move(blocks), false, held_, std::nullopt, half_width_s_, std::move(excluded), {}, {}};
+  return {std::move(blocks), false, held_, std::nullopt, half_width_s_, std::move(excluded)};
 }
 
 /// Outliers of the Coulomb fit may be what that law misses.
@@ -179,7 +166,7 @@ std::optional<DampedFit> WeakeningSolver::without_damping(DampedFit fit) const {
   std::optional<BlockFit> blocks = settled(std::move(fit.blocks), fit.held, kTolerance);
   if (!blocks) return std::nullopt;
   fit.blocks = *std::move(blocks);
-  return finished(std::move(fit));
+  return finish_settled(input_, std::move(fit));
 }
 
 }  // namespace slipfit::fit

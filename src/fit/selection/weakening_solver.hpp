@@ -5,19 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "fit/inference/smoothing.hpp"
+#include "fit/selection/fit_input.hpp"
 #include "fit/selection/tiers.hpp"
-#include "slipfit/fit/parameter.hpp"
 
 namespace slipfit::fit {
-
-/// A recording as fits see it.
-struct FitInput {
-  const Recording& recording;
-  const Quality& quality;
-  const Segmentation& segmentation;
-  const HeldParameters& held;
-};
 
 /// Fits of the law of friction that weakens over a slip distance (docs/model.md section 9) to the cycles that the
 /// Coulomb fit of the same recording has.
@@ -57,13 +48,8 @@ class WeakeningSolver {
   /// where it came out below.
   [[nodiscard]] std::optional<DampedFit> fit(const std::vector<CycleData>& cycles, double average_s,
                                              const Globals& start) const;
-  /// The same cycles seen through an average of another variance, by Newton's step. Empty where a slip has no solution.
-  [[nodiscard]] static std::optional<BlockFit> with_next_average(const BlockFit& blocks, const Smoothing& beyond,
-                                                                 const Held& held);
   /// False where the best slip distance is none: waves and slips of Coulomb friction have a minimum at D_c = 0.
   [[nodiscard]] bool tells_distance(const BlockFit& blocks) const;
-  /// The uncertainty of a solution of all cycles. Empty where they do not tell the parameters apart.
-  [[nodiscard]] std::optional<DampedFit> finished(DampedFit fit) const;
 
   [[nodiscard]] const Held& held() const { return held_; }
 

@@ -44,9 +44,9 @@ struct TextStream {
 };
 
 /// The bytes of a file, or for "-" of standard input, as they are. Errors: file_not_found, is_directory, not_readable.
-Result<TextStream> open_plain(const std::filesystem::path& file);
+TextStream open_plain(const std::filesystem::path& file);
 
 /// Unpacked where the first bytes say that it is a container. Errors: those above, those of containers, no_container.
-Result<TextStream> open_unpacked(const std::filesystem::path& file, const ContainerChoice& choice);
+TextStream open_unpacked(const std::filesystem::path& file, const ContainerChoice& choice);
 
 }  // namespace slipfit::reading

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "io/container/byte_stream.hpp"
-#include "slipfit/core/result.hpp"
 
 // What each kind of container takes to become text. Without the library that a kind needs the error is not_built_in and
 // names Debian's package.
@@ -13,7 +12,7 @@
 namespace slipfit::reading {
 
 /// `packed`: the bytes of the whole file, which are read once; `name`: as messages show it.
-using OpenFormat = Result<TextStream>(TextStream packed, const std::string& name, const ContainerChoice& choice);
+using OpenFormat = TextStream(TextStream packed, const std::string& name, const ContainerChoice& choice);
 
 /// Unpacked while it is read. Error: not_built_in.
 OpenFormat open_gzip;
@@ -33,7 +32,7 @@ OpenFormat open_mat;
 OpenFormat open_old_workbook;
 
 /// All bytes, for formats that are read here and there. Error: container_too_large.
-Result<std::string> read_all(TextStream& packed, const std::string& name);
+std::string read_all(TextStream& packed, const std::string& name);
 
 /// A program beside this one that reads what needs large libraries: its name, and what it takes to be built.
 struct Helper {
@@ -52,10 +51,10 @@ struct HelperOutput {
 };
 
 /// Errors: not_built_in, damaged_container, that of its first line ("!CODE MESSAGE").
-Result<HelperOutput> run_helper(const Helper& helper, const std::string& name);
+HelperOutput run_helper(const Helper& helper, const std::string& name);
 
-Error damaged(const std::string& name, const std::string& what);
-Error too_large(const std::string& name);
-Error not_built_in(const std::string& name, const std::string& kind, const std::string& package);
+ThrownError damaged(const std::string& name, const std::string& what);
+ThrownError too_large(const std::string& name);
+ThrownError not_built_in(const std::string& name, const std::string& kind, const std::string& package);
 
 }  // namespace slipfit::reading

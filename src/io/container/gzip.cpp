@@ -29,17 +29,17 @@ class GzipStream final : public ByteStream {
         reinterpret_cast<Bytef*>(buffer);  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast): zlib's bytes
     state_.avail_out = static_cast<uInt>(size);
     while (state_.avail_out > 0 && !ended_) {
-      if (state_.avail_in == 0 && !fill()) throw ThrownError(damaged(name_, "the gzip file ends too soon"));
+      if (state_.avail_in == 0 && !fill()) throw damaged(name_, "the gzip file ends too soon");
       const int status = inflate(&state_, Z_NO_FLUSH);
       if (status == Z_STREAM_END) {
         next_member();
       } else if (status != Z_OK && status != Z_BUF_ERROR) {
-        throw ThrownError(damaged(name_, "the gzip file is damaged"));
+        throw damaged(name_, "the gzip file is damaged");
       }
     }
     const std::size_t count = size - state_.avail_out;
     unpacked_ += count;
-    if (is_bomb(unpacked_, stored_)) throw ThrownError(too_large(name_));
+    if (is_bomb(unpacked_, stored_)) throw too_large(name_);
     return count;
   }
 
@@ -75,7 +75,7 @@ class GzipStream final : public ByteStream {
 
 }  // namespace
 
-Result<TextStream> open_gzip(TextStream packed, const std::string& name, const ContainerChoice& /*choice*/) {
+TextStream open_gzip(TextStream packed, const std::string& name, const ContainerChoice& /*choice*/) {
   packed.bytes = std::make_unique<GzipStream>(std::move(packed.bytes), name);
   packed.size = 0;
   packed.assumed.emplace_back("The file is packed (gzip).");
@@ -84,8 +84,8 @@ Result<TextStream> open_gzip(TextStream packed, const std::string& name, const C
 
 #else
 
-Result<TextStream> open_gzip(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
-  return not_built_in(name, "packed with gzip", "zlib1g-dev and libminizip-dev");
+TextStream open_gzip(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
+  throw not_built_in(name, "packed with gzip", "zlib1g-dev and libminizip-dev");
 }
 
 #endif

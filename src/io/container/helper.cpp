@@ -38,7 +38,7 @@ class ProgramStream final : public ByteStream {
       count += static_cast<std::size_t>(got);
       if (got > 0) continue;
       ended_ = true;
-      if (wait() != 0) throw ThrownError(damaged(name_, "the file is damaged, or asks for too much memory or time"));
+      if (wait() != 0) throw damaged(name_, "the file is damaged, or asks for too much memory or time");
     }
     return count;
   }
@@ -105,11 +105,10 @@ bool copy(TextStream& packed, int descriptor) {
 
 constexpr int kDescriptorOfHelper = 3;  // kFileOfHelper
 
-Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const Helper& helper,
-                                             const std::string& name) {
+std::unique_ptr<ProgramStream> start(const std::string& program, const Helper& helper, const std::string& name) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-    return Error{"not_readable", name + ": no pipe can be made; close programs"};
+    throw ThrownError({"not_readable", name + ": no pipe can be made; close programs"});
   FileHandle read_end(ends[0]);
   const FileHandle write_end(ends[1]);
   std::vector<std::string> texts{program};
@@ -127,19 +126,17 @@ Result<std::unique_ptr<ProgramStream>> start(const std::string& program, const H
   const int failed = ::posix_spawn(&process, program.c_str(), &actions, nullptr, words.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   if (failed == 0) return std::make_unique<ProgramStream>(process, std::move(read_end), name);
-  return Error{"not_readable", name + ": " + helper.program + " cannot be started; check its permissions"};
+  throw ThrownError({"not_readable", name + ": " + helper.program + " cannot be started; check its permissions"});
 }
 
-Result<TextStream> open_with_reader(const char* kind, TextStream packed, const std::string& name,
-                                    const ContainerChoice& choice) {
+TextStream open_with_reader(const char* kind, TextStream packed, const std::string& name,
+                            const ContainerChoice& choice) {
   const FileHandle file(::memfd_create("slipfit", MFD_CLOEXEC));
-  if (!file || !copy(packed, file.get())) return too_large(name);
+  if (!file || !copy(packed, file.get())) throw too_large(name);
   Helper helper{"slipfit-hdf5", {kind, kFileOfHelper}, "a MATLAB or HDF5 file", "libhdf5-dev", file.get()};
   if (choice.variable) helper.arguments.push_back(*choice.variable);
-  auto output = run_helper(helper, name);
-  if (!output) return output.error();
+  HelperOutput read = run_helper(helper, name);
   TextStream text;
-  HelperOutput read = std::move(output).value();
   text.bytes = std::move(read.bytes);
   text.assumed.push_back("Of the file '" + printable(read.first) + "' was read.");
   return text;
@@ -147,24 +144,22 @@ Result<TextStream> open_with_reader(const char* kind, TextStream packed, const s
 
 }  // namespace
 
-Result<HelperOutput> run_helper(const Helper& helper, const std::string& name) {
+HelperOutput run_helper(const Helper& helper, const std::string& name) {
   const std::string program = find_helper(helper.program);
-  if (program.empty()) return not_built_in(name, helper.kind, helper.package);
-  auto started = start(program, helper, name);
-  if (!started) return started.error();
-  std::unique_ptr<ProgramStream> bytes = std::move(started).value();
+  if (program.empty()) throw not_built_in(name, helper.kind, helper.package);
+  std::unique_ptr<ProgramStream> bytes = start(program, helper, name);
   const std::string first = bytes->line();
-  if (first.starts_with('=')) return HelperOutput{first.substr(1), std::move(bytes)};
+  if (first.starts_with('=')) return {first.substr(1), std::move(bytes)};
   const std::size_t blank = std::min(first.find(' '), first.size());
-  if (!first.starts_with('!') || blank == first.size()) return damaged(name, "the file is damaged");
-  return Error{first.substr(1, blank - 1), name + ": " + printable(first.substr(blank + 1))};
+  if (!first.starts_with('!') || blank == first.size()) throw damaged(name, "the file is damaged");
+  throw ThrownError({first.substr(1, blank - 1), name + ": " + printable(first.substr(blank + 1))});
 }
 
-Result<TextStream> open_hdf5(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+TextStream open_hdf5(TextStream packed, const std::string& name, const ContainerChoice& choice) {
   return open_with_reader("hdf5", std::move(packed), name, choice);
 }
 
-Result<TextStream> open_mat(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+TextStream open_mat(TextStream packed, const std::string& name, const ContainerChoice& choice) {
   return open_with_reader("mat", std::move(packed), name, choice);
 }
 

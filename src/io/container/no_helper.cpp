@@ -11,33 +11,32 @@ namespace {
 
 using ReadTable = NumberTable(std::string file, const std::optional<std::string>& variable, std::string& chosen);
 
-Result<TextStream> open_arrays(ReadTable* read, TextStream packed, const std::string& name,
-                               const ContainerChoice& choice) {
-  auto file = read_all(packed, name);
-  if (!file) return file.error();
+TextStream open_arrays(ReadTable* read, TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  std::string file = read_all(packed, name);
   try {
     TextStream text;
     std::string chosen;
-    text.bytes = text_of(read(std::move(file).value(), choice.variable, chosen));
+    text.bytes = text_of(read(std::move(file), choice.variable, chosen));
     text.assumed.push_back("Of the file '" + printable(chosen) + "' was read.");
     return text;
   } catch (const Refusal& refusal) {
-    return Error{refusal.error().code, name + ": " + printable(refusal.error().message)};
+    throw ThrownError({refusal.error().code, name + ": " + printable(refusal.error().message)});
   }
 }
 
 }  // namespace
 
-Result<HelperOutput> run_helper(const Helper& helper, const std::string& name) {
-  return Error{"not_built_in", name + ": " + helper.kind +
-                                   ", which slipfit cannot read in a browser; export it as text, or use the program"};
+HelperOutput run_helper(const Helper& helper, const std::string& name) {
+  throw ThrownError(
+      {"not_built_in",
+       name + ": " + helper.kind + ", which slipfit cannot read in a browser; export it as text, or use the program"});
 }
 
-Result<TextStream> open_hdf5(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+TextStream open_hdf5(TextStream packed, const std::string& name, const ContainerChoice& choice) {
   return open_arrays(read_hdf5, std::move(packed), name, choice);
 }
 
-Result<TextStream> open_mat(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+TextStream open_mat(TextStream packed, const std::string& name, const ContainerChoice& choice) {
   return open_arrays(read_mat, std::move(packed), name, choice);
 }
 

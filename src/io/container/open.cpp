@@ -46,9 +46,12 @@ class FileStream final : public ByteStream {
   std::shared_ptr<Digester> digester_;
 };
 
-Error open_error(const std::string& name, int reason) {
-  if (reason == ENOENT || reason == ENOTDIR) return {"file_not_found", name + ": no such file; check the path"};
-  return {"not_readable", name + ": cannot be opened (" + std::strerror(reason) + "); check the permissions"};
+ThrownError open_error(const std::string& name, int reason) {
+  if (reason == ENOENT || reason == ENOTDIR) {
+    return ThrownError({"file_not_found", name + ": no such file; check the path"});
+  }
+  return ThrownError(
+      {"not_readable", name + ": cannot be opened (" + std::strerror(reason) + "); check the permissions"});
 }
 
 struct OpenedBytes {
@@ -56,21 +59,21 @@ struct OpenedBytes {
   std::string start;
 };
 
-Result<OpenedBytes> open_bytes(const std::filesystem::path& file) {
+OpenedBytes open_bytes(const std::filesystem::path& file) {
   constexpr std::size_t kStart = 1024;
   const std::string name = name_of_file(file);
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
-    return Error{"is_directory", name + ": is a folder; name a file in it"};
+    throw ThrownError({"is_directory", name + ": is a folder; name a file in it"});
   }
   std::FILE* const opened = file == "-" ? ::fdopen(::dup(STDIN_FILENO), "rb") : std::fopen(file.c_str(), "rb");
-  if (opened == nullptr) return open_error(name, errno);
+  if (opened == nullptr) throw open_error(name, errno);
   std::string start(kStart, '\0');
   start.resize(std::fread(start.data(), 1, kStart, opened));
   if (std::ferror(opened) != 0) {
     const int reason = errno;
     std::fclose(opened);
-    return open_error(name, reason);
+    throw open_error(name, reason);
   }
   auto digester = std::make_shared<Digester>();
   OpenedBytes bytes{{std::make_unique<FileStream>(opened, start, digester), digester, 0, {}, {}}, start};
@@ -109,38 +112,31 @@ const Format& format_of(std::string_view start) {
 }
 
 /// An option that has no meaning in this kind of file is no option to leave unread.
-std::optional<Error> check_choice(const Format& format, const ContainerChoice& choice, const std::string& name) {
+void check_choice(const Format& format, const ContainerChoice& choice, const std::string& name) {
   for (const std::string_view option : {kSheet, kVariable}) {
     const bool is_given = (option == kSheet ? choice.sheet : choice.variable).has_value();
     if (!is_given || format.kind.empty() || format.option == option) continue;
     const std::string_view has = option == kSheet ? "sheets" : "variables";
-    return Error{"no_container",
-                 fmt::format("{}: is {}, which has no {}; leave out {}{}", name, format.kind, has, option,
-                             format.option.empty() ? "" : fmt::format(" (or choose with {})", format.option))};
+    throw ThrownError(
+        {"no_container", fmt::format("{}: is {}, which has no {}; leave out {}{}", name, format.kind, has, option,
+                                     format.option.empty() ? "" : fmt::format(" (or choose with {})", format.option))});
   }
-  return std::nullopt;
 }
 
 }  // namespace
 
-Result<TextStream> open_plain(const std::filesystem::path& file) {
-  auto opened = open_bytes(file);
-  if (!opened) return opened.error();
-  return std::move(opened).value().stream;
+TextStream open_plain(const std::filesystem::path& file) {
+  return open_bytes(file).stream;
 }
 
-Result<TextStream> open_unpacked(const std::filesystem::path& file, const ContainerChoice& choice) {
-  auto opened = open_bytes(file);
-  if (!opened) return opened.error();
-  OpenedBytes bytes = std::move(opened).value();
+TextStream open_unpacked(const std::filesystem::path& file, const ContainerChoice& choice) {
+  OpenedBytes bytes = open_bytes(file);
   const std::string name = name_of_file(file);
   const Format& format = format_of(bytes.start);
-  if (auto error = check_choice(format, choice, name)) return *std::move(error);
+  check_choice(format, choice, name);
   if (format.open == nullptr) return std::move(bytes.stream);
   auto digester = bytes.stream.digester;
-  auto unpacked = format.open(std::move(bytes.stream), name, choice);
-  if (!unpacked) return unpacked;
-  TextStream text = std::move(unpacked).value();
+  TextStream text = format.open(std::move(bytes.stream), name, choice);
   text.digester = std::move(digester);
   return text;
 }
@@ -158,9 +154,9 @@ std::optional<std::string> read_all(ByteStream& stream, std::size_t most) {
   return content;
 }
 
-Result<std::string> read_all(TextStream& packed, const std::string& name) {
+std::string read_all(TextStream& packed, const std::string& name) {
   auto content = read_all(*packed.bytes, std::size_t{2} << 30U);
-  if (!content) return too_large(name);
+  if (!content) throw too_large(name);
   return *std::move(content);
 }
 

@@ -51,44 +51,43 @@ NumberTable table_of(const std::vector<TdmsChannel>& channels, const std::string
 }
 
 /// The group with the most values, or the one that was asked for.
-Result<std::string> choose_group(const std::vector<TdmsChannel>& channels, const std::string& name,
-                                 const ContainerChoice& choice) {
+std::string choose_group(const std::vector<TdmsChannel>& channels, const std::string& name,
+                         const ContainerChoice& choice) {
   std::map<std::string, std::size_t> values;
   for (const TdmsChannel& channel : channels) {
     if (!channel.values.empty()) values[names_in(channel.path).first] += channel.values.size();
   }
-  if (values.empty()) return damaged(name, "the TDMS file holds no channel of numbers");
+  if (values.empty()) throw damaged(name, "the TDMS file holds no channel of numbers");
   std::vector<std::string> groups;
   groups.reserve(values.size());
   for (const auto& [group, count] : values) groups.push_back(group);
   if (choice.variable) {
     if (values.contains(*choice.variable)) return *choice.variable;
-    return Error{"unknown_variable", fmt::format("{}: the TDMS file holds no group '{}' with numbers but '{}'; choose "
-                                                 "one with --variable",
-                                                 name, printable(*choice.variable),
-                                                 printable(fmt::format("{}", fmt::join(groups, "', '"))))};
+    throw ThrownError(
+        {"unknown_variable",
+         fmt::format("{}: the TDMS file holds no group '{}' with numbers but '{}'; choose "
+                     "one with --variable",
+                     name, printable(*choice.variable), printable(fmt::format("{}", fmt::join(groups, "', '"))))});
   }
   return std::ranges::max_element(values, [](const auto& a, const auto& b) { return a.second < b.second; })->first;
 }
 
 }  // namespace
 
-Result<TextStream> open_tdms(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  const auto content = read_all(packed, name);
-  if (!content) return content.error();
-  const auto tdms = read_tdms(content.value());
-  if (!tdms) return damaged(name, "the TDMS file is cut off or damaged");
+TextStream open_tdms(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  const auto tdms = read_tdms(read_all(packed, name));
+  if (!tdms) throw damaged(name, "the TDMS file is cut off or damaged");
   for (const TdmsChannel& channel : tdms->channels) {
     if (!channel.is_daqmx && !channel.is_scaled) continue;
-    return Error{"daqmx_channels", fmt::format("{}: channel '{}' holds raw DAQmx data, whose scale is not read; export "
-                                               "it as scaled values or CSV",
-                                               name, printable(names_in(channel.path).second))};
+    throw ThrownError(
+        {"daqmx_channels", fmt::format("{}: channel '{}' holds raw DAQmx data, whose scale is not read; export "
+                                       "it as scaled values or CSV",
+                                       name, printable(names_in(channel.path).second))});
   }
-  const auto group = choose_group(tdms->channels, name, choice);
-  if (!group) return group.error();
+  const std::string group = choose_group(tdms->channels, name, choice);
   TextStream text;
-  text.bytes = text_of(table_of(tdms->channels, group.value()));
-  text.assumed.push_back(fmt::format("Group '{}' of the TDMS file was read.", printable(group.value())));
+  text.bytes = text_of(table_of(tdms->channels, group));
+  text.assumed.push_back(fmt::format("Group '{}' of the TDMS file was read.", printable(group)));
   if (tdms->bytes_left_over > 0) {
     text.warnings.push_back(
         {"container_cut", fmt::format("the last block of the TDMS file is cut off: its {} bytes were left out; if "

@@ -5,13 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <pugixml.hpp>
 #include <string_view>
 #include <utility>
 
-#include "io/container/excel_dates.hpp"
 #include "io/container/table_text.hpp"
 #include "io/message.hpp"
 #endif
@@ -24,6 +26,12 @@ namespace {
 constexpr std::size_t kMostSheetBytes = std::size_t{160} << 20U;  // pugixml needs some eight times this
 constexpr std::size_t kMostPartBytes = std::size_t{32} << 20U;
 constexpr std::size_t kMostColumns = 16384;  // of Excel
+
+/// What the style of a cell makes of its number.
+enum class DateStyle { None, Date, Clock };
+
+/// The day that number 0 stands for.
+enum class DateSystem { Since1900, Since1904 };
 
 struct Sheet {
   std::string name;
@@ -61,15 +69,61 @@ std::string text_below(const pugi::xml_node& node) {
 }
 
 /// An empty document where the workbook has no such part.
-Result<pugi::xml_document> part_of(const ZipArchive& archive, const std::string& path, std::size_t most,
-                                   const std::string& name) {
+pugi::xml_document part_of(const ZipArchive& archive, const std::string& path, std::size_t most,
+                           const std::string& name) {
   pugi::xml_document document;
   if (archive.find(path) == nullptr) return document;
-  auto content = archive.content(path, most);
-  if (!content) return content.error();
-  const auto parsed = document.load_buffer(content.value().data(), content.value().size(), pugi::parse_minimal);
-  if (!parsed) return damaged(name, fmt::format("'{}' of the workbook is damaged", path));
+  const std::string content = archive.content(path, most);
+  const auto parsed = document.load_buffer(content.data(), content.size(), pugi::parse_minimal);
+  if (!parsed) throw damaged(name, fmt::format("'{}' of the workbook is damaged", path));
   return document;
+}
+
+/// By the number of one of Excel's own formats (ECMA-376 part 1, 18.8.30).
+DateStyle built_in_date_style(unsigned format) {
+  if ((format >= 18 && format <= 21) || (format >= 45 && format <= 47)) return DateStyle::Clock;
+  return format >= 14 && format <= 22 ? DateStyle::Date : DateStyle::None;
+}
+
+/// By a format such as "yyyy-mm-dd hh:mm" or "[h]:mm:ss.000".
+DateStyle date_style(std::string_view format) {
+  bool has_clock = false;
+  for (std::size_t i = 0; i < format.size(); ++i) {
+    if (format[i] == '"') {
+      i = std::min(format.find('"', i + 1), format.size());
+      continue;
+    }
+    if (format[i] == '\\') {
+      ++i;
+      continue;
+    }
+    if (format[i] == '[' && format.substr(i + 1, 1).find_first_of("hHmMsS") == std::string_view::npos) {
+      i = std::min(format.find(']', i), format.size());  // a colour or a locale
+      continue;
+    }
+    const char letter = static_cast<char>(std::tolower(static_cast<unsigned char>(format[i])));
+    if (letter == 'y' || letter == 'd') return DateStyle::Date;
+    has_clock = has_clock || letter == 'h' || letter == 's';
+  }
+  return has_clock ? DateStyle::Clock : DateStyle::None;
+}
+
+/// Days as "2024-05-12 12:22:17.581000", or as hours, minutes and seconds; to the microsecond, which is what a double
+/// holds of a date.
+std::string date_text(double days, DateStyle style, DateSystem system) {
+  constexpr double kMostDays = 2958466.0;  // the year 9999
+  constexpr long long kDay_us = 86400LL * 1000000;
+  if (!(days >= 0.0 && days < kMostDays)) return "nan";
+  const auto microseconds = std::llround(days * static_cast<double>(kDay_us));
+  const auto clock = [](long long us) {
+    return fmt::format("{:02}:{:02}:{:02}.{:06}", us / 3600000000, us / 60000000 % 60, us / 1000000 % 60, us % 1000000);
+  };
+  if (style == DateStyle::Clock) return clock(microseconds);
+  using namespace std::chrono;
+  const sys_days zero = system == DateSystem::Since1900 ? sys_days{year{1899} / 12 / 30} : sys_days{year{1904} / 1 / 1};
+  const year_month_day day{zero + std::chrono::days{microseconds / kDay_us}};
+  return fmt::format("{:04}-{:02}-{:02} {}", static_cast<int>(day.year()), static_cast<unsigned>(day.month()),
+                     static_cast<unsigned>(day.day()), clock(microseconds % kDay_us));
 }
 
 std::vector<DateStyle> styles_of(const pugi::xml_document& document) {
@@ -87,28 +141,24 @@ std::vector<DateStyle> styles_of(const pugi::xml_document& document) {
   return styles;
 }
 
-Result<Workbook> read_workbook(const ZipArchive& archive, const std::string& name) {
-  const auto book = part_of(archive, "xl/workbook.xml", kMostPartBytes, name);
-  if (!book) return book.error();
-  const auto links = part_of(archive, "xl/_rels/workbook.xml.rels", kMostPartBytes, name);
-  if (!links) return links.error();
-  const auto strings = part_of(archive, "xl/sharedStrings.xml", kMostPartBytes, name);
-  if (!strings) return strings.error();
-  const auto styles = part_of(archive, "xl/styles.xml", kMostPartBytes, name);
-  if (!styles) return styles.error();
+Workbook read_workbook(const ZipArchive& archive, const std::string& name) {
+  const auto part = [&](const char* path) { return part_of(archive, path, kMostPartBytes, name); };
+  const pugi::xml_document book = part("xl/workbook.xml");
+  const pugi::xml_document links = part("xl/_rels/workbook.xml.rels");
+  const pugi::xml_document strings = part("xl/sharedStrings.xml");
   Workbook workbook;
-  const pugi::xml_node root = book.value().document_element();
+  const pugi::xml_node root = book.document_element();
   if (child(root, "workbookPr").attribute("date1904").as_bool()) workbook.system = DateSystem::Since1904;
   for (const pugi::xml_node sheet : child(root, "sheets")) {
     const char* const id = sheet.attribute("r:id").value();
-    const pugi::xml_node link = links.value().document_element().find_child_by_attribute("Id", id);
+    const pugi::xml_node link = links.document_element().find_child_by_attribute("Id", id);
     const std::string target = link.attribute("Target").value();
     const std::string path = target.starts_with('/') ? target.substr(1) : "xl/" + target;
     const ZipMember* const member = archive.find(path);
     if (member != nullptr) workbook.sheets.push_back({sheet.attribute("name").value(), path, member->unpacked});
   }
-  for (const pugi::xml_node string : strings.value().document_element()) workbook.strings.push_back(text_below(string));
-  workbook.styles = styles_of(styles.value());
+  for (const pugi::xml_node string : strings.document_element()) workbook.strings.push_back(text_below(string));
+  workbook.styles = styles_of(part("xl/styles.xml"));
   return workbook;
 }
 
@@ -137,7 +187,7 @@ std::string cell_text(const pugi::xml_node& cell, const Workbook& workbook) {
   return date_text(std::strtod(value, nullptr), date, workbook.system);
 }
 
-Result<std::string> sheet_text(const pugi::xml_document& sheet, const Workbook& workbook, const std::string& name) {
+std::string sheet_text(const pugi::xml_document& sheet, const Workbook& workbook, const std::string& name) {
   std::string text;
   std::size_t width = 0;
   for (const pugi::xml_node row : child(sheet.document_element(), "sheetData")) {
@@ -146,7 +196,7 @@ Result<std::string> sheet_text(const pugi::xml_document& sheet, const Workbook& 
       width = std::max(width, next);
     }
   }
-  if (width > kMostColumns) return damaged(name, "a cell of the sheet lies beyond the last column");
+  if (width > kMostColumns) throw damaged(name, "a cell of the sheet lies beyond the last column");
   std::vector<std::string> cells(width);
   for (const pugi::xml_node row : child(sheet.document_element(), "sheetData")) {
     std::size_t used = 0;
@@ -161,34 +211,27 @@ Result<std::string> sheet_text(const pugi::xml_document& sheet, const Workbook& 
       cells[c].clear();
     }
     text += '\n';
-    if (text.size() > kMostSheetBytes) return too_large(name);
+    if (text.size() > kMostSheetBytes) throw too_large(name);
   }
   return text;
 }
 
 }  // namespace
 
-Result<TextStream> open_workbook(const ZipArchive& archive, const std::string& name, const ContainerChoice& choice) {
-  const auto workbook = read_workbook(archive, name);
-  if (!workbook) return workbook.error();
-  const std::vector<Sheet>& sheets = workbook.value().sheets;
-  if (sheets.empty()) return damaged(name, "the workbook holds no sheet");
+TextStream open_workbook(const ZipArchive& archive, const std::string& name, const ContainerChoice& choice) {
+  const Workbook workbook = read_workbook(archive, name);
+  const std::vector<Sheet>& sheets = workbook.sheets;
+  if (sheets.empty()) throw damaged(name, "the workbook holds no sheet");
   std::vector<std::string> names;
   names.reserve(sheets.size());
   for (const Sheet& sheet : sheets) names.push_back(sheet.name);
   const auto largest =
       std::ranges::max_element(sheets, [](const Sheet& a, const Sheet& b) { return a.bytes < b.bytes; });
-  const auto at = choice.sheet ? find_named(names, *choice.sheet, name)
-                               : Result<std::size_t>(static_cast<std::size_t>(largest - sheets.begin()));
-  if (!at) return at.error();
-  const Sheet& chosen = sheets[at.value()];
-  const auto document = part_of(archive, chosen.path, kMostSheetBytes, name);
-  if (!document) return document.error();
-  auto text = sheet_text(document.value(), workbook.value(), name);
-  if (!text) return text.error();
+  const Sheet& chosen = choice.sheet ? sheets[find_named(names, *choice.sheet, name)] : *largest;
+  std::string text = sheet_text(part_of(archive, chosen.path, kMostSheetBytes, name), workbook, name);
   TextStream stream;
-  stream.size = text.value().size();
-  stream.bytes = text_of(std::move(text).value());
+  stream.size = text.size();
+  stream.bytes = text_of(std::move(text));
   stream.assumed.push_back(
       sheets.size() == 1 ? fmt::format("Sheet '{}' of the workbook was read.", printable(chosen.name))
                          : fmt::format("Sheet '{}' of {} in the workbook was read{}.", printable(chosen.name),
@@ -198,9 +241,8 @@ Result<TextStream> open_workbook(const ZipArchive& archive, const std::string& n
 
 #else
 
-Result<TextStream> open_workbook(const ZipArchive& /*archive*/, const std::string& name,
-                                 const ContainerChoice& /*choice*/) {
-  return not_built_in(name, "a workbook (.xlsx)", "libpugixml-dev");
+TextStream open_workbook(const ZipArchive& /*archive*/, const std::string& name, const ContainerChoice& /*choice*/) {
+  throw not_built_in(name, "a workbook (.xlsx)", "libpugixml-dev");
 }
 
 #endif

@@ -83,14 +83,14 @@ class MemberStream final : public ByteStream {
     std::size_t count = 0;
     while (count < size && !ended_) {
       const int got = unzReadCurrentFile(file_, buffer + count, static_cast<unsigned>(size - count));
-      if (got < 0) throw ThrownError(damaged(name_, "the zip archive is damaged"));
+      if (got < 0) throw damaged(name_, "the zip archive is damaged");
       count += static_cast<std::size_t>(got);
       ended_ = got == 0;
     }
     unpacked_ += count;
-    if (is_bomb(unpacked_, stored_)) throw ThrownError(too_large(name_));
+    if (is_bomb(unpacked_, stored_)) throw too_large(name_);
     if (ended_ && !checked_ && unzCloseCurrentFile(file_) == UNZ_CRCERROR) {
-      throw ThrownError(damaged(name_, "the zip archive is damaged (checksum)"));
+      throw damaged(name_, "the zip archive is damaged (checksum)");
     }
     checked_ = ended_;
     return count;
@@ -114,20 +114,20 @@ bool is_file(const ZipMember& member) {
 
 }  // namespace
 
-Result<ZipArchive> ZipArchive::open(std::string content, const std::string& name) {
+ZipArchive ZipArchive::open(std::string content, const std::string& name) {
   ZipArchive archive;
   archive.name_ = name;
   archive.handle_ = std::make_shared<Handle>(std::move(content));
   unzFile const file = archive.handle_->file;
-  if (file == nullptr) return damaged(name, "begins like a zip archive but is none, or is cut off");
+  if (file == nullptr) throw damaged(name, "begins like a zip archive but is none, or is cut off");
   for (int status = unzGoToFirstFile(file); status == UNZ_OK; status = unzGoToNextFile(file)) {
     unz_file_info64 info{};
     std::array<char, 1024> member{};
     if (unzGetCurrentFileInfo64(file, &info, member.data(), member.size() - 1, nullptr, 0, nullptr, 0) != UNZ_OK) {
-      return damaged(name, "the zip archive is damaged");
+      throw damaged(name, "the zip archive is damaged");
     }
     archive.members_.push_back({member.data(), info.uncompressed_size, info.compressed_size});
-    if (archive.members_.size() > kMostMembers) return too_large(name);
+    if (archive.members_.size() > kMostMembers) throw too_large(name);
   }
   return archive;
 }
@@ -137,65 +137,53 @@ const ZipMember* ZipArchive::find(const std::string& member) const {
   return found == members_.end() ? nullptr : &*found;
 }
 
-Result<std::unique_ptr<ByteStream>> ZipArchive::stream(ZipArchive archive, const std::string& member) {
-  unzFile const file = archive.handle_->file;
-  const ZipMember* const found = archive.find(member);
+std::unique_ptr<ByteStream> ZipArchive::stream(const std::string& member) const {
+  unzFile const file = handle_->file;
+  const ZipMember* const found = find(member);
   if (found == nullptr || unzLocateFile(file, member.c_str(), 1) != UNZ_OK || unzOpenCurrentFile(file) != UNZ_OK) {
-    return damaged(archive.name_, fmt::format("'{}' in it cannot be unpacked (encrypted, damaged, or packed by another "
-                                              "method than deflate)",
-                                              printable(member)));
+    throw damaged(name_, fmt::format("'{}' in it cannot be unpacked (encrypted, damaged, or packed by another "
+                                     "method than deflate)",
+                                     printable(member)));
   }
-  return std::unique_ptr<ByteStream>(
-      std::make_unique<MemberStream>(file, archive.handle_, archive.name_, found->stored));
+  return std::make_unique<MemberStream>(file, handle_, name_, found->stored);
 }
 
-Result<std::string> ZipArchive::content(const std::string& member, std::size_t most) const {
-  auto opened = stream(*this, member);
-  if (!opened) return opened.error();
-  auto text = read_all(*opened.value(), most);
-  if (!text) return too_large(name_);
+std::string ZipArchive::content(const std::string& member, std::size_t most) const {
+  auto text = read_all(*stream(member), most);
+  if (!text) throw too_large(name_);
   return *std::move(text);
 }
 
-Result<TextStream> open_zip(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  auto content = read_all(packed, name);
-  if (!content) return content.error();
-  auto opened = ZipArchive::open(std::move(content).value(), name);
-  if (!opened) return opened.error();
-  ZipArchive archive = std::move(opened).value();
+TextStream open_zip(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  const ZipArchive archive = ZipArchive::open(read_all(packed, name), name);
   if (archive.find("xl/workbook.xml") != nullptr) return open_workbook(archive, name, choice);
   std::vector<std::string> names;
   for (const ZipMember& member : archive.members()) {
     if (is_file(member)) names.push_back(member.name);
   }
-  if (names.empty()) return damaged(name, "the zip archive holds no file");
+  if (names.empty()) throw damaged(name, "the zip archive holds no file");
   if (names.size() > 1 && !choice.sheet) {
-    return Error{"unknown_sheet",
-                 fmt::format("{}: the zip archive holds {} files ({}, {}, ...); unpack it, or name one "
-                             "with --sheet",
-                             name, names.size(), printable(names[0]), printable(names[1]))};
+    throw ThrownError(
+        {"unknown_sheet", fmt::format("{}: the zip archive holds {} files ({}, {}, ...); unpack it, or name one "
+                                      "with --sheet",
+                                      name, names.size(), printable(names[0]), printable(names[1]))});
   }
-  const auto at = choice.sheet ? find_named(names, *choice.sheet, name) : Result<std::size_t>(0);
-  if (!at) return at.error();
-  const std::string member = names[at.value()];
-  auto bytes = ZipArchive::stream(std::move(archive), member);
-  if (!bytes) return bytes.error();
+  const std::string member = names[choice.sheet ? find_named(names, *choice.sheet, name) : 0];
   TextStream text;
-  text.bytes = std::move(bytes).value();
+  text.bytes = archive.stream(member);
   text.assumed.push_back(fmt::format("The file is packed (zip): '{}' was read.", printable(member)));
   return text;
 }
 
 #else
 
-Result<TextStream> open_zip(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
-  return not_built_in(name, "a zip archive or a workbook (.xlsx)", "zlib1g-dev, libminizip-dev and libpugixml-dev");
+TextStream open_zip(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
+  throw not_built_in(name, "a zip archive or a workbook (.xlsx)", "zlib1g-dev, libminizip-dev and libpugixml-dev");
 }
 
 #endif
 
-Result<std::size_t> find_named(const std::vector<std::string>& names, const std::string& wanted,
-                               const std::string& file) {
+std::size_t find_named(const std::vector<std::string>& names, const std::string& wanted, const std::string& file) {
   const auto found = std::ranges::find(names, wanted);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   if (const auto place = place_in_list(wanted, names.size())) return *place;
@@ -204,8 +192,8 @@ Result<std::size_t> find_named(const std::vector<std::string>& names, const std:
   for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i) {
     list += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i + 1, printable(names[i]));
   }
-  return Error{"unknown_sheet", fmt::format("{}: holds no '{}' but {}{}; choose one with --sheet", file,
-                                            printable(wanted), list, names.size() > kMostListed ? ", ..." : "")};
+  throw ThrownError({"unknown_sheet", fmt::format("{}: holds no '{}' but {}{}; choose one with --sheet", file,
+                                                  printable(wanted), list, names.size() > kMostListed ? ", ..." : "")});
 }
 
 }  // namespace slipfit::reading

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "io/container/byte_stream.hpp"
-#include "slipfit/core/result.hpp"
 
 namespace slipfit::reading {
 
@@ -20,14 +19,14 @@ struct ZipMember {
 class ZipArchive {
  public:
   /// Of its bytes. Errors: damaged_container, container_too_large.
-  static Result<ZipArchive> open(std::string content, const std::string& name);
+  static ZipArchive open(std::string content, const std::string& name);
 
   [[nodiscard]] const std::vector<ZipMember>& members() const { return members_; }
   [[nodiscard]] const ZipMember* find(const std::string& member) const;
-  /// One at a time; the archive goes into it. Throws ThrownError while it is read.
-  static Result<std::unique_ptr<ByteStream>> stream(ZipArchive archive, const std::string& member);
+  /// One at a time; it keeps what the archive rests on.
+  [[nodiscard]] std::unique_ptr<ByteStream> stream(const std::string& member) const;
   /// The whole of a member of at most `most` bytes. Errors: damaged_container, container_too_large.
-  [[nodiscard]] Result<std::string> content(const std::string& member, std::size_t most) const;
+  [[nodiscard]] std::string content(const std::string& member, std::size_t most) const;
 
  private:
   struct Handle;
@@ -37,10 +36,9 @@ class ZipArchive {
 };
 
 /// A workbook (.xlsx) as CSV. Errors: damaged_container, container_too_large, unknown_sheet, not_built_in.
-Result<TextStream> open_workbook(const ZipArchive& archive, const std::string& name, const ContainerChoice& choice);
+TextStream open_workbook(const ZipArchive& archive, const std::string& name, const ContainerChoice& choice);
 
 /// The place of a part by its name, else by its 1-based number. Error: unknown_sheet, with the names listed.
-Result<std::size_t> find_named(const std::vector<std::string>& names, const std::string& wanted,
-                               const std::string& file);
+std::size_t find_named(const std::vector<std::string>& names, const std::string& wanted, const std::string& file);
 
 }  // namespace slipfit::reading

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/student.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
@@ -147,7 +148,7 @@ Estimate spacing_on_surface(const Conditions& conditions) {
   const std::optional<double>& stated_m = conditions.measured_spacing_m;
   const std::optional<double>& se_m = conditions.measured_spacing_se_m;
   if (!stated_m || !se_m) return {stated_m, {}, {}, {}};
-  return {stated_m, se_m, Interval{*stated_m - 1.96 * *se_m, *stated_m + 1.96 * *se_m}, {}};
+  return symmetric(*stated_m, *se_m);
 }
 
 DisplayUnit speed_unit_of(const SweepSource& source) {

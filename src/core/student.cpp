@@ -1,10 +1,10 @@
-#include "fit/inference/student.hpp"
+#include "core/student.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-namespace slipfit::fit {
+namespace slipfit {
 
 using StudentsT = boost::math::students_t_distribution<double>;
 
@@ -16,9 +16,13 @@ double t_chance(double t, double degrees_of_freedom) {
   return 2.0 * boost::math::cdf(boost::math::complement(StudentsT(std::max(1.0, degrees_of_freedom)), std::abs(t)));
 }
 
+double students_factor(double degrees_of_freedom) {
+  return t_quantile(std::max(2.0, degrees_of_freedom)) / kNormalQuantile;
+}
+
 Estimate symmetric(double value, double se, double degrees_of_freedom) {
   const double half = t_quantile(degrees_of_freedom) * se;
   return {value, se, Interval{value - half, value + half}, {}};
 }
 
-}  // namespace slipfit::fit
+}  // namespace slipfit

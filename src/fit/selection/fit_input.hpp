@@ -1,0 +1,18 @@
+#pragma once
+
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/parameter.hpp"
+#include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
+
+namespace slipfit::fit {
+
+/// A recording as its fits see it. What it refers to outlives them.
+struct FitInput {
+  const Recording& recording;
+  const Quality& quality;
+  const Segmentation& segmentation;
+  const HeldParameters& held;  ///< by the user, or by what is known beside the slips
+};
+
+}  // namespace slipfit::fit
