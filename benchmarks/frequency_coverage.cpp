@@ -43,7 +43,7 @@ struct Tally {
 
 Estimate of_spectrum(const slipfit::SpectralFrequency& spectral, double degrees_of_freedom) {
   if (!spectral.value_Hz || !spectral.standard_error_Hz) return {};
-  return slipfit::fit::symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, degrees_of_freedom));
+  return slipfit::symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, degrees_of_freedom));
 }
 
 void study(const std::string& name, const Factors& factors, std::size_t recordings, std::uint64_t seed) {

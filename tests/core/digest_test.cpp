@@ -14,7 +14,7 @@ TEST_CASE("the digest is that of xxh128sum") {
 TEST_CASE("the digest does not depend on the pieces in which the bytes come") {
   std::string bytes;
   for (int i = 0; i < 5000; ++i) bytes += static_cast<char>(i * i % 251);
-  for (const std::size_t piece : {1, 7, 64, 240, 4096}) {
+  for (const std::size_t piece : {1U, 7U, 64U, 240U, 4096U}) {
     slipfit::Digester digester;
     for (std::size_t i = 0; i < bytes.size(); i += piece) digester.add(std::string_view(bytes).substr(i, piece));
     CHECK(digester.digest() == digest_of(bytes));
