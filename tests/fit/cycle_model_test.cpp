@@ -195,7 +195,7 @@ TEST_CASE("the residual of steady sliding and its derivatives") {
   for (const double rate : {-2.0, 1e-6, 0.7}) {
     const Globals globals{std::log(500.0), std::log(90.0), 0.05, 0.04, rate};
     const double level = 0.7;
-    const SteadyResidual steady = steady_residual(run, units, FrictionLaw::Exponential, globals.data(), level);
+    const SteadyResidual steady = steady_residual(run, units, FrictionLaw::Exponential, globals, level);
     // F_k(V) = load (F_k(0+) + b (exp(alpha V) - 1) / alpha), with the slope b that makes the mean slope up to v_c
     // right
     const double alpha = rate / units.slip_speed_m_per_s;
@@ -209,8 +209,8 @@ TEST_CASE("the residual of steady sliding and its derivatives") {
       Globals below = globals;
       above[i] += h;
       below[i] -= h;
-      const double difference = steady_residual(run, units, FrictionLaw::Exponential, above.data(), level).value -
-                                steady_residual(run, units, FrictionLaw::Exponential, below.data(), level).value;
+      const double difference = steady_residual(run, units, FrictionLaw::Exponential, above, level).value -
+                                steady_residual(run, units, FrictionLaw::Exponential, below, level).value;
       CHECK(steady.by_global[i] == Approx(difference / (2.0 * h)).epsilon(1e-6).margin(1e-6));
     }
   }

@@ -81,7 +81,7 @@ TEST_CASE("fit: eliminating the cycles' own parameters gives the least squares o
   const VectorXd expected = -jacobian.colPivHouseholderQr().solve(residuals);
 
   RowMajor rows = scene.elimination.common();
-  factorise(rows, kCommon);
+  factorise(rows, scene.elimination.common_squares());
   const MatrixXd factor = rows.topLeftCorner(kCommon, kCommon).triangularView<Eigen::Upper>();
   const VectorXd common = -factor.triangularView<Eigen::Upper>().solve(rows.col(kCommon).head(kCommon));
   const std::vector<double> own = scene.elimination.own_steps(common, 1.0);
@@ -105,6 +105,22 @@ TEST_CASE("fit: own parameters alone go to their least squares, or a share of th
     CHECK(own[static_cast<std::size_t>(i)] == Approx(share * expected(i)).epsilon(1e-10));
 }
 
+TEST_CASE("fit: common parameters that the cycles' own can replace are left where they are") {
+  std::mt19937_64 random(73);
+  std::normal_distribution<double> normal;
+  const std::vector<Index> columns{0, 1};
+  Elimination elimination(2, 0.0);
+  for (Index cycle = 0; cycle < kCycles; ++cycle) {
+    MatrixXd lines = MatrixXd::NullaryExpr(kRows, 2 + kOwn + 1, [&] { return normal(random); });
+    lines.col(1) = lines.col(2) + 0.3 * lines.col(3);  // nothing of its own
+    elimination.add_cycle(lines.transpose() * lines, columns, nullptr);
+  }
+  RowMajor rows = elimination.common();
+  factorise(rows, elimination.common_squares());
+  CHECK(rows(0, 0) > 0.1);
+  CHECK(rows.row(1).isZero(0.0));
+}
+
 TEST_CASE("fit: a parameter without influence of its own leaves a row of zeros and the rest as it is") {
   std::mt19937_64 random(72);
   std::normal_distribution<double> normal;
@@ -113,7 +129,7 @@ TEST_CASE("fit: a parameter without influence of its own leaves a row of zeros a
   lines.col(4) = 2.0 * lines.col(3);
   const MatrixXd square = lines.transpose() * lines;
   RowMajor rows = square;
-  factorise(rows, 7);
+  factorise(rows, square.diagonal().head(7));
   CHECK(rows.row(2).isZero(0.0));
   CHECK(rows.row(4).tail(4).isZero(0.0));
   const MatrixXd factor = rows.topRows(7).triangularView<Eigen::Upper>();

@@ -350,3 +350,25 @@ TEST_CASE("sweep: friction coefficients where the normal forces are stated, and 
     CHECK(std::abs(*friction.value - truth_N) < 4.0 * *friction.standard_error);
   }
 }
+
+TEST_CASE("sweep: under Coulomb friction a steady recording is a value of F_k, and the law stays Coulomb's") {
+  SweepScene scene;
+  scene.f0_N = 2.0;
+  scene.f1_N = 0.0;
+  std::vector<SweepEntry> entries = test::record_sweep(scene, {0.005, 0.01, 0.02});
+  std::mt19937_64 random(81);
+  std::normal_distribution<double> noise(scene.kinetic_friction_N(), scene.noise_N);
+  std::vector<double> time_s;
+  std::vector<double> force_N;
+  for (int i = 0; i < 4000; ++i) {
+    time_s.push_back(1e-3 * i);
+    force_N.push_back(noise(random));
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = 0.2;
+  entries.push_back({"steady", Recording::create(time_s, force_N, conditions).value()});
+  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  REQUIRE(sweep.fit);
+  CHECK(sweep.fit->result.tier == Tier::Damped);
+  check_recovery(sweep, scene);
+}

@@ -40,7 +40,7 @@ Normal normal_of(Linearised lines, std::vector<Index> columns) {
 Normal normal_of(const SteadyRun& run, const Problem& problem, const CommonColumns& columns) {
   const Parameters& parameters = problem.recordings.front().parameters;
   const SteadyResidual steady = steady_residual(run, problem.sweep.units, problem.recordings.front().scales().law,
-                                                parameters.globals.data(), parameters.level.front());
+                                                parameters.globals, parameters.level.front());
   std::vector<Index> of_row = columns.of_steady(problem.recordings.front().model(0).globals());
   const Index globals = static_cast<Index>(of_row.size()) - 1;
   Linearised lines{VectorXd::Constant(1, steady.value), MatrixXd(1, globals + 1), MatrixXd(1, 0)};

@@ -169,9 +169,11 @@ bool Bundle::add_steady(Point& point) const {
   if (!problem_.sweep.sharing.level) return true;
   const FrictionLaw law = problem_.recordings.front().scales().law;
   const auto size = static_cast<Index>(of_steady_.size());
+  Globals globals{};
+  std::copy_n(point.common.data(), size - 1, globals.begin());
   for (const SteadyRun& run : problem_.sweep.steady) {
     const SteadyResidual steady =
-        steady_residual(run, problem_.sweep.units, law, point.common.data(), point.common(of_steady_.back()));
+        steady_residual(run, problem_.sweep.units, law, globals, point.common(of_steady_.back()));
     Eigen::RowVectorXd row(size + 1);
     for (Index i = 0; i + 1 < size; ++i) row(i) = steady.by_global[static_cast<std::size_t>(i)];
     row(size - 1) = steady.by_level;

@@ -6,11 +6,10 @@ namespace slipfit::fit {
 
 using Eigen::Index;
 
-void factorise(RowMajor& normal, Index rows) {
-  constexpr double kRounding = 1e-15;
+void factorise(RowMajor& normal, const Eigen::VectorXd& whole) {
+  constexpr double kRounding = 1e-13;  // of sums of products over all cycles
   const Index size = normal.cols();
-  const Eigen::VectorXd whole = normal.diagonal().head(rows);
-  for (Index k = 0; k < rows; ++k) {
+  for (Index k = 0; k < whole.size(); ++k) {
     auto row = normal.row(k).tail(size - k);
     if (!(normal(k, k) > kRounding * whole(k))) {
       row.setZero();
@@ -56,7 +55,7 @@ void Elimination::add_cycle(const RowMajor& normal, const std::vector<Index>& co
   }
   add_squares(work_, first, columns);
   work_.diagonal().head(own) *= 1.0 + damping_;
-  factorise(work_, own);
+  factorise(work_, work_.diagonal().head(own));
   keep(own, next, columns);
   pending_ = work_.block(own, own, next, next + common + 1);
   add_scattered(work_, first, columns);

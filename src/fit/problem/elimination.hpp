@@ -60,9 +60,9 @@ class Elimination {
   std::vector<Rows> cycles_;
 };
 
-/// Replaces the first `rows` rows of the upper triangle of a normal matrix by those of its Cholesky factor R, and the
-/// rest by what remains of it without these parameters. A parameter without influence of its own, whose pivot is
-/// nothing but rounding, leaves a row of zeros.
-void factorise(RowMajor& normal, Eigen::Index rows);
+/// Replaces the first rows of the upper triangle of a normal matrix by those of its Cholesky factor R, and the rest by
+/// what remains of it without these parameters. `whole`: their diagonal before any other parameter was eliminated. A
+/// parameter without influence of its own, whose pivot is nothing but rounding of it, leaves a row of zeros.
+void factorise(RowMajor& normal, const Eigen::VectorXd& whole);
 
 }  // namespace slipfit::fit

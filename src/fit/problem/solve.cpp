@@ -81,7 +81,7 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
   void put(const Bundle::Point& point, double* residuals, double* jacobian) const {
     const Index common = bundle_.common();
     RowMajor rows = point.normal.common();
-    factorise(rows, common);
+    factorise(rows, point.normal.common_squares());
     Eigen::Map<Eigen::VectorXd> r(residuals, common + 2);
     r.head(common) = rows.col(common).head(common);
     r(common + 1) = std::sqrt(point.normal.own_gain());

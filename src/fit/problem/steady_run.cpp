@@ -7,7 +7,7 @@
 namespace slipfit::fit {
 
 /// F_k(V) = F_k(0+) + G g(V) / g(v_c), G = 2 v_c sqrt(k m) times kFrictionSlope. docs/model.md section 5
-SteadyResidual steady_residual(const SteadyRun& run, const Units& units, FrictionLaw law, const double* globals,
+SteadyResidual steady_residual(const SteadyRun& run, const Units& units, FrictionLaw law, const Globals& globals,
                                double level) {
   const double a = globals[kFrictionRate];
   const double speed = run.speed_m_per_s / units.slip_speed_m_per_s;

@@ -18,7 +18,7 @@ struct SteadyResidual {
   Globals by_global{};
   double by_level = 0.0;
 };
-SteadyResidual steady_residual(const SteadyRun& run, const Units& units, FrictionLaw law, const double* globals,
+SteadyResidual steady_residual(const SteadyRun& run, const Units& units, FrictionLaw law, const Globals& globals,
                                double level);
 
 }  // namespace slipfit::fit
