@@ -47,6 +47,21 @@ void check_recovery(const SweepAnalysis& sweep, const SweepScene& s) {
   }
 }
 
+/// A constant force with noise, for 4 s.
+Recording steady_recording(double force_N, double noise_N, double speed_m_per_s, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> noise(force_N, noise_N);
+  std::vector<double> time_s;
+  std::vector<double> forces_N;
+  for (int i = 0; i < 4000; ++i) {
+    time_s.push_back(1e-3 * i);
+    forces_N.push_back(noise(random));
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = speed_m_per_s;
+  return Recording::create(std::move(time_s), std::move(forces_N), conditions).value();
+}
+
 /// A sweep whose recordings differ in more than the speed.
 std::vector<SweepEntry> record_each(const std::vector<double>& speeds_m_per_s,
                                     const std::function<SweepScene(std::size_t)>& scene_of) {
@@ -90,17 +105,7 @@ TEST_CASE("sweep: a steadily sliding recording pins the kinetic friction at its 
   const double truth_N = scene.f0_N + scene.f1_N * std::exp(scene.alpha_s_per_m * kFast_m_per_s);
   std::vector<SweepEntry> entries = test::record_sweep(scene, kSpeeds);
   const SweepAnalysis without = analyze_sweep(entries, {});
-  std::mt19937_64 random(31);
-  std::normal_distribution<double> noise(truth_N, scene.noise_N);
-  std::vector<double> time_s;
-  std::vector<double> force_N;
-  for (int i = 0; i < 4000; ++i) {
-    time_s.push_back(1e-3 * i);
-    force_N.push_back(noise(random));
-  }
-  Conditions conditions;
-  conditions.speed_m_per_s = kFast_m_per_s;
-  entries.push_back({"fast", Recording::create(std::move(time_s), std::move(force_N), conditions).value()});
+  entries.push_back({"fast", steady_recording(truth_N, scene.noise_N, kFast_m_per_s, 31)});
   const SweepAnalysis sweep = analyze_sweep(entries, {});
   REQUIRE(without.fit);
   REQUIRE(sweep.fit);
@@ -356,17 +361,7 @@ TEST_CASE("sweep: under Coulomb friction a steady recording is a value of F_k, a
   scene.f0_N = 2.0;
   scene.f1_N = 0.0;
   std::vector<SweepEntry> entries = test::record_sweep(scene, {0.005, 0.01, 0.02});
-  std::mt19937_64 random(81);
-  std::normal_distribution<double> noise(scene.kinetic_friction_N(), scene.noise_N);
-  std::vector<double> time_s;
-  std::vector<double> force_N;
-  for (int i = 0; i < 4000; ++i) {
-    time_s.push_back(1e-3 * i);
-    force_N.push_back(noise(random));
-  }
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.2;
-  entries.push_back({"steady", Recording::create(time_s, force_N, conditions).value()});
+  entries.push_back({"steady", steady_recording(scene.kinetic_friction_N(), scene.noise_N, 0.2, 81)});
   const SweepAnalysis sweep = analyze_sweep(entries, {});
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Damped);

@@ -183,13 +183,13 @@ NewtonStep newton_step(const Problem& problem, const std::vector<Normal>& normal
   NewtonStep result;
   for (const Normal& normal : normals) {
     const Unit unit = eliminate(normal, common, 0, held);
-    const double bound = huber_bound(static_cast<std::size_t>(normal.residuals.size()));
-    const double root = normal.residuals.norm();
-    const bool is_far = normal.local.rows() > 0 && root > bound;
-    const double weight = is_far ? bound / root : 1.0;
-    add_scattered(weight * unit.hessian, normal.columns, hessian);
-    gradient += weight * unit.score;
-    result.sum_of_squares += is_far ? 2.0 * bound * root - bound * bound : root * root;
+    const double norm = normal.residuals.norm();
+    const bool is_cycle = normal.local.rows() > 0;
+    const HuberWeight weight = is_cycle ? huber_weight(norm, static_cast<std::size_t>(normal.residuals.size()))
+                                        : HuberWeight{1.0, norm * norm};
+    add_scattered(weight.factor * unit.hessian, normal.columns, hessian);
+    gradient += weight.factor * unit.score;
+    result.sum_of_squares += weight.sum;
   }
   hold_rows(hessian, held);
   result.step = -hessian.ldlt().solve(gradient);

@@ -5,7 +5,7 @@
 
 #include "fit/coordinates.hpp"
 #include "fit/inference/normals.hpp"
-#include "fit/problem/solve.hpp"
+#include "fit/problem/solve_options.hpp"
 
 namespace slipfit::fit {
 

@@ -42,9 +42,9 @@ std::array<Rows, kSegments> stretches_of(const BlockFit& fit, std::size_t cycle)
   return stretches;
 }
 
-/// As the fit was weighted: a cycle far worse than the others counts linearly (SolveOptions::robust).
+/// As the fit was weighted.
 double weight_of(const Linearised& cycle) {
-  return std::min(1.0, huber_bound(static_cast<std::size_t>(cycle.residuals.size())) / cycle.residuals.norm());
+  return huber_weight(cycle.residuals.norm(), static_cast<std::size_t>(cycle.residuals.size())).factor;
 }
 
 class SegmentInfluence {

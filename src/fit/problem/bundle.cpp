@@ -42,17 +42,6 @@ class Gathered {
   CycleValues shared_;
 };
 
-/// What a cycle far worse than the others counts (Huber): the factor of its squares, and what they lack of the sum.
-struct Weight {
-  double factor = 1.0;
-  double rest = 0.0;
-};
-Weight weight_of(double sum, std::size_t residuals) {
-  const double bound = huber_bound(residuals);
-  const double norm = std::sqrt(sum);
-  return norm > bound ? Weight{bound / norm, bound * (norm - bound)} : Weight{};
-}
-
 }  // namespace
 
 Bundle::Bundle(const Problem& problem, const SolveOptions& options)
@@ -66,15 +55,8 @@ std::optional<Bundle::Point> Bundle::start(double damping) const {
   Eigen::VectorXd common(columns_.size());
   std::vector<Local> cycles;
   for (std::size_t r = problem_.recordings.size(); r-- > 0;) {  // what is shared is the first one's
-    const Parameters& p = problem_.recordings[r].parameters;
-    const CycleModel& any = problem_.recordings[r].model(0);
-    for (std::size_t i = 0; i < any.globals(); ++i) common(static_cast<Index>(i)) = p.globals[i];
-    if (columns_.exponent()) common(*columns_.exponent()) = p.exponent;
-    if (any.has_difference()) common(columns_.difference(r)) = p.difference;
-    const std::size_t constants = any.has_constant() ? 1 : 0;
-    if (constants > 0) common(columns_.level(r)) = p.level.front();
-    for (std::size_t i = 0; i < any.drift_parameters(); ++i)
-      common(columns_.drift(r) + static_cast<Index>(i)) = p.level[constants + i];
+    columns_.visit(r, problem_.recordings[r], problem_.recordings[r].parameters,
+                   [&](Index column, double value) { common(column) = value; });
   }
   for (const BlockFit& recording : problem_.recordings)
     cycles.insert(cycles.end(), recording.parameters.cycles.begin(), recording.parameters.cycles.end());
@@ -99,16 +81,9 @@ std::optional<Bundle::Point> Bundle::moved(const Point& from, const Eigen::Vecto
 void Bundle::put(const Point& point, std::span<BlockFit> recordings) const {
   auto next = point.cycles.begin();
   for (std::size_t r = 0; r < recordings.size(); ++r) {
-    Parameters& p = recordings[r].parameters;
-    const CycleModel& any = recordings[r].model(0);
-    for (std::size_t i = 0; i < any.globals(); ++i) p.globals[i] = point.common(static_cast<Index>(i));
-    if (columns_.exponent()) p.exponent = point.common(*columns_.exponent());
-    if (any.has_difference()) p.difference = point.common(columns_.difference(r));
-    const std::size_t constants = any.has_constant() ? 1 : 0;
-    if (constants > 0) p.level.front() = point.common(columns_.level(r));
-    for (std::size_t i = 0; i < any.drift_parameters(); ++i)
-      p.level[constants + i] = point.common(columns_.drift(r) + static_cast<Index>(i));
-    for (Local& cycle : p.cycles) cycle = *next++;
+    Parameters& parameters = recordings[r].parameters;
+    columns_.visit(r, recordings[r], parameters, [&](Index column, double& value) { value = point.common(column); });
+    for (Local& cycle : parameters.cycles) cycle = *next++;
   }
 }
 
@@ -158,9 +133,9 @@ std::optional<Bundle::Part> Bundle::part_of(const CycleModel& model, const Cycle
     for (Index b = a; b <= columns; ++b) part.normal(a, b) = lines.col(a).dot(lines.col(b));
   }
   if (options_.robust) {
-    const Weight weight = weight_of(part.sum, model.residuals());
+    const HuberWeight weight = huber_weight(lines.col(columns).norm(), model.residuals());
     part.normal.triangularView<Eigen::Upper>() = weight.factor * part.normal;
-    part.sum = weight.factor * part.sum + weight.rest;
+    part.sum = weight.sum;
   }
   return part;
 }

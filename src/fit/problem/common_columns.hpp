@@ -23,6 +23,19 @@ class CommonColumns {
   [[nodiscard]] Eigen::Index drift(std::size_t recording) const { return drifts_[recording]; }
   /// Of the Jacobian of a recording's cycles, in its order.
   [[nodiscard]] const std::vector<Eigen::Index>& of(std::size_t recording) const { return of_[recording]; }
+  /// Calls f(column, value) for each common parameter that a recording has. `parameters`: its own, or a copy.
+  template <class P, class F>
+  void visit(std::size_t recording, const BlockFit& fit, P& parameters, const F& f) const {
+    const CycleModel& any = fit.model(0);
+    for (std::size_t i = 0; i < any.globals(); ++i) f(static_cast<Eigen::Index>(i), parameters.globals[i]);
+    if (exponent_) f(*exponent_, parameters.exponent);
+    if (any.has_difference()) f(differences_[recording], parameters.difference);
+    const std::size_t constants = any.has_constant() ? 1 : 0;
+    if (constants > 0) f(levels_[recording], parameters.level.front());
+    for (std::size_t i = 0; i < any.drift_parameters(); ++i) {
+      f(drifts_[recording] + static_cast<Eigen::Index>(i), parameters.level[constants + i]);
+    }
+  }
   /// Of the row of a steady recording: globals and the level that all share.
   [[nodiscard]] std::vector<Eigen::Index> of_steady(std::size_t globals) const;
 

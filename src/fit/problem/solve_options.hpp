@@ -17,9 +17,18 @@ struct SolveOptions {
   double tolerance = 1e-3;
 };
 
-/// SolveOptions::robust: a cycle whose residuals' root of the sum of squares is beyond it counts linearly.
-inline double huber_bound(std::size_t residuals) {
-  return 3.0 * std::sqrt(static_cast<double>(residuals));
+/// What a cycle far worse than the others counts (SolveOptions::robust).
+struct HuberWeight {
+  double factor = 1.0;  ///< of its squares in the normal equations
+  double sum = 0.0;     ///< in place of its sum of squares
+};
+
+/// `norm`: root of the sum of squares of a cycle's residuals, of which there are so many; beyond a bound it counts
+/// linearly.
+inline HuberWeight huber_weight(double norm, std::size_t residuals) {
+  const double bound = 3.0 * std::sqrt(static_cast<double>(residuals));
+  if (!(norm > bound)) return {1.0, norm * norm};
+  return {bound / norm, 2.0 * bound * norm - bound * bound};
 }
 
 }  // namespace slipfit::fit

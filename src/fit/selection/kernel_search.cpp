@@ -118,15 +118,15 @@ KernelSearch::Least KernelSearch::at(double variance_s2, const Least& near, cons
   BlockFit fit(cycles_, plain_.scales());
   fit.parameters = near.parameters;
   fit = with_kernel(fit, Kernel::MovingAverage, variance_s2);
-  BlockFit start = fit;
+  const double gain =
+      held_[kLogFrequency] ? 0.0 : log_frequency_gain(variance_s2) - log_frequency_gain(near.variance_s2);
+  fit.parameters.globals[kLogFrequency] += gain;
   if (other != nullptr && std::isfinite(other->sum)) {
+    BlockFit start = fit;
     start.parameters = extrapolated(variance_s2, near, *other);
+    start.parameters.globals[kLogFrequency] += gain;
+    if (std::isfinite(sum_of_squares(start))) fit = std::move(start);
   }
-  if (!held_[kLogFrequency]) {
-    const double gain = log_frequency_gain(variance_s2) - log_frequency_gain(near.variance_s2);
-    for (BlockFit* any : {&fit, &start}) any->parameters.globals[kLogFrequency] += gain;
-  }
-  if (std::isfinite(sum_of_squares(start))) fit = std::move(start);
   least.parameters = fit.parameters;
   if (!solve_with_damping(fit)) return least;
   least.sum = sum_of_squares(fit);

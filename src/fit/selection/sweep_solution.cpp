@@ -40,15 +40,8 @@ SweepSolution moved_by(SweepSolution solution, const NewtonStep& step) {
   const CommonColumns columns(solution.problem());
   for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
     BlockFit& recording = solution.recordings[r];
-    Parameters& parameters = recording.parameters;
-    const CycleModel& any = recording.model(0);
-    for (std::size_t i = 0; i < any.globals(); ++i) parameters.globals[i] += step.step(static_cast<Eigen::Index>(i));
-    if (columns.exponent()) parameters.exponent += step.step(*columns.exponent());
-    parameters.difference += step.step(columns.difference(r));
-    parameters.level[0] += step.step(columns.level(r));
-    for (std::size_t i = 0; i < any.drift_parameters(); ++i) {
-      parameters.level[1 + i] += step.step(columns.drift(r) + static_cast<Eigen::Index>(i));
-    }
+    columns.visit(r, recording, recording.parameters,
+                  [&](Eigen::Index column, double& value) { value += step.step(column); });
   }
   solution.chi2 = step.sum_of_squares;
   solution.degrees_of_freedom = residual_freedom(solution);
