@@ -46,7 +46,7 @@ struct Scene {
     append(alone);
     RowMajor of_one = RowMajor::Zero(2, 2);
     of_one << 9.0, 6.0, 0.0, 4.0;
-    elimination.add_common(of_one, {1});
+    elimination.add_cycle(of_one, one);
   }
 
   void append(const MatrixXd& rows) {
@@ -67,6 +67,7 @@ struct Scene {
 
   const std::vector<Index> even{0, 1, 2, 3};
   const std::vector<Index> odd{0, 1, 2, 4};
+  const std::vector<Index> one{1};
   MatrixXd all;
   Elimination elimination{kCommon, 0.0};
 };
@@ -84,11 +85,10 @@ TEST_CASE("fit: eliminating the cycles' own parameters gives the least squares o
   factorise(rows, scene.elimination.common_squares());
   const MatrixXd factor = rows.topLeftCorner(kCommon, kCommon).triangularView<Eigen::Upper>();
   const VectorXd common = -factor.triangularView<Eigen::Upper>().solve(rows.col(kCommon).head(kCommon));
-  const std::vector<double> own = scene.elimination.own_steps(common, 1.0);
+  const RowMajor own = scene.elimination.own_steps(common, 1.0);
   // Condition 1e6 of the columns' scales, which the decomposition does not mix: rounding of some 1e-13 is left.
   for (Index i = 0; i < kCommon; ++i) CHECK(common(i) == Approx(expected(kCycles * kOwn + i)).epsilon(1e-10));
-  for (Index i = 0; i < kCycles * kOwn; ++i)
-    CHECK(own[static_cast<std::size_t>(i)] == Approx(expected(i)).epsilon(1e-10));
+  for (Index i = 0; i < kCycles * kOwn; ++i) CHECK(own(i, 0) == Approx(expected(i)).epsilon(1e-10));
   const double least = (jacobian * expected + residuals).squaredNorm();
   CHECK(rows(kCommon, kCommon) == Approx(least).epsilon(1e-10));
   const double gains = scene.elimination.own_gain() + rows.col(kCommon).head(kCommon).squaredNorm();
@@ -100,9 +100,8 @@ TEST_CASE("fit: own parameters alone go to their least squares, or a share of th
   const MatrixXd jacobian = scene.all.leftCols(kCycles * kOwn);
   const VectorXd expected = -jacobian.colPivHouseholderQr().solve(scene.all.rightCols<1>());
   const double share = GENERATE(1.0, 0.25);
-  const std::vector<double> own = scene.elimination.own_steps(VectorXd::Zero(kCommon), share);
-  for (Index i = 0; i < expected.size(); ++i)
-    CHECK(own[static_cast<std::size_t>(i)] == Approx(share * expected(i)).epsilon(1e-10));
+  const RowMajor own = scene.elimination.own_steps(VectorXd::Zero(kCommon), share);
+  for (Index i = 0; i < expected.size(); ++i) CHECK(own(i, 0) == Approx(share * expected(i)).epsilon(1e-10));
 }
 
 TEST_CASE("fit: common parameters that the cycles' own can replace are left where they are") {
@@ -113,7 +112,7 @@ TEST_CASE("fit: common parameters that the cycles' own can replace are left wher
   for (Index cycle = 0; cycle < kCycles; ++cycle) {
     MatrixXd lines = MatrixXd::NullaryExpr(kRows, 2 + kOwn + 1, [&] { return normal(random); });
     lines.col(1) = lines.col(2) + 0.3 * lines.col(3);  // nothing of its own
-    elimination.add_cycle(lines.transpose() * lines, columns, nullptr);
+    elimination.add_cycle(lines.transpose() * lines, columns);
   }
   RowMajor rows = elimination.common();
   factorise(rows, elimination.common_squares());

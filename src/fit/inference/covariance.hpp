@@ -24,8 +24,9 @@ struct NewtonStep {
 };
 NewtonStep newton_step(const Problem& problem, const std::vector<Normal>& normals, const Held& held);
 
-/// Held globals: their rows and columns of a normal matrix become those of exactly known ones.
-void hold_rows(Eigen::MatrixXd& matrix, const Held& held);
+/// Steps of the common parameters to the least sums of squares, a column for each of the `sides`; held globals stay.
+/// `reduced`: as Elimination::common. Not a number where it is singular.
+Eigen::MatrixXd common_steps(const RowMajor& reduced, Eigen::Index sides, const Held& held);
 
 /// Inverse normal matrix seen through the coordinates: S' H^-1 S, with the ramps' coupling of neighbours where
 /// continuous. Not a number where H is singular.

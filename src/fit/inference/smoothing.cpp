@@ -9,6 +9,7 @@
 #include "core/fit_thresholds.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/uncertainty.hpp"
+#include "fit/problem/lines.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -22,17 +23,6 @@ constexpr double kTrialShare = 0.15;  // of the half period
 constexpr double kTrialSteps = 2.0;
 constexpr std::size_t kMostCycles = 256;  // more would not tell it better than needed
 
-/// A cycle's part of the normal equations of the common parameters and sigma^2, its own parameters eliminated.
-struct Part {
-  MatrixXd common;      // C' C
-  VectorXd cross;       // C' d
-  VectorXd score;       // C' r
-  double square;        // d' d
-  double pull;          // d' r
-  VectorXd local_step;  // of the own parameters with sigma^2
-  MatrixXd response;    // of the own parameters with the common ones
-};
-
 /// Residuals with a wider moving average than the model's.
 VectorXd averaged_residuals(const BlockFit& wider, std::size_t cycle) {
   VectorXd residuals(static_cast<Index>(wider.model(cycle).residuals()));
@@ -42,33 +32,31 @@ VectorXd averaged_residuals(const BlockFit& wider, std::size_t cycle) {
   return residuals;
 }
 
-Part part_of(const BlockFit& fit, const BlockFit& wider, std::size_t cycle, double variance_s2) {
-  const Linearised lines = linearise(fit, cycle);
-  const VectorXd change = (averaged_residuals(wider, cycle) - lines.residuals) / variance_s2;
-  const Eigen::LDLT<MatrixXd> local(lines.local.transpose() * lines.local);
-  const MatrixXd response = -local.solve(lines.local.transpose() * lines.common);
-  const VectorXd local_step = -local.solve(lines.local.transpose() * change);
-  const MatrixXd common = lines.common + lines.local * response;
-  const VectorXd rest = change + lines.local * local_step;
-  return {common.transpose() * common,
-          common.transpose() * rest,
-          common.transpose() * lines.residuals,
-          rest.squaredNorm(),
-          rest.dot(lines.residuals),
-          local_step,
-          response};
-}
+/// The normal equations with two sides: d = dr / d sigma^2 and the residuals r.
+struct TwoSides {
+  Elimination all;
+  std::vector<RowMajor> cycles;  ///< their parts, own parameters eliminated
+};
 
-/// Of cycles from the first to the last.
-std::vector<Part> parts_of(const BlockFit& fit, double variance_s2, double average_s) {
+/// Of cycles from the first to the last. `columns` must outlive the result.
+TwoSides two_sides_of(const BlockFit& fit, const std::vector<Index>& columns, double variance_s2, double average_s) {
   Scales scales = fit.scales();
   scales.sensor_average_s = average_s;
   BlockFit wider(fit.set(), scales);
   wider.parameters = fit.parameters;
+  TwoSides sides{Elimination(static_cast<Index>(columns.size()), 0.0, 2), {}};
+  MatrixXd lines;
   const std::size_t step = 1 + fit.size() / kMostCycles;
-  std::vector<Part> parts;
-  for (std::size_t i = 0; i < fit.size(); i += step) parts.push_back(part_of(fit, wider, i, variance_s2));
-  return parts;
+  for (std::size_t i = 0; i < fit.size(); i += step) {
+    evaluate_lines(fit.model(i), fit.values(i), lines);
+    const VectorXd residuals = lines.rightCols<1>();
+    lines.rightCols<1>() = (averaged_residuals(wider, i) - residuals) / variance_s2;
+    lines.conservativeResize(Eigen::NoChange, lines.cols() + 1);
+    lines.rightCols<1>() = residuals;
+    sides.all.add_cycle(products_of(lines), columns);
+    sides.cycles.push_back(sides.all.latest());
+  }
+  return sides;
 }
 
 }  // namespace
@@ -90,33 +78,27 @@ std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& hel
   const double known_s = fit.scales().sensor_average_s;
   const double trial_s = std::max(kTrialShare * fit.scales().half_period_s, kTrialSteps * sample_interval_s);
   const double variance_s2 = trial_s * trial_s / 12.0;
-  const std::vector<Part> parts = parts_of(fit, variance_s2, std::hypot(known_s, trial_s));
-  const auto common = static_cast<Index>(fit.model(0).common_parameters());
-  MatrixXd hessian = MatrixXd::Zero(common, common);
-  VectorXd cross = VectorXd::Zero(common);
-  double square = 0.0;
-  for (const Part& part : parts) {
-    hessian += part.common;
-    cross += part.cross;
-    square += part.square;
-  }
-  hold_rows(hessian, held);
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    if (held[i] && static_cast<Index>(i) < common) cross(static_cast<Index>(i)) = 0.0;
-  }
-  const VectorXd common_step = -hessian.ldlt().solve(cross);
-  const double information = square + cross.dot(common_step);
+  const std::vector<Index> columns = CommonColumns(Problem{{&fit, 1}}).of(0);
+  const auto common = static_cast<Index>(columns.size());
+  const TwoSides sides = two_sides_of(fit, columns, variance_s2, std::hypot(known_s, trial_s));
+  const RowMajor& sum = sides.all.common();
+  const MatrixXd steps = common_steps(sum, 2, held);
+  const VectorXd common_step = steps.col(0);
+  const double square = sum(common, common);
+  const double information = square + sum.col(common).head(common).dot(common_step);
   if (!(information > 1e-9 * square) || !common_step.allFinite()) return std::nullopt;
   double gradient = 0.0;
   double spread = 0.0;
-  VectorXd local_step = VectorXd::Zero(static_cast<Index>(fit.model(0).local_parameters()));
-  const auto count = static_cast<double>(parts.size());
-  for (const Part& part : parts) {
-    const double score = part.pull + common_step.dot(part.score);
+  for (const RowMajor& part : sides.cycles) {
+    const double score = part(common, common + 1) + common_step.dot(part.col(common + 1).head(common));
     gradient += score;
     spread += score * score;
-    local_step += (part.local_step + part.response * common_step) / count;
   }
+  const auto count = static_cast<double>(sides.cycles.size());
+  const auto local = static_cast<Index>(fit.model(0).local_parameters());
+  const RowMajor own = sides.all.own_steps(steps, 1.0);
+  VectorXd local_step = VectorXd::Zero(local);
+  for (Index row = 0; row < own.rows(); row += local) local_step += own.col(0).segment(row, local) / count;
   const Selection selection = select(fit);
   Smoothing result;
   result.variance_s2 = -gradient / information;

@@ -61,7 +61,7 @@ bool noise_differs(const BlockFit& fit, const std::vector<Normal>& normals) {
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const auto samples = static_cast<Index>(fit.data(i).time_s.size());
     slip += normals[i].residuals.head(samples).squaredNorm();
-    slip_freedom += static_cast<double>(samples - normals[i].local.rows());
+    slip_freedom += static_cast<double>(samples - normals[i].own());
     for (const auto* bins : {&fit.data(i).bins_before, &fit.data(i).bins_after}) {
       for (const StickBin& bin : *bins) {
         stick += bin.scatter / (fit.scales().noise * fit.scales().noise);
@@ -77,7 +77,10 @@ bool noise_differs(const BlockFit& fit, const std::vector<Normal>& normals) {
 /// Root mean square over the cycles of the error that noise of variance 1 gives to an onset force.
 double error_of_onset_force(const std::vector<Normal>& normals) {
   double square = 0.0;
-  for (const Normal& n : normals) square += n.local.inverse()(1, 1) / static_cast<double>(normals.size());
+  for (const Normal& n : normals) {
+    const MatrixXd own = n.products.block(n.common(), n.common(), n.own(), n.own()).selfadjointView<Eigen::Upper>();
+    square += own.inverse()(1, 1) / static_cast<double>(normals.size());
+  }
   return std::sqrt(std::max(0.0, square));
 }
 

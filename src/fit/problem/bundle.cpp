@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fit/cycle/side_by_side.hpp"
+#include "fit/problem/lines.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -66,8 +67,8 @@ std::optional<Bundle::Point> Bundle::start(double damping) const {
 std::optional<Bundle::Point> Bundle::moved(const Point& from, const Eigen::VectorXd& step, double share,
                                            double damping) const {
   std::vector<Local> cycles = from.cycles;
-  const std::vector<double> steps = from.normal.own_steps(step, share);
-  auto next = steps.begin();
+  const RowMajor steps = from.normal.own_steps(step, share);
+  const double* next = steps.data();
   auto cycle = cycles.begin();
   for (const BlockFit& recording : problem_.recordings) {
     const std::size_t own = recording.model(0).local_parameters();
@@ -124,16 +125,11 @@ bool Bundle::add(std::size_t recording, std::size_t first_cycle, Point& point) c
 
 std::optional<Bundle::Part> Bundle::part_of(const CycleModel& model, const CycleValues& values,
                                             Eigen::MatrixXd& lines) const {
-  const auto rows = static_cast<Index>(model.residuals());
-  const auto columns = static_cast<Index>(model.columns());
-  lines.resize(rows, columns + 1);
-  if (!model.evaluate(values, lines.col(columns).data(), lines.data())) return std::nullopt;
-  Part part{RowMajor(columns + 1, columns + 1), lines.col(columns).squaredNorm()};
-  for (Index a = 0; a <= columns; ++a) {  // quicker than a product of matrices of so few columns
-    for (Index b = a; b <= columns; ++b) part.normal(a, b) = lines.col(a).dot(lines.col(b));
-  }
+  if (!evaluate_lines(model, values, lines)) return std::nullopt;
+  const auto residuals = lines.rightCols<1>();
+  Part part{products_of(lines), residuals.squaredNorm()};
   if (options_.robust) {
-    const HuberWeight weight = huber_weight(lines.col(columns).norm(), model.residuals());
+    const HuberWeight weight = huber_weight(residuals.norm(), model.residuals());
     part.normal.triangularView<Eigen::Upper>() = weight.factor * part.normal;
     part.sum = weight.sum;
   }
@@ -143,17 +139,13 @@ std::optional<Bundle::Part> Bundle::part_of(const CycleModel& model, const Cycle
 bool Bundle::add_steady(Point& point) const {
   if (!problem_.sweep.sharing.level) return true;
   const FrictionLaw law = problem_.recordings.front().scales().law;
-  const auto size = static_cast<Index>(of_steady_.size());
+  const std::size_t count = of_steady_.size() - 1;
   Globals globals{};
-  std::copy_n(point.common.data(), size - 1, globals.begin());
+  std::copy_n(point.common.data(), count, globals.begin());
   for (const SteadyRun& run : problem_.sweep.steady) {
     const SteadyResidual steady =
         steady_residual(run, problem_.sweep.units, law, globals, point.common(of_steady_.back()));
-    Eigen::RowVectorXd row(size + 1);
-    for (Index i = 0; i + 1 < size; ++i) row(i) = steady.by_global[static_cast<std::size_t>(i)];
-    row(size - 1) = steady.by_level;
-    row(size) = steady.value;
-    point.normal.add_common(row.transpose() * row, of_steady_);
+    point.normal.add_cycle(products_of(steady, count), of_steady_);
     point.sum += steady.value * steady.value;
   }
   return true;

@@ -1,0 +1,28 @@
+#include "fit/problem/lines.hpp"
+
+namespace slipfit::fit {
+
+using Eigen::Index;
+
+bool evaluate_lines(const CycleModel& model, const CycleValues& values, Eigen::MatrixXd& lines) {
+  const auto columns = static_cast<Index>(model.columns());
+  lines.resize(static_cast<Index>(model.residuals()), columns + 1);
+  return model.evaluate(values, lines.col(columns).data(), lines.data());
+}
+
+RowMajor products_of(const Eigen::Ref<const Eigen::MatrixXd>& lines) {
+  RowMajor products(lines.cols(), lines.cols());
+  for (Index a = 0; a < lines.cols(); ++a) {  // quicker than a product of matrices of so few columns
+    for (Index b = a; b < lines.cols(); ++b) products(a, b) = lines.col(a).dot(lines.col(b));
+  }
+  return products;
+}
+
+RowMajor products_of(const SteadyResidual& steady, std::size_t globals) {
+  Eigen::RowVectorXd line(static_cast<Index>(globals) + 2);
+  for (std::size_t i = 0; i < globals; ++i) line(static_cast<Index>(i)) = steady.by_global[i];
+  line.tail<2>() << steady.by_level, steady.value;
+  return line.transpose() * line;
+}
+
+}  // namespace slipfit::fit
