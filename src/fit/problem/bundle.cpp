@@ -1,6 +1,7 @@
 #include "fit/problem/bundle.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -106,12 +107,16 @@ bool Bundle::add(std::size_t recording, std::size_t first_cycle, Point& point) c
   const Gathered common(fit.model(0), columns, point.common);
   const Local* const cycles = point.cycles.data() + first_cycle;
   std::vector<std::optional<Part>> parts(fit.size());
+  std::atomic<bool> is_outside = false;
   for_cycles(fit.size(), fit.residuals(), [&](std::size_t begin, std::size_t end) {
     Eigen::MatrixXd lines;  // it stays in the cache from one cycle to the next
-    for (std::size_t i = begin; i < end; ++i) parts[i] = part_of(fit.model(i), common.with(cycles[i]), lines);
+    for (std::size_t i = begin; i < end && !is_outside; ++i) {
+      parts[i] = part_of(fit.model(i), common.with(cycles[i]), lines);
+      if (!parts[i]) is_outside = true;
+    }
   });
+  if (is_outside) return false;
   for (std::size_t i = 0; i < fit.size(); ++i) {
-    if (!parts[i]) return false;
     std::optional<RampResidual> ramp;
     if (options_.continuous && i + 1 < fit.size() && fit.data(i).continuous_with_next) {
       ramp = ramp_residual(fit, i, common.globals(), cycles[i].data(), cycles[i + 1].data());
