@@ -152,7 +152,7 @@ def measure(arguments):
             for truth in chosen:
                 try:
                     answers.append(run(arguments.slipfit, arguments.folder / truth["file"], truth))
-                except (ValueError, TypeError, IndexError, RuntimeError):  # the search found no start
+                except (ValueError, TypeError, IndexError, RuntimeError, MemoryError):  # the search found no start
                     answers.append(None)
             out.writerow(row_of(scene, method, answers, chosen))
             arguments.csv.flush()

@@ -85,7 +85,8 @@ void leave_out_invalid(X3p& x3p, std::vector<double>& heights) {
   const std::string valid = linked(x3p, "ValidPointsLink", kMostPoints);
   if (valid.size() < (heights.size() + 7) / 8) throw damaged_surface(x3p.file, "its list of valid points is cut off");
   for (std::size_t i = 0; i < heights.size(); ++i) {
-    if ((static_cast<unsigned char>(valid[i / 8]) >> (i % 8) & 1U) == 0U) heights[i] = kHole;
+    const auto eight = static_cast<unsigned>(static_cast<unsigned char>(valid[i / 8]));
+    if ((eight >> (i % 8) & 1U) == 0U) heights[i] = kHole;
   }
 }
 
