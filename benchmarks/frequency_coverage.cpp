@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/fitted_frequency.hpp"
+#include "analysis/conclusions.hpp"
 #include "fit/inference/intervals.hpp"
 #include "scenes.hpp"
 #include "slipfit/pipeline.hpp"
