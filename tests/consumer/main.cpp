@@ -7,9 +7,7 @@ int main() {
   const auto friction = slipfit::Friction::create(6.0, 4.0);
   if (!slider || !friction) return 1;
 
-  slipfit::SimulationOptions options;
-  options.duration_s = 3.0;
-  options.noise_rms_N = 0.02;
+  const slipfit::SimulationOptions options{.duration_s = 3.0, .noise_rms_N = 0.02};
   slipfit::Conditions conditions;
   conditions.speed_m_per_s = 0.02;
   auto trace = slipfit::simulate(slider.value(), friction.value(), conditions.speed_m_per_s, options);

@@ -116,11 +116,8 @@ TEST_CASE("hum in step with the cycles: nothing is identified (once k was a quar
     for (const double hum_N : {0.02, 0.04, 0.06}) {
       const auto slider = slipfit::Slider::create(1573.2, 379.0, 0.0717).value();
       const auto friction = slipfit::Friction::create(1.2, 1.0).value();
-      slipfit::SimulationOptions options;
-      options.duration_s = 0.5;
-      options.sample_rate_Hz = 5000.0;
-      options.noise_rms_N = 0.0035;
-      options.hum_N = hum_N;
+      const slipfit::SimulationOptions options{
+          .duration_s = 0.5, .sample_rate_Hz = 5000.0, .noise_rms_N = 0.0035, .hum_N = hum_N};
       slipfit::SimulatedTrace trace = simulate(slider, friction, speed_m_per_s, options);
       slipfit::Conditions conditions;
       conditions.speed_m_per_s = speed_m_per_s;

@@ -9,10 +9,7 @@ using namespace slipfit;
 namespace {
 
 Scene contact_scene() {
-  Scene s;
-  s.view = ForceView::Contact;
-  s.noise = 0.01;
-  return s;
+  return {.noise = 0.01, .view = ForceView::Contact};
 }
 
 double noise_N(const Scene& s) {

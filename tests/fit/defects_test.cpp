@@ -31,11 +31,10 @@ Recording damaged(std::uint64_t seed, const Damage& damage) {
   const Friction friction = Friction::create(kStatic_N, kKinetic_N).value();
   const double speed = kOmega * 0.6 / (kStiffness * uniform(random, 4.0, 20.0));
   const LimitCycle cycle = *damped_motion(slider, friction, speed).cycle;
-  SimulationOptions options;
-  options.duration_s = 25.0 * cycle.period_s;
-  options.sample_rate_Hz = uniform(random, 25.0, 50.0) / cycle.slip_s;
-  options.noise_rms_N = 0.003;
-  options.seed = seed;
+  const SimulationOptions options{.duration_s = 25.0 * cycle.period_s,
+                                  .sample_rate_Hz = uniform(random, 25.0, 50.0) / cycle.slip_s,
+                                  .noise_rms_N = 0.003,
+                                  .seed = seed};
   SimulatedTrace trace = simulate(slider, friction, speed, options);
   damage(trace, random);
   Conditions conditions;

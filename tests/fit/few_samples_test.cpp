@@ -9,14 +9,7 @@ using namespace slipfit;
 namespace {
 
 Scene few_samples(std::uint64_t seed) {
-  Scene s;
-  s.samples_per_slip = 2.6;
-  s.cycles = 40.0;
-  s.noise = 0.01;
-  s.zeta = 0.1;
-  s.speed = 0.003;
-  s.seed = seed;
-  return s;
+  return {.zeta = 0.1, .speed = 0.003, .cycles = 40.0, .samples_per_slip = 2.6, .noise = 0.01, .seed = seed};
 }
 
 }  // namespace

@@ -10,17 +10,15 @@ namespace {
 
 /// Printed plastic as in the issue of slow testers: k = 350 N/m, 232 g, zeta = 0.15, F_s - F_k = 200 mN.
 Scene printed_plastic() {
-  Scene s;
-  s.stiffness = 350.0;
-  s.omega = std::sqrt(350.0 / 0.232);
-  s.zeta = 0.15;
-  s.static_N = 1.2;
-  s.kinetic_N = 1.0;
-  s.speed = 1e-3;
-  s.jitter = 0.02;
-  s.samples_per_slip = 50.0;
-  s.cycles = 40.0;
-  return s;
+  return {.stiffness = 350.0,
+          .omega = std::sqrt(350.0 / 0.232),
+          .zeta = 0.15,
+          .static_N = 1.2,
+          .kinetic_N = 1.0,
+          .speed = 1e-3,
+          .cycles = 40.0,
+          .samples_per_slip = 50.0,
+          .jitter = 0.02};
 }
 
 /// With noise of a hundredth of the friction difference.

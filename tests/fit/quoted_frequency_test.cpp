@@ -19,12 +19,11 @@ Scene scene(std::uint64_t seed, double static_friction_sd_N) {
   const Slider slider = Slider::create(500.0, 120.0, 0.05).value();
   const Friction friction = Friction::create(2.0, 1.4).value();
   const LimitCycle cycle = *damped_motion(slider, friction, kSpeed_m_per_s).cycle;
-  SimulationOptions options;
-  options.duration_s = 60.0 * cycle.period_s;
-  options.sample_rate_Hz = 30.0 / cycle.slip_s;
-  options.noise_rms_N = 0.01;
-  options.static_friction_sd_N = static_friction_sd_N;
-  options.seed = seed;
+  const SimulationOptions options{.duration_s = 60.0 * cycle.period_s,
+                                  .sample_rate_Hz = 30.0 / cycle.slip_s,
+                                  .static_friction_sd_N = static_friction_sd_N,
+                                  .noise_rms_N = 0.01,
+                                  .seed = seed};
   SimulatedTrace trace = simulate(slider, friction, kSpeed_m_per_s, options);
   Conditions conditions;
   conditions.speed_m_per_s = kSpeed_m_per_s;

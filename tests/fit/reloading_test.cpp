@@ -64,11 +64,7 @@ Recording reloading_recording(const Scene& s, double rise_N) {
 }
 
 Scene bent_sticks() {
-  Scene s;
-  s.noise = 0.005;
-  s.jitter = 0.03;
-  s.cycles = 40.0;
-  return s;
+  return {.cycles = 40.0, .jitter = 0.03, .noise = 0.005};
 }
 
 fit::RiseAfterSlip two_slips(double average_s) {

@@ -16,11 +16,7 @@ double relative_se(const Estimate& estimate) {
 TEST_CASE("an uncertain speed is in k, mass, c and the spacing, and in nothing else") {
   const double speed_error = GENERATE(0.01, 0.1);
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Contact);
-  Scene s;
-  s.noise = 0.01;
-  s.jitter = 0.05;
-  s.samples_per_slip = 31.7;
-  s.view = view;
+  Scene s{.samples_per_slip = 31.7, .jitter = 0.05, .noise = 0.01, .view = view};
   s.conditions.sensor_average_s = 0.0;  // what averaging may have done does not add as a square
   const Analysis exact = analyze_and_fit(record(s), {});
   s.conditions.speed_standard_error_m_per_s = speed_error * s.speed;
@@ -73,9 +69,7 @@ TEST_CASE("slips near the load cell's resonance are warned of") {
 }
 
 TEST_CASE("one recording says that it takes the stated speed and Coulomb friction for granted") {
-  Scene s;
-  s.noise = 0.01;
-  s.jitter = 0.05;
+  Scene s{.jitter = 0.05, .noise = 0.01};
   const Analysis taken = analyze_and_fit(record(s), {});
   REQUIRE(taken.fit->conditional_on.size() == 2);
   CHECK_THAT(taken.fit->conditional_on[1], Catch::Contains("stated driving speed"));
@@ -91,9 +85,7 @@ TEST_CASE("one recording says that it takes the stated speed and Coulomb frictio
 }
 
 TEST_CASE("averaging over a step of the clock lengthens the side of the interval that it would move") {
-  Scene s;
-  s.noise = 0.01;
-  s.jitter = 0.05;
+  Scene s{.jitter = 0.05, .noise = 0.01};
   const Interval open = *parameter(analyze_and_fit(record(s), {}), "natural_frequency_rad_per_s").estimate.ci95;
   s.conditions.sensor_average_s = 0.0;
   const Interval instant = *parameter(analyze_and_fit(record(s), {}), "natural_frequency_rad_per_s").estimate.ci95;
@@ -105,10 +97,7 @@ TEST_CASE("averaging over a step of the clock lengthens the side of the interval
 }
 
 TEST_CASE("few samples in a slip leave w_n and m to averaging over one of them, unless it is stated") {
-  Scene s;
-  s.noise = 0.005;
-  s.jitter = 0.05;
-  s.samples_per_slip = 6.0;
+  Scene s{.samples_per_slip = 6.0, .jitter = 0.05, .noise = 0.005};
   const Analysis open = analyze_and_fit(record(s), {});
   CHECK(parameter(open, "natural_frequency_rad_per_s").status == ParameterStatus::Weak);
   CHECK_THAT(parameter(open, "natural_frequency_rad_per_s").estimate.note, Catch::Contains("--sensor-average"));

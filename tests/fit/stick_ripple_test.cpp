@@ -27,11 +27,7 @@ Recording on_uneven_drive(const Recording& even, double frequency_Hz) {
 }
 
 Scene scene() {
-  Scene s;
-  s.noise = 0.005;
-  s.samples_per_slip = 40.0;
-  s.speed = 0.003;
-  return s;
+  return {.speed = 0.003, .samples_per_slip = 40.0, .noise = 0.005};
 }
 
 }  // namespace

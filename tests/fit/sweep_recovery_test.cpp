@@ -119,10 +119,7 @@ TEST_CASE("sweep: a steadily sliding recording pins the kinetic friction at its 
 }
 
 TEST_CASE("sweep: the force that spring and damper transmit together") {
-  SweepScene scene;
-  scene.view = ForceView::Transmitted;
-  scene.damping_ratio = 0.12;
-  scene.scatter_N = 0.02;
+  const SweepScene scene{.damping_ratio = 0.12, .scatter_N = 0.02, .view = ForceView::Transmitted};
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Velocity);
@@ -141,9 +138,7 @@ TEST_CASE("sweep: a sensor at the contact is left out") {
 }
 
 TEST_CASE("sweep: Coulomb friction needs no alpha") {
-  SweepScene scene;
-  scene.f1_N = 0.0;
-  scene.f0_N = 2.0;
+  const SweepScene scene{.f0_N = 2.0, .f1_N = 0.0};
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Damped);
@@ -154,10 +149,7 @@ TEST_CASE("sweep: Coulomb friction needs no alpha") {
 }
 
 TEST_CASE("sweep: an average that nobody stated is found in all recordings, and the slips behind it") {
-  SweepScene scene;
-  scene.f1_N = 0.0;
-  scene.f0_N = 2.0;
-  scene.averaged = 12;
+  const SweepScene scene{.f0_N = 2.0, .f1_N = 0.0, .averaged = 12};
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Damped);
@@ -169,11 +161,7 @@ TEST_CASE("sweep: an average that nobody stated is found in all recordings, and 
 }
 
 TEST_CASE("sweep: averages that no recording alone can tell are told by all of them together") {
-  SweepScene scene;
-  scene.f1_N = 0.0;
-  scene.f0_N = 2.0;
-  scene.averaged = 4;
-  scene.noise_N = 0.02;
+  const SweepScene scene{.f0_N = 2.0, .f1_N = 0.0, .averaged = 4, .noise_N = 0.02};
   const std::vector<SweepEntry> entries = test::record_sweep(scene, kSpeeds);
   for (const SweepEntry& entry : entries)
     CHECK_FALSE(warns(analyze_and_fit(entry.recording, {}).warnings, "samples_averaged"));
@@ -229,9 +217,7 @@ TEST_CASE("sweep: one recording with cycles is no sweep") {
 }
 
 TEST_CASE("sweep: where recordings do not quite share k, F_k(v) stays because it predicts the unseen better") {
-  SweepScene scene;
-  scene.f0_N = 1.0;
-  scene.f1_N = 1.0;
+  const SweepScene scene{.f0_N = 1.0, .f1_N = 1.0};
   const std::vector<double> speeds{0.005, 0.01, 0.02, 0.04, 0.08, 0.12};
   const auto scene_of = [&](std::size_t i) {
     SweepScene s = scene;
@@ -253,9 +239,7 @@ TEST_CASE("sweep: where recordings do not quite share k, F_k(v) stays because it
 }
 
 TEST_CASE("sweep: where recordings do not quite share w_n, F_k(v) gains and yet Coulomb friction predicts better") {
-  SweepScene scene;
-  scene.f0_N = 2.0;
-  scene.f1_N = 0.0;
+  const SweepScene scene{.f0_N = 2.0, .f1_N = 0.0};
   const auto scene_of = [&](std::size_t i) {
     SweepScene s = scene;
     s.natural_frequency_rad_per_s *= i == 1 || i == 2 ? 1.04 : 0.96;
@@ -273,10 +257,7 @@ TEST_CASE("sweep: where recordings do not quite share w_n, F_k(v) gains and yet 
 }
 
 TEST_CASE("sweep: a kinetic friction that wanders from cycle to cycle is followed, and counts as scatter") {
-  SweepScene scene;
-  scene.level_scatter_N = 0.08;
-  scene.cycles = 40.0;
-  scene.seed = 41;
+  const SweepScene scene{.cycles = 40.0, .level_scatter_N = 0.08, .seed = 41};
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
   REQUIRE(sweep.fit);
   CHECK(*sweep.fit->result.residual.reduced_chi2 == Approx(1.0).margin(0.1));
@@ -304,10 +285,7 @@ TEST_CASE("sweep: a kinetic friction that wanders from cycle to cycle is followe
 TEST_CASE("sweep: where alpha is hardly told, intervals follow its valley to the other end") {
   // zeta times alpha is known, neither is: by its best values alone, with alpha > 0, this recording gave a slope of
   // -0.07 +- 0.06 N s/m and a difference of 1.105 +- 0.015 N.
-  SweepScene scene;
-  scene.level_scatter_N = 0.08;
-  scene.cycles = 40.0;
-  scene.seed = 3700;
+  const SweepScene scene{.cycles = 40.0, .level_scatter_N = 0.08, .seed = 3700};
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, {0.005, 0.01, 0.02, 0.04, 0.08}), {});
   REQUIRE(sweep.fit);
   const auto holds = [&](const char* name, double truth) {
@@ -357,9 +335,7 @@ TEST_CASE("sweep: friction coefficients where the normal forces are stated, and 
 }
 
 TEST_CASE("sweep: under Coulomb friction a steady recording is a value of F_k, and the law stays Coulomb's") {
-  SweepScene scene;
-  scene.f0_N = 2.0;
-  scene.f1_N = 0.0;
+  const SweepScene scene{.f0_N = 2.0, .f1_N = 0.0};
   std::vector<SweepEntry> entries = test::record_sweep(scene, {0.005, 0.01, 0.02});
   entries.push_back({"steady", steady_recording(scene.kinetic_friction_N(), scene.noise_N, 0.2, 81)});
   const SweepAnalysis sweep = analyze_sweep(entries, {});

@@ -44,11 +44,7 @@ Recording weakening_recording(const Scene& s, double share) {
 }
 
 Scene soft_contact() {
-  Scene s;
-  s.noise = 0.01;
-  s.jitter = 0.03;
-  s.cycles = 40.0;
-  return s;
+  return {.cycles = 40.0, .jitter = 0.03, .noise = 0.01};
 }
 
 const Candidate* weakening_candidate(const Analysis& analysis) {

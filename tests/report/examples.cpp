@@ -32,11 +32,8 @@ slipfit::Recording small_recording(slipfit::ForceQuantity quantity, const std::s
 }
 
 slipfit::Recording stick_slip_recording(double speed_m_per_s) {
-  slipfit::SimulationOptions options;
-  options.duration_s = 2.0;
-  options.sample_rate_Hz = 2000.0;
-  options.noise_rms_N = 0.01;
-  options.static_friction_sd_N = 0.02;
+  const slipfit::SimulationOptions options{
+      .duration_s = 2.0, .sample_rate_Hz = 2000.0, .static_friction_sd_N = 0.02, .noise_rms_N = 0.01};
   const slipfit::Slider slider = slipfit::Slider::create(1000.0, 200.0, 0.05).value();
   const slipfit::Friction friction = slipfit::Friction::create(3.0, 2.5).value();
   slipfit::SimulatedTrace trace = simulate(slider, friction, speed_m_per_s, options);
