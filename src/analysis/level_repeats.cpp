@@ -115,7 +115,7 @@ std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, doubl
   const Sine best = sine_in(levels, best_waves(levels));
   const double swing = 2.0 * best.amplitude / mean_drop(cycles);
   if (!(swing > thresholds::kSmallestWave)) {
-    return ShortTest{"level_repeats",
+    return ShortTest{TestKind::LevelRepeats,
                      {},
                      {},
                      {},
@@ -131,7 +131,7 @@ std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, doubl
   const double se_m = path_m * std::sqrt(6.0 / count) / std::numbers::pi * scatter / best.waves;
   const bool is_proven = p < thresholds::kProven;
   return ShortTest{
-      "level_repeats", path_m, se_m, p,
+      TestKind::LevelRepeats, path_m, se_m, p,
       fmt::format("the force level swings by {:.2g} % of the mean drop once every {:.3g} slips or {:.3g} mm of "
                   "sliding: {} at the {:g} % level (p {:.2g}){}",
                   100.0 * swing, (count - 1.0) / best.waves, 1e3 * path_m, is_proven ? "proven" : "not proven",

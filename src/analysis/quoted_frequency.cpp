@@ -135,7 +135,7 @@ std::optional<double> relative_difference(const SpectralFrequency& spectral, con
 
 /// Harmonic least squares uses every sample, onsets what the slips show of them: on regular cycles it is two to five
 /// times as exact (docs/accuracy.md), unless hum or drift, which the fit allows for and the spectrum does not, are in
-/// its error. Where the two contradict each other the fit is believed: it knows a slip from other repetitions.
+/// its error. Where the two contradict each other the fit is quoted: it tells slips from other repetitions.
 bool is_sharper(const SpectralFrequency& spectral, const Estimate& fitted) {
   if (!spectral.value_Hz || !spectral.regular_standard_error_Hz) return false;
   const double difference_Hz = std::abs(*spectral.value_Hz - *fitted.value);
@@ -182,10 +182,10 @@ std::optional<FrequencyReport> of_fit(const Recording& recording, const Signals&
   const auto fitted = fitted_frequency(fit, recording);
   if (!fitted) return std::nullopt;
   FrequencyReport report;
-  report.method = "fitted_cycles";
+  report.method = FrequencyMethod::FittedCycles;
   report.quoted = *fitted;
   if (is_sharper(signals.spectral, *fitted)) {
-    report.method = "harmonic_least_squares";
+    report.method = FrequencyMethod::HarmonicLeastSquares;
     const double freedom = std::max(1.0, static_cast<double>(signals.segmentation.slips.size()) - 3.0);
     report.quoted = symmetric(*signals.spectral.value_Hz, *signals.spectral.regular_standard_error_Hz, freedom);
   }
@@ -223,7 +223,6 @@ Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
 FrequencyReport of_trace(const Recording& recording, const Signals& signals, const Classification& classification) {
   const SpectralFrequency& spectral = signals.spectral;
   FrequencyReport report;
-  report.method = "none";
   const Estimate counted = count_frequency(recording, signals.segmentation);
   const Intervals intervals = intervals_of(recording, signals.segmentation);
   const MeanAndSpread interval = describe(intervals.seconds);
@@ -241,10 +240,10 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
   if (classification.dies_out && !agree) {
     report.quoted.note = "the swings die out, and spectrum and count do not agree on them";
   } else if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || hidden)) {
-    report.method = "harmonic_least_squares";
+    report.method = FrequencyMethod::HarmonicLeastSquares;
     report.quoted = symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
   } else if (counted.value && !contradict) {
-    report.method = "slip_counting";
+    report.method = FrequencyMethod::SlipCounting;
     report.quoted = near && !agree ? reaching(counted, spectral) : counted;
   } else {
     report.quoted.note =
@@ -260,7 +259,6 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
   const MotionClass motion = classification.motion;
   const bool slides = motion == MotionClass::StickSlip || motion == MotionClass::OscillatorySlip;
   FrequencyReport report;
-  report.method = "none";
   report.quoted.note = motion == MotionClass::SteadySliding ? "steady sliding has no slips"
                                                             : "no slips can be told: nothing that repeats is quoted";
   if (slides) {

@@ -14,7 +14,7 @@ int main() {
   const auto recording = slipfit::Recording::create(trace.time_s, trace.force_N, conditions);
   if (!recording) return 1;
 
-  const slipfit::Analysis analysis = slipfit::analyze_and_fit(recording.value(), {});
+  const slipfit::Analysis analysis = slipfit::analyze_and_fit(recording.value());
   std::fputs(slipfit::to_text(recording.value(), analysis).c_str(), stdout);
   const bool has_document = slipfit::to_json(recording.value(), analysis).front() == '{';
   return has_document && analysis.motion == slipfit::MotionClass::StickSlip ? 0 : 1;

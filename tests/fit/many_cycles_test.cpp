@@ -42,7 +42,7 @@ TEST_CASE("up to 512 cycles are all offered to the fit, of more 64 runs over the
 
 TEST_CASE("a part of many cycles gives the parameters, and the warning says so") {
   const Scene s = scene_of_many_cycles();
-  const Analysis analysis = analyze_and_fit(record(s), {});
+  const Analysis analysis = analyze_and_fit(record(s));
   REQUIRE(analysis.motion == MotionClass::StickSlip);
   CHECK(has_warning(analysis, "part_of_cycles_fitted"));
   CHECK(!has_warning(analysis, "hum_fitted"));
@@ -71,7 +71,7 @@ TEST_CASE("hum that adds slips to many is taken off where a few of them show it,
   const Recording recording = record(s);
   const std::size_t seen = find_slips(recording, assess_quality(recording)).slips.size();
   CHECK(static_cast<double>(seen) > 1.2 * s.cycles);
-  const Analysis analysis = analyze_and_fit(recording, {});
+  const Analysis analysis = analyze_and_fit(recording);
   CHECK(std::abs(static_cast<double>(analysis.cycles.count) - s.cycles) < 0.01 * s.cycles);
   CHECK(has_warning(analysis, "hum_fitted"));
   check_truth(analysis, s);
@@ -87,7 +87,7 @@ TEST_CASE("lines that keep the phase of the slips are of the cycles' shape and n
   }
   Conditions conditions;
   conditions.speed_m_per_s = 0.01;
-  const Analysis analysis = analyze_and_fit(Recording::create(time_s, force, conditions).value(), {});
+  const Analysis analysis = analyze_and_fit(Recording::create(time_s, force, conditions).value());
   REQUIRE(analysis.motion == MotionClass::StickSlip);
   CHECK(!has_warning(analysis, "hum_fitted"));
   CHECK(std::abs(*parameter(analysis, "stiffness_N_per_m").estimate.value - 2500.0) < 1.0);
@@ -127,7 +127,7 @@ TEST_CASE("hum beside a part of the cycles is one line, also where exactly regul
       s.cycles = 3000.0;
       s.hum = hum;
       s.jitter = jitter;
-      const Analysis analysis = analyze_and_fit(record(s), {});
+      const Analysis analysis = analyze_and_fit(record(s));
       INFO("jitter " << jitter << ", hum " << hum);
       REQUIRE(analysis.motion == MotionClass::StickSlip);
       const auto warning = std::find_if(analysis.warnings.begin(), analysis.warnings.end(),
@@ -153,7 +153,7 @@ TEST_CASE("all lines of hum are found, also those that its strongest hides at fi
                 0.005 * std::sin(10.0 * std::numbers::pi * turns);
   }
   const std::vector<double> time_s(without.time_s().begin(), without.time_s().end());
-  const Analysis analysis = analyze_and_fit(Recording::create(time_s, force, without.conditions()).value(), {});
+  const Analysis analysis = analyze_and_fit(Recording::create(time_s, force, without.conditions()).value());
   REQUIRE(analysis.fit);
   const auto warning = std::find_if(analysis.warnings.begin(), analysis.warnings.end(),
                                     [](const Warning& w) { return w.code == "hum_fitted"; });

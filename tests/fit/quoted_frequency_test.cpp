@@ -28,7 +28,7 @@ Scene scene(std::uint64_t seed, double static_friction_sd_N) {
   Conditions conditions;
   conditions.speed_m_per_s = kSpeed_m_per_s;
   const auto recording = Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions);
-  return {analyze_and_fit(recording.value(), {}), 1.0 / cycle.period_s};
+  return {analyze_and_fit(recording.value()), 1.0 / cycle.period_s};
 }
 
 }  // namespace
@@ -41,13 +41,13 @@ TEST_CASE("regular cycles are timed by all samples, scattering ones by their dro
     const Estimate& quoted = regular.analysis.frequency.quoted;
     REQUIRE(quoted.ci95);
     if (quoted.ci95->low <= regular.frequency_Hz && regular.frequency_Hz <= quoted.ci95->high) ++held;
-    if (regular.analysis.frequency.method == "harmonic_least_squares") {
+    if (regular.analysis.frequency.method == FrequencyMethod::HarmonicLeastSquares) {
       ++from_spectrum;
       CHECK(*quoted.standard_error < 3e-5 * regular.frequency_Hz);  // the bound is 4e-6, the mean period has 2e-4
     }
     const Scene scattered = scene(seed, 0.03);
     INFO("seed " << seed);
-    CHECK(scattered.analysis.frequency.method == "fitted_cycles");
+    CHECK(scattered.analysis.frequency.method == FrequencyMethod::FittedCycles);
     const Estimate& mean = scattered.analysis.frequency.quoted;
     REQUIRE(mean.ci95);
     if (mean.ci95->low <= scattered.frequency_Hz && scattered.frequency_Hz <= mean.ci95->high) ++scattered_held;

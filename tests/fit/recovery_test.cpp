@@ -11,7 +11,7 @@ using namespace slipfit;
 namespace {
 
 void check_recovery(const Scene& s) {
-  const Analysis analysis = analyze_and_fit(record(s), {});
+  const Analysis analysis = analyze_and_fit(record(s));
   INFO(analysis.motion_reason);
   REQUIRE(analysis.motion == MotionClass::StickSlip);
   check_truth(analysis, s);
@@ -78,7 +78,7 @@ TEST_CASE("the interval of the spacing knows that neighbouring periods scatter t
   constexpr int kRecordings = 60;
   for (int i = 1; i <= kRecordings; ++i) {
     Scene s{.zeta = 0.01, .jitter = 0.1, .noise = 0.005, .seed = static_cast<std::uint64_t>(i)};
-    const Analysis analysis = analyze_and_fit(record(s), {});
+    const Analysis analysis = analyze_and_fit(record(s));
     s.jitter = 0.0;
     const LimitCycle cycle = *damped_motion(Slider::create(s.stiffness, s.omega, s.zeta).value(),
                                             Friction::create(s.static_N, s.kinetic_N).value(), s.speed)
@@ -108,7 +108,7 @@ TEST_CASE("95 % intervals hold the truth about 95 times in 100") {
     s.jitter = seed % 2 == 0 ? uniform(0.02, 0.15) : 0.0;
     s.noise = uniform(0.003, 0.03);
     s.seed = seed;
-    const Analysis analysis = analyze_and_fit(record(s), {});
+    const Analysis analysis = analyze_and_fit(record(s));
     REQUIRE(analysis.motion == MotionClass::StickSlip);
     const std::pair<const char*, double> truths[] = {{"stiffness_N_per_m", s.stiffness},
                                                      {"natural_frequency_rad_per_s", s.omega},
@@ -128,7 +128,7 @@ TEST_CASE("95 % intervals hold the truth about 95 times in 100") {
 
 TEST_CASE("what a slip of one sample cannot tell is bounded or unidentified") {
   const Scene s{.zeta = 0.08, .speed = 0.001, .samples_per_slip = 0.9, .noise = 0.01};
-  const Analysis analysis = analyze_and_fit(record(s), {});
+  const Analysis analysis = analyze_and_fit(record(s));
   REQUIRE(analysis.fit);
   CHECK(analysis.motion == MotionClass::StickSlip);
   CHECK(parameter(analysis, "damping_ratio").status == ParameterStatus::Unidentified);
@@ -153,7 +153,7 @@ TEST_CASE("below the stick-slip limit the motion rings down, and no parameter is
   Conditions conditions;
   conditions.speed_m_per_s = s.speed;
   const Analysis analysis =
-      analyze_and_fit(Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value(), {});
+      analyze_and_fit(Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value());
   CHECK(analysis.motion != MotionClass::StickSlip);
   if (!analysis.fit) return;
   for (const Parameter& p : analysis.fit->parameters) CHECK(p.status == ParameterStatus::Unidentified);
@@ -175,8 +175,8 @@ TEST_CASE("sticks that bend widen the interval of the stiffness and are warned o
     return std::any_of(analysis.warnings.begin(), analysis.warnings.end(),
                        [](const Warning& w) { return w.code == "model_misfit"; });
   };
-  const Analysis plain = analyze_and_fit(straight, {});
-  const Analysis creeping = analyze_and_fit(bent.value(), {});
+  const Analysis plain = analyze_and_fit(straight);
+  const Analysis creeping = analyze_and_fit(bent.value());
   CHECK_FALSE(warned(plain));
   CHECK(warned(creeping));
   CHECK(width(creeping) > 10.0 * width(plain));
@@ -197,7 +197,7 @@ TEST_CASE("held parameters stay where they are put") {
 TEST_CASE("predicted displacement follows the model, measured spacing is V over f") {
   Scene s;
   s.noise = 0.005;
-  const Analysis analysis = analyze_and_fit(record(s), {});
+  const Analysis analysis = analyze_and_fit(record(s));
   const LimitCycle truth = *damped_motion(Slider::create(s.stiffness, s.omega, s.zeta).value(),
                                           Friction::create(s.static_N, s.kinetic_N).value(), s.speed)
                                 .cycle;
@@ -228,8 +228,8 @@ TEST_CASE(
   Conditions conditions = recording.conditions();
   conditions.speed_m_per_s /= time_factor;
   const Recording other = Recording::create(std::move(time_s), std::move(force), conditions).value();
-  const Analysis before = analyze_and_fit(recording, {});
-  const Analysis after = analyze_and_fit(other, {});
+  const Analysis before = analyze_and_fit(recording);
+  const Analysis after = analyze_and_fit(other);
   const auto check = [&](const char* name, double factor) {
     INFO(name);
     const Estimate& e = parameter(before, name).estimate;
@@ -260,7 +260,7 @@ TEST_CASE("noise that is larger in and after the slips is in the intervals") {
     const auto time_s = clean.time_s();
     const Recording noisy =
         Recording::create({time_s.begin(), time_s.end()}, std::move(force), clean.conditions()).value();
-    const Analysis analysis = analyze_and_fit(noisy, {});
+    const Analysis analysis = analyze_and_fit(noisy);
     const Interval& ci95 = *parameter(analysis, "natural_frequency_rad_per_s").estimate.ci95;
     held += ci95.low <= s.omega && s.omega <= ci95.high ? 1 : 0;
   }

@@ -71,8 +71,8 @@ TEST_CASE("a ring-down that is the motion of the slips tells w_n and zeta with t
   if (samples > 1) scene.noise = 0.0;
   const Recording whole = averaged(with_release(scene, 1.0), samples);
   const Recording slips = averaged(record(scene), samples);
-  const Analysis joined = analyze_and_fit(whole, {});
-  const Analysis alone = analyze_and_fit(slips, {});
+  const Analysis joined = analyze_and_fit(whole);
+  const Analysis alone = analyze_and_fit(slips);
   REQUIRE(joined.motion == MotionClass::StickSlip);
   INFO("averaged over " << samples << " samples");
   CHECK(uses_ring_down(joined.fit->conditional_on));
@@ -90,10 +90,10 @@ TEST_CASE("a ring-down of another mode is told and changes nothing", "[ring_down
   Scene scene;
   scene.noise = 0.01;
   const Recording whole = with_release(scene, 1.3);
-  const Analysis joined = analyze_and_fit(whole, {});
+  const Analysis joined = analyze_and_fit(whole);
   CHECK(has_warning(joined, "ring_down_differs"));
   CHECK_FALSE(uses_ring_down(joined.fit->conditional_on));
-  const Analysis alone = analyze_and_fit(whole.part(0, record(scene).size()), {});
+  const Analysis alone = analyze_and_fit(whole.part(0, record(scene).size()));
   CHECK_FALSE(has_warning(alone, "ring_down_differs"));
   CHECK(*parameter(joined, "damping_ratio").estimate.value ==
         Approx(*parameter(alone, "damping_ratio").estimate.value).margin(0.01));

@@ -78,7 +78,7 @@ TEST_CASE("a slip seen through a slow sensor gives its parameters back") {
   const double lag_s = lag / s.omega;
   INFO("w_n T = " << lag);
   s.conditions.sensor_bandwidth_Hz = 1.0 / (2.0 * std::numbers::pi * lag_s);
-  const Analysis analysis = analyze_and_fit(through_sensor(s, lag_s), {});
+  const Analysis analysis = analyze_and_fit(through_sensor(s, lag_s));
   REQUIRE(analysis.motion == MotionClass::StickSlip);
   check_truth(analysis, s);
   CHECK_FALSE(has_warning(analysis, "model_misfit"));
@@ -86,7 +86,7 @@ TEST_CASE("a slip seen through a slow sensor gives its parameters back") {
 
 TEST_CASE("without the stated bandwidth the same slip gives another natural frequency") {
   const Scene s{.jitter = 0.03, .noise = 0.01};
-  const Analysis analysis = analyze_and_fit(through_sensor(s, 0.3 / s.omega), {});
+  const Analysis analysis = analyze_and_fit(through_sensor(s, 0.3 / s.omega));
   // What docs/accuracy.md says that it costs: 5 % of w_n at w_n T = 0.3.
   CHECK(*parameter(analysis, "natural_frequency_rad_per_s").estimate.value == Approx(0.95 * s.omega).epsilon(0.01));
 }
@@ -95,7 +95,7 @@ TEST_CASE("a sensor that has not forgotten one slip when the next begins is warn
   Scene s{.speed = 0.03, .noise = 0.01};
   const double lag_s = 2.0 / s.omega;
   s.conditions.sensor_bandwidth_Hz = 1.0 / (2.0 * std::numbers::pi * lag_s);
-  const Analysis analysis = analyze_and_fit(through_sensor(s, lag_s), {});
+  const Analysis analysis = analyze_and_fit(through_sensor(s, lag_s));
   CHECK(has_warning(analysis, "sensor_too_slow"));
   // Left over from the slip before, its tail would draw k off by 10 of its standard errors.
   if (analysis.motion == MotionClass::StickSlip) check_truth(analysis, "stiffness_N_per_m", s.stiffness);
@@ -138,14 +138,14 @@ TEST_CASE("a stated averaging gives the parameters back; unstated it is seen, an
     const Recording stated = Recording::create({shown.time_s().begin(), shown.time_s().end()},
                                                {shown.force().begin(), shown.force().end()}, conditions)
                                  .value();
-    const Analysis analysis = analyze_and_fit(stated, {});
+    const Analysis analysis = analyze_and_fit(stated);
     check_truth(analysis, s);
     CHECK(parameter(analysis, "natural_frequency_rad_per_s").status == ParameterStatus::Identified);
     CHECK(parameter(analysis, "sensor_average_s").status == ParameterStatus::Fixed);
     CHECK_FALSE(has_warning(analysis, "samples_averaged"));
   }
   SECTION("unstated") {
-    const Analysis analysis = analyze_and_fit(shown, {});
+    const Analysis analysis = analyze_and_fit(shown);
     CHECK(has_warning(analysis, "samples_averaged"));
     const Parameter& omega = parameter(analysis, "natural_frequency_rad_per_s");
     CHECK(omega.status == ParameterStatus::Weak);
