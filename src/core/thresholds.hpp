@@ -219,7 +219,7 @@ inline constexpr double kClearlyBetter = 0.95;
 
 /// Time constants of the sensor in a cycle, below which it is too slow. [1; derived: 8 pass before a ramp is fitted,
 /// and the slip takes some]
-inline constexpr double kForgottenLags = 14.0;
+inline constexpr double kLagsOfCycle = 14.0;
 
 /// Relative spread of the time step, above which the clock is uneven. [1; convention]
 inline constexpr double kUnevenClock = 0.05;

@@ -170,7 +170,7 @@ std::string text_of_element(const MatElement& element) {
 
 /// Empty for an array of another class, or of more than two extents, or none of numbers.
 std::optional<MatArray> read_array(const MatElement& matrix) {
-  constexpr double kMost = 1024.0 * 1024 * 1024 * 1024;  // lest products overflow
+  constexpr double kMost = 1024.0 * 1024 * 1024 * 1024;  // above it products of extents may overflow
   constexpr std::uint32_t kComplex = 0x800;
   const auto parts = mat_elements(matrix.data, matrix.order);
   if (parts.empty()) return std::nullopt;  // what an empty field of a structure is
