@@ -11,6 +11,7 @@
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
 #include "report/json_values.hpp"
+#include "report/names.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/text.hpp"
 
