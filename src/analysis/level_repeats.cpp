@@ -13,8 +13,6 @@
 namespace slipfit {
 namespace {
 
-constexpr double kFewestWaves = 3.0;     // in the recording: fewer are a drift
-constexpr double kMostWaves = 0.45;      // of the slips: beyond half of them two frequencies look alike
 constexpr double kStep = 0.25;           // of a wave, between two that are tried
 constexpr std::size_t kMostSlips = 256;  // from the first on
 
@@ -59,11 +57,11 @@ double best_waves(const Series& series) {
   const Eigen::ArrayXd value = without_trend(series);
   const std::complex<double> turn(0.0, 2.0 * std::numbers::pi);
   const Eigen::ArrayXcd step = (turn * kStep * series.place.array()).exp();
-  Eigen::ArrayXcd wave = (turn * kFewestWaves * series.place.array()).exp();
-  double best = kFewestWaves;
+  Eigen::ArrayXcd wave = (turn * thresholds::kFewestWaves * series.place.array()).exp();
+  double best = thresholds::kFewestWaves;
   double best_power = 0.0;
-  const double most = kMostWaves * static_cast<double>(series.size());
-  for (double waves = kFewestWaves; waves <= most; waves += kStep) {
+  const double most = thresholds::kMostWaves * static_cast<double>(series.size());
+  for (double waves = thresholds::kFewestWaves; waves <= most; waves += kStep) {
     const double power = std::norm((wave * value).sum());
     if (power > best_power) best = waves;
     best_power = std::max(best_power, power);

@@ -70,8 +70,7 @@ Line line_through(const std::vector<Onset>& onsets) {
 /// onsets, each timed with an error of its own, are
 /// (-1/2, with a standard error of 0.7 / sqrt(count)); where the static friction scatters they come near +1/2.
 bool is_regular(const FitDiagnostics& diagnostics, const std::vector<Onset>& onsets, double period_s) {
-  constexpr double kOrdinarySpread = 2.0;  // over its expectation: beyond chance from 10 cycles on
-  if (diagnostics.onset_force_spread > kOrdinarySpread * diagnostics.onset_force_error) return false;
+  if (diagnostics.onset_force_spread > thresholds::kOrdinarySpread * diagnostics.onset_force_error) return false;
   double product = 0.0, square = 0.0, previous = 0.0, count = 0.0;
   for (std::size_t i = 1; i < onsets.size(); ++i) {
     const double steps = onsets[i].index - onsets[i - 1].index;
@@ -106,10 +105,8 @@ Estimate with_relative_error(double value, double relative_error, double degrees
 }  // namespace
 
 std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& recording) {
-  constexpr std::size_t kFewest = 5;
-  constexpr double kSampled = 6.0;
   const std::vector<Onset> onsets = onsets_of(fit);
-  if (onsets.size() < kFewest) return std::nullopt;
+  if (onsets.size() < thresholds::kFewestOnsets) return std::nullopt;
   const auto count = static_cast<double>(onsets.size());
   const Line line = line_through(onsets);
   // The first and the last slip are timed to a step of the clock, evenly distributed.
@@ -119,7 +116,7 @@ std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& 
     return with_relative_error(1.0 / mean_s, std::hypot(recovery_error(fit), timing), count - 1.0);
   }
   // Between two samples of a hardly sampled slip the errors of regular cycles are no chance: they repeat.
-  if (fit.diagnostics.samples_per_slip < kSampled) return std::nullopt;
+  if (fit.diagnostics.samples_per_slip < thresholds::kTimingSamples) return std::nullopt;
   // Jumps of a sensor at the contact are timed to a step, and the error of regular ones may repeat.
   const double step = recording.conditions().force_view == ForceView::Contact ? 0.5 * timing : 0.0;
   return with_relative_error(1.0 / line.period_s, std::hypot(line.standard_error_s / line.period_s, step), count - 2.0);

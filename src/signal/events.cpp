@@ -76,7 +76,7 @@ Detection detect_beyond(const Falls& falls, double hysteresis) {
   return detection;
 }
 
-constexpr double kAlike = 1.05;  // of two numbers of falls
+constexpr double kSameCount = 1.05;  // ratio of two numbers of falls that are the same
 constexpr double kMostAsymmetry =
     6.0;  // quicker falls than this are not told from each other by sampling and smoothing
 
@@ -122,7 +122,7 @@ Scale falls_at_scale(const Means& trace, double noise) {
   Detection last = detect_beyond(all, 0.25 * scale.best.drop);
   Detection finer = last.drop == scale.best.drop ? last : detect_beyond(all, 0.25 * last.drop);
   const auto count = [](const Detection& detection) { return static_cast<double>(detection.falls.size()); };
-  if (count(finer) < kAlike * count(last)) last = std::move(finer);
+  if (count(finer) < kSameCount * count(last)) last = std::move(finer);
   last.score = score_of(last, noise);
   const std::size_t noticed = all.beyond(std::max(all.smallest(), 0.1 * scale.best.drop)).size();
   last.minor = noticed - std::min(noticed, last.falls.size());
@@ -132,7 +132,7 @@ Scale falls_at_scale(const Means& trace, double noise) {
 
 bool shows_the_same(const Detection& fine, const Detection& best) {
   const auto count = [](const Detection& detection) { return static_cast<double>(detection.falls.size()); };
-  return std::abs(count(fine) - count(best)) <= std::max(1.0, (kAlike - 1.0) * count(best)) &&
+  return std::abs(count(fine) - count(best)) <= std::max(1.0, (kSameCount - 1.0) * count(best)) &&
          std::min(fine.asymmetry, kMostAsymmetry) > 0.8 * std::min(best.asymmetry, kMostAsymmetry);
 }
 
