@@ -91,7 +91,7 @@ bool run_bare(const fs::path& manifest) {
   std::size_t bytes = 0;
   for (const slipfit::ManifestEntry& entry : entries.value()) {
     const auto recording = slipfit::read_recording(entry.file, entry.conditions);
-    bytes += slipfit::to_json(recording.value(), slipfit::analyze_and_fit(recording.value(), {})).size();
+    bytes += slipfit::to_json(recording.value(), slipfit::analyze_and_fit(recording.value())).size();
   }
   return bytes > 0;
 }

@@ -89,7 +89,7 @@ ComparedFit fitted(const Body& body, const Rig& rig, std::uint64_t seed) {
   conditions.speed_m_per_s = rig.speed;
   conditions.sensor_average_s = 0.0;
   const auto recording = slipfit::Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions);
-  return slipfit::compared_fit(to_json(recording.value(), analyze_and_fit(recording.value(), {}))).value();
+  return slipfit::compared_fit(to_json(recording.value(), analyze_and_fit(recording.value()))).value();
 }
 
 /// Rates over the pairs in which a quantity is known.

@@ -33,7 +33,7 @@ void analyse_and_fit(benchmark::State& state) {
   const Recording recording = recording_of(static_cast<double>(state.range(0)));
   double fit_s = 0.0;
   for (auto _ : state) {
-    const Analysis analysis = analyze_and_fit(recording, {});
+    const Analysis analysis = analyze_and_fit(recording);
     fit_s += analysis.timing.fit_s;
     benchmark::DoNotOptimize(&analysis);
   }

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/fitted_frequency.hpp"
+#include "analysis/conclusions.hpp"
 #include "fit/inference/intervals.hpp"
 #include "scenes.hpp"
 #include "slipfit/pipeline.hpp"
@@ -51,10 +51,10 @@ void study(const std::string& name, const Factors& factors, std::size_t recordin
   std::size_t by_spectrum = 0;
   for (std::size_t i = 0; i < recordings; ++i) {
     const atlas::Scene scene = atlas::make_scene(factors, seed + i);
-    const slipfit::Analysis analysis = slipfit::analyze_and_fit(scene.recording, {});
+    const slipfit::Analysis analysis = slipfit::analyze_and_fit(scene.recording);
     const double truth_Hz = 1.0 / scene.cycle.period_s;
     quoted.add(analysis.frequency.quoted, truth_Hz);
-    if (analysis.frequency.method == "harmonic_least_squares") ++by_spectrum;
+    if (analysis.frequency.method == slipfit::FrequencyMethod::HarmonicLeastSquares) ++by_spectrum;
     spectral.add(of_spectrum(analysis.frequency.spectral, static_cast<double>(analysis.cycles.count) - 3.0), truth_Hz);
     const auto from_fit = analysis.fit ? slipfit::fitted_frequency(*analysis.fit, scene.recording) : std::nullopt;
     if (from_fit) fitted.add(*from_fit, truth_Hz);

@@ -6,7 +6,7 @@
 #include "recording_argument.hpp"
 
 int main(int argc, char** argv) {
-  const slipfit::Analysis analysis = slipfit::analyze_and_fit(recording_of(argc, argv), {});
+  const slipfit::Analysis analysis = slipfit::analyze_and_fit(recording_of(argc, argv));
   if (!analysis.fit) {
     std::printf("no fit: %s\n", analysis.motion_reason.c_str());
     return 0;

@@ -36,7 +36,7 @@ int main() {
     if (!entry) return 1;
     entries.push_back(std::move(*entry));
   }
-  const slipfit::SweepAnalysis sweep = slipfit::analyze_sweep(entries, {});
+  const slipfit::SweepAnalysis sweep = slipfit::analyze_sweep(entries);
   if (!sweep.fit || !sweep.fit->result.estimate) {
     std::printf("no joint fit: %s\n", sweep.fit_reason.c_str());
     return 1;

@@ -23,7 +23,7 @@
 namespace slipfit {
 namespace {
 
-/// The fit as far as its numbers can be believed: no parameters where the motion is not the model's, no natural
+/// The fit as far as its numbers hold: no parameters where the motion is not the model's, no natural
 /// frequency where the slips are not inertial, nothing identified where the cycles keep in step with the mains.
 std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classification& classification,
                                  const Analysis& analysis, double duration_s) {

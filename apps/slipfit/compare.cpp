@@ -127,7 +127,7 @@ slipfit::ComparedRecording analysed(const ManifestEntry& entry) {
     const slipfit::Error error = entry.line > 0 ? slipfit::in_words_of_manifest(recording.error()) : recording.error();
     throw Failure(ExitCode::BadRecording, error);
   }
-  slipfit::Analysis analysis = slipfit::analyze_and_fit(recording.value(), {});
+  slipfit::Analysis analysis = slipfit::analyze_and_fit(recording.value());
   return {std::move(recording).value(), std::move(analysis)};
 }
 

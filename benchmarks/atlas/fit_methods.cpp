@@ -37,7 +37,7 @@ FitAnswer read_parameters(const std::vector<slipfit::Parameter>& parameters) {
 }
 
 FitAnswer fit_blocks(const Scene& scene) {
-  const slipfit::Analysis analysis = slipfit::analyze_and_fit(scene.recording, {});
+  const slipfit::Analysis analysis = slipfit::analyze_and_fit(scene.recording);
   return analysis.fit ? read_parameters(analysis.fit->parameters) : FitAnswer{};
 }
 
@@ -55,7 +55,7 @@ std::vector<slipfit::SweepEntry> make_sweep(Factors factors, std::uint64_t seed)
 TimedFit run_sweep(const Factors& factors, std::uint64_t seed) {
   const std::vector<slipfit::SweepEntry> entries = make_sweep(factors, seed);
   const double start_s = cpu_now_s();
-  const slipfit::SweepAnalysis sweep = slipfit::analyze_sweep(entries, {});
+  const slipfit::SweepAnalysis sweep = slipfit::analyze_sweep(entries);
   const double time_s = cpu_now_s() - start_s;
   return {sweep.fit ? read_parameters(sweep.fit->result.parameters) : FitAnswer{}, time_s};
 }

@@ -125,7 +125,7 @@ Estimate quoted_by_analyze(const Recording& recording) {
 }
 
 Estimate quoted_by_fit(const Recording& recording) {
-  return slipfit::analyze_and_fit(recording, {}).frequency.quoted;
+  return slipfit::analyze_and_fit(recording).frequency.quoted;
 }
 
 }  // namespace

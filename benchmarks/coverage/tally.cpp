@@ -45,7 +45,7 @@ std::map<std::string, double> bounds_of(const Scene& scene) {
   const auto time_s = scene.recording.time_s();
   const auto recording = slipfit::Recording::create({time_s.begin(), time_s.end()}, scene.nearly_noiseless_N,
                                                     scene.recording.conditions());
-  const Analysis analysis = slipfit::analyze_and_fit(recording.value(), {});
+  const Analysis analysis = slipfit::analyze_and_fit(recording.value());
   if (analysis.motion != MotionClass::StickSlip) return bounds;
   for (const slipfit::Parameter& parameter : analysis.fit->parameters) {
     if (!parameter.estimate.standard_error) continue;
@@ -137,7 +137,7 @@ bool Row::confidently_wrong() const {
 }
 
 std::vector<Row> fit_scene(const Scene& scene) {
-  const Analysis analysis = slipfit::analyze_and_fit(scene.recording, {});
+  const Analysis analysis = slipfit::analyze_and_fit(scene.recording);
   const std::map<std::string, double> bounds = bounds_of(scene);
   const std::array<std::tuple<const char*, const char*, double>, 4> parameters{
       {{"k", "stiffness_N_per_m", scene.truth.stiffness_N_per_m},

@@ -80,7 +80,7 @@ std::vector<Row> study(std::uint64_t seed) {
       {slipfit::ParameterStatus::Fixed, "fixed"},           {slipfit::ParameterStatus::Conditional, "conditional"}};
   const Sweep sweep = sweep_coverage::make_sweep(seed);
   const std::string family = sweep.truth.alpha_s_per_m < 0.0 ? "alpha<0" : "alpha>0";
-  const slipfit::SweepAnalysis analysis = slipfit::analyze_sweep(sweep.entries, {});
+  const slipfit::SweepAnalysis analysis = slipfit::analyze_sweep(sweep.entries);
   std::vector<Row> rows;
   if (!analysis.fit) return rows;
   const std::map<std::string, double> truths = truths_of(sweep.truth);
@@ -168,10 +168,10 @@ void time_fit() {
   };
   for (std::size_t i = 0; i < kRepeats; ++i) {
     auto start = std::chrono::steady_clock::now();
-    for (const auto& entry : sweep.entries) (void)slipfit::analyze_and_fit(entry.recording, {});
+    for (const auto& entry : sweep.entries) (void)slipfit::analyze_and_fit(entry.recording);
     alone_s.push_back(seconds(start));
     start = std::chrono::steady_clock::now();
-    (void)slipfit::analyze_sweep(sweep.entries, {});
+    (void)slipfit::analyze_sweep(sweep.entries);
     whole_s.push_back(seconds(start));
   }
   std::sort(alone_s.begin(), alone_s.end());

@@ -17,10 +17,13 @@ namespace slipfit {
 /// What kind of sliding the recording shows.
 enum class MotionClass { StickSlip, SteadySliding, OscillatorySlip, Undetermined };
 
+/// Where a quoted frequency comes from: the fitted cycles, the spectrum, or the count of slips.
+enum class FrequencyMethod { None, FittedCycles, HarmonicLeastSquares, SlipCounting };
+
 /// Spectral and counted frequency beside each other, and the one to quote.
 struct FrequencyReport {
-  Estimate quoted;     ///< Hz; empty where neither method finds one
-  std::string method;  ///< "fitted_cycles", "harmonic_least_squares", "slip_counting" or "none"
+  Estimate quoted;  ///< Hz; empty where neither method finds one
+  FrequencyMethod method = FrequencyMethod::None;
   SpectralFrequency spectral;
   Estimate counted;                   ///< Hz, from the mean interval between slips
   std::vector<SuspiciousLine> lines;  ///< repetitions that are not the slips: never quoted
@@ -41,11 +44,13 @@ struct CycleStatistics {
   Estimate stick_stiffness;  ///< N/m: slope of the rises over the speed, whatever model fits; of newtons
 };
 
-/// A one-line test of what the fit takes for granted. `name`: period_drift (value: relative change over the recording),
-/// return_map (correlation), ageing (force for each factor e of time in stick), stated_mass (k / w_n^2 over it),
-/// sensor_resonance (w_n over it).
+/// One-line tests of what the fit takes for granted, and what their `value` is: relative change of the period over the
+/// recording; path in m over which the level repeats; correlation of a slip with the one before; force for each factor
+/// e of time in stick; k / w_n^2 over the stated mass; w_n over the sensor's resonance.
+enum class TestKind { PeriodDrift, LevelRepeats, ReturnMap, Ageing, StatedMass, SensorResonance };
+
 struct ShortTest {
-  std::string name;
+  TestKind kind = TestKind::PeriodDrift;
   std::optional<double> value, standard_error;
   std::optional<double> p_value;  ///< that chance alone shows as much
   std::string finding;            ///< one sentence

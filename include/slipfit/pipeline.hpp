@@ -10,6 +10,6 @@ namespace slipfit {
 Analysis analyze(const Recording& recording);
 
 /// `analyze`, then the fit and what follows from it at the recording's own speed.
-Analysis analyze_and_fit(const Recording& recording, const FitOptions& options);
+Analysis analyze_and_fit(const Recording& recording, const FitOptions& options = {});
 
 }  // namespace slipfit

@@ -45,7 +45,7 @@ struct SweepAnalysis {
 };
 
 /// Each recording on its own, then one set of parameters for all. Needs at least one entry.
-SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options);
+SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options = {});
 
 /// Each recording on its own, no fit.
 SweepAnalysis analyze_each(std::span<const SweepEntry> entries);

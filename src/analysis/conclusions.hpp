@@ -15,12 +15,18 @@ namespace slipfit {
 // What an analysis says beside its fit, in the order in which src/pipeline.cpp asks.
 
 /// Both frequencies and the one to quote, which is of slips (or of an oscillation that is the motion): the cycles of a
-/// fit that is the model's (fitted_frequency.hpp), or harmonic least squares where they are regular and it is the
+/// fit that is the model's (`fitted_frequency`), or harmonic least squares where they are regular and it is the
 /// sharper; without such a fit the count, or harmonic least squares where they agree on regular slips. Steady sliding
 /// and what cannot be told quote none, nor does what dies out where spectrum and count differ. `fit`: empty unless its
 /// cycles are the model's.
 FrequencyReport quote_frequency(const Recording& recording, const Signals& signals,
                                 const Classification& classification, const FitResult* fit);
+
+/// Frequency (Hz) from the cycles of the fit, with an interval that knows why periods scatter: the stick after a slip
+/// lasts until the drop of that slip is made good, so that periods of neighbours are correlated, drops are not. Regular
+/// cycles: a line through the onsets; scattering ones: their mean period, with the error of the mean drop. Empty below
+/// 5 cycles, and where regular slips are not resolved.
+std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& recording);
 
 /// Of the detected slips; times of stick and slip from the cycles of a fit, where there is one.
 CycleStatistics summarise_cycles(const Recording& recording, const Segmentation& segmentation, const FitResult* fit);

@@ -93,7 +93,7 @@ class BeneathHum {
   /// A few neighbouring slips are fitted so much better beneath the mains that the fit of those seen is not needed.
   /// Where it is so much worse, all of them are not tried. For recordings of many slips.
   [[nodiscard]] bool is_sure(const Signals& seen) {
-    look(seen);
+    find_slips(seen);
     if (!slips_ || slips_->slips.size() < kFewSlips + 2) return false;
     const double ratio = misfit_of_few(seen.quality, *slips_) / misfit_of_few(seen.quality, seen.segmentation);
     if (ratio > kSure) slips_.reset();
@@ -103,7 +103,7 @@ class BeneathHum {
 
   /// Lines of the mains in the level take up some noise by themselves: a fit beneath them has to be clearly better.
   [[nodiscard]] Estimates better_of(Estimates seen) {
-    look(seen.signals);
+    find_slips(seen.signals);
     const Quality& quality = seen.signals.quality;
     if (!slips_ || is_hopeless(quality, misfit_of(seen.fit))) return seen;
     std::optional<FitResult> other = fit_recording(recording_, quality, *slips_, options_);
@@ -122,9 +122,9 @@ class BeneathHum {
   static constexpr std::size_t kFewSlips = 64;
   static constexpr double kSure = 2.0;  // by which the misfit may change from a few slips, or a rough fit
 
-  void look(const Signals& seen) {
-    if (!has_looked_) slips_ = find_slips_beneath_hum(recording_, seen.quality, seen.segmentation);
-    has_looked_ = true;
+  void find_slips(const Signals& seen) {
+    if (!is_searched_) slips_ = find_slips_beneath_hum(recording_, seen.quality, seen.segmentation);
+    is_searched_ = true;
   }
 
   /// With the lines of the mains in the level.
@@ -149,7 +149,7 @@ class BeneathHum {
 
   const Recording& recording_;
   const FitOptions& options_;
-  bool has_looked_ = false;
+  bool is_searched_ = false;
   bool is_sure_ = false;
   std::optional<Segmentation> slips_;
 };

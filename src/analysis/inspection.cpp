@@ -6,7 +6,7 @@
 
 namespace slipfit {
 
-/// Where slips are does not hang on the speed: any will do where the file has none.
+/// The places of slips do not depend on the speed: where the file has none, any value gives the same.
 Result<Inspection> inspect(const std::filesystem::path& file, const ReadOptions& options) {
   auto info = inspect_recording(file, options);
   if (!info) return info.error();

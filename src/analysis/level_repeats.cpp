@@ -13,8 +13,6 @@
 namespace slipfit {
 namespace {
 
-constexpr double kFewestWaves = 3.0;     // in the recording: fewer are a drift
-constexpr double kMostWaves = 0.45;      // of the slips: beyond half of them two frequencies look alike
 constexpr double kStep = 0.25;           // of a wave, between two that are tried
 constexpr std::size_t kMostSlips = 256;  // from the first on
 
@@ -59,11 +57,11 @@ double best_waves(const Series& series) {
   const Eigen::ArrayXd value = without_trend(series);
   const std::complex<double> turn(0.0, 2.0 * std::numbers::pi);
   const Eigen::ArrayXcd step = (turn * kStep * series.place.array()).exp();
-  Eigen::ArrayXcd wave = (turn * kFewestWaves * series.place.array()).exp();
-  double best = kFewestWaves;
+  Eigen::ArrayXcd wave = (turn * thresholds::kFewestWaves * series.place.array()).exp();
+  double best = thresholds::kFewestWaves;
   double best_power = 0.0;
-  const double most = kMostWaves * static_cast<double>(series.size());
-  for (double waves = kFewestWaves; waves <= most; waves += kStep) {
+  const double most = thresholds::kMostWaves * static_cast<double>(series.size());
+  for (double waves = thresholds::kFewestWaves; waves <= most; waves += kStep) {
     const double power = std::norm((wave * value).sum());
     if (power > best_power) best = waves;
     best_power = std::max(best_power, power);
@@ -115,7 +113,7 @@ std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, doubl
   const Sine best = sine_in(levels, best_waves(levels));
   const double swing = 2.0 * best.amplitude / mean_drop(cycles);
   if (!(swing > thresholds::kSmallestWave)) {
-    return ShortTest{"level_repeats",
+    return ShortTest{TestKind::LevelRepeats,
                      {},
                      {},
                      {},
@@ -131,7 +129,7 @@ std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, doubl
   const double se_m = path_m * std::sqrt(6.0 / count) / std::numbers::pi * scatter / best.waves;
   const bool is_proven = p < thresholds::kProven;
   return ShortTest{
-      "level_repeats", path_m, se_m, p,
+      TestKind::LevelRepeats, path_m, se_m, p,
       fmt::format("the force level swings by {:.2g} % of the mean drop once every {:.3g} slips or {:.3g} mm of "
                   "sliding: {} at the {:g} % level (p {:.2g}){}",
                   100.0 * swing, (count - 1.0) / best.waves, 1e3 * path_m, is_proven ? "proven" : "not proven",

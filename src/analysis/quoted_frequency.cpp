@@ -1,20 +1,127 @@
 #include "analysis/conclusions.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
-#include "analysis/fitted_frequency.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/slip_shape.hpp"
+#include "core/line_sums.hpp"
 #include "core/quantile.hpp"
 #include "core/student.hpp"
 #include "core/thresholds.hpp"
+#include "signal/robust.hpp"
 
 namespace slipfit {
+namespace {
+
+struct Onset {
+  double index = 0.0;  ///< number of the cycle, missing ones counted
+  double time_s = 0.0;
+  std::optional<double> counted;  ///< steps from the one before by the table, where cycles between were left aside
+};
+
+std::vector<Onset> onsets_of(const FitResult& fit) {
+  std::vector<Onset> onsets;
+  std::vector<double> steps_s;
+  double rows = 1.0;
+  bool aside = false;
+  for (const Cycle& cycle : fit.cycles) {
+    aside = aside || !cycle.selected;
+    if (cycle.used && !onsets.empty()) steps_s.push_back((*cycle.onset_s - onsets.back().time_s) / rows);
+    if (cycle.used) onsets.push_back({0.0, *cycle.onset_s, aside ? std::optional(rows) : std::nullopt});
+    if (cycle.used) aside = false;
+    rows = cycle.used ? 1.0 : rows + 1.0;
+  }
+  const double period_s = signal::median(std::move(steps_s));
+  for (std::size_t i = 1; i < onsets.size(); ++i) {
+    // From one to the next: a period that drifts does not add up. Over many cycles that scatter only counting helps.
+    const double steps = std::round((onsets[i].time_s - onsets[i - 1].time_s) / period_s);
+    onsets[i].index = onsets[i - 1].index + onsets[i].counted.value_or(std::max(1.0, steps));
+  }
+  return onsets;
+}
+
+/// Slope of the least-squares line through the onsets, and its standard error: larger where neighbours err together
+/// (short sticks hand their errors on).
+struct Line {
+  double period_s = 0.0;
+  double standard_error_s = 0.0;
+};
+
+Line line_through(const std::vector<Onset>& onsets) {
+  const LineSums line = line_sums(
+      onsets.size(), [&](std::size_t i) { return onsets[i].index; }, [&](std::size_t i) { return onsets[i].time_s; });
+  double rest = 0.0, product = 0.0, previous_s = 0.0;
+  for (const Onset& onset : onsets) {
+    const double residual_s = onset.time_s - line.at(onset.index);
+    rest += residual_s * residual_s;
+    product += residual_s * previous_s;
+    previous_s = residual_s;
+  }
+  const double correlation = rest > 0.0 ? std::clamp(product / rest, 0.0, 0.9) : 0.0;
+  const double fewer = (1.0 + correlation) / (1.0 - correlation);
+  return {line.slope(), std::sqrt(fewer * rest / (line.count - 2.0) / line.square)};
+}
+
+/// Whether onset forces differ no more than their errors, and neighbouring periods are correlated as those of even
+/// onsets, each timed with an error of its own, are
+/// (-1/2, with a standard error of 0.7 / sqrt(count)); where the static friction scatters they come near +1/2.
+bool is_regular(const FitDiagnostics& diagnostics, const std::vector<Onset>& onsets, double period_s) {
+  if (diagnostics.onset_force_spread > thresholds::kOrdinarySpread * diagnostics.onset_force_error) return false;
+  double product = 0.0, square = 0.0, previous = 0.0, count = 0.0;
+  for (std::size_t i = 1; i < onsets.size(); ++i) {
+    const double steps = onsets[i].index - onsets[i - 1].index;
+    const double deviation = steps == 1.0 ? onsets[i].time_s - onsets[i - 1].time_s - period_s : 0.0;
+    square += deviation * deviation;
+    product += deviation * previous;
+    previous = deviation;
+    count += 1.0;
+  }
+  return product <= (-0.5 + 0.9 / std::sqrt(count)) * square;
+}
+
+/// Standard error over mean of the time that a slip's drop takes to build up again, on average over the cycles in the
+/// fit and those left aside, which scatter alike.
+double recovery_error(const FitResult& fit) {
+  double count = 0.0, mean = 0.0, square = 0.0, aside = 0.0;
+  for (const Cycle& cycle : fit.cycles) {
+    if (!cycle.selected) aside += 1.0;
+    if (!cycle.used) continue;
+    count += 1.0;
+    const double step = *cycle.recovery_s - mean;
+    mean += step / count;
+    square += step * (*cycle.recovery_s - mean);
+  }
+  return std::sqrt(square / (count - 1.0) / (count + aside)) / mean;
+}
+
+Estimate with_relative_error(double value, double relative_error, double degrees_of_freedom) {
+  return symmetric(value, relative_error * value, degrees_of_freedom);
+}
+
+}  // namespace
+
+std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& recording) {
+  const std::vector<Onset> onsets = onsets_of(fit);
+  if (onsets.size() < thresholds::kFewestOnsets) return std::nullopt;
+  const auto count = static_cast<double>(onsets.size());
+  const Line line = line_through(onsets);
+  // The first and the last slip are timed to a step of the clock, evenly distributed.
+  const double mean_s = (onsets.back().time_s - onsets.front().time_s) / onsets.back().index;
+  const double timing = recording.sample_interval_s() / mean_s / std::sqrt(6.0) / count;
+  if (!is_regular(fit.diagnostics, onsets, line.period_s)) {
+    return with_relative_error(1.0 / mean_s, std::hypot(recovery_error(fit), timing), count - 1.0);
+  }
+  // Between two samples of a hardly sampled slip the errors of regular cycles are no chance: they repeat.
+  if (fit.diagnostics.samples_per_slip < thresholds::kTimingSamples) return std::nullopt;
+  // Jumps of a sensor at the contact are timed to a step, and the error of regular ones may repeat.
+  const double step = recording.conditions().force_view == ForceView::Contact ? 0.5 * timing : 0.0;
+  return with_relative_error(1.0 / line.period_s, std::hypot(line.standard_error_s / line.period_s, step), count - 2.0);
+}
+
 namespace {
 
 /// Of the two frequencies; empty where one of them is.
@@ -25,7 +132,7 @@ std::optional<double> relative_difference(const SpectralFrequency& spectral, con
 
 /// Harmonic least squares uses every sample, onsets what the slips show of them: on regular cycles it is two to five
 /// times as exact (docs/accuracy.md), unless hum or drift, which the fit allows for and the spectrum does not, are in
-/// its error. Where the two contradict each other the fit is believed: it knows a slip from other repetitions.
+/// its error. Where the two contradict each other the fit is quoted: it tells slips from other repetitions.
 bool is_sharper(const SpectralFrequency& spectral, const Estimate& fitted) {
   if (!spectral.value_Hz || !spectral.regular_standard_error_Hz) return false;
   const double difference_Hz = std::abs(*spectral.value_Hz - *fitted.value);
@@ -72,10 +179,10 @@ std::optional<FrequencyReport> of_fit(const Recording& recording, const Signals&
   const auto fitted = fitted_frequency(fit, recording);
   if (!fitted) return std::nullopt;
   FrequencyReport report;
-  report.method = "fitted_cycles";
+  report.method = FrequencyMethod::FittedCycles;
   report.quoted = *fitted;
   if (is_sharper(signals.spectral, *fitted)) {
-    report.method = "harmonic_least_squares";
+    report.method = FrequencyMethod::HarmonicLeastSquares;
     const double freedom = std::max(1.0, static_cast<double>(signals.segmentation.slips.size()) - 3.0);
     report.quoted = symmetric(*signals.spectral.value_Hz, *signals.spectral.regular_standard_error_Hz, freedom);
   }
@@ -113,7 +220,6 @@ Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
 FrequencyReport of_trace(const Recording& recording, const Signals& signals, const Classification& classification) {
   const SpectralFrequency& spectral = signals.spectral;
   FrequencyReport report;
-  report.method = "none";
   const Estimate counted = count_frequency(recording, signals.segmentation);
   const Intervals intervals = intervals_of(recording, signals.segmentation);
   const MeanAndSpread interval = describe(intervals.seconds);
@@ -131,10 +237,10 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
   if (classification.dies_out && !agree) {
     report.quoted.note = "the swings die out, and spectrum and count do not agree on them";
   } else if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || hidden)) {
-    report.method = "harmonic_least_squares";
+    report.method = FrequencyMethod::HarmonicLeastSquares;
     report.quoted = symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
   } else if (counted.value && !contradict) {
-    report.method = "slip_counting";
+    report.method = FrequencyMethod::SlipCounting;
     report.quoted = near && !agree ? reaching(counted, spectral) : counted;
   } else {
     report.quoted.note =
@@ -150,7 +256,6 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
   const MotionClass motion = classification.motion;
   const bool slides = motion == MotionClass::StickSlip || motion == MotionClass::OscillatorySlip;
   FrequencyReport report;
-  report.method = "none";
   report.quoted.note = motion == MotionClass::SteadySliding ? "steady sliding has no slips"
                                                             : "no slips can be told: nothing that repeats is quoted";
   if (slides) {

@@ -95,7 +95,7 @@ FitResult in_range(FitResult fit, const Conditions& conditions) {
 FrequencyReport in_range(FrequencyReport frequency) {
   keep_in(kNotNegative, frequency.quoted, frequency.counted);
   frequency.spectral = in_range(std::move(frequency.spectral));
-  if (!frequency.quoted.value) frequency.method = "none";
+  if (!frequency.quoted.value) frequency.method = FrequencyMethod::None;
   return frequency;
 }
 

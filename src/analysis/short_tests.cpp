@@ -10,6 +10,7 @@
 
 #include "core/student.hpp"
 #include "core/thresholds.hpp"
+#include "report/names.hpp"
 
 namespace slipfit {
 namespace {
@@ -91,7 +92,7 @@ ShortTest test_drift(const std::vector<Pair>& pairs, double duration_s) {
   const double r = slope * std::sqrt(product(time, time) / product(period, period));
   const double change = slope * duration_s / mean_s;
   const double p = chance_of(r, count - 2.0);
-  return {"period_drift", change, std::abs(change) * std::sqrt((1.0 / (r * r) - 1.0) / (count - 2.0)), p,
+  return {TestKind::PeriodDrift, change, std::abs(change) * std::sqrt((1.0 / (r * r) - 1.0) / (count - 2.0)), p,
           fmt::format("the period changes by {:+.2g} % from begin to end: {}", 100.0 * change, seen(p))};
 }
 
@@ -103,7 +104,7 @@ ShortTest test_return_map(const std::vector<Pair>& pairs) {
   const double freedom = static_cast<double>(pairs.size()) - 3.0;
   const double p = chance_of(r, freedom);
   return {
-      "return_map", r, std::sqrt((1.0 - r * r) / freedom), p,
+      TestKind::ReturnMap, r, std::sqrt((1.0 - r * r) / freedom), p,
       fmt::format("the static friction of a slip correlates by {:+.2f} with that of the slip before: {}", r, seen(p))};
 }
 
@@ -121,7 +122,7 @@ ShortTest test_ageing(const std::vector<Pair>& pairs, const std::string& unit) {
   const double se = std::sqrt(square / freedom * product(before, before)) / std::abs(product(stick, before));
   const double r = product(force, before) / std::sqrt(product(force, force) * product(before, before));
   const double p = chance_of(r, freedom);
-  return {"ageing", slope, se, p,
+  return {TestKind::Ageing, slope, se, p,
           fmt::format("static friction changes by {:+.2g} ± {:.1g} {} where the stick lasts 2.72 times as long: {}; it "
                       "rests on the same correlation as the test before",
                       slope, se, unit, seen(p))};
@@ -136,22 +137,22 @@ std::optional<Estimate> known_estimate(Estimate estimate) {
 ShortTest test_mass(const FitResult& fit, double stated_kg) {
   const std::optional<Estimate> mass = known_estimate(fit.estimate_of(ParameterId::Mass));
   if (!mass || !(*mass->standard_error > 0.0)) {
-    return {"stated_mass", {}, {}, {}, "k / w_n^2 is not known: the stated mass cannot be compared with it"};
+    return {TestKind::StatedMass, {}, {}, {}, "k / w_n^2 is not known: the stated mass cannot be compared with it"};
   }
   const double ratio = *mass->value / stated_kg;
   const double relative_se = *mass->standard_error / *mass->value;
   const boost::math::normal_distribution<double> normal;
   const double p = 2.0 * boost::math::cdf(boost::math::complement(normal, std::abs(std::log(ratio)) / relative_se));
-  return {"stated_mass", ratio, ratio * relative_se, p,
+  return {TestKind::StatedMass, ratio, ratio * relative_se, p,
           fmt::format("k / w_n^2 is {:.3g} ± {:.1g} times the stated mass, a difference {}", ratio, ratio * relative_se,
                       seen(p))};
 }
 
 ShortTest test_resonance(const FitResult& fit, double resonance_Hz) {
   const std::optional<Estimate> omega = known_estimate(fit.natural_frequency());
-  if (!omega) return {"sensor_resonance", {}, {}, {}, "w_n is not known"};
+  if (!omega) return {TestKind::SensorResonance, {}, {}, {}, "w_n is not known"};
   const double ratio = *omega->value / (2.0 * std::numbers::pi * resonance_Hz);
-  return {"sensor_resonance",
+  return {TestKind::SensorResonance,
           ratio,
           *omega->standard_error / *omega->value * ratio,
           {},
@@ -165,7 +166,7 @@ ShortTest test_resonance(const FitResult& fit, double resonance_Hz) {
 ShortTest finite(ShortTest test) {
   for (const auto& number : {test.value, test.standard_error, test.p_value}) {
     if (!number || std::isfinite(*number)) continue;
-    return {test.name, {}, {}, {}, "the cycles differ too little for the test " + test.name};
+    return {test.kind, {}, {}, {}, fmt::format("the cycles differ too little for the test {}", name_of(test.kind))};
   }
   return test;
 }
@@ -196,14 +197,14 @@ Warnings warn_of(const std::vector<ShortTest>& tests) {
   Warnings warnings;
   for (const ShortTest& test : tests) {
     const bool by_chance = !test.p_value || *test.p_value > thresholds::kProven;
-    if (test.name == "sensor_resonance" && test.value && *test.value > thresholds::kNearResonance) {
+    if (test.kind == TestKind::SensorResonance && test.value && *test.value > thresholds::kNearResonance) {
       warnings.push_back({"near_sensor_resonance", test.finding});
     }
     if (by_chance) continue;
-    if (test.name == "period_drift") warnings.push_back({"period_drifts", test.finding});
-    if (test.name == "level_repeats") warnings.push_back({"level_repeats", test.finding});
-    if (test.name == "return_map") warnings.push_back({"cycles_remember", test.finding});
-    if (test.name == "stated_mass") {
+    if (test.kind == TestKind::PeriodDrift) warnings.push_back({"period_drifts", test.finding});
+    if (test.kind == TestKind::LevelRepeats) warnings.push_back({"level_repeats", test.finding});
+    if (test.kind == TestKind::ReturnMap) warnings.push_back({"cycles_remember", test.finding});
+    if (test.kind == TestKind::StatedMass) {
       warnings.push_back({"mass_differs", test.finding +
                                               "; springs or parts may move with the body, the contact may be "
                                               "compliant, or the slips differ from the model; the fit does not use "

@@ -82,9 +82,8 @@ bool is_change(const Split& split) {
 
 /// Far off the usual interval by their typical deviation; nearer only between two usual ones: a rhythm may settle.
 bool is_broken(const std::vector<double>& deviations, std::size_t i, double usual, double typical) {
-  constexpr double kOrdinary = 8.0;
   const auto is_beyond = [&](std::size_t of, double share) {
-    return deviations[of] > std::max(share * usual, kOrdinary * typical);
+    return deviations[of] > std::max(share * usual, thresholds::kFarOverTypical * typical);
   };
   if (is_beyond(i, thresholds::kFarInterval)) return true;
   const bool is_inside = i > 0 && i + 1 < deviations.size();

@@ -70,14 +70,14 @@ std::optional<Apart> by_spacing(std::span<const SweepEntry> entries, const std::
 }
 
 /// A parameter of a recording's own fit.
-struct Own {
+struct FittedValue {
   std::size_t recording = 0;
   double value = 0.0;
   double standard_error = 1.0;
 };
 
-std::vector<Own> own_values(ParameterId id, const std::vector<Analysis>& analyses, const SweepFit& fit) {
-  std::vector<Own> values;
+std::vector<FittedValue> fitted_values(ParameterId id, const std::vector<Analysis>& analyses, const SweepFit& fit) {
+  std::vector<FittedValue> values;
   for (std::size_t i = 0; i < analyses.size(); ++i) {
     if (!analyses[i].fit || fit.points[i].cycles_used == 0) continue;
     const Estimate own = analyses[i].fit->estimate_of(id);
@@ -87,17 +87,17 @@ std::vector<Own> own_values(ParameterId id, const std::vector<Analysis>& analyse
   return values;
 }
 
-double middle_of(const std::vector<Own>& values) {
+double middle_of(const std::vector<FittedValue>& values) {
   std::vector<double> numbers;
   numbers.reserve(values.size());
-  for (const Own& own : values) numbers.push_back(own.value);
+  for (const FittedValue& own : values) numbers.push_back(own.value);
   return signal::median(numbers);
 }
 
 /// Beside the middle of all, in a unit.
-std::vector<Apart> from_middle(const std::vector<Own>& values, double middle, double unit) {
+std::vector<Apart> from_middle(const std::vector<FittedValue>& values, double middle, double unit) {
   std::vector<Apart> apart;
-  for (const Own& own : values) {
+  for (const FittedValue& own : values) {
     const double off = own.value - middle;
     apart.push_back({own.recording, off / unit, std::abs(off) / own.standard_error});
   }
@@ -106,9 +106,9 @@ std::vector<Apart> from_middle(const std::vector<Own>& values, double middle, do
 
 std::optional<Apart> by_stiffness(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
                                   const SweepFit& fit) {
-  std::vector<Own> values = own_values(ParameterId::Stiffness, analyses, fit);
+  std::vector<FittedValue> values = fitted_values(ParameterId::Stiffness, analyses, fit);
   if (values.empty()) return std::nullopt;
-  for (Own& own : values) {
+  for (FittedValue& own : values) {
     if (!fit.result.estimate || !fit.result.estimate->stiffness_trend) break;
     const double speed_m_per_s = entries[own.recording].recording.conditions().speed_m_per_s;
     const double growth = std::exp(fit.result.estimate->stiffness_trend->log_growth_at(speed_m_per_s));
@@ -124,9 +124,9 @@ std::optional<Apart> by_level(std::span<const SweepEntry> entries, const std::ve
                               const SweepFit& fit) {
   const Estimate unit = fit.result.friction_difference();
   if (fit.level_shared || !unit.value) return std::nullopt;
-  std::vector<Own> values = own_values(ParameterId::KineticFriction, analyses, fit);
+  std::vector<FittedValue> values = fitted_values(ParameterId::KineticFriction, analyses, fit);
   if (values.empty()) return std::nullopt;
-  for (Own& own : values) {
+  for (FittedValue& own : values) {
     const std::optional<double> load_N = entries[own.recording].recording.conditions().normal_force_N;
     if (!load_N || !fit.result.estimate || !fit.result.estimate->normal_force_N) continue;
     own.value *= *fit.result.estimate->normal_force_N / *load_N;

@@ -150,7 +150,7 @@ Warnings check_level_repeats(std::span<const SweepEntry> entries, const std::vec
   std::vector<double> paths_m, times_s;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     for (const ShortTest& test : analyses[i].tests) {
-      if (test.name != "level_repeats" || !test.p_value || *test.p_value > thresholds::kProven) continue;
+      if (test.kind != TestKind::LevelRepeats || !test.p_value || *test.p_value > thresholds::kProven) continue;
       paths_m.push_back(*test.value);
       times_s.push_back(*test.value / entries[i].recording.conditions().speed_m_per_s);
     }

@@ -47,7 +47,7 @@ Warnings warn_of_quality(const Detected& detected) {
 Warnings warn_of_sensor(const Conditions& conditions, const CycleStatistics& cycles) {
   if (!conditions.sensor_bandwidth_Hz || !cycles.period_s) return {};
   const double lags = *cycles.period_s * 2.0 * std::numbers::pi * *conditions.sensor_bandwidth_Hz;
-  if (lags > thresholds::kForgottenLags) return {};
+  if (lags > thresholds::kLagsOfCycle) return {};
   return {
       {"sensor_too_slow", fmt::format("a cycle lasts {:.2g} times the sensor's lag: one slip is hardly forgotten when "
                                       "the next begins, and little of the ramps is left to fit",

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The lock file begins with these words, so that nobody else's file of the name is taken for a lock.
+/// The lock file begins with these words: a file of that name without them was written by another program.
 constexpr std::string_view kMark = "slipfit batch, ";
 
 std::string text_of(int descriptor) {

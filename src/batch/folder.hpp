@@ -13,7 +13,7 @@ namespace slipfit::batch {
 class FolderLock {
  public:
   /// Makes the folder where it is missing. Errors: folder_in_use, cannot_write, folder_of_another_batch where the file
-  /// `lock` is somebody else's.
+  /// `lock` was written by another program.
   static FolderLock take(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(FolderLock&&) noexcept = default;

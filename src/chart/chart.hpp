@@ -94,7 +94,8 @@ struct Chart {
 /// A file of its own.
 std::string to_svg(const Chart& chart);
 
-/// How a page names a picture: `id` of its own on the page (letters, digits, '-'), `label` for who cannot see it.
+/// How a page names a picture: `id` of its own on the page (letters, digits, '-'), `label` for readers who cannot see
+/// it.
 struct PagePlace {
   std::string id;
   std::string label;

@@ -92,11 +92,11 @@ void adjust(std::vector<QuantityComparison>& quantities) {
 
 /// By more than rounding of what was typed: a hundredth.
 bool differ(const Comparison& comparison, ComparedCondition condition) {
-  constexpr double kSame = 1.01;
+  constexpr double kRoundedRatio = 1.01;
   const auto range_a = range_of(comparison.a, condition);
   const auto range_b = range_of(comparison.b, condition);
   if (!range_a || !range_b) return false;
-  return std::max(range_a->high, range_b->high) > kSame * std::min(range_a->low, range_b->low);
+  return std::max(range_a->high, range_b->high) > kRoundedRatio * std::min(range_a->low, range_b->low);
 }
 
 /// "0.02 to 0.05 m/s"

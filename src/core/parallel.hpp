@@ -12,7 +12,7 @@
 
 namespace slipfit {
 
-#ifdef SLIPFIT_SINGLE_PROCESS  // async would wait for ever for a thread that cannot begin
+#ifdef SLIPFIT_SINGLE_PROCESS  // async would wait without end for a thread that cannot begin
 inline constexpr std::launch kLaunch = std::launch::deferred;
 #else
 inline constexpr std::launch kLaunch = std::launch::async | std::launch::deferred;

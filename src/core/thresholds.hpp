@@ -110,6 +110,23 @@ inline constexpr double kAlike = 0.05;
 /// [1; convention]
 inline constexpr double kAnotherThing = 2.0;
 
+/// Fewest fitted onsets that give a frequency. [count; convention]
+inline constexpr std::size_t kFewestOnsets = 5;
+
+/// Fewest samples of a slip that times regular cycles: the error of timing repeats below. [count; convention]
+inline constexpr double kTimingSamples = 6.0;
+
+/// Spread of the onset force over its error, above which periods scatter. [1; derived: beyond chance from 10 cycles on]
+inline constexpr double kOrdinarySpread = 2.0;
+
+/// Log likelihood that phases gain by a walk, below which they show none. [1; derived: even phases gain more in one
+/// recording of seven]
+inline constexpr double kWalkGain = 1.0;
+
+/// Power of the likelihood where they show none: friction that scatters by a ten-thousandth of the drop does not show.
+/// [1; calibrated: benchmarks/frequency_coverage, 90 % of the intervals hold with 0.7]
+inline constexpr double kHiddenWalk = 0.35;
+
 // ## Quality and spectrum
 
 /// Deviation of an isolated sample from both neighbours over the noise, above which it is an impulse. [1; derived:
@@ -166,6 +183,9 @@ inline constexpr double kFarInterval = 0.12;
 /// The same of a broken interval between two usual ones. [1; convention]
 inline constexpr double kOddInterval = 0.04;
 
+/// Distance of either over the typical distance of the intervals, at least. [1; convention]
+inline constexpr double kFarOverTypical = 8.0;
+
 /// Largest share of intervals that are called broken. [1; convention]
 inline constexpr double kFewBroken = 0.25;
 
@@ -219,7 +239,7 @@ inline constexpr double kClearlyBetter = 0.95;
 
 /// Time constants of the sensor in a cycle, below which it is too slow. [1; derived: 8 pass before a ramp is fitted,
 /// and the slip takes some]
-inline constexpr double kForgottenLags = 14.0;
+inline constexpr double kLagsOfCycle = 14.0;
 
 /// Relative spread of the time step, above which the clock is uneven. [1; convention]
 inline constexpr double kUnevenClock = 0.05;
@@ -239,6 +259,12 @@ inline constexpr double kSmallestWave = 0.05;
 
 /// Largest relative difference of what two recordings repeat over, for it to be one thing. [1; convention]
 inline constexpr double kOneWave = 0.05;
+
+/// Fewest waves of the level in a recording: fewer are a drift. [count; convention]
+inline constexpr double kFewestWaves = 3.0;
+
+/// Most waves over slips. [1; derived: beyond half of the slips two frequencies look alike]
+inline constexpr double kMostWaves = 0.45;
 
 /// Spread of the onset forces over the error of one, below which they tell of the noise, not of the cycles.
 /// [1; convention]

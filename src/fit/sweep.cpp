@@ -263,8 +263,8 @@ class Assembler {
   fit::Intervals intervals_;
 };
 
-/// `asked`: of the user. `known`: an average of the sensor that was found before.
-std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, const FitOptions& asked,
+/// `stated`: what the user holds. `known`: an average of the sensor that was found before.
+std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, const HeldParameters& stated,
                                     const FitOptions& options, const std::optional<fit::FittedAverage>& known = {}) {
   SweepData data = fit::prepare_sweep(recordings, options, known);
   if (data.fitted.size() < 2) return std::nullopt;
@@ -272,7 +272,7 @@ std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, 
   std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
   if (!fits) return std::nullopt;
   fit::ChosenLaw law = fit::choose_law(data, *std::move(fits), options.tier, fit::speed_ratio(recordings));
-  const std::optional<Warning> ring_doubt = fit::join_ring_downs(recordings, asked.held, data, law.outcome);
+  const std::optional<Warning> ring_doubt = fit::join_ring_downs(recordings, stated, data, law.outcome);
   SweepFit sweep = Assembler(recordings, data, law.outcome).assemble(law.choice);
   if (ring_doubt) sweep.result.warnings.push_back(*ring_doubt);
   sweep.ring_down_used = data.motion.has_value();
@@ -283,12 +283,12 @@ std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, 
 }  // namespace
 
 std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
-  std::optional<SweepFit> sweep = fit_at_once(recordings, options, options);
+  std::optional<SweepFit> sweep = fit_at_once(recordings, options.held, options);
   if (!sweep || options.held.damping_ratio || sweep->ring_down_used) return sweep;
   if (!fit::is_damping_open(sweep->result, recordings)) return sweep;
   FitOptions undamped = options;
   undamped.held.damping_ratio = 0.0;
-  std::optional<SweepFit> simpler = fit_at_once(recordings, options, undamped, fit::found_average(sweep->result));
+  std::optional<SweepFit> simpler = fit_at_once(recordings, options.held, undamped, fit::found_average(sweep->result));
   if (!simpler) return sweep;
   if (!simpler->ring_down_used) fit::tell_open_damping(simpler->result);
   return simpler;

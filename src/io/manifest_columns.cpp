@@ -151,7 +151,7 @@ std::optional<Error> set_window(ManifestEntry& entry, const ManifestColumn& colu
   return std::nullopt;
 }
 
-/// A speed may hang on the radius, a standard error on what it belongs to.
+/// The order in which cells are read: a rotation needs the radius, a relative standard error what it is of.
 int turn_of(std::string_view column) {
   if (column == "speed_se" || column == "mass_se") return 2;
   return column == "speed" ? 1 : 0;

@@ -25,7 +25,7 @@ bool has_usual_ending(const fs::path& file) {
   return kEndings.contains(lower(file.extension().string()));
 }
 
-/// In the order of their names, lest the draft depend on the disk.
+/// In the order of their names: that of the file system differs between machines.
 std::vector<fs::path> files_below(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return {path};

@@ -93,10 +93,4 @@ Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s) {
   return 2.0 * std::numbers::pi * speed_m_per_s / damped_omega;
 }
 
-std::string name_of(Regime regime) {
-  constexpr std::array<const char*, 5> kNames{"stick_slip", "stick_slip_bistable", "oscillatory_slip",
-                                              "continuous_slip", "unstable_steady"};
-  return kNames.at(static_cast<std::size_t>(regime));
-}
-
 }  // namespace slipfit::predict

@@ -131,6 +131,4 @@ struct MotionJets {
 /// Spacing of the free oscillation inside a slip, an estimate only: V 2 pi / w. docs/model.md section 8
 Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s);
 
-std::string name_of(Regime regime);
-
 }  // namespace slipfit::predict

@@ -94,8 +94,7 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   derived.micro_vibration_spacing_m.note = "estimate: the one-mass model has no micro-vibration inside a slip";
 
   const predict::MotionJets motion = predict::motion_at(model, speed);
-  derived.regime = predict::name_of(motion.regime);
-  derived.bistable = motion.regime == Regime::StickSlipBistable;
+  derived.regime = motion.regime;
   derived.periodic_displacement_m =
       motion.cycle ? at_uncertain_speed(propagation.positive(motion.cycle->periodic_displacement_m))
                    : unknown("the fitted model has no stick-slip at this speed");

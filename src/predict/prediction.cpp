@@ -34,8 +34,7 @@ class Predictor {
     const predict::MotionJets motion = predict::motion_at(model_.estimate, speed_m_per_s_);
     const Jet difference_N = motion.aged_difference_N.value_or(jets_.difference_N);
     row.lambda = positive(jets_.omega_rad_per_s * difference_N / (jets_.stiffness_N_per_m * speed_m_per_s_));
-    row.regime = predict::name_of(motion.regime);
-    row.bistable = motion.regime == Regime::StickSlipBistable;
+    row.regime = motion.regime;
     if (motion.cycle) add_cycle(*motion.cycle, row);
     if (motion.cycle && is_beyond_observed_end()) {
       withdraw_intervals(row, "a recording of the sweep that is no faster does not stick");

@@ -71,7 +71,7 @@ Json frequency_json(const FrequencyReport& frequency) {
       {"value_Hz", frequency.quoted.value},
       {"se_Hz", frequency.quoted.standard_error},
       {"ci95_Hz", frequency.quoted.ci95},
-      {"method", frequency.method.empty() ? "none" : frequency.method},
+      {"method", name_of(frequency.method)},
       {"false_alarm_probability", frequency.spectral.false_alarm_probability},
       {"harmonics", frequency.spectral.harmonics_Hz},
       {"suspicious_lines", array_of(frequency.spectral.suspicious_lines,
@@ -191,7 +191,7 @@ Json correlation_json(const FitResult& fit) {
 
 Json tests_json(const std::vector<ShortTest>& tests) {
   return array_of(tests, [](const ShortTest& test) {
-    return Json{{"name", test.name},
+    return Json{{"name", name_of(test.kind)},
                 {"value", test.value},
                 {"se", test.standard_error},
                 {"p_value", test.p_value},
@@ -200,7 +200,10 @@ Json tests_json(const std::vector<ShortTest>& tests) {
 }
 
 Json derived_json(const Derived& derived) {
-  Json json{{"regime", derived.regime}, {"bistable", derived.bistable}};
+  Json json{{"regime", nullptr}, {"bistable", nullptr}};
+  if (derived.regime) {
+    json = {{"regime", name_of(*derived.regime)}, {"bistable", *derived.regime == Regime::StickSlipBistable}};
+  }
   for (const auto& quantity : kPredicted) json[std::string(quantity.key)] = derived.*quantity.estimate;
   for (const auto& quantity : kMeasured) json[std::string(quantity.key)] = derived.*quantity.estimate;
   json["pattern_spacing_sd_m"] = Estimate{derived.pattern_spacing_sd_m, {}, {}, {}};

@@ -57,4 +57,17 @@ std::string_view name_of(Regularity regularity) {
   return name_in({"regular", "irregular", "clocked"}, regularity);
 }
 
+std::string_view name_of(Regime regime) {
+  return name_in({"stick_slip", "stick_slip_bistable", "oscillatory_slip", "continuous_slip", "unstable_steady"},
+                 regime);
+}
+
+std::string_view name_of(FrequencyMethod method) {
+  return name_in({"none", "fitted_cycles", "harmonic_least_squares", "slip_counting"}, method);
+}
+
+std::string_view name_of(TestKind kind) {
+  return name_in({"period_drift", "level_repeats", "return_map", "ageing", "stated_mass", "sensor_resonance"}, kind);
+}
+
 }  // namespace slipfit

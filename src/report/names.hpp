@@ -15,11 +15,14 @@ std::string_view name_of(MotionClass motion);
 std::string_view name_of(ParameterStatus status);
 std::string_view name_of(SweepRole role);
 std::string_view name_of(Regularity regularity);
+std::string_view name_of(Regime regime);
+std::string_view name_of(FrequencyMethod method);
+std::string_view name_of(TestKind kind);
 
 /// What a recording shows, for people.
 std::string_view words_for_motion(MotionClass motion);
 
-/// What a status means to who has not read the documentation.
+/// What a status means, for readers without the documentation.
 std::string_view words_for_status(ParameterStatus status);
 
 }  // namespace slipfit

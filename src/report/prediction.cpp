@@ -11,6 +11,7 @@
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
 #include "report/json_values.hpp"
+#include "report/names.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -43,8 +44,12 @@ Json quantity_json(const Estimate& quantity) {
   return json;
 }
 
+bool is_bistable(const PredictedMotion& row) {
+  return row.regime == Regime::StickSlipBistable;
+}
+
 Json row_json(const PredictedMotion& row) {
-  Json json{{"speed_m_per_s", row.speed_m_per_s}, {"regime", row.regime}, {"bistable", row.bistable}};
+  Json json{{"speed_m_per_s", row.speed_m_per_s}, {"regime", name_of(row.regime)}, {"bistable", is_bistable(row)}};
   for (const PredictedQuantity& quantity : kPredictedQuantities) {
     json[std::string(quantity.name) + std::string(quantity.unit_suffix)] = quantity_json(row.*quantity.estimate);
   }
@@ -61,7 +66,7 @@ std::string header() {
 }
 
 std::string regime_words(const PredictedMotion& row, const std::string& mark) {
-  return (row.regime == "stick_slip_bistable" ? "stick-slip, bistable" : plain_words(row.regime)) + mark;
+  return (is_bistable(row) ? "stick-slip, bistable" : plain_words(name_of(row.regime))) + mark;
 }
 
 /// Each note of the rows once; the rows that it is about bear its mark.
@@ -103,7 +108,8 @@ std::string to_json(const Prediction& prediction, const PredictionSource& source
 std::string prediction_to_csv(const Prediction& prediction) {
   std::string csv = header();
   for (const PredictedMotion& row : prediction.rows) {
-    fmt::format_to(std::back_inserter(csv), "{},{},{}", cell(row.speed_m_per_s), row.regime, row.bistable ? 1 : 0);
+    fmt::format_to(std::back_inserter(csv), "{},{},{}", cell(row.speed_m_per_s), name_of(row.regime),
+                   is_bistable(row) ? 1 : 0);
     for (const PredictedQuantity& quantity : kPredictedQuantities) {
       const Estimate& estimate = row.*quantity.estimate;
       const auto low = estimate.ci95 ? std::optional(estimate.ci95->low) : std::nullopt;

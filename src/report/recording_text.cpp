@@ -69,12 +69,13 @@ void add_estimate(Table& table, std::string_view words, const Estimate& estimate
   table.add({std::string(words), row.value, row.unit, row.interval, one_line(estimate.note)});
 }
 
-std::string regime_text(const Derived& derived) {
-  std::string words = one_line(*derived.regime);
-  if (words == "stick_slip_bistable") words = "stick-slip from rest";
+std::string regime_text(Regime regime) {
+  if (regime == Regime::StickSlipBistable) {
+    return "  regime: stick-slip from rest; steady sliding, once reached, persists too (bistable)\n";
+  }
+  std::string words(name_of(regime));
   std::ranges::replace(words, '_', '-');
-  return fmt::format("  regime: {}{}\n", words,
-                     derived.bistable.value_or(false) ? "; steady sliding, once reached, persists too (bistable)" : "");
+  return fmt::format("  regime: {}\n", words);
 }
 
 std::string frequency_text(const FrequencyReport& frequency) {
@@ -85,7 +86,7 @@ std::string frequency_text(const FrequencyReport& frequency) {
     const std::string interval = estimate_row(frequency.quoted, "Hz").interval;
     table.add({"result", with_error(frequency.quoted) + " Hz" +
                              (interval.empty() ? "" : ", 95 % interval " + interval) +
-                             fmt::format(" (method: {})", plain_words(frequency.method))});
+                             fmt::format(" (method: {})", plain_words(name_of(frequency.method)))});
   } else {
     const std::string& note = frequency.quoted.note;
     table.add({"result", "none" + (note.empty() ? note : ": " + one_line(note))});
@@ -176,7 +177,7 @@ std::string predicted_text(const Recording& recording, const Derived& derived) {
     }
   }
   if (table.empty() && !derived.regime) return {};
-  return title + table.text() + (derived.regime ? regime_text(derived) : std::string());
+  return title + table.text() + (derived.regime ? regime_text(*derived.regime) : std::string());
 }
 
 std::string recording_text(const Recording& recording, const Analysis& analysis) {

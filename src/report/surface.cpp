@@ -52,7 +52,7 @@ std::string to_json(const Profile& profile, const Surface& surface) {
   json["rsm_m"] = surface.rsm_m;
   json["cutoff_m"] = surface.cutoff_m;
   json["smoothed_over_m"] = surface.smoothed_over_m;
-  json["method"] = surface.method.empty() ? Json() : Json(surface.method);
+  json["method"] = surface.method ? Json(*surface.method == SurfaceMethod::Comb ? "comb" : "ridges") : Json();
   json["warnings"] = surface.warnings;
   json["assumed"] = profile.assumed;
   return text_of(json);

@@ -14,7 +14,7 @@
 namespace slipfit::signal {
 namespace {
 
-struct Look {
+struct Detection {
   std::vector<SeenFall> falls;
   double drop = 0.0;       ///< median
   double asymmetry = 1.0;  ///< median rise over median fall, in time
@@ -61,48 +61,48 @@ void leave_waves(std::vector<SeenFall>& falls, double usual_drop) {
 }
 
 /// Falls of at least a quarter of the median, seen with a hysteresis to match.
-Look look_beyond(const Falls& falls, double hysteresis) {
-  Look look;
-  look.hysteresis = std::max(falls.smallest(), hysteresis);
-  look.falls = falls.beyond(look.hysteresis);
-  look.drop = median(drops_of(look.falls));
-  const double quarter = thresholds::kCountedDrop * look.drop;
+Detection detect_beyond(const Falls& falls, double hysteresis) {
+  Detection detection;
+  detection.hysteresis = std::max(falls.smallest(), hysteresis);
+  detection.falls = falls.beyond(detection.hysteresis);
+  detection.drop = median(drops_of(detection.falls));
+  const double quarter = thresholds::kCountedDrop * detection.drop;
   const auto is_small = [quarter](const SeenFall& fall) { return fall.drop() < quarter; };
-  if (std::erase_if(look.falls, is_small) > 0) look.drop = median(drops_of(look.falls));
-  const std::size_t counted = look.falls.size();
-  leave_waves(look.falls, look.drop);
-  if (look.falls.size() < counted) look.drop = median(drops_of(look.falls));
-  look.asymmetry = asymmetry_of(look.falls);
-  return look;
+  if (std::erase_if(detection.falls, is_small) > 0) detection.drop = median(drops_of(detection.falls));
+  const std::size_t counted = detection.falls.size();
+  leave_waves(detection.falls, detection.drop);
+  if (detection.falls.size() < counted) detection.drop = median(drops_of(detection.falls));
+  detection.asymmetry = asymmetry_of(detection.falls);
+  return detection;
 }
 
-constexpr double kAlike = 1.05;  // of two numbers of falls
+constexpr double kSameCount = 1.05;  // ratio of two numbers of falls that are the same
 constexpr double kMostAsymmetry =
     6.0;  // quicker falls than this are not told from each other by sampling and smoothing
 
 /// A single fall has no rise to the next one: it counts where the force took its time to get there.
-double score_of(const Look& look, double noise) {
-  if (look.falls.empty()) return 0.0;
-  const SeenFall& first = look.falls.front();
+double score_of(const Detection& detection, double noise) {
+  if (detection.falls.empty()) return 0.0;
+  const SeenFall& first = detection.falls.front();
   const auto length = static_cast<double>(first.trough.at - first.peak.at);
-  if (look.falls.size() == 1 && static_cast<double>(first.peak.at) < thresholds::kLeastAlone * length) return 0.0;
+  if (detection.falls.size() == 1 && static_cast<double>(first.peak.at) < thresholds::kLeastAlone * length) return 0.0;
   constexpr double kClear = 40.0;  // beyond, a larger fall is no better seen
-  const double stands_out = 1.0 / (1.0 / kClear + noise / look.drop);
+  const double stands_out = 1.0 / (1.0 / kClear + noise / detection.drop);
   // Rises twice as long as the falls may be those of a wave on a ramp: they say little more than equal ones.
-  const double asymmetry = look.falls.size() == 1 ? 1.0 : std::min(look.asymmetry, kMostAsymmetry);
+  const double asymmetry = detection.falls.size() == 1 ? 1.0 : std::min(detection.asymmetry, kMostAsymmetry);
   constexpr double kRise = kMostAsymmetry / (kMostAsymmetry - 1.0);
   const double sudden = std::max(std::min(asymmetry, kRise), kRise * (asymmetry - 1.0));
-  return stands_out * std::sqrt(static_cast<double>(look.falls.size())) * sudden;
+  return stands_out * std::sqrt(static_cast<double>(detection.falls.size())) * sudden;
 }
 
 /// What one scale shows best.
 struct Scale {
   Means trace;
   double noise = 0.0;
-  Look best{};
+  Detection best{};
 };
 
-Scale look_at_scale(const Means& trace, double noise) {
+Scale falls_at_scale(const Means& trace, double noise) {
   Scale scale{trace, noise};
   const Falls all(trace, noise);
   if (!(all.range() > 0.0)) return scale;
@@ -114,15 +114,15 @@ Scale look_at_scale(const Means& trace, double noise) {
     const bool is_new = falls.coarsen(hysteresis) || is_first;
     if (!is_new) continue;  // it would look the same
     is_first = false;
-    Look look = look_beyond(falls, hysteresis);
-    look.score = score_of(look, noise);
-    if (look.score > scale.best.score) scale.best = std::move(look);
+    Detection detection = detect_beyond(falls, hysteresis);
+    detection.score = score_of(detection, noise);
+    if (detection.score > scale.best.score) scale.best = std::move(detection);
   }
   // As small a hysteresis as the counted falls allow: it finds each fall's own turning points.
-  Look last = look_beyond(all, 0.25 * scale.best.drop);
-  Look finer = last.drop == scale.best.drop ? last : look_beyond(all, 0.25 * last.drop);
-  const auto count = [](const Look& look) { return static_cast<double>(look.falls.size()); };
-  if (count(finer) < kAlike * count(last)) last = std::move(finer);
+  Detection last = detect_beyond(all, 0.25 * scale.best.drop);
+  Detection finer = last.drop == scale.best.drop ? last : detect_beyond(all, 0.25 * last.drop);
+  const auto count = [](const Detection& detection) { return static_cast<double>(detection.falls.size()); };
+  if (count(finer) < kSameCount * count(last)) last = std::move(finer);
   last.score = score_of(last, noise);
   const std::size_t noticed = all.beyond(std::max(all.smallest(), 0.1 * scale.best.drop)).size();
   last.minor = noticed - std::min(noticed, last.falls.size());
@@ -130,9 +130,9 @@ Scale look_at_scale(const Means& trace, double noise) {
   return scale;
 }
 
-bool shows_the_same(const Look& fine, const Look& best) {
-  const auto count = [](const Look& look) { return static_cast<double>(look.falls.size()); };
-  return std::abs(count(fine) - count(best)) <= std::max(1.0, (kAlike - 1.0) * count(best)) &&
+bool shows_the_same(const Detection& fine, const Detection& best) {
+  const auto count = [](const Detection& detection) { return static_cast<double>(detection.falls.size()); };
+  return std::abs(count(fine) - count(best)) <= std::max(1.0, (kSameCount - 1.0) * count(best)) &&
          std::min(fine.asymmetry, kMostAsymmetry) > 0.8 * std::min(best.asymmetry, kMostAsymmetry);
 }
 
@@ -173,14 +173,14 @@ Events find_events(std::vector<double> force, double noise) {
   for (double width = 1.0; width <= 0.02 * static_cast<double>(force.size()) || width < 2.0; width *= 1.5) {
     widths.push_back(width);
   }
-  const auto look = [&](std::size_t i) {
+  const auto at_width = [&](std::size_t i) {
     const auto samples = static_cast<std::size_t>(std::lround(widths[i]));
     const Means trace(force, means, samples, std::max<std::size_t>(1, samples / 3));
     const double left = std::max(noise / std::sqrt(widths[i]), samples == 1 ? 0.0 : noise_of(trace));
-    return look_at_scale(trace, left);
+    return falls_at_scale(trace, left);
   };
   const std::size_t threads = force.size() < kLarge ? 1 : widths.size();
-  const std::vector<Scale> scales = in_parallel(widths.size(), look, threads);
+  const std::vector<Scale> scales = in_parallel(widths.size(), at_width, threads);
   std::size_t best = 0;
   for (std::size_t i = 0; i < scales.size(); ++i) {
     if (scales[i].best.score > scales[best].best.score) best = i;

@@ -12,7 +12,7 @@
 namespace slipfit::signal {
 
 /// What plans stand behind. A process that forks while another thread holds one of them, as a batch beside other
-/// threads does, would leave it locked for ever in its child: a fork takes both first.
+/// threads does, would leave it locked in its child: a fork takes both first.
 struct PlanLocks {
   std::mutex kept;  ///< the plans that are kept; taken before `planner`
   std::mutex planner;
@@ -70,7 +70,7 @@ class ComplexTransform {
   ComplexTransform& operator=(ComplexTransform&&) = delete;
 
   [[nodiscard]] std::size_t length() const { return length_; }
-  /// The transformed values; what becomes of those handed in is nobody's.
+  /// The transformed values; those handed in are overwritten.
   [[nodiscard]] Buffer run(Buffer in) const {
     Buffer out = is_in_place() ? Buffer() : allocate(length_);
     fftw_execute_dft(plan_, raw(in), raw(out ? out : in));

@@ -22,7 +22,7 @@ using signal::CombGrid;
 using signal::CombRange;
 using signal::MainsLine;
 
-constexpr double kFewCycles = 24.0;   // up to here on the finely padded spectrum of the thinned trace
+constexpr double kFineCycles = 24.0;  // up to here on the finely padded spectrum of the thinned trace
 constexpr double kManyCycles = 16.0;  // from here on the spectrum as it is
 constexpr std::size_t kThinnedSamples = 2048;
 constexpr std::size_t kPadding = 8;
@@ -67,7 +67,7 @@ Bands prepare(const Recording& recording, const Spectrum& spectrum, const std::v
 std::vector<Comb> search(const Bands& bands, CombRange range) {
   const double bin = bands.whole.resolution_Hz();
   const CombRange few{std::max(range.low_Hz, thresholds::kFewestPeriods * bin),
-                      std::min({range.high_Hz, kFewCycles * bin, 0.8 * bands.fine.highest_Hz()})};
+                      std::min({range.high_Hz, kFineCycles * bin, 0.8 * bands.fine.highest_Hz()})};
   const CombRange many{std::max(range.low_Hz, kManyCycles * bin),
                        std::min(range.high_Hz, 0.8 * bands.whole.highest_Hz())};
   std::vector<Comb> combs = signal::search_combs(bands.fine, few, CombGrid::Fine);
@@ -170,7 +170,7 @@ signal::TrackedFrequency refine(const Recording& recording, const Comb& comb, do
     const auto tracked = signal::track_frequency(recording, comb.frequency_Hz, harmonics);
     if (tracked && std::abs(tracked->frequency_Hz / comb.frequency_Hz - 1.0) < 0.3) return *tracked;
   }
-  if (cycles < 2.0 * kFewCycles) {
+  if (cycles < 2.0 * kFineCycles) {
     if (const auto fitted = signal::fit_harmonics(recording, comb.frequency_Hz, harmonics)) return *fitted;
   }
   const double error = std::max(0.3 * resolution_Hz, 0.5 * comb.relative_width * comb.frequency_Hz);
@@ -226,7 +226,7 @@ std::vector<double> line_centres(const BandPower& bands, const Comb& comb, doubl
 /// Everything about the comb that was chosen; nothing where it turns out to be mains.
 void measure(const Recording& recording, const Bands& bands, const Comb& chosen, SpectralFrequency& found) {
   const double resolution_Hz = bands.whole.resolution_Hz();
-  const BandPower& used = chosen.frequency_Hz < kFewCycles * resolution_Hz ? bands.fine : bands.whole;
+  const BandPower& used = chosen.frequency_Hz < kFineCycles * resolution_Hz ? bands.fine : bands.whole;
   const Comb comb = narrowed(used, without_subharmonic(used, chosen));
   const signal::TrackedFrequency refined = refine(recording, comb, resolution_Hz);
   if (signal::is_on_line(bands.unwanted, refined.frequency_Hz, 0.0)) {

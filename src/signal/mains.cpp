@@ -92,7 +92,8 @@ std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, 
       const auto line = line_at(power, bin_Hz, resolution_Hz, target_Hz);
       const auto same = [&](const MainsLine& other) { return other.frequency_Hz == line->frequency_Hz; };
       if (!line || std::ranges::any_of(lines, same)) continue;
-      // High orders come in company: one alone is a line of something else that happens to lie there.
+      // Above the third a harmonic of the mains counts only where a lower one was found: mains has those, and a single
+      // line at such a place is of something else.
       if (order > 3 && !has_lower) continue;
       has_lower = true;
       lines.push_back({line->frequency_Hz, mains_Hz, order, line->width_Hz});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/student.hpp"
+#include "core/thresholds.hpp"
 #include "signal/robust.hpp"
 #include "signal/segments.hpp"
 
@@ -13,10 +14,6 @@ namespace slipfit::signal {
 namespace {
 
 constexpr std::size_t kMostSegments = 1024;
-constexpr double kChance = 1.0;  // even phases gain more by a walk in one recording of seven
-/// Power of the likelihood where phases show no walk: static friction that scatters by a ten-thousandth of the drop
-/// does not show, and the interval has to hold all the same (benchmarks/frequency_coverage: 90 % of them did with 0.7).
-constexpr double kHidden = 0.35;
 
 /// A phase in every segment, in radians of the fundamental, and the place of the segment.
 struct PhasePoint {
@@ -154,7 +151,7 @@ Slope average(const std::vector<Slope>& slopes, double power, std::size_t points
 }
 
 /// Logarithm of the likelihood that the best walk gains over none.
-double evidence_of_walk(const std::vector<Slope>& slopes, const Slope& none) {
+double gain_of_walk(const std::vector<Slope>& slopes, const Slope& none) {
   double best = none.log_likelihood;
   for (const Slope& slope : slopes) best = std::max(best, slope.log_likelihood);
   return best - none.log_likelihood;
@@ -180,14 +177,14 @@ std::optional<TrackedFrequency> track_once(const Recording& recording, double ne
   const Slope none = slope_at(points, Walk::Stepped, 0.0, 1.0);
   std::vector<Slope> slopes = slopes_of(points, Walk::Stepped);
   slopes.push_back(none);
-  const Slope regular = average(slopes, kHidden, points.size());
+  const Slope regular = average(slopes, thresholds::kHiddenWalk, points.size());
   const std::vector<Slope> averaged = slopes_of(points, Walk::Averaged);
   slopes.insert(slopes.end(), averaged.begin(), averaged.end());
   // By the root only: the phases of neighbours are not quite as independent as the likelihood has it.
   const Slope slope = average(slopes, 0.5, points.size());
   const double per_radian = near_Hz / (kTurn * per_segment);
   TrackedFrequency found{near_Hz + slope.value * per_radian, std::sqrt(slope.variance) * per_radian, std::nullopt};
-  if (evidence_of_walk(slopes, none) < kChance)
+  if (gain_of_walk(slopes, none) < thresholds::kWalkGain)
     found.regular_standard_error_Hz = std::sqrt(regular.variance) * per_radian;
   return found;
 }

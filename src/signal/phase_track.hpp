@@ -11,7 +11,7 @@ struct TrackedFrequency {
   double frequency_Hz = 0.0;
   double standard_error_Hz = 0.0;
   /// The same where the phases show no scatter of the periods, for that case: smaller, since what few cycles can hide
-  /// is all that it allows for. Empty where they do, or where nobody looked.
+  /// is all that it allows for. Empty where they do, or where it was not tested.
   std::optional<double> regular_standard_error_Hz;
 };
 

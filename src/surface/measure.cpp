@@ -170,7 +170,7 @@ void conclude(const Profile& profile, const std::vector<Pattern>& patterns, Surf
   }
   found.status = pattern.variation < thresholds::kIrregular || pattern.is_from_comb ? SurfaceStatus::Periodic
                                                                                     : SurfaceStatus::Irregular;
-  found.method = pattern.is_from_comb ? "comb" : "ridges";
+  found.method = pattern.is_from_comb ? SurfaceMethod::Comb : SurfaceMethod::Ridges;
   found.spacing_m = estimate(*pattern.spacing, profile.pitch_m);
   add_ridges(profile, pattern, found);
   if (patterns.size() > 1) found.fine_spacing_m = estimate(*patterns.back().spacing, profile.pitch_m);

@@ -1,4 +1,4 @@
-#include "analysis/damped_sine.hpp"
+#include "analysis/ring_down.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -57,14 +57,14 @@ Recording steady_run(double swing_N, double zero_N) {
 }  // namespace
 
 TEST_CASE("a wave that keeps time like a clock is not quoted as slip, one whose periods scatter is") {
-  const Analysis clock = analyze_and_fit(wave({}), {});
+  const Analysis clock = analyze_and_fit(wave({}));
   CHECK(clock.motion == MotionClass::Undetermined);
   CHECK_FALSE(clock.frequency.quoted.value);
   CHECK_FALSE(clock.derived.pattern_spacing_m.value);
   REQUIRE_FALSE(clock.frequency.lines.empty());
   CHECK(clock.frequency.lines.front().frequency_Hz == Approx(kLine_Hz).epsilon(1e-3));
 
-  const Analysis motion = analyze_and_fit(wave({.phase_walk_rad = 0.4}), {});
+  const Analysis motion = analyze_and_fit(wave({.phase_walk_rad = 0.4}));
   CHECK(motion.motion == MotionClass::OscillatorySlip);
   CHECK(*motion.frequency.quoted.value == Approx(kLine_Hz).epsilon(0.05));
 }
@@ -72,7 +72,7 @@ TEST_CASE("a wave that keeps time like a clock is not quoted as slip, one whose 
 TEST_CASE("no parameter of a sine is identified, whatever its noise") {
   const unsigned seed = GENERATE(range(1U, 25U));
   const double noise_N = GENERATE(0.002, 0.01, 0.03);
-  const Analysis analysis = analyze_and_fit(wave({.noise_N = noise_N, .seed = seed}), {});
+  const Analysis analysis = analyze_and_fit(wave({.noise_N = noise_N, .seed = seed}));
   if (!analysis.fit) return;
   for (const Parameter& parameter : analysis.fit->parameters) {
     CHECK(parameter.status != ParameterStatus::Identified);
@@ -82,7 +82,7 @@ TEST_CASE("no parameter of a sine is identified, whatever its noise") {
 TEST_CASE("a steady run with pick-up slides between loading ramp and release") {
   const double zero_N = GENERATE(0.0, 3.0);
   const Recording run = steady_run(0.06, zero_N);
-  const Analysis analysis = analyze_and_fit(run, {});
+  const Analysis analysis = analyze_and_fit(run);
   CHECK(analysis.motion == MotionClass::SteadySliding);
   CHECK_FALSE(analysis.frequency.quoted.value);
   CHECK(analysis.sliding.begin_s == Approx(1.5).margin(0.2));
@@ -96,7 +96,7 @@ TEST_CASE("two levels of sliding are no rest and sliding") {
   const Recording stepped =
       Recording::create({steady.time_s().begin(), steady.time_s().end()}, std::move(force), steady.conditions())
           .value();
-  const Analysis analysis = analyze_and_fit(stepped, {});
+  const Analysis analysis = analyze_and_fit(stepped);
   CHECK(analysis.sliding.begin_s == stepped.time_s().front());
   CHECK(analysis.sliding.end_s == stepped.time_s().back());
 }

@@ -49,17 +49,17 @@ Analysis moving(MotionClass motion, double frequency_Hz = 0.0) {
 
 Analysis repeating_over(double path_m) {
   Analysis analysis;
-  analysis.tests.push_back({"level_repeats", path_m, 1e-3 * path_m, 1e-9, {}});
+  analysis.tests.push_back({TestKind::LevelRepeats, path_m, 1e-3 * path_m, 1e-9, {}});
   return analysis;
 }
 
 }  // namespace
 
 TEST_CASE("samples lost in one stick while the clock runs on are in no frequency") {
-  const Analysis analysis = analyze_and_fit(saw_teeth_with_loss(20), {});
+  const Analysis analysis = analyze_and_fit(saw_teeth_with_loss(20));
   CHECK(warns(analysis, "broken_rhythm"));
   CHECK(holds(analysis.frequency.quoted, 1.0 / kPeriod_s));
-  CHECK_FALSE(warns(analyze_and_fit(saw_teeth_with_loss(100), {}), "broken_rhythm"));
+  CHECK_FALSE(warns(analyze_and_fit(saw_teeth_with_loss(100)), "broken_rhythm"));
 }
 
 TEST_CASE("swings through a long average do not tell that stick-slip has ended") {

@@ -110,7 +110,7 @@ TEST_CASE("slips far slower than the ring-down of the rig do not identify the na
   Run run;
   run.ring_Hz = 400.0;
   run.slip_s = 0.02;  // 25 Hz
-  const Analysis analysis = analyze_and_fit(run_with_release(run), {});
+  const Analysis analysis = analyze_and_fit(run_with_release(run));
   REQUIRE(analysis.motion == MotionClass::StickSlip);
   REQUIRE(analysis.fit);
   CHECK(warns(analysis, "slips_not_inertial"));
@@ -124,10 +124,10 @@ TEST_CASE("slips far slower than the ring-down of the rig do not identify the na
 TEST_CASE("values that a logger repeats are taken once", "[repeats]") {
   Run run;
   run.repeats = 4;
-  const Analysis repeated = analyze_and_fit(run_with_release(run), {});
+  const Analysis repeated = analyze_and_fit(run_with_release(run));
   CHECK(warns(repeated, "repeated_values"));
   run.repeats = 1;
-  const Analysis plain = analyze_and_fit(run_with_release(run), {});
+  const Analysis plain = analyze_and_fit(run_with_release(run));
   CHECK_FALSE(warns(plain, "repeated_values"));
   REQUIRE(repeated.frequency.quoted.value);
   CHECK(*repeated.frequency.quoted.value == Approx(*plain.frequency.quoted.value).epsilon(0.002));
@@ -164,7 +164,7 @@ TEST_CASE("a sum of sines with noise is no stick-slip", "[classify]") {
   }
   Conditions conditions;
   conditions.speed_m_per_s = 0.001;
-  const Analysis analysis = analyze_and_fit(Recording::create(time_s, force, conditions).value(), {});
+  const Analysis analysis = analyze_and_fit(Recording::create(time_s, force, conditions).value());
   INFO("second harmonic " << second << ", noise " << noise_N << ": " << analysis.motion_reason);
   CHECK(analysis.motion != MotionClass::StickSlip);
   if (!analysis.fit) return;

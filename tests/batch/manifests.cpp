@@ -11,11 +11,10 @@ namespace {
 std::string recording(std::size_t number) {
   const auto slider = slipfit::Slider::create(1000.0, 200.0, 0.05).value();
   const auto friction = slipfit::Friction::create(6.0, 4.0).value();
-  slipfit::SimulationOptions options;
-  options.duration_s = 1.0 + 0.5 * static_cast<double>(number % 5);
-  options.noise_rms_N = 0.02;
-  options.static_friction_sd_N = 0.05;
-  options.seed = number + 1;
+  const slipfit::SimulationOptions options{.duration_s = 1.0 + 0.5 * static_cast<double>(number % 5),
+                                           .static_friction_sd_N = 0.05,
+                                           .noise_rms_N = 0.02,
+                                           .seed = number + 1};
   return slipfit::trace_to_csv(slipfit::simulate(slider, friction, 0.02, options), "of a test");
 }
 

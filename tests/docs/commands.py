@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""commands.py SLIPFIT PROJECT: runs every command line of README.md, docs/*.md and docs/howto/*.md, holds README's excerpt against the demo,
-and compiles README's C++.
+"""commands.py SLIPFIT PROJECT: runs every command line of README.md, docs/*.md and docs/howto/*.md, and holds README's excerpt against the
+demo.
 
 A command is an indented line that begins with a program; each document's run in its order, in a folder of their own where the
 files that they name were simulated. A command that is neither run nor on the list of exceptions is a failure."""
@@ -8,7 +8,6 @@ files that they name were simulated. A command that is neither run nor on the li
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -97,22 +96,9 @@ def excerpt_faults(slipfit, project):
     return [f"README.md: the demo does not print: {line}" for line in excerpt.splitlines() if line != "..." and line not in printed]
 
 
-def compile_faults(project):
-    """What the compiler says of the C++ in README, as the body of a function."""
-    snippet = re.search(r"^(    #include <slipfit/slipfit.hpp>)\n\n(.*?)^(?=\S)", (project / "README.md").read_text(), re.S | re.M)
-    compiler = shutil.which(os.environ.get("CXX", "c++"))
-    if compiler is None:
-        print("skipped: no C++ compiler for README")
-        return []
-    source = f"{snippet.group(1)}\nint complain(const std::string&);\nint run() {{\n{snippet.group(2)}return analysis.fit ? 0 : 1; }}\n"
-    command = [compiler, "-std=c++20", "-fsyntax-only", f"-I{project / 'include'}", "-xc++", "-"]
-    run = subprocess.run(command, input=source, capture_output=True, text=True, check=False)
-    return [] if run.returncode == 0 else [f"README.md, the C++: {run.stderr}"]
-
-
 def main():
     slipfit, project = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
-    total, faults = 0, excerpt_faults(slipfit, project) + compile_faults(project)
+    total, faults = 0, excerpt_faults(slipfit, project)
     for document in [project / "README.md", *sorted((project / "docs").glob("*.md")), *sorted((project / "docs" / "howto").glob("*.md"))]:
         if not any(not is_elsewhere(command) for _, command in commands_in(document)):
             continue

@@ -15,10 +15,10 @@ void check_frequency(const atlas::Factors& factors) {
     INFO("seed " << seed << " noise " << factors.noise << " hum " << factors.hum << " jitter " << factors.jitter
                  << " cycles " << factors.cycles);
     for (const slipfit::Analysis& analysis :
-         {slipfit::analyze(scene.recording), slipfit::analyze_and_fit(scene.recording, {})}) {
+         {slipfit::analyze(scene.recording), slipfit::analyze_and_fit(scene.recording)}) {
       const slipfit::Estimate& quoted = analysis.frequency.quoted;
       INFO("quoted " << quoted.value.value_or(0.0) * scene.cycle.period_s << " of the truth, "
-                     << analysis.frequency.method << ", " << analysis.motion_reason);
+                     << "method " << static_cast<int>(analysis.frequency.method) << ", " << analysis.motion_reason);
       CHECK_FALSE(failures::frequency_is_wrong(analysis, scene));
       CHECK((quoted.value.has_value() || !quoted.note.empty()));
     }

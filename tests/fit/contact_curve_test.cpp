@@ -9,10 +9,7 @@ using namespace slipfit;
 namespace {
 
 Scene contact_scene() {
-  Scene s;
-  s.view = ForceView::Contact;
-  s.noise = 0.01;
-  return s;
+  return {.noise = 0.01, .view = ForceView::Contact};
 }
 
 double noise_N(const Scene& s) {
@@ -69,7 +66,7 @@ TEST_CASE("the curve of a sensor at the contact drifts with the level") {
 TEST_CASE("the curve of a sensor at the contact stops where a slip was not understood") {
   const Scene s = contact_scene();
   const Recording whole = record(s);
-  const std::optional<double> hidden_s = analyze_and_fit(whole, {}).fit->cycles.at(10).onset_s;
+  const std::optional<double> hidden_s = analyze_and_fit(whole).fit->cycles.at(10).onset_s;
   REQUIRE(hidden_s);
   std::vector<double> time_s;
   std::vector<double> force_N;

@@ -25,10 +25,7 @@ struct Recorded {
 };
 
 Recorded recorded() {
-  Scene scene;
-  scene.noise = 0.01;
-  scene.jitter = 0.05;
-  scene.drift_over_drop = 0.5;
+  const Scene scene{.jitter = 0.05, .noise = 0.01, .drift_over_drop = 0.5};
   Recording recording = record(scene);
   Quality quality = assess_quality(recording);
   Segmentation segmentation = find_slips(recording, quality);

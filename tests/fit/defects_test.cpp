@@ -31,11 +31,10 @@ Recording damaged(std::uint64_t seed, const Damage& damage) {
   const Friction friction = Friction::create(kStatic_N, kKinetic_N).value();
   const double speed = kOmega * 0.6 / (kStiffness * uniform(random, 4.0, 20.0));
   const LimitCycle cycle = *damped_motion(slider, friction, speed).cycle;
-  SimulationOptions options;
-  options.duration_s = 25.0 * cycle.period_s;
-  options.sample_rate_Hz = uniform(random, 25.0, 50.0) / cycle.slip_s;
-  options.noise_rms_N = 0.003;
-  options.seed = seed;
+  const SimulationOptions options{.duration_s = 25.0 * cycle.period_s,
+                                  .sample_rate_Hz = uniform(random, 25.0, 50.0) / cycle.slip_s,
+                                  .noise_rms_N = 0.003,
+                                  .seed = seed};
   SimulatedTrace trace = simulate(slider, friction, speed, options);
   damage(trace, random);
   Conditions conditions;
@@ -47,7 +46,7 @@ Recording damaged(std::uint64_t seed, const Damage& damage) {
 int covered(const Damage& damage, const std::string& name, double truth) {
   int inside = 0;
   for (std::uint64_t seed = 1; seed <= kRecordings; ++seed) {
-    const Analysis analysis = analyze_and_fit(damaged(seed, damage), {});
+    const Analysis analysis = analyze_and_fit(damaged(seed, damage));
     REQUIRE(analysis.motion == MotionClass::StickSlip);
     for (const Parameter& p : analysis.fit->parameters) {
       if (p.name() != name) continue;
@@ -95,7 +94,7 @@ TEST_CASE("hum is not taken for stick-slip, whatever it hides") {
         trace.force_N[i] += hum_N * std::sin(2.0 * std::numbers::pi * 50.0 * trace.time_s[i]);
       }
     };
-    const Analysis analysis = analyze_and_fit(damaged(seed, hum), {});
+    const Analysis analysis = analyze_and_fit(damaged(seed, hum));
     if (analysis.motion != MotionClass::StickSlip) continue;
     ++seen;
     for (const Parameter& p : analysis.fit->parameters) {
@@ -113,7 +112,7 @@ TEST_CASE("slips that are not shaped like the model's: warned of, w_n weak or wi
     double lagging = trace.force_N.front();
     for (double& f : trace.force_N) f = lagging += 0.2 * (f - lagging);
   };
-  const Analysis analysis = analyze_and_fit(damaged(3, slow_start), {});
+  const Analysis analysis = analyze_and_fit(damaged(3, slow_start));
   REQUIRE(analysis.fit);
   std::string misfits;
   for (const Warning& warning : analysis.warnings) {

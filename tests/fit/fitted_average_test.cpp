@@ -10,17 +10,15 @@ namespace {
 
 /// Printed plastic as in the issue of slow testers: k = 350 N/m, 232 g, zeta = 0.15, F_s - F_k = 200 mN.
 Scene printed_plastic() {
-  Scene s;
-  s.stiffness = 350.0;
-  s.omega = std::sqrt(350.0 / 0.232);
-  s.zeta = 0.15;
-  s.static_N = 1.2;
-  s.kinetic_N = 1.0;
-  s.speed = 1e-3;
-  s.jitter = 0.02;
-  s.samples_per_slip = 50.0;
-  s.cycles = 40.0;
-  return s;
+  return {.stiffness = 350.0,
+          .omega = std::sqrt(350.0 / 0.232),
+          .zeta = 0.15,
+          .static_N = 1.2,
+          .kinetic_N = 1.0,
+          .speed = 1e-3,
+          .cycles = 40.0,
+          .samples_per_slip = 50.0,
+          .jitter = 0.02};
 }
 
 /// With noise of a hundredth of the friction difference.
@@ -35,7 +33,7 @@ TEST_CASE("slips seen through an average that nobody stated: its time and the ma
   CAPTURE(samples);
   const Scene s = printed_plastic();
   const Recording recording = averaged(s, samples);
-  const Analysis analysis = analyze_and_fit(recording, {});
+  const Analysis analysis = analyze_and_fit(recording);
   REQUIRE(analysis.fit);
   const Parameter& average = parameter(analysis, "sensor_average_s");
   REQUIRE(average.estimate.ci95);
@@ -66,7 +64,7 @@ TEST_CASE("an average that lasts longer than the slip is found, or said to be on
   s.seed = GENERATE(range<std::uint64_t>(1, 5));
   const Recording recording =
       averaged(s, 85);  // w_n W = 5.3: without it slips of half the frequency fit nearly as well
-  const Analysis analysis = analyze_and_fit(recording, {});
+  const Analysis analysis = analyze_and_fit(recording);
   REQUIRE(analysis.fit);
   const Parameter& average = parameter(analysis, "sensor_average_s");
   REQUIRE(average.estimate.value);
@@ -84,7 +82,7 @@ TEST_CASE("samples of an instant get no average") {
   Scene s = printed_plastic();
   s.noise = 0.01;
   s.seed = GENERATE(range<std::uint64_t>(1, 13));
-  const Analysis analysis = analyze_and_fit(record(s), {});
+  const Analysis analysis = analyze_and_fit(record(s));
   for (const Parameter& p : analysis.fit->parameters) CHECK(p.name() != "sensor_average_s");
 }
 
@@ -93,7 +91,7 @@ TEST_CASE("a stated mass gives the natural frequency where averaging hides it, a
   s.conditions.mass_kg = 0.232;
   s.conditions.mass_standard_error_kg = 0.01 * 0.232;
   SECTION("averages longer than the slips") {
-    const Analysis analysis = analyze_and_fit(averaged(s, 61), {});
+    const Analysis analysis = analyze_and_fit(averaged(s, 61));
     REQUIRE(analysis.fit);
     CHECK(analysis.fit->mass_gives_frequency);
     const Parameter& omega = parameter(analysis, "natural_frequency_rad_per_s");
@@ -110,14 +108,14 @@ TEST_CASE("a stated mass gives the natural frequency where averaging hides it, a
     CHECK(zeta.ci95->high > s.zeta);
   }
   SECTION("short averages") {
-    const Analysis analysis = analyze_and_fit(averaged(s, 15), {});
+    const Analysis analysis = analyze_and_fit(averaged(s, 15));
     REQUIRE(analysis.fit);
     CHECK_FALSE(analysis.fit->mass_gives_frequency);
     CHECK(parameter(analysis, "natural_frequency_rad_per_s").status != ParameterStatus::Conditional);
   }
   SECTION("a mass that is not that of the slips") {
     s.conditions.mass_kg = 2.0;
-    const Analysis analysis = analyze_and_fit(averaged(s, 61), {});
+    const Analysis analysis = analyze_and_fit(averaged(s, 61));
     REQUIRE(analysis.fit);
     CHECK_FALSE(analysis.fit->mass_gives_frequency);
   }

@@ -19,17 +19,16 @@ Scene scene(std::uint64_t seed, double static_friction_sd_N) {
   const Slider slider = Slider::create(500.0, 120.0, 0.05).value();
   const Friction friction = Friction::create(2.0, 1.4).value();
   const LimitCycle cycle = *damped_motion(slider, friction, kSpeed_m_per_s).cycle;
-  SimulationOptions options;
-  options.duration_s = 60.0 * cycle.period_s;
-  options.sample_rate_Hz = 30.0 / cycle.slip_s;
-  options.noise_rms_N = 0.01;
-  options.static_friction_sd_N = static_friction_sd_N;
-  options.seed = seed;
+  const SimulationOptions options{.duration_s = 60.0 * cycle.period_s,
+                                  .sample_rate_Hz = 30.0 / cycle.slip_s,
+                                  .static_friction_sd_N = static_friction_sd_N,
+                                  .noise_rms_N = 0.01,
+                                  .seed = seed};
   SimulatedTrace trace = simulate(slider, friction, kSpeed_m_per_s, options);
   Conditions conditions;
   conditions.speed_m_per_s = kSpeed_m_per_s;
   const auto recording = Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions);
-  return {analyze_and_fit(recording.value(), {}), 1.0 / cycle.period_s};
+  return {analyze_and_fit(recording.value()), 1.0 / cycle.period_s};
 }
 
 }  // namespace
@@ -42,13 +41,13 @@ TEST_CASE("regular cycles are timed by all samples, scattering ones by their dro
     const Estimate& quoted = regular.analysis.frequency.quoted;
     REQUIRE(quoted.ci95);
     if (quoted.ci95->low <= regular.frequency_Hz && regular.frequency_Hz <= quoted.ci95->high) ++held;
-    if (regular.analysis.frequency.method == "harmonic_least_squares") {
+    if (regular.analysis.frequency.method == FrequencyMethod::HarmonicLeastSquares) {
       ++from_spectrum;
       CHECK(*quoted.standard_error < 3e-5 * regular.frequency_Hz);  // the bound is 4e-6, the mean period has 2e-4
     }
     const Scene scattered = scene(seed, 0.03);
     INFO("seed " << seed);
-    CHECK(scattered.analysis.frequency.method == "fitted_cycles");
+    CHECK(scattered.analysis.frequency.method == FrequencyMethod::FittedCycles);
     const Estimate& mean = scattered.analysis.frequency.quoted;
     REQUIRE(mean.ci95);
     if (mean.ci95->low <= scattered.frequency_Hz && scattered.frequency_Hz <= mean.ci95->high) ++scattered_held;

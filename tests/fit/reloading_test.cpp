@@ -64,11 +64,7 @@ Recording reloading_recording(const Scene& s, double rise_N) {
 }
 
 Scene bent_sticks() {
-  Scene s;
-  s.noise = 0.005;
-  s.jitter = 0.03;
-  s.cycles = 40.0;
-  return s;
+  return {.cycles = 40.0, .jitter = 0.03, .noise = 0.005};
 }
 
 fit::RiseAfterSlip two_slips(double average_s) {
@@ -138,7 +134,7 @@ TEST_CASE("a rise after slips is found through an average that nobody stated") {
   const Recording exact = reloading_recording(s, rise_N);
   const std::size_t width = 8;
   const double noise_N = 0.005 * (s.static_N - s.kinetic_N);
-  const Analysis analysis = analyze_and_fit(moving_average(exact, width, noise_N, s.seed), {});
+  const Analysis analysis = analyze_and_fit(moving_average(exact, width, noise_N, s.seed));
   REQUIRE(analysis.fit);
   // With the slips of the fit without an average the rise would be off by 5 to 30 of its standard errors.
   for (const auto& [name, truth] : {std::pair{"reload_force_N", rise_N}, std::pair{"reload_length_m", kLength_m},
@@ -157,7 +153,7 @@ TEST_CASE("a rise after slips is found with the other parameters") {
   s.seed = GENERATE(range<std::uint64_t>(1, 5));
   CAPTURE(s.seed);
   const double difference_N = s.static_N - s.kinetic_N;
-  const Analysis analysis = analyze_and_fit(reloading_recording(s, kRise * difference_N), {});
+  const Analysis analysis = analyze_and_fit(reloading_recording(s, kRise * difference_N));
   REQUIRE(analysis.fit);
   for (const auto& [name, truth] :
        {std::pair{"reload_force_N", kRise * difference_N}, std::pair{"reload_length_m", kLength_m},
@@ -185,7 +181,7 @@ TEST_CASE("a sweep shares the length of the rise, and predicts with it a speed t
     ++s.seed;
     entries.push_back({std::to_string(speed), reloading_recording(s, rise_N)});
   }
-  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  const SweepAnalysis sweep = analyze_sweep(entries);
   REQUIRE(sweep.fit);
   const FitResult& fit = sweep.fit->result;
   const Estimate length = fit.estimate_of(ParameterId::ReloadLength);
@@ -200,7 +196,7 @@ TEST_CASE("a sweep shares the length of the rise, and predicts with it a speed t
   model.has_covariance = true;
   s.speed = 0.0025;
   const Recording unseen = reloading_recording(s, rise_N);
-  const Analysis truth = analyze_and_fit(unseen, {});
+  const Analysis truth = analyze_and_fit(unseen);
   const std::vector<double> speeds{s.speed};
   const Estimate predicted = predict_at(model, speeds).rows.front().periodic_displacement_m;
   REQUIRE(predicted.value);
@@ -212,7 +208,7 @@ TEST_CASE("straight sticks get no rise") {
   Scene s = bent_sticks();
   s.seed = GENERATE(range<std::uint64_t>(1, 9));
   CAPTURE(s.seed);
-  const Analysis analysis = analyze_and_fit(record(s), {});
+  const Analysis analysis = analyze_and_fit(record(s));
   REQUIRE(analysis.fit);
   CHECK(analysis.fit->find(ParameterId::ReloadLength) == nullptr);
 }

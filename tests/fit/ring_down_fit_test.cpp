@@ -66,15 +66,13 @@ bool tells_of_difference(const FitResult& result) {
 }  // namespace
 
 TEST_CASE("a ring-down that is the motion of the slips tells w_n and zeta with them", "[ring_down]") {
-  Scene scene;
-  scene.cycles = 12.0;
-  scene.noise = 0.02;
+  Scene scene{.cycles = 12.0, .noise = 0.02};
   const std::size_t samples = GENERATE(std::size_t{1}, std::size_t{24});
   if (samples > 1) scene.noise = 0.0;
   const Recording whole = averaged(with_release(scene, 1.0), samples);
   const Recording slips = averaged(record(scene), samples);
-  const Analysis joined = analyze_and_fit(whole, {});
-  const Analysis alone = analyze_and_fit(slips, {});
+  const Analysis joined = analyze_and_fit(whole);
+  const Analysis alone = analyze_and_fit(slips);
   REQUIRE(joined.motion == MotionClass::StickSlip);
   INFO("averaged over " << samples << " samples");
   CHECK(uses_ring_down(joined.fit->conditional_on));
@@ -92,10 +90,10 @@ TEST_CASE("a ring-down of another mode is told and changes nothing", "[ring_down
   Scene scene;
   scene.noise = 0.01;
   const Recording whole = with_release(scene, 1.3);
-  const Analysis joined = analyze_and_fit(whole, {});
+  const Analysis joined = analyze_and_fit(whole);
   CHECK(has_warning(joined, "ring_down_differs"));
   CHECK_FALSE(uses_ring_down(joined.fit->conditional_on));
-  const Analysis alone = analyze_and_fit(whole.part(0, record(scene).size()), {});
+  const Analysis alone = analyze_and_fit(whole.part(0, record(scene).size()));
   CHECK_FALSE(has_warning(alone, "ring_down_differs"));
   CHECK(*parameter(joined, "damping_ratio").estimate.value ==
         Approx(*parameter(alone, "damping_ratio").estimate.value).margin(0.01));
@@ -103,11 +101,7 @@ TEST_CASE("a ring-down of another mode is told and changes nothing", "[ring_down
 }
 
 TEST_CASE("a ring-down of one recording is data of a whole sweep", "[ring_down]") {
-  test::SweepScene scene;
-  scene.f1_N = 0.0;
-  scene.cycles = 6.0;
-  scene.samples_per_half_period = 6.0;
-  scene.noise_N = 0.03;
+  const test::SweepScene scene{.f1_N = 0.0, .cycles = 6.0, .samples_per_half_period = 6.0, .noise_N = 0.03};
   const std::vector<SweepEntry> entries = test::record_sweep(scene, {0.004, 0.008, 0.016});
   std::vector<Quality> qualities;
   std::vector<Segmentation> slips;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -20,7 +21,7 @@ struct Scene {
   double jitter = 0.0, noise = 0.0, drift_over_drop = 0.0, hum = 0.0;
   ForceView view = ForceView::Spring;
   std::uint64_t seed = 1;
-  Conditions conditions;  ///< speed, view and zero are filled in
+  Conditions conditions = {};  ///< speed, view and zero are filled in
 };
 
 inline Recording record(const Scene& s) {
@@ -28,12 +29,11 @@ inline Recording record(const Scene& s) {
   const Friction friction = Friction::create(s.static_N, s.kinetic_N).value();
   const LimitCycle cycle = *damped_motion(slider, friction, s.speed).cycle;
   const double difference = s.static_N - s.kinetic_N;
-  SimulationOptions options;
-  options.duration_s = s.cycles * cycle.period_s;
-  options.sample_rate_Hz = s.samples_per_slip / cycle.slip_s;
-  options.force_view = s.view;
-  options.static_friction_sd_N = s.jitter * difference;
-  options.noise_rms_N = s.noise * difference;
+  SimulationOptions options{.duration_s = s.cycles * cycle.period_s,
+                            .sample_rate_Hz = s.samples_per_slip / cycle.slip_s,
+                            .force_view = s.view,
+                            .static_friction_sd_N = s.jitter * difference,
+                            .noise_rms_N = s.noise * difference};
   options.drift_N_per_s = s.drift_over_drop * difference / options.duration_s;
   options.hum_N = s.hum * difference;
   options.seed = s.seed;
@@ -65,6 +65,23 @@ inline const Parameter& parameter(const Analysis& analysis, const std::string& n
   }
   FAIL("no parameter " << name);
   return analysis.fit->parameters.front();
+}
+
+/// 4 standard errors: 1 in 16 000 is further off by chance.
+inline void check_truth(const Analysis& analysis, const std::string& name, double truth) {
+  INFO(name);
+  const Estimate& estimate = parameter(analysis, name).estimate;
+  REQUIRE(estimate.value);
+  REQUIRE(estimate.standard_error);
+  CHECK(std::abs(*estimate.value - truth) < 4.0 * *estimate.standard_error);
+}
+
+/// k, w_n, F_s - F_k and zeta.
+inline void check_truth(const Analysis& analysis, const Scene& s) {
+  check_truth(analysis, "stiffness_N_per_m", s.stiffness);
+  check_truth(analysis, "natural_frequency_rad_per_s", s.omega);
+  check_truth(analysis, "friction_difference_N", s.static_N - s.kinetic_N);
+  check_truth(analysis, "damping_ratio", s.zeta);
 }
 
 inline bool has_warning(const Analysis& analysis, const std::string& code) {

@@ -23,10 +23,7 @@ constexpr double kSpeed_m_per_s = 0.02;
 Recording misshapen() {
   const Slider slider = Slider::create(500.0, 120.0, 0.05).value();
   const Friction friction = Friction::create(2.0, 1.4).value();
-  SimulationOptions options;
-  options.duration_s = 3.0;
-  options.sample_rate_Hz = 2000.0;
-  options.noise_rms_N = 0.003;
+  const SimulationOptions options{.duration_s = 3.0, .sample_rate_Hz = 2000.0, .noise_rms_N = 0.003};
   SimulatedTrace trace = simulate(slider, friction, kSpeed_m_per_s, options);
   for (double& force : trace.force_N) force += 0.1 * std::max(0.0, 1.3 - force);
   Conditions conditions;

@@ -52,11 +52,11 @@ Analysis cycles_of(const Contact& contact, std::uint64_t seed) {
   return analysis;
 }
 
-ShortTest find(const std::vector<ShortTest>& tests, const std::string& name) {
+ShortTest find(const std::vector<ShortTest>& tests, TestKind kind) {
   for (const ShortTest& test : tests) {
-    if (test.name == name) return test;
+    if (test.kind == kind) return test;
   }
-  FAIL("no test " << name);
+  FAIL("no test " << static_cast<int>(kind));
   return {};
 }
 
@@ -75,8 +75,8 @@ TEST_CASE("independent cycles are called so: one false alarm in twenty at 5 %") 
   constexpr int kRecordings = 400;
   for (std::uint64_t seed = 1; seed <= kRecordings; ++seed) {
     const std::vector<ShortTest> tests = tests_of({}, seed);
-    drifts += *find(tests, "period_drift").p_value < 0.05 ? 1 : 0;
-    memories += *find(tests, "return_map").p_value < 0.05 ? 1 : 0;
+    drifts += *find(tests, TestKind::PeriodDrift).p_value < 0.05 ? 1 : 0;
+    memories += *find(tests, TestKind::ReturnMap).p_value < 0.05 ? 1 : 0;
   }
   // 20 expected; outside 9 to 33 once in 100 recordings of this test.
   CHECK((drifts >= 9 && drifts <= 33));
@@ -85,7 +85,7 @@ TEST_CASE("independent cycles are called so: one false alarm in twenty at 5 %") 
 
 TEST_CASE("a period that drifts is warned of") {
   const std::vector<ShortTest> tests = tests_of({0.0, 0.1}, 1);
-  CHECK(*find(tests, "period_drift").value == Approx(0.1).epsilon(0.3));
+  CHECK(*find(tests, TestKind::PeriodDrift).value == Approx(0.1).epsilon(0.3));
   REQUIRE(!warn_of(tests).empty());
   CHECK(warn_of(tests).front().code == "period_drifts");
 }
@@ -95,7 +95,7 @@ TEST_CASE("ageing comes back, although a strong contact sticks longer by itself"
   int inside = 0;
   constexpr int kRecordings = 100;
   for (std::uint64_t seed = 1; seed <= kRecordings; ++seed) {
-    const ShortTest ageing = find(tests_of({kAgeing_N, 0.0, 600}, seed), "ageing");
+    const ShortTest ageing = find(tests_of({kAgeing_N, 0.0, 600}, seed), TestKind::Ageing);
     inside += std::abs(*ageing.value - kAgeing_N) < 2.0 * *ageing.standard_error ? 1 : 0;
   }
   CHECK(inside >= 88);  // of 95 expected; the plain slope, 1.2 N, is far outside in all of them
@@ -103,7 +103,7 @@ TEST_CASE("ageing comes back, although a strong contact sticks longer by itself"
 
 TEST_CASE("a level that repeats over the path is told by its length, scatter and a random walk are not") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const ShortTest wave = find(tests_of({0.0, 0.0, 60, 0.1}, seed), "level_repeats");
+    const ShortTest wave = find(tests_of({0.0, 0.0, 60, 0.1}, seed), TestKind::LevelRepeats);
     CHECK(*wave.value == Approx(6.0).epsilon(0.02));  // m, at 1 m/s
     CHECK(*wave.p_value < 1e-3);
   }
@@ -153,11 +153,11 @@ TEST_CASE("short tests: cycles alike to the last digit leave nothing to test, an
     is_odd = !is_odd;
   }
   for (const ShortTest& test : run_short_tests(clock, alike)) {
-    CAPTURE(test.name, test.finding);
+    CAPTURE(test.finding);
     for (const auto& number : {test.value, test.standard_error, test.p_value})
       CHECK((!number || std::isfinite(*number)));
     CHECK(test.finding.find("inf") == std::string::npos);
     CHECK(test.finding.find("nan") == std::string::npos);
   }
-  CHECK_FALSE(find(run_short_tests(clock, alike), "ageing").value);
+  CHECK_FALSE(find(run_short_tests(clock, alike), TestKind::Ageing).value);
 }

@@ -16,15 +16,11 @@ double relative_se(const Estimate& estimate) {
 TEST_CASE("an uncertain speed is in k, mass, c and the spacing, and in nothing else") {
   const double speed_error = GENERATE(0.01, 0.1);
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Contact);
-  Scene s;
-  s.noise = 0.01;
-  s.jitter = 0.05;
-  s.samples_per_slip = 31.7;
-  s.view = view;
+  Scene s{.samples_per_slip = 31.7, .jitter = 0.05, .noise = 0.01, .view = view};
   s.conditions.sensor_average_s = 0.0;  // what averaging may have done does not add as a square
-  const Analysis exact = analyze_and_fit(record(s), {});
+  const Analysis exact = analyze_and_fit(record(s));
   s.conditions.speed_standard_error_m_per_s = speed_error * s.speed;
-  const Analysis uncertain = analyze_and_fit(record(s), {});
+  const Analysis uncertain = analyze_and_fit(record(s));
   for (const char* name : {"stiffness_N_per_m", "mass_kg", "damping_coefficient_N_s_per_m"}) {
     INFO(name);
     const double before = relative_se(parameter(exact, name).estimate);
@@ -53,11 +49,11 @@ TEST_CASE("a stated mass is held against k / w_n^2 and never forced") {
   Scene s;
   s.noise = 0.01;
   const double mass_kg = s.stiffness / (s.omega * s.omega);
-  const Analysis unstated = analyze_and_fit(record(s), {});
+  const Analysis unstated = analyze_and_fit(record(s));
   s.conditions.mass_kg = mass_kg;
-  CHECK_FALSE(has_warning(analyze_and_fit(record(s), {}), "mass_differs"));
+  CHECK_FALSE(has_warning(analyze_and_fit(record(s)), "mass_differs"));
   s.conditions.mass_kg = 1.5 * mass_kg;
-  const Analysis contradicted = analyze_and_fit(record(s), {});
+  const Analysis contradicted = analyze_and_fit(record(s));
   CHECK(has_warning(contradicted, "mass_differs"));
   CHECK(*parameter(contradicted, "mass_kg").estimate.value == *parameter(unstated, "mass_kg").estimate.value);
 }
@@ -67,16 +63,14 @@ TEST_CASE("slips near the load cell's resonance are warned of") {
   s.noise = 0.01;
   const double natural_Hz = s.omega / 6.283185307;
   s.conditions.sensor_resonance_Hz = 2.0 * natural_Hz;
-  CHECK(has_warning(analyze_and_fit(record(s), {}), "near_sensor_resonance"));
+  CHECK(has_warning(analyze_and_fit(record(s)), "near_sensor_resonance"));
   s.conditions.sensor_resonance_Hz = 20.0 * natural_Hz;
-  CHECK_FALSE(has_warning(analyze_and_fit(record(s), {}), "near_sensor_resonance"));
+  CHECK_FALSE(has_warning(analyze_and_fit(record(s)), "near_sensor_resonance"));
 }
 
 TEST_CASE("one recording says that it takes the stated speed and Coulomb friction for granted") {
-  Scene s;
-  s.noise = 0.01;
-  s.jitter = 0.05;
-  const Analysis taken = analyze_and_fit(record(s), {});
+  Scene s{.jitter = 0.05, .noise = 0.01};
+  const Analysis taken = analyze_and_fit(record(s));
   REQUIRE(taken.fit->conditional_on.size() == 2);
   CHECK_THAT(taken.fit->conditional_on[1], Catch::Contains("stated driving speed"));
   for (const char* name :
@@ -87,16 +81,14 @@ TEST_CASE("one recording says that it takes the stated speed and Coulomb frictio
   }
   CHECK(parameter(taken, "static_friction_N").status == ParameterStatus::Identified);  // the zero is stated
   s.conditions.speed_standard_error_m_per_s = 0.01 * s.speed;
-  CHECK(analyze_and_fit(record(s), {}).fit->conditional_on.size() == 1);
+  CHECK(analyze_and_fit(record(s)).fit->conditional_on.size() == 1);
 }
 
 TEST_CASE("averaging over a step of the clock lengthens the side of the interval that it would move") {
-  Scene s;
-  s.noise = 0.01;
-  s.jitter = 0.05;
-  const Interval open = *parameter(analyze_and_fit(record(s), {}), "natural_frequency_rad_per_s").estimate.ci95;
+  Scene s{.jitter = 0.05, .noise = 0.01};
+  const Interval open = *parameter(analyze_and_fit(record(s)), "natural_frequency_rad_per_s").estimate.ci95;
   s.conditions.sensor_average_s = 0.0;
-  const Interval instant = *parameter(analyze_and_fit(record(s), {}), "natural_frequency_rad_per_s").estimate.ci95;
+  const Interval instant = *parameter(analyze_and_fit(record(s)), "natural_frequency_rad_per_s").estimate.ci95;
   CHECK(open.low == Approx(instant.low).epsilon(1e-12));
   // 0.62 (w_n step)^2 / 12 of w_n, docs/model.md section 7; damping and force ratio are not quite those of the rule.
   const Recording recording = record(s);
@@ -105,14 +97,11 @@ TEST_CASE("averaging over a step of the clock lengthens the side of the interval
 }
 
 TEST_CASE("few samples in a slip leave w_n and m to averaging over one of them, unless it is stated") {
-  Scene s;
-  s.noise = 0.005;
-  s.jitter = 0.05;
-  s.samples_per_slip = 6.0;
-  const Analysis open = analyze_and_fit(record(s), {});
+  Scene s{.samples_per_slip = 6.0, .jitter = 0.05, .noise = 0.005};
+  const Analysis open = analyze_and_fit(record(s));
   CHECK(parameter(open, "natural_frequency_rad_per_s").status == ParameterStatus::Weak);
   CHECK_THAT(parameter(open, "natural_frequency_rad_per_s").estimate.note, Catch::Contains("--sensor-average"));
   CHECK(parameter(open, "mass_kg").status == ParameterStatus::Weak);
   s.conditions.sensor_average_s = 0.0;
-  CHECK(parameter(analyze_and_fit(record(s), {}), "natural_frequency_rad_per_s").status == ParameterStatus::Identified);
+  CHECK(parameter(analyze_and_fit(record(s)), "natural_frequency_rad_per_s").status == ParameterStatus::Identified);
 }

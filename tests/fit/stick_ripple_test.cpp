@@ -27,22 +27,18 @@ Recording on_uneven_drive(const Recording& even, double frequency_Hz) {
 }
 
 Scene scene() {
-  Scene s;
-  s.noise = 0.005;
-  s.samples_per_slip = 40.0;
-  s.speed = 0.003;
-  return s;
+  return {.speed = 0.003, .samples_per_slip = 40.0, .noise = 0.005};
 }
 
 }  // namespace
 
 TEST_CASE("a drive that runs unevenly is said, and its line is fitted with the cycles") {
   const Recording even = record(scene());
-  const Analysis plain = analyze_and_fit(even, {});
+  const Analysis plain = analyze_and_fit(even);
   CHECK_FALSE(has_warning(plain, "drive_ripple"));
   const double slips_Hz = *plain.frequency.quoted.value;
   const double ratio = GENERATE(4.37, 5.0);  // the second is in step: no line of its own
-  const Analysis analysis = analyze_and_fit(on_uneven_drive(even, ratio * slips_Hz), {});
+  const Analysis analysis = analyze_and_fit(on_uneven_drive(even, ratio * slips_Hz));
   INFO(ratio);
   CHECK(has_warning(analysis, "drive_ripple"));
   CHECK(has_warning(analysis, "hum_fitted") == (ratio != 5.0));

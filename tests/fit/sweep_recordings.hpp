@@ -26,7 +26,7 @@ struct SweepScene {
   double level_scatter_N = 0.0;  ///< of F_k from cycle to cycle
   double noise_N = 0.01;
   double offset_N = 0.0;  ///< of the sensor, different in every recording: recording i reads i times this too much
-  std::optional<double> normal_force_N;                  ///< as stated; the zero of the sensor is then known too
+  std::optional<double> normal_force_N{};                ///< as stated; the zero of the sensor is then known too
   slipfit::ForceView view = slipfit::ForceView::Spring;  ///< or Transmitted
   std::uint64_t seed = 1;
 

@@ -80,7 +80,7 @@ TEST_CASE("sweep: alpha and damping are told apart by a sweep, and each speed is
   SweepScene scene;
   for (const double scatter_N : {0.0, 0.02}) {
     scene.scatter_N = scatter_N;
-    const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+    const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds));
     REQUIRE(sweep.fit);
     CHECK(sweep.fit->result.tier == Tier::Velocity);
     CHECK(sweep.fit->level_shared);
@@ -104,9 +104,9 @@ TEST_CASE("sweep: a steadily sliding recording pins the kinetic friction at its 
   constexpr double kFast_m_per_s = 0.5;
   const double truth_N = scene.f0_N + scene.f1_N * std::exp(scene.alpha_s_per_m * kFast_m_per_s);
   std::vector<SweepEntry> entries = test::record_sweep(scene, kSpeeds);
-  const SweepAnalysis without = analyze_sweep(entries, {});
+  const SweepAnalysis without = analyze_sweep(entries);
   entries.push_back({"fast", steady_recording(truth_N, scene.noise_N, kFast_m_per_s, 31)});
-  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  const SweepAnalysis sweep = analyze_sweep(entries);
   REQUIRE(without.fit);
   REQUIRE(sweep.fit);
   CHECK(sweep.roles.back() == SweepRole::Steady);
@@ -119,11 +119,8 @@ TEST_CASE("sweep: a steadily sliding recording pins the kinetic friction at its 
 }
 
 TEST_CASE("sweep: the force that spring and damper transmit together") {
-  SweepScene scene;
-  scene.view = ForceView::Transmitted;
-  scene.damping_ratio = 0.12;
-  scene.scatter_N = 0.02;
-  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  const SweepScene scene{.damping_ratio = 0.12, .scatter_N = 0.02, .view = ForceView::Transmitted};
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds));
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Velocity);
   CHECK(*sweep.fit->result.residual.reduced_chi2 == Approx(1.0).margin(0.1));
@@ -136,15 +133,13 @@ TEST_CASE("sweep: a sensor at the contact is left out") {
   std::vector<SweepEntry> entries = test::record_sweep(scene, {0.005, 0.01});
   scene.view = ForceView::Contact;
   entries.push_back(test::record_sweep(scene, {0.02}).front());
-  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  const SweepAnalysis sweep = analyze_sweep(entries);
   CHECK(sweep.roles[2] == SweepRole::LeftOut);
 }
 
 TEST_CASE("sweep: Coulomb friction needs no alpha") {
-  SweepScene scene;
-  scene.f1_N = 0.0;
-  scene.f0_N = 2.0;
-  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  const SweepScene scene{.f0_N = 2.0, .f1_N = 0.0};
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds));
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Damped);
   CHECK(parameter(sweep, "alpha_s_per_m").status == ParameterStatus::Unidentified);
@@ -154,11 +149,8 @@ TEST_CASE("sweep: Coulomb friction needs no alpha") {
 }
 
 TEST_CASE("sweep: an average that nobody stated is found in all recordings, and the slips behind it") {
-  SweepScene scene;
-  scene.f1_N = 0.0;
-  scene.f0_N = 2.0;
-  scene.averaged = 12;
-  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  const SweepScene scene{.f0_N = 2.0, .f1_N = 0.0, .averaged = 12};
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds));
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Damped);
   CHECK(warns(sweep.fit->result.warnings, "samples_averaged"));
@@ -169,15 +161,11 @@ TEST_CASE("sweep: an average that nobody stated is found in all recordings, and 
 }
 
 TEST_CASE("sweep: averages that no recording alone can tell are told by all of them together") {
-  SweepScene scene;
-  scene.f1_N = 0.0;
-  scene.f0_N = 2.0;
-  scene.averaged = 4;
-  scene.noise_N = 0.02;
+  const SweepScene scene{.f0_N = 2.0, .f1_N = 0.0, .averaged = 4, .noise_N = 0.02};
   const std::vector<SweepEntry> entries = test::record_sweep(scene, kSpeeds);
   for (const SweepEntry& entry : entries)
-    CHECK_FALSE(warns(analyze_and_fit(entry.recording, {}).warnings, "samples_averaged"));
-  const SweepAnalysis sweep = analyze_sweep(entries, {});
+    CHECK_FALSE(warns(analyze_and_fit(entry.recording).warnings, "samples_averaged"));
+  const SweepAnalysis sweep = analyze_sweep(entries);
   REQUIRE(sweep.fit);
   CHECK(warns(sweep.fit->result.warnings, "samples_averaged"));
   const Parameter& frequency = parameter(sweep, "natural_frequency_rad_per_s");
@@ -191,7 +179,7 @@ TEST_CASE("sweep: friction that goes on changing below the measured speeds leave
   scene.law = model::LawShape::Logarithmic;
   scene.alpha_s_per_m = 1000.0 * -0.3;  // rate of the logarithm
   scene.f1_N = 0.1;
-  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds));
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Velocity);
   const Parameter& difference = parameter(sweep, "friction_difference_N");
@@ -203,7 +191,7 @@ TEST_CASE("sweep: friction that goes on changing below the measured speeds leave
 }
 
 TEST_CASE("sweep: one speed cannot tell alpha, and says so") {
-  const SweepAnalysis sweep = analyze_sweep(test::record_sweep({}, {0.01, 0.0105}), {});
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep({}, {0.01, 0.0105}));
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Damped);
   CHECK_FALSE(parameter(sweep, "alpha_s_per_m").estimate.value);
@@ -213,7 +201,7 @@ TEST_CASE("sweep: one speed cannot tell alpha, and says so") {
 TEST_CASE("sweep: recordings with zeros of their own share no level; damping is then conditional") {
   SweepScene scene;
   scene.offset_N = 0.3;
-  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds));
   REQUIRE(sweep.fit);
   CHECK_FALSE(sweep.fit->level_shared);
   CHECK(warns(sweep.fit->result.warnings, "level_differs"));
@@ -223,22 +211,20 @@ TEST_CASE("sweep: recordings with zeros of their own share no level; damping is 
 }
 
 TEST_CASE("sweep: one recording with cycles is no sweep") {
-  const SweepAnalysis sweep = analyze_sweep(test::record_sweep({}, {0.01}), {});
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep({}, {0.01}));
   CHECK_FALSE(sweep.fit);
   CHECK_THAT(sweep.fit_reason, Catch::Contains("1 with stick-slip cycles"));
 }
 
 TEST_CASE("sweep: where recordings do not quite share k, F_k(v) stays because it predicts the unseen better") {
-  SweepScene scene;
-  scene.f0_N = 1.0;
-  scene.f1_N = 1.0;
+  const SweepScene scene{.f0_N = 1.0, .f1_N = 1.0};
   const std::vector<double> speeds{0.005, 0.01, 0.02, 0.04, 0.08, 0.12};
   const auto scene_of = [&](std::size_t i) {
     SweepScene s = scene;
     s.stiffness_N_per_m *= i == 1 || i == 2 ? 1.01 : 0.99;
     return s;
   };
-  const SweepAnalysis sweep = analyze_sweep(record_each(speeds, scene_of), {});
+  const SweepAnalysis sweep = analyze_sweep(record_each(speeds, scene_of));
   REQUIRE(sweep.fit);
   CHECK(*sweep.fit->result.residual.reduced_chi2 > 1.5);
   CHECK(sweep.fit->result.tier == Tier::Velocity);
@@ -253,15 +239,13 @@ TEST_CASE("sweep: where recordings do not quite share k, F_k(v) stays because it
 }
 
 TEST_CASE("sweep: where recordings do not quite share w_n, F_k(v) gains and yet Coulomb friction predicts better") {
-  SweepScene scene;
-  scene.f0_N = 2.0;
-  scene.f1_N = 0.0;
+  const SweepScene scene{.f0_N = 2.0, .f1_N = 0.0};
   const auto scene_of = [&](std::size_t i) {
     SweepScene s = scene;
     s.natural_frequency_rad_per_s *= i == 1 || i == 2 ? 1.04 : 0.96;
     return s;
   };
-  const SweepAnalysis sweep = analyze_sweep(record_each(kSpeeds, scene_of), {});
+  const SweepAnalysis sweep = analyze_sweep(record_each(kSpeeds, scene_of));
   REQUIRE(sweep.fit);
   CHECK(*sweep.fit->result.residual.reduced_chi2 > 1.5);
   CHECK(sweep.fit->result.tier == Tier::Damped);
@@ -273,11 +257,8 @@ TEST_CASE("sweep: where recordings do not quite share w_n, F_k(v) gains and yet 
 }
 
 TEST_CASE("sweep: a kinetic friction that wanders from cycle to cycle is followed, and counts as scatter") {
-  SweepScene scene;
-  scene.level_scatter_N = 0.08;
-  scene.cycles = 40.0;
-  scene.seed = 41;
-  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds), {});
+  const SweepScene scene{.cycles = 40.0, .level_scatter_N = 0.08, .seed = 41};
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds));
   REQUIRE(sweep.fit);
   CHECK(*sweep.fit->result.residual.reduced_chi2 == Approx(1.0).margin(0.1));
   check_recovery(sweep, scene);
@@ -304,11 +285,8 @@ TEST_CASE("sweep: a kinetic friction that wanders from cycle to cycle is followe
 TEST_CASE("sweep: where alpha is hardly told, intervals follow its valley to the other end") {
   // zeta times alpha is known, neither is: by its best values alone, with alpha > 0, this recording gave a slope of
   // -0.07 +- 0.06 N s/m and a difference of 1.105 +- 0.015 N.
-  SweepScene scene;
-  scene.level_scatter_N = 0.08;
-  scene.cycles = 40.0;
-  scene.seed = 3700;
-  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, {0.005, 0.01, 0.02, 0.04, 0.08}), {});
+  const SweepScene scene{.cycles = 40.0, .level_scatter_N = 0.08, .seed = 3700};
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, {0.005, 0.01, 0.02, 0.04, 0.08}));
   REQUIRE(sweep.fit);
   const auto holds = [&](const char* name, double truth) {
     const Interval& ci = *parameter(sweep, name).estimate.ci95;
@@ -335,7 +313,7 @@ TEST_CASE("sweep: friction coefficients where the normal forces are stated, and 
     return s;
   };
   const auto scene_of = [&](std::size_t i) { return scene_at(i % 2 == 0 ? kFirst_N : 1.5 * kFirst_N); };
-  const SweepAnalysis sweep = analyze_sweep(record_each(kSpeeds, scene_of), {});
+  const SweepAnalysis sweep = analyze_sweep(record_each(kSpeeds, scene_of));
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.conditional_on.back() == "normal force 5 N, the mean of the recordings");
   CHECK(sweep.fit->level_shared);
@@ -357,12 +335,10 @@ TEST_CASE("sweep: friction coefficients where the normal forces are stated, and 
 }
 
 TEST_CASE("sweep: under Coulomb friction a steady recording is a value of F_k, and the law stays Coulomb's") {
-  SweepScene scene;
-  scene.f0_N = 2.0;
-  scene.f1_N = 0.0;
+  const SweepScene scene{.f0_N = 2.0, .f1_N = 0.0};
   std::vector<SweepEntry> entries = test::record_sweep(scene, {0.005, 0.01, 0.02});
   entries.push_back({"steady", steady_recording(scene.kinetic_friction_N(), scene.noise_N, 0.2, 81)});
-  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  const SweepAnalysis sweep = analyze_sweep(entries);
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Damped);
   check_recovery(sweep, scene);

@@ -44,11 +44,7 @@ Recording weakening_recording(const Scene& s, double share) {
 }
 
 Scene soft_contact() {
-  Scene s;
-  s.noise = 0.01;
-  s.jitter = 0.03;
-  s.cycles = 40.0;
-  return s;
+  return {.cycles = 40.0, .jitter = 0.03, .noise = 0.01};
 }
 
 const Candidate* weakening_candidate(const Analysis& analysis) {
@@ -65,7 +61,7 @@ TEST_CASE("a slip distance is found with the other parameters where slips start 
   Scene s = soft_contact();
   s.seed = GENERATE(range<std::uint64_t>(1, 4));
   CAPTURE(share, s.seed);
-  const Analysis analysis = analyze_and_fit(weakening_recording(s, share), {});
+  const Analysis analysis = analyze_and_fit(weakening_recording(s, share));
   REQUIRE(analysis.fit);
   REQUIRE(analysis.fit->tier == Tier::Weakening);
   const double difference_N = s.static_N - s.kinetic_N;
@@ -90,7 +86,7 @@ TEST_CASE("Coulomb friction gets no slip distance, and is not asked for one") {
   Scene s = soft_contact();
   s.seed = GENERATE(range<std::uint64_t>(1, 9));
   CAPTURE(s.seed);
-  const Analysis analysis = analyze_and_fit(record(s), {});
+  const Analysis analysis = analyze_and_fit(record(s));
   REQUIRE(analysis.fit);
   CHECK(analysis.fit->tier != Tier::Weakening);
   CHECK(weakening_candidate(analysis) == nullptr);
@@ -105,7 +101,7 @@ TEST_CASE("intervals behind an average hold what a slip distance too short to be
   CAPTURE(s.seed);
   const Recording recording =
       moving_average(weakening_recording(s, 0.04), 45, 0.01 * (s.static_N - s.kinetic_N), s.seed);
-  const Analysis analysis = analyze_and_fit(recording, {});
+  const Analysis analysis = analyze_and_fit(recording);
   REQUIRE(analysis.fit);
   for (const auto& [name, truth] :
        {std::pair{"natural_frequency_rad_per_s", s.omega}, std::pair{"damping_ratio", s.zeta}}) {
@@ -136,7 +132,7 @@ TEST_CASE("slips that weaken show no average of the sensor: it would have to exp
   s.samples_per_slip = samples;
   s.seed = seed;
   CAPTURE(share, noise, samples, seed);
-  const Analysis analysis = analyze_and_fit(weakening_recording(s, share), {});
+  const Analysis analysis = analyze_and_fit(weakening_recording(s, share));
   REQUIRE(analysis.fit);
   CHECK_FALSE(analysis.fit->estimate_of(ParameterId::SensorAverage).value);
   const Estimate omega = analysis.fit->natural_frequency();

@@ -19,11 +19,7 @@ constexpr double kSpeed_m_per_s = 0.01;
 constexpr std::array<ForceView, 3> kViews{ForceView::Spring, ForceView::Transmitted, ForceView::Contact};
 
 SimulationOptions options_for(ForceView view) {
-  SimulationOptions options;
-  options.duration_s = 0.5;
-  options.sample_rate_Hz = 20000.0;
-  options.force_view = view;
-  return options;
+  return {.duration_s = 0.5, .sample_rate_Hz = 20000.0, .force_view = view};
 }
 
 }  // namespace

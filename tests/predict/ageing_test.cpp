@@ -185,7 +185,7 @@ TEST_CASE("ageing: a sweep tells it, and predicts the spacing between and beyond
   int inside = 0;
   int all = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const SweepAnalysis sweep = analyze_sweep(test::record(truth, kSpeeds, 100 * seed), {});
+    const SweepAnalysis sweep = analyze_sweep(test::record(truth, kSpeeds, 100 * seed));
     REQUIRE(sweep.fit);
     REQUIRE(sweep.fit->result.estimate);
     const ModelEstimate& estimate = *sweep.fit->result.estimate;
@@ -216,7 +216,7 @@ TEST_CASE("ageing: a sweep tells the cut-off where its sticks span enough, and n
   const std::vector<double> speeds{0.0025, 0.005, 0.01, 0.02, 0.04, 0.08, 0.16};
   for (const double cutoff_s : {0.0, 0.05}) {
     truth.ageing_cutoff_s = cutoff_s;
-    const SweepAnalysis sweep = analyze_sweep(test::record(truth, speeds, 500), {});
+    const SweepAnalysis sweep = analyze_sweep(test::record(truth, speeds, 500));
     REQUIRE(sweep.fit);
     const Parameter* const found = sweep.fit->result.find(ParameterId::AgeingTime);
     REQUIRE(found);
@@ -239,7 +239,7 @@ TEST_CASE("ageing: static friction that differs for another reason is not taken 
       truth.static_friction_N = 6.0 + 0.3 * std::sin(static_cast<double>(7 * seed + 3 * i * i));  // no trend
       entries.push_back(test::record(truth, kSpeeds[i], 1000 * seed + i));
     }
-    const SweepAnalysis sweep = analyze_sweep(entries, {});
+    const SweepAnalysis sweep = analyze_sweep(entries);
     REQUIRE(sweep.fit);
     CHECK_FALSE(sweep.fit->difference_shared);
     taken += sweep.fit->result.estimate && sweep.fit->result.estimate->ageing ? 1 : 0;

@@ -26,7 +26,7 @@ PredictionModel fitted_model(std::uint64_t seed, const Slider& slider, const Fri
   Conditions conditions;
   conditions.speed_m_per_s = speed_m_per_s;
   const Recording recording = Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value();
-  const Analysis analysis = analyze_and_fit(recording, {});
+  const Analysis analysis = analyze_and_fit(recording);
   REQUIRE(analysis.fit);
   REQUIRE(analysis.fit->estimate);
   PredictionModel model;

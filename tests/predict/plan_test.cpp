@@ -38,7 +38,7 @@ const ParameterLimit& limit_of(const Plan& plan, const std::string& name) {
 
 PlanBasis fitted_basis(const test::SpeedSweep& truth, const std::vector<double>& speeds, std::uint64_t seed) {
   const std::vector<SweepEntry> entries = test::record(truth, speeds, seed);
-  return basis_of(entries, analyze_sweep(entries, {}));
+  return basis_of(entries, analyze_sweep(entries));
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ TEST_CASE("noise and scatter explain the standard errors of a fit of simulated r
   int compared = 0;
   for (const std::uint64_t seed : {10U, 20U, 30U, 40U}) {
     const std::vector<SweepEntry> entries = test::record({}, {0.01, 0.02, 0.04}, seed);
-    const SweepAnalysis sweep = analyze_sweep(entries, {});
+    const SweepAnalysis sweep = analyze_sweep(entries);
     // With one level and one static friction for all, as simulated; by chance a fit refuses that now and then.
     if (!sweep.fit->level_shared || !sweep.fit->difference_shared || !sweep.fit->result.warnings.empty()) continue;
     ++compared;
@@ -73,7 +73,7 @@ TEST_CASE("the standard error that a plan promises is the one that the fit with 
   CHECK(option->standard_error < 0.6 * plan.standard_error);  // a wider span of speeds is what alpha needs
   std::vector<SweepEntry> entries = test::record(truth, before, 40);
   entries.push_back(test::record(truth, 0.16, 99));
-  const PlanBasis after = basis_of(entries, analyze_sweep(entries, {}));
+  const PlanBasis after = basis_of(entries, analyze_sweep(entries));
   const double achieved = std::sqrt(after.estimate.covariance[5][5]);
   // The new recording is as many cycles long as the others, not as long in time.
   const double share = after.recordings.back().duration_s / option->recording.duration_s;

@@ -194,21 +194,19 @@ TEST_CASE("the regime changes at the critical speed, without intervals within it
   REQUIRE(critical.low < 0.435);
   REQUIRE(critical.high > 0.443);
   const auto& rows = prediction.rows;
-  CHECK(rows[0].regime == "stick_slip_bistable");
-  CHECK(rows[0].bistable);
+  CHECK(rows[0].regime == Regime::StickSlipBistable);
   CHECK(rows[0].period_s.ci95);
   CHECK(rows[0].note.empty());
-  CHECK(rows[1].regime == "stick_slip_bistable");
+  CHECK(rows[1].regime == Regime::StickSlipBistable);
   CHECK(rows[1].period_s.value);
   CHECK_FALSE(rows[1].period_s.ci95);
   CHECK_FALSE(rows[1].force_peak_N.ci95);
   CHECK(rows[1].lambda.ci95);
   CHECK_FALSE(rows[1].note.empty());
-  CHECK(rows[2].regime == "oscillatory_slip");
-  CHECK_FALSE(rows[2].bistable);
+  CHECK(rows[2].regime == Regime::OscillatorySlip);
   CHECK_FALSE(rows[2].period_s.value);
   CHECK_FALSE(rows[2].note.empty());
-  CHECK(rows[3].regime == "oscillatory_slip");
+  CHECK(rows[3].regime == Regime::OscillatorySlip);
   CHECK(rows[3].note.empty());
   CHECK(rows[3].lambda.ci95);
 }
@@ -235,8 +233,7 @@ TEST_CASE("a stated model without damping has stick-slip at every speed") {
   CHECK(*prediction.lambda_critical.value == 0.0);
   CHECK_FALSE(prediction.critical_speed_m_per_s.value);
   for (const PredictedMotion& row : prediction.rows) {
-    CHECK(row.regime == "stick_slip");
-    CHECK_FALSE(row.bistable);
+    CHECK(row.regime == Regime::StickSlip);
     CHECK(row.period_s.value);
   }
 }
@@ -246,7 +243,7 @@ TEST_CASE("from a damping ratio of 1 on there is no stick-slip at any speed") {
       stated_model(Slider::create(1000.0, 200.0, 1.5).value(), Friction::create(6.0, 4.0).value());
   const std::array<double, 1> speeds{0.01};
   const Prediction prediction = predict_at(model, speeds);
-  CHECK(prediction.rows[0].regime == "continuous_slip");
+  CHECK(prediction.rows[0].regime == Regime::ContinuousSlip);
   CHECK_FALSE(prediction.rows[0].period_s.value);
   CHECK(*prediction.critical_speed_m_per_s.value == 0.0);
   CHECK_FALSE(prediction.lambda_critical.value);
@@ -256,7 +253,7 @@ TEST_CASE("no friction difference, no stick-slip: an answer") {
   const PredictionModel model =
       stated_model(Slider::create(1000.0, 200.0, 0.1).value(), Friction::create(4.0, 4.0).value());
   const PredictedMotion row = predicted(model, 0.01);
-  CHECK(row.regime == "oscillatory_slip");
+  CHECK(row.regime == Regime::OscillatorySlip);
   CHECK_FALSE(row.period_s.value);
 }
 

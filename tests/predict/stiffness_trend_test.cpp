@@ -94,7 +94,7 @@ TEST_CASE("stiffness trend: the band of a sweep holds at the speed that k belong
 
 TEST_CASE("stiffness trend: a sweep tells it, and predicts spacings by it") {
   const double exponent = GENERATE(-0.06, 0.06);
-  const SweepAnalysis sweep = analyze_sweep(recorded(exponent, 100), {});
+  const SweepAnalysis sweep = analyze_sweep(recorded(exponent, 100));
   REQUIRE(sweep.fit);
   REQUIRE(sweep.fit->result.estimate);
   const Estimate found = sweep.fit->result.estimate_of(ParameterId::StiffnessExponent);
@@ -110,7 +110,7 @@ TEST_CASE("stiffness trend: a sweep tells it, and predicts spacings by it") {
 
 TEST_CASE("stiffness trend: none is found where the stiffness is the same at every speed") {
   for (std::uint64_t seed = 200; seed < 205; ++seed) {
-    const SweepAnalysis sweep = analyze_sweep(recorded(0.0, 10 * seed), {});
+    const SweepAnalysis sweep = analyze_sweep(recorded(0.0, 10 * seed));
     REQUIRE(sweep.fit);
     CHECK(sweep.fit->result.find(ParameterId::StiffnessExponent) == nullptr);
   }

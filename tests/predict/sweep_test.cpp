@@ -43,7 +43,7 @@ TEST_CASE("a sweep of three speeds predicts the spacing at twice and four times 
     for (const double alpha : {-8.0, -3.0, 1.0}) {
       test::SpeedSweep truth;
       truth.alpha_s_per_m = alpha;
-      const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.02, 0.04}, 100 * seed), {});
+      const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.02, 0.04}, 100 * seed));
       const PredictionModel model = model_of(sweep);
       CHECK(model.estimate.speed_dependence);
       for (const double speed : {0.08, 0.16}) {
@@ -64,7 +64,7 @@ TEST_CASE("a sweep of three speeds predicts the spacing at twice and four times 
 
 TEST_CASE("a fit of a sweep carries slope and alpha, and where stick-slip ends") {
   const test::SpeedSweep truth;
-  const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.03, 0.1, 0.2}, 7), {});
+  const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.03, 0.1, 0.2}, 7));
   const ModelEstimate& estimate = model_of(sweep).estimate;
   REQUIRE(estimate.speed_dependence);
   CHECK(holds(parameter(sweep, "friction_slope_N_s_per_m").estimate, truth.f1_N * truth.alpha_s_per_m));
@@ -99,7 +99,7 @@ TEST_CASE("two recordings, or speeds near each other, tell no interval far from 
   test::SpeedSweep truth;
   truth.f1_N = 0.0;
   for (const std::vector<double>& speeds : {std::vector{0.01, 0.04}, std::vector{0.02, 0.022, 0.025, 0.028}}) {
-    const SweepAnalysis sweep = analyze_sweep(test::record(truth, speeds, 3), {});
+    const SweepAnalysis sweep = analyze_sweep(test::record(truth, speeds, 3));
     const PredictionModel model = model_of(sweep);
     REQUIRE(model.estimate.reach);
     CHECK_FALSE(model.estimate.reach->trend);
@@ -118,7 +118,7 @@ TEST_CASE("bands beyond the speeds of a sweep grow with the trend of its static 
   truth.f1_N = 0.0;
   truth.ageing_N = 0.1;
   const std::vector<double> speeds{0.01, 0.02, 0.04};
-  const SweepAnalysis sweep = analyze_sweep(test::record(truth, speeds, 5), {});
+  const SweepAnalysis sweep = analyze_sweep(test::record(truth, speeds, 5));
   PredictionModel model = model_of(sweep);
   REQUIRE(model.estimate.reach);
   REQUIRE(model.estimate.reach->trend);
@@ -166,13 +166,13 @@ TEST_CASE("a sweep names the recording that is not like the others, and one that
     return std::string();
   };
   const std::vector<SweepEntry> sound = test::record(truth, speeds, 11);
-  CHECK_THAT(codes(analyze_sweep(sound, {}).warnings), !Catch::VectorContains(std::string("recording_disagrees")));
+  CHECK_THAT(codes(analyze_sweep(sound).warnings), !Catch::VectorContains(std::string("recording_disagrees")));
 
   test::SpeedSweep harder = truth;
   harder.static_friction_N = 6.6;
   std::vector<SweepEntry> other_surface = sound;
   other_surface[2].recording = test::record(harder, speeds[2], 12).recording;
-  CHECK_THAT(message(analyze_sweep(other_surface, {}).warnings, "recording_disagrees"),
+  CHECK_THAT(message(analyze_sweep(other_surface).warnings, "recording_disagrees"),
              Catch::Contains("'" + sound[2].id + "'") && Catch::Contains("spacing"));
 
   std::vector<SweepEntry> wrong_speed = sound;
@@ -183,13 +183,13 @@ TEST_CASE("a sweep names the recording that is not like the others, and one that
       Recording::create({right.time_s().begin(), right.time_s().end()}, {right.force().begin(), right.force().end()},
                         conditions, right.provenance())
           .value();
-  CHECK_THAT(message(analyze_sweep(wrong_speed, {}).warnings, "recording_disagrees"),
+  CHECK_THAT(message(analyze_sweep(wrong_speed).warnings, "recording_disagrees"),
              Catch::Contains("'" + sound[1].id + "'") && Catch::Contains("stiffness"));
 
   std::vector<SweepEntry> twice = sound;
   twice.push_back(sound[0]);
   twice.back().id = "again";
-  CHECK_THAT(message(analyze_sweep(twice, {}).warnings, "recording_repeated"), Catch::Contains("'again'"));
+  CHECK_THAT(message(analyze_sweep(twice).warnings, "recording_repeated"), Catch::Contains("'again'"));
 }
 
 TEST_CASE("a stiffness that goes with the speed is the fault of no recording") {
@@ -201,7 +201,7 @@ TEST_CASE("a stiffness that goes with the speed is the fault of no recording") {
     at_speed.stiffness_N_per_m *= std::pow(speed / 0.01, 0.05);  // 11 % over the sweep
     entries.push_back(test::record(at_speed, speed, 20 + entries.size()));
   }
-  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  const SweepAnalysis sweep = analyze_sweep(entries);
   for (const Warning& warning : sweep.warnings) CHECK(warning.code != "recording_disagrees");
 }
 
@@ -219,7 +219,7 @@ TEST_CASE("recordings whose slips lie within a sample are left out where others 
     force.push_back(slow.force()[i]);
   }
   entries[0].recording = Recording::create(time_s, force, slow.conditions(), slow.provenance()).value();
-  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  const SweepAnalysis sweep = analyze_sweep(entries);
   CHECK(sweep.roles[0] == SweepRole::LeftOut);
   CHECK(std::any_of(sweep.warnings.begin(), sweep.warnings.end(), [&](const Warning& warning) {
     return warning.code == "slips_not_resolved" && warning.message.find(entries[0].id) != std::string::npos;
@@ -228,7 +228,7 @@ TEST_CASE("recordings whose slips lie within a sample are left out where others 
   CHECK(holds(parameter(sweep, "natural_frequency_rad_per_s").estimate, truth.omega_rad_per_s));
   // The only ones with a speed of their own have to do.
   const std::vector<SweepEntry> two(entries.begin(), entries.begin() + 2);
-  CHECK(analyze_sweep(two, {}).roles[0] == SweepRole::Cycles);
+  CHECK(analyze_sweep(two).roles[0] == SweepRole::Cycles);
 }
 
 TEST_CASE("the spacing that the other recordings predict for one left out holds the truth") {
@@ -237,7 +237,7 @@ TEST_CASE("the spacing that the other recordings predict for one left out holds 
   int all = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const std::vector<SweepEntry> entries = test::record(truth, {0.01, 0.02, 0.04, 0.08, 0.16}, 1000 * seed);
-    const SweepAnalysis sweep = analyze_sweep(entries, {});
+    const SweepAnalysis sweep = analyze_sweep(entries);
     REQUIRE(sweep.fit);
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const Estimate& spacing = sweep.fit->points[i].spacing_left_out_m;
@@ -253,7 +253,7 @@ TEST_CASE("the spacing that the other recordings predict for one left out holds 
 }
 
 TEST_CASE("recordings at one speed cannot tell alpha: it is refused, with the reason") {
-  const SweepAnalysis sweep = analyze_sweep(test::record({}, {0.02, 0.02, 0.02}, 11), {});
+  const SweepAnalysis sweep = analyze_sweep(test::record({}, {0.02, 0.02, 0.02}, 11));
   REQUIRE(sweep.fit);
   const Parameter& alpha = parameter(sweep, "alpha_s_per_m");
   CHECK(alpha.status == ParameterStatus::Unidentified);
@@ -266,7 +266,7 @@ TEST_CASE("a sweep under Coulomb friction is predicted by Coulomb friction") {
   test::SpeedSweep truth;
   truth.f0_N = 4.0;
   truth.f1_N = 0.0;
-  const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.02, 0.04}, 21), {});
+  const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.02, 0.04}, 21));
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Damped);
   CHECK(parameter(sweep, "alpha_s_per_m").status == ParameterStatus::Unidentified);
@@ -296,7 +296,7 @@ TEST_CASE("a fit that ends stick-slip below a run that sticks is not believed") 
   test::SpeedSweep truth;
   truth.f0_N = 4.0;
   truth.f1_N = 0.0;
-  const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.02, 0.04}, 21), {});
+  const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.02, 0.04}, 21));
   REQUIRE(sweep.fit);
   const Estimate by_fit = derive_from_sweep(sweep.fit->result, {0.04, {}}).critical_speed_m_per_s;
   REQUIRE(by_fit.value);
@@ -309,7 +309,7 @@ TEST_CASE("the end of stick-slip by a fit lies between the runs that stick and t
   test::SpeedSweep truth;
   truth.f1_N = 0.0;
   const std::vector<SweepEntry> entries = test::record(truth, {0.02, 0.04, 0.08, 0.16}, 9);
-  SweepAnalysis sweep = analyze_sweep(entries, {});
+  SweepAnalysis sweep = analyze_sweep(entries);
   const Estimate by_fit = sweep.derived.critical_speed_m_per_s;
   REQUIRE(by_fit.ci95);
   const auto with = [&](double sticks, double slides) {

@@ -140,16 +140,14 @@ TEST_CASE("stick-slip ends at the critical speed, with velocity-dependent fricti
 TEST_CASE("the regime follows the damping of steady sliding and whether the slip sticks") {
   PredictionModel model = example();
   // zeta + slope at V / (2 sqrt(k m)) = 0.08 - 0.4 exp(-8 V) passes 0 at V = ln(5) / 8 = 0.2012 m/s.
-  CHECK(predicted(model, 0.19).regime == "stick_slip");
-  CHECK_FALSE(predicted(model, 0.19).bistable);
-  CHECK(predicted(model, 0.22).regime == "stick_slip_bistable");
-  CHECK(predicted(model, 0.22).bistable);
-  CHECK(predicted(model, 2.0).regime == "oscillatory_slip");
+  CHECK(predicted(model, 0.19).regime == Regime::StickSlip);
+  CHECK(predicted(model, 0.22).regime == Regime::StickSlipBistable);
+  CHECK(predicted(model, 2.0).regime == Regime::OscillatorySlip);
   model.estimate.speed_dependence = SpeedDependence{20.0, 0.1};  // total damping above 1
-  CHECK(predicted(model, 0.5).regime == "continuous_slip");
+  CHECK(predicted(model, 0.5).regime == Regime::ContinuousSlip);
   // F_k falls by far more than F_s - F_k: the mass is thrown beyond the drive, and the next slip starts before a stick.
   model.estimate.speed_dependence = SpeedDependence{-12.0, 0.4};
-  CHECK(predicted(model, 2.0).regime == "unstable_steady");
+  CHECK(predicted(model, 2.0).regime == Regime::UnstableSteady);
   CHECK_FALSE(predicted(model, 2.0).period_s.value);
 }
 

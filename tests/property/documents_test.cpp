@@ -286,7 +286,7 @@ TEST_CASE("documents of sweeps keep their promises, with members that show nothi
           {member.described, Recording::create(member.time_s, member.force_N, member.conditions).value()});
     }
     CAPTURE(scene.described);
-    const SweepAnalysis sweep = analyze_sweep(entries, {});
+    const SweepAnalysis sweep = analyze_sweep(entries);
     CHECK(sweep.fit.has_value());
     const std::string json = to_json(entries, sweep, {});
     schemas.add_fit(json);

@@ -39,7 +39,7 @@ Analysis analyse_text(const std::string& text, const Conditions& conditions) {
   const auto recording = read_recording(folder.file("scene.csv", text), conditions);
   INFO((recording ? std::string() : recording.error().message));
   REQUIRE(recording);
-  return analyze_and_fit(recording.value(), {});
+  return analyze_and_fit(recording.value());
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -153,7 +153,7 @@ TEST_CASE("a program whose locale has a decimal comma gets the same document") {
   const auto document = [&] {
     const auto recording = read_recording(file, scene.conditions);
     REQUIRE(recording);
-    return to_json(recording.value(), analyze_and_fit(recording.value(), {}));
+    return to_json(recording.value(), analyze_and_fit(recording.value()));
   };
   const std::string expected = document();
   const CommaLocale comma;

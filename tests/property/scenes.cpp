@@ -87,7 +87,7 @@ Scene random_scene(std::uint64_t seed) {
 }
 
 Analysis analyse(const Scene& scene) {
-  return analyze_and_fit(Recording::create(scene.time_s, scene.force_N, scene.conditions).value(), {});
+  return analyze_and_fit(Recording::create(scene.time_s, scene.force_N, scene.conditions).value());
 }
 
 void check_same(const Analysis& before, const Analysis& after, const Factors& factors) {

@@ -38,7 +38,7 @@ std::optional<Recording> read_file(const std::string& file, double speed_m_per_s
 
 std::optional<Analysis> fit_file(const std::string& file, double speed_m_per_s, const ReadOptions& options = {}) {
   const std::optional<Recording> recording = read_file(file, speed_m_per_s, options);
-  return recording ? std::optional(analyze_and_fit(*recording, {})) : std::nullopt;
+  return recording ? std::optional(analyze_and_fit(*recording)) : std::nullopt;
 }
 
 const Parameter* find(const Analysis& analysis, const std::string& name) {
@@ -136,7 +136,7 @@ TEST_CASE(
     const auto time_s = untold->time_s();
     const auto force = untold->force();
     return analyze_and_fit(
-        Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()}, conditions).value(), {});
+        Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()}, conditions).value());
   };
   const Analysis sled = fit_with(0.232);
   const Parameter* const mass = find(sled, "mass_kg");
@@ -164,7 +164,7 @@ TEST_CASE("printed plastic: slow recordings predict the spacing at speeds up to 
     if (!recording) return;
     entries.push_back({name, *std::move(recording)});
   }
-  const SweepAnalysis analysis = analyze_sweep(entries, {});
+  const SweepAnalysis analysis = analyze_sweep(entries);
   REQUIRE(analysis.fit);
   REQUIRE(analysis.fit->result.estimate);
   for (const int speed_mm_min : {200, 300, 400}) {
@@ -267,7 +267,7 @@ TEST_CASE("a control loop and a ribbed board are no stick-slip: their frequency 
       if (!entry) return;
       entries.push_back(std::move(*entry));
     }
-    const Warnings warnings = analyze_sweep(entries, {}).warnings;
+    const Warnings warnings = analyze_sweep(entries).warnings;
     CAPTURE(sweep.front().first);
     CHECK(std::any_of(warnings.begin(), warnings.end(),
                       [](const Warning& warning) { return warning.code == "frequency_does_not_follow_speed"; }));

@@ -153,7 +153,7 @@ std::string page_of_recording() {
 std::string page_of_sweep() {
   std::vector<SweepEntry> entries;
   for (const double speed : {0.005, 0.01, 0.02}) entries.push_back({"run", test::stick_slip_recording(speed)});
-  const SweepAnalysis sweep = analyze_sweep(entries, {});
+  const SweepAnalysis sweep = analyze_sweep(entries);
   return to_html(entries, sweep, predict_around(entries, sweep), {"dry", {}});
 }
 
@@ -183,7 +183,7 @@ TEST_CASE("text has a contrast of 4.5:1 and marks have 3:1, on light and dark pa
 
 TEST_CASE("lines and marks of a chart that is a file of its own have 3:1 on white") {
   const Recording recording = test::stick_slip_recording(0.01);
-  const Analysis analysis = analyze_and_fit(recording, {});
+  const Analysis analysis = analyze_and_fit(recording);
   static const std::regex kStroke(R"(stroke="#([0-9A-F]{6})\")");
   std::size_t lines = 0;
   for (const PictureFile& picture : report_pictures(recording, analysis, gather_background(recording, analysis))) {

@@ -32,11 +32,8 @@ slipfit::Recording small_recording(slipfit::ForceQuantity quantity, const std::s
 }
 
 slipfit::Recording stick_slip_recording(double speed_m_per_s) {
-  slipfit::SimulationOptions options;
-  options.duration_s = 2.0;
-  options.sample_rate_Hz = 2000.0;
-  options.noise_rms_N = 0.01;
-  options.static_friction_sd_N = 0.02;
+  const slipfit::SimulationOptions options{
+      .duration_s = 2.0, .sample_rate_Hz = 2000.0, .static_friction_sd_N = 0.02, .noise_rms_N = 0.01};
   const slipfit::Slider slider = slipfit::Slider::create(1000.0, 200.0, 0.05).value();
   const slipfit::Friction friction = slipfit::Friction::create(3.0, 2.5).value();
   slipfit::SimulatedTrace trace = simulate(slider, friction, speed_m_per_s, options);
@@ -86,7 +83,7 @@ slipfit::Analysis full_analysis() {
   analysis.warnings = {
       {"rows_left_out", "two rows were left out"}, {"few_cycles", "only 4 cycles"}, {"mains_hum", "50 Hz hum"}};
   analysis.frequency.quoted = {5.4321, 0.0123, Interval{5.408, 5.4562}, ""};
-  analysis.frequency.method = "slip_counting";
+  analysis.frequency.method = slipfit::FrequencyMethod::SlipCounting;
   analysis.frequency.spectral = {5.43, 0.02, 1e-9, {5.43, 10.86}, {{50.0, "mains 50 Hz"}}};
   analysis.frequency.lines = analysis.frequency.spectral.suspicious_lines;
   analysis.frequency.counted = {5.4321, 0.0123, Interval{5.408, 5.4562}, ""};
@@ -100,8 +97,7 @@ slipfit::Analysis full_analysis() {
                           {0.3, 0.32, 6.5, 3.5, false, std::nullopt, std::nullopt, std::nullopt, std::nullopt, {}, {}}};
   analysis.fit = example_fit();
   analysis.derived.lambda = {4.0, 0.1, Interval{3.8, 4.2}, ""};
-  analysis.derived.regime = "stick_slip_bistable";
-  analysis.derived.bistable = true;
+  analysis.derived.regime = slipfit::Regime::StickSlipBistable;
   analysis.derived.pattern_spacing_m = {0.0018409, 4.2e-6, Interval{0.0018327, 0.0018491}, ""};
   analysis.derived.periodic_displacement_m = {0.00184, 5e-6, Interval{0.00183, 0.00185}, ""};
   analysis.derived.pattern_spacing_sd_m = 2.5e-5;

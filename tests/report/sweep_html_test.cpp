@@ -131,7 +131,7 @@ TEST_CASE("cycles of a sweep lie over each other, each recording in a colour of 
   for (const double speed : {0.02, 0.005, 0.01}) {
     entries.push_back({"run " + std::to_string(entries.size()), test::stick_slip_recording(speed)});
   }
-  SweepAnalysis sweep = analyze_sweep(entries, {});
+  SweepAnalysis sweep = analyze_sweep(entries);
   const std::optional<Prediction> none;
   const html::Figure figure = html::sweep_cycles_figure({entries, sweep, none});
   REQUIRE(figure.chart);

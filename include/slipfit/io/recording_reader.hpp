@@ -19,7 +19,7 @@ Result<Recording> read_recording(const std::filesystem::path& file, const Condit
 
 /// What `options.pieces` asks for; for Pieces::One the one recording, without a name.
 Result<std::vector<NamedRecording>> read_pieces(const std::filesystem::path& file, const Conditions& conditions,
-                                                const ReadOptions& options);
+                                                const ReadOptions& options = {});
 
 /// The recording of these samples, or its strokes or segments, as a file with these two columns would be read: the same
 /// options (but for those that choose columns, or what in a container), the same errors, length_mismatch.

@@ -43,6 +43,7 @@ class Friction {
   double kinetic_N_ = 0.0;
 };
 
+/// Bistable: stick-slip from rest, and steady sliding, once reached, persists too.
 enum class Regime { StickSlip, StickSlipBistable, OscillatorySlip, ContinuousSlip, UnstableSteady };
 
 /// One period of the stick-slip motion.

@@ -6,6 +6,7 @@
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/fit/fit.hpp"
+#include "slipfit/model/motion.hpp"
 #include "slipfit/predict/observed_end.hpp"
 
 namespace slipfit {
@@ -13,9 +14,7 @@ namespace slipfit {
 /// Quantities that follow from the fit or from V and f (docs/model.md says how).
 struct Derived {
   Estimate lambda, gamma, lambda_critical, critical_speed_m_per_s;
-  std::optional<std::string>
-      regime;  ///< stick_slip, stick_slip_bistable, oscillatory_slip, continuous_slip, unstable_steady
-  std::optional<bool> bistable;
+  std::optional<Regime> regime;
   Estimate periodic_displacement_m;            ///< predicted by the fitted model at the recording's speed
   Estimate pattern_spacing_m;                  ///< measured: V/f, an identity that proves nothing about the model
   std::optional<double> pattern_spacing_sd_m;  ///< spread over cycles

@@ -32,8 +32,7 @@ PredictionModel at_load(PredictionModel model, double normal_force_N);
 /// known).
 struct PredictedMotion {
   double speed_m_per_s = 0.0;
-  std::string regime;     ///< stick_slip, stick_slip_bistable, oscillatory_slip, continuous_slip, unstable_steady
-  bool bistable = false;  ///< steady sliding is possible too
+  Regime regime = Regime::ContinuousSlip;
   Estimate lambda;
   Estimate period_s, frequency_Hz, slip_time_s, stick_time_s, sticking_degree;
   Estimate periodic_displacement_m, micro_vibration_spacing_m;

@@ -10,7 +10,7 @@ namespace slipfit {
 
 /// The document of a fit of a sweep: as that of one recording, with `recordings` in place of `recording`
 /// (docs/formats.md). `options.id` names the group.
-std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const JsonOptions& options);
+std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const JsonOptions& options = {});
 
 /// For people: shared parameters, the recordings over speed, what a fit without each of them predicts for it.
 std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name);

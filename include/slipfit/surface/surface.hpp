@@ -42,6 +42,9 @@ Result<Profile> read_profile(const std::filesystem::path& file, const ProfileOpt
 /// known all the same; none: nothing more regular than on a random surface; undetermined: something, but not enough.
 enum class SurfaceStatus { Periodic, Irregular, None, Undetermined };
 
+/// What tells the spacing: the ridges, or the lines of the spectrum.
+enum class SurfaceMethod { Ridges, Comb };
+
 struct Surface {
   SurfaceStatus status = SurfaceStatus::Undetermined;
   Estimate spacing_m;                     ///< mean distance of the ridges: of all that the same rubbing would leave
@@ -55,8 +58,8 @@ struct Surface {
   std::optional<double> cutoff_m;         ///< of the Gaussian filter (ISO 16610-21) that took form and waviness
   std::optional<double> smoothed_over_m;  ///< of the one that took the roughness before ridges were counted
   std::size_t ridges = 0;
-  std::vector<double> ridge_places_m;  ///< from the first sample
-  std::string method;                  ///< "ridges", "comb" or empty
+  std::vector<double> ridge_places_m;   ///< from the first sample
+  std::optional<SurfaceMethod> method;  ///< empty where there is no spacing
   Warnings warnings;
 };
 

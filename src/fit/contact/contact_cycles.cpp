@@ -12,7 +12,7 @@ namespace {
 
 /// The smaller of the two falls of a slip, over the whole swing: below it noise might be taken for an edge.
 constexpr double kSmallestFall = 0.1;
-constexpr double kGapSteps = 1.5;  // a longer step hides when the edge was
+constexpr double kHidingSteps = 1.5;  // a longer step hides when the edge was
 
 class Finder {
  public:
@@ -64,7 +64,7 @@ class Finder {
     cycle.slip = slip;
     cycle.onset = std::min(first, second);
     cycle.end = std::max(first, second);
-    const auto is_short = [&](std::size_t i) { return time_s_[i + 1] - time_s_[i] < kGapSteps * found_.step_s; };
+    const auto is_short = [&](std::size_t i) { return time_s_[i + 1] - time_s_[i] < kHidingSteps * found_.step_s; };
     if (cycle.end <= cycle.onset || !is_short(cycle.onset) || !is_short(cycle.end)) return std::nullopt;
     cycle.onset_s = 0.5 * (time_s_[cycle.onset] + time_s_[cycle.onset + 1]);
     cycle.end_s = 0.5 * (time_s_[cycle.end] + time_s_[cycle.end + 1]);

@@ -65,7 +65,7 @@ void add_dataset(hid_t file, const std::string& path, std::vector<ArrayShape>& a
   if (shape.group.empty()) shape.group += '/';
   const bool is_table = H5Tget_class(type) == H5T_COMPOUND && rank == 1;
   if (is_table) shape.fields = number_fields(type);
-  constexpr hsize_t kMost = hsize_t{1} << 40U;  // lest products overflow
+  constexpr hsize_t kMost = hsize_t{1} << 40U;  // above it products of extents may overflow
   const bool is_sane = extents[0] > 0 && extents[1] > 0 && extents[0] < kMost && extents[1] < kMost / extents[0];
   if (is_sane && (is_table ? !shape.fields.empty() : is_number(type))) arrays.push_back(shape);
 }

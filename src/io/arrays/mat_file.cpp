@@ -1,12 +1,145 @@
-#include <bit>
-#include <functional>
-#include <set>
+#include <zlib.h>
 
-#include "io/arrays/mat_elements.hpp"
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <new>
+#include <set>
+#include <string_view>
+#include <utility>
+
 #include "io/arrays/tables.hpp"
+
+// Files of MATLAB 5 to 7 are elements one after another, each a type, a number of bytes and these bytes. Source:
+// "MAT-File Format", The MathWorks, 2017, chapter 1.
 
 namespace slipfit::reading {
 namespace {
+
+/// What the bytes of an element are: numbers of one kind, or elements.
+enum class MatType : std::uint32_t {
+  Int8 = 1,
+  UInt8 = 2,
+  Int16 = 3,
+  UInt16 = 4,
+  Int32 = 5,
+  UInt32 = 6,
+  Single = 7,
+  Double = 9,
+  Int64 = 12,
+  UInt64 = 13,
+  Matrix = 14,
+  Compressed = 15,
+};
+
+enum class MatOrder { AsHere, Swapped };  ///< of the bytes of a number
+
+struct MatElement {
+  MatType type{};
+  std::string_view data;
+  MatOrder order = MatOrder::AsHere;
+};
+
+[[noreturn]] void refuse_damaged_mat() {
+  throw Refusal({"damaged_container", "the .mat file is damaged or cut off; save it again"});
+}
+
+template <class Number>
+Number number_at(const char* place, MatOrder order) {
+  std::array<char, sizeof(Number)> bytes{};
+  std::memcpy(bytes.data(), place, bytes.size());
+  if (order == MatOrder::Swapped) std::ranges::reverse(bytes);
+  Number number{};
+  std::memcpy(&number, bytes.data(), bytes.size());
+  return number;
+}
+
+template <class Number>
+std::vector<double> converted(const MatElement& element) {
+  if (element.data.size() % sizeof(Number) != 0) refuse_damaged_mat();
+  std::vector<double> values(element.data.size() / sizeof(Number));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = static_cast<double>(number_at<Number>(element.data.data() + i * sizeof(Number), element.order));
+  }
+  return values;
+}
+
+struct EndInflate {
+  void operator()(z_stream* state) const { inflateEnd(state); }
+};
+
+/// The elements in `bytes`, which end with the last one. Throws Refusal where they do not.
+std::vector<MatElement> mat_elements(std::string_view bytes, MatOrder order) {
+  constexpr std::size_t kTag = 8;
+  constexpr std::size_t kHalf = 4;
+  std::vector<MatElement> elements;
+  while (!bytes.empty()) {
+    if (bytes.size() < kTag) refuse_damaged_mat();
+    const auto first = number_at<std::uint32_t>(bytes.data(), order);
+    const bool is_small = first >> 16U != 0;  // up to four bytes, which stand in the tag itself
+    const std::size_t size = is_small ? first >> 16U : number_at<std::uint32_t>(bytes.data() + kHalf, order);
+    const auto type = static_cast<MatType>(is_small ? first & 0xFFFFU : first);
+    const std::size_t begin = is_small ? kHalf : kTag;
+    if (size > (is_small ? kHalf : bytes.size() - kTag)) refuse_damaged_mat();
+    elements.push_back({type, bytes.substr(begin, size), order});
+    const std::size_t padding = type == MatType::Compressed ? 0 : (kTag - size % kTag) % kTag;
+    bytes.remove_prefix(is_small ? kTag : std::min(begin + size + padding, bytes.size()));
+  }
+  return elements;
+}
+
+/// The numbers of an element, whatever their kind. Throws Refusal where it holds none, or half a number.
+std::vector<double> mat_numbers(const MatElement& element) {
+  using Convert = std::vector<double>(const MatElement&);
+  constexpr std::array kConversions =
+      std::to_array<std::pair<MatType, Convert*>>({{MatType::Int8, converted<std::int8_t>},
+                                                   {MatType::UInt8, converted<std::uint8_t>},
+                                                   {MatType::Int16, converted<std::int16_t>},
+                                                   {MatType::UInt16, converted<std::uint16_t>},
+                                                   {MatType::Int32, converted<std::int32_t>},
+                                                   {MatType::UInt32, converted<std::uint32_t>},
+                                                   {MatType::Single, converted<float>},
+                                                   {MatType::Double, converted<double>},
+                                                   {MatType::Int64, converted<std::int64_t>},
+                                                   {MatType::UInt64, converted<std::uint64_t>}});
+  const auto* const found =
+      std::ranges::find_if(kConversions, [&](const auto& conversion) { return conversion.first == element.type; });
+  if (found == kConversions.end()) refuse_damaged_mat();
+  return found->second(element);
+}
+
+/// The bytes of a compressed element. Throws Refusal where their checksum is wrong, or they are out of all proportion.
+std::string inflated(std::string_view packed) {
+  constexpr std::size_t kPiece = std::size_t{256} * 1024;
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
+  const std::unique_ptr<z_stream, EndInflate> owner(&stream);
+  // zlib does not write to its input.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast,cppcoreguidelines-pro-type-reinterpret-cast)
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  std::string bytes;
+  for (int status = Z_OK; status != Z_STREAM_END;) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + kPiece);
+    char* const end = bytes.data() + before;
+    stream.next_out =
+        reinterpret_cast<Bytef*>(end);  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast): zlib's bytes
+    stream.avail_out = static_cast<uInt>(kPiece);
+    status = inflate(&stream, Z_NO_FLUSH);
+    bytes.resize(before + kPiece - stream.avail_out);
+    if (status != Z_OK && status != Z_STREAM_END) refuse_damaged_mat();
+    if (is_bomb(bytes.size(), packed.size())) {
+      throw Refusal(
+          {"container_too_large", "the .mat file unpacks to far more than a recording holds; save a part of it"});
+    }
+  }
+  return bytes;
+}
 
 constexpr std::size_t kHeaderBytes = 128;
 
@@ -37,7 +170,7 @@ std::string text_of_element(const MatElement& element) {
 
 /// Empty for an array of another class, or of more than two extents, or none of numbers.
 std::optional<MatArray> read_array(const MatElement& matrix) {
-  constexpr double kMost = 1024.0 * 1024 * 1024 * 1024;  // lest products overflow
+  constexpr double kMost = 1024.0 * 1024 * 1024 * 1024;  // above it products of extents may overflow
   constexpr std::uint32_t kComplex = 0x800;
   const auto parts = mat_elements(matrix.data, matrix.order);
   if (parts.empty()) return std::nullopt;  // what an empty field of a structure is

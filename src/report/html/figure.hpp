@@ -34,7 +34,7 @@ struct Figure {
   std::string id;          ///< letters and '-': on the page, and the file's name
   std::string title;       ///< a few words
   std::string guide = {};  ///< how to read it, plain text
-  std::string label = {};  ///< what there is to see, in words, for who cannot see it
+  std::string label = {};  ///< what there is to see, in words, for readers who cannot see it
   std::optional<chart::Chart> chart = {};
   std::string absent = {};  ///< a sentence, where there is no chart
 
