@@ -271,6 +271,10 @@ inline constexpr double kWidestEnd = 0.6931471805599453;
 /// The same where static friction ages. [1; convention: a factor of four, V goes as an exponential there]
 inline constexpr double kWidestAgeing = 2.0 * kWidestEnd;
 
+/// Share of the models that the data allow, below which those that stick at a speed tell no intervals. [1; convention:
+/// 20 of the 400 drawn]
+inline constexpr double kLeastSticking = 0.05;
+
 /// Standard error over what noise and scatter explain, above which misfit limits a parameter. [1; convention]
 inline constexpr double kUnexplainedError = 2.0;
 

@@ -105,25 +105,34 @@ MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s) {
   return motion;
 }
 
-CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagation& propagation) {
+double ageing_end_m_per_s(const ModelEstimate& model, double sharp) {
   constexpr double kSlowest = 1e-6;
   constexpr double kFastest = 300.0;
-  constexpr double kSharp = 1e-14;
-  // The speed goes as exp(-(F_s - F_k) / rate): its logarithm is nearly linear in the parameters.
-  const ModelJets p(model);
-  const double unit = (p.omega_rad_per_s * p.difference_N / p.stiffness_N_per_m).a;
+  const double unit = model.natural_frequency_rad_per_s * model.friction_difference_N / model.stiffness_N_per_m;
   double sticks = kSlowest * unit;
   double slides = kFastest * unit;
-  if (!aged_difference_N(model, sticks)) return CriticalPoint::unknown("no stick-slip at any speed");
-  if (aged_difference_N(model, slides)) return CriticalPoint::unknown("there is stick-slip at every speed looked at");
-  while (slides > (1.0 + kSharp) * sticks) {
+  if (!aged_difference_N(model, sticks)) return 0.0;
+  if (aged_difference_N(model, slides)) return HUGE_VAL;
+  while (slides > (1.0 + sharp) * sticks) {
     const double middle = std::sqrt(sticks * slides);
     (aged_difference_N(model, middle) ? sticks : slides) = middle;
   }
+  return sticks;
+}
+
+CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagation& propagation) {
+  constexpr double kSharp = 1e-14;
+  constexpr double kRough = 1e-3;
+  // The speed goes as exp(-(F_s - F_k) / rate): its logarithm is nearly linear in the parameters.
+  const ModelJets p(model);
+  const double sticks = ageing_end_m_per_s(model, kSharp);
+  if (sticks == 0.0) return CriticalPoint::unknown("no stick-slip at any speed");
+  const auto rough_end = [](const ModelEstimate& other) { return ageing_end_m_per_s(other, kRough); };
+  if (std::isinf(sticks)) return by_draws(model, "there is stick-slip at every speed looked at", rough_end);
   const double difference_N = *aged_difference_N(model, sticks);
   const Jet speed = end_speed(model, difference_N, sticks);
   if (propagation.quantile() * propagation.standard_error(speed) > thresholds::kWidestAgeing * sticks) {
-    return CriticalPoint::unknown("ageing and damping are not known well enough to tell where stick-slip ends");
+    return by_draws(model, "ageing and damping are not known well enough to tell where stick-slip ends", rough_end);
   }
   const Jet lambda = p.omega_rad_per_s * difference_N / (p.stiffness_N_per_m * speed);
   return {propagation.positive(lambda), propagation.positive(speed)};

@@ -1,6 +1,7 @@
 #include "predict/motion.hpp"
 
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "model/slip.hpp"
@@ -35,8 +36,16 @@ Jet jet_of(const Sensitive& quantity, const ModelEstimate& model) {
 
 }  // namespace
 
+double coulomb_end_m_per_s(const ModelEstimate& model) {
+  if (!(model.damping_ratio > 0.0)) return HUGE_VAL;
+  if (model.damping_ratio >= 1.0) return 0.0;
+  // docs/model.md (6)
+  return model.natural_frequency_rad_per_s * model.friction_difference_N /
+         (model.stiffness_N_per_m * critical_lambda(model.damping_ratio));
+}
+
 CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagation& propagation) {
-  if (!model.damping_identified) return CriticalPoint::unknown("the damping ratio cannot be told from 0");
+  if (!model.damping_identified) return by_draws(model, "the damping ratio cannot be told from 0", coulomb_end_m_per_s);
   if (!(model.damping_ratio > 0.0)) {
     return {{0.0, std::nullopt, std::nullopt, {}}, unknown("without damping there is stick-slip at every speed")};
   }

@@ -104,8 +104,8 @@ inline constexpr const char* kUntrended =
 /// nothing of it there.
 std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_per_s);
 
-/// Where stick-slip from rest ends. Unknown where zeta cannot be told from 0; at zeta = 0 it has no end, from zeta = 1
-/// on there is none.
+/// Where stick-slip from rest ends; at zeta = 0 it has no end, from zeta = 1 on there is none. The interval of the
+/// speed may reach to infinity: it has no value then.
 struct CriticalPoint {
   Estimate lambda, speed_m_per_s;
 

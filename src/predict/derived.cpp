@@ -88,7 +88,7 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   const auto at_uncertain_speed = [&](Estimate distance) {
     return with_speed_error(std::move(distance), speed_error, propagation.quantile());
   };
-  derived.critical_speed_m_per_s = at_uncertain_speed(std::move(critical.speed_m_per_s));
+  derived.critical_speed_m_per_s = with_observed_end(at_uncertain_speed(std::move(critical.speed_m_per_s)), {});
   derived.micro_vibration_spacing_m =
       at_uncertain_speed(propagation.positive(predict::micro_vibration_spacing_m(p, speed)));
   derived.micro_vibration_spacing_m.note = "estimate: the one-mass model has no micro-vibration inside a slip";

@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "core/fit_thresholds.hpp"
+#include "core/quantile.hpp"
+#include "core/student.hpp"
 #include "core/unknown.hpp"
+#include "predict/draws.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -32,9 +37,22 @@ void scale_log_interval(Estimate& estimate, double factor) {
   estimate.ci95->high = *estimate.value * std::pow(estimate.ci95->high / *estimate.value, factor);
 }
 
+/// Where all that is told is that it lies above a speed: no farther beyond the recordings than any law holds.
+CriticalPoint bound_of(const ModelEstimate& model, double least_m_per_s) {
+  const std::optional<ModelEstimate> wider = beyond(model, least_m_per_s);
+  if (!wider) return CriticalPoint::unknown(kUntrended);
+  CriticalPoint point = critical_point_by_law(*wider);
+  std::optional<Interval>& bounds = point.speed_m_per_s.ci95;
+  const bool has_law = model.speed_dependence || model.ageing;
+  if (has_law && bounds)
+    bounds->low = std::min(bounds->low, thresholds::kUntrendedRatio * model.reach->fastest_m_per_s);
+  return point;
+}
+
 CriticalPoint critical_point_of(const ModelEstimate& model) {
   CriticalPoint point = critical_point_by_law(model);
   const std::optional<double> speed = point.speed_m_per_s.value;
+  if (!speed && point.speed_m_per_s.ci95 && model.reach) return bound_of(model, point.speed_m_per_s.ci95->low);
   if (!speed || !(*speed > 0.0) || !model.reach) return point;
   const double distance = model.reach->distance_to(*speed);
   const std::optional<ModelEstimate> wider = beyond(model, *speed);
@@ -52,6 +70,30 @@ CriticalPoint critical_point_of(const ModelEstimate& model) {
 }
 
 }  // namespace
+
+CriticalPoint by_draws(const ModelEstimate& model, const std::string& why,
+                       const std::function<double(const ModelEstimate&)>& end_m_per_s) {
+  constexpr std::size_t kZeta = place_in_model(ParameterId::DampingRatio);
+  constexpr double kTail = 0.025;
+  // Without an error zeta says nothing: it may lie anywhere.
+  if (!model.damping_identified && !(model.covariance[kZeta][kZeta] > 0.0)) return CriticalPoint::unknown(why);
+  std::vector<double> ends;
+  for (const ModelEstimate& draw : draws_of(model)) ends.push_back(end_m_per_s(draw));
+  const double low = quantile_of(ends, kTail);
+  // Where zeta may be 0, no draw is exactly that.
+  const bool is_damped = model.damping_identified && model.damping_ratio > 0.0;
+  const double high = is_damped ? quantile_of(ends, 1.0 - kTail) : HUGE_VAL;
+  CriticalPoint point = CriticalPoint::unknown(why);
+  if (!(low > 0.0) || std::isinf(low)) return point;
+  Estimate& speed = point.speed_m_per_s;
+  speed.ci95 = Interval{low, high};
+  if (std::isinf(high)) return point;
+  const double end = end_m_per_s(model);
+  speed.value = low < end && end < high ? end : std::sqrt(low * high);
+  speed.standard_error = 0.5 * *speed.value * std::log(high / low) / kNormalQuantile;
+  speed.note.clear();
+  return point;
+}
 
 CriticalPoint critical_point(const ModelEstimate& model) {
   if (!model.stiffness_trend) return critical_point_of(model);

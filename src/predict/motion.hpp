@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "predict/delta.hpp"
 
 namespace slipfit::predict {
@@ -12,6 +15,11 @@ MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s);
 /// of static friction, or where it rests on one law of F_k(v) of several that would fit.
 CriticalPoint critical_point(const ModelEstimate& model);
 
+/// Over the models that the covariance allows, for where linear propagation does not hold. `why`: it does not, or has
+/// nothing to say; the answer where they do not tell more. `end_m_per_s`: of a model, infinite or 0 where it has none.
+CriticalPoint by_draws(const ModelEstimate& model, const std::string& why,
+                       const std::function<double(const ModelEstimate&)>& end_m_per_s);
+
 /// As motion_at(), for a model with `speed_dependence`: docs/model.md section 5.
 MotionJets velocity_motion_at(const ModelEstimate& model, double speed_m_per_s);
 
@@ -21,11 +29,17 @@ CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagat
 /// As motion_at(), for a model under Coulomb friction without `ageing`.
 MotionJets coulomb_motion_at(const ModelEstimate& model, double speed_m_per_s);
 
+/// Where a model under Coulomb friction ends stick-slip: infinite where it has no end, 0 where there is none.
+double coulomb_end_m_per_s(const ModelEstimate& model);
+
 /// As critical_point(), likewise.
 CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagation& propagation);
 
 /// As motion_at(), for a model with `ageing`.
 MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s);
+
+/// As coulomb_end_m_per_s(), for a model with `ageing`: to a share of `sharp`.
+double ageing_end_m_per_s(const ModelEstimate& model, double sharp);
 
 /// As critical_point(), for a model with `ageing`: where the sticks become too short to give the static friction that
 /// they need.

@@ -25,11 +25,17 @@ Estimate by_runs(const ObservedEnd& observed, const std::string& why) {
                       why)};
 }
 
+/// Without an upper end an interval is told in words.
+Estimate told(const Estimate& by_fit) {
+  if (by_fit.value || !by_fit.ci95) return by_fit;
+  return unknown(fmt::format("above {:.4g} m/s, which is all that is told: {}", by_fit.ci95->low, by_fit.note));
+}
+
 }  // namespace
 
 Estimate with_observed_end(const Estimate& by_fit, const ObservedEnd& observed) {
-  if (!observed.sticks_m_per_s) return by_fit;
-  if (!by_fit.value) return by_runs(observed, by_fit.note);
+  if (!observed.sticks_m_per_s) return told(by_fit);
+  if (!by_fit.value && !by_fit.ci95) return by_runs(observed, by_fit.note);
   if (!by_fit.ci95) return by_fit;
   const double sticks = *observed.sticks_m_per_s;
   const double slides = observed.slides_m_per_s.value_or(HUGE_VAL);
@@ -37,8 +43,9 @@ Estimate with_observed_end(const Estimate& by_fit, const ObservedEnd& observed) 
   if (by_fit.ci95->low > slides) return by_runs(observed, "the fit puts it above a speed at which a run slides");
   Estimate both = by_fit;
   both.ci95 = Interval{std::max(by_fit.ci95->low, sticks), std::min(by_fit.ci95->high, slides)};
-  both.value = std::clamp(*by_fit.value, both.ci95->low, both.ci95->high);
-  return both;
+  if (!both.value && std::isfinite(both.ci95->high)) both.value = std::sqrt(both.ci95->low * both.ci95->high);
+  if (both.value) both.value = std::clamp(*both.value, both.ci95->low, both.ci95->high);
+  return told(both);
 }
 
 }  // namespace slipfit

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "predict/cycles_of_draws.hpp"
 #include "predict/delta.hpp"
 #include "predict/motion.hpp"
 #include "slipfit/core/range.hpp"
@@ -39,9 +40,7 @@ class Predictor {
     if (motion.cycle && is_beyond_observed_end()) {
       withdraw_intervals(row, "a recording of the sweep that is no faster does not stick");
     } else if (is_doubtful(motion)) {
-      withdraw_intervals(row,
-                         "within the uncertainty of the critical speed: the data cannot tell whether there is "
-                         "stick-slip at this speed");
+      take_intervals_of_draws(row);
     } else if (model_.has_covariance && !wider_) {
       withdraw_intervals(row, predict::kUntrended);
     } else if (model_.has_covariance && propagation_.law_is_open_at(speed_m_per_s_)) {
@@ -110,6 +109,25 @@ class Predictor {
     const std::optional<Interval>& critical = critical_.speed_m_per_s.ci95;
     if (critical && critical->low <= speed_m_per_s_ && speed_m_per_s_ <= critical->high) return true;
     return motion.restick_margin && may_be_either(*motion.restick_margin);
+  }
+
+  /// Over the models that the covariance allows and that stick, where linear propagation does not hold.
+  void take_intervals_of_draws(PredictedMotion& row) const {
+    const std::string unsure = "the data cannot tell whether there is stick-slip at this speed";
+    withdraw_intervals(row, "within the uncertainty of the critical speed: " + unsure);
+    if (!row.period_s.value || !wider_) return;
+    const predict::CyclesOfDraws cycles(*wider_, speed_m_per_s_);
+    if (cycles.share() < thresholds::kLeastSticking) return;
+    row.note += ", and intervals hold if there is";
+    using Cycle = predict::CyclesOfDraws::Cycle;
+    cycles.give_interval(row.period_s, [](const Cycle& cycle) { return cycle.period_s(); });
+    cycles.give_interval(row.frequency_Hz, [](const Cycle& cycle) { return 1.0 / cycle.period_s(); });
+    cycles.give_interval(row.slip_time_s, [](const Cycle& cycle) { return cycle.slip_s; });
+    cycles.give_interval(row.stick_time_s, [](const Cycle& cycle) { return cycle.stick_s; });
+    cycles.give_interval(row.sticking_degree, [](const Cycle& cycle) { return cycle.stick_s / cycle.period_s(); });
+    cycles.give_interval(row.periodic_displacement_m,
+                         [&](const Cycle& cycle) { return speed_m_per_s_ * cycle.period_s(); });
+    cycles.give_interval(row.micro_vibration_spacing_m, [](const Cycle& cycle) { return cycle.micro_vibration_m; });
   }
 
   /// Its sign is within the uncertainty.

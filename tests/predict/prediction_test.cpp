@@ -187,7 +187,7 @@ TEST_CASE("a measured spacing is held against the predicted one in units of its 
   CHECK_FALSE(score_at(1e-3).note.empty());
 }
 
-TEST_CASE("the regime changes at the critical speed, without intervals within its uncertainty") {
+TEST_CASE("the regime changes at the critical speed, with intervals that hold if it sticks within its uncertainty") {
   const std::array<double, 4> speeds{0.3, 0.435, 0.443, 0.6};
   const Prediction prediction = predict_at(example(), speeds);
   const Interval critical = *prediction.critical_speed_m_per_s.ci95;
@@ -199,7 +199,7 @@ TEST_CASE("the regime changes at the critical speed, without intervals within it
   CHECK(rows[0].note.empty());
   CHECK(rows[1].regime == Regime::StickSlipBistable);
   CHECK(rows[1].period_s.value);
-  CHECK_FALSE(rows[1].period_s.ci95);
+  CHECK(rows[1].period_s.ci95);
   CHECK_FALSE(rows[1].force_peak_N.ci95);
   CHECK(rows[1].lambda.ci95);
   CHECK_FALSE(rows[1].note.empty());
@@ -219,10 +219,38 @@ TEST_CASE("where the damping cannot be told from 0 the doubt begins where the ma
   const std::array<double, 2> speeds{0.02, 2.0};  // zeta up to 0.04: V_c down to 0.5 m/s
   const Prediction prediction = predict_at(model, speeds);
   CHECK_FALSE(prediction.critical_speed_m_per_s.value);
-  CHECK_FALSE(prediction.critical_speed_m_per_s.note.empty());
   CHECK(prediction.rows[0].period_s.ci95);
-  CHECK_FALSE(prediction.rows[1].period_s.ci95);
+  CHECK(prediction.rows[0].note.empty());
+  CHECK(prediction.rows[1].period_s.ci95);
   CHECK_FALSE(prediction.rows[1].note.empty());
+}
+
+TEST_CASE("where zeta may be 0 the end of stick-slip is told as a bound, by the interval of zeta") {
+  PredictionModel model = example();
+  model.estimate.damping_ratio = 0.0;
+  model.estimate.damping_identified = false;
+  model.estimate.covariance = {};
+  model.estimate.covariance[2][2] = 0.02 * 0.02;
+  // Of a normal zeta above 0, 2.5 % lie above 2.2414 of its standard errors.
+  const auto slider = Slider::create(1000.0, 200.0, 0.02 * 2.2414).value();
+  const double least = *slipfit::critical_speed_m_per_s(slider, Friction::create(6.0, 4.0).value());
+  const Estimate end = predict_at(model, {}).critical_speed_m_per_s;
+  CHECK_FALSE(end.value);
+  CHECK_FALSE(end.ci95);
+  REQUIRE(end.note.rfind("above ", 0) == 0);
+  CHECK(std::stod(end.note.substr(6)) == Approx(least).epsilon(0.05));
+  // Beside the runs: a bracket where one does not stick, else the farther of the two bounds.
+  model.observed_end = {0.1, 2.0};
+  const Estimate between = predict_at(model, {}).critical_speed_m_per_s;
+  REQUIRE(between.ci95);
+  CHECK(between.ci95->low == Approx(least).epsilon(0.05));
+  CHECK(between.ci95->high == 2.0);
+  model.observed_end = {1.0, {}};
+  CHECK(std::stod(predict_at(model, {}).critical_speed_m_per_s.note.substr(6)) == 1.0);
+  // An interval that nobody has says nothing.
+  model.observed_end = {};
+  model.estimate.covariance[2][2] = 0.0;
+  CHECK(predict_at(model, {}).critical_speed_m_per_s.note == "the damping ratio cannot be told from 0");
 }
 
 TEST_CASE("a stated model without damping has stick-slip at every speed") {

@@ -5,6 +5,28 @@
 #include <cmath>
 
 namespace slipfit::fit {
+namespace {
+
+/// How far a quantity may be off to either side, both at least 0.
+struct OneSided {
+  double down = 0.0;
+  double up = 0.0;
+};
+template <class Change>
+OneSided one_sided(const Spread& spread, const Change& change) {
+  OneSided sides;
+  for (const Coordinates& move : spread.to_rivals) {
+    sides.down = std::max(sides.down, -change(move));
+    sides.up = std::max(sides.up, change(move));
+  }
+  for (const Coordinates& move : spread.one_sided) {
+    sides.down += std::max(0.0, -change(move));
+    sides.up += std::max(0.0, change(move));
+  }
+  return sides;
+}
+
+}  // namespace
 
 Interval damping_interval(double zeta, double se, double quantile) {
   if (zeta - quantile * se > 0.0) return {zeta - quantile * se, zeta + quantile * se};
@@ -12,6 +34,12 @@ Interval damping_interval(double zeta, double se, double quantile) {
   const double above_zero = boost::math::cdf(boost::math::complement(normal, 0.0));
   if (!(above_zero > 1e-12)) return {0.0, se};
   return {0.0, boost::math::quantile(boost::math::complement(normal, 0.05 * above_zero))};
+}
+
+Interval lengthened_damping(const Interval& interval, const Spread& spread) {
+  if (interval.low == interval.high) return interval;
+  const OneSided sides = one_sided(spread, [](const Coordinates& move) { return move(kDamping); });
+  return {std::max(0.0, interval.low - sides.down), interval.high + sides.up};
 }
 
 double Intervals::standard_error(const Jet& y) const {
@@ -28,9 +56,9 @@ double Intervals::degrees_of_freedom(const Jet& y) const {
 }
 
 Intervals::Reach Intervals::reach_of(const Jet& y, const std::function<double(const Coordinates&)>& change) const {
-  const double off = change(spread_.one_sided);
-  const Reach reach = reach_of_spread(y, change);
-  return {reach.down + std::max(0.0, -off), reach.up + std::max(0.0, off)};
+  const Reach own = reach_of_spread(y, change);
+  const OneSided beyond = one_sided(spread_, change);
+  return {own.down + beyond.down, own.up + beyond.up};
 }
 
 Intervals::Reach Intervals::reach_of_spread(const Jet& y,

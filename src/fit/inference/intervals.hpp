@@ -37,15 +37,19 @@ struct Spread {
   CoordinateMatrix scatter = CoordinateMatrix::Zero();
   double scatter_degrees_of_freedom = 1.0;
   std::optional<Profile> profile;
-  /// What the coordinates are off by at most, in full or in part, for a reason that no refit shows: it lengthens one
+  /// What the coordinates are off by at most, in full or in part, for reasons that no refit shows: each lengthens one
   /// side of an interval.
-  Coordinates one_sided = Coordinates::Zero();
+  std::vector<Coordinates> one_sided{};
+  /// The way to each of other fits of which one may be right: the farthest lengthens its side of an interval.
+  std::vector<Coordinates> to_rivals{};
 };
+
+/// An interval of zeta (of no width: held) with the sides longer by what lengthens those of others.
+Interval lengthened_damping(const Interval& interval, const Spread& spread);
 
 /// The 95 % interval of any function of the coordinates, the one place where intervals are made: Student's t with the
 /// degrees of freedom of fit and scatter (Satterthwaite), along a profile where there is one, one side longer by
-/// Spread::one_sided. Where it is not
-/// symmetric, the standard error is that of the longer side.
+/// Spread::one_sided and to_rivals. Where it is not symmetric, the standard error is that of the longer side.
 class Intervals {
  public:
   explicit Intervals(Spread spread) : spread_(std::move(spread)) {}
@@ -59,9 +63,13 @@ class Intervals {
   [[nodiscard]] double covariance(const Jet& a, const Jet& b) const {
     return a.v.dot((spread_.covariance + spread_.scatter) * b.v);
   }
-  /// With Spread::one_sided: anything up to it is as likely, a third of its square.
+  /// With what lengthens one side: anything up to it is as likely, a third of its square.
   [[nodiscard]] double whole_covariance(const Jet& a, const Jet& b) const {
-    return covariance(a, b) + a.v.dot(spread_.one_sided) * b.v.dot(spread_.one_sided) / 3.0;
+    double whole = covariance(a, b);
+    for (const auto* moves : {&spread_.one_sided, &spread_.to_rivals}) {
+      for (const Coordinates& move : *moves) whole += a.v.dot(move) * b.v.dot(move) / 3.0;
+    }
+    return whole;
   }
   /// By the covariance.
   [[nodiscard]] double standard_error(const Jet& y) const;
@@ -78,7 +86,7 @@ class Intervals {
   };
   [[nodiscard]] Reach reach_of(const Jet& y, const std::function<double(const Coordinates&)>& change) const;
   [[nodiscard]] Reach reach_of(const Jet& y) const;
-  /// Without Spread::one_sided.
+  /// Without what lengthens one side.
   [[nodiscard]] Reach reach_of_spread(const Jet& y, const std::function<double(const Coordinates&)>& change) const;
   [[nodiscard]] Estimate estimate(const Jet& y, const Reach& reach) const;
 

@@ -67,7 +67,7 @@ struct Findings {
   /// Of F_k(0+) and F_s - F_k(0+), which depend on the law below the speeds that were measured.
   [[nodiscard]] Intervals intervals_at_rest() const {
     Spread spread = intervals.spread();
-    spread.one_sided += other_law;
+    spread.one_sided.push_back(other_law);
     return Intervals(std::move(spread));
   }
   [[nodiscard]] bool damping_known() const { return damping.value.has_value(); }

@@ -21,8 +21,9 @@ double shortest_average_s(std::span<const SweepRecording> recordings) {
 
 /// The sensor averages over most of the slip: its shape tells zeta only where the model explains the rest.
 bool is_hidden(const FitResult& result, std::span<const SweepRecording> recordings) {
-  const bool explains = std::none_of(result.warnings.begin(), result.warnings.end(),
-                                     [](const Warning& warning) { return warning.code == "recordings_disagree"; });
+  const bool agree = std::none_of(result.warnings.begin(), result.warnings.end(),
+                                  [](const Warning& warning) { return warning.code == "recordings_disagree"; });
+  const bool explains = agree && !(result.residual.reduced_chi2 > thresholds::kSweepMisfit);
   if (explains || result.mass_gives_frequency) return false;
   const std::optional<FittedAverage> found = found_average(result);
   const double average_s = found ? found->seconds : shortest_average_s(recordings);

@@ -226,8 +226,8 @@ class Reporter {
   }
 
   void report_reload(const Reload& reload) {
-    // It begins where the slips end, which an average that is fitted with it hides.
-    const std::string doubt = f_.stiffness_doubt.empty() && f_.fitted_average ? slip_doubt() : f_.stiffness_doubt;
+    // It begins where the slips end: what rounds or misses these moves it.
+    const std::string doubt = f_.stiffness_doubt.empty() ? f_.slip_doubt : f_.stiffness_doubt;
     const std::string note = or_few_cycles(doubt);
     if (f_.in_newtons) add_graded(Id::ReloadForce, f_.intervals.interval_of_one_sign(reload.force_N), doubt, note);
     add_graded(Id::ReloadLength, f_.intervals.interval_of_one_sign(reload.length_m), doubt, note);

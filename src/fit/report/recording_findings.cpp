@@ -142,18 +142,12 @@ DampingFindings damping_of(const TierFits& fits, const BlockFit& blocks) {
   if (fits.damped.held[kDamping] && !fits.damped.motion) return result;
   result.estimate.ci95 = damping_interval(fits.damped.blocks.parameters.globals[kDamping], se, quantile);
   if (!is_at_bound(fits)) return result;
-  const bool has_more = uncertainty.from_refits || fits.damped.average || fits.damped.rival;
+  const bool has_more = uncertainty.from_refits || fits.damped.average || !fits.damped.rivals.empty();
   result.profile = Profile{has_more ? given(covariance, kDamping) : fits.undamped->uncertainty.covariance, {}, true};
   if (variance > 0.0) {
     result.profile->moves = {covariance.col(kDamping) / variance * result.estimate.ci95->high};
   }
   return result;
-}
-
-/// An interval of zeta (0: held) with the side longer to which it may be off.
-Interval lengthened(const Interval& interval, double off) {
-  if (interval.low == interval.high) return interval;
-  return {std::max(0.0, interval.low + std::min(0.0, off)), interval.high + std::max(0.0, off)};
 }
 
 /// Unresolved slip: F_s - F_k lies between half of the fall from onset to end of slip (zeta = 0) and the drop between
@@ -256,9 +250,10 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   const BlockFit& blocks = reported(fits);
   Spread spread = spread_of(fits.damped);
   AveragingFindings averaging = averaging_of(recording, fits.damped, blocks);
-  spread.one_sided = averaging.one_sided + moves_to_rival(fits.damped, blocks);
+  spread.one_sided = {averaging.one_sided};
+  spread.to_rivals = moves_to_rivals(fits.damped, blocks);
   DampingFindings damping = damping_of(fits, blocks);
-  damping.estimate.ci95 = lengthened(*damping.estimate.ci95, spread.one_sided(kDamping));
+  damping.estimate.ci95 = lengthened_damping(*damping.estimate.ci95, spread);
   spread.profile = std::move(damping.profile);
   StiffnessFindings stiffness = stiffness_of(recording, fits, spread);
   spread.covariance(kLogStiffness, kLogStiffness) += stiffness.variance;

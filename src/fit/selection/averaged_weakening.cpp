@@ -48,34 +48,42 @@ class AveragedWeakening {
         fall_s2_(squared_fall_s2(coulomb)),
         solver_(input, coulomb, 1.1 * median_slip_s(coulomb.blocks) + 0.5 * std::sqrt(fall_s2_)) {}
 
-  [[nodiscard]] std::vector<DampedFit> minima() const {
-    std::vector<DampedFit> fits;
+  [[nodiscard]] AveragedWeakenings minima() const {
+    AveragedWeakenings found;
     const std::vector<CycleData> cycles = solver_.cycles();
-    if (cycles.size() < thresholds::kFewestFitted) return fits;
+    if (cycles.size() < thresholds::kFewestFitted) return found;
     const std::vector<CycleData> enough = solver_.enough_of(cycles);
     for (const Draft& draft : minima_of(solver_.some_of(cycles, kDraftCycles))) {
-      const std::optional<BlockFit> start =
-          enough.empty() ? std::optional(draft.blocks) : refined(draft.blocks, enough);
-      if (!start) continue;
-      const double average_s = start->scales().sensor_average_s;
-      std::optional<DampedFit> fit = solver_.fit(cycles, average_s, start->parameters.globals);
+      const Start start = enough.empty() ? Start{draft.blocks, false} : refined(draft.blocks, enough);
+      std::optional<DampedFit> fit;
+      if (start.blocks) fit = solver_.fit(cycles, *start.blocks);
       if (fit) fit = with_settled_average(input_, *std::move(fit));
-      if (fit) fits.push_back(*std::move(fit));
+      if (fit) {
+        found.fits.push_back(*std::move(fit));
+      } else if (!start.is_coulomb) {
+        found.is_complete = false;
+      }
     }
-    return fits;
+    return found;
   }
 
  private:
-  /// Of more cycles. Empty where their best slip distance is none, and so the simpler fit the same one, or where their
-  /// average does not settle.
-  [[nodiscard]] std::optional<BlockFit> refined(const BlockFit& draft, const std::vector<CycleData>& enough) const {
-    std::optional<BlockFit> some = solver_.solved(enough, draft.scales().sensor_average_s, draft.parameters.globals,
-                                                  WeakeningSolver::kRoughTolerance);
-    if (!some || !has_slips_of_its_own(*some) || !solver_.tells_distance(*some)) return std::nullopt;
+  /// Where a fit of all cycles begins, if it does.
+  struct Start {
+    std::optional<BlockFit> blocks{};
+    bool is_coulomb = false;  ///< the best slip distance is none, and so the simpler fit the same one
+  };
+
+  /// Of more cycles. Empty also where their average does not settle.
+  [[nodiscard]] Start refined(const BlockFit& draft, const std::vector<CycleData>& enough) const {
+    std::optional<BlockFit> some = solver_.solved(enough, draft, WeakeningSolver::kRoughTolerance);
+    if (!some || !has_slips_of_its_own(*some)) return {};
+    if (!solver_.tells_distance(*some)) return {std::nullopt, true};
     const double sum = sum_of_squares(*some);
     Draft descended_to = descended({*std::move(some), sum});
     const std::optional<Smoothing> left = beyond(descended_to.blocks);
-    return left && left->is_settled() ? std::optional(std::move(descended_to.blocks)) : std::nullopt;
+    if (!left || !left->is_settled()) return {};
+    return {std::move(descended_to.blocks)};
   }
 
   /// They come to rest, and the average is shorter than a stick.
@@ -157,7 +165,7 @@ class AveragedWeakening {
 
 }  // namespace
 
-std::vector<DampedFit> fit_averaged_weakening(const FitInput& input, const DampedFit& coulomb) {
+AveragedWeakenings fit_averaged_weakening(const FitInput& input, const DampedFit& coulomb) {
   return AveragedWeakening(input, coulomb).minima();
 }
 

@@ -38,7 +38,9 @@ Chosen with_weakening(Chosen chosen, const FitInput& input, std::optional<Tier> 
       chosen.resolution.reason = doubt;
     }
   }
-  if (trial.rival) chosen.fits.damped = beside_rival(std::move(chosen.fits.damped), *trial.rival);
+  for (const DampedFit& rival : trial.rivals) {
+    chosen.fits.damped = beside_rival(std::move(chosen.fits.damped), rival);
+  }
   chosen.fits.damped.average_doubt = trial.fall_doubt;
   if (chosen.fits.damped.fall_doubt.empty()) chosen.fits.damped.fall_doubt = trial.fall_doubt;
   chosen.candidates.push_back(std::move(candidate));
@@ -68,14 +70,13 @@ std::optional<Chosen> choose(const FitInput& input, std::optional<Tier> forced, 
 std::optional<Chosen> with_motion(Chosen chosen, const FitInput& input, std::optional<Tier> forced,
                                   const FreeMotion& motion) {
   DampedFit& slips = chosen.fits.damped;
-  const std::optional<Coordinates> rival = slips.rival;
-  slips.rival.reset();
+  const std::vector<Coordinates> rivals = std::exchange(slips.rivals, {});
   slips.fall_doubt.clear();
   std::optional<DampedFit> fit = held_at(motion, input, std::move(slips));
   if (!fit) return std::nullopt;
   // What another fit makes of w_n and zeta the ring-down has decided.
-  fit->rival = rival;
-  if (rival) fit->rival->segment<2>(kLogFrequency) = motion.values;
+  fit->rivals = rivals;
+  for (Coordinates& rival : fit->rivals) rival.segment<2>(kLogFrequency) = motion.values;
   const bool is_coulomb = fit->blocks.scales().law == FrictionLaw::Coulomb;
   chosen.fits = {fit_sawtooth(*fit), std::nullopt, *std::move(fit)};
   chosen.resolution = resolution_of(input.recording, chosen.fits);

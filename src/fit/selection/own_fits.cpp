@@ -106,7 +106,7 @@ class OwnFitter {
       if (!own.fits[i] || (known_ && !states_average(i))) continue;
       own.fits[i] = fit_as_sensed(input(i), *std::move(own.fits[i]));
     }
-    if (known_) return averaged(own, *known_);
+    if (known_) return with_settled_length(averaged(own, *known_));
     share_average(own);
     if (!own.average) own.rounding_s2 = common_rounding_s2(recordings_, own);
     return own;
@@ -151,7 +151,23 @@ class OwnFitter {
       if (together.fits[i] && !own.fits[i]->average) gain += gain_of(*together.fits[i], *own.fits[i]);
     }
     if (2 * averages.size() < open && !(gain > thresholds::kTierPrice)) return;
-    own = std::move(together);
+    own = with_settled_length(std::move(together));
+  }
+
+  /// The rise after slips was looked for before the average, behind which it looks longer.
+  [[nodiscard]] OwnFits with_settled_length(OwnFits own) const {
+    constexpr int kRounds = 2;
+    for (int round = 0; own.reload && round < kRounds; ++round) {
+      std::vector<std::optional<DampedFit>> free;
+      for (std::size_t i = 0; i < recordings_.size(); ++i) {
+        if (own.fits[i]) free.push_back(with_free_rise(input(i), *own.fits[i]));
+      }
+      const std::optional<FittedLength> length = mean_length(free);
+      if (!length) break;
+      own.reload = length;
+      own = averaged(own, *own.average);
+    }
+    return own;
   }
 
   /// All recordings that state none seen through this average.

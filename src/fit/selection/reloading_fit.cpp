@@ -164,6 +164,22 @@ BlockFit with_rise_after(const BlockFit& fit, const Scales& scales) {
   return with_rise(fit, cycles_of(fit), scales, std::make_shared<const RiseAfterSlip>(std::move(rise)));
 }
 
+BlockFit with_length_times(const BlockFit& fit, double times) {
+  if (!fit.level().reloading) return fit;
+  RiseAfterSlip rise = moved(*fit.level().reloading, fit);
+  rise.length_m *= times;
+  return with_rise(fit, cycles_of(fit), fit.scales(), std::make_shared<const RiseAfterSlip>(std::move(rise)));
+}
+
+BlockFit with_next_length(const BlockFit& fit) {
+  const bool is_free = fit.level().reloading && fit.level().reloading->is_free;
+  return with_length_times(fit, is_free && rises(fit) ? std::exp(next_length_step(fit)) : 1.0);
+}
+
+bool rises(const BlockFit& fit) {
+  return !fit.level().reloading || fit.rise_data()[0] > 0.0;
+}
+
 std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<DampedFit> fit) {
   if (!fit || !fit->blocks.level().reloading || !fit->blocks.level().reloading->is_free) return fit;
   double least_step = std::numeric_limits<double>::infinity();
@@ -205,6 +221,11 @@ std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& gi
                            rise_over(length_of(*few), true, input, plain->blocks), plain->blocks.level().per_cycle}));
   const bool is_better = fit && is_justified(*fit, *plain, *bend);
   return is_better ? std::move(fit) : std::move(plain);
+}
+
+std::optional<DampedFit> with_free_rise(const FitInput& input, const DampedFit& fit) {
+  if (!fit.blocks.level().reloading) return std::nullopt;
+  return settle_rise(input, with_free_length(length_of(fit), input.quality, fit));
 }
 
 std::optional<DampedFit> draft_with_rise_over(double length_m, const FitInput& input, const DampedFit& near) {

@@ -19,18 +19,21 @@ DampedFit beside_rival(DampedFit fit, const DampedFit& other) {
     double& error_s = fit.average->standard_error_s;
     error_s = std::hypot(error_s, other.average->seconds - fit.average->seconds);
   }
-  fit.rival = coordinates_of(other.blocks);
+  fit.rivals.push_back(coordinates_of(other.blocks));
   fit.uncertainty.covariance = wide;
   fit.uncertainty.degrees_of_freedom =
       std::min(fit.uncertainty.degrees_of_freedom, other.uncertainty.degrees_of_freedom);
   return fit;
 }
 
-Coordinates moves_to_rival(const DampedFit& fit, const BlockFit& blocks) {
-  if (!fit.rival) return Coordinates::Zero();
-  Coordinates moves = *fit.rival - coordinates_of(blocks);
-  if (blocks.scales().law == FrictionLaw::Coulomb) moves(kSlipDistance) = 0.0;
-  return moves;
+std::vector<Coordinates> moves_to_rivals(const DampedFit& fit, const BlockFit& blocks) {
+  std::vector<Coordinates> all;
+  for (const Coordinates& rival : fit.rivals) {
+    Coordinates moves = rival - coordinates_of(blocks);
+    if (blocks.scales().law == FrictionLaw::Coulomb) moves(kSlipDistance) = 0.0;
+    all.push_back(moves);
+  }
+  return all;
 }
 
 }  // namespace slipfit::fit

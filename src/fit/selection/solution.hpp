@@ -41,7 +41,7 @@ struct DampedFit {
   std::optional<StickRipple> ripple{};     ///< left in the sticks
   std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none
   /// Where a fit with more terms lies that the data do not rule out: intervals hold its values, too.
-  std::optional<Coordinates> rival{};
+  std::vector<Coordinates> rivals{};
   std::string average_doubt{};        ///< why it is not told whether there is one; empty: it is, or there is none
   std::string fall_doubt{};           ///< why w_n and zeta cannot be read from the slips; empty: they can
   bool mass_gives_frequency = false;  ///< w_n is held at sqrt(k / m) of a stated m; the covariance holds its error

@@ -61,22 +61,25 @@ struct Minimum {
   DampedFit fit;
   double gain = 0.0;
   bool is_sure = true;
+  std::optional<DampedFit> other{};  ///< as good
 };
 
 std::optional<Minimum> best_of_both(const FitInput& input, const DampedFit& coulomb, const DampedFit& rival) {
-  std::vector<DampedFit> fits = fit_averaged_weakening(input, coulomb);
+  auto [fits, is_complete] = fit_averaged_weakening(input, coulomb);
   if (fits.empty()) return std::nullopt;
   if (fits.size() == 1) {
     const double gain = gain_on_same_samples(fits[0], rival);
-    return Minimum{std::move(fits[0]), gain};
+    return Minimum{std::move(fits[0]), gain, is_complete};
   }
   const double ahead = gain_on_same_samples(fits[1], fits[0]) + 2.0;  // as many parameters
-  const FittedAverage& average = *fits[0].average;
+  const FittedAverage average = *fits[0].average;
   const bool is_same =
       std::abs(fits[1].average->seconds - average.seconds) < thresholds::kSureTerm * average.standard_error_s;
-  DampedFit& best = fits[ahead > 0.0 ? 1 : 0];
-  const double gain = gain_on_same_samples(best, rival);
-  return Minimum{std::move(best), gain, is_same || std::abs(ahead) > thresholds::kSurelyAhead};
+  if (ahead > 0.0) std::swap(fits[0], fits[1]);
+  const double gain = gain_on_same_samples(fits[0], rival);
+  Minimum minimum{std::move(fits[0]), gain, is_same || std::abs(ahead) > thresholds::kSurelyAhead};
+  if (!minimum.is_sure) minimum.other = std::move(fits[1]);
+  return minimum;
 }
 
 /// F_s - F_k lies between half of the fall and the drop between the ramps whatever D_c and zeta are, and slips rest:
@@ -113,11 +116,14 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Damp
   Candidate candidate = judged_both(*both, single, before.size);
   if (both->is_sure && candidate.chosen) return {std::move(both->fit), std::move(candidate), {}, {}, std::nullopt};
   // A stated mass tells w_n, which the rival does not know of.
-  if (!coulomb.mass_gives_frequency && both->gain > -thresholds::kTierPrice && has_slips_of_the_model(both->fit)) {
-    if (trial.candidate.chosen) {
-      trial.fit = beside_rival(*std::move(trial.fit), both->fit);
-    } else {
-      trial.rival = both->fit;
+  if (!coulomb.mass_gives_frequency && both->gain > -thresholds::kTierPrice) {
+    for (const DampedFit* rival : {&both->fit, both->other ? &*both->other : nullptr}) {
+      if (rival == nullptr || !has_slips_of_the_model(*rival)) continue;
+      if (trial.candidate.chosen) {
+        trial.fit = beside_rival(*std::move(trial.fit), *rival);
+      } else {
+        trial.rivals.push_back(*rival);
+      }
     }
   }
   if (!(both->gain > thresholds::kTierPrice)) return trial;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fit/selection/weakening_fitter.hpp"
 
@@ -12,9 +13,9 @@ namespace slipfit::fit {
 struct WeakeningTrial {
   std::optional<DampedFit> fit;  ///< empty: there is none
   Candidate candidate;
-  std::string fall_doubt{};          ///< of the fit that stays where this is not chosen: DampedFit::fall_doubt
-  std::optional<DampedFit> rival{};  ///< of the fit that stays where this is not chosen: both terms, not ruled out
-  std::optional<Warning> warning;    ///< an average of the sensor explains the slips as well
+  std::string fall_doubt{};         ///< of the fit that stays where this is not chosen: DampedFit::fall_doubt
+  std::vector<DampedFit> rivals{};  ///< of the fit that stays where this is not chosen: both terms, not ruled out
+  std::optional<Warning> warning;   ///< an average of the sensor explains the slips as well
 };
 
 /// `coulomb`: the fit of the same recording under Coulomb friction. `forced`: a tier that the user asks for; this one

@@ -22,14 +22,14 @@ constexpr std::array kStarts{0.05, 0.2, 0.45, 0.75};
 
 class WeakeningTest {
  public:
-  WeakeningTest(const WeakeningSolver& solver, const DampedFit& coulomb, double average_s, double missed)
-      : solver_(solver), coulomb_(coulomb), average_s_(average_s), missed_(missed) {}
+  WeakeningTest(const WeakeningSolver& solver, const DampedFit& coulomb, double missed)
+      : solver_(solver), coulomb_(coulomb), missed_(missed) {}
 
   /// False where some of the cycles show that the law will not be taken.
-  [[nodiscard]] bool promises(const std::vector<CycleData>& cycles, const Globals& start) const {
+  [[nodiscard]] bool promises(const std::vector<CycleData>& cycles, const BlockFit& near) const {
     const std::vector<CycleData> some = solver_.enough_of(cycles);
     if (some.empty()) return true;
-    const std::optional<BlockFit> blocks = solver_.solved(some, average_s_, start, WeakeningSolver::kRoughTolerance);
+    const std::optional<BlockFit> blocks = solver_.solved(some, near, WeakeningSolver::kRoughTolerance);
     if (!blocks || is_beaten(*blocks) || resting_share(*blocks) < thresholds::kFewRest) return false;
     // In place of an average it need not explain more.
     return coulomb_.average || (explains_enough(*blocks) && solver_.tells_distance(*blocks));
@@ -53,7 +53,6 @@ class WeakeningTest {
 
   const WeakeningSolver& solver_;
   const DampedFit& coulomb_;
-  double average_s_;
   double missed_;
 };
 
@@ -70,9 +69,9 @@ std::optional<DampedFit> fit_weakening(const FitInput& input, const DampedFit& c
       solver.draft(solver.some_of(cycles, kTrialCycles), average_s,
                    {coulomb.blocks.parameters.globals[kLogFrequency], kStarts, kTrialIterations});
   if (!draft) return std::nullopt;
-  const Globals& start = draft->blocks.parameters.globals;
-  if (missed && !WeakeningTest(solver, coulomb, average_s, *missed).promises(cycles, start)) return std::nullopt;
-  std::optional<DampedFit> fit = solver.fit(cycles, average_s, start);
+  const bool may_be_left = missed && !WeakeningTest(solver, coulomb, *missed).promises(cycles, draft->blocks);
+  if (may_be_left) return std::nullopt;
+  std::optional<DampedFit> fit = solver.fit(cycles, draft->blocks);
   if (fit && !stated_s) {
     fit->rounding = estimate_smoothing(fit->blocks, fit->held, input.recording.sample_interval_s());
   }

@@ -12,8 +12,14 @@ namespace slipfit::fit {
 /// it will not be taken or where the cycles do not tell the shared parameters apart.
 std::optional<DampedFit> fit_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<double> missed);
 
+/// Fits from the minima of some of the cycles.
+struct AveragedWeakenings {
+  std::vector<DampedFit> fits{};
+  bool is_complete = true;  ///< false: from one of the minima on nothing settled, which says nothing against it
+};
+
 /// The same seen through an average of the sensor that is one parameter more: the minimum that explains some of the
-/// cycles best, and the next one where some of the cycles do not rule it out. Empty where no start converges.
-std::vector<DampedFit> fit_averaged_weakening(const FitInput& input, const DampedFit& coulomb);
+/// cycles best, and the next one where some of the cycles do not rule it out. Without those that have no slip distance.
+AveragedWeakenings fit_averaged_weakening(const FitInput& input, const DampedFit& coulomb);
 
 }  // namespace slipfit::fit

@@ -1,6 +1,7 @@
 #include "fit/selection/weakening_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -25,6 +26,10 @@ constexpr double kDraftTolerance = 0.1;  // SolveOptions::tolerance of a draft
 /// SolveOptions::tolerance. Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them
 /// an error off.
 constexpr double kTolerance = 1e-7;
+
+/// Of the rise after slips, in that of the Coulomb fit: behind an average it looks longer.
+constexpr std::array kRiseLengths{1.0, 0.5};
+constexpr int kLengthSteps = 2;  // of a draft
 
 std::size_t samples_of(const std::vector<CycleData>& cycles) {
   std::size_t samples = 0;
@@ -89,6 +94,8 @@ std::optional<WeakeningSolver::Draft> WeakeningSolver::draft(const std::vector<C
                                                              const Start& start) const {
   SolveOptions options{held_, false, true, start.most_iterations};
   options.tolerance = kDraftTolerance;
+  const std::span<const double> lengths(kRiseLengths.data(),
+                                        coulomb_.blocks.level().reloading ? kRiseLengths.size() : 1);
   std::optional<Draft> best;
   for (const double weakening : start.weakenings) {
     Globals globals = coulomb_.blocks.parameters.globals;
@@ -96,26 +103,31 @@ std::optional<WeakeningSolver::Draft> WeakeningSolver::draft(const std::vector<C
     if (!held_[kLogFrequency]) globals[kLogFrequency] = start.log_omega + std::log1p(0.6 * weakening);
     if (!held_[kDamping]) globals[kDamping] = 0.05;
     globals[kFrictionSlope] = std::sqrt(weakening);
-    BlockFit blocks = blocks_of(cycles, average_s);
-    set_start(blocks, input_.segmentation, globals);
-    if (!solve_own(blocks, options)) continue;
-    const double sum = solve(blocks, options);
-    if (std::isfinite(sum) && (!best || sum < best->sum_of_squares)) best = Draft{std::move(blocks), sum};
+    for (const double times : lengths) {
+      BlockFit blocks = started(cycles, average_s, globals, coulomb_.blocks.level());
+      blocks = with_length_times(blocks, times);
+      if (!solve_own(blocks, options)) continue;
+      double sum = solve(blocks, options);
+      for (int i = 0; i < kLengthSteps && blocks.level().reloading && std::isfinite(sum); ++i) {
+        blocks = with_next_length(blocks);
+        sum = solve(blocks, options);
+      }
+      if (std::isfinite(sum) && rises(blocks) && (!best || sum < best->sum_of_squares))
+        best = Draft{std::move(blocks), sum};
+    }
   }
   return best;
 }
 
-std::optional<BlockFit> WeakeningSolver::solved(const std::vector<CycleData>& cycles, double average_s,
-                                                const Globals& start, double tolerance) const {
-  BlockFit blocks = blocks_of(cycles, average_s);
-  set_start(blocks, input_.segmentation, start);
+std::optional<BlockFit> WeakeningSolver::solved(const std::vector<CycleData>& cycles, const BlockFit& near,
+                                                double tolerance) const {
+  BlockFit blocks = started(cycles, near.scales().sensor_average_s, near.parameters.globals, near.level());
   if (!solve_own(blocks, {held_, false, true})) return std::nullopt;
   return settled(std::move(blocks), held_, tolerance);
 }
 
-std::optional<DampedFit> WeakeningSolver::fit(const std::vector<CycleData>& cycles, double average_s,
-                                              const Globals& start) const {
-  std::optional<BlockFit> blocks = solved(cycles, average_s, start, kTolerance);
+std::optional<DampedFit> WeakeningSolver::fit(const std::vector<CycleData>& cycles, const BlockFit& near) const {
+  std::optional<BlockFit> blocks = solved(cycles, near, kTolerance);
   if (!blocks) return std::nullopt;
   std::optional<DampedFit> fit = without_outliers(*std::move(blocks));
   if (fit) fit = finish_settled(input_, *std::move(fit));
@@ -134,10 +146,18 @@ std::vector<CycleData> WeakeningSolver::cycles_without(const std::vector<std::si
                         cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded, hum));
 }
 
-BlockFit WeakeningSolver::blocks_of(const std::vector<CycleData>& cycles, double average_s) const {
+BlockFit WeakeningSolver::blocks_of(const std::vector<CycleData>& cycles, double average_s,
+                                    const LevelModel& level) const {
   Scales scales = scales_;
   scales.sensor_average_s = average_s;
-  return {cycles, middles_s(input_.segmentation, cycles), scales, coulomb_.blocks.level()};
+  return {cycles, middles_s(input_.segmentation, cycles), scales, level};
+}
+
+BlockFit WeakeningSolver::started(const std::vector<CycleData>& cycles, double average_s, const Globals& start,
+                                  const LevelModel& level) const {
+  BlockFit blocks = blocks_of(cycles, average_s, level);
+  set_start(blocks, input_.segmentation, start);
+  return with_rise_after(blocks, blocks.scales());
 }
 
 DampedFit WeakeningSolver::unfinished(BlockFit blocks, std::vector<std::size_t> excluded) const {
@@ -152,9 +172,9 @@ std::optional<DampedFit> WeakeningSolver::without_outliers(BlockFit blocks) cons
   const std::vector<std::size_t> censored = beyond_clip(input_.recording, input_.quality, residuals, scales_.noise);
   std::vector<std::size_t> excluded = united(initial, united(outliers, censored));
   if (excluded == coulomb_.excluded) return unfinished(std::move(blocks), std::move(excluded));
-  BlockFit clean = blocks_of(cycles_without(excluded), blocks.scales().sensor_average_s);
+  BlockFit clean = blocks_of(cycles_without(excluded), blocks.scales().sensor_average_s, blocks.level());
   carry_over(blocks, clean);
-  std::optional<BlockFit> again = settled(std::move(clean), held_, kTolerance);
+  std::optional<BlockFit> again = settled(with_rise_after(clean, clean.scales()), held_, kTolerance);
   return again ? std::optional(unfinished(*std::move(again), std::move(excluded))) : std::nullopt;
 }
 

@@ -41,13 +41,12 @@ class WeakeningSolver {
   /// Rough, of the sensor's `average_s`. Empty where no start has a solution.
   [[nodiscard]] std::optional<Draft> draft(const std::vector<CycleData>& cycles, double average_s,
                                            const Start& start) const;
-  /// A solution from there on, to `tolerance`. Empty where a slip has none.
-  [[nodiscard]] std::optional<BlockFit> solved(const std::vector<CycleData>& cycles, double average_s,
-                                               const Globals& start, double tolerance) const;
+  /// A solution to `tolerance` with the average of `near`, from its shared parameters on. Empty where a slip has none.
+  [[nodiscard]] std::optional<BlockFit> solved(const std::vector<CycleData>& cycles, const BlockFit& near,
+                                               double tolerance) const;
   /// Of all cycles, without the outliers of this law, with what finish_fit adds to the uncertainty. zeta is held at 0
   /// where it came out below.
-  [[nodiscard]] std::optional<DampedFit> fit(const std::vector<CycleData>& cycles, double average_s,
-                                             const Globals& start) const;
+  [[nodiscard]] std::optional<DampedFit> fit(const std::vector<CycleData>& cycles, const BlockFit& near) const;
   /// False where the best slip distance is none: waves and slips of Coulomb friction have a minimum at D_c = 0.
   [[nodiscard]] bool tells_distance(const BlockFit& blocks) const;
 
@@ -55,7 +54,11 @@ class WeakeningSolver {
 
  private:
   [[nodiscard]] std::vector<CycleData> cycles_without(const std::vector<std::size_t>& excluded) const;
-  [[nodiscard]] BlockFit blocks_of(const std::vector<CycleData>& cycles, double average_s) const;
+  [[nodiscard]] BlockFit blocks_of(const std::vector<CycleData>& cycles, double average_s,
+                                   const LevelModel& level) const;
+  /// With the rise after slips, where there is one, from the ends of the slips on, as the average shows it.
+  [[nodiscard]] BlockFit started(const std::vector<CycleData>& cycles, double average_s, const Globals& start,
+                                 const LevelModel& level) const;
   [[nodiscard]] DampedFit unfinished(BlockFit blocks, std::vector<std::size_t> excluded) const;
   [[nodiscard]] std::optional<DampedFit> without_outliers(BlockFit blocks) const;
   [[nodiscard]] std::optional<DampedFit> without_damping(DampedFit fit) const;
