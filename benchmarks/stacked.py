@@ -4,7 +4,7 @@
 stacked.py table MANIFEST NEW [OLD]                       every recording of a manifest by one build or by two
 stacked.py draw OUT.svg NEW FILE SPEED [OPTIONS] [-- OPTIONS] ...   one recording fitted with each group of options
 
-A slip is stacked over its phase, 0 at the peak of the force and 1 at the trough, as the first build or fit counts
+Drawn are slip and stick, the stick less the straight line through it. A slip is stacked over its phase, 0 at the peak of the force and 1 at the trough, as the first build or fit counts
 them: the mean of the force above the middle of the fall over the cycles, and the mean of what the fit leaves of it.
 The stacked misfit is the root mean square of that mean between -0.15 and 1.15, over the mean fall of the force.
 Drawing needs python3-matplotlib.
@@ -23,6 +23,7 @@ BINS = 12
 MARGIN = 0.15
 TERMS = {"sensor_average_s": ("W", 1e3, "ms"), "slip_distance_m": ("D_c", 1e6, "um"), "reload_force_N": ("A", 1e3, "mN"),
          "reload_length_m": ("l", 1e3, "mm")}
+STATED = {"speed_m_per_s": "--speed", "force_column": "--force-column", "sample_rate_Hz": "--sample-rate"}  # columns of a manifest
 SHOWN = {"stiffness_N_per_m": "k", "natural_frequency_rad_per_s": "w_n", "damping_ratio": "zeta",
          "friction_difference_N": "dF"}
 
@@ -68,6 +69,23 @@ def stack(curve, slips, begin=-MARGIN, end=1.0 + MARGIN, bins=BINS):
         return 0.5 * (edges[1:] + edges[:-1]), sums[0] / counts, sums[1] / counts, float(numpy.mean(falls))
 
 
+def stack_sticks(curve, slips, bins=30):
+    """Phase between trough and next peak, and the means of force and fitted force there less the straight line through the stick."""
+    sums, counts = numpy.zeros((2, bins)), numpy.zeros(bins)
+    for (_, trough), (peak, _) in zip(slips, slips[1:]):
+        inside = curve[(curve[:, 0] > trough) & (curve[:, 0] < peak) & numpy.isfinite(curve[:, 2])]
+        if len(inside) < 6:
+            continue
+        phase = (inside[:, 0] - trough) / (peak - trough)
+        line = numpy.polyval(numpy.polyfit(phase, inside[:, 1], 1), phase)
+        place = numpy.clip((bins * phase).astype(int), 0, bins - 1)
+        for i in (0, 1):
+            numpy.add.at(sums[i], place, inside[:, 1 + i] - line)
+        numpy.add.at(counts, place, 1.0)
+    with numpy.errstate(invalid="ignore"):
+        return (numpy.arange(bins) + 0.5) / bins, sums[0] / counts, sums[1] / counts
+
+
 def misfit(stacked):
     if stacked is None:
         return None
@@ -99,7 +117,8 @@ def table(manifest, builds):
         slips = None
         print(row["id"])
         for build in builds:
-            result = fit(build, row["file"], "--speed", row["speed_m_per_s"])
+            stated = [text for column, option in STATED.items() if row.get(column) for text in (option, row[column])]
+            result = fit(build, row["file"], *stated)
             if result is None:
                 print("    not read")
                 continue
@@ -120,25 +139,30 @@ def table(manifest, builds):
 def draw(out, slipfit, file, speed, groups):
     import matplotlib
     matplotlib.use("svg")
+    matplotlib.rcParams["svg.hashsalt"] = "stacked"
     from matplotlib import pyplot
-    figure, (above, below) = pyplot.subplots(2, 1, sharex=True, figsize=(7, 5), height_ratios=(3, 2))
+    figure, axes = pyplot.subplots(2, 2, sharex="col", figsize=(10, 5.5), height_ratios=(3, 2))
     slips = None
     for options, colour in zip(groups, ("#d55e00", "#0072b2", "#009e73")):
         document, curve, counted = fit(slipfit, file, "--speed", speed, *options)
         slips = slips or counted
-        phase, force, fitted, fall = stack(curve, slips, -0.6, 1.6, 44)
-        if colour == "#d55e00":
-            above.plot(phase, force / fall, "k.", label="mean of the cycles")
-        name = " ".join(options) or f"as found: {terms_of(document.get('parameters') or {})}"
-        above.plot(phase, fitted / fall, color=colour, label=name)
-        below.plot(phase, 100.0 * (force - fitted) / fall, color=colour)
-    above.set_ylabel("force over its fall")
-    above.legend(fontsize=8)
-    below.axhline(0.0, color="#777777", linewidth=0.5)
-    below.set_ylabel("left over, % of the fall")
-    below.set_xlabel("phase of the slip (0: peak, 1: trough)")
-    figure.tight_layout()
-    figure.savefig(out)
+        slip, stick = stack(curve, slips, -0.6, 1.6, 44), stack_sticks(curve, slips)
+        fall = slip[3]
+        name = f"{' '.join(options) or 'as found'}: {terms_of(document.get('parameters') or {})}"
+        for (above, below), (phase, force, fitted) in zip(axes.T, (slip[:3], stick)):
+            if colour == "#d55e00":
+                above.plot(phase, force / fall, "k.", label="mean of the cycles")
+            above.plot(phase, fitted / fall, color=colour, label=name)
+            below.plot(phase, 100.0 * (force - fitted) / fall, color=colour)
+    axes[0, 0].set_ylabel("force over its fall")
+    axes[0, 1].set_ylabel("less the line through the stick")
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper center", fontsize=8)
+    for axis, phase in zip(axes[1], ("slip (0: peak, 1: trough)", "stick (0: trough, 1: next peak)")):
+        axis.axhline(0.0, color="#777777", linewidth=0.5)
+        axis.set_ylabel("left over, % of the fall")
+        axis.set_xlabel("phase of the " + phase)
+    figure.tight_layout(rect=(0.0, 0.0, 1.0, 0.88))
+    figure.savefig(out, metadata={"Date": None})
 
 
 def main():

@@ -272,7 +272,7 @@ inline constexpr double kWidestEnd = 0.6931471805599453;
 inline constexpr double kWidestAgeing = 2.0 * kWidestEnd;
 
 /// Share of the models that the data allow, below which those that stick at a speed tell no intervals. [1; convention:
-/// 20 of the 400 drawn]
+/// 40 of the 800 drawn]
 inline constexpr double kLeastSticking = 0.05;
 
 /// Standard error over what noise and scatter explain, above which misfit limits a parameter. [1; convention]

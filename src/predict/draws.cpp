@@ -1,10 +1,12 @@
 #include "predict/draws.hpp"
 
 #include <Eigen/Dense>
-#include <boost/random/normal_distribution.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <random>
+#include <utility>
 
 #include "core/student.hpp"
 
@@ -15,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kDraws = 400;
+constexpr int kDraws = 800;
 
 /// S with S S' = the covariance, as wide as the intervals are.
 MatrixXd root_of(const ModelEstimate& model) {
@@ -32,7 +34,8 @@ MatrixXd root_of(const ModelEstimate& model) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scale.asDiagonal() * covariance * scale.asDiagonal());
   const double width = t_quantile(model.degrees_of_freedom) / kNormalQuantile;
   const VectorXd roots = width * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  return errors.asDiagonal() * solver.eigenvectors() * roots.asDiagonal();
+  // The symmetric root: it hardly moves with rounding, as single eigenvectors may.
+  return errors.asDiagonal() * solver.eigenvectors() * roots.asDiagonal() * solver.eigenvectors().transpose();
 }
 
 /// Empty where it is none that could be.
@@ -62,22 +65,28 @@ std::optional<ModelEstimate> moved(const ModelEstimate& model, const VectorXd& s
   return other;
 }
 
+/// Normal numbers, a row for each of so many: every row has the same ones, evenly spread, in another order.
+MatrixXd even_normals(Index rows) {
+  const boost::math::normal_distribution<double> normal;
+  std::mt19937_64 generator(1);
+  MatrixXd numbers(rows, kDraws);
+  for (Index row = 0; row < rows; ++row) {
+    for (Index i = 0; i < kDraws; ++i) {
+      numbers(row, i) = boost::math::quantile(normal, (static_cast<double>(i) + 0.5) / kDraws);
+      const auto other = static_cast<Index>(generator() % static_cast<std::uint64_t>(i + 1));
+      std::swap(numbers(row, i), numbers(row, other));
+    }
+  }
+  return numbers;
+}
+
 }  // namespace
 
 std::vector<ModelEstimate> draws_of(const ModelEstimate& model) {
-  const MatrixXd root = root_of(model);
-  std::mt19937_64 generator(1);
-  boost::random::normal_distribution<double> normal;
+  const MatrixXd steps = root_of(model) * even_normals(static_cast<Index>(kModelValues));
   std::vector<ModelEstimate> draws;
-  VectorXd numbers(root.cols());
-  for (int i = 0; i < kDraws; ++i) {
-    // Each number once with either sign: their mean is the estimate.
-    if (i % 2 == 0) {
-      for (double& number : numbers) number = normal(generator);
-    } else {
-      numbers = -numbers;
-    }
-    if (std::optional<ModelEstimate> draw = moved(model, root * numbers)) draws.push_back(*std::move(draw));
+  for (Index i = 0; i < steps.cols(); ++i) {
+    if (const std::optional<ModelEstimate> draw = moved(model, steps.col(i))) draws.push_back(*draw);
   }
   return draws;
 }

@@ -108,7 +108,7 @@ TEST_CASE("where the data cannot tell whether there is stick-slip, bands hold th
     }
     CAPTURE(row.speed_m_per_s, sticking, inside.period, inside.slip, inside.stick, inside.sticking);
     CHECK(sticking < 3900);                   // linear bands would be of the others, too
-    CHECK(inside.least() > 0.92 * sticking);  // 400 draws tell where 2.5 % lie to 0.8 %
+    CHECK(inside.least() > 0.92 * sticking);  // 800 draws tell where 2.5 % lie to 0.6 %
     CHECK(inside.period < 0.98 * sticking);
   }
 }

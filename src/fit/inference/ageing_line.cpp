@@ -113,7 +113,7 @@ class LinesOverSticks {
     line.difference = line.difference_weights.dot(differences_);
     line.rate = line.rate_weights.dot(differences_);
     line.residuals = differences_.array() - line.difference - line.rate * logs.array();
-    line.chi2 = (line.residuals.array().square() / variances_.array()).sum();
+    line.chi2 = least_chi2(logs);
     return line;
   }
   [[nodiscard]] const VectorXd& own_variances() const { return variances_; }
@@ -122,6 +122,16 @@ class LinesOverSticks {
   [[nodiscard]] Index count() const { return sticks_.size(); }
 
  private:
+  /// Of any line over the logarithms, by the recordings' own errors: the instrument's is not the nearest one.
+  [[nodiscard]] double least_chi2(const VectorXd& logs) const {
+    const VectorXd weights = variances_.cwiseInverse();
+    const double total = weights.sum();
+    const VectorXd x = logs.array() - weights.dot(logs) / total;
+    const VectorXd y = differences_.array() - weights.dot(differences_) / total;
+    const double slope = x.cwiseProduct(weights).dot(y) / x.cwiseProduct(weights).dot(x);
+    return weights.dot((y - slope * x).cwiseAbs2());
+  }
+
   VectorXd differences_, variances_, sticks_, instrument_;
 };
 
