@@ -49,7 +49,7 @@ double residual_rms(const SweepSolution& solution) {
 /// Its spread, w_n longer to that side.
 fit::Spread spread_of(const SweepOutcome& outcome, double averaging) {
   fit::Spread spread = outcome.spread;
-  spread.one_sided.push_back(averaging * fit::Coordinates::Unit(fit::kLogFrequency));
+  spread.one_sided.emplace_back(averaging * fit::Coordinates::Unit(fit::kLogFrequency));
   return spread;
 }
 
