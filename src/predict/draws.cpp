@@ -65,14 +65,16 @@ std::optional<ModelEstimate> moved(const ModelEstimate& model, const VectorXd& s
   return other;
 }
 
-/// Normal numbers, a row for each of so many: every row has the same ones, evenly spread, in another order.
-MatrixXd even_normals(Index rows) {
+/// Normal numbers, a row for each value of a model: every row has the same ones, evenly spread, in another order.
+MatrixXd even_normals() {
   const boost::math::normal_distribution<double> normal;
+  VectorXd sorted(kDraws);
+  for (Index i = 0; i < kDraws; ++i) sorted(i) = boost::math::quantile(normal, (static_cast<double>(i) + 0.5) / kDraws);
   std::mt19937_64 generator(1);
-  MatrixXd numbers(rows, kDraws);
-  for (Index row = 0; row < rows; ++row) {
+  MatrixXd numbers(static_cast<Index>(kModelValues), kDraws);
+  for (Index row = 0; row < numbers.rows(); ++row) {
     for (Index i = 0; i < kDraws; ++i) {
-      numbers(row, i) = boost::math::quantile(normal, (static_cast<double>(i) + 0.5) / kDraws);
+      numbers(row, i) = sorted(i);
       const auto other = static_cast<Index>(generator() % static_cast<std::uint64_t>(i + 1));
       std::swap(numbers(row, i), numbers(row, other));
     }
@@ -83,7 +85,8 @@ MatrixXd even_normals(Index rows) {
 }  // namespace
 
 std::vector<ModelEstimate> draws_of(const ModelEstimate& model) {
-  const MatrixXd steps = root_of(model) * even_normals(static_cast<Index>(kModelValues));
+  static const MatrixXd normals = even_normals();  // a prediction at many speeds asks for them at each
+  const MatrixXd steps = root_of(model) * normals;
   std::vector<ModelEstimate> draws;
   for (Index i = 0; i < steps.cols(); ++i) {
     if (const std::optional<ModelEstimate> draw = moved(model, steps.col(i))) draws.push_back(*draw);
