@@ -28,6 +28,15 @@ MatrixXd common_steps(const RowMajor& reduced, Index sides, const Held& held) {
   return -hessian.ldlt().solve(pull);
 }
 
+Coordinates move_of(const Selection& selection, const Elimination& elimination, const MatrixXd& steps) {
+  const RowMajor own = elimination.own_steps(steps, 1.0);
+  const Index local = selection.local.rows();
+  VectorXd sum = VectorXd::Zero(local);
+  for (Index row = 0; row < own.rows(); row += local) sum += own.col(0).segment(row, local);
+  const double cycles = static_cast<double>(own.rows()) / static_cast<double>(local);
+  return selection.common.transpose() * steps.col(0) + selection.local.transpose() * sum / cycles;
+}
+
 namespace {
 
 /// - H^-1 S, where S are the derivatives of the coordinates with respect to all parameters.

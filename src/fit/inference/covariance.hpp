@@ -28,6 +28,10 @@ NewtonStep newton_step(const Problem& problem, const std::vector<Normal>& normal
 /// `reduced`: as Elimination::common. Not a number where it is singular.
 Eigen::MatrixXd common_steps(const RowMajor& reduced, Eigen::Index sides, const Held& held);
 
+/// What the coordinates of a recording move by with steps of the common parameters (common_steps), the cycles' own
+/// following: of the first of the sides.
+Coordinates move_of(const Selection& selection, const Elimination& elimination, const Eigen::MatrixXd& steps);
+
 /// Inverse normal matrix seen through the coordinates: S' H^-1 S, with the ramps' coupling of neighbours where
 /// continuous. Not a number where H is singular.
 CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Normal>& normals,

@@ -47,17 +47,12 @@ class SegmentInfluence {
 
   [[nodiscard]] Moves moves(const Held& held) const {
     const Selection selection = select(fit_);
-    const Index local = selection.local.rows();
     Moves moves(kSegments, kCoordinates);
     Index known = 0;
     for (const Elimination& without : without_) {
       const VectorXd step = common_steps(without.common(), 1, held);
       if (!step.allFinite() || without.is_singular()) continue;
-      const RowMajor own = without.own_steps(step, 1.0);
-      VectorXd local_step = VectorXd::Zero(local);
-      for (Index row = 0; row < own.rows(); row += local) local_step += own.col(0).segment(row, local);
-      local_step /= static_cast<double>(fit_.size());
-      moves.row(known++) = (selection.common.transpose() * step + selection.local.transpose() * local_step).transpose();
+      moves.row(known++) = move_of(selection, without, step).transpose();
     }
     return moves.topRows(known);
   }

@@ -95,15 +95,10 @@ std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& hel
     spread += score * score;
   }
   const auto count = static_cast<double>(sides.cycles.size());
-  const auto local = static_cast<Index>(fit.model(0).local_parameters());
-  const RowMajor own = sides.all.own_steps(steps, 1.0);
-  VectorXd local_step = VectorXd::Zero(local);
-  for (Index row = 0; row < own.rows(); row += local) local_step += own.col(0).segment(row, local) / count;
-  const Selection selection = select(fit);
   Smoothing result;
   result.variance_s2 = -gradient / information;
   result.standard_error_s2 = std::sqrt(spread * count / std::max(1.0, count - 1.0)) / information;
-  result.move_per_s2 = selection.common.transpose() * common_step + selection.local.transpose() * local_step;
+  result.move_per_s2 = move_of(select(fit), sides.all, steps);
   return result;
 }
 
