@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/harmonic_null.hpp"
 #include "analysis/slip_shape.hpp"
 #include "core/thresholds.hpp"
 #include "signal/robust.hpp"
@@ -136,8 +137,11 @@ std::optional<double> evidence_of_sticks(const Recording& recording, const Signa
                                          std::size_t used) {
   const double counted_Hz = 1.0 / signal::median(slip_intervals_s(signals.segmentation));
   std::optional<double> harmonic_rms = harmonic_residual_rms(recording, counted_Hz);
-  if (signals.spectral.value_Hz) {
-    const std::optional<double> other = harmonic_residual_rms(recording, *signals.spectral.value_Hz);
+  // From frequencies as near as this the period settles at the same value.
+  constexpr double kSameWave = 0.01;
+  const std::optional<double>& spectral_Hz = signals.spectral.value_Hz;
+  if (spectral_Hz && !(std::abs(*spectral_Hz / counted_Hz - 1.0) < kSameWave)) {
+    const std::optional<double> other = harmonic_residual_rms(recording, *spectral_Hz);
     if (other) harmonic_rms = std::min(*other, harmonic_rms.value_or(*other));
   }
   if (!harmonic_rms || !(fit.residual.rms > 0.0)) return std::nullopt;

@@ -22,8 +22,4 @@ Classification classify(const Recording& recording, const Estimates& estimates);
 /// A guess from the detected slips alone, where no fit was asked for.
 Classification classify_by_shape(const Recording& recording, const Signals& signals);
 
-/// Root mean square of what three harmonics of about this frequency, on a straight level, leave of a few cycles at a
-/// time, in the unit of the force column: the null model that stick-slip has to beat. Empty below 5 cycles.
-std::optional<double> harmonic_residual_rms(const Recording& recording, double frequency_Hz);
-
 }  // namespace slipfit

@@ -9,12 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/harmonic_null.hpp"
 #include "analysis/ranges.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/slip_shape.hpp"
 #include "core/parallel.hpp"
 #include "core/thresholds.hpp"
 #include "fit/fit_unless.hpp"
+#include "signal/robust.hpp"
 
 namespace slipfit {
 namespace {
@@ -154,6 +156,17 @@ class BeneathHum {
   std::optional<Segmentation> slips_;
 };
 
+/// Swings that three sines follow so closely that there is no stick to fit.
+bool is_pure_wave(const Recording& recording, const Signals& signals) {
+  const Segmentation& segmentation = signals.segmentation;
+  const double most = thresholds::kPureWave * median_drop(segmentation);
+  if (segmentation.slips.size() < thresholds::kFewestSudden || signals.quality.noise_rms > most) return false;
+  if (!is_sine_like(segmentation)) return false;
+  const double counted_Hz = 1.0 / signal::median(slip_intervals_s(segmentation));
+  const std::optional<double> rms = harmonic_residual_rms(recording, counted_Hz);
+  return rms && *rms < most;
+}
+
 }  // namespace
 
 Estimates estimate_frequency(const Detected& detected) {
@@ -185,7 +198,9 @@ Estimates estimate(const Detected& detected, const FitOptions& options) {
   if (recording.size() >= kLarge) frequency.wait();
   const Stopwatch stopwatch;
   const Signals& seen = estimates.signals;
-  estimates.fit = fit::fit_unless(is_hum, recording, seen.quality, seen.segmentation, options);
+  if (!is_pure_wave(recording, seen)) {
+    estimates.fit = fit::fit_unless(is_hum, recording, seen.quality, seen.segmentation, options);
+  }
   take_frequency();
   if (may_be_hum(estimates.signals)) estimates = beneath.better_of(std::move(estimates));
   if (estimates.fit) estimates.fit = in_range(*std::move(estimates.fit), recording.conditions());

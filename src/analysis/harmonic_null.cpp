@@ -1,4 +1,4 @@
-#include "analysis/classify.hpp"
+#include "analysis/harmonic_null.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -15,10 +15,28 @@ constexpr std::size_t kMostWindows = 40;
 constexpr Eigen::Index kHarmonics = 3;
 constexpr Eigen::Index kTerms = 2 + 2 * kHarmonics;  // level and slope, cosines and sines
 
+using Products = Eigen::Matrix<double, kTerms + 1, kTerms + 1>;
+
 struct Sum {
   double squares = 0.0;
   double freedom = 0.0;
 };
+
+/// Level, cosines and sines at this phase of the first harmonic. The higher ones by multiplication: a cosine costs more
+/// than all else that a sample takes here.
+void put_waves(const Eigen::ArrayXd& phase, Eigen::Matrix<double, Eigen::Dynamic, kTerms + 1>& terms) {
+  terms.col(0).setOnes();
+  terms.col(2) = phase.cos();
+  terms.col(3) = phase.sin();
+  const auto cosine = terms.col(2).array();
+  const auto sine = terms.col(3).array();
+  for (Eigen::Index h = 2; h <= kHarmonics; ++h) {
+    const auto last_cosine = terms.col(2 * h - 2).array();
+    const auto last_sine = terms.col(2 * h - 1).array();
+    terms.col(2 * h) = last_cosine * cosine - last_sine * sine;
+    terms.col(2 * h + 1) = last_sine * cosine + last_cosine * sine;
+  }
+}
 
 /// Samples [begin, end) with harmonics of about this period, which is a parameter as well: a step of it turns harmonic
 /// h in proportion to h and to the time.
@@ -26,7 +44,7 @@ Sum residual_of(const Recording& recording, std::size_t begin, std::size_t end, 
   constexpr int kSteps = 3;
   const auto count = static_cast<Eigen::Index>(end - begin);
   if (count <= 2 * kTerms) return {};
-  Eigen::MatrixXd terms(count, kTerms + 1);
+  Eigen::Matrix<double, Eigen::Dynamic, kTerms + 1> terms(count, kTerms + 1);
   Eigen::VectorXd force(count), time_s(count);
   const double middle_s = 0.5 * (recording.time_s()[begin] + recording.time_s()[end - 1]);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -37,21 +55,25 @@ Sum residual_of(const Recording& recording, std::size_t begin, std::size_t end, 
   double best = force.squaredNorm();
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::ArrayXd phase = (2.0 * std::numbers::pi / period_s) * time_s.array();
-    terms.col(0).setOnes();
+    put_waves(phase, terms);
     terms.col(1) = time_s / period_s;
+    const auto fixed = terms.leftCols<kTerms>();
+    Products normal;
+    normal.topLeftCorner<kTerms, kTerms>() = fixed.transpose() * fixed;
+    Eigen::Matrix<double, kTerms + 1, 1> right;
+    right.head<kTerms>() = fixed.transpose() * force;
+    const Eigen::Vector<double, kTerms> waves =
+        normal.topLeftCorner<kTerms, kTerms>().ldlt().solve(right.head<kTerms>());
+    Eigen::Vector<double, kTerms> turning = Eigen::Vector<double, kTerms>::Zero();
     for (Eigen::Index h = 1; h <= kHarmonics; ++h) {
-      terms.col(2 * h) = (static_cast<double>(h) * phase).cos();
-      terms.col(2 * h + 1) = (static_cast<double>(h) * phase).sin();
+      turning(2 * h) = static_cast<double>(h) * waves(2 * h + 1);
+      turning(2 * h + 1) = -static_cast<double>(h) * waves(2 * h);
     }
-    const auto fixed = terms.leftCols(kTerms);
-    const Eigen::VectorXd waves = (fixed.transpose() * fixed).ldlt().solve(fixed.transpose() * force);
-    Eigen::ArrayXd turned = Eigen::ArrayXd::Zero(count);
-    for (Eigen::Index h = 1; h <= kHarmonics; ++h) {
-      turned += static_cast<double>(h) *
-                (waves(2 * h + 1) * terms.col(2 * h).array() - waves(2 * h) * terms.col(2 * h + 1).array());
-    }
-    terms.col(kTerms) = turned * phase;
-    const Eigen::VectorXd all = (terms.transpose() * terms).ldlt().solve(terms.transpose() * force);
+    terms.col(kTerms) = phase * (fixed * turning).array();
+    normal.col(kTerms) = terms.transpose() * terms.col(kTerms);
+    normal.row(kTerms) = normal.col(kTerms).transpose();
+    right(kTerms) = terms.col(kTerms).dot(force);
+    const Eigen::Vector<double, kTerms + 1> all = normal.ldlt().solve(right);
     best = std::min(best, (force - terms * all).squaredNorm());
     period_s /= std::clamp(1.0 + all(kTerms), 0.8, 1.25);
   }

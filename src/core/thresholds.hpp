@@ -37,6 +37,11 @@ inline constexpr double kSineFall = 0.17;
 /// cycles just above the limit of stick-slip]
 inline constexpr double kSineFit = 0.05;
 
+/// Largest residual of three sines over the swing of a wave that has no sticks to be told: sticks of a share s of the
+/// cycle begin with a jump of the acceleration, which leaves some s / 64 from the fourth sine on; sticks of a
+/// hundredth of the cycle. [1; derived]
+inline constexpr double kPureWave = 1e-4;
+
 /// Twice the logarithm of the likelihood of sticks and slips over that of three harmonics, the null model without
 /// sticks, below which the two cannot be told apart. [1; convention: odds of ten to one]
 inline constexpr double kEvidence = 4.6;

@@ -86,6 +86,8 @@ std::optional<DampedFit> AverageSolver::drafted(double variance_s2, const Global
 }
 
 bool AverageSolver::is_hopeless(const BlockFit& some) const {
+  const std::optional<SegmentMisfit> misfit = find_misfit(some, tolerated_misfit(input_.quality));
+  if (misfit && !(misfit->chance > thresholds::kMisfitChance)) return true;
   return resting_share(some) < thresholds::kFewRest || mean_square_in(some, some) > mean_square_in(some, plain_.blocks);
 }
 

@@ -40,8 +40,8 @@ class AverageSolver {
   /// Of the fit without an average, as one of this time shows it.
   [[nodiscard]] std::shared_ptr<const RiseAfterSlip> reloading(double average_s) const;
   [[nodiscard]] std::optional<DampedFit> drafted(double variance_s2, const Globals& near) const;
-  /// A fit of some cycles whose slips do not come to rest, or that explains them less well than the fit without
-  /// average.
+  /// A fit of some cycles whose slips do not come to rest or are not shaped like the model's (follows_slips), or that
+  /// explains them less well than the fit without average.
   [[nodiscard]] bool is_hopeless(const BlockFit& some) const;
   /// The same cycles and samples with another average, and the rise after the slips that it shows. From the other's
   /// solution on, or from `start`.

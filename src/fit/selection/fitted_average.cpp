@@ -30,8 +30,9 @@ constexpr double kLongTail = 3.0;           // variance of a tail that rounds as
 constexpr double kForgottenLags = 8.0;      // e^-8
 
 /// Rounded slips, slips that are not shaped like the model's, or slips without damping: an average that lasts longer
-/// than the slip takes it away.
+/// than the slip takes it away. Falls within a step of the clock show nothing of it.
 bool may_be_averaged(const Recording& recording, const DampedFit& plain) {
+  if (!(median_slip_s(plain.blocks) > recording.sample_interval_s()) || scatters_beyond_model(plain)) return false;
   const std::optional<Smoothing>& seen = plain.rounding;
   const double zeta = plain.blocks.parameters.globals[kDamping];
   const bool is_damped = zeta > thresholds::kSureTerm * damping_error(plain);

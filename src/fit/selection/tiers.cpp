@@ -8,6 +8,8 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/quantile.hpp"
+#include "core/thresholds.hpp"
+#include "fit/inference/misfit.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -52,6 +54,18 @@ double effective_samples(const DampedFit& fit) {
 Candidate candidate_of(const DampedFit& fit, Tier tier, std::size_t parameters, double effective) {
   const double rms = rms_of(fit);
   return {tier, parameters, rms, aicc(rms, effective, static_cast<double>(parameters)), false, {}};
+}
+
+bool scatters_beyond_model(const DampedFit& fit) {
+  constexpr double kMost2 = thresholds::kLooseFit * thresholds::kLooseFit;
+  double onset_force = 0.0;
+  for (std::size_t i = 0; i < fit.blocks.size(); ++i) {
+    onset_force += fit.blocks.state(i).onset_force / static_cast<double>(fit.blocks.size());
+  }
+  const double residual2 = std::pow(fit.uncertainty.noise / onset_force, 2);
+  if (!(residual2 > kMost2)) return false;
+  const StackedResidual common = stacked_residual(fit.blocks, fit.blocks);
+  return residual2 - common.size * common.size > kMost2;
 }
 
 SawtoothFit fit_sawtooth(const DampedFit& damped) {
