@@ -42,6 +42,13 @@ inline constexpr double kSineFit = 0.05;
 /// hundredth of the cycle. [1; derived]
 inline constexpr double kPureWave = 1e-4;
 
+/// Largest residual over the noise that neighbouring samples show where nothing but noise is left. [1; convention: the
+/// estimate of the noise is within some percent]
+inline constexpr double kNoiseAlone = 1.1;
+
+/// Standard deviations by which three more sines explain more than chance lets them. [1; convention: three sigmas]
+inline constexpr double kMoreThanChance = 3.0;
+
 /// Twice the logarithm of the likelihood of sticks and slips over that of three harmonics, the null model without
 /// sticks, below which the two cannot be told apart. [1; convention: odds of ten to one]
 inline constexpr double kEvidence = 4.6;

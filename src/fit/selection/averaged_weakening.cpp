@@ -60,7 +60,7 @@ class AveragedWeakening {
       if (fit) fit = with_settled_average(input_, *std::move(fit));
       if (fit) {
         found.fits.push_back(*std::move(fit));
-      } else if (!start.is_coulomb) {
+      } else if (!start.is_simpler) {
         found.is_complete = false;
       }
     }
@@ -71,7 +71,7 @@ class AveragedWeakening {
   /// Where a fit of all cycles begins, if it does.
   struct Start {
     std::optional<BlockFit> blocks{};
-    bool is_coulomb = false;  ///< the best slip distance is none, and so the simpler fit the same one
+    bool is_simpler = false;  ///< the best slip distance, or average, is none, and so a simpler fit the same one
   };
 
   /// Of more cycles. Empty also where their average does not settle.
@@ -81,6 +81,7 @@ class AveragedWeakening {
     if (!solver_.tells_distance(*some)) return {std::nullopt, true};
     const double sum = sum_of_squares(*some);
     Draft descended_to = descended({*std::move(some), sum});
+    if (has_no_average(descended_to.blocks)) return {std::nullopt, true};
     const std::optional<Smoothing> left = beyond(descended_to.blocks);
     if (!left || !left->is_settled()) return {};
     return {std::move(descended_to.blocks)};
@@ -143,9 +144,14 @@ class AveragedWeakening {
     return estimate_smoothing(blocks, solver_.held(), input_.recording.sample_interval_s());
   }
 
+  /// Averages within a step of the clock cannot be told from none.
+  [[nodiscard]] bool has_no_average(const BlockFit& blocks) const {
+    return blocks.scales().sensor_average_s < input_.recording.sample_interval_s();
+  }
+
   /// Newton's steps in sigma^2 as long as they lead down.
   [[nodiscard]] Draft descended(Draft draft) const {
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMostSteps && !has_no_average(draft.blocks); ++step) {
       const std::optional<Smoothing> left = beyond(draft.blocks);
       if (!left || left->is_settled()) break;
       std::optional<BlockFit> next = with_next_average(draft.blocks, *left, solver_.held());

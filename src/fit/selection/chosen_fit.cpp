@@ -18,7 +18,7 @@ namespace {
 /// Friction that weakens over a slip distance in place of Coulomb friction where the data, or the user, want it.
 Chosen with_weakening(Chosen chosen, const FitInput& input, std::optional<Tier> forced) {
   const bool is_asked = forced == Tier::Weakening;
-  if (!is_asked && (forced || !may_weaken(chosen.fits.damped, input.recording.sample_interval_s()))) return chosen;
+  if (!is_asked && (forced || !may_weaken(input, chosen.fits.damped))) return chosen;
   WeakeningTrial trial = try_weakening(input, chosen.fits.damped, forced);
   Candidate& candidate = trial.candidate;
   const std::string doubt = candidate.chosen ? "" : candidate.reason;

@@ -31,13 +31,13 @@ constexpr double kForgottenLags = 8.0;      // e^-8
 
 /// Rounded slips, slips that are not shaped like the model's, or slips without damping: an average that lasts longer
 /// than the slip takes it away. Falls within a step of the clock show nothing of it.
-bool may_be_averaged(const Recording& recording, const DampedFit& plain) {
-  if (!(median_slip_s(plain.blocks) > recording.sample_interval_s()) || scatters_beyond_model(plain)) return false;
+bool may_be_averaged(const FitInput& input, const DampedFit& plain) {
+  const double step_s = input.recording.sample_interval_s();
+  if (!(median_slip_s(plain.blocks) > step_s) || hides_shape(input.quality.noise_rms, plain)) return false;
   const std::optional<Smoothing>& seen = plain.rounding;
   const double zeta = plain.blocks.parameters.globals[kDamping];
   const bool is_damped = zeta > thresholds::kSureTerm * damping_error(plain);
-  return plain.misfit || plain.refused_damping || !is_damped ||
-         (seen && seen->exceeds_step(recording.sample_interval_s()));
+  return plain.misfit || plain.refused_damping || !is_damped || (seen && seen->exceeds_step(step_s));
 }
 
 /// Slips behind it that are damped look like longer ones that are not.
@@ -152,7 +152,7 @@ struct AverageTrial {
 /// Where W cannot be told from the slips behind it, or another W explains them as well, DampedFit::fall_doubt says so.
 AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   const auto& [recording, quality, segmentation, held] = input;
-  if (!may_be_averaged(recording, plain)) return {};
+  if (!may_be_averaged(input, plain)) return {};
   const double width_s = 2.0 * plain.blocks.scales().half_period_s;
   // Half of what all cycles have to gain: a few of them may tell less.
   const double worth = 0.5 * thresholds::kTierPrice / effective_samples(plain);

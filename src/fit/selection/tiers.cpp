@@ -9,7 +9,6 @@
 #include "core/fit_thresholds.hpp"
 #include "core/quantile.hpp"
 #include "core/thresholds.hpp"
-#include "fit/inference/misfit.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -23,6 +22,11 @@ double aicc(double rms, double effective, double parameters) {
 
 double rms_of(const DampedFit& fit) {
   return fit.blocks.scales().noise * std::sqrt(fit.uncertainty.chi2 / std::max(1.0, fit.uncertainty.samples));
+}
+
+/// Between the sticks before and after.
+double drop_of(const CycleState& state) {
+  return state.force_scale * (state.z0() - state.intercept());
 }
 
 std::string against(const Candidate& candidate, const Candidate& other) {
@@ -56,16 +60,10 @@ Candidate candidate_of(const DampedFit& fit, Tier tier, std::size_t parameters, 
   return {tier, parameters, rms, aicc(rms, effective, static_cast<double>(parameters)), false, {}};
 }
 
-bool scatters_beyond_model(const DampedFit& fit) {
-  constexpr double kMost2 = thresholds::kLooseFit * thresholds::kLooseFit;
-  double onset_force = 0.0;
-  for (std::size_t i = 0; i < fit.blocks.size(); ++i) {
-    onset_force += fit.blocks.state(i).onset_force / static_cast<double>(fit.blocks.size());
-  }
-  const double residual2 = std::pow(fit.uncertainty.noise / onset_force, 2);
-  if (!(residual2 > kMost2)) return false;
-  const StackedResidual common = stacked_residual(fit.blocks, fit.blocks);
-  return residual2 - common.size * common.size > kMost2;
+bool hides_shape(double noise_rms, const DampedFit& fit) {
+  double drop = 0.0;
+  for (std::size_t i = 0; i < fit.blocks.size(); ++i) drop += drop_of(fit.blocks.state(i));
+  return noise_rms > thresholds::kLooseFit * drop / static_cast<double>(fit.blocks.size());
 }
 
 SawtoothFit fit_sawtooth(const DampedFit& damped) {
@@ -78,7 +76,7 @@ SawtoothFit fit_sawtooth(const DampedFit& damped) {
     const CycleData& data = blocks.data(i);
     const CycleState state = blocks.state(i);
     // Lines of the fit before and after, continued to the middle of the slip.
-    const double jump = state.force_scale * (state.z0() - state.intercept());
+    const double jump = drop_of(state);
     drops.push_back(jump);
     result.fall +=
         (jump - state.force_scale * state.omega_rad_per_s * state.slip_s()) / static_cast<double>(blocks.size());

@@ -136,9 +136,9 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Damp
 
 }  // namespace
 
-bool may_weaken(const DampedFit& coulomb, double sample_interval_s) {
-  if (scatters_beyond_model(coulomb)) return false;
-  const bool is_rounded = coulomb.rounding && coulomb.rounding->exceeds_step(sample_interval_s);
+bool may_weaken(const FitInput& input, const DampedFit& coulomb) {
+  if (hides_shape(input.quality.noise_rms, coulomb)) return false;
+  const bool is_rounded = coulomb.rounding && coulomb.rounding->exceeds_step(input.recording.sample_interval_s());
   return coulomb.misfit || coulomb.refused_damping || coulomb.average || is_rounded;
 }
 

@@ -23,6 +23,6 @@ struct WeakeningTrial {
 WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<Tier> forced);
 
 /// The Coulomb fit shows a sign of it: slips that are not shaped like the model's, or rounded.
-bool may_weaken(const DampedFit& coulomb, double sample_interval_s);
+bool may_weaken(const FitInput& input, const DampedFit& coulomb);
 
 }  // namespace slipfit::fit

@@ -48,6 +48,7 @@ std::optional<BlockFit> settled(BlockFit blocks, const Held& held, double tolera
 bool solve_own(BlockFit& blocks, SolveOptions options) {
   options.held.fill(true);
   options.max_iterations = kOwnIterations;
+  options.tolerance = kDraftTolerance;
   return std::isfinite(solve(blocks, options));
 }
 
