@@ -37,13 +37,11 @@ inline constexpr double kSineFall = 0.17;
 /// cycles just above the limit of stick-slip]
 inline constexpr double kSineFit = 0.05;
 
-/// Largest residual of three sines over the swing of a wave that has no sticks to be told: sticks of a share s of the
-/// cycle begin with a jump of the acceleration, which leaves some s / 64 from the fourth sine on; sticks of a
-/// hundredth of the cycle. [1; derived]
+/// Largest residual of three sines over the swing of a wave without sticks. [1; derived: a jump of the acceleration at
+/// the begin of a stick leaves some 1/64 of its share of the cycle, so that this is a stick of a hundredth]
 inline constexpr double kPureWave = 1e-4;
 
-/// Largest residual over the noise that neighbouring samples show where nothing but noise is left. [1; convention: the
-/// estimate of the noise is within some percent]
+/// Largest residual over Quality::noise_rms where only noise is left. [1; convention: it is known to some percent]
 inline constexpr double kNoiseAlone = 1.1;
 
 /// Standard deviations by which three more sines explain more than chance lets them. [1; convention: three sigmas]

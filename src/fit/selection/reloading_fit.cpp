@@ -24,7 +24,6 @@ constexpr double kShortestShare = 0.02;  // of a stick
 constexpr double kLongestShare = 0.5;
 constexpr int kMostRounds = 10;
 constexpr double kMostLengthChange = 0.7;   // of ln l in one round
-constexpr double kMostShare = 0.75;         // of the step before it, up to which they are taken together
 constexpr int kMostLarger = 2;              // steps that are larger than another before them
 constexpr double kSmallLengthChange = 0.2;  // in standard errors
 
@@ -127,12 +126,27 @@ double next_length_step(const BlockFit& fit) {
   return std::clamp(rise[1] / rise[0], -kMostLengthChange, kMostLengthChange);
 }
 
-/// Steps that shrink by one share each, because the slips move with the length, come to 1 / (1 - share) of the next one
-/// together; the share is negative where they go back and forth.
-double times_of_step(double step, double last_step) {
-  const double share = last_step != 0.0 ? step / last_step : 0.0;
-  return std::abs(share) < kMostShare ? 1.0 / (1.0 - share) : 1.0;
-}
+/// Steps that each are the same share of the one before, because the slips move with the length, come to
+/// 1 / (1 - share) of the next one together; the share is negative where they go back and forth.
+class StepSum {
+ public:
+  /// What the step comes to with all that follow it, where they are foreseen.
+  double of(double step) {
+    const double share = last_ != 0.0 ? step / last_ : 0.0;
+    const bool is_steady = rounds_ > 1 && std::abs(share) < kMostShare && std::abs(share - share_) < kSameShare;
+    ++rounds_;
+    last_ = step;
+    share_ = share;
+    return is_steady ? step / (1.0 - share) : step;
+  }
+
+ private:
+  static constexpr double kMostShare = 0.75;
+  static constexpr double kSameShare = 0.15;  // twice one after the other
+  int rounds_ = 0;
+  double last_ = 0.0;
+  double share_ = 0.0;
+};
 
 bool is_length_settled(const DampedFit& fit) {
   return std::abs(next_length_step(fit.blocks)) < kSmallLengthChange * error_of(fit, kReloadLength);
@@ -193,7 +207,7 @@ std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<Damped
   double least_step = std::numeric_limits<double>::infinity();
   const double step_m = fit->blocks.scales().speed_m_per_s * input.recording.sample_interval_s();
   int larger = 0;
-  double last_step = 0.0;
+  StepSum steps;
   for (int round = 0; fit && round < kMostRounds; ++round) {
     const bool is_sampled = length_of(*fit) >= thresholds::kShapeSamples * step_m;
     if (!(fit->blocks.rise_data()[0] > 0.0) || !is_sampled) return std::nullopt;
@@ -201,8 +215,7 @@ std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<Damped
     if (std::abs(step) > least_step && ++larger > kMostLarger) return std::nullopt;
     least_step = std::min(least_step, std::abs(step));
     const bool is_last = round > 0 && is_length_settled(*fit);  // the slips may have moved since the first
-    const double length_m = length_of(*fit) * std::exp(step * times_of_step(step, last_step));
-    last_step = step;
+    const double length_m = length_of(*fit) * std::exp(steps.of(step));
     fit = with_free_length(length_m, input.quality, *std::move(fit));
     if (is_last) return fit;
   }
