@@ -136,14 +136,13 @@ std::optional<Classification> as_round_swings(const Segmentation& segmentation, 
 std::optional<double> evidence_of_sticks(const Recording& recording, const Signals& signals, const FitResult& fit,
                                          std::size_t used) {
   const double counted_Hz = 1.0 / signal::median(slip_intervals_s(signals.segmentation));
-  const std::optional<HarmonicResidual> counted = residual_of_three_sines(recording, counted_Hz);
-  std::optional<double> harmonic_rms = counted ? std::optional(counted->rms()) : std::nullopt;
+  std::optional<double> harmonic_rms = harmonic_residual_rms(recording, counted_Hz);
   // From frequencies as near as this the period settles at the same value.
   constexpr double kSameWave = 0.01;
   const std::optional<double>& spectral_Hz = signals.spectral.value_Hz;
   if (spectral_Hz && !(std::abs(*spectral_Hz / counted_Hz - 1.0) < kSameWave)) {
-    const std::optional<HarmonicResidual> other = residual_of_three_sines(recording, *spectral_Hz);
-    if (other) harmonic_rms = std::min(other->rms(), harmonic_rms.value_or(other->rms()));
+    const std::optional<double> other = harmonic_residual_rms(recording, *spectral_Hz);
+    if (other) harmonic_rms = std::min(*other, harmonic_rms.value_or(*other));
   }
   if (!harmonic_rms || !(fit.residual.rms > 0.0)) return std::nullopt;
   const double share = static_cast<double>(used) / static_cast<double>(fit.cycles.size());

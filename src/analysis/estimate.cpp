@@ -156,20 +156,15 @@ class BeneathHum {
   std::optional<Segmentation> slips_;
 };
 
-/// Swings that three sines follow down to the noise, of which three more explain nothing: there is no stick to fit.
+/// Swings that three sines follow so closely that there is no stick to fit.
 bool is_pure_wave(const Recording& recording, const Signals& signals) {
   const Segmentation& segmentation = signals.segmentation;
-  if (segmentation.slips.size() < thresholds::kFewestSudden || !is_sine_like(segmentation)) return false;
+  const double most = thresholds::kPureWave * median_drop(segmentation);
+  if (segmentation.slips.size() < thresholds::kFewestSudden || signals.quality.noise_rms > most) return false;
+  if (!is_sine_like(segmentation)) return false;
   const double counted_Hz = 1.0 / signal::median(slip_intervals_s(segmentation));
-  const std::optional<HarmonicResidual> three = residual_of_three_sines(recording, counted_Hz);
-  if (!three) return false;
-  if (three->rms() < thresholds::kPureWave * median_drop(segmentation)) return true;
-  if (three->rms() > thresholds::kNoiseAlone * signals.quality.noise_rms) return false;
-  const std::optional<HarmonicResidual> six = residual_of_six_sines(recording, counted_Hz);
-  if (!six) return false;
-  const double added = three->freedom - six->freedom;
-  const double explained = (three->squares - six->squares) / (six->squares / six->freedom);
-  return explained < added + thresholds::kMoreThanChance * std::sqrt(2.0 * added);
+  const std::optional<double> rms = harmonic_residual_rms(recording, counted_Hz);
+  return rms && *rms < most;
 }
 
 }  // namespace

@@ -12,17 +12,19 @@ namespace {
 
 constexpr double kCycles = 5.0;  // in a window
 constexpr std::size_t kMostWindows = 40;
+constexpr Eigen::Index kHarmonics = 3;
+constexpr Eigen::Index kTerms = 2 + 2 * kHarmonics;  // level and slope, cosines and sines
 
-/// Level and slope, cosines and sines, and what a step of the period turns them by.
-template <Eigen::Index kHarmonics>
-constexpr Eigen::Index kTerms = 2 + 2 * kHarmonics;
-template <Eigen::Index kHarmonics>
-using Terms = Eigen::Matrix<double, Eigen::Dynamic, kTerms<kHarmonics> + 1>;
+using Products = Eigen::Matrix<double, kTerms + 1, kTerms + 1>;
+
+struct Sum {
+  double squares = 0.0;
+  double freedom = 0.0;
+};
 
 /// Level, cosines and sines at this phase of the first harmonic. The higher ones by multiplication: a cosine costs more
 /// than all else that a sample takes here.
-template <Eigen::Index kHarmonics>
-void put_waves(const Eigen::ArrayXd& phase, Terms<kHarmonics>& terms) {
+void put_waves(const Eigen::ArrayXd& phase, Eigen::Matrix<double, Eigen::Dynamic, kTerms + 1>& terms) {
   terms.col(0).setOnes();
   terms.col(2) = phase.cos();
   terms.col(3) = phase.sin();
@@ -38,13 +40,11 @@ void put_waves(const Eigen::ArrayXd& phase, Terms<kHarmonics>& terms) {
 
 /// Samples [begin, end) with harmonics of about this period, which is a parameter as well: a step of it turns harmonic
 /// h in proportion to h and to the time.
-template <Eigen::Index kHarmonics>
-HarmonicResidual residual_of(const Recording& recording, std::size_t begin, std::size_t end, double period_s) {
+Sum residual_of(const Recording& recording, std::size_t begin, std::size_t end, double period_s) {
   constexpr int kSteps = 3;
-  constexpr Eigen::Index kFixed = kTerms<kHarmonics>;
   const auto count = static_cast<Eigen::Index>(end - begin);
-  if (count <= 2 * kFixed) return {};
-  Terms<kHarmonics> terms(count, kFixed + 1);
+  if (count <= 2 * kTerms) return {};
+  Eigen::Matrix<double, Eigen::Dynamic, kTerms + 1> terms(count, kTerms + 1);
   Eigen::VectorXd force(count), time_s(count);
   const double middle_s = 0.5 * (recording.time_s()[begin] + recording.time_s()[end - 1]);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -55,33 +55,34 @@ HarmonicResidual residual_of(const Recording& recording, std::size_t begin, std:
   double best = force.squaredNorm();
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::ArrayXd phase = (2.0 * std::numbers::pi / period_s) * time_s.array();
-    put_waves<kHarmonics>(phase, terms);
+    put_waves(phase, terms);
     terms.col(1) = time_s / period_s;
-    const auto fixed = terms.template leftCols<kFixed>();
-    Eigen::Matrix<double, kFixed + 1, kFixed + 1> normal;
-    normal.template topLeftCorner<kFixed, kFixed>() = fixed.transpose() * fixed;
-    Eigen::Matrix<double, kFixed + 1, 1> right;
-    right.template head<kFixed>() = fixed.transpose() * force;
-    const Eigen::Vector<double, kFixed> waves =
-        normal.template topLeftCorner<kFixed, kFixed>().ldlt().solve(right.template head<kFixed>());
-    Eigen::Vector<double, kFixed> turning = Eigen::Vector<double, kFixed>::Zero();
+    const auto fixed = terms.leftCols<kTerms>();
+    Products normal;
+    normal.topLeftCorner<kTerms, kTerms>() = fixed.transpose() * fixed;
+    Eigen::Matrix<double, kTerms + 1, 1> right;
+    right.head<kTerms>() = fixed.transpose() * force;
+    const Eigen::Vector<double, kTerms> waves =
+        normal.topLeftCorner<kTerms, kTerms>().ldlt().solve(right.head<kTerms>());
+    Eigen::Vector<double, kTerms> turning = Eigen::Vector<double, kTerms>::Zero();
     for (Eigen::Index h = 1; h <= kHarmonics; ++h) {
       turning(2 * h) = static_cast<double>(h) * waves(2 * h + 1);
       turning(2 * h + 1) = -static_cast<double>(h) * waves(2 * h);
     }
-    terms.col(kFixed) = phase * (fixed * turning).array();
-    normal.col(kFixed) = terms.transpose() * terms.col(kFixed);
-    normal.row(kFixed) = normal.col(kFixed).transpose();
-    right(kFixed) = terms.col(kFixed).dot(force);
-    const Eigen::Vector<double, kFixed + 1> all = normal.ldlt().solve(right);
+    terms.col(kTerms) = phase * (fixed * turning).array();
+    normal.col(kTerms) = terms.transpose() * terms.col(kTerms);
+    normal.row(kTerms) = normal.col(kTerms).transpose();
+    right(kTerms) = terms.col(kTerms).dot(force);
+    const Eigen::Vector<double, kTerms + 1> all = normal.ldlt().solve(right);
     best = std::min(best, (force - terms * all).squaredNorm());
-    period_s /= std::clamp(1.0 + all(kFixed), 0.8, 1.25);
+    period_s /= std::clamp(1.0 + all(kTerms), 0.8, 1.25);
   }
-  return {best, static_cast<double>(count - kFixed - 1)};
+  return {best, static_cast<double>(count - kTerms - 1)};
 }
 
-template <Eigen::Index kHarmonics>
-std::optional<HarmonicResidual> residual_of_windows(const Recording& recording, double frequency_Hz) {
+}  // namespace
+
+std::optional<double> harmonic_residual_rms(const Recording& recording, double frequency_Hz) {
   const double window_s = kCycles / frequency_Hz;
   const auto fitting = static_cast<std::size_t>(recording.duration_s() / window_s);
   if (fitting == 0) return std::nullopt;
@@ -91,30 +92,16 @@ std::optional<HarmonicResidual> residual_of_windows(const Recording& recording, 
   const auto sample_at = [&](double seconds) {
     return static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), seconds) - time_s.begin());
   };
-  HarmonicResidual all;
+  Sum all;
   for (std::size_t window = 0; window < windows; ++window) {
     const double share = static_cast<double>(window) / static_cast<double>(std::max<std::size_t>(1, windows - 1));
     const double begin_s = time_s.front() + share * spare_s;
-    const HarmonicResidual one =
-        residual_of<kHarmonics>(recording, sample_at(begin_s), sample_at(begin_s + window_s), 1.0 / frequency_Hz);
-    all.squares += one.squares;
-    all.freedom += one.freedom;
+    const Sum sum = residual_of(recording, sample_at(begin_s), sample_at(begin_s + window_s), 1.0 / frequency_Hz);
+    all.squares += sum.squares;
+    all.freedom += sum.freedom;
   }
-  return all.freedom > 0.0 ? std::optional(all) : std::nullopt;
-}
-
-}  // namespace
-
-double HarmonicResidual::rms() const {
-  return std::sqrt(squares / freedom);
-}
-
-std::optional<HarmonicResidual> residual_of_three_sines(const Recording& recording, double frequency_Hz) {
-  return residual_of_windows<3>(recording, frequency_Hz);
-}
-
-std::optional<HarmonicResidual> residual_of_six_sines(const Recording& recording, double frequency_Hz) {
-  return residual_of_windows<6>(recording, frequency_Hz);
+  if (!(all.freedom > 0.0)) return std::nullopt;
+  return std::sqrt(all.squares / all.freedom);
 }
 
 }  // namespace slipfit

@@ -41,12 +41,6 @@ inline constexpr double kSineFit = 0.05;
 /// the begin of a stick leaves some 1/64 of its share of the cycle, so that this is a stick of a hundredth]
 inline constexpr double kPureWave = 1e-4;
 
-/// Largest residual over Quality::noise_rms where only noise is left. [1; convention: it is known to some percent]
-inline constexpr double kNoiseAlone = 1.1;
-
-/// Standard deviations by which three more sines explain more than chance lets them. [1; convention: three sigmas]
-inline constexpr double kMoreThanChance = 3.0;
-
 /// Twice the logarithm of the likelihood of sticks and slips over that of three harmonics, the null model without
 /// sticks, below which the two cannot be told apart. [1; convention: odds of ten to one]
 inline constexpr double kEvidence = 4.6;

@@ -48,8 +48,8 @@ TEST_CASE("a wave that three sines follow has no sticks to fit") {
   CHECK(analyze_and_fit(sine(1e-3)).fit);
 }
 
-TEST_CASE("a wave beneath noise has none either, and more than a wave is fitted") {
-  CHECK_FALSE(analyze_and_fit(sine(0.0, 0.05)).fit);
+TEST_CASE("a wave beneath noise is fitted: the fit tells slips that the noise hides from sines") {
+  CHECK(analyze_and_fit(sine(0.0, 0.05)).fit);
   CHECK(analyze_and_fit(sine(0.02, 0.05)).fit);
 }
 
