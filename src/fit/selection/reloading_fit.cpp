@@ -130,11 +130,10 @@ double next_length_step(const BlockFit& fit) {
 /// 1 / (1 - share) of the next one together; the share is negative where they go back and forth.
 class StepSum {
  public:
-  /// What the step comes to with all that follow it, where they are foreseen.
+  /// What the step comes to with all that follow it, where they are foreseen: from the third on.
   double of(double step) {
-    const double share = last_ != 0.0 ? step / last_ : 0.0;
-    const bool is_steady = rounds_ > 1 && std::abs(share) < kMostShare && std::abs(share - share_) < kSameShare;
-    ++rounds_;
+    const double share = step / last_;
+    const bool is_steady = std::abs(share) < kMostShare && std::abs(share - share_) < kSameShare;
     last_ = step;
     share_ = share;
     return is_steady ? step / (1.0 - share) : step;
@@ -143,9 +142,8 @@ class StepSum {
  private:
   static constexpr double kMostShare = 0.75;
   static constexpr double kSameShare = 0.15;  // twice one after the other
-  int rounds_ = 0;
-  double last_ = 0.0;
-  double share_ = 0.0;
+  double last_ = std::numeric_limits<double>::quiet_NaN();
+  double share_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 bool is_length_settled(const DampedFit& fit) {

@@ -11,6 +11,7 @@
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/misfit.hpp"
+#include "fit/problem/sweep_data.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/rival.hpp"
@@ -87,10 +88,7 @@ std::optional<Minimum> best_of_both(const FitInput& input, const DampedFit& coul
 bool has_slips_of_the_model(const DampedFit& fit) {
   constexpr double kRoom = 0.05;
   const SawtoothFit sawtooth = fit_sawtooth(fit);
-  double difference = 0.0;
-  for (std::size_t i = 0; i < fit.blocks.size(); ++i) {
-    difference += fit.blocks.state(i).onset_force / static_cast<double>(fit.blocks.size());
-  }
+  const double difference = mean_onset_force(fit);
   return resting_share(fit.blocks) >= thresholds::kRestickShare && difference > (0.5 - kRoom) * sawtooth.fall &&
          difference < (1.0 + kRoom) * sawtooth.drop;
 }
