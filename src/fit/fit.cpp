@@ -13,9 +13,9 @@
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/fit_unless.hpp"
 #include "fit/level/mains_hum.hpp"
-#include "fit/report/recording_findings.hpp"
 #include "fit/selection/chosen_fit.hpp"
 #include "fit/selection/tiers.hpp"
+#include "fit/report/recording_findings.hpp"
 #include "model/reloading.hpp"
 
 namespace slipfit {
@@ -55,18 +55,17 @@ FitDiagnostics diagnostics_of(const Recording& recording, const DampedFit& dampe
 }
 
 /// Of more cycles than a fit needs.
-void tell_selection(FitResult& result) {
-  const std::size_t slips = result.cycles.size();
+void tell_selection(const fit::OfferedSlips& offered, FitResult& result) {
   std::size_t selected = 0;
-  for (std::size_t slip = 0; slip < slips; ++slip) {
-    result.cycles[slip].selected = fit::is_selected(slip, slips);
+  for (std::size_t slip = 0; slip < result.cycles.size(); ++slip) {
+    result.cycles[slip].selected = offered.has(slip);
     if (result.cycles[slip].selected) ++selected;
   }
-  if (selected == slips) return;
+  if (selected == result.cycles.size()) return;
   result.warnings.push_back({"part_of_cycles_fitted",
                              fmt::format("{} of {} cycles, in runs from the first to the last, are enough for the fit; "
                                          "fit parts of the recording with --window to use all",
-                                         selected, slips)});
+                                         selected, result.cycles.size())});
 }
 
 /// Of the slip and the stick that makes good its drop.
@@ -83,7 +82,7 @@ double recovery_s(const BlockFit& blocks, const CycleState& state) {
 /// The table of all detected cycles, with what the fit says of those that it uses.
 void tabulate(const Recording& recording, const Segmentation& segmentation, const BlockFit& blocks, FitResult& result) {
   result.cycles = fit::detected_cycles(recording, segmentation);
-  tell_selection(result);
+  tell_selection(fit::offered_slips(recording, segmentation), result);
   const std::vector<double> sums_of_squares = blocks.sums_of_squares();
   for (std::size_t c = 0; c < blocks.size(); ++c) {
     const CycleState state = blocks.state(c);

@@ -20,23 +20,32 @@ Scene scene_of_many_cycles() {
 
 }  // namespace
 
-TEST_CASE("up to 512 cycles are all offered to the fit, of more 64 runs over the whole recording") {
-  for (const std::size_t slips : {3UL, 512UL}) {
-    for (std::size_t slip = 0; slip < slips; ++slip) REQUIRE(fit::is_selected(slip, slips));
-  }
-  for (const std::size_t slips : {513UL, 2500UL, 100003UL}) {
-    std::size_t offered = 0, longest_aside = 0, aside = 0;
-    for (std::size_t slip = 0; slip < slips; ++slip) {
-      if (fit::is_selected(slip, slips)) ++offered;
-      aside = fit::is_selected(slip, slips) ? 0 : aside + 1;
-      longest_aside = std::max(longest_aside, aside);
+TEST_CASE("some 8000 samples in falls are offered to the fit, in runs over the whole recording") {
+  struct Kept {
+    double samples_in_fall;
+    std::size_t cycles;
+  };
+  for (const Kept kept : {Kept{0.5, 512}, Kept{16.0, 512}, Kept{32.0, 256}, Kept{64.0, 128}, Kept{1e4, 128}}) {
+    INFO(kept.samples_in_fall);
+    for (std::size_t slip = 0; slip < kept.cycles; ++slip) {
+      REQUIRE(fit::OfferedSlips(3, kept.samples_in_fall).has(slip));
+      REQUIRE(fit::OfferedSlips(kept.cycles, kept.samples_in_fall).has(slip));
     }
-    INFO(slips);
-    CHECK(offered <= 512);
-    CHECK(offered > 512 - 8);
-    CHECK(longest_aside <= 2 * (slips / 64 + 8));  // no part of the recording goes unseen
-    CHECK(fit::is_selected(0, slips));
-    CHECK(fit::is_selected(slips - 1, slips));
+    for (const std::size_t slips : {kept.cycles + 1, 2500UL, 100003UL}) {
+      const fit::OfferedSlips offers(slips, kept.samples_in_fall);
+      std::size_t offered = 0, longest_aside = 0, aside = 0;
+      for (std::size_t slip = 0; slip < slips; ++slip) {
+        if (offers.has(slip)) ++offered;
+        aside = offers.has(slip) ? 0 : aside + 1;
+        longest_aside = std::max(longest_aside, aside);
+      }
+      INFO(slips);
+      CHECK(offered <= kept.cycles);
+      CHECK(offered > kept.cycles - 8);
+      CHECK(longest_aside <= 2 * (8 * slips / kept.cycles + 8));  // no part of the recording goes unseen
+      CHECK(offers.has(0));
+      CHECK(offers.has(slips - 1));
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/thresholds.hpp"
 #include "fit/cycle/side_by_side.hpp"
+#include "signal/robust.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -23,6 +24,7 @@ class Cutter {
       : time_s_(recording.time_s()),
         force_(force),
         slips_(segmentation.slips),
+        offered_(offered_slips(recording, segmentation)),
         half_width_s_(half_width_s),
         step_s_(recording.sample_interval_s()),
         excluded_(excluded),
@@ -34,7 +36,7 @@ class Cutter {
   [[nodiscard]] std::vector<CycleData> cut() const {
     std::vector<std::size_t> selected;
     for (std::size_t i = 1; i < slips_.size(); ++i) {
-      if (is_selected(i, slips_.size())) selected.push_back(i);
+      if (offered_.has(i)) selected.push_back(i);
     }
     std::vector<CycleData> all(selected.size());
     for_cycles(all.size(), time_s_.size(), [&](std::size_t begin, std::size_t end) {
@@ -192,6 +194,7 @@ class Cutter {
   std::span<const double> time_s_;
   std::span<const double> force_;
   const std::vector<DetectedSlip>& slips_;
+  OfferedSlips offered_;
   double half_width_s_;
   double step_s_;
   const std::vector<std::size_t>& excluded_;
@@ -201,18 +204,30 @@ class Cutter {
 
 }  // namespace
 
-bool is_selected(std::size_t slip, std::size_t slips) {
-  constexpr std::size_t kRuns = 64;
+OfferedSlips::OfferedSlips(std::size_t slips, double samples_in_fall)
+    : all_((slips + kCyclesOfRun - 1) / kCyclesOfRun) {
+  constexpr double kMostRuns = 64.0;
+  constexpr double kFewestRuns = 16.0;
+  constexpr double kSamples = 16.0;
+  most_ = static_cast<std::size_t>(std::clamp(kMostRuns * kSamples / samples_in_fall, kFewestRuns, kMostRuns));
+}
+
+bool OfferedSlips::has(std::size_t slip) const {
   constexpr double kGolden = 0.6180339887498949;  // multiples of it are spread evenly and never repeat
-  const std::size_t runs = (slips + kCyclesOfRun - 1) / kCyclesOfRun;
-  if (runs <= kRuns) return true;
+  if (all_ <= most_) return true;
   const std::size_t run = slip / kCyclesOfRun;
-  const std::size_t part = run * kRuns / runs;
-  const std::size_t begin = (part * runs + kRuns - 1) / kRuns;
-  const std::size_t end = ((part + 1) * runs + kRuns - 1) / kRuns;
-  if (part + 1 == kRuns) return run + 1 == end;
+  const std::size_t part = run * most_ / all_;
+  const std::size_t begin = (part * all_ + most_ - 1) / most_;
+  const std::size_t end = ((part + 1) * all_ + most_ - 1) / most_;
+  if (part + 1 == most_) return run + 1 == end;
   const double place = kGolden * static_cast<double>(part);
   return run == begin + static_cast<std::size_t>((place - std::floor(place)) * static_cast<double>(end - begin));
+}
+
+OfferedSlips offered_slips(const Recording& recording, const Segmentation& segmentation) {
+  std::vector<double> falls_s;
+  for (const DetectedSlip& slip : segmentation.slips) falls_s.push_back(slip.fall_s);
+  return {falls_s.size(), signal::median(falls_s) / recording.sample_interval_s()};
 }
 
 std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,

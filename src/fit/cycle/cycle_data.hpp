@@ -89,10 +89,22 @@ struct CycleData {
 /// Neighbours, whose joined ramps halve the error of k.
 constexpr std::size_t kCyclesOfRun = 8;
 
-/// Whether this slip of so many is selected for the fit: of more than 512, 64 runs of neighbours from the first to the
-/// last, at uneven distances, so that a line in the force has no images. What limits the shared parameters then is
-/// rarely the noise; the time of a fit grows no more.
-bool is_selected(std::size_t slip, std::size_t slips);
+/// Which slips are offered to the fit: all, or of many some 512 of 16 samples in the fall from 80 to 20 %, and of slips
+/// with more samples so many less, down to 128, for each tells more and costs more. They are runs of neighbours from
+/// the first to the last, at uneven distances, so that a line in the force has no images. What limits the shared
+/// parameters then is rarely the noise; the time of a fit grows no more.
+class OfferedSlips {
+ public:
+  OfferedSlips(std::size_t slips, double samples_in_fall);
+
+  [[nodiscard]] bool has(std::size_t slip) const;
+
+ private:
+  std::size_t all_;   ///< runs
+  std::size_t most_;  ///< of them that are taken
+};
+
+OfferedSlips offered_slips(const Recording& recording, const Segmentation& segmentation);
 
 /// Cuts the recording into cycles, those that are selected for the fit. `excluded` (in ascending order) leaves out
 /// impulses, clipped samples and outliers. The first slip starts from rest and is left out; so is a slip with a gap

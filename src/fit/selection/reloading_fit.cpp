@@ -150,8 +150,12 @@ bool is_length_settled(const DampedFit& fit) {
   return std::abs(next_length_step(fit.blocks)) < kSmallLengthChange * error_of(fit, kReloadLength);
 }
 
-bool bends(const std::optional<RampBend>& bend) {
-  return bend && bend->log_ratio > thresholds::kBendSigmas * bend->standard_error;
+/// Beyond chance, and an early half of a stick gains more over its late half than rounding explains, which repeats its
+/// errors from stick to stick.
+bool bends(const std::optional<RampBend>& bend, const DampedFit& plain, const Quality& quality) {
+  if (!bend || !(bend->log_ratio > thresholds::kBendSigmas * bend->standard_error)) return false;
+  const double half_drop = plain.blocks.scales().force;
+  return bend->log_ratio * half_drop > tolerated_misfit(quality);
 }
 
 /// These few cycles do not exclude that the rise takes half of the bend away.
@@ -231,7 +235,7 @@ std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& gi
   std::optional<DampedFit> plain = draft_damped(input, from_features);
   if (!plain) return plain;
   const std::optional<RampBend> bend = ramp_bend(plain->blocks);
-  if (!bends(bend)) return plain;
+  if (!bends(bend, *plain, input.quality)) return plain;
   std::optional<DampedFit> few = best_of_lengths(input, *plain);
   if (!few) return plain;
   few = settle_rise(input, with_free_length(length_of(*few), input.quality, *few));
