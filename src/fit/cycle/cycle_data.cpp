@@ -113,33 +113,40 @@ class Cutter {
   }
 
   [[nodiscard]] StickBin reduce(std::size_t begin, std::size_t end) const {
-    const Sums sums = sum(begin, end);
+    const Sums sums = sum(force_, begin, end);
     StickBin bin;
     bin.count = sums.count;
     if (bin.count == 0.0) return bin;
     const double mean_t = sums.t / bin.count;
     const double mean_f = sums.f / bin.count;
-    const double cross = sums.tf - sums.t * mean_f;
     bin.time_s = time_s_[begin] + mean_t;
     bin.force = force_[begin] + mean_f;
     bin.time_spread = std::max(0.0, sums.tt - sums.t * mean_t);
-    if (bin.time_spread > 0.0) bin.slope = cross / bin.time_spread;
-    bin.scatter = std::max(0.0, sums.ff - sums.f * mean_f - bin.slope * cross);
+    if (bin.time_spread > 0.0) bin.slope = sums.cross() / bin.time_spread;
+    bin.scatter = (hum_.force_beside.empty() ? sums : sum(hum_.force_beside, begin, end)).scatter();
     for (const double line_Hz : hum_.frequencies_Hz) bin.lines.push_back(reduce_line(begin, end, bin, line_Hz));
     return bin;
   }
 
   struct Sums {
     double count = 0.0, t = 0.0, f = 0.0, tt = 0.0, tf = 0.0, ff = 0.0;
+
+    [[nodiscard]] double cross() const { return tf - t * f / count; }
+    /// About the line.
+    [[nodiscard]] double scatter() const {
+      const double spread = tt - t * t / count;
+      const double slope = spread > 0.0 ? cross() / spread : 0.0;
+      return std::max(0.0, ff - f * f / count - slope * cross());
+    }
   };
 
   /// About the first sample: near enough to the mean that nothing cancels.
-  [[nodiscard]] Sums sum(std::size_t begin, std::size_t end) const {
+  [[nodiscard]] Sums sum(std::span<const double> force, std::size_t begin, std::size_t end) const {
     Sums sums;
     for_each_run(begin, end, [&](std::size_t from, std::size_t to) {
       const auto length = static_cast<Eigen::Index>(to - from);
       const auto t = Eigen::Map<const Eigen::ArrayXd>(&time_s_[from], length) - time_s_[begin];
-      const auto f = Eigen::Map<const Eigen::ArrayXd>(&force_[from], length) - force_[begin];
+      const auto f = Eigen::Map<const Eigen::ArrayXd>(&force[from], length) - force[begin];
       sums.count += static_cast<double>(length);
       sums.t += t.sum();
       sums.f += f.sum();

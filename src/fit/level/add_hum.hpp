@@ -12,4 +12,7 @@ namespace slipfit::fit {
 void add_hum(const Recording& recording, const BlockFit& fit, std::size_t begin, std::size_t end, double factor,
              std::vector<double>& values);
 
+/// The fitted lines, and the recording without them, for cycles that are cut anew.
+HumLines hum_of(const Recording& recording, const BlockFit& fit);
+
 }  // namespace slipfit::fit

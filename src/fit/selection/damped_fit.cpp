@@ -8,9 +8,11 @@
 #include "core/fit_thresholds.hpp"
 #include "fit/cycle/clock_weights.hpp"
 #include "fit/cycle/start.hpp"
+#include "fit/level/add_hum.hpp"
 #include "fit/level/hum_search.hpp"
 #include "fit/level/mains_hum.hpp"
 #include "fit/problem/solve.hpp"
+#include "fit/selection/carried_fit.hpp"
 #include "fit/selection/clipping.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/first_guess.hpp"
@@ -29,6 +31,7 @@ constexpr int kCleanPasses = 4;
 constexpr int kProbeIterations = 12;
 constexpr int kRoughIterations = 20;
 constexpr int kMaxIterations = 60;
+constexpr double kMuchDamping = 0.2;
 constexpr double kRough = 0.1;  // SolveOptions::tolerance
 constexpr double kFinal = 1e-3;
 
@@ -50,13 +53,17 @@ class Fitter {
     if (cycles_.size() > 4 * kMiddleCycles) {
       auto middle = fit_middle(*start, start->level().lines_Hz);
       if (middle) start = with_settled_hum(*std::move(middle));
+      start = or_wandering(*std::move(start));
       if (near_.give_up && near_.give_up(*start)) return std::nullopt;
       if (near_.needs_damping && !refuse_negative_damping(*start, kRough)) return std::nullopt;
     }
+    const bool are_few = cycles_.size() <= 4 * kMiddleCycles;
     std::optional<BlockFit> fit =
         fit_from(std::move(cycles_), start->level(), start->parameters.globals, near_.most_iterations, kRough);
+    if (fit && are_few) fit = or_wandering(*std::move(fit));
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
+    if (!fit->level().lines_Hz.empty()) fit = beside_hum(*std::move(fit));
     if (quality_.clock_jitter > thresholds::kWeighedClock) fit = with_clock_weights(std::move(*fit));
     if (!refuse_negative_damping(*fit, kFinal)) return std::nullopt;
     return with_uncertainty(
@@ -138,6 +145,16 @@ class Fitter {
     return (poor.chi2 - rich.chi2) / extra > thresholds::kWanderingRatio * noise2;
   }
 
+  /// The same cycles with a level each from little damping, where they explain more: troughs that lie on one level
+  /// while the peaks scatter look like slips with much damping, from which no fit finds back.
+  [[nodiscard]] BlockFit or_wandering(BlockFit fit) const {
+    const bool is_damped = !held_[kDamping] && fit.parameters.globals[kDamping] > kMuchDamping;
+    if (!is_damped || fit.level().per_cycle || fit.size() < kFewestWandering) return fit;
+    const LevelModel level{true, 0, fit.level().lines_Hz, fit.level().reloading};
+    std::optional<BlockFit> wandering = fit_from(fit.set()->cycles, level, start_, kMaxIterations, kRough);
+    return wandering && explains_more(*wandering, fit) ? *std::move(wandering) : std::move(fit);
+  }
+
   /// Short runs with zeta held, the best of them.
   [[nodiscard]] std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles,
                                                         const LevelModel& level) const {
@@ -215,6 +232,17 @@ class Fitter {
       if (hum_power < thresholds::kBlurringHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
     }
     return fit;
+  }
+
+  /// What scatters in the sticks is known beside the hum where the hum is.
+  [[nodiscard]] BlockFit beside_hum(BlockFit fit) const {
+    std::vector<CycleData> cycles =
+        same_cycles_of(fit, cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_,
+                                       hum_of(recording_, fit)));
+    std::vector<double> middles = middles_s(segmentation_, cycles);
+    BlockFit same(std::move(cycles), std::move(middles), scales_, fit.level());
+    same.parameters = std::move(fit.parameters);
+    return same;
   }
 
   /// Weights depend on the model, the model on the weights: three rounds settle both to a percent of an error.

@@ -35,8 +35,20 @@ StickBin merge(const std::vector<StickBin>& bins) {
   return all;
 }
 
-/// Without the rise after a slip.
+/// Without hum and without the rise after a slip.
 std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& fit, std::size_t cycle) {
+  const CycleModel& model = fit.model(cycle);
+  const double* const waves =
+      fit.level_data() + (model.has_constant() ? 1 : 0) + model.drift_parameters() - 2 * fit.level().lines_Hz.size();
+  for (StickBin& bin : bins) {
+    for (std::size_t i = 0; i < bin.lines.size(); ++i) {
+      const LineInBin& line = bin.lines[i];
+      for (std::size_t j = 0; j < 2; ++j) {
+        bin.force -= fit.scales().force * waves[2 * i + j] * line.mean[j];
+        bin.slope -= fit.scales().force * waves[2 * i + j] * line.slope[j];
+      }
+    }
+  }
   const auto& reloading = fit.level().reloading;
   if (!reloading) return bins;
   const double* const rise = fit.rise_data();

@@ -7,6 +7,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "fit/cycle/start.hpp"
+#include "fit/level/add_hum.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/clipping.hpp"
@@ -142,7 +143,7 @@ bool WeakeningSolver::tells_distance(const BlockFit& blocks) const {
 }
 
 std::vector<CycleData> WeakeningSolver::cycles_without(const std::vector<std::size_t>& excluded) const {
-  const HumLines hum{coulomb_.blocks.level().lines_Hz, scales_.time_begin_s};
+  const HumLines hum = hum_of(input_.recording, coulomb_.blocks);
   return same_cycles_of(coulomb_.blocks,
                         cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded, hum));
 }
