@@ -26,6 +26,7 @@ namespace {
 constexpr std::size_t kProbeCycles = kFewestWandering;
 /// Enough to know the shared parameters to an error or two: all cycles then need few steps, however many they are.
 constexpr std::size_t kMiddleCycles = 64;
+constexpr std::size_t kManyCycles = 2 * kMiddleCycles;
 constexpr int kQuickIterations = 8;
 constexpr int kCleanPasses = 4;
 constexpr int kProbeIterations = 12;
@@ -50,19 +51,23 @@ class Fitter {
   std::optional<DampedFit> fit() {
     std::optional<BlockFit> start = started();
     if (!start) return std::nullopt;
-    if (cycles_.size() > 4 * kMiddleCycles) {
+    const bool are_many = cycles_.size() > kManyCycles;
+    if (are_many) {
       auto middle = fit_middle(*start, start->level().lines_Hz);
       if (middle) start = with_settled_hum(*std::move(middle));
-      start = or_wandering(*std::move(start));
-      if (near_.give_up && near_.give_up(*start)) return std::nullopt;
-      if (near_.needs_damping && !refuse_negative_damping(*start, kRough)) return std::nullopt;
+      start = or_wandering(*std::move(start), kRough);
+      if (!may_go_on(*start)) return std::nullopt;
     }
-    const bool are_few = cycles_.size() <= 4 * kMiddleCycles;
     std::optional<BlockFit> fit =
         fit_from(std::move(cycles_), start->level(), start->parameters.globals, near_.most_iterations, kRough);
-    if (fit && are_few) fit = or_wandering(*std::move(fit));
+    if (fit && !are_many) {
+      fit = or_wandering(*std::move(fit), kRough);
+      if (!may_go_on(*fit)) return std::nullopt;
+    }
+    const std::size_t excluded = excluded_.size();
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
+    if (excluded_.size() > excluded) fit = or_wandering(*std::move(fit), kFinal);  // outliers may have led there
     if (!fit->level().lines_Hz.empty()) fit = beside_hum(*std::move(fit));
     if (quality_.clock_jitter > thresholds::kWeighedClock) fit = with_clock_weights(std::move(*fit));
     if (!refuse_negative_damping(*fit, kFinal)) return std::nullopt;
@@ -79,6 +84,12 @@ class Fitter {
   }
 
  private:
+  /// The caller wants it, and it may be of use.
+  [[nodiscard]] bool may_go_on(BlockFit& some) {
+    if (near_.give_up && near_.give_up(some)) return false;
+    return !near_.needs_damping || refuse_negative_damping(some, kRough);
+  }
+
   /// Cuts the cycles and fits a few of them.
   std::optional<BlockFit> started() {
     start_stiffness_ = held_values_.stiffness_N_per_m.value_or(stiffness_of(recording_, segmentation_));
@@ -147,11 +158,11 @@ class Fitter {
 
   /// The same cycles with a level each from little damping, where they explain more: troughs that lie on one level
   /// while the peaks scatter look like slips with much damping, from which no fit finds back.
-  [[nodiscard]] BlockFit or_wandering(BlockFit fit) const {
+  [[nodiscard]] BlockFit or_wandering(BlockFit fit, double tolerance) const {
     const bool is_damped = !held_[kDamping] && fit.parameters.globals[kDamping] > kMuchDamping;
     if (!is_damped || fit.level().per_cycle || fit.size() < kFewestWandering) return fit;
     const LevelModel level{true, 0, fit.level().lines_Hz, fit.level().reloading};
-    std::optional<BlockFit> wandering = fit_from(fit.set()->cycles, level, start_, kMaxIterations, kRough);
+    std::optional<BlockFit> wandering = fit_from(fit.set()->cycles, level, start_, kMaxIterations, tolerance);
     return wandering && explains_more(*wandering, fit) ? *std::move(wandering) : std::move(fit);
   }
 
@@ -208,7 +219,7 @@ class Fitter {
   /// Where there was much hum, again: the next residuals show its frequency and the outliers more clearly.
   std::optional<BlockFit> with_clean_data(BlockFit fit) {
     for (int pass = 0; pass < kCleanPasses; ++pass) {
-      Residuals residuals = residuals_of(recording_, fit);
+      Residuals residuals = silenced(residuals_of(recording_, fit), excluded_);
       const std::optional<StickRipple> ripple =
           find_stick_ripple(recording_, fit, residuals, tolerated_misfit(quality_));
       residuals = without(std::move(residuals), excluded_);

@@ -18,6 +18,9 @@ struct Residuals {
 
 Residuals residuals_of(const Recording& recording, const BlockFit& fit);
 
+/// With these samples as if the model met them; they stay in their parts.
+Residuals silenced(Residuals residuals, const std::vector<std::size_t>& excluded);
+
 /// With these samples as if they were outside the fitted cycles.
 Residuals without(Residuals residuals, const std::vector<std::size_t>& excluded);
 

@@ -17,6 +17,7 @@ namespace slipfit::fit {
 namespace {
 
 constexpr std::size_t kSearchedCycles = 40;  // enough to begin with
+constexpr double kFewestFalls = 3.0;         // in a period: two in a wave
 constexpr int kLengths = 6;
 constexpr int kSearchIterations = 20;
 constexpr double kRoughRise = 0.1;       // SolveOptions::tolerance
@@ -150,12 +151,13 @@ bool is_length_settled(const DampedFit& fit) {
   return std::abs(next_length_step(fit.blocks)) < kSmallLengthChange * error_of(fit, kReloadLength);
 }
 
-/// Beyond chance, and an early half of a stick gains more over its late half than rounding explains, which repeats its
-/// errors from stick to stick.
+/// Beyond chance, where falls are not as slow as those of waves, and an early half of a stick gains more over its late
+/// half than rounding explains, which repeats its errors from stick to stick.
 bool bends(const std::optional<RampBend>& bend, const DampedFit& plain, const Quality& quality) {
   if (!bend || !(bend->log_ratio > thresholds::kBendSigmas * bend->standard_error)) return false;
-  const double half_drop = plain.blocks.scales().force;
-  return bend->log_ratio * half_drop > tolerated_misfit(quality);
+  const Scales& scales = plain.blocks.scales();
+  if (median_period_s(plain.blocks) < kFewestFalls * scales.half_period_s) return false;
+  return bend->log_ratio * scales.force > tolerated_misfit(quality);
 }
 
 /// These few cycles do not exclude that the rise takes half of the bend away.
