@@ -13,9 +13,9 @@
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/fit_unless.hpp"
 #include "fit/level/mains_hum.hpp"
+#include "fit/report/recording_findings.hpp"
 #include "fit/selection/chosen_fit.hpp"
 #include "fit/selection/tiers.hpp"
-#include "fit/report/recording_findings.hpp"
 #include "model/reloading.hpp"
 
 namespace slipfit {

@@ -37,7 +37,7 @@ TEST_CASE("AICc is told with the model it is compared to, the sign in words and 
 
 TEST_CASE("the residual is told as a multiple of the noise, and whether it looks like noise") {
   const std::string text = fit_text({"--speed", "10mm/s"});
-  CHECK_THAT(text, Contains("0.99 times the noise (reduced chi2 0.981; 1 where only noise is left)"));
+  CHECK_THAT(text, Contains("0.99 times the noise (reduced chi2 0.98; 1 where only noise is left)"));
   CHECK_THAT(text,
              Contains("residuals: like noise, no correlation of neighbours is proven (whiteness p 0.15, level 0.001)"));
 }

@@ -45,18 +45,6 @@ BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& 
   return with_rise_after(to, from.scales());
 }
 
-std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData> cut) {
-  std::vector<CycleData> same;
-  std::size_t next = 0;
-  for (CycleData& cycle : cut) {
-    while (next < fit.size() && fit.data(next).slip < cycle.slip) ++next;
-    if (next == fit.size() || fit.data(next).slip != cycle.slip) continue;
-    cycle.continuous_with_next = fit.data(next).continuous_with_next;
-    same.push_back(std::move(cycle));
-  }
-  return same;
-}
-
 BlockFit averaged_by(const BlockFit& fit, double variance_s2) {
   Scales scales = fit.scales();
   scales.sensor_average_s = std::sqrt(12.0 * variance_s2);

@@ -16,9 +16,6 @@ void carry_over(const BlockFit& from, BlockFit& to);
 /// The fit on the cycles of another one, its rise after the slips that it has there.
 BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& from);
 
-/// Those of the cycles that the fit has, in order.
-std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData> cut);
-
 /// The same cycles at the same parameters, seen through an average of this variance.
 BlockFit averaged_by(const BlockFit& fit, double variance_s2);
 

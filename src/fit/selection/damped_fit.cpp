@@ -8,15 +8,14 @@
 #include "core/fit_thresholds.hpp"
 #include "fit/cycle/clock_weights.hpp"
 #include "fit/cycle/start.hpp"
-#include "fit/level/add_hum.hpp"
 #include "fit/level/hum_search.hpp"
 #include "fit/level/mains_hum.hpp"
 #include "fit/problem/solve.hpp"
-#include "fit/selection/carried_fit.hpp"
 #include "fit/selection/clipping.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/first_guess.hpp"
 #include "fit/selection/outliers.hpp"
+#include "fit/selection/recut.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -56,19 +55,21 @@ class Fitter {
       auto middle = fit_middle(*start, start->level().lines_Hz);
       if (middle) start = with_settled_hum(*std::move(middle));
       start = or_wandering(*std::move(start), kRough);
-      if (!may_go_on(*start)) return std::nullopt;
+      if (near_.give_up && near_.give_up(*start)) return std::nullopt;
+      if (near_.needs_damping && !refuse_negative_damping(*start, kRough)) return std::nullopt;
     }
     std::optional<BlockFit> fit =
         fit_from(std::move(cycles_), start->level(), start->parameters.globals, near_.most_iterations, kRough);
     if (fit && !are_many) {
       fit = or_wandering(*std::move(fit), kRough);
-      if (!may_go_on(*fit)) return std::nullopt;
+      // A few cycles do not tell that an average is hopeless.
+      if (!near_.needs_damping && near_.give_up && near_.give_up(*fit)) return std::nullopt;
     }
     const std::size_t excluded = excluded_.size();
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
     if (excluded_.size() > excluded) fit = or_wandering(*std::move(fit), kFinal);  // outliers may have led there
-    if (!fit->level().lines_Hz.empty()) fit = beside_hum(*std::move(fit));
+    if (!fit->level().lines_Hz.empty()) fit = beside_hum(*std::move(fit), cut());
     if (quality_.clock_jitter > thresholds::kWeighedClock) fit = with_clock_weights(std::move(*fit));
     if (!refuse_negative_damping(*fit, kFinal)) return std::nullopt;
     return with_uncertainty(
@@ -84,12 +85,6 @@ class Fitter {
   }
 
  private:
-  /// The caller wants it, and it may be of use.
-  [[nodiscard]] bool may_go_on(BlockFit& some) {
-    if (near_.give_up && near_.give_up(some)) return false;
-    return !near_.needs_damping || refuse_negative_damping(some, kRough);
-  }
-
   /// Cuts the cycles and fits a few of them.
   std::optional<BlockFit> started() {
     start_stiffness_ = held_values_.stiffness_N_per_m.value_or(stiffness_of(recording_, segmentation_));
@@ -219,13 +214,16 @@ class Fitter {
   /// Where there was much hum, again: the next residuals show its frequency and the outliers more clearly.
   std::optional<BlockFit> with_clean_data(BlockFit fit) {
     for (int pass = 0; pass < kCleanPasses; ++pass) {
-      Residuals residuals = silenced(residuals_of(recording_, fit), excluded_);
-      const std::optional<StickRipple> ripple =
-          find_stick_ripple(recording_, fit, residuals, tolerated_misfit(quality_));
+      Residuals residuals = residuals_of(recording_, fit);
+      std::vector<CyclePart> parts = residuals.part;
       residuals = without(std::move(residuals), excluded_);
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
+      residuals = silenced(std::move(residuals), outliers);
+      residuals.part.swap(parts);  // a stick goes on beside what is left out of it
+      const std::optional<StickRipple> ripple =
+          find_stick_ripple(recording_, fit, residuals, tolerated_misfit(quality_));
       const HumSearch hum = find_hum(recording_, fit, std::move(residuals.value), outliers, ripple);
       const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && hum.lines_Hz.empty();
       if (is_clean && (pass > 0 || near_.excluded.empty())) {
@@ -234,8 +232,10 @@ class Fitter {
       }
       excluded_ = united(excluded_, united(outliers, censored));
       const bool is_settled = is_same_hum(fit, hum.lines_Hz);
-      std::optional<BlockFit> next = refit(std::move(fit), bad, hum.lines_Hz);
-      if (!next) return std::nullopt;
+      std::optional<BlockFit> next = recut(std::move(fit), cut(), bad, hum.lines_Hz);
+      if (!next || !std::isfinite(solve(*next, {held_, false, true, near_.most_iterations, kFinal}))) {
+        return std::nullopt;
+      }
       fit = std::move(*next);
       if (is_settled) break;
       if (hum.others_wait) continue;
@@ -243,17 +243,6 @@ class Fitter {
       if (hum_power < thresholds::kBlurringHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
     }
     return fit;
-  }
-
-  /// What scatters in the sticks is known beside the hum where the hum is.
-  [[nodiscard]] BlockFit beside_hum(BlockFit fit) const {
-    std::vector<CycleData> cycles =
-        same_cycles_of(fit, cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_,
-                                       hum_of(recording_, fit)));
-    std::vector<double> middles = middles_s(segmentation_, cycles);
-    BlockFit same(std::move(cycles), std::move(middles), scales_, fit.level());
-    same.parameters = std::move(fit.parameters);
-    return same;
   }
 
   /// Weights depend on the model, the model on the weights: three rounds settle both to a percent of an error.
@@ -269,41 +258,8 @@ class Fitter {
     return fit;
   }
 
-  /// Cuts again without the slips `bad`, with hum lines in the level, and fits from the present solution, whose cycles
-  /// make room for the new ones.
-  [[nodiscard]] std::optional<BlockFit> refit(BlockFit fit, const std::vector<std::size_t>& bad,
-                                              const std::vector<double>& lines_Hz) const {
-    const std::vector<double> hum_start = hum_at_other_frequencies(fit, lines_Hz);
-    const Parameters start = std::move(fit.parameters);
-    LevelModel level = fit.level();
-    std::vector<std::size_t> slips;
-    for (std::size_t i = 0; i < fit.size(); ++i) slips.push_back(fit.data(i).slip);
-    { const BlockFit released = std::move(fit); }
-    std::vector<CycleData> kept;
-    const HumLines hum{lines_Hz, scales_.time_begin_s};
-    for (CycleData& cycle :
-         cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_, hum)) {
-      if (std::find(bad.begin(), bad.end(), cycle.slip) == bad.end()) {
-        kept.push_back(std::move(cycle));
-      } else if (!kept.empty()) {
-        kept.back().continuous_with_next = false;
-      }
-    }
-    if (kept.size() < thresholds::kFewestFitted) return std::nullopt;
-    level.lines_Hz = lines_Hz;
-    std::vector<double> middles = middles_s(segmentation_, kept);
-    BlockFit refit(std::move(kept), std::move(middles), scales_, level);
-    refit.parameters.globals = start.globals;
-    const auto before_lines = static_cast<std::ptrdiff_t>(level.first_line());
-    std::copy_n(start.level.begin(), before_lines, refit.parameters.level.begin());
-    std::copy(hum_start.begin(), hum_start.end(), refit.parameters.level.begin() + before_lines);
-    std::size_t old = 0;
-    for (std::size_t i = 0; i < refit.size(); ++i) {
-      while (old + 1 < slips.size() && slips[old] < refit.data(i).slip) ++old;  // a last slip may be new
-      refit.parameters.cycles[i] = start.cycles[old];
-    }
-    if (!std::isfinite(solve(refit, {held_, false, true, near_.most_iterations, kFinal}))) return std::nullopt;
-    return refit;
+  [[nodiscard]] Cut cut() const {
+    return {recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_};
   }
 
   const Recording& recording_;

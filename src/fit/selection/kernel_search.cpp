@@ -14,6 +14,7 @@
 #include "fit/problem/solve.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/first_guess.hpp"
+#include "fit/selection/recut.hpp"
 #include "fit/selection/reloading_fit.hpp"
 #include "signal/robust.hpp"
 

@@ -1,4 +1,5 @@
 #include "fit/selection/weakening_solver.hpp"
+#include "fit/selection/recut.hpp"
 
 #include <algorithm>
 #include <array>
