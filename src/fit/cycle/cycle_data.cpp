@@ -117,12 +117,10 @@ class Cutter {
     StickBin bin;
     bin.count = sums.count;
     if (bin.count == 0.0) return bin;
-    const double mean_t = sums.t / bin.count;
-    const double mean_f = sums.f / bin.count;
-    bin.time_s = time_s_[begin] + mean_t;
-    bin.force = force_[begin] + mean_f;
-    bin.time_spread = std::max(0.0, sums.tt - sums.t * mean_t);
-    if (bin.time_spread > 0.0) bin.slope = sums.cross() / bin.time_spread;
+    bin.time_s = time_s_[begin] + sums.t / bin.count;
+    bin.force = force_[begin] + sums.f / bin.count;
+    bin.time_spread = sums.spread();
+    bin.slope = sums.slope();
     bin.scatter = (hum_.force_beside.empty() ? sums : sum(hum_.force_beside, begin, end)).scatter();
     for (const double line_Hz : hum_.frequencies_Hz) bin.lines.push_back(reduce_line(begin, end, bin, line_Hz));
     return bin;
@@ -131,13 +129,11 @@ class Cutter {
   struct Sums {
     double count = 0.0, t = 0.0, f = 0.0, tt = 0.0, tf = 0.0, ff = 0.0;
 
+    [[nodiscard]] double spread() const { return std::max(0.0, tt - t * t / count); }
     [[nodiscard]] double cross() const { return tf - t * f / count; }
+    [[nodiscard]] double slope() const { return spread() > 0.0 ? cross() / spread() : 0.0; }
     /// About the line.
-    [[nodiscard]] double scatter() const {
-      const double spread = tt - t * t / count;
-      const double slope = spread > 0.0 ? cross() / spread : 0.0;
-      return std::max(0.0, ff - f * f / count - slope * cross());
-    }
+    [[nodiscard]] double scatter() const { return std::max(0.0, ff - f * f / count - slope() * cross()); }
   };
 
   /// About the first sample: near enough to the mean that nothing cancels.

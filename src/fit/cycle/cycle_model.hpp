@@ -117,6 +117,10 @@ class CycleModel {
   [[nodiscard]] std::size_t local_parameters() const { return level_->per_cycle ? 3 : 2; }
   [[nodiscard]] bool has_constant() const { return level_->terms > 0 || scales_.population.has_value(); }
   [[nodiscard]] std::size_t drift_parameters() const { return level_->columns() - (level_->terms > 0 ? 1 : 0); }
+  /// Where the lines' cosines and sines stand in the level's parameters: at their end.
+  [[nodiscard]] std::size_t first_wave() const {
+    return (has_constant() ? 1 : 0) + drift_parameters() - 2 * level_->lines_Hz.size();
+  }
   [[nodiscard]] std::size_t globals() const { return globals_of(scales_.law); }
   [[nodiscard]] bool has_difference() const { return scales_.population.has_value(); }
   [[nodiscard]] bool has_exponent() const { return scales_.population && scales_.population->log_speed; }
@@ -186,7 +190,7 @@ inline double CycleModel::level_at(double time_s, const double* level, const dou
 
 inline double CycleModel::hum_at(double time_s, const double* level) const {
   double sum = 0.0;
-  const double* pair = level + (has_constant() ? 1 : 0) + drift_parameters() - 2 * level_->lines_Hz.size();
+  const double* pair = level + first_wave();
   for (const double line_Hz : level_->lines_Hz) {
     const double phase = 2.0 * std::numbers::pi * line_Hz * (time_s - scales_.time_begin_s);
     sum += pair[0] * std::cos(phase) + pair[1] * std::sin(phase);

@@ -14,7 +14,7 @@ void for_each_wave(const Recording& recording, const BlockFit& fit, std::size_t 
   if (begin >= end) return;
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
   const double since_s = recording.time_s()[begin] - fit.scales().time_begin_s;
-  const double* pair = fit.parameters.level.data() + fit.level().first_line();
+  const double* pair = fit.wave_data();
   for (const double frequency_Hz : fit.level().lines_Hz) {
     const double omega = 2.0 * std::numbers::pi * frequency_Hz;
     const std::complex<double> turn = std::polar(1.0, omega * step_s);

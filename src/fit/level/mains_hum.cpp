@@ -21,7 +21,7 @@ struct FittedLine {
 std::vector<FittedLine> fitted_lines(const BlockFit& fit) {
   const double resolution_Hz = 1.0 / (fit.scales().time_end_s - fit.scales().time_begin_s);
   std::vector<FittedLine> lines;
-  const double* wave = fit.parameters.level.data() + fit.level().first_line();
+  const double* wave = fit.wave_data();
   for (const double frequency_Hz : fit.level().lines_Hz) {
     const double force = fit.scales().force * std::hypot(wave[0], wave[1]);
     lines.push_back({frequency_Hz, force, signal::is_of_mains(frequency_Hz, resolution_Hz)});
@@ -49,7 +49,7 @@ double mains_amplitude(const BlockFit& fit) {
 std::vector<double> hum_at_other_frequencies(const BlockFit& fit, const std::vector<double>& frequencies_Hz) {
   const double half_s = 0.5 * (fit.scales().time_end_s - fit.scales().time_begin_s);
   std::vector<double> coefficients(2 * frequencies_Hz.size(), 0.0);
-  const double* const wave = fit.parameters.level.data() + fit.level().first_line();
+  const double* const wave = fit.wave_data();
   const std::size_t known = std::min(frequencies_Hz.size(), fit.level().lines_Hz.size());
   for (std::size_t i = 0; i < known; ++i) {
     const double turn = 2.0 * std::numbers::pi * (fit.level().lines_Hz[i] - frequencies_Hz[i]) * half_s;

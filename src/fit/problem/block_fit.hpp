@@ -46,6 +46,8 @@ class BlockFit {
   [[nodiscard]] const double* rise_data() const {
     return level_data() + (model(0).has_constant() ? 1 : 0) + level().first_rise();
   }
+  /// Of the cosine and sine of each line, over Scales::force; where there are lines.
+  [[nodiscard]] const double* wave_data() const { return level_data() + model(0).first_wave(); }
   [[nodiscard]] CycleValues values(std::size_t cycle) const;
   /// By a law in closed form, at a solution; under friction that depends on the speed as if it did not.
   [[nodiscard]] CycleState state(std::size_t cycle) const;

@@ -37,9 +37,7 @@ StickBin merge(const std::vector<StickBin>& bins) {
 
 /// Without hum and without the rise after a slip.
 std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& fit, std::size_t cycle) {
-  const CycleModel& model = fit.model(cycle);
-  const double* const waves =
-      fit.level_data() + (model.has_constant() ? 1 : 0) + model.drift_parameters() - 2 * fit.level().lines_Hz.size();
+  const double* const waves = fit.wave_data();
   for (StickBin& bin : bins) {
     for (std::size_t i = 0; i < bin.lines.size(); ++i) {
       const LineInBin& line = bin.lines[i];

@@ -1,5 +1,4 @@
 #include "fit/selection/weakening_solver.hpp"
-#include "fit/selection/recut.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include "fit/selection/clipping.hpp"
 #include "fit/selection/first_guess.hpp"
 #include "fit/selection/outliers.hpp"
+#include "fit/selection/recut.hpp"
 #include "fit/selection/reloading_fit.hpp"
 
 namespace slipfit::fit {
@@ -69,7 +69,8 @@ WeakeningSolver::WeakeningSolver(const FitInput& input, const DampedFit& coulomb
       coulomb_(coulomb),
       scales_(coulomb.blocks.scales()),
       held_(held_of(input.held)),
-      half_width_s_(half_width_s) {
+      half_width_s_(half_width_s),
+      hum_(hum_of(input.recording, coulomb.blocks)) {
   scales_.law = FrictionLaw::Weakening;
   scales_.slip_distance_m = scales_.force / std::exp(coulomb.blocks.parameters.globals[kLogStiffness]);
 }
@@ -144,9 +145,8 @@ bool WeakeningSolver::tells_distance(const BlockFit& blocks) const {
 }
 
 std::vector<CycleData> WeakeningSolver::cycles_without(const std::vector<std::size_t>& excluded) const {
-  const HumLines hum = hum_of(input_.recording, coulomb_.blocks);
   return same_cycles_of(coulomb_.blocks,
-                        cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded, hum));
+                        cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded, hum_));
 }
 
 BlockFit WeakeningSolver::blocks_of(const std::vector<CycleData>& cycles, double average_s,

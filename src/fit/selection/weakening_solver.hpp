@@ -68,6 +68,7 @@ class WeakeningSolver {
   Scales scales_;
   Held held_;
   double half_width_s_ = 0.0;
+  HumLines hum_;  ///< of the Coulomb fit
 };
 
 }  // namespace slipfit::fit
