@@ -1,16 +1,14 @@
 #include "analysis_run.hpp"
 
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <chrono>
-#include <cstdint>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "failure.hpp"
+#include "memory.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/report/csv.hpp"
@@ -89,22 +87,6 @@ void write_all_results(const AnalysisArguments& arguments, const slipfit::Record
   }
 }
 
-/// Freed memory is used again and not returned to the system, because each new page costs a page fault: without these
-/// settings `slipfit fit` takes 7 % more processor time for 200 000 simulated samples and 16 % more for 10^7. One arena
-/// keeps FFTW's planner from ending the program where memory is short (tests/limits, too_little_memory). Files of more
-/// than 1 GB, which may not fit into the memory, are read without.
-void keep_freed_memory([[maybe_unused]] const std::string& file) {
-#ifdef __GLIBC__
-  constexpr std::uintmax_t kLong = std::uintmax_t{1} << 30U;
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (!(size < kLong)) return;  // the largest number where it has no size
-  mallopt(M_MMAP_MAX, 0);
-  mallopt(M_TRIM_THRESHOLD, -1);
-  mallopt(M_ARENA_MAX, 1);
-#endif
-}
-
 /// What is of one recording alone.
 void refuse_for_pieces(const AnalysisArguments& arguments) {
   for (const auto& [option, is_given] : {std::pair{"--cycles", arguments.document.has("--cycles")},
@@ -130,7 +112,7 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
 
 void run_analysis(const AnalysisArguments& arguments,
                   const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis) {
-  keep_freed_memory(only_file(arguments.recording));
+  prepare_memory(only_file(arguments.recording));
   check_outputs(arguments.document.outputs, only_file(arguments.recording));
   if (arguments.plots) make_folder({"--plots", *arguments.plots});
   const Clock::time_point start = Clock::now();

@@ -1,0 +1,42 @@
+#include "memory.hpp"
+
+#include <malloc.h>
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <system_error>
+
+namespace {
+
+/// Asks for large pages where the heap will grow by `bytes`. They are reserved and given back to the heap unused, so
+/// that no memory is taken before it is needed. Without effect where the system has none.
+[[maybe_unused]] void ask_for_large_pages(std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  constexpr std::size_t kLargePage = std::size_t{1} << 21U;  // of x86-64; others' are multiples or refused
+  const std::unique_ptr<char[]> reserved(new (std::nothrow) char[bytes]);
+  void* begin = reserved.get();
+  if (begin != nullptr && std::align(kLargePage, kLargePage, begin, bytes) != nullptr) {
+    (void)::madvise(begin, bytes, MADV_HUGEPAGE);
+  }
+#endif
+}
+
+}  // namespace
+
+void prepare_memory([[maybe_unused]] const std::string& file) {
+#ifdef __GLIBC__
+  constexpr std::uintmax_t kLong = std::uintmax_t{1} << 30U;
+  constexpr std::size_t kLeast = std::size_t{1} << 25U;
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (!(size < kLong)) return;  // the largest number where it has no size
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, -1);
+  mallopt(M_ARENA_MAX, 1);  // else FFTW's planner ends the program where memory is short (tests/limits)
+  ask_for_large_pages(kLeast + 2 * static_cast<std::size_t>(size));
+#endif
+}
