@@ -3,6 +3,7 @@
 
 #include <csignal>
 
+#include "memory.hpp"
 #include "output.hpp"
 #include "program.hpp"
 
@@ -22,6 +23,7 @@ void open_standard_streams() {
 int main(int argc, char** argv) {
   (void)std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk
   open_standard_streams();
+  keep_freed_memory();
   const std::vector<std::string> words(argv, argv + argc);
   const Outcome outcome = run_program(words, shell_line(words));
   if (!outcome.message.empty()) say(outcome.message);

@@ -13,19 +13,32 @@
 namespace {
 
 /// Asks for large pages where the heap will grow by `bytes`. They are reserved and given back to the heap unused, so
-/// that no memory is taken before it is needed. Without effect where the system has none.
+/// that no memory is taken before it is needed; what lies before the first whole page stays reserved, so that all that
+/// follows comes from such pages. Without effect where the system has none.
 [[maybe_unused]] void ask_for_large_pages(std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
   constexpr std::size_t kLargePage = std::size_t{1} << 21U;  // of x86-64; others' are multiples or refused
-  const std::unique_ptr<char[]> reserved(new (std::nothrow) char[bytes]);
+  static std::unique_ptr<char[]> before;
+  std::unique_ptr<char[]> reserved(new (std::nothrow) char[bytes]);
   void* begin = reserved.get();
-  if (begin != nullptr && std::align(kLargePage, kLargePage, begin, bytes) != nullptr) {
-    (void)::madvise(begin, bytes, MADV_HUGEPAGE);
-  }
+  if (begin == nullptr || std::align(kLargePage, kLargePage, begin, bytes) == nullptr) return;
+  (void)::madvise(begin, bytes, MADV_HUGEPAGE);
+  const std::ptrdiff_t unused = static_cast<char*>(begin) - reserved.get();
+  reserved.reset();
+  before.reset(new (std::nothrow) char[static_cast<std::size_t>(unused)]);
 #endif
 }
 
 }  // namespace
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kLargest = 1 << 25;  // an array of this size is returned as a whole, glibc takes no larger value
+  mallopt(M_MMAP_THRESHOLD, kLargest);
+  mallopt(M_TRIM_THRESHOLD, 2 * kLargest);
+  mallopt(M_ARENA_MAX, 1);  // else FFTW's planner ends the program where memory is short (tests/limits)
+#endif
+}
 
 void prepare_memory([[maybe_unused]] const std::string& file) {
 #ifdef __GLIBC__
@@ -36,7 +49,6 @@ void prepare_memory([[maybe_unused]] const std::string& file) {
   if (!(size < kLong)) return;  // the largest number where it has no size
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
-  mallopt(M_ARENA_MAX, 1);  // else FFTW's planner ends the program where memory is short (tests/limits)
   ask_for_large_pages(kLeast + 2 * static_cast<std::size_t>(size));
 #endif
 }

@@ -8,40 +8,12 @@
 #include <numbers>
 
 #include "signal/fftw.hpp"
+#include "signal/turns.hpp"
 
 namespace slipfit::signal {
 namespace {
 
 using Complex = std::complex<double>;
-
-/// exp(i (start + k step)), k = 0, 1, ..., in blocks: that of the block's begin times those of the steps within it.
-class Turns {
- public:
-  static constexpr std::size_t kBlock = 64;
-
-  Turns(double start, double step) : start_(start), step_(step) {
-    for (std::size_t k = 0; k < kBlock; ++k) {
-      const Complex within = std::polar(1.0, step * static_cast<double>(k));
-      cosine_[k] = within.real();
-      sine_[k] = within.imag();
-    }
-  }
-  [[nodiscard]] Complex begin_of(std::size_t block) const {
-    return std::polar(1.0, start_ + step_ * static_cast<double>(block * kBlock));
-  }
-  [[nodiscard]] double cosine(Complex begin, std::size_t k) const {
-    return begin.real() * cosine_[k] - begin.imag() * sine_[k];
-  }
-  [[nodiscard]] double sine(Complex begin, std::size_t k) const {
-    return begin.real() * sine_[k] + begin.imag() * cosine_[k];
-  }
-
- private:
-  double start_;
-  double step_;
-  std::array<double, kBlock> cosine_{};
-  std::array<double, kBlock> sine_{};
-};
 
 struct Line {
   double at_middle = 0.0;

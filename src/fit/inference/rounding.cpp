@@ -20,19 +20,25 @@ double nearest_integer(double x) {
 }  // namespace
 
 RoundedCopies::RoundedCopies(std::vector<double> model, double step, double residual_rms)
-    : model_(std::move(model)),
-      step_(step),
-      noise_(std::sqrt(std::max(0.0, residual_rms * residual_rms - step * step / 12.0))) {}
+    : model_(std::move(model)), step_(step), noise_(model_.size()) {
+  const double rms = std::sqrt(std::max(0.0, residual_rms * residual_rms - step * step / 12.0));
+  std::mt19937_64 generator(0);
+  boost::random::normal_distribution<double> normal(0.0, rms);
+  std::ranges::generate(noise_, [&] { return normal(generator); });
+}
 
 std::vector<double> RoundedCopies::draw(unsigned copy) const {
   std::mt19937_64 generator(copy + 1);
-  boost::random::normal_distribution<double> normal;
-  const double origin = step_ * boost::random::uniform_01<double>()(generator);
+  boost::random::uniform_01<double> uniform;
+  const double origin = step_ * uniform(generator);
+  const auto count = static_cast<double>(model_.size());
+  auto noise = noise_.begin() + static_cast<std::ptrdiff_t>(count * uniform(generator));
   std::vector<double> forces;
   forces.reserve(model_.size());
   for (const double force : model_) {
-    const double noisy = force + noise_ * normal(generator);
-    forces.push_back(step_ * nearest_integer((noisy - origin) / step_) + origin);
+    const double steps = (force + *noise - origin) / step_;
+    forces.push_back(step_ * nearest_integer(steps) + origin);
+    if (++noise == noise_.end()) noise = noise_.begin();
   }
   return forces;
 }

@@ -7,7 +7,8 @@
 namespace slipfit::fit {
 
 /// Recordings as the fitted model would give them, rounded to multiples of `step` with a random offset, noise
-/// (what the residuals have beyond the rounding) included. Rounding repeats its errors from cycle to cycle where these
+/// (what the residuals have beyond the rounding) included, the same noise from another sample on in each of them, which
+/// takes a tenth of the time. Rounding repeats its errors from cycle to cycle where these
 /// are regular: neither residuals nor the spread over the cycles show it.
 class RoundedCopies {
  public:
@@ -18,7 +19,7 @@ class RoundedCopies {
  private:
   std::vector<double> model_;
   double step_;
-  double noise_;
+  std::vector<double> noise_;
 };
 
 inline constexpr unsigned kRoundedCopies = 24;

@@ -149,18 +149,33 @@ class AveragedWeakening {
     return blocks.scales().sensor_average_s < input_.recording.sample_interval_s();
   }
 
-  /// Newton's steps in sigma^2 as long as they lead down.
+  /// Newton's steps in sigma^2 as long as they lead down. Where one leads below none at all, none is tried at once.
   [[nodiscard]] Draft descended(Draft draft) const {
     for (int step = 0; step < kMostSteps && !has_no_average(draft.blocks); ++step) {
       const std::optional<Smoothing> left = beyond(draft.blocks);
       if (!left || left->is_settled()) break;
-      std::optional<BlockFit> next = with_next_average(draft.blocks, *left, solver_.held());
+      if (std::optional<Draft> none = without_average(draft, *left)) return *std::move(none);
+      const std::optional<BlockFit> next = with_next_average(draft.blocks, *left, solver_.held());
       if (!next) break;
       const double sum = sum_of_squares(*next);
       if (!(sum < draft.sum_of_squares)) break;
-      draft = {*std::move(next), sum};
+      draft = {*next, sum};
     }
     return draft;
+  }
+
+  /// With an average of half a step of the clock, which is none, where that explains more and no longer one still more.
+  [[nodiscard]] std::optional<Draft> without_average(const Draft& draft, const Smoothing& left) const {
+    const double average_s = draft.blocks.scales().sensor_average_s;
+    if (left.variance_s2 > -average_s * average_s / 12.0) return std::nullopt;
+    const double least_s = 0.5 * input_.recording.sample_interval_s();
+    const std::optional<BlockFit> none = solved_behind(draft.blocks, least_s * least_s / 12.0, solver_.held());
+    if (!none) return std::nullopt;
+    const double sum = sum_of_squares(*none);
+    const std::optional<Smoothing> beyond_none = beyond(*none);
+    const bool is_longer = !beyond_none || (beyond_none->variance_s2 > 0.0 && !beyond_none->is_settled());
+    if (is_longer || !(sum < draft.sum_of_squares)) return std::nullopt;
+    return Draft{*none, sum};
   }
 
   const FitInput& input_;

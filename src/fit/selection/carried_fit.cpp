@@ -51,12 +51,16 @@ BlockFit averaged_by(const BlockFit& fit, double variance_s2) {
   return with_rise_after(fit, scales);
 }
 
-std::optional<BlockFit> with_next_average(const BlockFit& fit, const Smoothing& beyond, const Held& held) {
+std::optional<BlockFit> solved_behind(const BlockFit& fit, double variance_s2, const Held& held) {
   constexpr int kIterations = 8;
-  const double average_s = fit.scales().sensor_average_s;
-  BlockFit next = averaged_by(fit, beyond.next_variance_s2(average_s * average_s / 12.0));
+  BlockFit next = averaged_by(fit, variance_s2);
   const bool is_solved = std::isfinite(solve(next, {held, false, true, kIterations})) && has_slips(next);
   return is_solved ? std::optional(std::move(next)) : std::nullopt;
+}
+
+std::optional<BlockFit> with_next_average(const BlockFit& fit, const Smoothing& beyond, const Held& held) {
+  const double average_s = fit.scales().sensor_average_s;
+  return solved_behind(fit, beyond.next_variance_s2(average_s * average_s / 12.0), held);
 }
 
 double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor) {
