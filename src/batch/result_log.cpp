@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "batch/tables.hpp"
+#include "core/parallel.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit::batch {
@@ -194,16 +195,37 @@ FileDigests FinalFiles::finish() {
   return {results_.digest().text(), summary_.digest().text(), failures_.digest().text()};
 }
 
+namespace {
+
+std::string summary_of(const LoggedResult& result) {
+  return result.has_failed ? summary_of_failure(result.key, failure_from(result.line).code)
+                           : summary_of_result(result.key, result.line);
+}
+
+}  // namespace
+
 FileDigests write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
                               const WorkList& list, const ResultLog& log) {
+  constexpr std::size_t kSideBySide = 256;  // so many documents are in memory
   FinalFiles files(folder);
-  for_each_result(manifest, list, log, [&](const LoggedResult& result) {
-    if (result.has_failed) {
-      files.add_failure(result.line, summary_of_failure(result.key, failure_from(result.line).code));
-    } else {
-      files.add_result(result.line, summary_of_result(result.key, result.line));
+  std::vector<LoggedResult> results;
+  const auto add_all = [&] {
+    const std::vector<std::string> summaries =
+        in_parallel(results.size(), [&](std::size_t i) { return summary_of(results[i]); });
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (results[i].has_failed) {
+        files.add_failure(results[i].line, summaries[i]);
+      } else {
+        files.add_result(results[i].line, summaries[i]);
+      }
     }
+    results.clear();
+  };
+  for_each_result(manifest, list, log, [&](const LoggedResult& result) {
+    results.push_back(result);
+    if (results.size() == kSideBySide) add_all();
   });
+  add_all();
   return files.finish();
 }
 

@@ -2,6 +2,7 @@
 #include "core/word_list.hpp"
 
 #include <algorithm>
+#include <boost/sort/pdqsort/pdqsort.hpp>
 #include <cmath>
 #include <map>
 
@@ -119,7 +120,7 @@ class ColumnScan {
 
  private:
   void describe_steps(std::vector<double>& steps) {
-    std::ranges::sort(steps);
+    boost::sort::pdqsort_branchless(steps.begin(), steps.end());
     column_.varies = steps.front() != 0.0 || steps.back() != 0.0;
     column_.never_decreases = column_.varies && steps.front() >= 0.0 && steps.size() >= 2;
     const auto rising = std::upper_bound(steps.begin(), steps.end(), 0.0);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <boost/sort/pdqsort/pdqsort.hpp>
 #include <cmath>
 
 #include "core/thresholds.hpp"
@@ -15,7 +16,7 @@ std::vector<double> some_distinct(std::span<const double> values) {
   const std::size_t stride = 1 + (values.size() - 1) / kSorted;
   std::vector<double> distinct;
   for (std::size_t i = 0; i < values.size(); i += stride) distinct.push_back(values[i]);
-  std::ranges::sort(distinct);
+  boost::sort::pdqsort_branchless(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   return distinct;
 }
