@@ -49,6 +49,6 @@ void prepare_memory([[maybe_unused]] const std::string& file) {
   if (!(size < kLong)) return;  // the largest number where it has no size
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
-  ask_for_large_pages(kLeast + 2 * static_cast<std::size_t>(size));
+  ask_for_large_pages(kLeast + 3 * static_cast<std::size_t>(size));
 #endif
 }
