@@ -11,6 +11,7 @@ namespace {
 
 using Lines = std::vector<std::string_view>;
 
+constexpr std::size_t kEnough = 1000;  // rows to know a column by
 constexpr std::size_t kRun = 3;  // so many rows one after the other are data; a single one may be a console message
 
 /// The cells of one line; its memory serves the next.
@@ -160,6 +161,7 @@ std::optional<Layout> find_layout(const Lines& lines) {
   Row row;
   for (std::size_t i = *data; i < lines.size(); ++i) {
     length += static_cast<double>(lines[i].size()) + 1.0;
+    if (layout.rows == kEnough) continue;
     row.read(lines[i], *dialect);
     if (!fits(row, shape)) continue;
     ++layout.rows;
