@@ -36,7 +36,6 @@ void keep_freed_memory() {
   constexpr int kLargest = 1 << 25;  // an array of this size is returned as a whole, glibc takes no larger value
   mallopt(M_MMAP_THRESHOLD, kLargest);
   mallopt(M_TRIM_THRESHOLD, 2 * kLargest);
-  mallopt(M_ARENA_MAX, 1);  // else FFTW's planner ends the program where memory is short (tests/limits)
 #endif
 }
 
@@ -49,6 +48,7 @@ void prepare_memory([[maybe_unused]] const std::string& file) {
   if (!(size < kLong)) return;  // the largest number where it has no size
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
+  mallopt(M_ARENA_MAX, 1);  // else FFTW's planner ends the program where memory is short (tests/limits)
   ask_for_large_pages(kLeast + 3 * static_cast<std::size_t>(size));
 #endif
 }
