@@ -23,7 +23,8 @@ constexpr std::size_t kFewCycles = 40;   // enough to see that the slips are exp
 constexpr std::size_t kSomeCycles = 64;  // of many
 constexpr int kOwnIterations = 6;        // of onsets and forces by themselves
 constexpr int kFullIterations = 60;
-constexpr double kNothing = 0.1;         // of its error: a slip distance that is none
+constexpr int kRoughSteps = 20;   // to WeakeningSolver::kRoughTolerance: further ones gain a tenth of an error each
+constexpr double kNothing = 0.1;  // of its error: a slip distance that is none
 constexpr double kDraftTolerance = 0.1;  // SolveOptions::tolerance of a draft
 /// SolveOptions::tolerance. Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them
 /// an error off.
@@ -41,8 +42,8 @@ std::size_t samples_of(const std::vector<CycleData>& cycles) {
 
 /// From where it stands.
 std::optional<BlockFit> settled(BlockFit blocks, const Held& held, double tolerance) {
-  const bool is_solved =
-      std::isfinite(solve(blocks, {held, false, true, kFullIterations, tolerance})) && has_slips(blocks);
+  const int most = tolerance < WeakeningSolver::kRoughTolerance ? kFullIterations : kRoughSteps;
+  const bool is_solved = std::isfinite(solve(blocks, {held, false, true, most, tolerance})) && has_slips(blocks);
   return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
 }
 
