@@ -1,5 +1,5 @@
 # slipfit_link_statically(target): links the program against the static form of the libraries beneath slipfit. A process
-# that maps 6 shared libraries in place of 31 starts in a third of the time. The names are Debian's; where a trial does not
+# that maps 6 shared libraries in place of 31 starts in less than half the time. The names are Debian's; where a trial does not
 # link, the shared forms stay. METIS, libunwind and the C library stay shared in any case: there is no static form, or
 # none for position-independent programs.
 foreach(name IN ITEMS pugixml minizip z)

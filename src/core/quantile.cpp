@@ -24,7 +24,8 @@ double median_of_three(double a, double b, double c) {
 
 double nth_smallest(std::span<double> values, std::size_t index) {
   constexpr std::size_t kFew = 24;
-  while (values.size() > kFew) {
+  constexpr int kMostRounds = 64;  // pivots that part badly again and again are left to std::nth_element
+  for (int round = 0; values.size() > kFew && round < kMostRounds; ++round) {
     const double pivot = median_of_three(values.front(), values[values.size() / 2], values.back());
     const std::size_t below = partition(values, [&](double value) { return value < pivot; });
     if (index < below) {

@@ -36,7 +36,7 @@ TEST_CASE("the value at any place is that of the sorted values") {
   }
 }
 
-TEST_CASE("values in order, or in the opposite order, are no slow case") {
+TEST_CASE("the median of values in order, and in the opposite order, is the one in the middle") {
   std::vector<double> values(200000);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i);
   CHECK(median(values) == 100000.0);

@@ -7,9 +7,9 @@
 namespace slipfit::fit {
 
 /// Recordings as the fitted model would give them, rounded to multiples of `step` with a random offset, noise
-/// (what the residuals have beyond the rounding) included, the same noise from another sample on in each of them, which
-/// takes a tenth of the time. Rounding repeats its errors from cycle to cycle where these
-/// are regular: neither residuals nor the spread over the cycles show it.
+/// (what the residuals have beyond the rounding) included: the same noise from another sample on in each of them, which
+/// takes a quarter of the time. Rounding repeats its errors from cycle to cycle where these are regular: neither
+/// residuals nor the spread over the cycles show it.
 class RoundedCopies {
  public:
   /// `model`: fitted force of every sample. Same arguments, same copies.
