@@ -67,6 +67,14 @@ Scene bent_sticks() {
   return {.cycles = 40.0, .jitter = 0.03, .noise = 0.005};
 }
 
+/// The same with forces to the nearest multiple of `step_N`.
+Recording rounded(const Recording& exact, double step_N) {
+  std::vector<double> time_s(exact.time_s().begin(), exact.time_s().end());
+  std::vector<double> force;
+  for (const double force_N : exact.force()) force.push_back(step_N * std::round(force_N / step_N));
+  return Recording::create(std::move(time_s), std::move(force), exact.conditions()).value();
+}
+
 fit::RiseAfterSlip two_slips(double average_s) {
   return {kLength_m, true, 0.01, average_s, {1.0, 1.2}, {1.03, 1.23}};
 }
@@ -239,6 +247,21 @@ TEST_CASE("straight sticks get no rise") {
   const Analysis analysis = analyze_and_fit(record(s));
   REQUIRE(analysis.fit);
   CHECK(analysis.fit->find(ParameterId::ReloadLength) == nullptr);
+}
+
+TEST_CASE("rounding makes no rise and hides none that is larger than its steps") {
+  Scene s = bent_sticks();
+  s.seed = GENERATE(range<std::uint64_t>(1, 5));
+  s.cycles = 300.0;
+  s.jitter = 0.05;
+  CAPTURE(s.seed);
+  const double difference_N = s.static_N - s.kinetic_N;
+  const Analysis straight = analyze_and_fit(rounded(reloading_recording(s, 0.0), 0.2 * difference_N));
+  REQUIRE(straight.fit);
+  CHECK(straight.fit->find(ParameterId::ReloadLength) == nullptr);
+  const Analysis rising = analyze_and_fit(rounded(reloading_recording(s, kRise * difference_N), 0.1 * difference_N));
+  REQUIRE(rising.fit);
+  CHECK(rising.fit->find(ParameterId::ReloadLength) != nullptr);
 }
 
 }  // namespace slipfit
