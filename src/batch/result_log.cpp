@@ -70,6 +70,11 @@ std::uint64_t size_of(const std::filesystem::path& file) {
   return std::filesystem::file_size(file, ignored);
 }
 
+std::string summary_of(const LoggedResult& result) {
+  return result.has_failed ? summary_of_failure(result.key, failure_from(result.line).code)
+                           : summary_of_result(result.key, result.line);
+}
+
 }  // namespace
 
 FoundResults find_results(const std::filesystem::path& folder, const RunRecord& before, const WorkList& list) {
@@ -194,15 +199,6 @@ FileDigests FinalFiles::finish() {
   for (Replacement* const file : {&results_, &failures_, &summary_}) file->finish();
   return {results_.digest().text(), summary_.digest().text(), failures_.digest().text()};
 }
-
-namespace {
-
-std::string summary_of(const LoggedResult& result) {
-  return result.has_failed ? summary_of_failure(result.key, failure_from(result.line).code)
-                           : summary_of_result(result.key, result.line);
-}
-
-}  // namespace
 
 FileDigests write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
                               const WorkList& list, const ResultLog& log) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include "core/quantile.hpp"
 #include "signal/segments.hpp"
 #include "signal/transform.hpp"
 #include "signal/turns.hpp"
@@ -11,22 +12,11 @@
 namespace slipfit::signal {
 namespace {
 
-/// Calls f(i, cosine, sine) for the samples of a wave that turns by `step` from one to the next.
-template <class F>
-void for_wave(std::size_t samples, double start, double step, const F& f) {
-  const Turns turns(start, step);
-  for (std::size_t begin = 0; begin < samples; begin += Turns::kBlock) {
-    const std::complex<double> turn = turns.begin_of(begin / Turns::kBlock);
-    const std::size_t count = std::min(Turns::kBlock, samples - begin);
-    for (std::size_t k = 0; k < count; ++k) f(begin + k, turns.cosine(turn, k), turns.sine(turn, k));
-  }
-}
-
 /// Hann's, zero half a sample outside either end.
 std::vector<double> window_of(std::size_t samples) {
   std::vector<double> window(samples);
   const double step = kTurn / static_cast<double>(samples);
-  for_wave(samples, 0.5 * step, step, [&](std::size_t i, double cosine, double) { window[i] = 0.5 - 0.5 * cosine; });
+  for_turns(samples, 0.5 * step, step, [&](std::size_t i, double cosine, double) { window[i] = 0.5 - 0.5 * cosine; });
   return window;
 }
 
@@ -35,7 +25,7 @@ std::complex<double> amplitude_of(const std::vector<double>& values, const std::
                                   double step) {
   double real = 0.0;
   double imaginary = 0.0;
-  for_wave(values.size(), 0.0, step, [&](std::size_t i, double cosine, double sine) {
+  for_turns(values.size(), 0.0, step, [&](std::size_t i, double cosine, double sine) {
     const double value = window[i] * (values[i] - mean);
     real += value * cosine;
     imaginary -= value * sine;
@@ -53,16 +43,15 @@ Dehummed without_mains(const Recording& recording) {
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
   const std::size_t length = good_length(recording.size());
   const std::vector<double> power = hann_power(result.force, length);
-  double mean = 0.0;
-  for (const double f : result.force) mean += f / static_cast<double>(recording.size());
+  const double mean = mean_of(result.force);
   const std::vector<double> window = window_of(recording.size());
   for (const MainsLine& line :
        find_mains(power, 1.0 / (static_cast<double>(length) * step_s), 1.0 / recording.duration_s())) {
     const double step = kTurn * line.frequency_Hz * step_s;
     const std::complex<double> amplitude = amplitude_of(result.force, window, mean, step);
     const double size = std::abs(amplitude);
-    for_wave(recording.size(), std::arg(amplitude), step,
-             [&](std::size_t i, double cosine, double) { result.force[i] -= size * cosine; });
+    for_turns(recording.size(), std::arg(amplitude), step,
+              [&](std::size_t i, double cosine, double) { result.force[i] -= size * cosine; });
     result.lines_Hz.push_back(line.frequency_Hz);
     result.swing = std::max(result.swing, 2.0 * size);
   }

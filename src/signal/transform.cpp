@@ -73,26 +73,19 @@ std::shared_ptr<const ComplexTransform> transform_of(std::size_t length) {
 /// |X_k|^2 of the real series of length 2 M whose even and odd values are the parts of the M complex ones in z.
 std::vector<double> real_power(const Complex* z, std::size_t half, double scale) {
   std::vector<double> power(half + 1);
-  const Turns turns(0.0, -std::numbers::pi / static_cast<double>(half));
-  for (std::size_t begin = 0; 2 * begin <= half; begin += Turns::kBlock) {
-    const Complex turn = turns.begin_of(begin / Turns::kBlock);
-    const std::size_t count = std::min(Turns::kBlock, half / 2 + 1 - begin);
-    for (std::size_t j = 0; j < count; ++j) {
-      const std::size_t k = begin + j;
-      const Complex a = z[k];
-      const Complex b = std::conj(z[k == 0 ? 0 : half - k]);
-      const Complex even = 0.5 * (a + b);
-      const Complex difference = 0.5 * (a - b);
-      const Complex odd(difference.imag(), -difference.real());
-      const double c = turns.cosine(turn, j);
-      const double s = turns.sine(turn, j);
-      const Complex turned(odd.real() * c - odd.imag() * s, odd.real() * s + odd.imag() * c);
-      const double both = std::norm(even) + std::norm(odd);
-      const double cross = 2.0 * (even.real() * turned.real() + even.imag() * turned.imag());
-      power[k] = scale * std::max(0.0, both + cross);
-      power[half - k] = scale * std::max(0.0, both - cross);
-    }
-  }
+  const double step = -std::numbers::pi / static_cast<double>(half);
+  for_turns(half / 2 + 1, 0.0, step, [&](std::size_t k, double c, double s) {
+    const Complex a = z[k];
+    const Complex b = std::conj(z[k == 0 ? 0 : half - k]);
+    const Complex even = 0.5 * (a + b);
+    const Complex difference = 0.5 * (a - b);
+    const Complex odd(difference.imag(), -difference.real());
+    const Complex turned(odd.real() * c - odd.imag() * s, odd.real() * s + odd.imag() * c);
+    const double both = std::norm(even) + std::norm(odd);
+    const double cross = 2.0 * (even.real() * turned.real() + even.imag() * turned.imag());
+    power[k] = scale * std::max(0.0, both + cross);
+    power[half - k] = scale * std::max(0.0, both - cross);
+  });
   power[half] *= 0.5;
   return power;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <complex>
 #include <cstddef>
@@ -34,5 +35,16 @@ class Turns {
   std::array<double, kBlock> cosine_{};
   std::array<double, kBlock> sine_{};
 };
+
+/// Calls f(k, cosine, sine) of start + k step for k = 0 ... count - 1.
+template <class F>
+void for_turns(std::size_t count, double start, double step, const F& f) {
+  const Turns turns(start, step);
+  for (std::size_t begin = 0; begin < count; begin += Turns::kBlock) {
+    const std::complex<double> turn = turns.begin_of(begin / Turns::kBlock);
+    const std::size_t end = std::min(begin + Turns::kBlock, count);
+    for (std::size_t k = begin; k < end; ++k) f(k, turns.cosine(turn, k - begin), turns.sine(turn, k - begin));
+  }
+}
 
 }  // namespace slipfit::signal

@@ -155,11 +155,11 @@ class AveragedWeakening {
       const std::optional<Smoothing> left = beyond(draft.blocks);
       if (!left || left->is_settled()) break;
       if (std::optional<Draft> none = without_average(draft, *left)) return *std::move(none);
-      const std::optional<BlockFit> next = with_next_average(draft.blocks, *left, solver_.held());
+      std::optional<BlockFit> next = with_next_average(draft.blocks, *left, solver_.held());
       if (!next) break;
       const double sum = sum_of_squares(*next);
       if (!(sum < draft.sum_of_squares)) break;
-      draft = {*next, sum};
+      draft = {*std::move(next), sum};
     }
     return draft;
   }
@@ -169,13 +169,13 @@ class AveragedWeakening {
     const double average_s = draft.blocks.scales().sensor_average_s;
     if (left.variance_s2 > -average_s * average_s / 12.0) return std::nullopt;
     const double least_s = 0.5 * input_.recording.sample_interval_s();
-    const std::optional<BlockFit> none = solved_behind(draft.blocks, least_s * least_s / 12.0, solver_.held());
+    std::optional<BlockFit> none = solved_behind(draft.blocks, least_s * least_s / 12.0, solver_.held());
     if (!none) return std::nullopt;
     const double sum = sum_of_squares(*none);
     const std::optional<Smoothing> beyond_none = beyond(*none);
     const bool is_longer = !beyond_none || (beyond_none->variance_s2 > 0.0 && !beyond_none->is_settled());
     if (is_longer || !(sum < draft.sum_of_squares)) return std::nullopt;
-    return Draft{*none, sum};
+    return Draft{*std::move(none), sum};
   }
 
   const FitInput& input_;
