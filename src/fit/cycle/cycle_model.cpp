@@ -36,6 +36,10 @@ CycleFrame CycleModel::frame(const double* globals, const double* local) const {
   return frame;
 }
 
+Globals CycleModel::globals_at_speed(const CycleValues& values) const {
+  return globals_at_speed(values.globals, has_exponent() ? *values.exponent : 0.0);
+}
+
 double CycleModel::rise_at(double time_s, const double* level) const {
   if (!level_->reloading) return 0.0;
   const double* const rise = level + (has_constant() ? 1 : 0) + level_->first_rise();
@@ -208,7 +212,7 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, Rows rows) const 
 
 bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* jacobian) const {
   Rows rows(*this, values, residuals, jacobian);
-  const Globals globals = globals_at_speed(values.globals, has_exponent() ? *values.exponent : 0.0);
+  const Globals globals = globals_at_speed(values);
   if (!is_integrated()) {
     const std::optional<CycleState> now = state(globals.data(), values.local);
     if (now) std::visit([&](const auto& law) { fill(law, *now, rows); }, now->motion);
@@ -218,6 +222,10 @@ bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* 
   const auto motion = SpeedDependentCycle::solve(f.z0(), globals.data(), scales_);
   if (motion) fill(*motion, f, rows);
   return motion.has_value();
+}
+
+bool CycleModel::is_inside(const CycleValues& values) const {
+  return state(globals_at_speed(values).data(), values.local).has_value();
 }
 
 }  // namespace slipfit::fit

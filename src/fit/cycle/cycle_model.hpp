@@ -140,8 +140,12 @@ class CycleModel {
   /// has no solution.
   bool evaluate(const CycleValues& values, double* residuals, double* jacobian) const;
 
+  /// Whether the slip has a solution in closed form.
+  [[nodiscard]] bool is_inside(const CycleValues& values) const;
+
   /// The globals at the recording's speed: k goes with it, and w_n of the same mass.
   [[nodiscard]] Globals globals_at_speed(const double* globals, double exponent) const;
+  [[nodiscard]] Globals globals_at_speed(const CycleValues& values) const;
   /// `globals`: at the recording's speed, here and in state().
   [[nodiscard]] CycleFrame frame(const double* globals, const double* local) const;
   /// Empty where the slip has no solution.

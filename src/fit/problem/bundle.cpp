@@ -54,44 +54,57 @@ Bundle::Bundle(const Problem& problem, const SolveOptions& options)
 }
 
 std::optional<Bundle::Point> Bundle::start(double damping) const {
-  Eigen::VectorXd common(columns_.size());
-  std::vector<Local> cycles;
+  Values values{Eigen::VectorXd(columns_.size()), {}};
   for (std::size_t r = problem_.recordings.size(); r-- > 0;) {  // what is shared is the first one's
     columns_.visit(r, problem_.recordings[r], problem_.recordings[r].parameters,
-                   [&](Index column, double value) { common(column) = value; });
+                   [&](Index column, double value) { values.common(column) = value; });
   }
-  for (const BlockFit& recording : problem_.recordings)
-    cycles.insert(cycles.end(), recording.parameters.cycles.begin(), recording.parameters.cycles.end());
-  return evaluated(std::move(common), std::move(cycles), damping);
+  for (const BlockFit& recording : problem_.recordings) {
+    const std::vector<Local>& cycles = recording.parameters.cycles;
+    values.cycles.insert(values.cycles.end(), cycles.begin(), cycles.end());
+  }
+  return at(std::move(values), damping);
 }
 
-std::optional<Bundle::Point> Bundle::moved(const Point& from, const Eigen::VectorXd& step, double share,
-                                           double damping) const {
-  std::vector<Local> cycles = from.cycles;
+Bundle::Values Bundle::moved(const Point& from, const Eigen::VectorXd& step, double share) const {
+  Values values{from.common + step, from.cycles};
   const RowMajor steps = from.normal.own_steps(step, share);
   const double* next = steps.data();
-  auto cycle = cycles.begin();
+  auto cycle = values.cycles.begin();
   for (const BlockFit& recording : problem_.recordings) {
     const std::size_t own = recording.model(0).local_parameters();
     for (std::size_t i = 0; i < recording.size(); ++i, ++cycle) {
       for (std::size_t j = 0; j < own; ++j) (*cycle)[j] += *next++;
     }
   }
-  return evaluated(from.common + step, std::move(cycles), damping);
+  return values;
 }
 
-void Bundle::put(const Point& point, std::span<BlockFit> recordings) const {
-  auto next = point.cycles.begin();
+bool Bundle::is_inside(const Values& values) const {
+  const Local* cycle = values.cycles.data();
+  for (std::size_t r = 0; r < problem_.recordings.size(); ++r) {
+    const BlockFit& fit = problem_.recordings[r];
+    const CycleModel& any = fit.model(0);
+    if (any.is_integrated()) return false;
+    const Gathered common(any, columns_.of(r), values.common);
+    for (std::size_t i = 0; i < fit.size(); ++i, ++cycle) {
+      if (!fit.model(i).is_inside(common.with(*cycle))) return false;
+    }
+  }
+  return true;
+}
+
+void Bundle::put(const Values& values, std::span<BlockFit> recordings) const {
+  auto next = values.cycles.begin();
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     Parameters& parameters = recordings[r].parameters;
-    columns_.visit(r, recordings[r], parameters, [&](Index column, double& value) { value = point.common(column); });
+    columns_.visit(r, recordings[r], parameters, [&](Index column, double& value) { value = values.common(column); });
     for (Local& cycle : parameters.cycles) cycle = *next++;
   }
 }
 
-std::optional<Bundle::Point> Bundle::evaluated(Eigen::VectorXd common, std::vector<Local> cycles,
-                                               double damping) const {
-  Point point{std::move(common), std::move(cycles), 0.0, Elimination(columns_.size(), damping)};
+std::optional<Bundle::Point> Bundle::at(Values values, double damping) const {
+  Point point{std::move(values), 0.0, Elimination(columns_.size(), damping)};
   std::size_t first = 0;
   for (std::size_t r = 0; r < problem_.recordings.size(); ++r) {
     if (!add(r, first, point)) return std::nullopt;

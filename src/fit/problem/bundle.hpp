@@ -19,21 +19,27 @@ class Bundle {
   /// Both must outlive this.
   Bundle(const Problem& problem, const SolveOptions& options);
 
-  struct Point {
+  struct Values {
     Eigen::VectorXd common;  ///< in the order of CommonColumns
     std::vector<Local> cycles;
+  };
+  struct Point : Values {
     double sum = 0.0;  ///< of squares; where SolveOptions::robust, cycles far worse than the others counted linearly
     Elimination normal;
   };
   /// At the parameters of the recordings. `damping`: of the steps of the cycles' own from there (Elimination). Empty:
   /// outside the model.
   [[nodiscard]] std::optional<Point> start(double damping) const;
+  /// As start, elsewhere.
+  [[nodiscard]] std::optional<Point> at(Values values, double damping) const;
   /// After a step of the common parameters; the cycles' own follow, and take `share` of the step that they have to gain
-  /// by where the common ones stand still. Empty: outside the model.
-  [[nodiscard]] std::optional<Point> moved(const Point& from, const Eigen::VectorXd& step, double share,
-                                           double damping) const;
-  /// Writes a point to the recordings, which have the problem's order.
-  void put(const Point& point, std::span<BlockFit> recordings) const;
+  /// by where the common ones stand still.
+  [[nodiscard]] Values moved(const Point& from, const Eigen::VectorXd& step, double share) const;
+  /// Whether the slips of all cycles have solutions there. Not told, and so false, where they are integrated: that takes
+  /// as long as the sum of squares.
+  [[nodiscard]] bool is_inside(const Values& values) const;
+  /// Writes values to the recordings, which have the problem's order.
+  void put(const Values& values, std::span<BlockFit> recordings) const;
 
   [[nodiscard]] Eigen::Index common() const { return columns_.size(); }
   /// Rows of residuals.
@@ -46,7 +52,6 @@ class Bundle {
     double sum = 0.0;
   };
 
-  [[nodiscard]] std::optional<Point> evaluated(Eigen::VectorXd common, std::vector<Local> cycles, double damping) const;
   [[nodiscard]] bool add(std::size_t recording, std::size_t first_cycle, Point& point) const;
   /// `lines`: room for the Jacobian and the residuals.
   [[nodiscard]] std::optional<Part> part_of(const CycleModel& model, const CycleValues& values,

@@ -18,40 +18,59 @@ namespace {
 
 using Eigen::Index;
 
-/// A bundle as Ceres sees it. Its parameters are the common ones and the share that the cycles' own take of the steps
-/// that they have to gain by, in units of what moves the residuals by 1 at the start while all others stand still. Its
-/// residuals are one a common parameter, one that no parameter changes, and one for what the own parameters have to
-/// gain. In these units Ceres damps steps as Levenberg and Marquardt do in the problem of all parameters.
+/// A bundle as Ceres sees it. Its parameters are the common ones, in units of what moves the residuals by 1 at the start
+/// while all others stand still, and one whose steps are the share that the cycles' own take of the steps that they have
+/// to gain by, in units of what moves the residuals by 1 from where it is. Its residuals are one a common parameter, one
+/// that no parameter changes, and one for what the own parameters have to gain. In these units Ceres damps steps as
+/// Levenberg and Marquardt do in the problem of all parameters.
 class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
  public:
-  /// `radius`: of the region in which Ceres trusts the derivatives at `start`.
-  BundleCost(const Bundle& bundle, Bundle::Point start, double radius)
+  /// `radius`: of the region in which Ceres trusts the derivatives at `start`. `tolerance`: a gain of this share of the
+  /// sum of squares ends the solve.
+  BundleCost(const Bundle& bundle, Bundle::Point start, double radius, double tolerance)
       : bundle_(bundle),
+        tolerance_(tolerance),
+        first_radius_(radius),
         radius_(radius),
-        units_(units_of(start)),
+        units_(start.normal.common_squares().unaryExpr([](double square) { return unit_of(square); })),
         base_{std::make_shared<const Bundle::Point>(std::move(start)), Eigen::VectorXd::Zero(bundle.common() + 1)} {
-    base_.at.head(bundle.common()) = base_.point->common.cwiseQuotient(units_.head(bundle.common()));
+    base_.at.head(bundle.common()) = base_.point->common.cwiseQuotient(units_);
     latest_ = base_;
     set_num_residuals(static_cast<int>(bundle.common() + 2));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(bundle.common() + 1));
   }
 
+  /// Of the common parameters.
   [[nodiscard]] const Eigen::VectorXd& units() const { return units_; }
   /// Parameters at `start`.
   [[nodiscard]] const Eigen::VectorXd& first() const { return base_.at; }
 
-  /// Steps count from the last point whose derivatives were asked for, which is where Ceres is.
+  /// Steps count from the last point whose derivatives were asked for, which is where Ceres is. One that is to gain too
+  /// little for another to follow is taken as the derivatives foresee it: its end is not worked out.
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
     const Index common = bundle_.common();
     const Eigen::Map<const Eigen::VectorXd> at(parameters[0], common + 1);
     if (at != latest_.at) {
-      const Eigen::VectorXd step = (at - base_.at).cwiseProduct(units_);
-      auto moved = bundle_.moved(*base_.point, step.head(common), step(common), 1.0 / radius_);
-      latest_ = {moved ? std::make_shared<const Bundle::Point>(*std::move(moved)) : nullptr, at};
+      const Eigen::VectorXd step = at - base_.at;
+      const double share = step(common) * unit_of(base_.point->normal.own_gain());
+      Bundle::Values moved = bundle_.moved(*base_.point, step.head(common).cwiseProduct(units_), share);
+      Eigen::Map<Eigen::VectorXd> foreseen(residuals, common + 2);
+      foreseen = residuals_ + jacobian_ * step;
+      if (jacobians == nullptr && is_last(foreseen.squaredNorm()) && bundle_.is_inside(moved)) {
+        last_ = std::move(moved);
+        return true;
+      }
+      last_.reset();
+      auto point = bundle_.at(std::move(moved), 1.0 / radius_);
+      latest_ = {point ? std::make_shared<const Bundle::Point>(*std::move(point)) : nullptr, at};
     }
     if (!latest_.point) return false;
     put(*latest_.point, residuals, jacobians != nullptr ? jacobians[0] : nullptr);
-    if (jacobians != nullptr) base_ = latest_;
+    if (jacobians != nullptr) {
+      base_ = latest_;
+      residuals_ = Eigen::Map<const Eigen::VectorXd>(residuals, common + 2);
+      jacobian_ = Eigen::Map<const RowMajor>(jacobians[0], common + 2, common + 1);
+    }
     return true;
   }
 
@@ -62,9 +81,12 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
 
   /// The better one of the point where Ceres is and the last that it tried: a step whose gain was small enough to end
   /// the solve is not taken by Ceres.
-  [[nodiscard]] const Bundle::Point& best() const {
-    return latest_.point && latest_.point->sum < base_.point->sum ? *latest_.point : *base_.point;
+  [[nodiscard]] const Bundle::Values& best() const {
+    if (last_) return *last_;
+    return is_latest_better() ? *latest_.point : *base_.point;
   }
+  /// Sum of squares there, or no more than a negligible gain above it.
+  [[nodiscard]] double best_sum() const { return is_latest_better() ? latest_.point->sum : base_.point->sum; }
 
  private:
   struct Visited {
@@ -72,10 +94,17 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
     Eigen::VectorXd at;                          ///< in Ceres' units
   };
 
-  static Eigen::VectorXd units_of(const Bundle::Point& point) {
-    Eigen::VectorXd squares(point.common.size() + 1);
-    squares << point.normal.common_squares(), point.normal.own_gain();
-    return squares.unaryExpr([](double square) { return square > 0.0 ? 1.0 / std::sqrt(square) : 1.0; });
+  /// Of a parameter, from the square of what a step of 1 moves the residuals by; 1 where it moves none.
+  static double unit_of(double square) { return square > 0.0 ? 1.0 / std::sqrt(square) : 1.0; }
+
+  [[nodiscard]] bool is_latest_better() const { return latest_.point && latest_.point->sum < base_.point->sum; }
+
+  /// Whether Ceres will end with a step to such a sum of squares. Not after steps that were in vain: where derivatives
+  /// mislead, small steps only look as if there were nothing to gain.
+  [[nodiscard]] bool is_last(double foreseen) const {
+    constexpr double kSurely = 0.9;
+    const double gain = base_.point->sum - foreseen;
+    return radius_ >= first_radius_ && gain >= 0.0 && gain < kSurely * tolerance_ * base_.point->sum;
   }
 
   void put(const Bundle::Point& point, double* residuals, double* jacobian) const {
@@ -89,16 +118,21 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
     if (jacobian == nullptr) return;
     Eigen::Map<RowMajor> j(jacobian, common + 2, common + 1);
     j.setZero();
-    j.topLeftCorner(common, common).triangularView<Eigen::Upper>() = rows.topLeftCorner(common, common);
-    j(common + 1, common) = -r(common + 1);
-    j *= units_.asDiagonal();
+    j.topLeftCorner(common, common).triangularView<Eigen::Upper>() =
+        rows.topLeftCorner(common, common) * units_.asDiagonal();
+    j(common + 1, common) = -r(common + 1) * unit_of(point.normal.own_gain());
   }
 
   const Bundle& bundle_;
+  double tolerance_;
+  double first_radius_;
   double radius_;
   Eigen::VectorXd units_;
   mutable Visited base_;
+  mutable Eigen::VectorXd residuals_;  ///< at base_, as Ceres has them
+  mutable RowMajor jacobian_;
   mutable Visited latest_;
+  mutable std::optional<Bundle::Values> last_;  ///< whose sum was not worked out
 };
 
 /// What a fit can explain settles in some five steps from a solution of fewer cycles, however large it is. What it
@@ -137,11 +171,16 @@ double first_radius(const SolveOptions& options) {
   return options.continuous ? 1e10 : 1e4;
 }
 
+/// Share of the sum of squares.
+double tolerance_of(const SolveOptions& options, std::size_t residuals) {
+  return options.tolerance / static_cast<double>(residuals);
+}
+
 ceres::Solver::Options solver_options(const Problem& problem, const SolveOptions& options, std::size_t residuals) {
   ceres::Solver::Options solver;
   solver.max_num_iterations = most_iterations(problem, options, residuals);
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  solver.function_tolerance = options.tolerance / static_cast<double>(residuals);
+  solver.function_tolerance = tolerance_of(options, residuals);
   solver.gradient_tolerance = 1e-14;
   solver.initial_trust_region_radius = first_radius(options);
   solver.jacobi_scaling = false;  // BundleCost::units
@@ -165,7 +204,8 @@ double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, c
   std::optional<Bundle::Point> start = bundle.start(1.0 / first_radius(options));
   if (!start) return std::numeric_limits<double>::infinity();
   ceres::Problem ceres;
-  auto* cost = new BundleCost(bundle, *std::move(start), first_radius(options));
+  auto* cost = new BundleCost(bundle, *std::move(start), first_radius(options),
+                              tolerance_of(options, bundle.residuals()));
   Eigen::VectorXd parameters = cost->first();
   ceres.AddResidualBlock(cost, nullptr, parameters.data());
   hold(ceres, parameters.data(), problem, options, cost->units());
@@ -174,7 +214,7 @@ double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, c
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &ceres, &summary);
   bundle.put(cost->best(), recordings);
-  return summary.IsSolutionUsable() ? cost->best().sum : std::numeric_limits<double>::infinity();
+  return summary.IsSolutionUsable() ? cost->best_sum() : std::numeric_limits<double>::infinity();
 }
 
 double solve(BlockFit& fit, const SolveOptions& options) {
