@@ -11,7 +11,7 @@ namespace slipfit::fit {
 CycleModel::CycleModel(const CycleSet& set, std::size_t cycle, const Scales& scales)
     : data_(&set.cycles[cycle]),
       level_(&set.level),
-      basis_(&set.basis[cycle]),
+      rows_(&set.rows[cycle]),
       scales_(scales),
       reference_s_(set.reference_s[cycle]),
       even_step_s_(set.even_step_s[cycle]) {}
@@ -59,155 +59,174 @@ std::optional<CycleState> CycleModel::state(const double* globals, const double*
   return CycleState{f, CoulombCycle(f.z0(), f.zeta, sensor)};
 }
 
-/// Writes residual rows one after the other, and their derivatives column after column. It holds copies of what every
-/// row needs: a value behind a reference would have to be read again after each one that is written.
+/// Forms residuals and their Jacobian column by column, as the processor's vectors do it several rows at a time. Where a
+/// column will stand, there the rows first put what it is made of.
 class CycleModel::Rows {
+  using Index = Eigen::Index;
+  using Column = Eigen::Map<Eigen::ArrayXd>;
+  using Jacobian = Eigen::Map<Eigen::ArrayXXd>;
+
  public:
   Rows(const CycleModel& cycle, const CycleValues& values, double* residuals, double* jacobian)
-      : values_(values),
+      : cycle_(cycle),
+        scales_(cycle.scales_),
+        rows_(*cycle.rows_),
+        values_(values),
         residuals_(residuals),
         jacobian_(jacobian),
-        basis_(cycle.basis_->data() + (cycle.level_->terms > 0 ? 1 : 0)),
-        columns_(cycle.level_->columns()),
-        stride_(static_cast<std::ptrdiff_t>(cycle.residuals())),
-        scales_(cycle.scales_),
-        force_(scales_.force),
-        level_unit_(scales_.level_unit()),
-        drifts_(cycle.drift_parameters()),
-        log_speed_(cycle.has_exponent() ? *scales_.population->log_speed : 0.0),
-        has_exponent_(cycle.has_exponent()),
-        has_difference_(cycle.has_difference()),
-        level_per_cycle_(cycle.level_->per_cycle),
-        has_constant_(cycle.has_constant()),
-        constant_(level_per_cycle_ ? scales_.level + force_ * values.local[2]
-                                   : scales_.level_zero() + level_unit_ * *values.constant) {}
+        stride_(static_cast<Index>(cycle.residuals())),
+        globals_(static_cast<Index>(cycle.globals())),
+        exponent_(globals_),
+        difference_(exponent_ + (cycle.has_exponent() ? 1 : 0)),
+        constant_(difference_ + (cycle.has_difference() ? 1 : 0)),
+        drift_(constant_ + (cycle.has_constant() ? 1 : 0)),
+        onset_(drift_ + rows_.level.cols()) {}
 
-  /// `model`: force above the level; `by_global`, `by_onset`, `by_onset_force`: its derivatives. `constant_share`: 1,
-  /// but 0 in rows of slopes, which no constant enters.
-  template <std::size_t N>
-  void put(double weight, double data, double model, const std::array<double, N>& by_global, double by_onset,
-           double by_onset_force, double constant_share) {
-    double drift = 0.0;
-    for (std::size_t i = 0; i < drifts_; ++i) drift += values_.drift[i] * basis_[i];
-    begin_row(weight * (data - (force_ * drift + constant_share * constant_ + model)));
-    if (jacobian_ != nullptr) {
-      for (const double derivative : by_global) add(-weight * derivative);
-      if (has_exponent_) add(-weight * by_exponent(by_global[kLogStiffness], by_global[kLogFrequency]));
-      if (has_difference_) add(0.0);
-      if (has_constant_) add(level_per_cycle_ ? 0.0 : -weight * constant_share * level_unit_);
-      for (std::size_t i = 0; i < drifts_; ++i) add(-weight * force_ * basis_[i]);
-      add(-weight * by_onset);
-      add(-weight * by_onset_force);
-      if (level_per_cycle_) add(-weight * constant_share * force_);
+  /// The force above the level and its derivatives, in units of k V / w_n, at the next row.
+  struct Place {
+    double* z;
+    double* by_tau;
+    double* by_z0;
+    double* by_log_omega;  ///< at a fixed time
+    double* by_law;        ///< one after the other at distances `stride`
+    std::ptrdiff_t stride;
+
+    template <std::size_t N>
+    void put(double z_here, double d_tau, double d_z0, double d_log_omega, const std::array<double, N>& d_law) {
+      *z++ = z_here;
+      if (by_tau == nullptr) return;
+      *by_tau++ = d_tau;
+      *by_z0++ = d_z0;
+      *by_log_omega++ = d_log_omega;
+      double* law = by_law++;
+      for (const double derivative : d_law) {
+        *law = derivative;
+        law += stride;
+      }
     }
-    basis_ += columns_;
+  };
+  [[nodiscard]] Place first() const {
+    if (jacobian_ == nullptr) return {residuals_, nullptr, nullptr, nullptr, nullptr, stride_};
+    return {residuals_, at(onset_), at(onset_ + 1), at(kLogFrequency), at(kDamping), stride_};
+  }
+
+  /// What the rows have put becomes residuals and Jacobian.
+  void finish(const CycleFrame& frame) const {
+    const double by_noise = 1.0 / scales_.noise;
+    const double u = frame.force_scale;
+    const Column z(residuals_, rows_.force.size());
+    if (jacobian_ != nullptr) differentiate(frame, z, by_noise);
+    Column(residuals_, z.size()) =
+        by_noise * (rows_.weight * (rows_.force - u * z) - constant_force() * rows_.level_weight);
+    const double* drift = values_.drift;
+    for (Index i = 0; i < rows_.level.cols(); ++i) {
+      Column(residuals_, z.size()) -= by_noise * scales_.force * *drift++ * rows_.weight * rows_.level.col(i);
+    }
   }
 
   /// F_s of this cycle against the population's: A + c V - (F_s - F_k(0+)).
-  void tie_static_friction(const CycleFrame& frame, std::size_t globals) {
+  void tie_static_friction(const CycleFrame& frame, Index row) const {
     const double weight = 1.0 / scales_.population->onset_sd;
     const double drag = 2.0 * frame.zeta * frame.force_scale;
-    begin_row(weight * (scales_.population->force * *values_.difference - frame.onset_force - drag));
+    residuals_[row] = weight * (scales_.population->force * *values_.difference - frame.onset_force - drag);
     if (jacobian_ == nullptr) return;
-    for (const double derivative : {drag, -drag, 2.0 * frame.force_scale}) add(-weight * derivative);
-    for (std::size_t i = kFrictionSlope; i < globals; ++i) add(0.0);
-    if (has_exponent_) add(-weight * by_exponent(drag, -drag));
-    add(weight * scales_.population->force);
-    if (has_constant_) add(0.0);
-    for (std::size_t i = 0; i < drifts_; ++i) add(0.0);
-    add(0.0);
-    add(-weight * scales_.force);
-    if (level_per_cycle_) add(0.0);
+    Jacobian::RowXpr line = clear(row);
+    line(kLogStiffness) = -weight * drag;
+    line(kLogFrequency) = weight * drag;
+    line(kDamping) = -weight * 2.0 * frame.force_scale;
+    if (cycle_.has_exponent()) line(exponent_) = log_speed() * (line(kLogStiffness) + 0.5 * line(kLogFrequency));
+    line(difference_) = weight * scales_.population->force;
+    line(onset_ + 1) = -weight * scales_.force;
   }
 
   /// A level of its own against the population's.
-  void tie_level(std::size_t globals) {
+  void tie_level(Index row) const {
     const double weight = 1.0 / scales_.population->level_sd;
     const double unit = scales_.population->force;
-    begin_row(weight * (unit * *values_.constant - scales_.level - scales_.force * values_.local[2]));
+    residuals_[row] = weight * (unit * *values_.constant - scales_.level - scales_.force * values_.local[2]);
     if (jacobian_ == nullptr) return;
-    for (std::size_t i = 0; i < globals; ++i) add(0.0);
-    if (has_exponent_) add(0.0);
-    add(0.0);
-    add(weight * unit);
-    for (std::size_t i = 0; i < drifts_; ++i) add(0.0);
-    add(0.0);
-    add(0.0);
-    add(-weight * scales_.force);
+    Jacobian::RowXpr line = clear(row);
+    line(constant_) = weight * unit;
+    line(onset_ + 2) = -weight * scales_.force;
   }
 
  private:
-  /// Of the derivatives by ln k and ln w_n. docs/model.md (26)
-  [[nodiscard]] double by_exponent(double by_log_stiffness, double by_log_frequency) const {
-    return log_speed_ * (by_log_stiffness + 0.5 * by_log_frequency);
+  [[nodiscard]] double* at(Index column) const { return jacobian_ + column * stride_; }
+  /// Of the rows that are not ties.
+  [[nodiscard]] Column column(Index column) const { return {at(column), rows_.force.size()}; }
+  [[nodiscard]] double constant_force() const {
+    return cycle_.level_->per_cycle ? scales_.level + scales_.force * values_.local[2]
+                                    : scales_.level_zero() + scales_.level_unit() * *values_.constant;
+  }
+  /// k goes with the speed by this, and w_n by half of it. docs/model.md (26)
+  [[nodiscard]] double log_speed() const { return *scales_.population->log_speed; }
+
+  void differentiate(const CycleFrame& frame, const Column& z, double by_noise) const {
+    const Eigen::ArrayXd& weight = rows_.weight;
+    const bool per_cycle = cycle_.level_->per_cycle;
+    const double scaled = -by_noise * frame.force_scale;
+    column(kLogStiffness) = scaled * weight * (z - frame.z0() * column(onset_ + 1));  // at a fixed tau
+    column(kLogFrequency) = scaled * weight * column(kLogFrequency) - column(kLogStiffness);
+    for (Index i = kDamping; i < globals_; ++i) column(i) *= scaled * weight;
+    if (cycle_.has_exponent()) {
+      column(exponent_) = log_speed() * (column(kLogStiffness) + 0.5 * column(kLogFrequency));
+    }
+    if (cycle_.has_difference()) column(difference_).setZero();
+    if (cycle_.has_constant() && per_cycle) column(constant_).setZero();
+    if (cycle_.has_constant() && !per_cycle) {
+      column(constant_) = -by_noise * scales_.level_unit() * rows_.level_weight;
+    }
+    for (Index i = 0; i < rows_.level.cols(); ++i) {
+      column(drift_ + i) = -by_noise * scales_.force * weight * rows_.level.col(i);
+    }
+    column(onset_) *= -scaled * frame.omega_rad_per_s * scales_.half_period_s * weight;
+    column(onset_ + 1) *= -by_noise * scales_.force * weight;
+    if (per_cycle) column(onset_ + 2) = -by_noise * scales_.force * rows_.level_weight;
   }
 
-  void begin_row(double residual) {
-    *residuals_++ = residual;
-    at_ = jacobian_ != nullptr ? jacobian_++ : nullptr;
-  }
-  void add(double derivative) {
-    *at_ = derivative;
-    at_ += stride_;
+  Jacobian::RowXpr clear(Index row) const {
+    Jacobian jacobian(jacobian_, stride_, static_cast<Index>(cycle_.columns()));
+    jacobian.row(row).setZero();
+    return jacobian.row(row);
   }
 
+  const CycleModel& cycle_;
+  const Scales& scales_;
+  const CycleRows& rows_;
   const CycleValues values_;
   double* residuals_;
   double* jacobian_;
-  double* at_ = nullptr;  // next column of the row
-  const double* basis_;   // of the level's columns behind the constant
-  std::size_t columns_;   // of the level
-  std::ptrdiff_t stride_;
-  const Scales& scales_;
-  double force_;
-  double level_unit_;
-  std::size_t drifts_;
-  double log_speed_;
-  bool has_exponent_;
-  bool has_difference_;
-  bool level_per_cycle_;
-  bool has_constant_;
-  double constant_;  // force of the level without its drift
+  Index stride_;
+  Index globals_, exponent_, difference_, constant_, drift_, onset_;  ///< first column of each
 };
 
 /// F = level + u z(tau; z0, law), tau = w_n (t - onset), z0 = A / u, u = k V / w_n
 template <class Law>
-void CycleModel::fill(const Law& law, const CycleFrame& frame, Rows rows) const {
-  const double u = frame.force_scale;
-  const double w = frame.omega_rad_per_s;
-  const double z0 = frame.z0();
-  const double by_noise = 1.0 / scales_.noise;
-  const double onset_unit = -u * w * scales_.half_period_s;
-  const double force_unit = scales_.force;
-  constexpr std::size_t kOfLaw = std::tuple_size_v<decltype(law.by_law(typename Law::Point{}))>;
-  const auto put_point = [&](double weight, double force, double tau, const typename Law::Point& p) {
-    const double scale_part = u * (p.z - z0 * p.d_z0);  // d / d ln u at fixed tau
-    std::array<double, 2 + kOfLaw> by_global{scale_part, -scale_part + u * (p.d_tau * tau + law.by_log_omega(p))};
-    const std::array<double, kOfLaw> by_law = law.by_law(p);
-    for (std::size_t i = 0; i < kOfLaw; ++i) by_global[2 + i] = u * by_law[i];
-    rows.put(weight, force, u * p.z, by_global, onset_unit * p.d_tau, force_unit * p.d_z0, 1.0);
+void CycleModel::fill(const Law& law, const CycleFrame& frame, const Rows& rows) const {
+  using Point = typename Law::Point;
+  Rows::Place next = rows.first();
+  const auto put_point = [&](double tau, const Point& p) {
+    next.put(p.z, p.d_tau, p.d_z0, p.d_tau * tau + law.by_log_omega(p), law.by_law(p));
   };
-  typename Law::Samples samples(law, w * even_step_s_);
-  const std::size_t count = data_->time_s.size();
-  const double* const time_s = data_->time_s.data();
-  const double* const force = data_->force.data();
-  const double* const weight = data_->weight.empty() ? nullptr : data_->weight.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const double tau = frame.tau_at(time_s[i]);
-    put_point(weight == nullptr ? by_noise : by_noise * weight[i], force[i], tau, samples.at(tau));
+  typename Law::Samples samples(law, frame.omega_rad_per_s * even_step_s_);
+  for (const double time_s : data_->time_s) {
+    const double tau = frame.tau_at(time_s);
+    put_point(tau, samples.at(tau));
   }
-  const double rate = u * w;  // k V
-  const auto put_bin = [&](const StickBin& bin, double tau, const typename Law::Point& p) {
-    put_point(by_noise * std::sqrt(bin.count), bin.force, tau, p);
-    rows.put(by_noise * std::sqrt(bin.time_spread), bin.slope, rate, std::array<double, 2 + kOfLaw>{rate}, 0.0, 0.0,
-             0.0);
+  const auto put_bin = [&](double tau, const Point& p) {
+    put_point(tau, p);
+    // The slope of a stick is k V, of which only k is a parameter.
+    const double w = frame.omega_rad_per_s;
+    next.put(w, 0.0, 0.0, w, decltype(law.by_law(p)){});
   };
   const auto tau_of = [&](const StickBin& bin) { return frame.tau_at(bin.time_s); };
-  for (const StickBin& bin : data_->bins_before) put_bin(bin, tau_of(bin), law.before_slip(tau_of(bin)));
-  for (const StickBin& bin : data_->bins_after) put_bin(bin, tau_of(bin), law.after_slip(tau_of(bin)));
+  for (const StickBin& bin : data_->bins_before) put_bin(tau_of(bin), law.before_slip(tau_of(bin)));
+  for (const StickBin& bin : data_->bins_after) put_bin(tau_of(bin), law.after_slip(tau_of(bin)));
+  rows.finish(frame);
   if (!scales_.population) return;
-  rows.tie_static_friction(frame, globals());
-  if (level_->per_cycle) rows.tie_level(globals());
+  const auto ties = static_cast<Eigen::Index>(data_->residuals());
+  rows.tie_static_friction(frame, ties);
+  if (level_->per_cycle) rows.tie_level(ties + 1);
 }
 
 bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* jacobian) const {

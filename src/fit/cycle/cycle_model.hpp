@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -35,6 +36,14 @@ struct LevelModel {
   [[nodiscard]] std::size_t first_rise() const { return terms > 0 ? terms - 1 : 0; }
 };
 
+/// The residual rows of a cycle: its samples around the slip, then mean and slope of each stick bin.
+struct CycleRows {
+  Eigen::ArrayXd force;         ///< measured; per second in rows of slopes
+  Eigen::ArrayXd weight;        ///< of the residuals, times the noise
+  Eigen::ArrayXd level_weight;  ///< of the level's constant, which does not enter slopes: 0 there, else as `weight`
+  Eigen::ArrayXXd level;        ///< the level's functions but for the constant, a column each (slopes in rows of slopes)
+};
+
 /// The cycles of a recording as fits use them, with the level's functions at all their rows. Never changed, and so
 /// shared by all fits of the recording.
 struct CycleSet {
@@ -44,7 +53,7 @@ struct CycleSet {
   std::vector<CycleData> cycles;
   std::vector<double> reference_s;  ///< time of each cycle from which its onset counts
   LevelModel level;
-  std::vector<std::vector<double>> basis;  ///< of each cycle: LevelModel::columns() values a row (slopes in slope rows)
+  std::vector<CycleRows> rows;
   std::vector<double> even_step_s;  ///< of each cycle's samples around the slip, some may be missing; 0: not even
 };
 
@@ -161,11 +170,11 @@ class CycleModel {
 
   [[nodiscard]] std::size_t ties() const { return scales_.population ? 1 + (level_->per_cycle ? 1 : 0) : 0; }
   template <class Law>
-  void fill(const Law& law, const CycleFrame& frame, Rows rows) const;
+  void fill(const Law& law, const CycleFrame& frame, const Rows& rows) const;
 
   const CycleData* data_;
   const LevelModel* level_;
-  const std::vector<double>* basis_;
+  const CycleRows* rows_;
   Scales scales_;
   double reference_s_;
   double even_step_s_;

@@ -49,46 +49,87 @@ double tolerated_rounding_s(const Scales& scales) {
   return kOfNoise * scales.noise / scales.force * scales.half_period_s / std::numbers::pi;
 }
 
-double* put_share(const RiseAfterSlip::Share& share, const LevelModel& level, double* out) {
-  *out++ = share.value;
-  if (level.reloading->is_free) *out++ = share.by_log_length;
-  return out;
-}
+/// The level's functions but for the constant: at a time, or mean and slope over a bin.
+class LevelRow {
+ public:
+  LevelRow(const LevelModel& level, const Scales& scales)
+      : level_(level), scales_(scales), values_(level.terms), slopes_(level.terms) {}
 
-/// The level's functions at every residual row of a cycle.
-std::vector<double> basis_of(const CycleData& data, const LevelModel& level, const Scales& scales) {
-  std::vector<double> basis(data.residuals() * level.columns());
-  if (level.columns() == 0) return basis;
-  std::vector<double> values(level.terms);
-  std::vector<double> slopes(level.terms);
-  const double span_s = scales.time_end_s - scales.time_begin_s;
-  double* out = basis.data();
-  const auto polynomial_at = [&](double time_s) {
-    legendre(2.0 * (time_s - scales.time_begin_s) / span_s - 1.0, level.terms, values.data(), slopes.data());
-  };
-  for (const double time_s : data.time_s) {
-    polynomial_at(time_s);
-    out = std::copy(values.begin(), values.end(), out);
-    if (level.reloading) out = put_share(level.reloading->at(data.slip, time_s), level, out);
-    for (const double line_Hz : level.lines_Hz) {
-      const double phase = 2.0 * std::numbers::pi * line_Hz * (time_s - scales.time_begin_s);
-      *out++ = std::cos(phase);
-      *out++ = std::sin(phase);
+  /// `out`: a row of CycleRows::level.
+  template <class Row>
+  void at(double time_s, std::size_t slip, Row out) {
+    Eigen::Index column = put_polynomial(time_s, out);
+    if (level_.reloading) column = put_rise(level_.reloading->at(slip, time_s), out, column);
+    for (const double line_Hz : level_.lines_Hz) {
+      const double phase = 2.0 * std::numbers::pi * line_Hz * (time_s - scales_.time_begin_s);
+      out(column++) = std::cos(phase);
+      out(column++) = std::sin(phase);
     }
   }
+
+  /// `mean`, `slope`: rows.
+  template <class Row>
+  void over(const StickBin& bin, std::size_t slip, Row mean, Row slope) {
+    Eigen::Index column = put_polynomial(bin.time_s, mean);
+    for (std::size_t i = 1; i < level_.terms; ++i) slope(static_cast<Eigen::Index>(i) - 1) = 2.0 / span_s() * slopes_[i];
+    if (level_.reloading) {
+      const RiseAfterSlip::Line rise = level_.reloading->over(slip, bin);
+      put_rise(rise.slope, slope, column);
+      column = put_rise(rise.mean, mean, column);
+    }
+    for (const LineInBin& line : bin.lines) {
+      for (std::size_t i = 0; i < 2; ++i, ++column) {
+        mean(column) = line.mean[i];
+        slope(column) = line.slope[i];
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] double span_s() const { return scales_.time_end_s - scales_.time_begin_s; }
+
+  template <class Row>
+  Eigen::Index put_polynomial(double time_s, Row& out) {
+    legendre(2.0 * (time_s - scales_.time_begin_s) / span_s() - 1.0, level_.terms, values_.data(), slopes_.data());
+    for (std::size_t i = 1; i < level_.terms; ++i) out(static_cast<Eigen::Index>(i) - 1) = values_[i];
+    return static_cast<Eigen::Index>(level_.first_rise());
+  }
+
+  template <class Row>
+  Eigen::Index put_rise(const RiseAfterSlip::Share& share, Row& out, Eigen::Index column) const {
+    out(column++) = share.value;
+    if (level_.reloading->is_free) out(column++) = share.by_log_length;
+    return column;
+  }
+
+  const LevelModel& level_;
+  const Scales& scales_;
+  std::vector<double> values_;
+  std::vector<double> slopes_;
+};
+
+CycleRows rows_of(const CycleData& data, const LevelModel& level, const Scales& scales) {
+  const auto size = static_cast<Eigen::Index>(data.residuals());
+  CycleRows rows{Eigen::ArrayXd(size), Eigen::ArrayXd(size), Eigen::ArrayXd(size),
+                 Eigen::ArrayXXd(size, static_cast<Eigen::Index>(level.columns() - (level.terms > 0 ? 1 : 0)))};
+  LevelRow functions(level, scales);
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < data.time_s.size(); ++i, ++row) {
+    rows.force(row) = data.force[i];
+    rows.weight(row) = data.weight.empty() ? 1.0 : data.weight[i];
+    functions.at(data.time_s[i], data.slip, rows.level.row(row));
+  }
+  rows.level_weight = rows.weight;
   for (const auto* bins : {&data.bins_before, &data.bins_after}) {
     for (const StickBin& bin : *bins) {
-      polynomial_at(bin.time_s);
-      const RiseAfterSlip::Line rise = level.reloading ? level.reloading->over(data.slip, bin) : RiseAfterSlip::Line{};
-      out = std::copy(values.begin(), values.end(), out);
-      if (level.reloading) out = put_share(rise.mean, level, out);
-      for (const LineInBin& line : bin.lines) out = std::copy_n(line.mean.data(), 2, out);
-      for (const double slope : slopes) *out++ = 2.0 / span_s * slope;
-      if (level.reloading) out = put_share(rise.slope, level, out);
-      for (const LineInBin& line : bin.lines) out = std::copy_n(line.slope.data(), 2, out);
+      rows.force.segment<2>(row) << bin.force, bin.slope;
+      rows.weight.segment<2>(row) << std::sqrt(bin.count), std::sqrt(bin.time_spread);
+      rows.level_weight.segment<2>(row) << std::sqrt(bin.count), 0.0;
+      functions.over(bin, data.slip, rows.level.row(row), rows.level.row(row + 1));
+      row += 2;
     }
   }
-  return basis;
+  return rows;
 }
 
 }  // namespace
@@ -98,11 +139,11 @@ CycleSet::CycleSet(std::vector<CycleData> of_cycles, std::vector<double> of_refe
     : cycles(std::move(of_cycles)), reference_s(std::move(of_reference_s)), level(std::move(of_level)) {
   std::size_t samples = 0;
   for (const CycleData& cycle : cycles) samples += cycle.time_s.size();
-  basis.resize(cycles.size());
+  rows.resize(cycles.size());
   even_step_s.resize(cycles.size());
   for_cycles(cycles.size(), samples, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      basis[i] = basis_of(cycles[i], level, scales);
+      rows[i] = rows_of(cycles[i], level, scales);
       even_step_s[i] = even_step_of(cycles[i].time_s, tolerated_rounding_s(scales));
     }
   });
