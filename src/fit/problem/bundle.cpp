@@ -119,13 +119,19 @@ bool Bundle::add(std::size_t recording, std::size_t first_cycle, Point& point) c
   const std::vector<Index>& columns = columns_.of(recording);
   const Gathered common(fit.model(0), columns, point.common);
   const Local* const cycles = point.cycles.data() + first_cycle;
-  std::vector<std::optional<Part>> parts(fit.size());
+  const auto size = static_cast<Index>(fit.model(0).columns() + 1);
+  RowMajor normals(size * static_cast<Index>(fit.size()), size);  // one below the other
+  std::vector<double> sums(fit.size());
   std::atomic<bool> is_outside = false;
   for_cycles(fit.size(), fit.residuals(), [&](std::size_t begin, std::size_t end) {
     Eigen::MatrixXd lines;  // it stays in the cache from one cycle to the next
     for (std::size_t i = begin; i < end && !is_outside; ++i) {
-      parts[i] = part_of(fit.model(i), common.with(cycles[i]), lines);
-      if (!parts[i]) is_outside = true;
+      auto normal = normals.middleRows(static_cast<Index>(i) * size, size);
+      if (!evaluate_lines(fit.model(i), common.with(cycles[i]), lines)) {
+        is_outside = true;
+        return;
+      }
+      sums[i] = add_products(lines, normal);
     }
   });
   if (is_outside) return false;
@@ -135,23 +141,19 @@ bool Bundle::add(std::size_t recording, std::size_t first_cycle, Point& point) c
       ramp = ramp_residual(fit, i, common.globals(), cycles[i].data(), cycles[i + 1].data());
       point.sum += ramp->value * ramp->value;
     }
-    point.sum += parts[i]->sum;
-    point.normal.add_cycle(parts[i]->normal, columns, ramp ? &*ramp : nullptr);
+    point.sum += sums[i];
+    point.normal.add_cycle(normals.middleRows(static_cast<Index>(i) * size, size), columns, ramp ? &*ramp : nullptr);
   }
   return true;
 }
 
-std::optional<Bundle::Part> Bundle::part_of(const CycleModel& model, const CycleValues& values,
-                                            Eigen::MatrixXd& lines) const {
-  if (!evaluate_lines(model, values, lines)) return std::nullopt;
+double Bundle::add_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) const {
+  products_of(lines, normal);
   const auto residuals = lines.rightCols<1>();
-  Part part{products_of(lines), residuals.squaredNorm()};
-  if (options_.robust) {
-    const HuberWeight weight = huber_weight(residuals.norm(), model.residuals());
-    part.normal.triangularView<Eigen::Upper>() = weight.factor * part.normal;
-    part.sum = weight.sum;
-  }
-  return part;
+  if (!options_.robust) return residuals.squaredNorm();
+  const HuberWeight weight = huber_weight(residuals.norm(), static_cast<std::size_t>(lines.rows()));
+  normal.triangularView<Eigen::Upper>() = weight.factor * normal;
+  return weight.sum;
 }
 
 bool Bundle::add_steady(Point& point) const {

@@ -46,16 +46,9 @@ class Bundle {
   [[nodiscard]] std::size_t residuals() const { return residuals_; }
 
  private:
-  /// Of a cycle: [J r]' [J r] as Elimination takes it, and its part of the sum.
-  struct Part {
-    RowMajor normal;
-    double sum = 0.0;
-  };
-
   [[nodiscard]] bool add(std::size_t recording, std::size_t first_cycle, Point& point) const;
-  /// `lines`: room for the Jacobian and the residuals.
-  [[nodiscard]] std::optional<Part> part_of(const CycleModel& model, const CycleValues& values,
-                                            Eigen::MatrixXd& lines) const;
+  /// Of a cycle with [J r] = `lines`: [J r]' [J r] as Elimination takes it, and its part of the sum.
+  [[nodiscard]] double add_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) const;
   [[nodiscard]] bool add_steady(Point& point) const;
 
   const Problem& problem_;

@@ -10,11 +10,15 @@ bool evaluate_lines(const CycleModel& model, const CycleValues& values, Eigen::M
   return model.evaluate(values, lines.col(columns).data(), lines.data());
 }
 
-RowMajor products_of(const Eigen::Ref<const Eigen::MatrixXd>& lines) {
-  RowMajor products(lines.cols(), lines.cols());
+void products_of(const Eigen::Ref<const Eigen::MatrixXd>& lines, Eigen::Ref<RowMajor> products) {
   for (Index a = 0; a < lines.cols(); ++a) {  // quicker than a product of matrices of so few columns
     for (Index b = a; b < lines.cols(); ++b) products(a, b) = lines.col(a).dot(lines.col(b));
   }
+}
+
+RowMajor products_of(const Eigen::Ref<const Eigen::MatrixXd>& lines) {
+  RowMajor products(lines.cols(), lines.cols());
+  products_of(lines, products);
   return products;
 }
 
