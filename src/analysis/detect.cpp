@@ -16,11 +16,20 @@ struct Part {
   Segmentation slips;
 };
 
-Part part_of(const Recording& recording, SampleRange stretch) {
+/// `scale`: of the slips, where it is known.
+Part part_of(const Recording& recording, SampleRange stretch, std::optional<std::size_t> scale = std::nullopt) {
   Recording part = recording.part(stretch.begin, stretch.end);
   Quality quality = assess_quality(part);
-  Segmentation slips = find_slips(part, quality);
+  Segmentation slips = find_slips(part, quality, scale);
   return {std::move(part), std::move(quality), std::move(slips)};
+}
+
+/// Of the stretch that slides, where it is nearly all: what the whole shows best it shows best, too.
+std::optional<std::size_t> scale_of_part(const Segmentation& slips, std::size_t samples) {
+  constexpr double kNearlyAll = 0.9;
+  const auto sliding = static_cast<double>(slips.sliding_end - slips.sliding_begin);
+  if (sliding < kNearlyAll * static_cast<double>(samples)) return std::nullopt;
+  return slips.smoothed_over;
 }
 
 void take(Detected& detected, Part part, std::size_t begin) {
@@ -38,7 +47,7 @@ void narrow(Detected& detected) {
   const SampleRange whole{0, recording.size()};
   const SampleRange sliding{slips.sliding_begin, slips.sliding_end};
   if (sliding != whole) {
-    Part part = part_of(recording, sliding);
+    Part part = part_of(recording, sliding, scale_of_part(slips, recording.size()));
     if (slips_are_sudden(part.slips)) return take(detected, std::move(part), sliding.begin);
   } else if (slips_are_sudden(slips)) {
     return;

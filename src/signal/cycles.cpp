@@ -89,8 +89,9 @@ double rise_time_s(std::span<const double> time_s, const std::vector<double>& fo
   return time_s[peak] - low_s;
 }
 
-Segmentation find_slips_in(std::span<const double> raw, const Recording& recording, const Quality& quality) {
-  const signal::Events events = signal::find_events(smooth(raw, quality.impulse_mask), quality.noise_rms);
+Segmentation find_slips_in(std::span<const double> raw, const Recording& recording, const Quality& quality,
+                           std::optional<std::size_t> scale) {
+  const signal::Events events = signal::find_events(smooth(raw, quality.impulse_mask), quality.noise_rms, scale);
   Segmentation segmentation;
   segmentation.hysteresis = events.hysteresis;
   segmentation.minor = events.minor;
@@ -111,8 +112,8 @@ Segmentation find_slips_in(std::span<const double> raw, const Recording& recordi
 
 }  // namespace
 
-Segmentation find_slips(const Recording& recording, const Quality& quality) {
-  return find_slips_in(recording.force(), recording, quality);
+Segmentation find_slips(const Recording& recording, const Quality& quality, std::optional<std::size_t> scale) {
+  return find_slips_in(recording.force(), recording, quality, scale);
 }
 
 std::optional<Segmentation> find_slips_beneath_hum(const Recording& recording, const Quality& quality,
@@ -122,7 +123,7 @@ std::optional<Segmentation> find_slips_beneath_hum(const Recording& recording, c
   std::vector<double> drops;
   for (const DetectedSlip& slip : seen.slips) drops.push_back(slip.drop());
   if (clean.swing < kHarmlessHum * signal::median(drops)) return std::nullopt;
-  Segmentation beneath = find_slips_in(clean.force, recording, quality);
+  Segmentation beneath = find_slips_in(clean.force, recording, quality, std::nullopt);
   if (beneath.slips.empty()) return std::nullopt;
   beneath.mains_Hz = clean.lines_Hz;
   return beneath;

@@ -164,15 +164,22 @@ void place_on_samples(const Scale& scale, Events& events) {
   }
 }
 
-}  // namespace
-
-Events find_events(std::vector<double> force, double noise) {
-  constexpr std::size_t kLarge = 200000;  // samples from which a second thread is worth its start
-  const RunningMeans means(force);
+/// In equal ratios, up to what leaves some 50 means.
+std::vector<double> widths_of(std::size_t samples) {
   std::vector<double> widths;
-  for (double width = 1.0; width <= 0.02 * static_cast<double>(force.size()) || width < 2.0; width *= 1.5) {
+  for (double width = 1.0; width <= 0.02 * static_cast<double>(samples) || width < 2.0; width *= 1.5) {
     widths.push_back(width);
   }
+  return widths;
+}
+
+}  // namespace
+
+Events find_events(std::vector<double> force, double noise, std::optional<std::size_t> known_width) {
+  constexpr std::size_t kLarge = 200000;  // samples from which a second thread is worth its start
+  const RunningMeans means(force);
+  const std::vector<double> widths =
+      known_width ? std::vector{static_cast<double>(*known_width)} : widths_of(force.size());
   const auto at_width = [&](std::size_t i) {
     const auto samples = static_cast<std::size_t>(std::lround(widths[i]));
     const Means trace(force, means, samples, std::max<std::size_t>(1, samples / 3));

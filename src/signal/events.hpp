@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "signal/turning_points.hpp"
@@ -21,7 +22,7 @@ struct Events {
 /// Sudden falls after slow rises, whatever follows them: the trace is smoothed over widths in equal ratios, its turning
 /// points are taken with hystereses in equal ratios, falls are joined where the rise between them is as quick as they
 /// are (ringing). What stands out of its noise most often and falls most suddenly is chosen, at the finest scale that
-/// shows the same falls. `noise`: of the samples.
-Events find_events(std::vector<double> force, double noise);
+/// shows the same falls. `noise`: of the samples. `width`: in samples, where the scale is known.
+Events find_events(std::vector<double> force, double noise, std::optional<std::size_t> width = std::nullopt);
 
 }  // namespace slipfit::signal

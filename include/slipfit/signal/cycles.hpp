@@ -36,8 +36,10 @@ struct Segmentation {
 
 /// Slips are sudden falls after slow rises, found at their own time scale: the level may wander, noise and quantisation
 /// below the hysteresis count for nothing, isolated impulses are passed over, ringing after a slip belongs to it. Waves
-/// have falls too, as slow as their rises. Fewer than one fall larger than the noise: no slips.
-Segmentation find_slips(const Recording& recording, const Quality& quality);
+/// have falls too, as slow as their rises. Fewer than one fall larger than the noise: no slips. `scale`: samples that
+/// smoothed_over of a recording with the same slips tells; all scales are tried without it.
+Segmentation find_slips(const Recording& recording, const Quality& quality,
+                        std::optional<std::size_t> scale = std::nullopt);
 
 /// Hum whose swing is below this share of a drop moves no turning point beyond the hysteresis; the fit finds it in the
 /// residuals.
