@@ -26,6 +26,7 @@ constexpr std::size_t kProbeCycles = kFewestWandering;
 /// Enough to know the shared parameters to an error or two: all cycles then need few steps, however many they are.
 constexpr std::size_t kMiddleCycles = 64;
 constexpr std::size_t kManyCycles = 2 * kMiddleCycles;
+constexpr int kMiddleIterations = 20;  // what creeps on does not explain the slips
 constexpr int kQuickIterations = 8;
 constexpr int kCleanPasses = 4;
 constexpr int kProbeIterations = 12;
@@ -125,7 +126,7 @@ class Fitter {
     level.lines_Hz = lines_Hz;
     // What decides whether all are fitted has to be settled.
     const double tolerance = near_.give_up ? kFinal : kRough;
-    return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.globals, kMaxIterations, tolerance);
+    return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.globals, kMiddleIterations, tolerance);
   }
 
   /// The spectrum tells the frequencies of lines less well than a fit of some cycles from the first to the last.
