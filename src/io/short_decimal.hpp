@@ -24,6 +24,8 @@ inline constexpr std::array kPowersOfTen = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e
 /// Correctly rounded: the digits as a whole number and the power of ten are both exact doubles, so that the one
 /// division rounds once (Clinger 1990). It takes half the time of std::from_chars.
 inline ShortDecimal read_short_decimal(const char* p, const char* end, char point) {
+  constexpr std::ptrdiff_t kLongest = 17;  // sign, digits and point
+  if (end != nullptr && end - p > kLongest) return {};
   const bool is_negative = p != end && *p == '-';
   if (is_negative) ++p;
   const char* const begin = p;

@@ -59,8 +59,8 @@ std::optional<CycleState> CycleModel::state(const double* globals, const double*
   return CycleState{f, CoulombCycle(f.z0(), f.zeta, sensor)};
 }
 
-/// Forms residuals and their Jacobian column by column, as the processor's vectors do it several rows at a time. Where a
-/// column will stand, there the rows first put what it is made of.
+/// Forms residuals and their Jacobian column by column, as the processor's vectors do it several rows at a time. Where
+/// a column will stand, there the rows first put what it is made of.
 class CycleModel::Rows {
   using Index = Eigen::Index;
   using Column = Eigen::Map<Eigen::ArrayXd>;

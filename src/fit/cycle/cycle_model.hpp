@@ -41,7 +41,7 @@ struct CycleRows {
   Eigen::ArrayXd force;         ///< measured; per second in rows of slopes
   Eigen::ArrayXd weight;        ///< of the residuals, times the noise
   Eigen::ArrayXd level_weight;  ///< of the level's constant, which does not enter slopes: 0 there, else as `weight`
-  Eigen::ArrayXXd level;        ///< the level's functions but for the constant, a column each (slopes in rows of slopes)
+  Eigen::ArrayXXd level;  ///< the level's functions but for the constant, a column each (slopes in rows of slopes)
 };
 
 /// The cycles of a recording as fits use them, with the level's functions at all their rows. Never changed, and so

@@ -71,7 +71,8 @@ class LevelRow {
   template <class Row>
   void over(const StickBin& bin, std::size_t slip, Row mean, Row slope) {
     Eigen::Index column = put_polynomial(bin.time_s, mean);
-    for (std::size_t i = 1; i < level_.terms; ++i) slope(static_cast<Eigen::Index>(i) - 1) = 2.0 / span_s() * slopes_[i];
+    for (std::size_t i = 1; i < level_.terms; ++i)
+      slope(static_cast<Eigen::Index>(i) - 1) = 2.0 / span_s() * slopes_[i];
     if (level_.reloading) {
       const RiseAfterSlip::Line rise = level_.reloading->over(slip, bin);
       put_rise(rise.slope, slope, column);

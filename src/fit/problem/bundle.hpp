@@ -35,8 +35,8 @@ class Bundle {
   /// After a step of the common parameters; the cycles' own follow, and take `share` of the step that they have to gain
   /// by where the common ones stand still.
   [[nodiscard]] Values moved(const Point& from, const Eigen::VectorXd& step, double share) const;
-  /// Whether the slips of all cycles have solutions there. Not told, and so false, where they are integrated: that takes
-  /// as long as the sum of squares.
+  /// Whether the slips of all cycles have solutions there. Not told, and so false, where they are integrated: that
+  /// takes as long as the sum of squares.
   [[nodiscard]] bool is_inside(const Values& values) const;
   /// Writes values to the recordings, which have the problem's order.
   void put(const Values& values, std::span<BlockFit> recordings) const;

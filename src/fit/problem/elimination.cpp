@@ -43,7 +43,8 @@ Elimination::Elimination(Index common, double damping, Index sides)
       common_(RowMajor::Zero(common + sides, common + sides)),
       common_squares_(Eigen::VectorXd::Zero(common)) {}
 
-void Elimination::add_cycle(const Eigen::Ref<const RowMajor>& normal, const std::vector<Index>& columns, const RampResidual* ramp) {
+void Elimination::add_cycle(const Eigen::Ref<const RowMajor>& normal, const std::vector<Index>& columns,
+                            const RampResidual* ramp) {
   const auto common = static_cast<Index>(columns.size());
   const Index own = normal.cols() - common - sides_;
   const Index next = ramp != nullptr ? own : 0;

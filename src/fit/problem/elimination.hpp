@@ -24,7 +24,8 @@ class Elimination {
   /// residuals r; the upper triangle is read. `columns`: of its common parameters among all; it must outlive this.
   /// `ramp`: to the cycle after it, which must have the same columns and as many own parameters, or null; its value is
   /// one of the first residuals. Rows without own parameters count as a cycle that has none.
-  void add_cycle(const Eigen::Ref<const RowMajor>& normal, const std::vector<Eigen::Index>& columns, const RampResidual* ramp = nullptr);
+  void add_cycle(const Eigen::Ref<const RowMajor>& normal, const std::vector<Eigen::Index>& columns,
+                 const RampResidual* ramp = nullptr);
 
   /// Sum of squares by which full steps of all own parameters, the common ones as they are, make the sum smaller.
   [[nodiscard]] double own_gain() const { return own_gain_; }

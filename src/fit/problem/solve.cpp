@@ -18,11 +18,11 @@ namespace {
 
 using Eigen::Index;
 
-/// A bundle as Ceres sees it. Its parameters are the common ones, in units of what moves the residuals by 1 at the start
-/// while all others stand still, and one whose steps are the share that the cycles' own take of the steps that they have
-/// to gain by, in units of what moves the residuals by 1 from where it is. Its residuals are one a common parameter, one
-/// that no parameter changes, and one for what the own parameters have to gain. In these units Ceres damps steps as
-/// Levenberg and Marquardt do in the problem of all parameters.
+/// A bundle as Ceres sees it. Its parameters are the common ones, in units of what moves the residuals by 1 at the
+/// start while all others stand still, and one whose steps are the share that the cycles' own take of the steps that
+/// they have to gain by, in units of what moves the residuals by 1 from where it is. Its residuals are one a common
+/// parameter, one that no parameter changes, and one for what the own parameters have to gain. In these units Ceres
+/// damps steps as Levenberg and Marquardt do in the problem of all parameters.
 class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
  public:
   /// `radius`: of the region in which Ceres trusts the derivatives at `start`. `tolerance`: a gain of this share of the
@@ -50,17 +50,16 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
     const Index common = bundle_.common();
     const Eigen::Map<const Eigen::VectorXd> at(parameters[0], common + 1);
+    last_.reset();
     if (at != latest_.at) {
       const Eigen::VectorXd step = at - base_.at;
       const double share = step(common) * unit_of(base_.point->normal.own_gain());
       Bundle::Values moved = bundle_.moved(*base_.point, step.head(common).cwiseProduct(units_), share);
-      Eigen::Map<Eigen::VectorXd> foreseen(residuals, common + 2);
-      foreseen = residuals_ + jacobian_ * step;
-      if (jacobians == nullptr && is_last(foreseen.squaredNorm()) && bundle_.is_inside(moved)) {
+      if (jacobians == nullptr && is_last(step) && bundle_.is_inside(moved)) {
+        Eigen::Map<Eigen::VectorXd>(residuals, common + 2) = foreseen(step);
         last_ = std::move(moved);
         return true;
       }
-      last_.reset();
       auto point = bundle_.at(std::move(moved), 1.0 / radius_);
       latest_ = {point ? std::make_shared<const Bundle::Point>(*std::move(point)) : nullptr, at};
     }
@@ -99,12 +98,16 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
 
   [[nodiscard]] bool is_latest_better() const { return latest_.point && latest_.point->sum < base_.point->sum; }
 
-  /// Whether Ceres will end with a step to such a sum of squares. Not after steps that were in vain: where derivatives
-  /// mislead, small steps only look as if there were nothing to gain.
-  [[nodiscard]] bool is_last(double foreseen) const {
+  /// Residuals after a step from base_ by its derivatives.
+  [[nodiscard]] Eigen::VectorXd foreseen(const Eigen::VectorXd& step) const { return residuals_ + jacobian_ * step; }
+
+  /// Whether Ceres will end with a step from base_. Not after steps that were in vain: where derivatives mislead, small
+  /// steps only look as if there were nothing to gain.
+  [[nodiscard]] bool is_last(const Eigen::VectorXd& step) const {
     constexpr double kSurely = 0.9;
-    const double gain = base_.point->sum - foreseen;
-    return radius_ >= first_radius_ && gain >= 0.0 && gain < kSurely * tolerance_ * base_.point->sum;
+    if (jacobian_.size() == 0 || radius_ < first_radius_) return false;
+    const double gain = base_.point->sum - foreseen(step).squaredNorm();
+    return gain >= 0.0 && gain < kSurely * tolerance_ * base_.point->sum;
   }
 
   void put(const Bundle::Point& point, double* residuals, double* jacobian) const {
@@ -130,7 +133,7 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
   Eigen::VectorXd units_;
   mutable Visited base_;
   mutable Eigen::VectorXd residuals_;  ///< at base_, as Ceres has them
-  mutable RowMajor jacobian_;
+  mutable RowMajor jacobian_;          ///< empty before Ceres asked for any
   mutable Visited latest_;
   mutable std::optional<Bundle::Values> last_;  ///< whose sum was not worked out
 };
@@ -204,8 +207,8 @@ double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, c
   std::optional<Bundle::Point> start = bundle.start(1.0 / first_radius(options));
   if (!start) return std::numeric_limits<double>::infinity();
   ceres::Problem ceres;
-  auto* cost = new BundleCost(bundle, *std::move(start), first_radius(options),
-                              tolerance_of(options, bundle.residuals()));
+  auto* cost =
+      new BundleCost(bundle, *std::move(start), first_radius(options), tolerance_of(options, bundle.residuals()));
   Eigen::VectorXd parameters = cost->first();
   ceres.AddResidualBlock(cost, nullptr, parameters.data());
   hold(ceres, parameters.data(), problem, options, cost->units());

@@ -126,7 +126,8 @@ class Fitter {
     level.lines_Hz = lines_Hz;
     // What decides whether all are fitted has to be settled.
     const double tolerance = near_.give_up ? kFinal : kRough;
-    return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.globals, kMiddleIterations, tolerance);
+    return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.globals, kMiddleIterations,
+                    tolerance);
   }
 
   /// The spectrum tells the frequencies of lines less well than a fit of some cycles from the first to the last.
