@@ -114,3 +114,21 @@ TEST_CASE("slips all along are not cut") {
   CHECK(found.sliding_begin == 0);
   CHECK(found.sliding_end == scene.force.size());
 }
+
+TEST_CASE("slips on the scale of the whole are those that a part shows by itself") {
+  const double noise = GENERATE(0.02, 0.16);
+  traces::Generator generator(8);
+  Scene scene = saw(generator);
+  traces::add_noise(scene.force, noise, generator);
+  const Recording whole = traces::recording(scene.time_s, scene.force);
+  const Segmentation of_whole = find_slips(whole, assess_quality(whole));
+  CHECK((of_whole.smoothed_over > 1) == (noise > 0.1));
+  const Recording part = whole.part(3000, 40000);
+  const Quality quality = assess_quality(part);
+  const Segmentation searched = find_slips(part, quality);
+  const Segmentation told = find_slips(part, quality, of_whole.smoothed_over);
+  REQUIRE(told.slips.size() == searched.slips.size());
+  for (std::size_t i = 0; i < told.slips.size(); ++i) {
+    CHECK(told.slips[i].middle_s == Approx(searched.slips[i].middle_s).margin(0.005));
+  }
+}

@@ -130,7 +130,7 @@ class CycleModel::Rows {
     const double drag = 2.0 * frame.zeta * frame.force_scale;
     residuals_[row] = weight * (scales_.population->force * *values_.difference - frame.onset_force - drag);
     if (jacobian_ == nullptr) return;
-    Jacobian::RowXpr line = clear(row);
+    Jacobian::RowXpr line = cleared(row);
     line(kLogStiffness) = -weight * drag;
     line(kLogFrequency) = weight * drag;
     line(kDamping) = -weight * 2.0 * frame.force_scale;
@@ -145,7 +145,7 @@ class CycleModel::Rows {
     const double unit = scales_.population->force;
     residuals_[row] = weight * (unit * *values_.constant - scales_.level - scales_.force * values_.local[2]);
     if (jacobian_ == nullptr) return;
-    Jacobian::RowXpr line = clear(row);
+    Jacobian::RowXpr line = cleared(row);
     line(constant_) = weight * unit;
     line(onset_ + 2) = -weight * scales_.force;
   }
@@ -184,7 +184,7 @@ class CycleModel::Rows {
     if (per_cycle) column(onset_ + 2) = -by_noise * scales_.force * rows_.level_weight;
   }
 
-  Jacobian::RowXpr clear(Index row) const {
+  [[nodiscard]] Jacobian::RowXpr cleared(Index row) const {
     Jacobian jacobian(jacobian_, stride_, static_cast<Index>(cycle_.columns()));
     jacobian.row(row).setZero();
     return jacobian.row(row);
