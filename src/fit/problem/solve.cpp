@@ -141,10 +141,10 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
 /// What a fit can explain settles in some five steps from a solution of fewer cycles, however large it is. What it
 /// cannot may creep along a valley: not for longer than the rest of the program takes.
 int most_iterations(const Problem& problem, const SolveOptions& options, std::size_t residuals) {
-  constexpr double kMostEvaluations = 1.2e6;  // of a sample under Coulomb friction
-  constexpr double kCycle = 24.0;             // evaluations that a cycle takes as long as beside those of its samples
-  constexpr double kTerm = 2.0;               // by which weakening and an average each make an evaluation longer
-  constexpr double kFewest = 6.0;
+  constexpr double kMostEvaluations = 6e5;  // of a sample under Coulomb friction: 12 of 500 cycles of 72 samples
+  constexpr double kCycle = 24.0;           // evaluations that a cycle takes as long as beside those of its samples
+  constexpr double kTerm = 2.0;             // by which weakening and an average each make an evaluation longer
+  constexpr double kFewest = 10.0;
   if (problem.recordings.size() > 1) return options.max_iterations;
   const BlockFit& fit = problem.recordings.front();
   double evaluations = static_cast<double>(residuals) + kCycle * static_cast<double>(fit.size());
