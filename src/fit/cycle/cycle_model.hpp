@@ -30,6 +30,7 @@ struct LevelModel {
 
   /// Functions of time: the polynomial's first, then the rise after a slip, then cosine and sine of each line.
   [[nodiscard]] std::size_t columns() const { return first_line() + 2 * lines_Hz.size(); }
+  [[nodiscard]] std::size_t columns_behind_constant() const { return columns() - (terms > 0 ? 1 : 0); }
   [[nodiscard]] std::size_t first_line() const { return terms + rise_columns(); }
   [[nodiscard]] std::size_t rise_columns() const { return reloading ? reloading->columns() : 0; }
   /// Of the first column of the rise among those behind the constant.
@@ -125,7 +126,7 @@ class CycleModel {
   [[nodiscard]] std::size_t residuals() const { return data_->residuals() + ties(); }
   [[nodiscard]] std::size_t local_parameters() const { return level_->per_cycle ? 3 : 2; }
   [[nodiscard]] bool has_constant() const { return level_->terms > 0 || scales_.population.has_value(); }
-  [[nodiscard]] std::size_t drift_parameters() const { return level_->columns() - (level_->terms > 0 ? 1 : 0); }
+  [[nodiscard]] std::size_t drift_parameters() const { return level_->columns_behind_constant(); }
   /// Where the lines' cosines and sines stand in the level's parameters: at their end.
   [[nodiscard]] std::size_t first_wave() const {
     return (has_constant() ? 1 : 0) + drift_parameters() - 2 * level_->lines_Hz.size();

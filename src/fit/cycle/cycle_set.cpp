@@ -112,7 +112,7 @@ class LevelRow {
 CycleRows rows_of(const CycleData& data, const LevelModel& level, const Scales& scales) {
   const auto size = static_cast<Eigen::Index>(data.residuals());
   CycleRows rows{Eigen::ArrayXd(size), Eigen::ArrayXd(size), Eigen::ArrayXd(size),
-                 Eigen::ArrayXXd(size, static_cast<Eigen::Index>(level.columns() - (level.terms > 0 ? 1 : 0)))};
+                 Eigen::ArrayXXd(size, static_cast<Eigen::Index>(level.columns_behind_constant()))};
   LevelRow functions(level, scales);
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < data.time_s.size(); ++i, ++row) {

@@ -131,7 +131,7 @@ bool Bundle::add(std::size_t recording, std::size_t first_cycle, Point& point) c
         is_outside = true;
         return;
       }
-      sums[i] = add_products(lines, normal);
+      sums[i] = put_products(lines, normal);
     }
   });
   if (is_outside) return false;
@@ -147,7 +147,7 @@ bool Bundle::add(std::size_t recording, std::size_t first_cycle, Point& point) c
   return true;
 }
 
-double Bundle::add_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) const {
+double Bundle::put_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) const {
   products_of(lines, normal);
   const auto residuals = lines.rightCols<1>();
   if (!options_.robust) return residuals.squaredNorm();

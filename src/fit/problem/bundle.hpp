@@ -48,7 +48,7 @@ class Bundle {
  private:
   [[nodiscard]] bool add(std::size_t recording, std::size_t first_cycle, Point& point) const;
   /// Of a cycle with [J r] = `lines`: [J r]' [J r] as Elimination takes it, and its part of the sum.
-  [[nodiscard]] double add_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) const;
+  [[nodiscard]] double put_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) const;
   [[nodiscard]] bool add_steady(Point& point) const;
 
   const Problem& problem_;
