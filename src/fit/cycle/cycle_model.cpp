@@ -215,7 +215,7 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, const Rows& rows)
   }
   const auto put_bin = [&](double tau, const Point& p) {
     put_point(tau, p);
-    // The slope of a stick is k V, of which only k is a parameter.
+    // The slope of a stick is k V: w_n in these units, so that it does not change with w_n.
     const double w = frame.omega_rad_per_s;
     next.put(w, 0.0, 0.0, w, decltype(law.by_law(p)){});
   };
