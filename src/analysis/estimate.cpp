@@ -96,7 +96,7 @@ class BeneathHum {
   /// Where it is so much worse, all of them are not tried. For recordings of many slips.
   [[nodiscard]] bool is_sure(const Signals& seen) {
     find_slips(seen);
-    if (!slips_ || slips_->slips.size() < kFewSlips + 2) return false;
+    if (!slips_ || std::min(slips_->slips.size(), seen.segmentation.slips.size()) < kFewSlips + 2) return false;
     const double ratio = misfit_of_few(seen.quality, *slips_) / misfit_of_few(seen.quality, seen.segmentation);
     if (ratio > kSure) slips_.reset();
     is_sure_ = kSure * ratio < thresholds::kClearlyBetter;
