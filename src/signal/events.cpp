@@ -175,11 +175,10 @@ std::vector<double> widths_of(std::size_t samples) {
 
 }  // namespace
 
-Events find_events(std::vector<double> force, double noise, std::optional<std::size_t> known_width) {
+Events find_events(std::vector<double> force, double noise, std::optional<std::size_t> width) {
   constexpr std::size_t kLarge = 200000;  // samples from which a second thread is worth its start
   const RunningMeans means(force);
-  const std::vector<double> widths =
-      known_width ? std::vector{static_cast<double>(*known_width)} : widths_of(force.size());
+  const std::vector<double> widths = width ? std::vector{static_cast<double>(*width)} : widths_of(force.size());
   const auto at_width = [&](std::size_t i) {
     const auto samples = static_cast<std::size_t>(std::lround(widths[i]));
     const Means trace(force, means, samples, std::max<std::size_t>(1, samples / 3));

@@ -118,9 +118,8 @@ class CycleModel::Rows {
     if (jacobian_ != nullptr) differentiate(frame, z, by_noise);
     Column(residuals_, z.size()) =
         by_noise * (rows_.weight * (rows_.force - u * z) - constant_force() * rows_.level_weight);
-    const double* drift = values_.drift;
     for (Index i = 0; i < rows_.level.cols(); ++i) {
-      Column(residuals_, z.size()) -= by_noise * scales_.force * *drift++ * rows_.weight * rows_.level.col(i);
+      Column(residuals_, z.size()) -= by_noise * scales_.force * values_.drift[i] * rows_.weight * rows_.level.col(i);
     }
   }
 

@@ -45,6 +45,9 @@ struct CycleRows {
   Eigen::ArrayXXd level;  ///< the level's functions but for the constant, a column each (slopes in rows of slopes)
 };
 
+/// Without the level's functions.
+CycleRows rows_of(const CycleData& cycle);
+
 /// The cycles of a recording as fits use them, with the level's functions at all their rows. Never changed, and so
 /// shared by all fits of the recording.
 struct CycleSet {

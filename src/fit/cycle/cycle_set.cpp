@@ -109,24 +109,16 @@ class LevelRow {
   std::vector<double> slopes_;
 };
 
-CycleRows rows_of(const CycleData& data, const LevelModel& level, const Scales& scales) {
-  const auto size = static_cast<Eigen::Index>(data.residuals());
-  CycleRows rows{Eigen::ArrayXd(size), Eigen::ArrayXd(size), Eigen::ArrayXd(size),
-                 Eigen::ArrayXXd(size, static_cast<Eigen::Index>(level.columns_behind_constant()))};
+/// At every residual row of a cycle.
+Eigen::ArrayXXd level_of(const CycleData& data, const LevelModel& level, const Scales& scales) {
+  Eigen::ArrayXXd rows(static_cast<Eigen::Index>(data.residuals()),
+                       static_cast<Eigen::Index>(level.columns_behind_constant()));
   LevelRow functions(level, scales);
   Eigen::Index row = 0;
-  for (std::size_t i = 0; i < data.time_s.size(); ++i, ++row) {
-    rows.force(row) = data.force[i];
-    rows.weight(row) = data.weight.empty() ? 1.0 : data.weight[i];
-    functions.at(data.time_s[i], data.slip, rows.level.row(row));
-  }
-  rows.level_weight = rows.weight;
+  for (const double time_s : data.time_s) functions.at(time_s, data.slip, rows.row(row++));
   for (const auto* bins : {&data.bins_before, &data.bins_after}) {
     for (const StickBin& bin : *bins) {
-      rows.force.segment<2>(row) << bin.force, bin.slope;
-      rows.weight.segment<2>(row) << std::sqrt(bin.count), std::sqrt(bin.time_spread);
-      rows.level_weight.segment<2>(row) << std::sqrt(bin.count), 0.0;
-      functions.over(bin, data.slip, rows.level.row(row), rows.level.row(row + 1));
+      functions.over(bin, data.slip, rows.row(row), rows.row(row + 1));
       row += 2;
     }
   }
@@ -134,6 +126,26 @@ CycleRows rows_of(const CycleData& data, const LevelModel& level, const Scales& 
 }
 
 }  // namespace
+
+CycleRows rows_of(const CycleData& cycle) {
+  const auto size = static_cast<Eigen::Index>(cycle.residuals());
+  CycleRows rows{Eigen::ArrayXd(size), Eigen::ArrayXd(size), Eigen::ArrayXd(size), {}};
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < cycle.time_s.size(); ++i, ++row) {
+    rows.force(row) = cycle.force[i];
+    rows.weight(row) = cycle.weight.empty() ? 1.0 : cycle.weight[i];
+  }
+  rows.level_weight = rows.weight;
+  for (const auto* bins : {&cycle.bins_before, &cycle.bins_after}) {
+    for (const StickBin& bin : *bins) {
+      rows.force.segment<2>(row) << bin.force, bin.slope;
+      rows.weight.segment<2>(row) << std::sqrt(bin.count), std::sqrt(bin.time_spread);
+      rows.level_weight.segment<2>(row) << std::sqrt(bin.count), 0.0;
+      row += 2;
+    }
+  }
+  return rows;
+}
 
 CycleSet::CycleSet(std::vector<CycleData> of_cycles, std::vector<double> of_reference_s, LevelModel of_level,
                    const Scales& scales)
@@ -144,7 +156,8 @@ CycleSet::CycleSet(std::vector<CycleData> of_cycles, std::vector<double> of_refe
   even_step_s.resize(cycles.size());
   for_cycles(cycles.size(), samples, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      rows[i] = rows_of(cycles[i], level, scales);
+      rows[i] = rows_of(cycles[i]);
+      rows[i].level = level_of(cycles[i], level, scales);
       even_step_s[i] = even_step_of(cycles[i].time_s, tolerated_rounding_s(scales));
     }
   });

@@ -51,18 +51,8 @@ DampedFit with_joined_ramps(DampedFit loose) {
 
 /// The residuals of a cycle cut from what its samples differ from the model by, as CycleModel::evaluate orders them.
 Eigen::VectorXd residuals_of(const CycleData& cycle, double noise) {
-  Eigen::VectorXd residuals(static_cast<Eigen::Index>(cycle.residuals()));
-  double* next = residuals.data();
-  for (std::size_t i = 0; i < cycle.force.size(); ++i) {
-    *next++ = (cycle.weight.empty() ? 1.0 : cycle.weight[i]) * cycle.force[i] / noise;
-  }
-  for (const auto* bins : {&cycle.bins_before, &cycle.bins_after}) {
-    for (const StickBin& bin : *bins) {
-      *next++ = std::sqrt(bin.count) * bin.force / noise;
-      *next++ = std::sqrt(bin.time_spread) * bin.slope / noise;
-    }
-  }
-  return residuals;
+  const CycleRows rows = rows_of(cycle);
+  return rows.weight * rows.force / noise;
 }
 
 /// What rounded copies of the model move the quantities by.
