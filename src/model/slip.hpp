@@ -185,11 +185,9 @@ struct WavePoint {
 
 /// The slip itself, 0 <= tau <= tau_end, from c = exp(-zeta tau) cos b tau and s = exp(-zeta tau) sin(b tau) / b.
 inline WavePoint slip_wave(const Slip& slip, double tau, double c, double s) {
-  const double g = c + slip.zeta * s;  // d z / d z0
-  const double ds_dzeta = -tau * s + slip.zeta / (slip.b * slip.b) * (s - tau * c);
-  const double dg_dzeta = -tau * c + (1.0 + slip.zeta * tau) * s + slip.zeta * ds_dzeta;
-  // z = z0 g + s and z' = c - (z0 + zeta) s
-  return {slip.z0 * g + s, g, slip.z0 * dg_dzeta + ds_dzeta, c - (slip.z0 + slip.zeta) * s};
+  const double bend = (slip.z0 + slip.zeta) / (slip.b * slip.b);
+  return {slip.z0 * c + (1.0 + slip.zeta * slip.z0) * s, c + slip.zeta * s, bend * (s - tau * c) - tau * s,
+          c - (slip.z0 + slip.zeta) * s};
 }
 
 inline WavePoint slip_wave(const Slip& slip, double tau) {
@@ -200,8 +198,8 @@ inline WavePoint slip_wave(const Slip& slip, double tau) {
 /// The slip as the drive or the sample side feels it: z + 2 zeta z' (docs/model.md section 7). In stick z' = 1.
 inline WavePoint transmitted_wave(const Slip& slip, double tau, double c, double s) {
   const WavePoint spring = slip_wave(slip, tau, c, s);
-  const double ds_dzeta = -tau * s + slip.zeta / (slip.b * slip.b) * (s - tau * c);
-  const double ddz_dzeta = tau * (slip.zeta * s - c) - s - (slip.z0 + slip.zeta) * ds_dzeta;  // d z' / d zeta
+  const double bend = slip.zeta * (slip.z0 + slip.zeta) / (slip.b * slip.b);
+  const double ddz_dzeta = bend * (tau * c - s) - s - tau * c + (slip.z0 + 2.0 * slip.zeta) * tau * s;  // d z' / d zeta
   const double drag = 2.0 * slip.zeta;
   const double ddz = -drag * spring.d_tau - spring.z;  // z''
   return {spring.z + drag * spring.d_tau, spring.d_z0 - drag * s, spring.d_zeta + 2.0 * spring.d_tau + drag * ddz_dzeta,

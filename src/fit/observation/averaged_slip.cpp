@@ -1,61 +1,88 @@
 #include "fit/observation/averaged_slip.hpp"
 
+#include <cmath>
+
 namespace slipfit::fit {
 
 // Inline: asked for every sample.
 
-inline AveragedSlip::Force AveragedSlip::shown(const model::WavePoint& spring, Integral integral) const {
-  integral.value += drag_ * spring.z;
-  integral.d_z0 += drag_ * spring.d_z0;
-  integral.d_zeta += drag_ * spring.d_zeta + drag_by_zeta_ * spring.z;
-  return {spring.z + drag_ * spring.d_tau, integral};
-}
-
-/// z'' + 2 zeta z' + z = 0 gives the integral of z over the slip: 1 + 2 zeta (z0 - z) - z'.
-inline AveragedSlip::Force AveragedSlip::sliding_at(double tau, double c, double bs) const {
-  const double s = bs * by_b_;
-  const double zeta = slip_.zeta;
-  const model::WavePoint spring = model::slip_wave(slip_, tau, c, s);
-  const double ds_dzeta = -tau * s + zeta * by_b_ * by_b_ * (s - tau * c);
-  const double slope_d_zeta = tau * (zeta * s - c) - s - (slip_.z0 + zeta) * ds_dzeta;
-  return shown(spring, {1.0 + 2.0 * zeta * (slip_.z0 - spring.z) - spring.d_tau, 2.0 * zeta * (1.0 - spring.d_z0) + s,
-                        2.0 * (slip_.z0 - spring.z) - 2.0 * zeta * spring.d_zeta - slope_d_zeta});
+inline AveragedSlip::Force AveragedSlip::sliding_at(double tau, double c, double s) const {
+  const auto& [constant, by_c, by_s, by_tau_c, by_tau_s] = slide_;
+  return {by_c.z * c + by_s.z * s, constant.integral + by_c.integral * c + by_s.integral * s,
+          constant.d_z0 + by_c.d_z0 * c + by_s.d_z0 * s,
+          constant.d_zeta + (by_c.d_zeta + by_tau_c * tau) * c + (by_s.d_zeta + by_tau_s * tau) * s};
 }
 
 inline AveragedSlip::Force AveragedSlip::sticking_at(double tau) const {
-  const model::StickLine line = tau <= 0.0 ? model::StickLine{slip_.z0, 1.0, 0.0} : after_;
-  Integral integral = tau <= 0.0 ? Integral{} : until_after_;
-  integral.value += tau * (line.intercept + 0.5 * tau);
-  integral.d_z0 += tau * line.d_z0;
-  integral.d_zeta += tau * line.d_zeta;
-  return shown({line.intercept + tau, line.d_z0, line.d_zeta, 1.0}, integral);
+  const auto& [constant, d_z0_by_tau, d_zeta_by_tau] = tau <= 0.0 ? before_ : after_;
+  return {constant.z + tau, constant.integral + tau * (constant.z + 0.5 * tau), constant.d_z0 + d_z0_by_tau * tau,
+          constant.d_zeta + d_zeta_by_tau * tau};
 }
 
 inline model::WavePoint AveragedSlip::between(const Force& first, const Force& last) const {
-  const double scale = 0.5 / half_;
-  const double mean = scale * (last.integral.value - first.integral.value);
-  return {mean, scale * (last.integral.d_z0 - first.integral.d_z0),
-          scale * (last.integral.d_zeta - first.integral.d_zeta), scale * (last.z - first.z),
-          0.5 * (first.z + last.z) - mean};
+  const double mean = by_average_ * (last.integral - first.integral);
+  return {mean, by_average_ * (last.d_z0 - first.d_z0), by_average_ * (last.d_zeta - first.d_zeta),
+          by_average_ * (last.z - first.z), 0.5 * (first.z + last.z) - mean};
 }
 
 AveragedSlip::AveragedSlip(const model::Slip& slip, const model::StickLine& after, double average_tau, bool transmitted)
-    : slip_(slip), after_(after), half_(0.5 * average_tau), by_b_(1.0 / slip.b) {
-  // In the spring's view, from where both hold.
-  const double tau = slip.tau_end;
-  until_after_ = force_at(tau).integral;
-  until_after_.value -= tau * (after.intercept + 0.5 * tau);
-  until_after_.d_z0 -= tau * after.d_z0;
-  until_after_.d_zeta -= tau * after.d_zeta;
-  if (!transmitted) return;
-  drag_ = 2.0 * slip.zeta;
-  drag_by_zeta_ = 2.0;
+    : zeta_(slip.zeta),
+      b_(slip.b),
+      tau_end_(slip.tau_end),
+      half_(0.5 * average_tau),
+      by_average_(1.0 / average_tau),
+      slide_(slide_of(slip)) {
+  before_ = {{slip.z0}, 1.0, 0.0};
+  const double tau = tau_end_;
+  const Force end = force_at(tau);
+  after_ = {{after.intercept, end.integral - tau * (after.intercept + 0.5 * tau), end.d_z0 - tau * after.d_z0,
+             end.d_zeta - tau * after.d_zeta},
+            after.d_z0,
+            after.d_zeta};
+  if (transmitted) transmit(slip, after);
+}
+
+/// Of the spring. z'' + 2 zeta z' + z = 0 gives the integral of z: 1 + 2 zeta (z0 - z) - z'.
+AveragedSlip::Slide AveragedSlip::slide_of(const model::Slip& slip) {
+  const auto [z0, zeta] = std::pair(slip.z0, slip.zeta);
+  const double by_b = 1.0 / slip.b;
+  const double bend = (z0 + zeta) * by_b * by_b;  // as in model::slip_wave
+  const double start = 1.0 + 2.0 * zeta * z0;
+  return {{0.0, start, 2.0 * zeta, 2.0 * z0},
+          {z0, -start, -2.0 * zeta, -2.0 * z0},
+          {by_b * (1.0 + zeta * z0), by_b * (z0 - zeta * start), by_b * (1.0 - 2.0 * zeta * zeta),
+           -by_b * (start + zeta * bend)},
+          1.0 + zeta * bend,
+          -by_b * z0};
+}
+
+/// 2 zeta z' on top, the integral of which is 2 zeta z.
+void AveragedSlip::transmit(const model::Slip& slip, const model::StickLine& after) {
+  const auto [z0, zeta] = std::pair(slip.z0, slip.zeta);
+  const double drag = 2.0 * zeta;
+  const double by_b = 1.0 / slip.b;
+  const double bend = (z0 + zeta) * by_b * by_b;
+  const auto add = [](Force& force, const Force& more) {
+    force.z += more.z;
+    force.integral += more.integral;
+    force.d_z0 += more.d_z0;
+    force.d_zeta += more.d_zeta;
+  };
+  add(slide_.by_c, {drag, drag * z0, drag, 2.0 * z0});
+  add(slide_.by_s, {-drag * by_b * (z0 + zeta), drag * by_b * (1.0 + zeta * z0), drag * by_b * zeta,
+                    by_b * (drag * bend + 2.0 * (1.0 + zeta * z0))});
+  slide_.d_zeta_by_tau_c -= drag * bend;
+  slide_.d_zeta_by_tau_s -= drag * by_b;
+  add(before_.constant, {drag, drag * z0, drag, 2.0 * z0});
+  add(after_.constant, {drag, drag * after.intercept, drag * after.d_z0, drag * after.d_zeta + 2.0 * after.intercept});
+  before_.d_zeta_by_tau += 2.0;
+  after_.d_zeta_by_tau += 2.0;
 }
 
 AveragedSlip::Force AveragedSlip::force_at(double tau) const {
   if (!slides_at(tau)) return sticking_at(tau);
-  const double decay = std::exp(-slip_.zeta * tau);
-  return sliding_at(tau, decay * std::cos(slip_.b * tau), decay * std::sin(slip_.b * tau));
+  const double decay = std::exp(-zeta_ * tau);
+  return sliding_at(tau, decay * std::cos(b_ * tau), decay * std::sin(b_ * tau));
 }
 
 model::WavePoint AveragedSlip::at(double tau) const {

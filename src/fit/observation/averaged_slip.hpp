@@ -21,7 +21,7 @@ class AveragedSlip {
   class Samples {
    public:
     Samples(const AveragedSlip& slip, double step_tau)
-        : slip_(slip), step_tau_(step_tau), first_(slip.slip_.zeta, slip.slip_.b, step_tau), last_(first_) {}
+        : slip_(slip), step_tau_(step_tau), first_(slip.zeta_, slip.b_, step_tau), last_(first_) {}
 
     model::WavePoint at(double tau);
 
@@ -33,30 +33,36 @@ class AveragedSlip {
   };
 
  private:
-  /// Integral of the force from the onset on, and its derivatives with respect to z0 and zeta.
-  struct Integral {
-    double value = 0.0, d_z0 = 0.0, d_zeta = 0.0;
-  };
+  /// Force, and its integral from the onset on with derivatives with respect to z0 and zeta. Or what each of them has
+  /// of a function of tau.
   struct Force {
-    double z = 0.0;
-    Integral integral;
+    double z = 0.0, integral = 0.0, d_z0 = 0.0, d_zeta = 0.0;
+  };
+  /// Linear in c = exp(-zeta tau) cos b tau and s = exp(-zeta tau) sin b tau, the derivative to zeta in tau c and tau s
+  /// as well.
+  struct Slide {
+    Force constant, by_c, by_s;
+    double d_zeta_by_tau_c = 0.0, d_zeta_by_tau_s = 0.0;
+  };
+  /// z = constant.z + tau, and its integral.
+  struct Stick {
+    Force constant;
+    double d_z0_by_tau = 0.0, d_zeta_by_tau = 0.0;
   };
 
-  [[nodiscard]] bool slides_at(double tau) const { return tau > 0.0 && tau <= slip_.tau_end; }
-  [[nodiscard]] Force force_at(double tau) const;
-  /// From exp(-zeta tau) cos b tau and exp(-zeta tau) sin b tau.
-  [[nodiscard]] Force sliding_at(double tau, double c, double bs) const;
+  static Slide slide_of(const model::Slip& slip);
+  void transmit(const model::Slip& slip, const model::StickLine& after);
+  [[nodiscard]] bool slides_at(double tau) const { return tau > 0.0 && tau <= tau_end_; }
+  [[nodiscard]] Force sliding_at(double tau, double c, double s) const;
   [[nodiscard]] Force sticking_at(double tau) const;
-  [[nodiscard]] Force shown(const model::WavePoint& spring, Integral integral) const;
+  [[nodiscard]] Force force_at(double tau) const;
   [[nodiscard]] model::WavePoint between(const Force& first, const Force& last) const;
 
-  model::Slip slip_;
-  model::StickLine after_;
-  Integral until_after_;  ///< of the stick after the slip, continued to tau = 0
-  double half_;           ///< of the average
-  double by_b_;           ///< 1 / b
-  double drag_ = 0.0;     ///< 2 zeta of the transmitted view
-  double drag_by_zeta_ = 0.0;
+  double zeta_, b_, tau_end_;
+  double half_;        ///< of the average
+  double by_average_;  ///< 1 / average
+  Slide slide_;
+  Stick before_, after_;  ///< the slip
 };
 
 }  // namespace slipfit::fit
