@@ -9,7 +9,7 @@
 
 #include "core/number_text.hpp"
 #include "core/word_list.hpp"
-#include "io/short_decimal.hpp"
+#include "io/decimal.hpp"
 
 namespace slipfit::reading {
 namespace {
@@ -75,7 +75,7 @@ Parsed parse_comma(std::string_view text) {
 }
 
 Parsed parse(std::string_view text, bool decimal_comma) {
-  const ShortDecimal quick = read_short_decimal(text.data(), text.data() + text.size(), decimal_comma ? ',' : '.');
+  const Decimal quick = read_decimal(text.data(), text.data() + text.size(), decimal_comma ? ',' : '.');
   if (quick.is_number && quick.end == text.data() + text.size()) return {quick.value, text.size()};
   return decimal_comma ? parse_comma(text) : parse_point(text);
 }

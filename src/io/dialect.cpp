@@ -3,8 +3,8 @@
 #include <map>
 
 #include "core/word_list.hpp"
+#include "io/decimal.hpp"
 #include "io/layout.hpp"
-#include "io/short_decimal.hpp"
 
 namespace slipfit::reading {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/word_list.hpp"
-#include "io/short_decimal.hpp"
+#include "io/decimal.hpp"
 #include "io/text_lines.hpp"
 
 namespace slipfit::reading {
@@ -124,7 +124,7 @@ void RowReader::read_plain(const char* cell) {
     if (column != wanted->column) {
       cell = end_of_cell(cell, nullptr, dialect_.delimiter);
     } else {
-      const ShortDecimal number = read_short_decimal(cell, nullptr, point);
+      const Decimal number = read_decimal(cell, nullptr, point);
       const bool is_whole = number.is_number && (*number.end == dialect_.delimiter || *number.end == '\0');
       cell = is_whole ? number.end : end_of_cell(cell, nullptr, dialect_.delimiter);
       const std::string_view text(begin, static_cast<std::size_t>(cell - begin));

@@ -14,17 +14,35 @@ constexpr std::size_t kProbe = std::size_t{64} * 1024;
 constexpr std::size_t kPiece = std::size_t{256} * 1024;
 constexpr char kNotText = '\x1A';  // stands for NUL: no number holds it, so the cell is counted as one without a number
 
+bool holds_nul(std::string_view bytes) {
+  return bytes.find('\0') != std::string_view::npos;
+}
+
+/// In pieces that a byte can count, which the compiler takes sixteen at a time.
+template <class Predicate>
+std::size_t count_bytes(std::string_view bytes, const Predicate& is_wanted) {
+  constexpr std::size_t kPieceOfBytes = 255;
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin < bytes.size(); begin += kPieceOfBytes) {
+    unsigned char in_piece = 0;
+    for (const char c : bytes.substr(begin, kPieceOfBytes)) {
+      if (is_wanted(static_cast<unsigned char>(c))) ++in_piece;
+    }
+    count += in_piece;
+  }
+  return count;
+}
+
 /// NUL, or more than a tenth of control characters, or, where it is no UTF-8 in any script, more than a third of bytes
 /// beyond ASCII.
 bool looks_binary(std::string_view bytes) {
-  std::size_t control = 0;
-  std::size_t high = 0;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte == 0) return true;
-    if (byte < 0x20 && std::strchr("\t\n\v\f\r\x1A", c) == nullptr) ++control;
-    if (byte >= 0x80) ++high;
-  }
+  if (holds_nul(bytes)) return true;
+  const auto is_control = [](unsigned char byte) {
+    const bool is_blank = byte >= '\t' && byte <= '\r';
+    return byte < 0x20 && !is_blank && byte != '\x1A';
+  };
+  const std::size_t control = count_bytes(bytes, is_control);
+  const std::size_t high = count_bytes(bytes, [](unsigned char byte) { return byte >= 0x80; });
   return control * 10 > bytes.size() || (high * 3 > bytes.size() && check_utf8(bytes) == Utf8::Invalid);
 }
 
@@ -74,7 +92,9 @@ std::unique_ptr<TextSource> TextSource::over(TextStream stream, const std::strin
 void TextSource::detect_encoding() {
   const std::string_view start(raw_);
   std::array<std::size_t, 2> nul{};  // at even and at odd places
-  for (std::size_t i = 0; i < start.size(); ++i) nul.at(i % 2) += start[i] == '\0' ? 1U : 0U;
+  if (holds_nul(start)) {
+    for (std::size_t i = 0; i < start.size(); ++i) nul.at(i % 2) += start[i] == '\0' ? 1U : 0U;
+  }
   if (start.starts_with("\xFF\xFE")) {
     encoding_ = Encoding::Utf16LittleEndian;
     raw_used_ = 2;

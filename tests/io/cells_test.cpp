@@ -7,6 +7,8 @@
 #include <random>
 #include <string>
 
+#include "io/decimal.hpp"
+
 using namespace slipfit::reading;
 
 TEST_CASE("plain numbers are the ones of std::from_chars, bit for bit") {
@@ -26,7 +28,23 @@ TEST_CASE("plain numbers are the ones of std::from_chars, bit for bit") {
     for (char& c : comma) c = c == '.' ? ',' : c;
     CAPTURE(point);
     if (plain_number(point, false) != expected) FAIL("with a point");
+    const Decimal decimal = read_decimal(point.c_str(), nullptr, '.');
+    if (!decimal.is_number || decimal.value != expected || *decimal.end != '\0') FAIL("up to a NUL");
     if (plain_number(comma, true) != expected) FAIL("with a comma");
+  }
+}
+
+TEST_CASE("a plain number ends where its exponent does, and what is too large to be one is left to others") {
+  for (const std::string text : {"1.5e-3,2", "-0.019128045292843208,2", "12345678901234567890;", "1e5 N"}) {
+    const Decimal decimal = read_decimal(text.c_str(), nullptr, '.');
+    CAPTURE(text);
+    REQUIRE(decimal.is_number);
+    CHECK(decimal.value == std::stod(text));
+    CHECK(decimal.end == text.c_str() + text.find_first_of(",; "));
+  }
+  for (const std::string text : {"9.9e37", "1e999", "-", ".", "e5", "+1", "nan"}) {
+    CAPTURE(text);
+    CHECK_FALSE(read_decimal(text.c_str(), nullptr, '.').is_number);
   }
 }
 
