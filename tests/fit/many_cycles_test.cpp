@@ -86,6 +86,27 @@ TEST_CASE("hum that adds slips to many is taken off where a few of them show it,
   check_truth(analysis, s);
 }
 
+TEST_CASE("hum of few waves hides more slips than it shows, and they are fitted beneath it") {
+  constexpr double kSaws_Hz = 93.0;
+  constexpr double kRise = 0.9;  // of the period
+  std::vector<double> time_s, force;
+  for (int i = 0; i < 24000; ++i) {
+    time_s.push_back(5e-5 * i);
+    const double phase = std::fmod(kSaws_Hz * time_s.back(), 1.0);
+    const double saw = phase < kRise ? phase / kRise : (1.0 - phase) / (1.0 - kRise);
+    force.push_back(2.0 + saw + 1.5 * std::sin(2.0 * std::numbers::pi * 50.0 * time_s.back() + 1.0));
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = 0.01;
+  const Recording recording = Recording::create(time_s, force, conditions).value();
+  REQUIRE(find_slips(recording, assess_quality(recording)).slips.size() < 66);
+  const Analysis analysis = analyze_and_fit(recording);
+  CHECK(analysis.cycles.count == 111);
+  CHECK(*analysis.frequency.quoted.value == Approx(kSaws_Hz).epsilon(1e-5));
+  // The fit's slips are no straight falls: they take a share of the rise.
+  CHECK(*parameter(analysis, "stiffness_N_per_m").estimate.value == Approx(kSaws_Hz / kRise / 0.01).epsilon(0.01));
+}
+
 TEST_CASE("lines that keep the phase of the slips are of the cycles' shape and not of the mains") {
   // Straight ramps at 25 Hz with sudden falls: what the model misses of them repeats at 50, 100, 150 Hz and so on.
   constexpr int kPeriod = 400;
