@@ -11,22 +11,33 @@ namespace slipfit::signal {
 namespace {
 
 constexpr std::size_t kSorted = 10000;  // values looked at for the step; all are checked against it
+constexpr std::size_t kFew = 500;       // enough to see that there is none
+constexpr double kLargestStep = 1.5;    // of step_of, in smallest gaps: one of 1.5 still counts as one step
 
-std::vector<double> some_distinct(std::span<const double> values) {
-  const std::size_t stride = 1 + (values.size() - 1) / kSorted;
-  std::vector<double> distinct;
-  for (std::size_t i = 0; i < values.size(); i += stride) distinct.push_back(values[i]);
-  boost::sort::pdqsort_branchless(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  return distinct;
+std::vector<double> some_of(std::span<const double> values, std::size_t most) {
+  const std::size_t stride = 1 + (values.size() - 1) / most;
+  std::vector<double> some;
+  for (std::size_t i = 0; i < values.size(); i += stride) some.push_back(values[i]);
+  return some;
+}
+
+std::vector<double> distinct_of(std::vector<double> values) {
+  boost::sort::pdqsort_branchless(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+double smallest_gap(const std::vector<double>& distinct) {
+  double smallest = distinct.back() - distinct.front();
+  for (std::size_t i = 1; i < distinct.size(); ++i) smallest = std::min(smallest, distinct[i] - distinct[i - 1]);
+  return smallest;
 }
 
 /// Smallest gap, then the range over the number of steps in it: the gaps carry the rounding of the file, the range
 /// carries it once.
 std::optional<double> step_of(const std::vector<double>& distinct) {
   if (distinct.size() < 2) return std::nullopt;
-  double smallest = distinct.back() - distinct.front();
-  for (std::size_t i = 1; i < distinct.size(); ++i) smallest = std::min(smallest, distinct[i] - distinct[i - 1]);
+  const double smallest = smallest_gap(distinct);
   double steps = 0.0;
   for (std::size_t i = 1; i < distinct.size(); ++i) steps += std::round((distinct[i] - distinct[i - 1]) / smallest);
   return (distinct.back() - distinct.front()) / steps;
@@ -71,11 +82,17 @@ std::size_t piled_up(std::span<const double> values, double sign, double end) {
 }  // namespace
 
 std::optional<double> lattice_step(std::span<const double> values) {
-  const std::vector<double> distinct = some_distinct(values);
+  const Eigen::Map<const Eigen::ArrayXd> all(values.data(), std::ssize(values));
+  const double lowest = all.minCoeff();
+  const double highest = all.maxCoeff();
+  std::vector<double> some = some_of(values, kSorted);
+  const std::vector<double> few = distinct_of(some_of(some, kFew));
+  const double finest = (highest - lowest) / static_cast<double>(values.size());  // of fewer places than values
+  if (few.size() > 1 && kLargestStep * smallest_gap(few) < finest) return std::nullopt;
+  const std::vector<double> distinct = distinct_of(std::move(some));
   const std::optional<double> step = step_of(distinct);
   if (!step || !std::isfinite(*step)) return std::nullopt;
-  const Eigen::Map<const Eigen::ArrayXd> all(values.data(), std::ssize(values));
-  if (!fills_lattice(values, distinct.front(), all.minCoeff(), all.maxCoeff(), *step)) return std::nullopt;
+  if (!fills_lattice(values, distinct.front(), lowest, highest, *step)) return std::nullopt;
   return step;
 }
 
