@@ -6,7 +6,10 @@
 
 namespace slipfit {
 
-using StudentsT = boost::math::students_t_distribution<double>;
+// Boost would work in long double, which takes its time, for digits that no interval needs.
+using StudentsT =
+    boost::math::students_t_distribution<double,
+                                         boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
 
 double t_quantile(double degrees_of_freedom, double probability) {
   return boost::math::quantile(StudentsT(std::max(1.0, degrees_of_freedom)), probability);
