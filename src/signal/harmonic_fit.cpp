@@ -38,16 +38,22 @@ Points thinned(const Recording& recording, double highest_Hz) {
   return points;
 }
 
-/// Columns: 1, t, then cosine and sine of every harmonic.
+/// Columns: 1, t, then cosine and sine of every harmonic, each turned on from the one before it by the fundamental.
 Eigen::MatrixXd design(const Points& points, double frequency_Hz, std::size_t harmonics) {
   const auto waves = static_cast<Eigen::Index>(harmonics);
   Eigen::MatrixXd columns(points.time_s.size(), 2 + 2 * waves);
   columns.col(0).setOnes();
   columns.col(1) = points.time_s;
-  for (Eigen::Index h = 0; h < waves; ++h) {
-    const double omega = 2.0 * std::numbers::pi * frequency_Hz * static_cast<double>(h + 1);
-    columns.col(2 + 2 * h) = (omega * points.time_s.array()).cos();
-    columns.col(3 + 2 * h) = (omega * points.time_s.array()).sin();
+  const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * frequency_Hz * points.time_s.array();
+  const Eigen::ArrayXd turn_c = angle.cos();
+  const Eigen::ArrayXd turn_s = angle.sin();
+  columns.col(2) = turn_c;
+  columns.col(3) = turn_s;
+  for (Eigen::Index h = 1; h < waves; ++h) {
+    const auto c = columns.col(2 * h).array();
+    const auto s = columns.col(2 * h + 1).array();
+    columns.col(2 * h + 2) = c * turn_c - s * turn_s;
+    columns.col(2 * h + 3) = c * turn_s + s * turn_c;
   }
   return columns;
 }
