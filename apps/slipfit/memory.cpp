@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -43,12 +44,13 @@ void prepare_memory([[maybe_unused]] const std::string& file) {
 #ifdef __GLIBC__
   constexpr std::uintmax_t kLong = std::uintmax_t{1} << 30U;
   constexpr std::size_t kLeast = std::size_t{1} << 25U;
+  constexpr std::size_t kMostLarge = std::size_t{1} << 28U;  // beyond, a system that has none at hand makes them first
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (!(size < kLong)) return;  // the largest number where it has no size
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
   mallopt(M_ARENA_MAX, 1);  // else FFTW's planner ends the program where memory is short (tests/limits)
-  ask_for_large_pages(kLeast + 3 * static_cast<std::size_t>(size));
+  ask_for_large_pages(std::min(kMostLarge, kLeast + 3 * static_cast<std::size_t>(size)));
 #endif
 }

@@ -178,7 +178,6 @@ Estimates estimate_frequency(const Detected& detected) {
 }
 
 Estimates estimate(const Detected& detected, const FitOptions& options) {
-  constexpr std::size_t kLarge = 1000000;  // samples: the arrays of spectrum and fit together would be large
   const Recording& recording = detected.recording();
   Estimates estimates{detected.signals, {}};
   // Named, and so copied: where there is no thread, async begins anew with what it was given.
@@ -195,7 +194,6 @@ Estimates estimate(const Detected& detected, const FitOptions& options) {
     take_frequency();
     return may_be_hum(estimates.signals) && beneath.is_sure(estimates.signals);
   };
-  if (recording.size() >= kLarge) frequency.wait();
   const Stopwatch stopwatch;
   const Signals& seen = estimates.signals;
   const bool is_wave = is_pure_wave(recording, seen);
