@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "fit/law/coulomb.hpp"
 #include "fit/observation/averaged_slip.hpp"
 #include "model/reference_table.hpp"
 #include "scene.hpp"
@@ -167,7 +168,8 @@ TEST_CASE("an average without a lag is the same by either class") {
   const fit::SensedSlip sensed({0.0, average, transmitted}, slip);
   const fit::AveragedSlip averaged(slip, model::stick_after(slip), average, transmitted);
   constexpr double kStep = 0.05;
-  fit::AveragedSlip::Samples samples(averaged, kStep);
+  const fit::CoulombCycle cycle(8.0, zeta, {0.0, average, transmitted});
+  fit::CoulombCycle::Samples samples(cycle, kStep);
   for (int i = 0; i * kStep < slip.tau_end + 2.0 * average; ++i) {
     if (i % 7 == 3) continue;  // some samples are left out
     const double tau = i * kStep - average;

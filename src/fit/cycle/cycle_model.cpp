@@ -90,15 +90,17 @@ class CycleModel::Rows {
     double* by_log_omega;  ///< at a fixed time
     double* by_law;        ///< one after the other at distances `stride`
     std::ptrdiff_t stride;
+    std::ptrdiff_t row = 0;
 
     template <std::size_t N>
     void put(double z_here, double d_tau, double d_z0, double d_log_omega, const std::array<double, N>& d_law) {
-      *z++ = z_here;
+      const std::ptrdiff_t here = row++;
+      z[here] = z_here;
       if (by_tau == nullptr) return;
-      *by_tau++ = d_tau;
-      *by_z0++ = d_z0;
-      *by_log_omega++ = d_log_omega;
-      double* law = by_law++;
+      by_tau[here] = d_tau;
+      by_z0[here] = d_z0;
+      by_log_omega[here] = d_log_omega;
+      double* law = by_law + here;
       for (const double derivative : d_law) {
         *law = derivative;
         law += stride;

@@ -67,17 +67,19 @@ class CoulombCycle {
         : cycle_(cycle),
           turns_evenly_(step_tau > 0.0 && !cycle.sensed_),
           step_tau_(step_tau),
-          phasor_(cycle.slip.zeta, cycle.slip.b, step_tau) {
-      if (turns_evenly_ && cycle.averaged_) averaged_.emplace(*cycle.averaged_, step_tau);
-    }
+          begin_(cycle.slip.zeta, cycle.slip.b, step_tau),
+          end_(begin_) {}
 
     Point at(double tau) {
       const double reach = 0.5 * cycle_.sensor_.average_tau;
       if (!turns_evenly_ || !(tau > -reach) || !(tau <= cycle_.slip.tau_end + reach)) return cycle_.at(tau);
-      if (averaged_) return averaged_->at(tau);
-      tau < next_tau_ + 0.5 * step_tau_ ? phasor_.step() : phasor_.start(tau);
+      const bool is_next = tau < next_tau_ + 0.5 * step_tau_;
       next_tau_ = tau + step_tau_;
-      return cycle_.in_slip(tau, phasor_.c(), phasor_.s());
+      const auto move = [is_next](model::Phasor& phasor, double to) { is_next ? phasor.step() : phasor.start(to); };
+      move(begin_, tau - reach);
+      if (!cycle_.averaged_) return cycle_.in_slip(tau, begin_.c(), begin_.s());
+      move(end_, tau + reach);
+      return cycle_.averaged_->at(tau, begin_, end_);
     }
 
    private:
@@ -85,8 +87,7 @@ class CoulombCycle {
     bool turns_evenly_;
     double step_tau_;
     double next_tau_ = -std::numeric_limits<double>::infinity();
-    model::Phasor phasor_;
-    std::optional<AveragedSlip::Samples> averaged_;
+    model::Phasor begin_, end_;  ///< of the average
   };
 
  private:

@@ -4,27 +4,6 @@
 
 namespace slipfit::fit {
 
-// Inline: asked for every sample.
-
-inline AveragedSlip::Force AveragedSlip::sliding_at(double tau, double c, double s) const {
-  const auto& [constant, by_c, by_s, by_tau_c, by_tau_s] = slide_;
-  return {by_c.z * c + by_s.z * s, constant.integral + by_c.integral * c + by_s.integral * s,
-          constant.d_z0 + by_c.d_z0 * c + by_s.d_z0 * s,
-          constant.d_zeta + (by_c.d_zeta + by_tau_c * tau) * c + (by_s.d_zeta + by_tau_s * tau) * s};
-}
-
-inline AveragedSlip::Force AveragedSlip::sticking_at(double tau) const {
-  const auto& [constant, d_z0_by_tau, d_zeta_by_tau] = tau <= 0.0 ? before_ : after_;
-  return {constant.z + tau, constant.integral + tau * (constant.z + 0.5 * tau), constant.d_z0 + d_z0_by_tau * tau,
-          constant.d_zeta + d_zeta_by_tau * tau};
-}
-
-inline model::WavePoint AveragedSlip::between(const Force& first, const Force& last) const {
-  const double mean = by_average_ * (last.integral - first.integral);
-  return {mean, by_average_ * (last.d_z0 - first.d_z0), by_average_ * (last.d_zeta - first.d_zeta),
-          by_average_ * (last.z - first.z), 0.5 * (first.z + last.z) - mean};
-}
-
 AveragedSlip::AveragedSlip(const model::Slip& slip, const model::StickLine& after, double average_tau, bool transmitted)
     : zeta_(slip.zeta),
       b_(slip.b),
@@ -87,23 +66,6 @@ AveragedSlip::Force AveragedSlip::force_at(double tau) const {
 
 model::WavePoint AveragedSlip::at(double tau) const {
   return between(force_at(tau - half_), force_at(tau + half_));
-}
-
-model::WavePoint AveragedSlip::Samples::at(double tau) {
-  const double first = tau - slip_.half_;
-  const double last = tau + slip_.half_;
-  if (tau < next_tau_ + 0.5 * step_tau_) {
-    first_.step();
-    last_.step();
-  } else {
-    first_.start(first);
-    last_.start(last);
-  }
-  next_tau_ = tau + step_tau_;
-  const auto force_at = [this](double at, const model::Phasor& phasor) {
-    return slip_.slides_at(at) ? slip_.sliding_at(at, phasor.c(), phasor.s()) : slip_.sticking_at(at);
-  };
-  return slip_.between(force_at(first, first_), force_at(last, last_));
 }
 
 }  // namespace slipfit::fit

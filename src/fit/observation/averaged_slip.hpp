@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include "model/phasor.hpp"
 #include "model/slip.hpp"
 
@@ -17,20 +15,10 @@ class AveragedSlip {
   /// At any tau.
   [[nodiscard]] model::WavePoint at(double tau) const;
 
-  /// The same at samples in ascending order, those between onset and end at even steps, of which some may be left out.
-  class Samples {
-   public:
-    Samples(const AveragedSlip& slip, double step_tau)
-        : slip_(slip), step_tau_(step_tau), first_(slip.zeta_, slip.b_, step_tau), last_(first_) {}
-
-    model::WavePoint at(double tau);
-
-   private:
-    const AveragedSlip& slip_;
-    double step_tau_;
-    double next_tau_ = -std::numeric_limits<double>::infinity();
-    model::Phasor first_, last_;  ///< where the average begins and ends
-  };
+  /// The same from the slip's phasors where the average begins and ends.
+  [[nodiscard]] model::WavePoint at(double tau, const model::Phasor& begin, const model::Phasor& end) const {
+    return between(force_at(tau - half_, begin), force_at(tau + half_, end));
+  }
 
  private:
   /// Force, and its integral from the onset on with derivatives with respect to z0 and zeta. Or what each of them has
@@ -56,6 +44,9 @@ class AveragedSlip {
   [[nodiscard]] Force sliding_at(double tau, double c, double s) const;
   [[nodiscard]] Force sticking_at(double tau) const;
   [[nodiscard]] Force force_at(double tau) const;
+  [[nodiscard]] Force force_at(double tau, const model::Phasor& phasor) const {
+    return slides_at(tau) ? sliding_at(tau, phasor.c(), phasor.s()) : sticking_at(tau);
+  }
   [[nodiscard]] model::WavePoint between(const Force& first, const Force& last) const;
 
   double zeta_, b_, tau_end_;
@@ -64,5 +55,26 @@ class AveragedSlip {
   Slide slide_;
   Stick before_, after_;  ///< the slip
 };
+
+// Asked for every sample.
+
+inline AveragedSlip::Force AveragedSlip::sliding_at(double tau, double c, double s) const {
+  const auto& [constant, by_c, by_s, by_tau_c, by_tau_s] = slide_;
+  return {by_c.z * c + by_s.z * s, constant.integral + by_c.integral * c + by_s.integral * s,
+          constant.d_z0 + by_c.d_z0 * c + by_s.d_z0 * s,
+          constant.d_zeta + (by_c.d_zeta + by_tau_c * tau) * c + (by_s.d_zeta + by_tau_s * tau) * s};
+}
+
+inline AveragedSlip::Force AveragedSlip::sticking_at(double tau) const {
+  const auto& [constant, d_z0_by_tau, d_zeta_by_tau] = tau <= 0.0 ? before_ : after_;
+  return {constant.z + tau, constant.integral + tau * (constant.z + 0.5 * tau), constant.d_z0 + d_z0_by_tau * tau,
+          constant.d_zeta + d_zeta_by_tau * tau};
+}
+
+inline model::WavePoint AveragedSlip::between(const Force& first, const Force& last) const {
+  const double mean = by_average_ * (last.integral - first.integral);
+  return {mean, by_average_ * (last.d_z0 - first.d_z0), by_average_ * (last.d_zeta - first.d_zeta),
+          by_average_ * (last.z - first.z), 0.5 * (first.z + last.z) - mean};
+}
 
 }  // namespace slipfit::fit
