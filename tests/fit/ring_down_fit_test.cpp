@@ -35,8 +35,8 @@ Recording with_release(const Scene& scene, double times) {
     force.push_back(from_N * std::exp(-decay * t) * (std::cos(damped * t) + decay / damped * std::sin(damped * t)));
   }
   std::mt19937_64 random(scene.seed);
-  std::normal_distribution<double> noise(0.0, scene.noise * (scene.static_N - scene.kinetic_N));
-  for (double& one : force) one += noise(random);
+  std::normal_distribution<double> normal;
+  for (double& one : force) one += scene.noise * (scene.static_N - scene.kinetic_N) * normal(random);
   return Recording::create(std::move(time_s), std::move(force), recording.conditions()).value();
 }
 

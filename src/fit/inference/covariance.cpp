@@ -63,7 +63,9 @@ Response response_of(const Problem& problem, const std::vector<Normal>& normals,
     const Index size = normal.common() + normal.own();
     RowMajor rows = RowMajor::Zero(size + kCoordinates, size + kCoordinates);
     rows.topLeftCorner(size, size) = normal.products.topLeftCorner(size, size);
-    if (normal.own() == own.rows()) rows.block(normal.common(), size, normal.own(), kCoordinates) = own;
+    if (own.rows() > 0 && normal.own() == own.rows()) {
+      rows.block(normal.common(), size, normal.own(), kCoordinates) = own;
+    }
     const std::optional<RampResidual> ramp = ramp_after(problem.recordings.front(), i, solved.continuous);
     elimination.add_cycle(rows, normal.columns, ramp ? &*ramp : nullptr);
   }
