@@ -25,7 +25,7 @@ namespace {
 
 /// Jobs that wait for each process: a fork costs about a millisecond and what a first fit sets up, so that it should
 /// serve for many.
-constexpr std::size_t kWaitingEach = 64;
+constexpr std::size_t kWaitingEach = 256;
 
 constexpr double kLongest_s = 1e9;  // what the clock can hold
 
