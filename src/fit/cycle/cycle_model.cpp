@@ -84,12 +84,12 @@ class CycleModel::Rows {
 
   /// The force above the level and its derivatives, in units of k V / w_n, at the next row.
   struct Place {
-    double* z;
-    double* by_tau;
-    double* by_z0;
-    double* by_log_omega;  ///< at a fixed time
-    double* by_law;        ///< one after the other at distances `stride`
-    std::ptrdiff_t stride;
+    double* z = nullptr;
+    double* by_tau = nullptr;
+    double* by_z0 = nullptr;
+    double* by_log_omega = nullptr;  ///< at a fixed time
+    double* by_law = nullptr;        ///< one after the other at distances `stride`
+    std::ptrdiff_t stride = 0;
     std::ptrdiff_t row = 0;
 
     template <std::size_t N>
