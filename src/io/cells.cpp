@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLongestNumber = 63;
-constexpr double kOverload = 9e36;  // SCPI instruments write 9.9e37 for infinity and 9.91e37 for what is not a number
 
 struct Parsed {
   double value = kNone;

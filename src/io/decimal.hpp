@@ -24,9 +24,11 @@ inline bool is_digit(char c) {
 inline constexpr std::array kPowersOfTen = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                             1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
+/// Beyond it there is no number: SCPI instruments write 9.9e37 for infinity and 9.91e37 for what is none.
+inline constexpr double kOverload = 9e36;
+
 /// A number of many digits or with an exponent: `digits_end` is where its digits end.
 inline Decimal read_long_decimal(const char* begin, const char* digits_end, const char* end) {
-  constexpr double kOrdinary = 1e36;  // what instruments write for infinity is larger
   const char* p = digits_end;
   if (p != end && (*p == 'e' || *p == 'E')) {
     ++p;
@@ -35,7 +37,7 @@ inline Decimal read_long_decimal(const char* begin, const char* digits_end, cons
   }
   double value = 0.0;
   const auto [number_end, error] = number_from_chars(begin, p, value);
-  if (error != std::errc() || !(std::abs(value) < kOrdinary)) return {};
+  if (error != std::errc() || !(std::abs(value) <= kOverload)) return {};
   return {true, value, number_end};
 }
 

@@ -45,10 +45,10 @@ Eigen::MatrixXd design(const Points& points, double frequency_Hz, std::size_t ha
   columns.col(0).setOnes();
   columns.col(1) = points.time_s;
   const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * frequency_Hz * points.time_s.array();
-  const Eigen::ArrayXd turn_c = angle.cos();
-  const Eigen::ArrayXd turn_s = angle.sin();
-  columns.col(2) = turn_c;
-  columns.col(3) = turn_s;
+  columns.col(2) = angle.cos();
+  columns.col(3) = angle.sin();
+  const auto turn_c = columns.col(2).array();
+  const auto turn_s = columns.col(3).array();
   for (Eigen::Index h = 1; h < waves; ++h) {
     const auto c = columns.col(2 * h).array();
     const auto s = columns.col(2 * h + 1).array();

@@ -23,7 +23,8 @@ AveragedSlip::AveragedSlip(const model::Slip& slip, const model::StickLine& afte
 
 /// Of the spring. z'' + 2 zeta z' + z = 0 gives the integral of z: 1 + 2 zeta (z0 - z) - z'.
 AveragedSlip::Slide AveragedSlip::slide_of(const model::Slip& slip) {
-  const auto [z0, zeta] = std::pair(slip.z0, slip.zeta);
+  const double z0 = slip.z0;
+  const double zeta = slip.zeta;
   const double by_b = 1.0 / slip.b;
   const double bend = (z0 + zeta) * by_b * by_b;  // as in model::slip_wave
   const double start = 1.0 + 2.0 * zeta * z0;
@@ -37,7 +38,8 @@ AveragedSlip::Slide AveragedSlip::slide_of(const model::Slip& slip) {
 
 /// 2 zeta z' on top, the integral of which is 2 zeta z.
 void AveragedSlip::transmit(const model::Slip& slip, const model::StickLine& after) {
-  const auto [z0, zeta] = std::pair(slip.z0, slip.zeta);
+  const double z0 = slip.z0;
+  const double zeta = slip.zeta;
   const double drag = 2.0 * zeta;
   const double by_b = 1.0 / slip.b;
   const double bend = (z0 + zeta) * by_b * by_b;
