@@ -25,9 +25,10 @@ MOST_MEMORY = 9 << 30
 LONGEST_S = 120
 
 
-def run(*arguments):
+def run(*arguments, most_memory=MOST_MEMORY, most_cpu_s=LONGEST_S):
     def limit():
-        resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+        resource.setrlimit(resource.RLIMIT_AS, (most_memory, most_memory))
+        resource.setrlimit(resource.RLIMIT_CPU, (most_cpu_s, most_cpu_s))
     return subprocess.run([SLIPFIT, *map(str, arguments)], capture_output=True, text=True, timeout=LONGEST_S, preexec_fn=limit)
 
 
@@ -153,11 +154,7 @@ def bombs(folder):
     (folder / "bomb.zip").write_bytes(zipped("bomb.csv", zeros))
     cells = b"<row>" + b"<c><v>0</v></c>" * 20 + b"</row>"
     sheet = b"<worksheet><sheetData>" + cells * 800000 + b"</sheetData></worksheet>"
-    book = b'<workbook xmlns:r="x"><sheets><sheet name="a" sheetId="1" r:id="r1"/></sheets></workbook>'
-    links = b'<Relationships><Relationship Id="r1" Target="worksheets/sheet1.xml"/></Relationships>'
-    with zipfile.ZipFile(folder / "bomb.xlsx", "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in (("xl/workbook.xml", book), ("xl/_rels/workbook.xml.rels", links), ("xl/worksheets/sheet1.xml", sheet)):
-            archive.writestr(name, content)
+    (folder / "bomb.xlsx").write_bytes(workbook(sheet))
     huge = tdms([("a", "s"), ("b", "N")], [[0.0] * 4, [0.0] * 4])
     (folder / "lie.tdms").write_bytes(huge.replace(struct.pack("<IIIQ", 20, 10, 1, 4), struct.pack("<IIIQ", 20, 10, 1, 1 << 60)))
     (folder / "daqmx.tdms").write_bytes(huge.replace(struct.pack("<I", 0x0E), struct.pack("<I", 0x8E), 1))
@@ -174,6 +171,61 @@ def bombs(folder):
     return names
 
 
+def workbook(sheet, book=None, links=None, strings=None):
+    parts = {
+        "xl/workbook.xml": book or b'<workbook xmlns:r="x"><sheets><sheet name="a" sheetId="1" r:id="r1"/></sheets></workbook>',
+        "xl/_rels/workbook.xml.rels": links or b'<Relationships><Relationship Id="r1" Target="worksheets/sheet1.xml"/></Relationships>',
+        "xl/worksheets/sheet1.xml": sheet,
+        "xl/sharedStrings.xml": strings or b"<sst/>",
+    }
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in parts.items():
+            archive.writestr(name, content)
+    return file.getvalue()
+
+
+def with_stated_size(archive, size=0x7FFFFFF0):
+    """The archive states this packed size for each member, in its directory and before the member."""
+    content = bytearray(archive)
+    for signature, field in ((b"PK\x01\x02", 20), (b"PK\x03\x04", 18)):
+        at = content.find(signature)
+        while at >= 0:
+            content[at + field:at + field + 4] = struct.pack("<I", size)
+            at = content.find(signature, at + 4)
+    return bytes(content)
+
+
+def padded(archive, count):
+    """With a member of random bytes behind the others, so that the whole unpacks to no more than 200 times its size."""
+    file = io.BytesIO(archive)
+    with zipfile.ZipFile(file, "a", zipfile.ZIP_STORED) as more:
+        more.writestr(".padding", os.urandom(count))
+    return file.getvalue()
+
+
+def check_limits(folder):
+    """Sizes that an archive states, sheets, links, rows, nodes and repeated strings: refused by their limit, soon and without much memory."""
+    cells = b"<row>" + b"<c><v>0</v></c>" * 20 + b"</row>"
+    rows = lambda row, count: b"<worksheet><sheetData>" + row * count + b"</sheetData></worksheet>"
+    far_more = "unpacks to far more"
+    files = {
+        "stated.zip": (with_stated_size(padded(zipped("a.csv", b"time,force\n" + b"0,0\n" * (1 << 26)), 1 << 16)), far_more),
+        "stated.xlsx": (with_stated_size(padded(workbook(rows(cells, 500000)), 1 << 16)), far_more),
+        "nodes.xlsx": (with_stated_size(padded(workbook(rows(cells, 500000)), 2 << 20)), far_more),
+        "rows.xlsx": (padded(workbook(rows(b"<row><c><v>1</v></c></row>", (1 << 20) + 1)), 1 << 20), "more than 1048576 rows"),
+        "sheets.xlsx": (workbook(rows(cells, 100), b'<workbook xmlns:r="x"><sheets>' + b'<s r:id="q"/>' * 400000 + b"</sheets></workbook>",
+                                 b"<Relationships>" + b'<x Id="z"/>' * 400000 + b"</Relationships>"), "more than 4096 sheets"),
+        "strings.xlsx": (workbook(rows(b"<row>" + b'<c t="s"><v>0</v></c>' * 16000 + b"</row>", 2), strings=b"<sst><si><t>" + b"a" * (1 << 22) +
+                                  b"</t></si></sst>"), far_more),
+    }
+    for name, (content, words) in files.items():
+        (folder / name).write_bytes(content)
+        line = check_refused(folder / name, name, most_memory=3 << 30, most_cpu_s=20)
+        assert words in line, f"{name}: {line}"
+        (folder / name).unlink()
+
+
 def damaged(folder, files):
     """Each cut off at several places, with other bytes in it, and with a wrong beginning."""
     for file in files:
@@ -186,8 +238,8 @@ def damaged(folder, files):
         yield file, "zeros behind the first bytes", content[:16] + bytes(4096)
 
 
-def check_refused(file, what, may_answer=False):
-    done = run("fit", file, "--speed", "0.01", "--quiet")
+def check_refused(file, what, may_answer=False, **limits):
+    done = run("fit", file, "--speed", "0.01", "--quiet", **limits)
     line = done.stderr.rstrip("\n")
     is_refusal = done.returncode == 3 and line.startswith("slipfit: ") and "\n" not in line and "internal" not in line
     assert is_refusal or (may_answer and done.returncode == 0), f"{what}: exit {done.returncode}: {done.stderr}"
@@ -241,6 +293,7 @@ def main():
             found = numbers(folder / file, *options)
             assert found == wanted, f"{entry}: other numbers than the CSV's"
         check_kinds(folder)
+        check_limits(folder)
         for file in bombs(folder):
             print(check_refused(folder / file, file))
         once = dict.fromkeys(e for e in made if isinstance(e, str))

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "io/arrays/tables.hpp"
+#include "io/container/unpacking_limit.hpp"
 
 // Files of MATLAB 5 to 7 are elements one after another, each a type, a number of bytes and these bytes. Source:
 // "MAT-File Format", The MathWorks, 2017, chapter 1.

@@ -1,4 +1,5 @@
 #include "io/arrays/tables.hpp"
+#include "io/container/unpacking_limit.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 #include "io/container/formats.hpp"
-#include "io/container/table_text.hpp"
+#include "io/container/unpacking_limit.hpp"
 
 #ifdef SLIPFIT_HAS_ZIP
 #include <zlib.h>
@@ -16,7 +16,7 @@ namespace {
 class GzipStream final : public ByteStream {
  public:
   GzipStream(std::unique_ptr<ByteStream> packed, std::string name)
-      : packed_(std::move(packed)), name_(std::move(name)) {
+      : packed_(std::move(packed)), name_(name), limit_(std::move(name)) {
     constexpr int kGzipWindow = 15 + 16;
     if (inflateInit2(&state_, kGzipWindow) != Z_OK) throw std::bad_alloc();
   }
@@ -38,8 +38,7 @@ class GzipStream final : public ByteStream {
       }
     }
     const std::size_t count = size - state_.avail_out;
-    unpacked_ += count;
-    if (is_bomb(unpacked_, stored_)) throw too_large(name_);
+    limit_.add_unpacked(count);
     return count;
   }
 
@@ -48,7 +47,7 @@ class GzipStream final : public ByteStream {
     state_.next_in =
         reinterpret_cast<Bytef*>(input_.data());  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast): as above
     state_.avail_in = static_cast<uInt>(packed_->read(input_.data(), input_.size()));
-    stored_ += state_.avail_in;
+    limit_.add_packed(state_.avail_in);
     return state_.avail_in > 0;
   }
 
@@ -68,8 +67,7 @@ class GzipStream final : public ByteStream {
   std::string name_;
   z_stream state_{};
   std::array<char, 65536> input_{};
-  std::uintmax_t unpacked_ = 0;
-  std::uintmax_t stored_ = 0;
+  UnpackingLimit limit_;
   bool ended_ = false;
 };
 

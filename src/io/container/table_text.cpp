@@ -97,10 +97,4 @@ std::string csv_cell(std::string_view text) {
   return is_plain ? cell : '"' + cell + '"';
 }
 
-bool is_bomb(std::uintmax_t unpacked, std::uintmax_t stored) {
-  constexpr std::uintmax_t kSmall = std::uintmax_t{64} << 20U;
-  constexpr std::uintmax_t kMostPacked = 200;
-  return unpacked > kSmall && unpacked / kMostPacked > stored;
-}
-
 }  // namespace slipfit::reading

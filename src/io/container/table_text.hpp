@@ -23,8 +23,4 @@ std::unique_ptr<ByteStream> text_of(std::string text);
 /// As one cell of CSV: on one line, in quotes where it must be.
 std::string csv_cell(std::string_view text);
 
-/// Whether unpacking to this size is out of all proportion to what is stored: deflate packs a thousandfold at most, and
-/// recordings tenfold.
-bool is_bomb(std::uintmax_t unpacked, std::uintmax_t stored);
-
 }  // namespace slipfit::reading

@@ -12,9 +12,11 @@
 #include <cstring>
 #include <pugixml.hpp>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "io/container/table_text.hpp"
+#include "io/container/xml.hpp"
 #include "io/message.hpp"
 #endif
 
@@ -23,9 +25,11 @@ namespace slipfit::reading {
 #ifdef SLIPFIT_HAS_XLSX
 namespace {
 
-constexpr std::size_t kMostSheetBytes = std::size_t{160} << 20U;  // pugixml needs some eight times this
+constexpr std::size_t kMostSheetBytes = std::size_t{160} << 20U;
 constexpr std::size_t kMostPartBytes = std::size_t{32} << 20U;
 constexpr std::size_t kMostColumns = 16384;  // of Excel
+constexpr std::size_t kMostRows = 1048576;   // of Excel
+constexpr std::size_t kMostSheets = 4096;
 
 /// What the style of a cell makes of its number.
 enum class DateStyle { None, Date, Clock };
@@ -71,12 +75,10 @@ std::string text_below(const pugi::xml_node& node) {
 /// An empty document where the workbook has no such part.
 pugi::xml_document part_of(const ZipArchive& archive, const std::string& path, std::size_t most,
                            const std::string& name) {
-  pugi::xml_document document;
-  if (archive.find(path) == nullptr) return document;
-  const std::string content = archive.content(path, most);
-  const auto parsed = document.load_buffer(content.data(), content.size(), pugi::parse_minimal);
-  if (!parsed) throw damaged(name, fmt::format("'{}' of the workbook is damaged", path));
-  return document;
+  if (archive.find(path) == nullptr) return {};
+  auto document = parse_xml(archive.content(path, most), pugi::parse_minimal, name);
+  if (!document) throw damaged(name, fmt::format("'{}' of the workbook is damaged", path));
+  return *std::move(document);
 }
 
 /// By the number of one of Excel's own formats (ECMA-376 part 1, 18.8.30).
@@ -128,17 +130,38 @@ std::string date_text(double days, DateStyle style, DateSystem system) {
 
 std::vector<DateStyle> styles_of(const pugi::xml_document& document) {
   const pugi::xml_node root = document.document_element();
-  std::vector<std::pair<unsigned, DateStyle>> formats;
+  std::unordered_map<unsigned, DateStyle> formats;
   for (const pugi::xml_node format : child(root, "numFmts")) {
-    formats.emplace_back(format.attribute("numFmtId").as_uint(), date_style(format.attribute("formatCode").value()));
+    formats.emplace(format.attribute("numFmtId").as_uint(), date_style(format.attribute("formatCode").value()));
   }
   std::vector<DateStyle> styles;
   for (const pugi::xml_node style : child(root, "cellXfs")) {
     const unsigned id = style.attribute("numFmtId").as_uint();
-    const auto own = std::ranges::find_if(formats, [id](const auto& f) { return f.first == id; });
+    const auto own = formats.find(id);
     styles.push_back(own == formats.end() ? built_in_date_style(id) : own->second);
   }
   return styles;
+}
+
+/// The sheets that the workbook lists and the archive has. Error: damaged_container.
+std::vector<Sheet> sheets_of(const ZipArchive& archive, const pugi::xml_document& book, const pugi::xml_document& links,
+                             const std::string& name) {
+  std::unordered_map<std::string_view, std::string> targets;  // by id
+  for (const pugi::xml_node link : links.document_element()) {
+    targets.emplace(link.attribute("Id").value(), link.attribute("Target").value());
+  }
+  std::vector<Sheet> sheets;
+  std::size_t listed = 0;
+  for (const pugi::xml_node sheet : child(book.document_element(), "sheets")) {
+    if (++listed > kMostSheets) {
+      throw damaged(name, fmt::format("the workbook lists more than {} sheets", kMostSheets));
+    }
+    const std::string& target = targets[sheet.attribute("r:id").value()];
+    const std::string path = target.starts_with('/') ? target.substr(1) : "xl/" + target;
+    const ZipMember* const member = archive.find(path);
+    if (member != nullptr) sheets.push_back({sheet.attribute("name").value(), path, member->stated_bytes});
+  }
+  return sheets;
 }
 
 Workbook read_workbook(const ZipArchive& archive, const std::string& name) {
@@ -149,14 +172,7 @@ Workbook read_workbook(const ZipArchive& archive, const std::string& name) {
   Workbook workbook;
   const pugi::xml_node root = book.document_element();
   if (child(root, "workbookPr").attribute("date1904").as_bool()) workbook.system = DateSystem::Since1904;
-  for (const pugi::xml_node sheet : child(root, "sheets")) {
-    const char* const id = sheet.attribute("r:id").value();
-    const pugi::xml_node link = links.document_element().find_child_by_attribute("Id", id);
-    const std::string target = link.attribute("Target").value();
-    const std::string path = target.starts_with('/') ? target.substr(1) : "xl/" + target;
-    const ZipMember* const member = archive.find(path);
-    if (member != nullptr) workbook.sheets.push_back({sheet.attribute("name").value(), path, member->unpacked});
-  }
+  workbook.sheets = sheets_of(archive, book, links, name);
   for (const pugi::xml_node string : strings.document_element()) workbook.strings.push_back(text_below(string));
   workbook.styles = styles_of(part("xl/styles.xml"));
   return workbook;
@@ -190,7 +206,9 @@ std::string cell_text(const pugi::xml_node& cell, const Workbook& workbook) {
 std::string sheet_text(const pugi::xml_document& sheet, const Workbook& workbook, const std::string& name) {
   std::string text;
   std::size_t width = 0;
+  std::size_t rows = 0;
   for (const pugi::xml_node row : child(sheet.document_element(), "sheetData")) {
+    if (++rows > kMostRows) throw damaged(name, fmt::format("the sheet has more than {} rows", kMostRows));
     for (std::size_t next = 0; const pugi::xml_node cell : row) {
       next = column_of(cell.attribute("r").value(), next) + 1;
       width = std::max(width, next);
@@ -198,12 +216,15 @@ std::string sheet_text(const pugi::xml_document& sheet, const Workbook& workbook
   }
   if (width > kMostColumns) throw damaged(name, "a cell of the sheet lies beyond the last column");
   std::vector<std::string> cells(width);
+  std::size_t copied = 0;  // cells may repeat one long string
   for (const pugi::xml_node row : child(sheet.document_element(), "sheetData")) {
     std::size_t used = 0;
     for (std::size_t next = 0; const pugi::xml_node cell : row) {
       next = column_of(cell.attribute("r").value(), next) + 1;
       cells[next - 1] = cell_text(cell, workbook);
       used = std::max(used, next);
+      copied += cells[next - 1].size();
+      if (copied > kMostSheetBytes) throw too_large(name);
     }
     for (std::size_t c = 0; c < width; ++c) {
       if (c > 0) text += ',';

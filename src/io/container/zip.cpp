@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "io/container/formats.hpp"
-#include "io/container/table_text.hpp"
+#include "io/container/unpacking_limit.hpp"
 #include "io/container/zip_archive.hpp"
 #include "io/message.hpp"
 
@@ -61,9 +61,11 @@ unzFile open_in_memory(MemoryFile& content) {
 }  // namespace
 
 struct ZipArchive::Handle {
+  UnpackingLimit limit;  ///< of all members together
   MemoryFile content;
   unzFile file = nullptr;
-  explicit Handle(std::string bytes) : content{std::move(bytes), 0}, file(open_in_memory(content)) {}
+  Handle(std::string bytes, const std::string& name)
+      : limit(name, bytes.size()), content{std::move(bytes), 0}, file(open_in_memory(content)) {}
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   ~Handle() { unzClose(file); }
@@ -75,9 +77,9 @@ constexpr std::size_t kMostMembers = 10000;
 
 class MemberStream final : public ByteStream {
  public:
-  /// `file` stands at the member and has it open; `owner` keeps it.
-  MemberStream(unzFile file, std::shared_ptr<void> owner, std::string name, std::uintmax_t stored)
-      : file_(file), owner_(std::move(owner)), name_(std::move(name)), stored_(stored) {}
+  /// `file` has the member open; `limit` belongs to the same archive and keeps it alive.
+  MemberStream(unzFile file, std::shared_ptr<UnpackingLimit> limit, std::string name)
+      : file_(file), limit_(std::move(limit)), name_(std::move(name)) {}
 
   std::size_t read(char* buffer, std::size_t size) override {
     std::size_t count = 0;
@@ -87,8 +89,7 @@ class MemberStream final : public ByteStream {
       count += static_cast<std::size_t>(got);
       ended_ = got == 0;
     }
-    unpacked_ += count;
-    if (is_bomb(unpacked_, stored_)) throw too_large(name_);
+    limit_->add_unpacked(count);
     if (ended_ && !checked_ && unzCloseCurrentFile(file_) == UNZ_CRCERROR) {
       throw damaged(name_, "the zip archive is damaged (checksum)");
     }
@@ -98,10 +99,8 @@ class MemberStream final : public ByteStream {
 
  private:
   unzFile file_;
-  std::shared_ptr<void> owner_;
+  std::shared_ptr<UnpackingLimit> limit_;
   std::string name_;
-  std::uintmax_t stored_;
-  std::uintmax_t unpacked_ = 0;
   bool ended_ = false;
   bool checked_ = false;
 };
@@ -117,7 +116,7 @@ bool is_file(const ZipMember& member) {
 ZipArchive ZipArchive::open(std::string content, const std::string& name) {
   ZipArchive archive;
   archive.name_ = name;
-  archive.handle_ = std::make_shared<Handle>(std::move(content));
+  archive.handle_ = std::make_shared<Handle>(std::move(content), name);
   unzFile const file = archive.handle_->file;
   if (file == nullptr) throw damaged(name, "begins like a zip archive but is none, or is cut off");
   for (int status = unzGoToFirstFile(file); status == UNZ_OK; status = unzGoToNextFile(file)) {
@@ -126,26 +125,27 @@ ZipArchive ZipArchive::open(std::string content, const std::string& name) {
     if (unzGetCurrentFileInfo64(file, &info, member.data(), member.size() - 1, nullptr, 0, nullptr, 0) != UNZ_OK) {
       throw damaged(name, "the zip archive is damaged");
     }
-    archive.members_.push_back({member.data(), info.uncompressed_size, info.compressed_size});
+    archive.places_.emplace(member.data(), archive.members_.size());
+    archive.members_.push_back({member.data(), info.uncompressed_size});
     if (archive.members_.size() > kMostMembers) throw too_large(name);
   }
   return archive;
 }
 
 const ZipMember* ZipArchive::find(const std::string& member) const {
-  const auto found = std::ranges::find_if(members_, [&](const ZipMember& m) { return m.name == member; });
-  return found == members_.end() ? nullptr : &*found;
+  const auto found = places_.find(member);
+  return found == places_.end() ? nullptr : &members_[found->second];
 }
 
 std::unique_ptr<ByteStream> ZipArchive::stream(const std::string& member) const {
   unzFile const file = handle_->file;
-  const ZipMember* const found = find(member);
-  if (found == nullptr || unzLocateFile(file, member.c_str(), 1) != UNZ_OK || unzOpenCurrentFile(file) != UNZ_OK) {
+  if (find(member) == nullptr || unzLocateFile(file, member.c_str(), 1) != UNZ_OK ||
+      unzOpenCurrentFile(file) != UNZ_OK) {
     throw damaged(name_, fmt::format("'{}' in it cannot be unpacked (encrypted, damaged, or packed by another "
                                      "method than deflate)",
                                      printable(member)));
   }
-  return std::make_unique<MemberStream>(file, handle_, name_, found->stored);
+  return std::make_unique<MemberStream>(file, std::shared_ptr<UnpackingLimit>(handle_, &handle_->limit), name_);
 }
 
 std::string ZipArchive::content(const std::string& member, std::size_t most) const {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "io/container/byte_stream.hpp"
@@ -11,8 +12,7 @@ namespace slipfit::reading {
 
 struct ZipMember {
   std::string name;
-  std::uintmax_t unpacked = 0;  ///< as the archive states it
-  std::uintmax_t stored = 0;
+  std::uintmax_t stated_bytes = 0;  ///< unpacked size by the archive's directory, which may be wrong
 };
 
 /// A zip archive open for reading, over minizip.
@@ -33,6 +33,7 @@ class ZipArchive {
   std::shared_ptr<Handle> handle_;
   std::string name_;
   std::vector<ZipMember> members_;
+  std::unordered_map<std::string, std::size_t> places_;  ///< index into members_ by name
 };
 
 /// A workbook (.xlsx) as CSV. Errors: damaged_container, container_too_large, unknown_sheet, not_built_in.
