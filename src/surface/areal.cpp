@@ -98,8 +98,14 @@ double find_direction(const HeightMap& map) {
 
 ThrownError map_too_large(const std::string& file) {
   return ThrownError(
-      {"map_too_large", fmt::format("{}: holds more than {} million points; cut the track out of it, or thin it out",
-                                    file, kMostPoints >> 20U)});
+      {"map_too_large",
+       fmt::format("{}: has more than {} million points, or more than {} million in one line; cut the track out of it, "
+                   "or thin it out",
+                   file, kMostPoints >> 20U, kMostInLine >> 20U)});
+}
+
+void check_extent(std::size_t columns, std::size_t rows, const std::string& file) {
+  if (columns > kMostInLine || rows > kMostInLine || columns * rows > kMostPoints) throw map_too_large(file);
 }
 
 Profile profile_of(const HeightMap& map, std::optional<double> along_rad) {

@@ -25,7 +25,10 @@ struct HeightMap {
 };
 
 constexpr std::size_t kMostPoints = std::size_t{64} << 20U;
+constexpr std::size_t kMostInLine = std::size_t{4} << 20U;  ///< points of a profile, or of a line of an area
 ThrownError map_too_large(const std::string& file);
+/// Error: map_too_large.
+void check_extent(std::size_t columns, std::size_t rows, const std::string& file);
 
 /// All rows averaged across the direction of sliding: the given one, else that in which the averages vary most (form
 /// aside). A single row is the profile itself.

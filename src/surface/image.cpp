@@ -16,7 +16,7 @@ HeightMap read_image(const SurfaceFile& file, const ProfileOptions& options) {
   if (std::sscanf(output.first.c_str(), "%zux%zu", &map.columns, &map.rows) != 2 || map.columns == 0 || map.rows == 0) {
     throw damaged_surface(file, "the image is damaged");
   }
-  if (map.columns > kMostPoints || map.rows > kMostPoints / map.columns) throw map_too_large(file.name);
+  check_extent(map.columns, map.rows, file.name);
   const std::size_t count = map.columns * map.rows;
   map.values.reserve(count);
   std::array<char, 65536> part{};

@@ -146,7 +146,7 @@ HeightMap read_sdf(const SurfaceFile& file) {
   std::string_view data = bytes.substr(std::min(kBinaryHeader, bytes.size()));
   const SdfHeader header = is_binary ? binary_header(bytes) : text_header(bytes, data);
   if (const std::string fault = fault_of(header); !fault.empty()) throw damaged_surface(file, fault);
-  if (header.points * header.profiles > static_cast<double>(kMostPoints)) throw map_too_large(file.name);
+  check_extent(static_cast<std::size_t>(header.points), static_cast<std::size_t>(header.profiles), file.name);
   HeightMap map{static_cast<std::size_t>(header.points),
                 static_cast<std::size_t>(header.profiles),
                 header.x_scale_m,

@@ -74,7 +74,8 @@ Columns read_columns(reading::OpenedFile file, const Choice& choice) {
   Columns columns;
   const reading::Dialect dialect = file.layout.dialect;
   const auto first = static_cast<unsigned>(file.layout.first_data_line);
-  ::io::LineReader reader(file.name.substr(0, 200), std::move(file.source));
+  const std::string name = file.name;
+  ::io::LineReader reader(name.substr(0, 200), std::move(file.source));
   std::vector<std::string_view> cells;
   while (const char* const line = reader.next_line()) {
     if (reader.get_file_line() < first) continue;
@@ -90,6 +91,7 @@ Columns read_columns(reading::OpenedFile file, const Choice& choice) {
     if (!std::isfinite(place) || kind == CellKind::Text || (!choice.x && kind == CellKind::Blank)) continue;
     if (choice.x) columns.x.push_back(place);
     columns.z.push_back(height);
+    check_extent(columns.z.size(), 1, name);
   }
   return columns;
 }

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -13,7 +16,7 @@
 #include "surface/readers.hpp"
 
 #ifdef SLIPFIT_HAS_XLSX
-#include <pugixml.hpp>
+#include "io/container/xml.hpp"
 #endif
 
 // ISO 25178-72: a zip archive whose main.xml says what the numbers in bindata/data.bin, or in the XML itself, are.
@@ -31,21 +34,43 @@ constexpr std::size_t kMostXml = std::size_t{256} << 20U;
 struct Axis {
   bool is_absolute = false;
   char type = 'D';
-  double increment = 1.0;
-  double offset = 0.0;
+  double increment = 1.0;  ///< metres of one unit, or of one step: NaN where an incremental axis has none
+  double offset = 0.0;     ///< metres
 
   [[nodiscard]] std::size_t bytes() const { return type == 'I' ? 2 : type == 'D' ? 8 : 4; }
 };
 
-Axis axis_of(const pugi::xml_node& axes, const char* name) {
+/// With a decimal point, as the standard demands, or a decimal comma. NaN for anything else.
+double xml_number(std::string_view text) {
+  const double value = reading::plain_number(trim(text), false);
+  return std::isfinite(value) ? value : reading::plain_number(trim(text), true);
+}
+
+/// The default holds where the axis has no such field. Error: damaged_surface.
+double number_in(const SurfaceFile& file, const pugi::xml_node& axis, const char* field, double absent) {
+  const pugi::xml_node node = axis.child(field);
+  if (node.empty()) return absent;
+  const double value = xml_number(node.text().as_string());
+  if (std::isfinite(value)) return value;
+  throw damaged_surface(file, fmt::format("{} of axis {} in its main.xml is '{}', expected a number of metres without "
+                                          "a unit",
+                                          field, axis.name(), reading::printable(node.text().as_string())));
+}
+
+/// `step`: the increment of an incremental axis that states none. Error: damaged_surface.
+Axis axis_of(const SurfaceFile& file, const pugi::xml_node& axes, const char* name, double step) {
   const pugi::xml_node node = axes.child(name);
+  Axis axis;
+  axis.is_absolute = trim(node.child("AxisType").text().as_string("A")).starts_with('A');
   const std::string_view type = trim(node.child("DataType").text().as_string("D"));
-  const auto number = [&](const char* field, double standard) {
-    const double value = reading::plain_number(trim(node.child(field).text().as_string()), false);
-    return std::isfinite(value) ? value : standard;
-  };
-  return {trim(node.child("AxisType").text().as_string("A")).starts_with('A'), type.empty() ? 'D' : type.front(),
-          number("Increment", 1.0), number("Offset", 0.0)};
+  if (type.size() != 1 || std::string_view("ILFD").find(type) == std::string_view::npos) {
+    throw damaged_surface(file, fmt::format("DataType of axis {} in its main.xml is '{}', expected I, L, F or D", name,
+                                            reading::printable(type)));
+  }
+  axis.type = type.front();
+  axis.increment = number_in(file, node, "Increment", axis.is_absolute ? 1.0 : step);
+  axis.offset = number_in(file, node, "Offset", 0.0);
+  return axis;
 }
 
 double number_of(std::string_view bytes, std::size_t place, const Axis& axis) {
@@ -115,9 +140,9 @@ std::vector<double> listed_heights(X3p& x3p) {
     if (heights.size() == count) break;
     const std::string_view text = datum.text().as_string();
     const std::size_t last = text.rfind(';');
-    const double z = reading::plain_number(trim(last == std::string_view::npos ? text : text.substr(last + 1)), false);
+    const double z = xml_number(last == std::string_view::npos ? text : text.substr(last + 1));
     if (x3p.x.is_absolute) {
-      const double x = reading::plain_number(trim(text.substr(0, text.find(';'))), false);
+      const double x = xml_number(text.substr(0, text.find(';')));
       if (!std::isfinite(x)) continue;
       x3p.places_m.push_back(x3p.x.offset + x3p.x.increment * x);
     }
@@ -130,7 +155,12 @@ std::vector<double> listed_heights(X3p& x3p) {
 /// Numbers of points along x and y. Several layers (SizeZ) are none of a surface.
 void read_sizes(X3p& x3p) {
   const pugi::xml_node matrix = x3p.record3.child("MatrixDimension");
-  const auto size = [](const pugi::xml_node& node) { return static_cast<std::size_t>(node.text().as_ullong()); };
+  const auto size = [](const pugi::xml_node& node) {
+    std::size_t number = 0;
+    const std::string_view text = trim(node.text().as_string());
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? number : 0;
+  };
   const bool is_grid = !matrix.empty();
   x3p.columns = is_grid ? size(matrix.child("SizeX")) : size(x3p.record3.child("ListDimension"));
   x3p.rows = is_grid ? size(matrix.child("SizeY")) : 1;
@@ -138,7 +168,7 @@ void read_sizes(X3p& x3p) {
   if (is_grid && size(matrix.child("SizeZ")) > 1) {
     throw damaged_surface(x3p.file, "it holds several layers, and a surface is one");
   }
-  if (x3p.columns > kMostPoints || x3p.rows > kMostPoints / x3p.columns) throw map_too_large(x3p.file.name);
+  check_extent(x3p.columns, x3p.rows, x3p.file.name);
 }
 
 HeightMap map_of(X3p& x3p) {
@@ -175,17 +205,16 @@ HeightMap read_x3p(const SurfaceFile& file) {
         {"not_a_surface",
          file.name + ": a zip archive without main.xml, which is no X3P file; give X3P, SDF, text or an image"});
   }
-  const std::string xml = archive.content("main.xml", kMostXml);
-  X3p x3p{file, archive, {}, {}, {}, {}, {}, 0, 1, {}};
-  if (!x3p.document.load_buffer(xml.data(), xml.size(), pugi::parse_minimal | pugi::parse_escapes)) {
-    throw damaged_surface(file, "its main.xml is no XML");
-  }
+  auto document =
+      reading::parse_xml(archive.content("main.xml", kMostXml), pugi::parse_minimal | pugi::parse_escapes, file.name);
+  if (!document) throw damaged_surface(file, "its main.xml is no XML");
+  X3p x3p{file, archive, *std::move(document), {}, {}, {}, {}, 0, 1, {}};
   const pugi::xml_node root = x3p.document.document_element();
   const pugi::xml_node axes = root.child("Record1").child("Axes");
   x3p.record3 = root.child("Record3");
-  x3p.x = axis_of(axes, "CX");
-  x3p.y = axis_of(axes, "CY");
-  x3p.z = axis_of(axes, "CZ");
+  x3p.x = axis_of(file, axes, "CX", kHole);
+  x3p.y = axis_of(file, axes, "CY", kHole);
+  x3p.z = axis_of(file, axes, "CZ", 1.0);
   read_sizes(x3p);
   return map_of(x3p);
 }

@@ -71,11 +71,11 @@ def sdf_text(heights, columns, rows, z_scale=1.0):
     return head + "\n".join("BAD" if math.isnan(h) else repr(h / z_scale) for h in heights) + "\n*\n"
 
 
-def x3p(data, columns, rows=1, kind="D", z_step=1.0, valid=None, x_axis=("I", PITCH_M), members=None, layers=1):
+def x3p(data, columns, rows=1, kind="D", z_step=1.0, valid=None, x_axis=("I", PITCH_M), members=None, layers=1, increment=None):
     link = "<PointDataLink>bindata/data.bin</PointDataLink>" + ("<ValidPointsLink>bindata/valid.bin</ValidPointsLink>" if valid else "")
     xml = f"""<?xml version="1.0" encoding="UTF-8"?>
 <p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2"><Record1><Revision>ISO5436 - 2000</Revision><FeatureType>PRF</FeatureType><Axes>
-<CX><AxisType>{x_axis[0]}</AxisType><DataType>D</DataType><Increment>{x_axis[1]!r}</Increment><Offset>0</Offset></CX>
+<CX><AxisType>{x_axis[0]}</AxisType><DataType>D</DataType>{f"<Increment>{x_axis[1]!r}</Increment>" if increment is None else increment}<Offset>0</Offset></CX>
 <CY><AxisType>I</AxisType><DataType>D</DataType><Increment>{PITCH_M!r}</Increment><Offset>0</Offset></CY>
 <CZ><AxisType>A</AxisType><DataType>{kind}</DataType><Increment>{z_step!r}</Increment><Offset>0</Offset></CZ></Axes></Record1>
 <Record3><MatrixDimension><SizeX>{columns}</SizeX><SizeY>{rows}</SizeY><SizeZ>{layers}</SizeZ></MatrixDimension><DataLink>{link}</DataLink>
@@ -129,6 +129,7 @@ def check_numbers(folder):
     whole = folder / "whole.sdf"
     whole.write_bytes(sdf_header(n, 1, 1e-10, 6) + struct.pack(f"<{n}i", *counts))
     whole_reference = numbers(whole)
+    same("comma.x3p", x3p(doubles, n, increment="<Increment> 0,5e-6 </Increment>"), reference)
     same("whole.x3p", x3p(struct.pack(f"<{n}i", *counts), n, kind="L", z_step=1e-10), whole_reference)
     same("short.sdf", sdf_header(n, 1, 1e-9, 5) + struct.pack(f"<{n}h", *(round(h / 1e-9) for h in heights)),
          numbers_of(folder, "short.x3p", x3p(struct.pack(f"<{n}h", *(round(h / 1e-9) for h in heights)), n, kind="I", z_step=1e-9)))
@@ -204,9 +205,20 @@ def check_hostile(folder):
         "short.x3p": (x3p(doubles[:800], n), "ends before"),
         "lying.x3p": (x3p(doubles, 2**40, 2**40), "cut the track"),
         "layers.x3p": (x3p(doubles, n, layers=7), "layers"),
+        "no_increment.x3p": (x3p(doubles, n, increment=""), "no distance of the points"),
+        "empty_increment.x3p": (x3p(doubles, n, increment="<Increment/>"), "Increment of axis CX in its main.xml is ''"),
+        "unit.x3p": (x3p(doubles, n, increment="<Increment>0.5 um</Increment>"), "Increment of axis CX in its main.xml is '0.5 um'"),
+        "word.x3p": (x3p(doubles, n, increment="<Increment>fine</Increment>"), "is 'fine', expected a number of metres"),
+        "type.x3p": (x3p(doubles, n, kind="Q"), "expected I, L, F or D"),
+        "grouped.x3p": (x3p(doubles, "1,200"), "how many points"),
+        "long.x3p": (x3p(b"", 5 << 20), "4 million in one line"),
+        "long.csv": (b"z [um]\n" + b"1\n2\n" * (3 << 20), "4 million in one line", "--pitch", "1um"),
         "none.x3p": (x3p(doubles, 0), "how many points"),
         "bomb.x3p": (bomb, "bomb.x3p"),
         "xml_bomb.x3p": (xml_bomb, "xml_bomb.x3p"),
+        "stated.x3p": (with_stated_size(x3p(b"", 0, members={"main.xml": b"<a>" + b" " * (100 << 20), "padding": noise(1 << 16)})), "unpacks to far more"),
+        "nodes.x3p": (with_stated_size(x3p(b"", 0, members={"main.xml": b"<a>" + b"<a/>" * (20 << 20) + b"</a>", "padding": noise(1 << 20)})),
+                      "unpacks to far more"),
         "entities.x3p": (x3p(b"", 0, members={"main.xml": entities}), "entities.x3p"),
         "no_xml.x3p": (x3p(b"", 0, members={"main.xml": "plain words"}), "XML"),
         "no_main.x3p": (x3p(b"", 0, members={"other.txt": "1,2"}), "main.xml"),
@@ -219,9 +231,24 @@ def check_hostile(folder):
         "few.csv": (b"x [um],z [um]\n" + b"".join(b"%d,%d\n" % (i, i % 5) for i in range(20)), "too few"),
         "three.csv": (b"x [um],z [um]\n" + b"".join(b"%d,%f\n" % (i, (i % 100) / 50 + 0.001 * (i * 7 % 5)) for i in range(330)), "ridges"),
     }
-    for name, (content, part) in files.items():
+    for name, (content, part, *options) in files.items():
         (folder / name).write_bytes(content)
-        refused(folder / name, part)
+        refused(folder / name, part, *options)
+
+
+def noise(count):
+    return random.Random(1).randbytes(count)
+
+
+def with_stated_size(archive, size=0x7FFFFFF0):
+    """The archive states this packed size for each member, in its directory and before the member."""
+    content = bytearray(archive)
+    for signature, field in ((b"PK\x01\x02", 20), (b"PK\x03\x04", 18)):
+        at = content.find(signature)
+        while at >= 0:
+            content[at + field:at + field + 4] = struct.pack("<I", size)
+            at = content.find(signature, at + 4)
+    return bytes(content)
 
 
 def x3p_xml(n):
