@@ -4,8 +4,6 @@
 
 #include <cstdio>
 #include <exception>
-#include <filesystem>
-#include <fstream>
 #include <new>
 #include <string_view>
 #include <utility>
@@ -26,6 +24,7 @@ bool write(std::string_view text) {
 
 int refuse(const std::string& line) {
   write("!" + line + "\n");
+  std::fflush(stdout);
   return 1;
 }
 
@@ -41,23 +40,18 @@ int copy(NumberTable table, const std::string& chosen) {
   return written && std::fflush(stdout) == 0 ? 0 : 1;
 }
 
-int run(std::string_view kind, const std::string& name, const std::optional<std::string>& variable) {
-  std::ifstream opened(name, std::ios::binary);
-  std::string file(std::filesystem::file_size(name), '\0');
-  opened.read(file.data(), static_cast<std::streamsize>(file.size()));
+int run(std::string_view kind, const char* name, const std::optional<std::string>& variable) {
+  std::string file = read_only_file(name);
   std::string chosen;
   auto* const read = kind == "mat" ? read_mat : read_hdf5;
   auto table = read(std::move(file), variable, chosen);
   return copy(std::move(table), chosen);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc < 3 || argc > 4) return 2;
-  limit_resources(kMostMemory, kMostSeconds);
+/// Never throws.
+int run_or_refuse(std::string_view kind, const char* name, const std::optional<std::string>& variable) {
   try {
-    return run(argv[1], argv[2], argc > 3 ? std::optional<std::string>(argv[3]) : std::nullopt);
+    return run(kind, name, variable);
   } catch (const Refusal& refusal) {
     return refuse(refusal.error().code + " " + refusal.error().message);
   } catch (const std::bad_alloc&) {
@@ -65,4 +59,13 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return refuse(std::string("damaged_container ") + error.what());
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3 || argc > 4) return 2;
+  end_with_slipfit();
+  limit_resources(kMostMemory, kMostSeconds);
+  end_program(run_or_refuse(argv[1], argv[2], argc > 3 ? std::optional<std::string>(argv[3]) : std::nullopt));
 }

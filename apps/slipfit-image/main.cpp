@@ -5,7 +5,10 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "../helper_limits.hpp"
@@ -24,6 +27,7 @@ constexpr rlim_t kMostSeconds = 60;
 
 int refuse(const char* line) {
   std::printf("!%s\n", line);
+  std::fflush(stdout);
   return 1;
 }
 
@@ -51,23 +55,39 @@ bool write(const Image& image) {
   return std::fflush(stdout) == 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc != 2) return 2;
-  limit_resources(kMostMemory, kMostSeconds);
+int run(const char* name) {
+  const std::string file = read_only_file(name);
+  const auto* const bytes = reinterpret_cast<const l_uint8*>(
+      file.data());  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast): Leptonica's
   setMsgSeverity(L_SEVERITY_NONE);
   l_int32 format = 0;
   l_int32 width = 0;
   l_int32 height = 0;
-  if (pixReadHeader(argv[1], &format, &width, &height, nullptr, nullptr, nullptr) != 0) {
+  if (pixReadHeaderMem(bytes, file.size(), &format, &width, &height, nullptr, nullptr, nullptr) != 0) {
     return refuse("damaged_surface the image is damaged, or of a kind that is not read; save it as PNG");
   }
   if (static_cast<std::int64_t>(width) * height > kMostPixels) {
     return refuse("map_too_large the image has more than 64 million pixels; cut the track out of it");
   }
-  Image image(pixRead(argv[1]));
+  Image image(pixReadMem(bytes, file.size()));
   if (image) image = grey(std::move(image));
   if (!image) return refuse("damaged_surface the image is damaged; save it as PNG");
   return write(image) ? 0 : 1;
+}
+
+int run_or_refuse(const char* name) {
+  try {
+    return run(name);
+  } catch (const std::exception&) {
+    return refuse("map_too_large the image needs more memory than there is; cut the track out of it");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  end_with_slipfit();
+  limit_resources(kMostMemory, kMostSeconds);
+  end_program(run_or_refuse(argv[1]));
 }

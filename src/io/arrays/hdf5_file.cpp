@@ -53,8 +53,21 @@ bool has_huge_chunks(hid_t dataset, hid_t type) {
   return bytes > static_cast<double>(kMostChunkBytes);
 }
 
-void add_dataset(hid_t file, const std::string& path, std::vector<ArrayShape>& arrays) {
+/// Whether reading the numbers, or even asking for the extents, would open another file. H5Dopen2 itself opens none.
+bool is_in_other_file(hid_t dataset) {
+  const Handle settings(H5Dget_create_plist(dataset), H5Pclose);
+  return H5Pget_layout(settings) == H5D_VIRTUAL || H5Pget_external_count(settings) != 0;
+}
+
+/// What the file holds, and what it only refers to.
+struct Contents {
+  std::vector<ArrayShape> arrays;
+  std::vector<std::string> in_other_files;  ///< paths of datasets and links
+};
+
+void add_dataset(hid_t file, const std::string& path, Contents& contents) {
   const Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (is_in_other_file(dataset)) return contents.in_other_files.push_back(path);
   const Handle space(H5Dget_space(dataset), H5Sclose);
   const Handle type(H5Dget_type(dataset), H5Tclose);
   const int rank = H5Sget_simple_extent_ndims(space);
@@ -67,19 +80,24 @@ void add_dataset(hid_t file, const std::string& path, std::vector<ArrayShape>& a
   if (is_table) shape.fields = number_fields(type);
   constexpr hsize_t kMost = hsize_t{1} << 40U;  // above it products of extents may overflow
   const bool is_sane = extents[0] > 0 && extents[1] > 0 && extents[0] < kMost && extents[1] < kMost / extents[0];
-  if (is_sane && (is_table ? !shape.fields.empty() : is_number(type))) arrays.push_back(shape);
+  if (is_sane && (is_table ? !shape.fields.empty() : is_number(type))) contents.arrays.push_back(shape);
 }
 
-struct Visit {
-  std::vector<std::string> datasets;
-};
+constexpr std::size_t kMostPaths = 10000;
+using Paths = std::vector<std::string>;
 
 herr_t note_dataset(hid_t, const char* name, const H5O_info_t* info, void* data) {
-  constexpr std::size_t kMostDatasets = 10000;
-  auto* const visit = static_cast<Visit*>(data);
+  auto* const datasets = static_cast<Paths*>(data);
   const bool is_of_MATLAB = name[0] == '#';  // what cells and objects refer to
-  if (info->type == H5O_TYPE_DATASET && !is_of_MATLAB) visit->datasets.push_back(std::string("/") + name);
-  return visit->datasets.size() < kMostDatasets ? 0 : 1;
+  if (info->type == H5O_TYPE_DATASET && !is_of_MATLAB) datasets->push_back(std::string("/") + name);
+  return datasets->size() < kMostPaths ? 0 : 1;
+}
+
+/// Links of other types than the library's own three are of a program that registers what they lead to.
+herr_t note_outer_link(hid_t, const char* name, const H5L_info_t* info, void* data) {
+  auto* const links = static_cast<Paths*>(data);
+  if (info->type != H5L_TYPE_HARD && info->type != H5L_TYPE_SOFT) links->push_back(std::string("/") + name);
+  return links->size() < kMostPaths ? 0 : 1;
 }
 
 std::string unit_of(hid_t dataset) {
@@ -137,17 +155,37 @@ hid_t open_in_memory(std::string file) {
   return H5Fopen("recording", H5F_ACC_RDONLY, access);
 }
 
+Contents contents_of(hid_t file) {
+  Contents contents;
+  Paths datasets;
+  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_dataset, &datasets, H5O_INFO_BASIC);
+  H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_outer_link, &contents.in_other_files);
+  for (const std::string& path : datasets) add_dataset(file, path, contents);
+  return contents;
+}
+
+/// Other files are never read: whoever made the file would choose which ones, and neither digest nor --resume would
+/// know of them. Without --variable nobody knows whether the table needs them.
+void refuse_other_files(const Contents& contents, const std::optional<std::string>& variable) {
+  for (const std::string& path : contents.in_other_files) {
+    const std::string group = path.substr(0, path.rfind('/'));
+    if (variable && !is_called(path, *variable) && !is_called(group, *variable)) continue;
+    throw Refusal({"data_in_other_file", "the numbers of '" + path +
+                                             "' are in another file (virtual, external or linked), which is not " +
+                                             "opened; save all numbers in one file" +
+                                             (variable ? "" : ", or choose with --variable what this file holds")});
+  }
+}
+
 }  // namespace
 
 NumberTable read_hdf5(std::string file, const std::optional<std::string>& variable, std::string& chosen) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const std::uint64_t size = file.size();
   const Handle opened(open_in_memory(std::move(file)), H5Fclose);
-  Visit visit;
-  H5Ovisit2(opened, H5_INDEX_NAME, H5_ITER_NATIVE, note_dataset, &visit, H5O_INFO_BASIC);
-  std::vector<ArrayShape> arrays;
-  for (const std::string& path : visit.datasets) add_dataset(opened, path, arrays);
-  const TableShape shape = choose_table(arrays, variable, size);
+  const Contents contents = contents_of(opened);
+  refuse_other_files(contents, variable);
+  const TableShape shape = choose_table(contents.arrays, variable, size);
   chosen = shape.name;
   NumberTable table;
   for (const ArrayShape& array : shape.arrays) add_array(opened, array, table);

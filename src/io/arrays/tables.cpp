@@ -55,13 +55,6 @@ bool is_better(const TableShape& a, const TableShape& b) {
   return a_is_table != b_is_table ? a_is_table : numbers_in(a) > numbers_in(b);
 }
 
-/// "/run/force" is called so, without the first slash, and as MATLAB calls it: "run.force".
-bool is_called(const std::string& name, std::string wanted) {
-  if (name == wanted || name == "/" + wanted) return true;
-  std::ranges::replace(wanted, '.', '/');
-  return name == "/" + wanted;
-}
-
 TableShape wanted_table(const std::vector<ArrayShape>& arrays, const std::string& variable) {
   for (const ArrayShape& array : arrays) {
     if (is_called(array.name, variable)) return {array.name, {array}};
@@ -75,6 +68,12 @@ TableShape wanted_table(const std::vector<ArrayShape>& arrays, const std::string
 }
 
 }  // namespace
+
+bool is_called(const std::string& name, std::string wanted) {
+  if (name == wanted || name == "/" + wanted) return true;
+  std::ranges::replace(wanted, '.', '/');
+  return name == "/" + wanted;
+}
 
 TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::optional<std::string>& variable,
                         std::uint64_t file_size) {

@@ -42,6 +42,9 @@ struct TableShape {
 TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::optional<std::string>& variable,
                         std::uint64_t file_size);
 
+/// Whether --variable WANTED names `name`: "/run/force" is also "run/force" and, as MATLAB writes it, "run.force".
+bool is_called(const std::string& name, std::string wanted);
+
 /// The columns of an array that stands in memory row by row, or column by column; the longer extent is that of the
 /// rows.
 void add_columns(NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,13 +35,13 @@ OpenFormat open_old_workbook;
 /// All bytes, for formats that are read here and there. Error: container_too_large.
 std::string read_all(TextStream& packed, const std::string& name);
 
-/// A program beside this one that reads what needs large libraries: its name, and what it takes to be built.
+/// A program of slipfit that reads what needs large libraries: its name, and what it takes to be built.
 struct Helper {
   std::string program;
-  std::vector<std::string> arguments;
-  std::string kind;     ///< of file, for messages
-  std::string package;  ///< of Debian
-  int file = -1;        ///< descriptor that the program finds as kFileOfHelper; -1: none
+  std::vector<std::string> arguments;                                ///< the input as kFileOfHelper
+  std::string kind;                                                  ///< of file, for messages
+  std::string package;                                               ///< of Debian
+  std::chrono::milliseconds longest_wait = std::chrono::minutes(4);  ///< for its output, in total; then it is killed
 };
 
 inline constexpr const char* kFileOfHelper = "/proc/self/fd/3";
@@ -50,8 +51,9 @@ struct HelperOutput {
   std::unique_ptr<ByteStream> bytes;
 };
 
-/// Errors: not_built_in, damaged_container, that of its first line ("!CODE MESSAGE").
-HelperOutput run_helper(const Helper& helper, const std::string& name);
+/// The program gets all bytes of `input` as a file in memory. Errors: not_built_in, damaged_container,
+/// container_too_large, not_readable, that of its first line ("!CODE MESSAGE").
+HelperOutput run_helper(const Helper& helper, TextStream input, const std::string& name);
 
 ThrownError damaged(const std::string& name, const std::string& what);
 ThrownError too_large(const std::string& name);

@@ -1,12 +1,18 @@
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -17,14 +23,13 @@
 namespace slipfit::reading {
 namespace {
 
-/// What a program writes to its standard output; the program ends with it.
+/// What a program writes to its standard output; the program ends with the stream.
 class ProgramStream final : public ByteStream {
  public:
-  ProgramStream(::pid_t process, FileHandle pipe, std::string name)
-      : process_(process), pipe_(std::move(pipe)), name_(std::move(name)) {}
+  ProgramStream(::pid_t process, FileHandle pipe, std::string name, std::chrono::milliseconds longest_wait)
+      : process_(process), pipe_(std::move(pipe)), name_(std::move(name)), left_(longest_wait) {}
   ~ProgramStream() override {
-    pipe_ = {};  // the program notices, and ends
-    if (!ended_) (void)wait();
+    if (!ended_) (void)kill();
   }
   ProgramStream(const ProgramStream&) = delete;
   ProgramStream& operator=(const ProgramStream&) = delete;
@@ -32,13 +37,13 @@ class ProgramStream final : public ByteStream {
   std::size_t read(char* buffer, std::size_t size) override {
     std::size_t count = 0;
     while (count < size && !ended_) {
-      const ::ssize_t got = ::read(pipe_.get(), buffer + count, size - count);
+      const bool has_output = wait_for_output();
+      const ::ssize_t got = has_output ? ::read(pipe_.get(), buffer + count, size - count) : 0;
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) throw std::system_error(errno, std::generic_category(), "reading failed");
       count += static_cast<std::size_t>(got);
       if (got > 0) continue;
-      ended_ = true;
-      if (wait() != 0) throw damaged(name_, "the file is damaged, or asks for too much memory or time");
+      check_end(has_output ? wait() : kill());
     }
     return count;
   }
@@ -52,16 +57,50 @@ class ProgramStream final : public ByteStream {
   }
 
  private:
-  [[nodiscard]] int wait() const {
+  using Clock = std::chrono::steady_clock;
+
+  /// False once the program has used up its time. A step counts as no more than its length: the process may have been
+  /// stopped and continued meanwhile.
+  bool wait_for_output() {
+    constexpr std::chrono::milliseconds kStep{500};
+    pollfd output{pipe_.get(), POLLIN, 0};
+    while (left_ > Clock::duration::zero()) {
+      const auto begin = Clock::now();
+      const int ready = ::poll(&output, 1, static_cast<int>(kStep.count()));
+      left_ -= std::min<Clock::duration>(Clock::now() - begin, kStep);
+      if (ready > 0) return true;
+      if (ready < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category(), "reading failed");
+    }
+    return false;
+  }
+
+  int wait() {
+    ended_ = true;
     int status = 0;
     while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }
     return status;
   }
 
+  int kill() {
+    (void)::kill(process_, SIGKILL);
+    return wait();
+  }
+
+  void check_end(int status) const {
+    if (status == 0) return;
+    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    if (signal == SIGTERM || signal == SIGINT || signal == SIGHUP) {
+      throw ThrownError({"not_readable", name_ + ": the program that reads it was stopped by another one (" +
+                                             ::strsignal(signal) + "); read it again"});
+    }
+    throw damaged(name_, "the file is damaged, or asks for too much memory or time");
+  }
+
   ::pid_t process_;
   FileHandle pipe_;
   std::string name_;
+  Clock::duration left_;
   bool ended_ = false;
 };
 
@@ -73,69 +112,123 @@ std::filesystem::path folder_of_this_code() {
   return std::filesystem::path(place.dli_fname).parent_path();
 }
 
-/// Beside this program or library, where it is installed, or empty.
-std::string find_helper(const std::string& name) {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  const auto library = folder_of_this_code();
-  for (const std::filesystem::path& folder :
-       {self.parent_path(), self.parent_path() / "../libexec/slipfit", self.parent_path() / "../apps", library,
-        library / "../../../../libexec/slipfit", std::filesystem::path(SLIPFIT_LIBEXEC_DIR)}) {
-    if (folder.empty()) continue;
-    const auto program = folder / name;
-    if (::access(program.c_str(), X_OK) == 0) return program.string();
+/// Folders of the environment variable `name` (separated by colons), those that it names by an absolute path.
+std::vector<std::filesystem::path> folders_of_variable(const char* name) {
+  const char* const value = std::getenv(name);
+  std::istringstream text(value == nullptr ? "" : value);
+  std::vector<std::filesystem::path> folders;
+  for (std::string folder; std::getline(text, folder, ':');) {
+    if (folder.starts_with('/')) folders.emplace_back(folder);
   }
-  return {};
+  return folders;
 }
 
-/// The libraries want a file in which they can go to and fro: one in memory, so that the bytes are read once, and may
-/// come through a pipe. Whether all went in.
-bool copy(TextStream& packed, int descriptor) {
+/// Where the helpers may be: where the user says so; near this program or library; where this build is installed; near
+/// the programs on the PATH, for a program of another place that slipfit's library is part of.
+std::vector<std::filesystem::path> helper_folders() {
+  std::vector<std::filesystem::path> folders = folders_of_variable("SLIPFIT_HELPERS");
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  const auto library = folder_of_this_code();
+  const std::filesystem::path installed = "../libexec/slipfit";
+  folders.insert(folders.end(), {program, program / installed, program / "../apps", library,
+                                 library / "../../.." / installed, SLIPFIT_LIBEXEC_DIR});
+  for (const auto& folder : folders_of_variable("PATH")) folders.push_back(folder / installed);
+  return folders;
+}
+
+std::string find_helper(const Helper& helper, const std::string& name) {
+  for (const auto& folder : helper_folders()) {
+    const auto program = folder / helper.program;
+    if (program.is_absolute() && ::access(program.c_str(), X_OK) == 0) return program.string();
+  }
+  throw ThrownError({"not_built_in", name + ": " + helper.kind + ", which the program " + helper.program +
+                                         " reads, and that is not found; install it (it is built with Debian's " +
+                                         helper.package + "), set SLIPFIT_HELPERS to its folder, or export the file " +
+                                         "as text"});
+}
+
+/// The libraries need a file with random access: one in memory, so that the bytes are read once, and may come through a
+/// pipe.
+FileHandle file_in_memory(TextStream input, const std::string& name) {
+  constexpr std::size_t kMostBytes = std::size_t{2} << 30U;
+  FileHandle file(::memfd_create("slipfit", MFD_CLOEXEC));
+  if (!file) throw too_large(name);
   std::vector<char> piece(std::size_t{256} * 1024);
-  while (const std::size_t got = packed.bytes->read(piece.data(), piece.size())) {
+  std::size_t size = 0;
+  while (const std::size_t got = input.bytes->read(piece.data(), piece.size())) {
+    size += got;
+    if (size > kMostBytes) throw too_large(name);
     for (std::size_t written = 0; written < got;) {
-      const ::ssize_t count = ::write(descriptor, piece.data() + written, got - written);
+      const ::ssize_t count = ::write(file.get(), piece.data() + written, got - written);
       if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return false;
+      if (count <= 0) throw too_large(name);
       written += static_cast<std::size_t>(count);
     }
   }
-  return true;
+  return file;
 }
 
 constexpr int kDescriptorOfHelper = 3;  // kFileOfHelper
 
-std::unique_ptr<ProgramStream> start(const std::string& program, const Helper& helper, const std::string& name) {
+/// How a program is started: with the standard streams that it needs and without signals that this one ignores or
+/// blocks.
+class SpawnSettings {
+ public:
+  SpawnSettings(int input, int output) {
+    ::posix_spawn_file_actions_init(&actions_);
+    ::posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
+    ::posix_spawn_file_actions_adddup2(&actions_, input, kDescriptorOfHelper);
+    ::posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    sigset_t signals{};
+    ::posix_spawnattr_init(&attributes_);
+    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+    ::sigemptyset(&signals);
+    ::posix_spawnattr_setsigmask(&attributes_, &signals);
+    ::sigfillset(&signals);
+    ::posix_spawnattr_setsigdefault(&attributes_, &signals);
+  }
+  ~SpawnSettings() {
+    ::posix_spawn_file_actions_destroy(&actions_);
+    ::posix_spawnattr_destroy(&attributes_);
+  }
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+
+  /// 0 where it cannot be started.
+  [[nodiscard]] ::pid_t start(const std::string& program, std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), program);
+    std::vector<char*> words;
+    words.reserve(arguments.size() + 1);
+    for (std::string& word : arguments) words.push_back(word.data());
+    words.push_back(nullptr);
+    ::pid_t process = 0;
+    const int failed = ::posix_spawn(&process, program.c_str(), &actions_, &attributes_, words.data(), environ);
+    return failed == 0 ? process : 0;
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+  posix_spawnattr_t attributes_{};
+};
+
+std::unique_ptr<ProgramStream> start(const Helper& helper, const FileHandle& input, const std::string& name) {
+  const std::string program = find_helper(helper, name);
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw ThrownError({"not_readable", name + ": no pipe can be made; close programs"});
   FileHandle read_end(ends[0]);
   const FileHandle write_end(ends[1]);
-  std::vector<std::string> texts{program};
-  texts.insert(texts.end(), helper.arguments.begin(), helper.arguments.end());
-  std::vector<char*> words;
-  words.reserve(texts.size() + 1);
-  for (std::string& word : texts) words.push_back(word.data());
-  words.push_back(nullptr);
-  posix_spawn_file_actions_t actions{};
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_adddup2(&actions, write_end.get(), STDOUT_FILENO);
-  if (helper.file >= 0) ::posix_spawn_file_actions_adddup2(&actions, helper.file, kDescriptorOfHelper);
-  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  ::pid_t process = 0;
-  const int failed = ::posix_spawn(&process, program.c_str(), &actions, nullptr, words.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (failed == 0) return std::make_unique<ProgramStream>(process, std::move(read_end), name);
+  const ::pid_t process = SpawnSettings(input.get(), write_end.get()).start(program, helper.arguments);
+  if (process != 0) return std::make_unique<ProgramStream>(process, std::move(read_end), name, helper.longest_wait);
   throw ThrownError({"not_readable", name + ": " + helper.program + " cannot be started; check its permissions"});
 }
 
 TextStream open_with_reader(const char* kind, TextStream packed, const std::string& name,
                             const ContainerChoice& choice) {
-  const FileHandle file(::memfd_create("slipfit", MFD_CLOEXEC));
-  if (!file || !copy(packed, file.get())) throw too_large(name);
-  Helper helper{"slipfit-hdf5", {kind, kFileOfHelper}, "a MATLAB or HDF5 file", "libhdf5-dev", file.get()};
+  Helper helper{"slipfit-hdf5", {kind, kFileOfHelper}, "a MATLAB or HDF5 file", "libhdf5-dev"};
   if (choice.variable) helper.arguments.push_back(*choice.variable);
-  HelperOutput read = run_helper(helper, name);
+  HelperOutput read = run_helper(helper, std::move(packed), name);
   TextStream text;
   text.bytes = std::move(read.bytes);
   text.assumed.push_back("Of the file '" + printable(read.first) + "' was read.");
@@ -144,10 +237,9 @@ TextStream open_with_reader(const char* kind, TextStream packed, const std::stri
 
 }  // namespace
 
-HelperOutput run_helper(const Helper& helper, const std::string& name) {
-  const std::string program = find_helper(helper.program);
-  if (program.empty()) throw not_built_in(name, helper.kind, helper.package);
-  std::unique_ptr<ProgramStream> bytes = start(program, helper, name);
+HelperOutput run_helper(const Helper& helper, TextStream input, const std::string& name) {
+  const FileHandle file = file_in_memory(std::move(input), name);
+  std::unique_ptr<ProgramStream> bytes = start(helper, file, name);
   const std::string first = bytes->line();
   if (first.starts_with('=')) return {first.substr(1), std::move(bytes)};
   const std::size_t blank = std::min(first.find(' '), first.size());

@@ -26,7 +26,7 @@ TextStream open_arrays(ReadTable* read, TextStream packed, const std::string& na
 
 }  // namespace
 
-HelperOutput run_helper(const Helper& helper, const std::string& name) {
+HelperOutput run_helper(const Helper& helper, TextStream /*input*/, const std::string& name) {
   throw ThrownError(
       {"not_built_in",
        name + ": " + helper.kind + ", which slipfit cannot read in a browser; export it as text, or use the program"});
