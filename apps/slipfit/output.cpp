@@ -1,6 +1,8 @@
 #include "output.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,14 +29,24 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 }
 
 /// Returns 0, or the errno of the step that failed.
-int write_all(const std::string& path, const char* mode, const std::string& content) {
-  errno = 0;
-  File file(std::fopen(path.c_str(), mode));
+int write_all(File file, const std::string& content) {
   if (!file) return errno;
+  errno = 0;
   const bool written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
   const bool flushed = written && std::fflush(file.get()) == 0;
   if (!flushed) return errno == 0 ? EIO : errno;
   return std::fclose(file.release()) == 0 ? 0 : errno;
+}
+
+/// A new file, with the mode of `target` from the start: nobody else reads a moment of what the old one keeps private.
+File open_like(const fs::path& temporary, const fs::path& target) {
+  struct stat status {};
+  const bool exists = ::stat(target.c_str(), &status) == 0;
+  const int descriptor =
+      ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, exists ? mode_t{0600} : mode_t{0666});
+  if (descriptor < 0) return nullptr;
+  if (exists) (void)::fchmod(descriptor, status.st_mode & 0777U);  // some file systems have no modes
+  return File(::fdopen(descriptor, "wb"));
 }
 
 /// Two names of one file, also where neither exists so far.
@@ -118,13 +130,14 @@ void write_file(const OutputFile& output, const std::string& content) {
   std::error_code error;
   const fs::path target = fs::exists(output.file, error) ? fs::canonical(output.file, error) : fs::path(output.file);
   if (fs::exists(target, error) && !fs::is_regular_file(target, error)) {
-    if (const int failed = write_all(output.file, "wb", content); failed != 0) cannot_write(output, failed);
+    const int failed = write_all(File(std::fopen(output.file.c_str(), "wb")), content);
+    if (failed != 0) cannot_write(output, failed);
     return;
   }
   static int files_written = 0;
   const std::string name = fmt::format(".slipfit-{}-{}.tmp", ::getpid(), ++files_written);
   const fs::path temporary = target.parent_path() / name;
-  int failed = write_all(temporary.string(), "wbx", content);
+  int failed = write_all(open_like(temporary, target), content);
   if (failed == 0) {
     fs::rename(temporary, target, error);
     failed = error.value();

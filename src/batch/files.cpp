@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <random>
 #include <system_error>
 #include <vector>
 
@@ -22,17 +23,32 @@ namespace fs = std::filesystem;
 constexpr std::size_t kBuffer = std::size_t{1} << 18;
 constexpr mode_t kMode = 0666;
 constexpr std::string_view kNew = ".new";
-constexpr std::string_view kRandom = "XXXXXX";  // for mkostemps
-
-/// What the user's umask takes away from a new file's mode; it can only be asked for by setting it.
-mode_t file_mask() {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return mask;
-}
+constexpr std::size_t kRandomLetters = 6;
 
 fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
+}
+
+std::string random_letters() {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+  std::random_device device;
+  std::string letters(kRandomLetters, ' ');
+  for (char& letter : letters) letter = kLetters[device() % kLetters.size()];
+  return letters;
+}
+
+/// A file beside `file` that did not exist, opened for writing. It has the mode of `file`, or, where there is none,
+/// that which the umask leaves. Returns -1 with errno where it cannot be made.
+int open_temporary(const fs::path& file, std::string& name) {
+  struct stat status {};
+  const bool exists = ::lstat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+  int descriptor = -1;
+  do {
+    name = (file.parent_path() / fmt::format(".{}.{}{}", file.filename().string(), random_letters(), kNew)).string();
+    descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, exists ? 0600 : kMode);
+  } while (descriptor < 0 && errno == EEXIST);
+  if (descriptor >= 0 && exists) (void)::fchmod(descriptor, status.st_mode & 0777U);  // some file systems have no modes
+  return descriptor;
 }
 
 }  // namespace
@@ -83,7 +99,7 @@ void remove_leftovers(const fs::path& folder, const std::function<bool(std::stri
   std::vector<fs::path> leftovers;
   for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
     const std::string name = entry.path().filename().string();
-    const std::size_t tail = 1 + kRandom.size() + kNew.size();
+    const std::size_t tail = 1 + kRandomLetters + kNew.size();
     if (name.size() <= 1 + tail || name.front() != '.' || !name.ends_with(kNew)) continue;
     if (is_ours(std::string_view(name).substr(1, name.size() - 1 - tail))) leftovers.push_back(entry.path());
   }
@@ -118,11 +134,7 @@ Result<std::string> LineFile::line_at(std::uint64_t place) const {
   }
 }
 
-Replacement::Replacement(const fs::path& file)
-    : temporary_((file.parent_path() / fmt::format(".{}.{}{}", file.filename().string(), kRandom, kNew)).string()),
-      file_(file, ::mkostemps(temporary_.data(), static_cast<int>(kNew.size()), O_CLOEXEC)) {
-  if (!file_.error) file_.check(::fchmod(file_.handle.get(), kMode & ~file_mask()) == 0);
-}
+Replacement::Replacement(const fs::path& file) : file_(file, open_temporary(file, temporary_)) {}
 
 Replacement::~Replacement() {
   if (file_.handle) (void)::unlink(temporary_.c_str());

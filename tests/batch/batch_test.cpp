@@ -162,3 +162,18 @@ TEST_CASE("run.json says what was run and how it ended") {
   CHECK(run["finished"] == true);
   CHECK(run["seconds"].get<double>() > 0.0);
 }
+
+TEST_CASE("files of a batch have the mode that the umask leaves, and keep one that the user gave them") {
+  namespace fs = std::filesystem;
+  const BatchScene scene(1);
+  const auto run = test::run_program("sh", {"-c", "umask 027; exec \"$0\" batch \"$1\" --out \"$2\"",
+                                            SLIPFIT_EXECUTABLE, scene.manifest(), scene.path("out")});
+  REQUIRE(run.exit_code == 0);
+  const auto mode = [&](const std::string& name) { return fs::status(scene.path("out/" + name)).permissions(); };
+  const fs::perms own = fs::perms::owner_read | fs::perms::owner_write;
+  for (const std::string name : {"results.jsonl", "summary.csv", "run.json"})
+    CHECK(mode(name) == (own | fs::perms::group_read));
+  fs::permissions(scene.path("out/results.jsonl"), own);
+  REQUIRE(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 0);
+  CHECK(mode("results.jsonl") == own);
+}

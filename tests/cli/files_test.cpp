@@ -113,3 +113,19 @@ TEST_CASE("sample, material and operator of a manifest reach results and pages, 
                        Catch::Contains("sample: S7") && Catch::Contains("material: &lt;EPDM&gt;") &&
                        Catch::Contains("operator: K\u00F6nig"));
 }
+
+TEST_CASE("a result that replaces a file keeps its mode, and a new one has that of the umask") {
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder folder;
+  const std::string recording = folder.file("run.csv", simulated_csv("1"));
+  const std::string out = folder.path("result.json");
+  const std::vector<std::string> fit{"fit", recording, "--speed", "0.02", "--quiet", "--json", "--out", out};
+  const auto mode = [&] { return fs::status(out).permissions(); };
+  REQUIRE(slipfit(fit).exit_code == 0);
+  CHECK((mode() & fs::perms::owner_exec) == fs::perms::none);
+  for (const auto own : {fs::perms::owner_read | fs::perms::owner_write, fs::perms::all}) {
+    fs::permissions(out, own);
+    REQUIRE(slipfit(fit).exit_code == 0);
+    CHECK(mode() == own);
+  }
+}
