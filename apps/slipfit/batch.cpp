@@ -120,6 +120,7 @@ slipfit::BatchOutcome run_shown(const slipfit::BatchOptions& options, const Batc
   ProgressLine line;
   slipfit::BatchHooks hooks;
   hooks.should_stop = [] { return StopSignals::received().has_value(); };
+  hooks.should_suspend = StopSignals::take_suspension;
   if (!arguments.quiet) {
     hooks.show_progress = [&line](const slipfit::BatchProgress& progress) { line.show(progress); };
     hooks.tell = say;

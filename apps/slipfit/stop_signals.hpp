@@ -5,7 +5,7 @@
 #include "failure.hpp"
 
 /// While it lives, Ctrl-C and SIGTERM are remembered instead of ending the program; the second one ends it at once, as
-/// do two seconds in which the program has not come to its end.
+/// do two seconds in which the program has not come to its end. Ctrl-Z is remembered, too.
 class StopSignals {
  public:
   StopSignals();
@@ -17,4 +17,6 @@ class StopSignals {
 
   /// What the shell is to see: 128 + signal.
   [[nodiscard]] static std::optional<ExitCode> received();
+  /// Whether there was a Ctrl-Z (SIGTSTP) since the last call.
+  [[nodiscard]] static bool take_suspension();
 };

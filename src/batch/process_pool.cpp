@@ -46,8 +46,10 @@ std::string describe_end(int status) {
   return fmt::format("signal {}, {}", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
 }
 
-int wait_for(pid_t pid) {
+/// Kills a child with the programs that it has started, and returns how it ended; it may have ended by itself before.
+int end_group(pid_t pid) {
   int status = 0;
+  (void)::kill(-pid, SIGKILL);
   while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
   return status;
@@ -70,11 +72,15 @@ std::vector<Answer> ProcessPool::wait(std::chrono::milliseconds longest) {
   std::vector<pollfd> polled;
   for (const Child& child : children_) polled.push_back({child.socket.get(), POLLIN, 0});
   const bool has_answers = !answers.empty();
+  const Clock::time_point begin = Clock::now();
   (void)::poll(polled.data(), polled.size(), has_answers ? 0 : static_cast<int>(longest.count()));
+  // Not what passed while this process was suspended.
+  const Clock::duration waited = std::min<Clock::duration>(Clock::now() - begin, longest);
   std::size_t place = 0;
   for (auto child = children_.begin(); child != children_.end(); ++place) {
     if (polled[place].revents != 0) receive(*child, answers);
-    if (child->pid != 0 && child->job && Clock::now() >= child->deadline) {
+    child->left -= waited;
+    if (child->pid != 0 && child->job && child->left <= Clock::duration::zero()) {
       answers.push_back({*child->job, Answer::End::TimedOut, {}});
       end_child(*child);
     }
@@ -98,6 +104,12 @@ void ProcessPool::kill_all() {
   children_.clear();
 }
 
+void ProcessPool::suspend() {
+  for (const Child& child : children_) (void)::kill(-child.pid, SIGSTOP);
+  (void)::raise(SIGSTOP);
+  for (const Child& child : children_) (void)::kill(-child.pid, SIGCONT);
+}
+
 void ProcessPool::begin_jobs(std::vector<Answer>& answers) {
   while (!waiting_.empty()) {
     Child* const child = child_for(first_);
@@ -114,8 +126,8 @@ void ProcessPool::begin_jobs(std::vector<Answer>& answers) {
       return;
     }
     child->job = job;
-    child->deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                         std::chrono::duration<double>(std::min(waiting.limit_s, kLongest_s)));
+    child->left = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(std::min(waiting.limit_s, kLongest_s)));
     const JobNumber number = job;  // a child that is gone is noticed by poll
     (void)::send(child->socket.get(), &number, sizeof(number), MSG_NOSIGNAL);
   }
@@ -140,6 +152,7 @@ ProcessPool::Child* ProcessPool::start_child() {
   if (pid == 0) {
     for (Child& sibling : children_) sibling.socket = {};  // else they would outlive the parent: no end of file
     ours = {};
+    (void)::setpgid(0, 0);
     share_processors(std::min(most_, children_.size() + waiting_.size()));
     serve(theirs.get(), parent);
   }
@@ -147,6 +160,7 @@ ProcessPool::Child* ProcessPool::start_child() {
     most_ = std::max<std::size_t>(1, children_.size());
     return nullptr;
   }
+  (void)::setpgid(pid, pid);  // the child does it, too: whoever is first
   Child& child = children_.emplace_back();
   child.pid = pid;
   child.socket = std::move(ours);
@@ -187,14 +201,13 @@ void ProcessPool::receive(Child& child, std::vector<Answer>& answers) {
     child.job.reset();
     return;
   }
-  const int status = wait_for(child.pid);
+  const int status = end_group(child.pid);
   child.pid = 0;
   if (child.job) answers.push_back({*child.job, Answer::End::Died, describe_end(status)});
 }
 
 void ProcessPool::end_child(Child& child) {
-  (void)::kill(child.pid, SIGKILL);
-  (void)wait_for(child.pid);
+  (void)end_group(child.pid);
   child.pid = 0;
 }
 

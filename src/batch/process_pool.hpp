@@ -23,7 +23,8 @@ struct Answer {
   std::string text;  ///< the reply, or how the process died ("signal 9, Killed")
 };
 
-/// Runs jobs in child processes: one that crashes, hangs or takes all memory ends alone. A child does many jobs; it
+/// Runs jobs in child processes: one that crashes, hangs or takes all memory ends alone. A child has a process group of
+/// its own, which is killed as a whole: a job may have started programs. A child does many jobs; it
 /// knows those that were waiting when it was forked. Where the system starts no more processes, fewer do the work, and
 /// without any the calling process, which must have no other threads.
 class ProcessPool {
@@ -38,13 +39,15 @@ class ProcessPool {
   ProcessPool& operator=(ProcessPool&&) = delete;
 
   [[nodiscard]] bool wants_more() const;
-  /// The number of the job. After `limit` seconds its process is killed.
+  /// The number of the job. After `limit_s` seconds in `wait` its process is killed.
   std::size_t add(Job job, double limit_s);
   /// Begins what can be begun and waits for a moment at most.
   std::vector<Answer> wait(std::chrono::milliseconds longest);
   /// Drops the jobs that have not begun, and returns which ones have.
   std::vector<std::size_t> drop_waiting();
   void kill_all();
+  /// Stops the children and the calling process until that is continued (SIGCONT).
+  void suspend();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -57,7 +60,7 @@ class ProcessPool {
     FileHandle socket;
     std::size_t known_end = 0;  ///< it knows the jobs with numbers below
     std::optional<std::size_t> job;
-    Clock::time_point deadline;
+    Clock::duration left{};  ///< of the job's time
     std::string received;
   };
 

@@ -144,6 +144,7 @@ void Run::begin(WorkItem item) {
 void Run::wait_and_watch() {
   take_answers();
   if (hooks_.show_progress) hooks_.show_progress(progress());
+  if (hooks_.should_suspend && hooks_.should_suspend()) pool_.suspend();
   stopped_ = stopped_ || (hooks_.should_stop && hooks_.should_stop());
   if (Clock::now() - last_sync_ >= kSyncInterval) {
     last_sync_ = Clock::now();

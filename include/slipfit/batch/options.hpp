@@ -64,6 +64,8 @@ struct BatchProgress {
 struct BatchHooks {
   /// Asked ten times a second; fits that run have a second to end.
   std::function<bool()> should_stop;
+  /// Asked as often; if it returns true, the batch and its processes stop until the calling process is continued.
+  std::function<bool()> should_suspend;
   std::function<void(const BatchProgress&)> show_progress;
   std::function<void(const std::string&)> tell;
 };
