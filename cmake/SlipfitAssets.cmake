@@ -20,6 +20,24 @@ function(slipfit_embed target name file)
   target_sources(${target} PRIVATE "${source}")
 endfunction()
 
+# slipfit_build_identity(TARGET HEADER): compiler, options, libraries of numbers and digest of the sources, as a header of TARGET. It
+# changes with every source, so that who includes it is best compiled alone.
+function(slipfit_build_identity target header)
+  set(output "${CMAKE_CURRENT_BINARY_DIR}/${header}")
+  set(script "${PROJECT_SOURCE_DIR}/cmake/build_identity.cmake")
+  set(folders "${PROJECT_SOURCE_DIR}/src" "${PROJECT_SOURCE_DIR}/include")
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
+  string(SHA256 options "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}} Ceres ${Ceres_VERSION} Eigen ${Eigen3_VERSION}")
+  string(SUBSTRING "${options}" 0 8 options)
+  set(compiler "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_SYSTEM_PROCESSOR}, options ${options}")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/*.[ch]pp" "${PROJECT_SOURCE_DIR}/include/*.[ch]pp")
+  add_custom_command(OUTPUT "${output}"
+    COMMAND "${CMAKE_COMMAND}" "-DFOLDERS=${folders}" "-DCOMPILER=${compiler}" "-DOUTPUT=${output}" -P "${script}"
+    DEPENDS "${script}" ${sources} VERBATIM)
+  target_sources(${target} PRIVATE "${output}")
+  target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
+endfunction()
+
 # slipfit_remedies(TARGET HEADER): what docs/formats.md says to do about each error, as a header of TARGET.
 function(slipfit_remedies target header)
   set(output "${CMAKE_CURRENT_BINARY_DIR}/${header}")

@@ -19,28 +19,38 @@ namespace {
 
 using namespace batch;
 
+/// The record of the batch that is continued, or nothing.
+std::optional<RunRecord> continued_record(const BatchOptions& options, const RunRecord& now) {
+  std::optional<RunRecord> before = check_folder(options.folder, now);
+  return before && !difference(*before, now) ? std::move(before) : std::nullopt;
+}
+
 /// Finds what the folder holds already, and writes run.json. The order is safe against a kill at any moment: run.json
 /// is there before any other file, and lines that were found are in the journal before run.json says that the batch is
 /// not finished.
 FoundResults prepare_folder(const BatchOptions& options, const BatchHooks& hooks, const WorkList& list,
-                            const RunRecord& now) {
-  const std::optional<RunRecord> before = check_folder(options.folder, now);
-  const bool continues = before && !difference(*before, now);
-  if (continues && !options.resume && has_results(options.folder)) {
+                            const RunRecord& now, const std::optional<RunRecord>& before) {
+  if (before && !options.resume && has_results(options.folder)) {
     throw file_error("results_present", options.folder,
                      "holds results of this batch; go on with --resume, or choose another folder with --out");
   }
-  FoundResults found = continues ? find_results(options.folder, *before, list) : FoundResults(list.is_mine.size());
+  FoundResults found = before ? find_results(options.folder, *before, list) : FoundResults(list.is_mine.size());
   if (found.damaged > 0 && hooks.tell) {
     hooks.tell(
         fmt::format("{} results are not in results.jsonl as they were written, and are fitted again", found.damaged));
   }
-  if (!continues) write_record(options.folder, now);
+  if (!before) write_record(options.folder, now);
   write_journal(options.folder, found);
   write_record(options.folder, now);
   std::error_code ignored;
   std::filesystem::remove(options.folder / kSummary, ignored);  // of an earlier run; written again at the end
   return found;
+}
+
+void report_other_processor(const BatchHooks& hooks, const RunRecord& before, const RunRecord& now) {
+  if (!hooks.tell || before.processor == now.processor) return;
+  hooks.tell(fmt::format("results were computed on another processor, too ({}; this one: {}): last digits may differ",
+                         one_line(before.processor), now.processor));
 }
 
 void tell_ignored_columns(const BatchOptions& options, const BatchHooks& hooks) {
@@ -77,8 +87,11 @@ BatchOutcome run_or_throw(const BatchOptions& options, const BatchHooks& hooks) 
   const WorkList list = list_work(options);
   const FolderLock lock = FolderLock::take(options.folder);
   if (options.report) prepare_pages(*options.report, list);
-  const RunRecord record = begin_record(options, list.manifest_digest, list.rows);
-  FoundResults found = prepare_folder(options, hooks, list, record);
+  RunRecord record = begin_record(options, list.manifest_digest, list.rows);
+  const std::optional<RunRecord> before = continued_record(options, record);
+  if (before) report_other_processor(hooks, *before, record);
+  if (before) record.processor = processors_of(*before, record);
+  FoundResults found = prepare_folder(options, hooks, list, record, before);
   tell_ignored_columns(options, hooks);
   ResultLog log(options.folder, std::move(found));
   log.throw_error();

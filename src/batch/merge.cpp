@@ -105,6 +105,7 @@ RunRecord common_record(const std::vector<fs::path>& shards) {
           fmt::format("is shard {} of {}, which was given before; give each shard once", index, shard.shard.count));
     }
     common.progress.seconds += shard.progress.seconds;
+    common.processor = processors_of(common, shard);
   }
   common.shard = {};
   if (missing.empty()) return common;

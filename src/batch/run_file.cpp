@@ -5,7 +5,9 @@
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "batch/build.hpp"
 #include "batch/files.hpp"
 #include "report/names.hpp"
 #include "slipfit/report/text.hpp"
@@ -32,6 +34,8 @@ constexpr const char* kSchema = "slipfit.run/1";
 template <class Record, class Use>
 void for_each_member(Record& record, const Use& use) {
   use("/version", record.version);
+  use("/build", record.build);
+  use("/processor", record.processor);
   use("/manifest", record.manifest);
   use("/manifest_digest", record.manifest_digest);
   use("/options", record.options);
@@ -72,6 +76,8 @@ std::string options_text(const BatchOptions& options) {
 RunRecord begin_record(const BatchOptions& options, const Digest& manifest_digest, std::size_t rows) {
   RunRecord record;
   record.version = SLIPFIT_VERSION;
+  record.build = build_of_program();
+  record.processor = processor_of_machine();
   record.manifest = one_line(options.manifest.string());
   record.manifest_digest = manifest_digest.text();
   record.options.text = options_text(options);
@@ -81,6 +87,16 @@ RunRecord begin_record(const BatchOptions& options, const Digest& manifest_diges
   record.rows = rows;
   record.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   return record;
+}
+
+std::string processors_of(const RunRecord& a, const RunRecord& b) {
+  std::string processors = a.processor;
+  std::istringstream others(b.processor);
+  for (std::string one; std::getline(others >> std::ws, one, ';');) {
+    const std::string known = "; " + processors + ";";
+    if (known.find("; " + one + ";") == std::string::npos) processors += "; " + one;
+  }
+  return processors;
 }
 
 void write_record(const std::filesystem::path& folder, const RunRecord& record) {
@@ -95,8 +111,9 @@ std::optional<RunRecord> read_record(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return std::nullopt;
   std::ifstream stream(file, std::ios::binary);
-  const Json json = Json::parse(stream, nullptr, false);
+  Json json = Json::parse(stream, nullptr, false);
   try {
+    for (const char* const added_later : {"build", "processor"}) json.emplace(added_later, "unknown");
     if (json.at("schema") == kSchema) {
       RunRecord record;
       for_each_member(record,
@@ -114,6 +131,7 @@ std::optional<std::string> difference(const RunRecord& before, const RunRecord& 
     return fmt::format("the {} {}, now {}", what, was, is);
   };
   if (before.version != now.version) return changed("version of slipfit was", before.version, "it is " + now.version);
+  if (before.build != now.build) return changed("build of slipfit was", before.build, "it is " + now.build);
   if (before.manifest_digest != now.manifest_digest) {
     return fmt::format("the manifest was another one ('{}'), or has been edited since", before.manifest);
   }

@@ -24,6 +24,8 @@ struct JsonText {
 /// What run.json says: what was run, and how far it came.
 struct RunRecord {
   std::string version;
+  std::string build;      ///< build_of_program(), or "unknown": of a program that did not write it
+  std::string processor;  ///< processor_of_machine() of all machines that worked on it, separated by "; "
   std::string manifest;
   std::string manifest_digest;
   JsonText options;  ///< what changes the results
@@ -39,6 +41,9 @@ struct RunRecord {
 
 /// Of a run that begins now.
 RunRecord begin_record(const BatchOptions& options, const Digest& manifest_digest, std::size_t rows);
+
+/// Those of both, each once.
+std::string processors_of(const RunRecord& a, const RunRecord& b);
 
 void write_record(const std::filesystem::path& folder, const RunRecord& record);
 

@@ -153,6 +153,8 @@ TEST_CASE("run.json says what was run and how it ended") {
   REQUIRE(batch(scene.manifest(), scene.path("out"), {"--jobs", "2", "--fix", "damping_ratio=0.05"}).exit_code == 0);
   const auto run = nlohmann::json::parse(test::content_of(scene.path("out/run.json")));
   CHECK(run["schema"] == "slipfit.run/1");
+  CHECK_THAT(run["build"].get<std::string>(), Catch::Contains(", sources "));
+  CHECK_FALSE(run["processor"].get<std::string>().empty());
   CHECK(run["manifest"] == scene.manifest());
   CHECK(run["options"]["fix"]["damping_ratio"] == 0.05);
   CHECK(run["jobs"] == 2);

@@ -136,6 +136,15 @@ TEST_CASE("the folder of another batch is refused, and --resume says why") {
   record.replace(record.find(version), version.size(), "0.0.1");
   (void)scene.file("out/run.json", record);
   check_refused({"batch", scene.manifest(), "--out", out, "--resume"}, "the version of slipfit was 0.0.1");
+  record.replace(record.find("0.0.1"), 5, version);
+  auto other_build = nlohmann::ordered_json::parse(record);
+  other_build["build"] = "of another compiler";
+  (void)scene.file("out/run.json", other_build.dump());
+  check_refused({"batch", scene.manifest(), "--out", out, "--resume"},
+                "the build of slipfit was of another compiler, now ");
+  other_build.erase("build");
+  (void)scene.file("out/run.json", other_build.dump());
+  check_refused({"batch", scene.manifest(), "--out", out, "--resume"}, "the build of slipfit was unknown, now ");
   (void)scene.file("out/run.json", "{\"x\": 1}");
   check_refused({"batch", scene.manifest(), "--out", out, "--resume"}, "not written by slipfit");
   std::filesystem::remove(out + "/run.json");

@@ -128,6 +128,22 @@ TEST_CASE("where results.jsonl of a finished batch was altered, it is said and d
   CHECK(files_in(scene.path("out")) == whole);
 }
 
+TEST_CASE("a batch that goes on on another processor says so, and run.json names both") {
+  const BatchScene scene(2);
+  REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 0);
+  const auto record = [&] { return nlohmann::ordered_json::parse(content_of(scene.path("out/run.json"))); };
+  const std::string here = record()["processor"];
+  auto other = record();
+  other["processor"] = "abacus";
+  (void)scene.file("out/run.json", other.dump());
+  for (int resumed = 0; resumed < 2; ++resumed) {
+    const auto run = batch(scene.manifest(), scene.path("out"), {"--resume"});
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.err, Catch::Contains("another processor, too (abacus"));
+    CHECK(record()["processor"] == "abacus; " + here);
+  }
+}
+
 TEST_CASE("a recording at which the process died three times has failed, and is tried again when all is done") {
   const BatchScene scene(3);
   REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 0);
