@@ -56,8 +56,17 @@ def descendants(pid):
     return found[1:]
 
 
+def is_set_up(pid):
+    """Whether the reader has come past the start of its main function, where it limits itself."""
+    try:
+        limits = pathlib.Path(f"/proc/{pid}/limits").read_text()
+    except OSError:
+        return False
+    return any(line.startswith("Max cpu time") and "unlimited" not in line for line in limits.splitlines())
+
+
 def reader_of(pid):
-    return next((child for child in descendants(pid) if (stat_of(child) or [""])[0] == READER), None)
+    return next((child for child in descendants(pid) if (stat_of(child) or [""])[0] == READER and is_set_up(child)), None)
 
 
 def mat_file(file, count=2_000_000):
