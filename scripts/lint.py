@@ -4,7 +4,7 @@
 layers     a layer includes only the layers below it
 circles    no two files include each other, directly or through others; a header and its .cpp count as one
 format     clang-format 14, where it is installed
-lengths    functions up to 40 lines, files up to 300
+lengths    functions up to 80 lines, files up to 800
 parameters in public headers: no output and no boolean parameters
 
 What was there before a rule came stands in scripts/lint_allowed.txt as a count by rule and file, which may only shrink:
@@ -33,8 +33,8 @@ ON_TOP = {"analysis", "compare", "report", "batch", "pipeline"}  # these, and ap
 LAYERS = set(ALLOWED) | ON_TOP
 ROOTS = ("src", "include/slipfit")
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"](slipfit/)?([\w/]+)\.hpp[>"]')
-LONGEST_FUNCTION = 40
-LONGEST_FILE = 300
+LONGEST_FUNCTION = 80
+LONGEST_FILE = 800
 
 Breach = collections.namedtuple("Breach", "rule file line text")
 
