@@ -175,6 +175,29 @@ test("screenshots: light, dark, narrow, paper", async () => {
   }
 });
 
+/** The charts that are visible on paper, by their ids. */
+async function printedCharts(file) {
+  const page = await open(file);
+  await page.emulateMedia({ media: "print" });
+  const ids = await page.locator("svg.chart").evaluateAll((all) =>
+    all.filter((svg) => svg.getBoundingClientRect().height > 50).map((svg) => svg.id));
+  await page.close();
+  return ids;
+}
+
+test("every kind of page prints all of its charts", async () => {
+  assert.deepEqual(await printedCharts(report(demo, "demo.html")),
+    ["trace", "spectrum", "cycles", "pairs", "map", "speed", "pattern"]);
+  const rows = sweep("print").map((run) => `${run.name},${run.name}.csv,${run.speed},print`);
+  fs.writeFileSync(shot("print.csv"), `id,file,speed [mm/s],group\n${rows.join("\n")}\n`);
+  slipfit("fit", "--joint", shot("print.csv"), "--report", shot("print-sweep.html"), "--quiet");
+  assert.deepEqual(await printedCharts(shot("print-sweep.html")),
+    ["sweep-spacing", "sweep-friction", "sweep-cycles", "sweep-traces"]);
+  slipfit("compare", shot("print-5.csv"), shot("print-10.csv"), "--speed", "10mm/s", "--quiet", "--out", shot("print.txt"),
+    "--report", shot("print-compare.html"));
+  assert.ok((await printedCharts(shot("print-compare.html"))).includes("cycles"));
+});
+
 /** Recordings of three speeds; the file names begin with `prefix`. */
 function sweep(prefix) {
   return [5, 10, 20].map((speed) => {
