@@ -54,7 +54,9 @@ std::string timing_text(const slipfit::Timing& timing) {
 std::string document(const AnalysisArguments& arguments, const slipfit::Recording& recording,
                      const slipfit::Analysis& analysis) {
   if (!arguments.document.json) {
-    return slipfit::to_text(recording, analysis) + (arguments.timing ? timing_text(analysis.timing) : std::string());
+    const auto text =
+        arguments.document.details ? slipfit::to_text(recording, analysis) : slipfit::to_summary(recording, analysis);
+    return text + (arguments.timing ? timing_text(analysis.timing) : std::string());
   }
   slipfit::JsonOptions options;
   options.timing = arguments.timing;
@@ -104,6 +106,7 @@ void refuse_for_pieces(const AnalysisArguments& arguments) {
 void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
   add_recording_options(command, arguments.recording);
   add_document_options(command, arguments.document, "report");
+  command.add_flag("--details", arguments.document.details, "Print all results as text (default: one screen)");
   add_output_option(command, arguments.document, "--cycles", "Write a table of the cycles (CSV)");
   add_report_option(command, arguments.document);
   command.add_option("--plots", arguments.plots, "Write the report's charts into this folder (SVG)");

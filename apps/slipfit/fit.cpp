@@ -25,8 +25,8 @@ struct FitArguments {
 
 /// The manifest says how the recordings of a fit of a sweep were made: only what is not about a recording goes with it.
 SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& command) {
-  static const std::set<std::string> kAllowed{"--joint", "--group", "--only",   "--tier", "--fix",
-                                              "--json",  "--out",   "--report", "--quiet"};
+  static const std::set<std::string> kAllowed{"--joint", "--group",   "--only", "--tier",   "--fix",
+                                              "--json",  "--details", "--out",  "--report", "--quiet"};
   for (const CLI::Option* const option : command.get_options()) {
     if (option->count() == 0 || kAllowed.contains(option->get_name())) continue;
     throw Failure(ExitCode::WrongUsage,

@@ -64,7 +64,8 @@ void write_sweep(const SweepDocument& document, const std::vector<slipfit::Sweep
     if (option == "--report") {
       return to_html(entries, sweep, predict_around(entries, sweep), {layout.id, document.command_line});
     }
-    return document.options.json ? slipfit::to_json(entries, sweep, layout) + "\n"
-                                 : slipfit::to_text(entries, sweep, layout.id);
+    if (document.options.json) return slipfit::to_json(entries, sweep, layout) + "\n";
+    return document.options.details ? slipfit::to_text(entries, sweep, layout.id)
+                                    : slipfit::to_summary(entries, sweep, layout.id);
   });
 }

@@ -117,11 +117,11 @@ std::optional<Classification> as_round_swings(const Segmentation& segmentation, 
   }
   if ((sine_like || e.restick_share < thresholds::kRestickShare) && is_faint(segmentation)) {
     return Classification{MotionClass::Undetermined,
-                          "the swings are not much larger than the noise: no sticks can be told from it"};
+                          "the oscillations are not much larger than the noise, which hides sticks"};
   }
   if (sine_like && e.relative_residual > thresholds::kSineFit) {
     return Classification{MotionClass::OscillatorySlip,
-                          "nearly sinusoidal: no straight sticks can be told from an oscillation"};
+                          "nearly sinusoidal: sticks cannot be distinguished from an oscillation"};
   }
   if (e.restick_share < thresholds::kRestickShare) {
     return Classification{MotionClass::OscillatorySlip,

@@ -257,7 +257,7 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
   const bool slides = motion == MotionClass::StickSlip || motion == MotionClass::OscillatorySlip;
   FrequencyReport report;
   report.quoted.note = motion == MotionClass::SteadySliding ? "steady sliding has no slips"
-                                                            : "no slips can be told: nothing that repeats is quoted";
+                                                            : "no slips were found, so no frequency is quoted";
   if (slides) {
     const Intervals intervals = intervals_of(recording, signals.segmentation);
     // Slips that scatter are counted: what the fit's cycles cause is another mean than that of those that came.

@@ -19,27 +19,30 @@ Warnings warn_of_quality(const Detected& detected) {
   Warnings warnings;
   const auto warn = [&](const char* code, std::string message) { warnings.push_back({code, std::move(message)}); };
   if (quality.gaps > 0) {
-    warn("gaps", fmt::format("{} gap(s) in the clock, the longest {:.3g} s", quality.gaps, quality.longest_gap_s));
+    warn("gaps", fmt::format("{} {} in the clock, the longest {:.3g} s", quality.gaps,
+                             quality.gaps == 1 ? "gap" : "gaps", quality.longest_gap_s));
   }
   if (quality.clock_jitter > thresholds::kUnevenClock) {
-    warn("uneven_clock", fmt::format("the time step varies by {:.0f} %", 100.0 * quality.clock_jitter));
+    warn("uneven_clock", fmt::format("the sample interval varies by {:.0f} %", 100.0 * quality.clock_jitter));
   }
   if (detected.repeats() > 1.0) {
     warn("repeated_values",
          fmt::format(
-             "each value stands {:.3g} times: the logger is quicker than the converter; each is taken once, every "
-             "{:.3g} s",
+             "each value is repeated {:.3g} times because the logger is faster than the converter; each was used once, "
+             "every {:.3g} s",
              detected.repeats(), recording.sample_interval_s()));
   }
   if (quality.clipped_samples > 0) {
-    warn("clipped", fmt::format("{} samples at a level where the sensor saturates: left out", quality.clipped_samples));
+    warn("clipped", fmt::format("the sensor saturates: {} samples were left out", quality.clipped_samples));
   }
   if (quality.impulses > 0) {
-    warn("impulses", fmt::format("{} isolated impulses: left out", quality.impulses));
+    warn("impulses", fmt::format("{} isolated {} left out", quality.impulses,
+                                 quality.impulses == 1 ? "impulse was" : "impulses were"));
   }
   if (quality.quantisation_step) {
     const bool newtons = recording.conditions().quantity == ForceQuantity::Force_N;
-    warn("quantised", fmt::format("forces are multiples of {:.3g}{}", *quality.quantisation_step, newtons ? " N" : ""));
+    warn("quantised",
+         fmt::format("the force is quantised in steps of {:.3g}{}", *quality.quantisation_step, newtons ? " N" : ""));
   }
   return warnings;
 }
@@ -48,18 +51,19 @@ Warnings warn_of_sensor(const Conditions& conditions, const CycleStatistics& cyc
   if (!conditions.sensor_bandwidth_Hz || !cycles.period_s) return {};
   const double lags = *cycles.period_s * 2.0 * std::numbers::pi * *conditions.sensor_bandwidth_Hz;
   if (lags > thresholds::kLagsOfCycle) return {};
-  return {
-      {"sensor_too_slow", fmt::format("a cycle lasts {:.2g} times the sensor's lag: one slip is hardly forgotten when "
-                                      "the next begins, and little of the ramps is left to fit",
-                                      lags)}};
+  return {{"sensor_too_slow",
+           fmt::format("a cycle lasts only {:.2g} times the lag of the sensor: its response to one slip has "
+                       "not decayed when the next begins",
+                       lags)}};
 }
 
 Warnings warn_of_clock(const Conditions& conditions, const CycleStatistics& cycles) {
   if (cycles.regularity != Regularity::Clocked) return {};
   return {{"clocked",
-           fmt::format("slips keep time with the drive, whose period is {:.4g} ms: it sets frequency and spacing, "
-                       "which tell nothing of other speeds",
-                       1e3 * *conditions.drive_period_s)}};
+           fmt::format(
+               "the slips are synchronous with the drive (period {:.4g} ms), which determines frequency and spacing: "
+               "they do not apply to other speeds",
+               1e3 * *conditions.drive_period_s)}};
 }
 
 }  // namespace

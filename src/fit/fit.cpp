@@ -109,9 +109,11 @@ std::vector<CurvePoint> curve_of(const Recording& recording, const BlockFit& blo
     auto i = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), blocks.data(c).window_begin_s) -
                                       time_s.begin());
     for (; i < time_s.size() && time_s[i] < blocks.data(c).window_end_s; ++i) {
-      curve.push_back({i, blocks.model(c).level_at(time_s[i], blocks.level_data(), local) +
-                              blocks.model(c).hum_at(time_s[i], blocks.level_data()) +
-                              blocks.model(c).rise_at(time_s[i], blocks.level_data()) + state.force_at(time_s[i])});
+      const double interference = blocks.model(c).hum_at(time_s[i], blocks.level_data());
+      curve.push_back({i,
+                       blocks.model(c).level_at(time_s[i], blocks.level_data(), local) + interference +
+                           blocks.model(c).rise_at(time_s[i], blocks.level_data()) + state.force_at(time_s[i]),
+                       interference});
     }
   }
   return curve;
@@ -136,18 +138,17 @@ Warnings warnings_of(const DampedFit& chosen) {
   if (const auto& misfit = chosen.misfit) {
     warnings.push_back(
         {"model_misfit",
-         fmt::format("the slips differ from the fitted curve in the same way in every cycle, by {:+.1f} % of the onset "
-                     "force {}: all parameters are approximate, and their intervals are widened by what changes when "
-                     "parts of the slip are left out",
-                     100.0 * misfit->size, words_of_position(misfit->position))});
+         fmt::format(
+             "the slips deviate from the model in the same way in every cycle, by {:+.1f} % of the onset force {}: "
+             "intervals were widened accordingly",
+             100.0 * misfit->size, words_of_position(misfit->position))});
   }
   const std::vector<double>& hum_Hz = chosen.blocks.level().lines_Hz;
   if (!hum_Hz.empty()) {
     warnings.push_back(
         {"hum_fitted",
-         fmt::format(
-             "a line at {:.4g} Hz is fitted together with the cycles: hum of the mains or pick-up or an uneven drive",
-             fmt::join(hum_Hz, ", "))});
+         fmt::format("interference at {:.4g} Hz was included in the fit (mains, pick-up or an uneven drive)",
+                     fmt::join(hum_Hz, ", "))});
   }
   return warnings;
 }

@@ -33,7 +33,7 @@ Result<std::optional<Tier>> tier_from(const std::string& text, FitKind kind) {
   if (text == "weakening") return std::optional(Tier::Weakening);
   if (text == "velocity") {
     return Error{"unknown_tier",
-                 "--tier velocity needs a speed sweep (--joint): one speed cannot tell velocity dependence from "
+                 "--tier velocity needs a speed sweep (--joint): one speed cannot separate velocity dependence from "
                  "damping, choose auto, sawtooth, undamped, damped or weakening"};
   }
   return Error{"unknown_tier",

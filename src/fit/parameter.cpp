@@ -12,15 +12,12 @@ using Id = ParameterId;
 // docs/accuracy.md.
 constexpr std::array kTable{
     ParameterInfo{Id::Stiffness, "stiffness_N_per_m", "tangential stiffness k", "N/m", kNotNegative, 0.05, true},
-    ParameterInfo{Id::StiffnessExponent, "stiffness_exponent", "exponent p of the stiffness, k as V^p", "", kAnyNumber,
-                  0.25},
-    ParameterInfo{Id::FrictionDifference, "friction_difference_N", "static minus kinetic friction", "N", kNotNegative,
-                  0.1},
+    ParameterInfo{Id::StiffnessExponent, "stiffness_exponent", "stiffness exponent p, k ~ V^p", "", kAnyNumber, 0.25},
+    ParameterInfo{Id::FrictionDifference, "friction_difference_N", "friction drop F_s - F_k", "N", kNotNegative, 0.1},
     ParameterInfo{Id::FrictionCoefficientDifference, "friction_coefficient_difference",
-                  "static minus kinetic coefficient", "", kNotNegative, 0.1},
-    ParameterInfo{Id::Ageing, "ageing_N", "static friction's growth with ln stick time", "N", kAnyNumber, 0.25},
-    ParameterInfo{Id::AgeingTime, "ageing_time_s", "cut-off t_c of that growth, ln(1 + t / t_c)", "s", kNotNegative,
-                  0.25},
+                  "drop of the friction coefficient", "", kNotNegative, 0.1},
+    ParameterInfo{Id::Ageing, "ageing_N", "ageing rate B of static friction", "N", kAnyNumber, 0.25},
+    ParameterInfo{Id::AgeingTime, "ageing_time_s", "ageing cut-off time t_c", "s", kNotNegative, 0.25},
     ParameterInfo{Id::StaticFriction, "static_friction_N", "static friction F_s", "N", kAnyNumber, 0.1, false, true},
     ParameterInfo{Id::StaticFrictionCoefficient, "static_friction_coefficient", "static friction coefficient", "",
                   kAnyNumber, 0.1, false, true},
@@ -33,21 +30,17 @@ constexpr std::array kTable{
     ParameterInfo{Id::DampingRatio, "damping_ratio", "damping ratio zeta", "", kShare, 0.25, true},
     ParameterInfo{Id::DampingCoefficient, "damping_coefficient_N_s_per_m", "damping coefficient c", "N s/m",
                   kNotNegative, 0.25},
-    ParameterInfo{Id::FrictionSlope, "friction_slope_N_s_per_m", "slope of friction at rest f1 alpha", "N s/m",
+    ParameterInfo{Id::FrictionSlope, "friction_slope_N_s_per_m", "slope of F_k(v) at v = 0, f1 alpha", "N s/m",
                   kAnyNumber, 0.25},
     ParameterInfo{Id::Alpha, "alpha_s_per_m", "velocity dependence alpha", "s/m", kAnyNumber, 0.25},
     ParameterInfo{Id::F0, "f0_N", "friction at high speed f0", "N", kAnyNumber, 0.25},
     ParameterInfo{Id::F1, "f1_N", "velocity-dependent friction f1", "N", kAnyNumber, 0.25},
     ParameterInfo{Id::Mu0, "mu0", "friction coefficient mu0", "", kAnyNumber, 0.25},
     ParameterInfo{Id::Mu1, "mu1", "friction coefficient mu1", "", kAnyNumber, 0.25},
-    ParameterInfo{Id::SensorAverage, "sensor_average_s", "time over which samples are averaged", "s", kNotNegative,
-                  0.25},
-    ParameterInfo{Id::SlipDistance, "slip_distance_m", "slip distance D_c over which friction weakens", "m",
-                  kNotNegative, 0.25},
-    ParameterInfo{Id::ReloadForce, "reload_force_N", "rise A of the force after a slip, beside k x", "N", kNotNegative,
-                  0.25},
-    ParameterInfo{Id::ReloadLength, "reload_length_m", "path l of that rise, A (1 - exp(-x / l))", "m", kNotNegative,
-                  0.25}};
+    ParameterInfo{Id::SensorAverage, "sensor_average_s", "sensor averaging time T_b", "s", kNotNegative, 0.25},
+    ParameterInfo{Id::SlipDistance, "slip_distance_m", "slip-weakening distance D_c", "m", kNotNegative, 0.25},
+    ParameterInfo{Id::ReloadForce, "reload_force_N", "force recovery after a slip, A", "N", kNotNegative, 0.25},
+    ParameterInfo{Id::ReloadLength, "reload_length_m", "recovery length l", "m", kNotNegative, 0.25}};
 
 }  // namespace
 

@@ -122,11 +122,11 @@ class Assembler {
     findings.samples_per_slip = samples_per_slip(recordings_, data_);
     findings.sample_interval_s = recordings_[data_.fitted.front()].recording.sample_interval_s();
     if (fit::residual_over_noise(recordings_, data_, solution) > thresholds::kLargeChi2) {
-      findings.slip_doubt = "residuals are larger than the noise of the recordings: the slips are not the model's";
+      findings.slip_doubt = "residuals exceed the noise of the recordings: the model misses part of the slips";
     }
     if (fit::is_misfit(solution)) {
       findings.slip_doubt = findings.stiffness_doubt =
-          "residuals are well above the noise: the interval cannot hold what the model lacks";
+          "residuals exceed the noise: the model misses part of the data, and the interval may be too narrow";
     }
     if (!findings.damping.value) findings.frequency_unknown = findings.damping.note;
     add_average(findings);
@@ -155,15 +155,15 @@ class Assembler {
       findings.frequency_doubt = fit::averaging_doubt(averaging_);
       return;
     }
-    findings.slip_doubt = "onset and end of the slips are rounded, as an average would that cannot be told";
+    findings.slip_doubt = "the slips are rounded as by sensor averaging over a time that the data do not determine";
     findings.warnings.push_back(
-        {"samples_averaged", findings.slip_doubt + ": state it with --sensor-average where it is known"});
+        {"samples_averaged", findings.slip_doubt + ": state it with --sensor-average if it is known"});
   }
 
   void add_difference_doubt(fit::Findings& findings) const {
     const bool is_mean = !outcome_.solution.sweep.sharing.difference;
     if (is_mean && !outcome_.static_friction) {
-      findings.difference_doubt = "a mean: static friction differs between the recordings";
+      findings.difference_doubt = "a mean, because static friction differs between the recordings";
     }
     if (!outcome_.other_law) return;
     const fit::OtherLaw& other = *outcome_.other_law;
@@ -171,9 +171,8 @@ class Assembler {
     const double share = std::abs(data_.units.force * other.move(fit::kDifference) / model_.difference.a);
     if (!(share > thresholds::kOtherLawShare)) return;
     findings.difference_doubt = fmt::format(
-        "kinetic friction that changes {} with the speed explains the recordings as well and gives {:.3g} N",
-        other.law == fit::FrictionLaw::Hyperbolic ? "hyperbolically" : "logarithmically",
-        data_.units.force * other.difference);
+        "kinetic friction that changes {}ally with speed explains the recordings equally well and gives {:.3g} N",
+        other.law == fit::FrictionLaw::Hyperbolic ? "hyperbolic" : "logarithmic", data_.units.force * other.difference);
   }
 
   /// zeta cannot be negative: its interval is cut at 0.
@@ -182,7 +181,7 @@ class Assembler {
     free.a = outcome_.values(fit::kDamping);
     Estimate zeta = intervals_.interval_of(free);
     if (zeta.ci95->high <= 0.0 && !outcome_.solution.held[fit::kDamping]) {
-      return unknown("the best value is negative: the slips do not follow a damped oscillation");
+      return unknown("the best value is negative: the slips are not damped oscillations");
     }
     zeta.value = std::max(0.0, *zeta.value);
     zeta.ci95->low = std::max(0.0, zeta.ci95->low);
@@ -191,34 +190,33 @@ class Assembler {
 
   void add_warnings(SweepFit& sweep) const {
     if (outcome_.disagree) {
-      sweep.result.warnings.push_back(
-          {"recordings_disagree",
-           "the recordings of the sweep do not agree on one set of parameters: intervals are widened to hold what "
-           "leaving out each recording changes"});
+      sweep.result.warnings.push_back({"recordings_disagree",
+                                       "the recordings do not agree on one set of parameters: intervals were widened "
+                                       "to cover the changes when each "
+                                       "recording is left out"});
     }
     if (outcome_.static_friction) {
       sweep.result.warnings.push_back(
           {"static_friction_ages",
-           "static friction is larger after longer sticks: predictions take it to grow with "
-           "the logarithm of the stick time (ageing_N)"});
+           "static friction increases with the logarithm of the stick time (ageing_N); predictions include this"});
     } else if (!sweep.difference_shared) {
       sweep.result.warnings.push_back(
           {"static_friction_differs",
-           "static friction differs between the recordings (ageing, or another state of the "
-           "surface): F_s - F_k is their mean"});
+           "static friction differs between the recordings (ageing, or a changed surface): F_s - F_k is their mean"});
     }
-    if (outcome_.solution.recordings.front().model(0).has_exponent()) {
+    const bool has_exponent = outcome_.solution.recordings.front().model(0).has_exponent();
+    const auto trend = has_exponent ? intervals_.interval_of(model_.stiffness_exponent).ci95 : std::nullopt;
+    if (trend && (trend->low > 0.0 || trend->high < 0.0)) {
       sweep.result.warnings.push_back(
-          {"stiffness_goes_with_speed",
-           fmt::format(
-               "the stiffness goes with the driving speed, about as V to the power {:.2g}: predictions take it on",
-               model_.stiffness_exponent.a)});
+          {"stiffness_goes_with_speed", fmt::format("k varies with driving speed as V^{:.2g} (95 % interval {:.2g} to "
+                                                    "{:.2g}); predictions include this",
+                                                    model_.stiffness_exponent.a, trend->low, trend->high)});
     }
     if (!sweep.level_shared) {
       sweep.result.warnings.push_back(
           {"level_differs",
-           "the force level differs between the recordings by more than friction that depends "
-           "on the speed would make it: a sensor's zero, or another state of the surface"});
+           "the force level differs between the recordings by more than velocity-dependent friction explains: the zero "
+           "of the sensor changed, or the surface"});
     }
   }
 

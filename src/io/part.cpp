@@ -98,8 +98,7 @@ Warnings warn_of_rows(const Part& part) {
                                     counted(part.backward, "row"), part.first_backward_line)});
   }
   if (part.repeating > 0) {
-    warnings.push_back(
-        {"repeated_time_stamps", counted(part.repeating, "row") + " with the same time as the row before (kept)"});
+    warnings.push_back({"repeated_time_stamps", counted(part.repeating, "repeated time stamp") + " kept"});
   }
   return warnings;
 }

@@ -45,7 +45,8 @@ double coulomb_end_m_per_s(const ModelEstimate& model) {
 }
 
 CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagation& propagation) {
-  if (!model.damping_identified) return by_draws(model, "the damping ratio cannot be told from 0", coulomb_end_m_per_s);
+  if (!model.damping_identified)
+    return by_draws(model, "the damping ratio cannot be distinguished from 0", coulomb_end_m_per_s);
   if (!(model.damping_ratio > 0.0)) {
     return {{0.0, std::nullopt, std::nullopt, {}}, unknown("without damping there is stick-slip at every speed")};
   }

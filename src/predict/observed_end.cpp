@@ -16,7 +16,7 @@ Estimate by_runs(const ObservedEnd& observed, const std::string& why) {
   const double sticks = *observed.sticks_m_per_s;
   if (!observed.slides_m_per_s) {
     return unknown(
-        fmt::format("above {:.4g} m/s, the fastest run, which sticks; the fit does not tell more: {}", sticks, why));
+        fmt::format("above {:.4g} m/s, the fastest run, which sticks; the fit gives no upper bound: {}", sticks, why));
   }
   const double slides = *observed.slides_m_per_s;
   return {std::sqrt(sticks * slides), std::nullopt, Interval{sticks, slides},
@@ -28,7 +28,7 @@ Estimate by_runs(const ObservedEnd& observed, const std::string& why) {
 /// Without an upper end an interval is told in words.
 Estimate told(const Estimate& by_fit) {
   if (by_fit.value || !by_fit.ci95) return by_fit;
-  return unknown(fmt::format("above {:.4g} m/s, which is all that is told: {}", by_fit.ci95->low, by_fit.note));
+  return unknown(fmt::format("above {:.4g} m/s; no upper bound: {}", by_fit.ci95->low, by_fit.note));
 }
 
 }  // namespace

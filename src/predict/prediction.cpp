@@ -46,7 +46,7 @@ class Predictor {
     } else if (model_.has_covariance && propagation_.law_is_open_at(speed_m_per_s_)) {
       withdraw_intervals(row, "alpha is not known well enough for an interval at this speed");
     } else if (model_.has_covariance && model_.estimate.speed_dependence && may_be_either(motion.total_damping_ratio)) {
-      row.note = "the data cannot tell whether steady sliding is stable at this speed";
+      row.note = "the data do not determine whether steady sliding is stable at this speed";
     } else if (is_far()) {
       row.note = "more than a factor of 4 beyond the recordings";
     }
@@ -113,7 +113,7 @@ class Predictor {
 
   /// Over the models that the covariance allows and that stick, where linear propagation does not hold.
   void take_intervals_of_draws(PredictedMotion& row) const {
-    const std::string unsure = "the data cannot tell whether there is stick-slip at this speed";
+    const std::string unsure = "the data do not determine whether there is stick-slip at this speed";
     withdraw_intervals(row, "within the uncertainty of the critical speed: " + unsure);
     if (!row.period_s.value || !wider_) return;
     const predict::CyclesOfDraws cycles(*wider_, speed_m_per_s_);

@@ -109,7 +109,7 @@ CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagat
   const double unit = (p.omega_rad_per_s * p.difference_N / p.stiffness_N_per_m).a;
   double speed = kFastest * unit;
   if (sticks_at(p, speed)) {
-    if (!model.damping_identified) return CriticalPoint::unknown("the damping ratio cannot be told from 0");
+    if (!model.damping_identified) return CriticalPoint::unknown("the damping ratio cannot be distinguished from 0");
     return {{0.0, std::nullopt, std::nullopt, {}}, unknown("there is stick-slip at every speed looked at")};
   }
   while (speed > kSlowest * unit && !sticks_at(p, speed / kSearchStep)) speed /= kSearchStep;

@@ -17,6 +17,9 @@ namespace {
 
 constexpr int kDigitsOfError = 2;  // the usual rule for a standard error
 constexpr int kDigitsWithoutError = 4;
+/// Relative error that driving speeds and force sensors have at best: digits finer than it are not printed. JSON has
+/// them.
+constexpr double kFinestError = 1e-3;
 constexpr int kMostDigits = 9;  // beyond any force sensor and clock
 constexpr int kSmallestFixedExponent = -4;
 constexpr int kLargestFixedExponent = 6;
@@ -45,11 +48,12 @@ std::string fixed_text(double value, int last_digit) {
   return text;
 }
 
-/// The half width of the interval over kNormalQuantile stands in where no standard error is given.
+/// The standard error, else half the interval over kNormalQuantile; at least kFinestError of the value.
 std::optional<double> uncertainty_of(const Estimate& estimate) {
-  if (usable(estimate.standard_error)) return estimate.standard_error;
-  if (!estimate.ci95) return std::nullopt;
-  return (estimate.ci95->high - estimate.ci95->low) / (2.0 * kNormalQuantile);
+  std::optional<double> error = estimate.standard_error;
+  if (!usable(error) && estimate.ci95) error = (estimate.ci95->high - estimate.ci95->low) / (2.0 * kNormalQuantile);
+  if (!error || !estimate.value) return error;
+  return std::max(*error, kFinestError * std::abs(*estimate.value));
 }
 
 /// The unit that suits the estimate, or the end of its interval.
@@ -60,13 +64,12 @@ DisplayUnit unit_for(const Estimate& estimate, const std::string& SI_unit) {
   return display_unit(SI_unit, typical);
 }
 
-/// Characters, not bytes: UTF-8 continuation bytes take no room.
-std::size_t width_of(const std::string& text) {
+}  // namespace
+
+std::size_t shown_width(std::string_view text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
-
-}  // namespace
 
 std::string rounded(double value, std::optional<double> uncertainty) {
   if (!std::isfinite(value)) return "-";
@@ -195,13 +198,13 @@ void Table::add(std::vector<std::string> cells) {
 std::string Table::text() const {
   std::vector<std::size_t> widths(columns_.size(), 0);
   for (const auto& row : rows_) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], shown_width(row[i]));
   }
   std::string text;
   for (const auto& row : rows_) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(widths[i] - width_of(row[i]), ' ');
+      const std::string padding(widths[i] - shown_width(row[i]), ' ');
       line += "  " + (columns_[i] == Align::Left ? row[i] + padding : padding + row[i]);
     }
     line.erase(line.find_last_not_of(' ') + 1);

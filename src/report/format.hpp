@@ -65,6 +65,9 @@ std::string force_unit(ForceQuantity quantity);
 /// For CSV: the shortest text that reads back as the same double; empty where there is no number.
 std::string cell(std::optional<double> value);
 
+/// Characters of a text, not bytes: the continuation bytes of UTF-8 take no room.
+std::size_t shown_width(std::string_view text);
+
 enum class Align { Left, Right };
 
 /// Lines of cells in columns that are as wide as their widest cell, two blanks apart, indented by two.

@@ -33,9 +33,9 @@ std::string_view name_of(MotionClass motion) {
 }
 
 std::string_view words_for_motion(MotionClass motion) {
-  return name_in({"stick-slip", "steady sliding, no stick-slip", "oscillatory slip (the body hardly sticks)",
-                  "cannot tell whether this is stick-slip"},
-                 motion);
+  return name_in(
+      {"stick-slip", "steady sliding, no stick-slip", "oscillatory slip (almost no sticks)", "motion undetermined"},
+      motion);
 }
 
 std::string_view name_of(ParameterStatus status) {
@@ -43,9 +43,9 @@ std::string_view name_of(ParameterStatus status) {
 }
 
 std::string_view words_for_status(ParameterStatus status) {
-  return name_in({"the data determine it", "an estimate, not to be relied on alone", "only its interval is known",
-                  "the data cannot tell it", "held at the value that was given",
-                  "well known if what the note says holds, which a recording cannot show"},
+  return name_in({"the data determine it", "an estimate that should be confirmed", "only an interval is known",
+                  "the data do not determine it", "held at the stated value",
+                  "well determined if the assumption in its note holds"},
                  status);
 }
 

@@ -84,6 +84,16 @@ inline std::vector<double> fitted_force(const Recording& recording, const Analys
   return fitted;
 }
 
+/// The measured force less the interference that was fitted with the slips; where the fit does not reach, as measured.
+inline std::vector<double> force_without_interference(const Recording& recording, const Analysis& analysis) {
+  std::vector<double> force(recording.force().begin(), recording.force().end());
+  if (!analysis.fit) return force;
+  for (const CurvePoint& point : analysis.fit->curve) {
+    if (point.sample < force.size()) force[point.sample] -= point.interference;
+  }
+  return force;
+}
+
 /// In what a recording differs from what a standard asks.
 inline std::string differences_text(const StandardCoefficients& standard) {
   if (standard.differs.empty()) return "as prescribed, as far as a recording shows it";

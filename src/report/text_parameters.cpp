@@ -45,15 +45,15 @@ std::string residual_text(const FitResult& fit, ForceQuantity quantity) {
   std::string text = fmt::format("  model: {}, residual {} rms", name_of(fit.tier),
                                  quantity_text(fit.residual.rms, force_unit(quantity)));
   if (const auto chi2 = fit.residual.reduced_chi2) {
-    text += fmt::format(", {:.2g} times the noise (reduced chi2 {:.3g}; 1 where only noise is left)", std::sqrt(*chi2),
-                        *chi2);
+    text += fmt::format(", {:.2g} times the noise (reduced chi2 {:.3g})", std::sqrt(*chi2), *chi2);
   }
   if (const auto p = fit.residual.whiteness_p) {
     constexpr double kLevel = 1e-3;
+    constexpr double kSmallestPrinted = 1e-6;  // the normal approximation is not accurate that far into its tail
     text += fmt::format("\n  residuals: {} (whiteness p {}, level {:g})",
-                        *p < kLevel ? "not like noise, neighbours are correlated: the model leaves a pattern"
-                                    : "like noise, no correlation of neighbours is proven",
-                        *p > 0.0 ? fmt::format("{:.2g}", *p) : "below 1e-300", kLevel);
+                        *p < kLevel ? "neighbouring residuals are correlated, so the model misses a pattern"
+                                    : "consistent with white noise",
+                        *p > kSmallestPrinted ? fmt::format("{:.2g}", *p) : "below 1e-6", kLevel);
   }
   return text + "\n";
 }

@@ -111,18 +111,18 @@ TEST_CASE("model options give the exact motion without intervals; above the crit
   CHECK(fast["lambda"]["value"].is_number());
 }
 
-TEST_CASE("near the critical speed the row says that the data cannot tell") {
+TEST_CASE("near the critical speed the row says that the data do not determine the motion") {
   const test::FitExample example;
   const json prediction = predicted({example.fit}, "20mm/s,0.42");
   CHECK_FALSE(prediction["rows"][0].contains("note"));
   const json& row = prediction["rows"][1];
-  CHECK_THAT(row["note"].get<std::string>(), Catch::Contains("cannot tell"));
+  CHECK_THAT(row["note"].get<std::string>(), Catch::Contains("the data do not determine"));
   CHECK_THAT(row["note"].get<std::string>(), Catch::Contains("intervals hold if there is"));
   CHECK(row["period_s"]["ci95"].is_array());
   CHECK(row["force_peak_N"]["ci95"].is_null());
   CHECK(row["lambda"]["ci95"].is_array());
   const test::ProgramResult text = slipfit({"predict", example.fit, "--speeds", "20mm/s,0.42"});
-  CHECK_THAT(text.out, Catch::Contains("cannot tell"));
+  CHECK_THAT(text.out, Catch::Contains("the data do not determine"));
 }
 
 TEST_CASE("the table for people has prefixes and bands; --out and --csv write the same numbers") {

@@ -91,7 +91,7 @@ TEST_CASE("with --timing the document has the seconds of the stages") {
 
 TEST_CASE("the report for people begins with the judgement and keeps measured and predicted spacing apart") {
   const Example example;
-  const test::ProgramResult result = slipfit({"fit", example.file, "--speed", "20mm/s"});
+  const test::ProgramResult result = slipfit({"fit", example.file, "--speed", "20mm/s", "--details"});
   REQUIRE(result.exit_code == 0);
   CHECK_THAT(first_line(result.out), Catch::Contains("stick-slip") && Catch::Contains("Hz"));
   const std::size_t measured = result.out.find("Spacing, measured (V/f)");

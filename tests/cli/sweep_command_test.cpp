@@ -17,7 +17,7 @@ using test::slipfit;
 
 TEST_CASE("a joint fit of a Coulomb sweep says so: text, document, prediction") {
   const test::SweepExample example;
-  const test::ProgramResult text = slipfit({"fit", "--joint", example.manifest, "--group", "pad"});
+  const test::ProgramResult text = slipfit({"fit", "--joint", example.manifest, "--group", "pad", "--details"});
   CHECK(text.exit_code == 0);
   for (const char* const part :
        {"pad: 3 recordings fitted together", "tangential stiffness k", "identified", "slow", "fast",

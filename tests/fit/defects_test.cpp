@@ -121,8 +121,8 @@ TEST_CASE("slips that are not shaped like the model's: warned of, w_n weak or wi
     misfits = warning.message;
   }
   CHECK_THAT(misfits, Catch::Contains("times the noise") &&
-                          Catch::Contains("the slips differ from the fitted curve in the same way in every cycle") &&
-                          Catch::Contains("of the slip time") && Catch::Contains("parameters are approximate"));
+                          Catch::Contains("the slips deviate from the model in the same way in every cycle") &&
+                          Catch::Contains("of the slip time") && Catch::Contains("intervals were widened accordingly"));
   for (const Parameter& p : analysis.fit->parameters) {
     if (p.name() != "natural_frequency_rad_per_s" || !p.estimate.ci95) continue;
     const bool holds = p.estimate.ci95->low <= kOmega && kOmega <= p.estimate.ci95->high;

@@ -195,7 +195,7 @@ TEST_CASE("sweep: one speed cannot tell alpha, and says so") {
   REQUIRE(sweep.fit);
   CHECK(sweep.fit->result.tier == Tier::Damped);
   CHECK_FALSE(parameter(sweep, "alpha_s_per_m").estimate.value);
-  CHECK_THAT(parameter(sweep, "alpha_s_per_m").estimate.note, Catch::Contains("one speed cannot tell alpha"));
+  CHECK_THAT(parameter(sweep, "alpha_s_per_m").estimate.note, Catch::Contains("too little to determine alpha"));
 }
 
 TEST_CASE("sweep: recordings with zeros of their own share no level; damping is then conditional") {
@@ -229,7 +229,7 @@ TEST_CASE("sweep: where recordings do not quite share k, F_k(v) stays because it
   CHECK(*sweep.fit->result.residual.reduced_chi2 > 1.5);
   CHECK(sweep.fit->result.tier == Tier::Velocity);
   CHECK_THAT(sweep.fit->result.candidates.front().reason,
-             Catch::Contains("spacing predicted for a recording left out"));
+             Catch::Contains("spacing predicted for an omitted recording"));
   check_recovery(sweep, scene);
   const Estimate& slope = parameter(sweep, "friction_slope_N_s_per_m").estimate;
   const double truth = scene.f1_N * scene.alpha_s_per_m;
@@ -252,7 +252,7 @@ TEST_CASE("sweep: where recordings do not quite share w_n, F_k(v) gains and yet 
   check_recovery(sweep, scene);
   const Parameter& alpha = parameter(sweep, "alpha_s_per_m");
   CHECK(alpha.status == ParameterStatus::Unidentified);
-  CHECK_THAT(alpha.estimate.note, Catch::Contains("spacing predicted for a recording left out"));
+  CHECK_THAT(alpha.estimate.note, Catch::Contains("spacing predicted for an omitted recording"));
   for (const Parameter& p : sweep.fit->result.parameters) CHECK(p.status != ParameterStatus::Identified);
 }
 

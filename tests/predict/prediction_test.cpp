@@ -250,7 +250,7 @@ TEST_CASE("where zeta may be 0 the end of stick-slip is told as a bound, by the 
   // An interval that nobody has says nothing.
   model.observed_end = {};
   model.estimate.covariance[2][2] = 0.0;
-  CHECK(predict_at(model, {}).critical_speed_m_per_s.note == "the damping ratio cannot be told from 0");
+  CHECK(predict_at(model, {}).critical_speed_m_per_s.note == "the damping ratio cannot be distinguished from 0");
 }
 
 TEST_CASE("a stated model without damping has stick-slip at every speed") {

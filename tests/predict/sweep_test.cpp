@@ -258,7 +258,7 @@ TEST_CASE("recordings at one speed cannot tell alpha: it is refused, with the re
   const Parameter& alpha = parameter(sweep, "alpha_s_per_m");
   CHECK(alpha.status == ParameterStatus::Unidentified);
   CHECK_FALSE(alpha.estimate.value);
-  CHECK_THAT(alpha.estimate.note, Catch::Contains("one speed cannot tell alpha"));
+  CHECK_THAT(alpha.estimate.note, Catch::Contains("too little to determine alpha"));
   CHECK_FALSE(sweep.fit->result.estimate->speed_dependence);
 }
 

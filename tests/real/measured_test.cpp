@@ -148,7 +148,7 @@ TEST_CASE(
   const Parameter* const frequency = find(other, "natural_frequency_rad_per_s");
   REQUIRE(frequency != nullptr);
   CHECK(!frequency->estimate.value);
-  CHECK(frequency->estimate.note.find("the stated mass of 5 kg is not that of these slips") != std::string::npos);
+  CHECK(frequency->estimate.note.find("the stated mass of 5 kg does not explain the slips") != std::string::npos);
 }
 
 TEST_CASE("printed plastic: slow recordings predict the spacing at speeds up to 2.7 times as fast") {

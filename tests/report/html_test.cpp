@@ -76,9 +76,8 @@ TEST_CASE("the page says the kind of motion in a sentence and each parameter's s
              Contains("<p class=\"headline\">Stick-slip at 5.432\u00a0±\u00a00.012\u00a0Hz: a pattern of 1.8409"));
   const std::string table = section(page, "parameters");
   CHECK_THAT(table, Contains("1002.3") && Contains("[999.9, 1004.8]"));
-  CHECK_THAT(table, Contains("only its interval is known") && Contains("the data cannot tell it") &&
-                        Contains("held at the value that was given") &&
-                        Contains("needs <code class=\"option\">--zero</code>"));
+  CHECK_THAT(table, Contains("only an interval is known") && Contains("the data do not determine it") &&
+                        Contains("held at the stated value") && Contains("needs <code class=\"option\">--zero</code>"));
   CHECK_THAT(section(page, "repeat"),
              Contains("slipfit fit run.csv") && Contains("xxh128:06b05ab6733a618578af5f94892f3950"));
 }
@@ -114,7 +113,7 @@ TEST_CASE("steady sliding: words in place of cycles, parameters and pattern") {
   const std::string page = page_of(recording, analysis);
   CHECK_THAT(page, Contains("<p class=\"headline\">Steady sliding at 10\u00a0mm/s: no stick-slip, no pattern.</p>"));
   const std::string absent = section(page, "absent");
-  for (const char* title : {"Cycles laid over each other", "Damping from peaks and troughs", "The abrasion pattern"}) {
+  for (const char* title : {"Overlaid cycles", "Damping from peaks and troughs", "Predicted abrasion pattern"}) {
     CAPTURE(title);
     CHECK_THAT(absent, !Contains("<svg") && Contains(std::string("<dt>") + title));
   }

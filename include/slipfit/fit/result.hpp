@@ -53,10 +53,11 @@ struct Correlation {
   std::vector<std::vector<double>> matrix;  ///< symmetric, ones on the diagonal
 };
 
-/// A point of the fitted curve, at a sample of the recording.
+/// A point of the fitted curve, at a sample of the recording; forces in the unit of the column.
 struct CurvePoint {
   std::size_t sample = 0;
   double force = 0.0;
+  double interference = 0.0;  ///< the part of `force` that the fit attributes to interference (mains, pick-up)
 };
 
 /// How well the cycles look like stick-slip cycles of the model; the kind of motion rests on it.

@@ -12,7 +12,10 @@ namespace slipfit {
 /// (docs/formats.md). `options.id` names the group.
 std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const JsonOptions& options = {});
 
-/// For people: shared parameters, the recordings over speed, what a fit without each of them predicts for it.
+/// The same on one screen, as `to_summary` of a recording.
+std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name);
+
+/// All results as text: shared parameters, the recordings over speed, what a fit without each of them predicts for it.
 std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name);
 
 }  // namespace slipfit

@@ -8,8 +8,12 @@
 
 namespace slipfit {
 
-/// For people: kind of motion, parameters with intervals and status, spacing (measured, kept apart from predicted),
-/// warnings.
+/// What an engineer reads first, on one screen: at most 25 lines of 100 characters with the kind of motion, parameters,
+/// spacing and critical speed with intervals and statuses, and the warnings with the largest effect.
+std::string to_summary(const Recording& recording, const Analysis& analysis);
+
+/// All results as text: kind of motion, parameters with intervals and status, spacing (measured, kept apart from
+/// predicted), warnings.
 std::string to_text(const Recording& recording, const Analysis& analysis);
 
 /// The text with line breaks and other control characters as '?': a file's name cannot forge a second line of output.

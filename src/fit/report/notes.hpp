@@ -11,21 +11,21 @@ namespace slipfit::fit {
 
 /// The condition on a speed without a standard error, and which parameters depend on it.
 inline constexpr const char* kStatedSpeed =
-    "the stated driving speed (k, m and c are in inverse proportion to it; --speed-uncertainty widens their intervals)";
+    "the stated driving speed (k, m and c are inversely proportional to it; --speed-uncertainty widens their "
+    "intervals)";
 
 /// Why nothing that is read from the slip is identified where W is fitted.
-inline constexpr const char* kFittedAverage =
-    "known if the instrument averages evenly over a time, as the fit takes it to";
+inline constexpr const char* kFittedAverage = "assumes that the sensor averages uniformly over the fitted time";
 /// Why a force level is conditional.
 inline constexpr const char* kZeroUnknown =
-    "known if the sensor reads 0 without force, which a recording cannot show: state the reading with --zero";
+    "assumes that the sensor reads 0 without force: state its reading with --zero";
 /// Why F_s - F_k and zeta of one speed are conditional.
 inline constexpr const char* kOneSpeed =
-    "known if friction does not depend on the sliding speed, which one driving speed cannot show";
+    "assumes kinetic friction that does not depend on sliding speed; one driving speed cannot test this: fit a sweep";
 
 /// Why w_n and mass are not read from the slips.
-inline constexpr const char* kRingDown = "the free ring-down as the motion of the slips: it is data of w_n and zeta";
-inline constexpr const char* kStatedMass = "by the stated mass: averaging of the samples hides w_n";
+inline constexpr const char* kRingDown = "the free ring-down, which was used as data for w_n and zeta";
+inline constexpr const char* kStatedMass = "from the stated mass, because sensor averaging hides w_n";
 
 /// That an average of the samples is fitted.
 Warning averaged_warning(double average_s);

@@ -107,7 +107,7 @@ class Reporter {
     const Id id = in_unit(Id::FrictionDifference, Id::FrictionCoefficientDifference);
     if (f_.difference_bounds) {
       const Interval& bounds = *f_.difference_bounds;
-      std::string note = "lies between half of the force drop and the whole";
+      std::string note = "between half and all of the force drop";
       for (const std::string& why : {f_.slip_unresolved, f_.damping.note}) {
         if (!why.empty() && note.find(why) == std::string::npos) note += "; " + why;
       }
@@ -186,7 +186,7 @@ class Reporter {
       return add(Id::Mass, f_.intervals.interval_of_one_sign(m), ParameterStatus::Conditional, kStatedMass);
     }
     const std::string doubt = frequency_doubt().empty() ? f_.stiffness_doubt : frequency_doubt();
-    add_graded(Id::Mass, f_.intervals.interval_of_one_sign(m), doubt, "effective: k / w_n^2");
+    add_graded(Id::Mass, f_.intervals.interval_of_one_sign(m), doubt, doubt);
   }
 
   void report_damping() {
@@ -234,7 +234,7 @@ class Reporter {
   }
 
   void report_law() {
-    if (!f_.law->depends_on_speed) return withhold_law("not needed or not told: " + f_.law->reason);
+    if (!f_.law->depends_on_speed) return withhold_law("not required by the data: " + f_.law->reason);
     const Estimate slope = along([](const SlidingModel& model) { return model.slope; });
     add_graded(Id::FrictionSlope, slope, slip_doubt(), slip_doubt());
     const Estimate alpha = f_.intervals.interval_of_one_sign(model_.alpha);
@@ -242,7 +242,7 @@ class Reporter {
     const double relative = relative_error(f_.intervals.interval_of(model_.alpha));
     if (!(relative < thresholds::kTellingError)) {
       return withhold_law(
-          fmt::format("only the product f1 alpha can be told: {:.3g} N s/m, 95 % interval {:.3g} to {:.3g}",
+          fmt::format("only the product f1 alpha is determined: {:.3g} N s/m, 95 % interval {:.3g} to {:.3g}",
                       *slope.value, slope.ci95->low, slope.ci95->high));
     }
     const std::string bends = "the speeds show little of the curvature; f1 alpha is known better";

@@ -52,8 +52,8 @@ StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits,
   if (bend && std::abs(bend->log_ratio) > thresholds::kBendSigmas * bend->standard_error) {
     result.variance += std::pow(0.5 * bend->log_ratio, 2);
     result.note = fmt::format(
-        "the force in stick rises {:.1f} % {} steeply at first than at last: the interval of k allows for it",
-        100.0 * std::abs(bend->log_ratio), bend->log_ratio > 0.0 ? "more" : "less");
+        "the sticks are curved: their slope {} by {:.1f} % from start to end; the interval of k includes this",
+        bend->log_ratio > 0.0 ? "decreases" : "increases", 100.0 * std::abs(bend->log_ratio));
     result.warnings.push_back({"model_misfit", result.note});
   }
   if (const std::optional<StickRipple> ripple = ripple_of(fits.damped)) {
@@ -113,12 +113,11 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
   const double change = std::abs(result.one_sided(kLogFrequency));
   if (rounded) {
     const double average_s = std::sqrt(12.0 * seen->variance_s2);
-    result.doubt =
-        fmt::format("onset and end of the slips are rounded as averaging over {:.2g} ms would", 1e3 * average_s);
+    result.doubt = fmt::format("the slips are rounded as by sensor averaging over {:.2g} ms", 1e3 * average_s);
     result.warnings.push_back(
-        {"samples_averaged", result.doubt +
-                                 " (or friction that changes in the slip): intervals allow for it; state it with "
-                                 "--sensor-average where it is known"});
+        {"samples_averaged",
+         result.doubt + " or by friction that changes during the slip; intervals include this. State the averaging "
+                        "time with --sensor-average if it is known"});
   } else if (change > thresholds::kAverageShare) {
     result.small_doubt = is_seen ? unexcluded_average(std::sqrt(12.0 * variance_s2), change) : averaging_doubt(change);
   }
@@ -182,15 +181,13 @@ std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, co
   const double average_s = fit.blocks.scales().sensor_average_s;
   if (std::exp(fit.blocks.parameters.globals[kLogFrequency]) * average_s > thresholds::kHidingAverage) {
     const std::string remedy =
-        conditions.mass_kg ? fmt::format("the stated mass of {:.3g} kg is not that of these slips", *conditions.mass_kg)
+        conditions.mass_kg ? fmt::format("the stated mass of {:.3g} kg does not explain the slips", *conditions.mass_kg)
                            : std::string("state the mass with --mass");
-    return "averaging over most of the slip hides w_n and zeta where residuals are larger than the noise and not "
-           "random: " +
-           remedy;
+    return "the sensor averages over most of the slip, and correlated residuals hide w_n and zeta: " + remedy;
   }
   if (!fit.blocks.level().reloading || findings.sensor_average_s || fit.average) return {};
-  return "beside sticks that rise more steeply after a slip the residuals are larger than the noise and not random: an "
-         "average of the sensor (--sensor-average), or friction, may set the time of the fall instead of the mass";
+  return "the force recovers after a slip, and residuals are correlated and larger than the noise: sensor averaging "
+         "(--sensor-average) or friction may determine the slip time instead of the mass";
 }
 
 /// Why what is read from the slip cannot be told, or not surely.
@@ -199,21 +196,22 @@ void state_doubts(const Conditions& conditions, const TierFits& fits, const Reso
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
   if (large) {
     findings.warnings.push_back(
-        {"model_misfit", fmt::format("residuals are {:.2g} times the noise: the model leaves something out of these "
-                                     "slips, and what is read from their shape is not sure",
-                                     std::sqrt(*residual.reduced_chi2))});
+        {"model_misfit",
+         fmt::format("residuals are {:.2g} times the noise: the model misses part of the slip, and parameters "
+                     "that depend on its shape are uncertain",
+                     std::sqrt(*residual.reduced_chi2))});
   }
   if (const std::optional<double>& zeta = fits.damped.refused_damping) {
     findings.frequency_unknown = fmt::format(
-        "the slip does not follow a damped oscillation (the best damping ratio is negative, {:.2f}): friction, creep "
-        "or the sensor may set its time instead of the mass",
+        "the slip is not a damped oscillation (best damping ratio {:.2f}): friction, creep or the sensor may determine "
+        "the slip time instead of the mass",
         *zeta);
     findings.slip_doubt = findings.frequency_unknown;
   } else if (fits.damped.misfit) {
     // A sensor that lags, or creep, moves w_n more than leaving out parts of the slip shows.
-    findings.slip_doubt = "the slip does not follow a damped oscillation: w_n may be wrong by more than its interval";
+    findings.slip_doubt = "the slip is not a damped oscillation: the error of w_n may exceed its interval";
   } else if (large && residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance) {
-    findings.slip_doubt = "residuals are larger than the noise and not random: the interval may be too short";
+    findings.slip_doubt = "residuals are correlated and larger than the noise: the interval may be too narrow";
   }
   findings.slip_unresolved =
       resolution.slip_resolved ? doubt_of_fall(conditions, fits.damped, residual, findings) : resolution.reason;
@@ -240,7 +238,7 @@ std::optional<Estimate> fitted_average_of(const DampedFit& fit) {
 std::vector<std::string> conditions_of(const Recording& recording, Tier tier) {
   const char* const law = tier == Tier::Weakening ? "friction that weakens over a slip distance" : "Coulomb friction";
   std::vector<std::string> conditions{
-      fmt::format("{} (one speed cannot tell zeta and F_s - F_k from friction that depends on speed)", law)};
+      fmt::format("{} (one speed cannot separate zeta and F_s - F_k from velocity-dependent friction)", law)};
   if (!recording.conditions().speed_standard_error_m_per_s) conditions.emplace_back(kStatedSpeed);
   return conditions;
 }

@@ -27,23 +27,27 @@ double speed_ratio(std::span<const SweepRecording> recordings) {
 
 namespace {
 
+constexpr double kSmallestPrinted = 1e-6;  // p values below it depend on the far tails of the scatter
+
 LawChoice choose_by_chance(const SweepFits& fits, double speeds) {
   if (speeds < thresholds::kLeastSpeedRatio) {
-    return {false, fmt::format("the speeds span a factor of {:.2g} only: one speed cannot tell alpha", speeds)};
+    return {false, fmt::format("the speeds span a factor of {:.2g} only, too little to determine alpha", speeds)};
   }
-  const std::string chance = "probability of so large an improvement under Coulomb friction: " +
-                             (fits.p_value > 0.0 ? fmt::format("{:.2g}", fits.p_value) : "below 1e-300");
+  const std::string chance = fits.p_value > kSmallestPrinted
+                                 ? fmt::format("p = {:.2g} under Coulomb friction", fits.p_value)
+                                 : std::string("p < 1e-6 under Coulomb friction");
   if (!fits.depends_on_speed) return {false, "Coulomb friction explains the recordings; " + chance};
   return {true, chance};
 }
 
 /// Where residuals are larger than the noise, by what is predicted of a recording left out.
 LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
-  return {velocity_error < coulomb_error,
-          fmt::format(
-              "residuals are well above the noise; the spacing predicted for a recording left out is wrong by {:.2g} % "
-              "with F_k(v), by {:.2g} % under Coulomb friction",
-              100.0 * std::expm1(velocity_error), 100.0 * std::expm1(coulomb_error))};
+  return {
+      velocity_error < coulomb_error,
+      fmt::format(
+          "residuals exceed the noise; the spacing predicted for an omitted recording has an error of {:.2g} % with "
+          "F_k(v) and of {:.2g} % under Coulomb friction",
+          100.0 * std::expm1(velocity_error), 100.0 * std::expm1(coulomb_error))};
 }
 
 /// Speed-dependent friction has two parameters more, its mean slope and its rate.

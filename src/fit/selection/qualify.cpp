@@ -23,7 +23,7 @@ FitResult without_parameters(FitResult fit) {
   fit.estimate.reset();
   for (Warning& warning : fit.warnings) {  // how far off it is says nothing where it is another motion
     if (warning.code != "model_misfit") continue;
-    warning.message = "the slips do not follow the model: none of its parameters is known";
+    warning.message = "the model does not describe the slips: no parameter is determined";
   }
   return fit;
 }
@@ -63,7 +63,7 @@ FitResult without_inertia(FitResult fit, const std::string& reason, double force
     } else if (parameter.id == ParameterId::FrictionDifference) {
       parameter.status = ParameterStatus::Bounded;
       parameter.estimate = {0.75 * force_drop, std::nullopt, bounds,
-                            "between half of the drop and all of it: " + reason};
+                            "between half and all of the force drop: " + reason};
     }
   }
   fit.correlation.reset();
@@ -91,13 +91,14 @@ FitResult qualified_by_ring_down(FitResult fit, double ring_down_frequency_Hz, d
   const bool misfits = std::any_of(fit.warnings.begin(), fit.warnings.end(),
                                    [](const Warning& warning) { return warning.code == "model_misfit"; });
   const std::string slower =
-      fmt::format("the slips move at {:.3g} Hz, the rig rings down at {:.3g} Hz", slip_Hz, ring_down_frequency_Hz);
+      fmt::format("the slips ({:.3g} Hz) are much slower than the free ring-down of the rig ({:.3g} Hz)", slip_Hz,
+                  ring_down_frequency_Hz);
   if (misfits) {
-    const std::string reason = slower + ": slips that do not follow the model and are so slow are not inertial";
+    const std::string reason = slower + ", so inertia does not determine them";
     fit.warnings.push_back({"slips_not_inertial", reason});
     return without_inertia(std::move(fit), reason, force_drop);
   }
-  const std::string reason = slower + ": known only if what rings is not the body that slips";
+  const std::string reason = slower + ": assumes that another body rings";
   fit.warnings.push_back({"slips_not_inertial", reason});
   return with_doubtful_inertia(std::move(fit), reason);
 }

@@ -128,7 +128,7 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Damp
   if (stacked_residual(both->fit.blocks, coulomb.blocks).size > thresholds::kHalvedStack * before.size) return trial;
   trial.fall_doubt =
       "friction that weakens over a slip distance and an average of the sensor together explain the slips better "
-      "than either, and cannot be told apart: state the average with --sensor-average";
+      "than either, and the data cannot separate them: state the averaging time with --sensor-average";
   return trial;
 }
 
@@ -155,7 +155,7 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
     if (coulomb.average && !trial.candidate.chosen && gain > -thresholds::kTierPrice) {
       trial.fall_doubt = fmt::format(
           "friction that weakens over a slip distance of {:.2g} um explains the slips as well as the average of the "
-          "sensor: the two cannot be told apart",
+          "sensor: the data cannot separate the two",
           1e6 * slip_distance_m(*trial.fit));
       trial.warning = Warning{"samples_averaged", trial.fall_doubt};
     }

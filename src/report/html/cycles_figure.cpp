@@ -66,7 +66,7 @@ std::vector<CycleWindow> windows_of(const CycleStatistics& cycles, double sample
 chart::Line laid_cycles(const Source& source, const Stack& stack, CycleWindow window) {
   chart::Line line{"", Colour::Grey, Stroke::Solid, {}, 0.6};
   for (const Anchor& anchor : stack.anchors) {
-    const std::vector<Point> points = laid(source, source.recording.force(), anchor, window);
+    const std::vector<Point> points = laid(source, source.force_of_slips, anchor, window);
     line.points.insert(line.points.end(), points.begin(), points.end());
     line.points.push_back({0.0, std::numeric_limits<double>::quiet_NaN()});
   }
@@ -75,6 +75,13 @@ chart::Line laid_cycles(const Source& source, const Stack& stack, CycleWindow wi
 
 namespace {
 
+/// The fit at every sample without the interference, whose phase differs from cycle to cycle.
+std::vector<double> fit_of_slips(const Source& source) {
+  std::vector<double> fit = source.fitted;
+  for (std::size_t i = 0; i < fit.size(); ++i) fit[i] -= source.recording.force()[i] - source.force_of_slips[i];
+  return fit;
+}
+
 Panel panel_of(const Source& source, const Stack& stack, CycleWindow window) {
   chart::Line measured = laid_cycles(source, stack, window);
   measured.name = "measured cycles";
@@ -82,7 +89,7 @@ Panel panel_of(const Source& source, const Stack& stack, CycleWindow window) {
   for (const Point& point : measured.points) height.add(point.y);
   const DisplayUnit unit = display_unit("s", window.after_s);
   chart::Line model{"fit of a typical cycle", Colour::Vermillion, Stroke::Solid,
-                    laid(source, source.fitted, stack.typical, window), 2.4};
+                    laid(source, fit_of_slips(source), stack.typical, window), 2.4};
   const bool has_model = std::ranges::any_of(model.points, [](const Point& p) { return std::isfinite(p.y); });
   Panel panel;
   panel.height_px = 240.0;
@@ -102,7 +109,7 @@ Panel panel_of(const Source& source, const Stack& stack, CycleWindow window) {
 }  // namespace
 
 Figure cycles_figure(const Source& source) {
-  Figure figure{"cycles", "Cycles laid over each other"};
+  Figure figure{"cycles", "Overlaid cycles"};
   figure.guide =
       "Every cycle moved so that its slip begins at time zero and its kinetic friction lies at zero force. A tight "
       "bundle means cycles alike; the spread at the top is the scatter of static friction. Above: whole cycles; below: "
@@ -114,7 +121,7 @@ Figure cycles_figure(const Source& source) {
   const auto windows = windows_of(cycles, source.recording.sample_interval_s());
   if (stack.anchors.empty() || windows.empty())
     return figure.without_chart("There are too few slips to lay cycles over each other.");
-  chart::Chart chart{"Cycles laid over each other", {}, {}};
+  chart::Chart chart{"Overlaid cycles", {}, {}};
   for (const CycleWindow& window : windows) chart.panels.push_back(panel_of(source, stack, window));
   figure.chart = std::move(chart);
   figure.label = fmt::format("{} of {} cycles laid over each other, with the fit of a typical one",

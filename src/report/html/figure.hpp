@@ -18,8 +18,9 @@ struct Source {
   const Recording& recording;
   const Analysis& analysis;
   const Background& background;
-  DisplayUnit force_unit;      ///< that suits the largest force; no unit for friction coefficients
-  std::vector<double> fitted;  ///< the fit at every sample, not a number where it does not reach
+  DisplayUnit force_unit;              ///< that suits the largest force; no unit for friction coefficients
+  std::vector<double> fitted;          ///< the fit at every sample, not a number where it does not reach
+  std::vector<double> force_of_slips;  ///< force_without_interference()
 };
 Source source_of(const Recording& recording, const Analysis& analysis, const Background& background);
 

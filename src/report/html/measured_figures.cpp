@@ -174,6 +174,9 @@ std::string reason_for_none(const Source& source, const std::vector<Point>& pair
     const std::string why = reflection.note.empty() ? "the fitted model has none" : reflection.note;
     return "The damping ratio is not known: " + why + ".";
   }
+  if (source.analysis.fit && source.analysis.fit->find(ParameterId::SensorAverage) != nullptr) {
+    return "The sensor averages over a time that blunts peaks and troughs: their ratio does not show the damping.";
+  }
   return pairs.size() < 3 ? "There are too few fitted cycles." : "";
 }
 

@@ -68,7 +68,7 @@ void add_spot(chart::Panel& panel, const Spot& spot) {
 }  // namespace
 
 Figure map_figure(const Source& source) {
-  Figure figure{"map", "Where this recording lies"};
+  Figure figure{"map", "Stability map"};
   figure.guide =
       "Right of the line a body that starts from rest keeps sticking and slipping, left of it the motion dies out. "
       "Raising the speed moves the point to the left (lambda falls as 1/V). The bars are the 95 % intervals; a damping "
@@ -177,7 +177,7 @@ void add_track(Figure& figure, const Source& source, double length, const Displa
 }  // namespace
 
 Figure pattern_figure(const Source& source) {
-  Figure figure{"pattern", "The abrasion pattern as it would look"};
+  Figure figure{"pattern", "Predicted abrasion pattern"};
   const Derived& derived = source.analysis.derived;
   const bool is_predicted = derived.periodic_displacement_m.value.has_value();
   const Estimate& spacing = is_predicted ? derived.periodic_displacement_m : derived.pattern_spacing_m;

@@ -8,6 +8,7 @@
 #include "report/html/scaling.hpp"
 #include "report/html/stack.hpp"
 #include "report/html/sweep_figures.hpp"
+#include "report/quantities.hpp"
 
 namespace slipfit::html {
 namespace {
@@ -116,7 +117,8 @@ class OverlayPanel {
     if (!window_of(one, axis_)) return;
     static const Background kNone;
     const double per_second = axis_.per_second(one.recording);
-    const Source source{one.recording, one.analysis, kNone, force_, {}};
+    const Source source{one.recording, one.analysis, kNone,
+                        force_,        {},           force_without_interference(one.recording, one.analysis)};
     const Stack stack = stack_of(one.analysis, count);
     on_kinetic_level_ = on_kinetic_level_ && stack.on_kinetic_level;
     const chart::Line cycles = laid_cycles(source, stack, {reach_.before / per_second, reach_.after / per_second});

@@ -18,7 +18,12 @@ namespace slipfit {
 namespace html {
 
 Source source_of(const Recording& recording, const Analysis& analysis, const Background& background) {
-  return {recording, analysis, background, force_unit_of(recording), fitted_force(recording, analysis)};
+  return {recording,
+          analysis,
+          background,
+          force_unit_of(recording),
+          fitted_force(recording, analysis),
+          force_without_interference(recording, analysis)};
 }
 
 bool shows_cycles(const Analysis& analysis) {
@@ -59,7 +64,7 @@ std::string figures_part(const Source& source) {
     parts += figure.id == "trace" ? trace_part(figure, source) : figure_part(figure);
   }
   if (absent.empty()) return parts;
-  return parts + section(" id=\"absent\"", "What this recording cannot show", fact_list(absent));
+  return parts + section(" id=\"absent\"", "Charts that are not available", fact_list(absent));
 }
 
 std::string numbers_part(const Source& source) {

@@ -16,19 +16,32 @@
 namespace slipfit::html {
 namespace {
 
-template <class Unit>
-std::string key_number(const std::string& name, const Estimate& estimate, Unit unit) {
-  const EstimateRow row = estimate_row(estimate, unit);
-  const std::string shown = row.value == "-" ? "not known" : row.value + (row.unit.empty() ? "" : " " + row.unit);
-  return fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", text(name), text(shown), small(row.interval));
+/// A headline number: its value, interval and status. `unknown_text` replaces a value that is not known.
+std::string key_number(const std::string& name, const EstimateRow& row, std::string_view status,
+                       const std::string& unknown_text = "not known") {
+  const std::string shown = row.value == "-" ? unknown_text : row.value + (row.unit.empty() ? "" : " " + row.unit);
+  const bool has_status = !status.empty() && row.value != "-";
+  const std::string mark =
+      has_status ? fmt::format(R"(<small><span class="status {0}">{0}</span></small>)", text(status)) : std::string();
+  return fmt::format("<div><dt>{}</dt><dd>{}{}{}</dd></div>\n", text(name), text(shown), small(row.interval), mark);
 }
 
-/// Empty where the fit does not have it, or only between bounds.
-Estimate shown_estimate(const FitResult& fit, ParameterId id) {
+/// The headline number of a fitted parameter; a bounded one has an interval without a value.
+std::string key_parameter(const std::string& name, const FitResult& fit, ParameterId id) {
   const Parameter* const parameter = fit.find(id);
-  if (parameter == nullptr) return {};
-  const bool has_value = parameter->status != ParameterStatus::Bounded;
-  return has_value ? parameter->estimate : Estimate{{}, {}, parameter->estimate.ci95, {}};
+  if (parameter == nullptr) return key_number(name, estimate_row(Estimate{}, std::string()), {});
+  Estimate estimate = parameter->estimate;
+  if (parameter->status == ParameterStatus::Bounded) estimate.value.reset();
+  return key_number(name, estimate_row(estimate, std::string(info(id).unit)), name_of(parameter->status));
+}
+
+/// The critical speed; where it is not known, stick-slip at the speed of the recording is a lower bound.
+std::string key_critical_speed(const Source& source) {
+  const Conditions& conditions = source.recording.conditions();
+  const Estimate& critical = source.analysis.derived.critical_speed_m_per_s;
+  const bool sticks = source.analysis.motion == MotionClass::StickSlip;
+  return key_number("critical speed", estimate_row(critical, speed_unit(conditions.speed_unit, critical.value)), {},
+                    sticks ? "above " + speed_text(conditions) : "not known");
 }
 
 std::vector<std::string> each(const std::vector<std::string>& sentences, std::string (*to_markup)(std::string_view)) {
@@ -44,7 +57,7 @@ std::string candidates_table(const FitResult& fit, ForceQuantity quantity) {
     rows.push_back({text(name_of(candidate.tier)), candidate.chosen ? "chosen" : "not chosen",
                     text(quantity_text(candidate.rms, force_unit(quantity))), formula_text(candidate.reason)});
   }
-  return "<h3>Models that were tried</h3>\n" + table("", {"model", "", "#residual, rms", "why"}, rows);
+  return "<h3>Models compared</h3>\n" + table("", {"model", "", "#residual, rms", "why"}, rows);
 }
 
 std::vector<std::string> coefficient_row(std::string_view words, const Estimate& estimate) {
@@ -56,13 +69,7 @@ std::vector<std::string> coefficient_row(std::string_view words, const Estimate&
 }  // namespace
 
 std::string quantity_cell(const Estimate& SI, double per_SI, const std::string& status) {
-  // Rows compare by eye: five digits, however well a number is known; the document has them all.
-  constexpr double kFinest = 1e-3;  // of the value: two digits of it are five of the value
-  Estimate rounded_SI = SI;
-  if (SI.value && SI.standard_error) {
-    rounded_SI.standard_error = std::max(*SI.standard_error, kFinest * std::abs(*SI.value));
-  }
-  const EstimateRow shown = estimate_row(rounded_SI, {per_SI, ""});
+  const EstimateRow shown = estimate_row(SI, DisplayUnit{per_SI, ""});
   const std::string value = SI.value ? fmt::format("{}", *SI.value) : std::string();
   const std::string mark =
       status.empty() ? "" : fmt::format(R"(<small><span class="status {0}">{0}</span></small>)", text(status));
@@ -87,7 +94,7 @@ std::string motion_sentence(const Source& source) {
   const std::string speed = unbroken(speed_text(source.recording.conditions()));
   switch (analysis.motion) {
     case MotionClass::StickSlip: {
-      if (rate.empty()) return text("Stick-slip, but no frequency can be told.");
+      if (rate.empty()) return text("Stick-slip of undetermined frequency.");
       const Estimate& spacing = analysis.derived.pattern_spacing_m;
       const std::string pattern =
           spacing.value ? fmt::format(" a pattern of {} spacing at", quantity_of(spacing, "m")) : std::string(" at");
@@ -96,24 +103,22 @@ std::string motion_sentence(const Source& source) {
     case MotionClass::SteadySliding:
       return text(fmt::format("Steady sliding at {}: no stick-slip, no pattern.", speed));
     case MotionClass::OscillatorySlip:
-      return text(fmt::format("Oscillatory slip{}: the body hardly sticks.", rate.empty() ? "" : " at " + rate));
+      return text(fmt::format("Oscillatory slip{}: almost no sticks.", rate.empty() ? "" : " at " + rate));
     case MotionClass::Undetermined:
       break;
   }
-  return "It cannot be told whether this is stick-slip.";
+  return "The data do not determine whether this is stick-slip.";
 }
 
 std::string key_numbers(const Source& source) {
   const Analysis& analysis = source.analysis;
   if (analysis.motion == MotionClass::SteadySliding) return {};
-  std::string numbers = key_number("frequency", analysis.frequency.quoted, "Hz") +
-                        key_number("pattern spacing V/f", analysis.derived.pattern_spacing_m, "m");
-  const Estimate& critical = analysis.derived.critical_speed_m_per_s;
+  std::string numbers =
+      key_number("frequency", estimate_row(analysis.frequency.quoted, std::string("Hz")), "measured") +
+      key_number("pattern spacing V/f", estimate_row(analysis.derived.pattern_spacing_m, std::string("m")), "measured");
   if (analysis.fit) {
-    numbers +=
-        key_number("stiffness", shown_estimate(*analysis.fit, ParameterId::Stiffness), "N/m") +
-        key_number("damping ratio", shown_estimate(*analysis.fit, ParameterId::DampingRatio), "") +
-        key_number("critical speed", critical, speed_unit(source.recording.conditions().speed_unit, critical.value));
+    numbers += key_parameter("stiffness", *analysis.fit, ParameterId::Stiffness) +
+               key_parameter("damping ratio", *analysis.fit, ParameterId::DampingRatio) + key_critical_speed(source);
   }
   return "<dl class=\"keys\">\n" + numbers + "</dl>\n<p class=\"guide\">In brackets: 95 % intervals.</p>\n";
 }
@@ -125,8 +130,7 @@ std::string warnings_part(const Warnings& warnings) {
     items +=
         fmt::format("<li>{} <code>{}</code></li>\n", capitalised(formula_text(warning.message)), text(warning.code));
   }
-  return "<div class=\"warnings\" role=\"note\"><strong>Before trusting the numbers</strong>\n<ul>\n" + items +
-         "</ul></div>\n";
+  return "<div class=\"warnings\" role=\"note\"><strong>Warnings</strong>\n<ul>\n" + items + "</ul></div>\n";
 }
 
 std::string parameter_table(const FitResult& fit) {

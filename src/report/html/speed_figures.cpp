@@ -169,7 +169,7 @@ Figure speed_figure(const Source& source) {
   figure.guide =
       "What the fitted model says where nothing was measured, as long as friction does not change with speed. The "
       "point is the measurement; at its own speed the curve must pass through it and proves little. Where the band "
-      "ends before the curve, the recording cannot tell whether there still is stick-slip.";
+      "ends before the curve, the recording does not determine whether stick-slip persists.";
   const Analysis& analysis = source.analysis;
   if (!source.background.prediction) {
     const std::string& why = analysis.derived.lambda.note;
@@ -202,7 +202,7 @@ Figure sweep_spacing_figure(const SweepSource& source) {
       "Dots: measured, V/f. Rings: what a fit to all other recordings predicts for this one, with its 95 % interval; "
       "this is the test of the model, because the recording had no say in it. Line: the fit to all, with its 95 % "
       "band; where the band ends before "
-      "the line, the recordings cannot tell whether there still is stick-slip.";
+      "the line, the recordings do not determine whether stick-slip persists.";
   if (!source.sweep.fit) return figure.without_chart("There is no joint fit: " + source.sweep.fit_reason + ".");
   const std::vector<SweepPoint>& points = source.sweep.fit->points;
   const Series measured =

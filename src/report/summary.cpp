@@ -1,0 +1,393 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/names.hpp"
+#include "report/text_sections.hpp"
+#include "slipfit/report/sweep.hpp"
+#include "slipfit/report/text.hpp"
+
+namespace slipfit {
+namespace {
+
+constexpr std::size_t kWidth = 100;       // characters of a line
+constexpr std::size_t kMostLines = 25;    // of a summary: one screen
+constexpr std::size_t kMostWarnings = 5;  // those with the largest effect
+constexpr std::size_t kMostFootnotes = 3;
+constexpr std::size_t kBelowSentences = 2;   // a blank line and the pointer to all results
+constexpr std::size_t kRoomForWarnings = 6;  // a blank line, a warning of two lines, and what is below it
+constexpr std::size_t kLongestName = 32;     // of a path in the headline; of a longer one the name of the file
+constexpr std::size_t kMostListed = 8;       // recordings of a sweep
+
+/// Warnings by their effect on the results, the largest first; a code that is not named here comes last.
+constexpr auto kByEffect = std::to_array<std::string_view>({"implausible_units",
+                                                            "speed_differs_from_displacement",
+                                                            "speed_differs",
+                                                            "normal_force_differs",
+                                                            "frequency_differs_at_one_speed",
+                                                            "frequency_does_not_follow_speed",
+                                                            "recording_repeated",
+                                                            "mains_in_step",
+                                                            "results_contradict",
+                                                            "recordings_disagree",
+                                                            "recording_disagrees",
+                                                            "level_differs",
+                                                            "static_friction_differs",
+                                                            "changes_on_the_way",
+                                                            "model_misfit",
+                                                            "slips_not_inertial",
+                                                            "near_sensor_resonance",
+                                                            "sensor_too_slow",
+                                                            "samples_averaged",
+                                                            "drive_ripple",
+                                                            "clocked",
+                                                            "ring_down_differs",
+                                                            "mass_differs",
+                                                            "slips_not_resolved",
+                                                            "period_drifts",
+                                                            "cycles_remember",
+                                                            "broken_rhythm",
+                                                            "clipped",
+                                                            "normal_force_varies"});
+
+/// Facts about the recording or the model: they need no action, and the interval of every parameter includes them.
+constexpr auto kFacts = std::to_array<std::string_view>(
+    {"rows_without_number", "time_runs_backwards", "repeated_time_stamps", "gaps", "uneven_clock", "impulses",
+     "quantised", "repeated_values", "suspicious_line", "hum_fitted", "part_of_cycles_fitted", "several_steps",
+     "container_cut", "stiffness_goes_with_speed", "static_friction_ages", "level_repeats"});
+
+bool is_fact(const Warning& warning) {
+  return std::ranges::find(kFacts, warning.code) != kFacts.end();
+}
+
+/// The text in lines of at most kWidth characters, the first after `first`, the others after as many blanks.
+std::vector<std::string> wrapped(const std::string& first, const std::string& text) {
+  std::vector<std::string> lines{first};
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    const bool is_empty = lines.back().find_last_not_of(' ') + 1 <= first.size() && lines.back().size() == first.size();
+    if (!is_empty && shown_width(lines.back()) + 1 + shown_width(word) > kWidth) {
+      lines.emplace_back(first.size(), ' ');
+      lines.back() += word;
+    } else {
+      lines.back() += (is_empty ? "" : " ") + word;
+    }
+    begin = end + 1;
+  }
+  return lines;
+}
+
+/// A sentence as a line of text ends: with a full stop.
+std::string sentence(std::string text) {
+  if (!text.empty() && text.back() != '.') text += '.';
+  return text;
+}
+
+/// The text up to its first semicolon where it is longer than two lines: `--details` has the whole.
+std::string shortened(const std::string& text) {
+  return text.size() > 2 * (kWidth - 4) ? text.substr(0, text.find(';')) : text;
+}
+
+std::string value_text(const EstimateRow& row) {
+  return row.unit.empty() || row.value == "-" ? row.value : row.value + " " + row.unit;
+}
+
+/// Collects rows and footnotes, then the lines below them until the screen is full.
+class Screen {
+ public:
+  explicit Screen(std::string headline) : headline_(std::move(headline)) {}
+
+  void add_row(std::string_view label, const EstimateRow& row, std::string status, const std::string& note) {
+    if (!note.empty() && status != name_of(ParameterStatus::Identified)) {
+      if (const auto number = footnote(note)) status += fmt::format(" ({})", *number);
+    }
+    rows_.push_back({std::string(label), value_text(row), row.interval, std::move(status)});
+  }
+  void add_parameter(const Parameter& parameter) {
+    const ParameterInfo& known = info(parameter.id);
+    EstimateRow row = estimate_row(parameter.estimate, std::string(known.unit));
+    if (parameter.status == ParameterStatus::Bounded) row.value = "-";
+    if (row.value == "-" && !row.interval.empty() && !row.unit.empty()) row.interval += " " + row.unit;
+    add_row(known.words, row, std::string(name_of(parameter.status)), parameter.estimate.note);
+  }
+  /// "(1)" where a footnote has this note, else the note itself.
+  [[nodiscard]] std::string reference(const std::string& note) const {
+    const auto found = std::ranges::find(notes_, note);
+    return found == notes_.end() ? note : fmt::format("({})", found - notes_.begin() + 1);
+  }
+  void add_recording(std::array<std::string, 4> row) { recordings_.push_back(std::move(row)); }
+  void add_text(const std::string& text) { below_.push_back(wrapped("  ", text)); }
+  void add_warnings(const Warnings& warnings);
+
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::optional<std::size_t> footnote(const std::string& note) {
+    const auto found = std::ranges::find(notes_, note);
+    if (found != notes_.end()) return static_cast<std::size_t>(found - notes_.begin()) + 1;
+    if (notes_.size() == kMostFootnotes) return std::nullopt;
+    notes_.push_back(note);
+    return notes_.size();
+  }
+  [[nodiscard]] bool has_footnote(const std::string& message) const {
+    return std::ranges::any_of(notes_,
+                               [&](const std::string& note) { return note.find(message) != std::string::npos; });
+  }
+
+  std::string headline_;
+  std::vector<std::array<std::string, 4>> rows_;
+  std::vector<std::array<std::string, 4>> recordings_;
+  std::vector<std::string> notes_;
+  std::vector<std::vector<std::string>> below_;
+  std::vector<std::vector<std::string>> warnings_;
+  std::size_t warnings_left_out_ = 0;
+};
+
+void Screen::add_warnings(const Warnings& warnings) {
+  std::vector<const Warning*> real;
+  for (const Warning& warning : warnings) {
+    if (!is_fact(warning) && !has_footnote(warning.message)) real.push_back(&warning);
+  }
+  const auto effect = [](const Warning* warning) { return std::ranges::find(kByEffect, warning->code); };
+  std::ranges::stable_sort(real, [&](const Warning* a, const Warning* b) { return effect(a) < effect(b); });
+  warnings_left_out_ = real.size() - std::min(real.size(), kMostWarnings);
+  real.resize(real.size() - warnings_left_out_);
+  for (const Warning* const warning : real)
+    warnings_.push_back(wrapped("  ! ", sentence(shortened(one_line(warning->message)))));
+}
+
+std::string Screen::text() const {
+  std::string text = headline_ + "\n";
+  std::size_t lines = 1;
+  const auto put = [&](const std::string& line) {
+    text += line + "\n";
+    ++lines;
+  };
+  if (!rows_.empty()) {
+    Table table({Align::Left, Align::Right, Align::Left, Align::Left});
+    table.add({"", "value", "95 % interval", "status"});
+    for (const auto& row : rows_) table.add({row[0], row[1], row[2], row[3]});
+    text += "\n" + table.text();
+    lines += rows_.size() + 2;
+  }
+  if (!recordings_.empty()) {
+    Table table({Align::Left, Align::Right, Align::Left, Align::Left});
+    table.add({"recording", "speed", "spacing V/f, measured", "predicted without this recording"});
+    for (const auto& row : recordings_) table.add({row[0], row[1], row[2], row[3]});
+    text += "\n" + table.text();
+    lines += recordings_.size() + 2;
+  }
+  if (!notes_.empty() || !below_.empty()) put("");
+  for (std::size_t i = 0; i < notes_.size(); ++i) {
+    for (const std::string& line : wrapped(fmt::format("  ({}) ", i + 1), sentence(one_line(notes_[i])))) put(line);
+  }
+  for (const std::vector<std::string>& sentences : below_) {
+    if (lines + sentences.size() + (warnings_.empty() ? kBelowSentences : kRoomForWarnings) > kMostLines) continue;
+    for (const std::string& line : sentences) put(line);
+  }
+  std::size_t left_out = warnings_left_out_;
+  if (!warnings_.empty()) put("");
+  constexpr std::size_t kBelowWarnings = 3;  // a line for those left out, a blank one, and the pointer to all results
+  for (const std::vector<std::string>& warning : warnings_) {
+    const bool fits = lines + warning.size() + kBelowWarnings <= kMostLines || &warning == &warnings_.front();
+    if (!fits) ++left_out;
+    for (std::size_t i = 0; fits && i < warning.size(); ++i) put(warning[i]);
+  }
+  if (left_out > 0) put(fmt::format("  ! {} more {}: --details", left_out, left_out == 1 ? "warning" : "warnings"));
+  put("");
+  put("  all results: --details or --json      page with charts: --report FILE.html");
+  return text;
+}
+
+/// Parameters that describe the contact; the others are terms of the model or follow from these.
+constexpr std::array kHeadlineParameters{ParameterId::Stiffness,
+                                         ParameterId::FrictionDifference,
+                                         ParameterId::FrictionCoefficientDifference,
+                                         ParameterId::StaticFriction,
+                                         ParameterId::KineticFriction,
+                                         ParameterId::StaticFrictionCoefficient,
+                                         ParameterId::KineticFrictionCoefficient,
+                                         ParameterId::NaturalFrequency,
+                                         ParameterId::Mass,
+                                         ParameterId::DampingRatio,
+                                         ParameterId::Alpha,
+                                         ParameterId::Ageing};
+
+/// Parameters of effects that the data require, and what the summary calls the effect.
+constexpr auto kTerms = std::to_array<std::pair<ParameterId, std::string_view>>(
+    {{ParameterId::SensorAverage, "sensor averaging over"},
+     {ParameterId::SlipDistance, "friction that weakens over a slip distance of"},
+     {ParameterId::ReloadForce, "force recovery after a slip of"},
+     {ParameterId::StiffnessExponent, "k proportional to V to the power"}});
+
+bool is_headline(ParameterId id) {
+  return std::ranges::find(kHeadlineParameters, id) != kHeadlineParameters.end();
+}
+
+/// "Not determined: natural frequency w_n, damping ratio zeta: the slip has 4.1 samples."
+std::string not_determined(const FitResult& fit, const Screen& screen) {
+  std::string names;
+  std::string reason;
+  for (const Parameter& parameter : fit.parameters) {
+    if (parameter.status != ParameterStatus::Unidentified || !is_headline(parameter.id)) continue;
+    names += (names.empty() ? "" : ", ") + std::string(info(parameter.id).words);
+    if (reason.empty()) reason = parameter.estimate.note;
+  }
+  if (names.empty()) return {};
+  if (reason.empty()) return sentence("Not determined: " + names);
+  const std::string shown = screen.reference(reason);
+  return shown == reason ? sentence("Not determined: " + names + ": " + one_line(reason))
+                         : sentence("Not determined: " + names + " " + shown);
+}
+
+std::string terms_text(const FitResult& fit) {
+  std::string terms;
+  for (const auto& [id, words] : kTerms) {
+    const Parameter* const parameter = fit.find(id);
+    if (parameter == nullptr || !parameter->estimate.value) continue;
+    const EstimateRow row = estimate_row(parameter->estimate, std::string(info(id).unit));
+    terms += fmt::format("{}{} {}{}", terms.empty() ? "" : "; ", words, value_text(row),
+                         row.interval.empty() ? "" : " " + row.interval);
+  }
+  return terms.empty() ? terms : sentence("The model includes " + terms);
+}
+
+std::string residual_sentence(const FitResult& fit, ForceQuantity quantity) {
+  constexpr double kLevel = 1e-3;
+  std::string text = fmt::format("Residual {} rms", quantity_text(fit.residual.rms, force_unit(quantity)));
+  const auto& chi2 = fit.residual.reduced_chi2;
+  const auto& p = fit.residual.whiteness_p;
+  if (p && *p >= kLevel) return text + ", consistent with white noise.";
+  constexpr double kAlike = 1.05;  // residual over noise that is not worth mentioning
+  if (chi2 && std::sqrt(*chi2) < kAlike && !p) return text + ", as large as the noise.";
+  if (chi2) text += fmt::format(", {:.2g} times the noise", std::sqrt(*chi2));
+  if (p) text += "; neighbouring residuals are correlated";
+  return text + ".";
+}
+
+/// What was done about defects of the recording and with effects of the instrument, in a line or two.
+std::string facts_text(const Warnings& warnings) {
+  std::string facts;
+  for (const Warning& warning : warnings) {
+    if (!is_fact(warning) || warning.code == "suspicious_line") continue;
+    facts += (facts.empty() ? "" : "; ") + one_line(warning.message);
+  }
+  if (facts.empty()) return facts;
+  facts.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(facts.front())));
+  return sentence(facts);
+}
+
+void add_parameters(Screen& screen, const FitResult& fit, bool zero_is_known) {
+  for (const Parameter& parameter : fit.parameters) {
+    const bool is_known = parameter.status != ParameterStatus::Unidentified;
+    const bool has_zero = zero_is_known || !info(parameter.id).hangs_on_zero;
+    if (is_known && has_zero && is_headline(parameter.id)) screen.add_parameter(parameter);
+  }
+}
+
+/// What the cycles show without a fit.
+void add_cycles(Screen& screen, const CycleStatistics& cycles, ForceQuantity quantity) {
+  const auto add = [&](std::string_view label, std::optional<double> value, const std::string& unit) {
+    if (value) screen.add_row(label, estimate_row(Estimate{value, {}, {}, {}}, unit), "measured", {});
+  };
+  add("period", cycles.period_s, "s");
+  add("peak force", cycles.peak_force, force_unit(quantity));
+  add("force drop", cycles.force_drop, force_unit(quantity));
+  if (cycles.stick_stiffness.value && quantity == ForceQuantity::Force_N)
+    screen.add_row("slope of the sticks / V", estimate_row(cycles.stick_stiffness, std::string("N/m")), "measured", {});
+}
+
+void add_below_table(Screen& screen, const FitResult& fit, ForceQuantity quantity) {
+  for (const std::string& text : {not_determined(fit, screen), residual_sentence(fit, quantity), terms_text(fit)}) {
+    if (!text.empty()) screen.add_text(text);
+  }
+}
+
+std::string headline_of(const Recording& recording, const Analysis& analysis) {
+  std::string file = recording.provenance().file;
+  if (file.size() > kLongestName) file = std::filesystem::path(file).filename().string();
+  std::string text =
+      fmt::format("{}: {}", file.empty() ? "recording" : one_line(file), words_for_motion(analysis.motion));
+  const Estimate& frequency = analysis.frequency.quoted;
+  if (frequency.value) {
+    const EstimateRow row = estimate_row(frequency, std::string("Hz"));
+    text += fmt::format(" at {} Hz{}", row.value, row.interval.empty() ? "" : " " + row.interval);
+    if (analysis.cycles.count > 0) text += fmt::format(", {} slips", analysis.cycles.count);
+  }
+  return text + ", driven at " + speed_text(recording.conditions());
+}
+
+}  // namespace
+
+std::string to_summary(const Recording& recording, const Analysis& analysis) {
+  const Conditions& conditions = recording.conditions();
+  Screen screen(headline_of(recording, analysis));
+  const bool has_slips = analysis.motion != MotionClass::SteadySliding;
+  const bool has_fit = analysis.fit && has_slips;
+  if (has_fit) add_parameters(screen, *analysis.fit, conditions.zero_force_N.has_value());
+  const Derived& derived = analysis.derived;
+  if (derived.pattern_spacing_m.value)
+    screen.add_row("spacing of the pattern V/f", estimate_row(derived.pattern_spacing_m, std::string("m")), "measured",
+                   {});
+  if (const Estimate& critical = derived.critical_speed_m_per_s; critical.value) {
+    const Parameter* const zeta = has_fit ? analysis.fit->find(ParameterId::DampingRatio) : nullptr;
+    screen.add_row("critical speed", estimate_row(critical, speed_unit(conditions.speed_unit, critical.value)),
+                   zeta != nullptr ? std::string(name_of(zeta->status)) : std::string("derived"),
+                   zeta != nullptr ? zeta->estimate.note : critical.note);
+  }
+  if (analysis.coefficients) {
+    for (const auto& row : kCoefficients) {
+      const Estimate& coefficient = (*analysis.coefficients).*row.estimate;
+      if (coefficient.value)
+        screen.add_row("coefficient of friction, " + std::string(row.words), estimate_row(coefficient, std::string()),
+                       "measured", {});
+    }
+  }
+  if (analysis.motion != MotionClass::StickSlip && !analysis.motion_reason.empty())
+    screen.add_text(sentence("Reason: " + one_line(analysis.motion_reason)));
+  if (!analysis.fit && has_slips) add_cycles(screen, analysis.cycles, conditions.quantity);
+  if (has_fit) add_below_table(screen, *analysis.fit, conditions.quantity);
+  if (const std::string facts = facts_text(analysis.warnings); !facts.empty()) screen.add_text(facts);
+  screen.add_warnings(analysis.warnings);
+  return screen.text();
+}
+
+std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name) {
+  if (!sweep.fit) {
+    Screen screen(fmt::format("{}: {} recordings, no joint fit", one_line(name), entries.size()));
+    screen.add_text(sentence("Reason: " + sweep.fit_reason));
+    screen.add_warnings(sweep.warnings);
+    return screen.text();
+  }
+  Screen screen(fmt::format("{}: {} recordings fitted together", one_line(name), entries.size()));
+  const bool zero_is_known = std::ranges::all_of(
+      entries, [](const SweepEntry& entry) { return entry.recording.conditions().zero_force_N.has_value(); });
+  add_parameters(screen, sweep.fit->result, zero_is_known);
+  if (const Estimate& critical = sweep.derived.critical_speed_m_per_s; critical.value) {
+    const std::string& given = entries.front().recording.conditions().speed_unit;
+    screen.add_row("critical speed", estimate_row(critical, speed_unit(given, critical.value)), "derived", {});
+  }
+  add_below_table(screen, sweep.fit->result, ForceQuantity::Force_N);
+  if (const std::string facts = facts_text(sweep.warnings); !facts.empty()) screen.add_text(facts);
+  for (std::size_t i = 0; i < entries.size() && entries.size() <= kMostListed; ++i) {
+    const Analysis& analysis = sweep.recordings[i];
+    const bool sticks = analysis.motion == MotionClass::StickSlip;
+    screen.add_recording(
+        {one_line(entries[i].id), speed_text(entries[i].recording.conditions()),
+         sticks ? estimate_text(analysis.derived.pattern_spacing_m, "m") : plain_words(name_of(analysis.motion)),
+         estimate_text(sweep.fit->points[i].spacing_left_out_m, "m")});
+  }
+  screen.add_warnings(sweep.warnings);
+  return screen.text();
+}
+
+}  // namespace slipfit

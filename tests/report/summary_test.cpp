@@ -1,0 +1,67 @@
+#include <catch2/catch.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "examples.hpp"
+#include "slipfit/report/text.hpp"
+
+using Catch::Contains;
+
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string summary_of(const slipfit::Analysis& analysis) {
+  return to_summary(test::small_recording(), analysis);
+}
+
+}  // namespace
+
+TEST_CASE("the summary begins with motion, frequency, count and speed") {
+  CHECK(lines_of(summary_of(test::full_analysis())).front() ==
+        "folder/run.csv: stick-slip at 5.432 Hz [5.408, 5.456], 4 slips, driven at 10 mm/s");
+}
+
+TEST_CASE("the summary shows values with units, intervals without a value, and numbers the notes") {
+  const std::string text = summary_of(test::full_analysis());
+  CHECK_THAT(text, Contains("tangential stiffness k") && Contains("1002.3 N/m") && Contains("identified"));
+  CHECK_THAT(text, Contains("[1.00, 2.00] N") && Contains("bounded (1)") && Contains("(1) the slip is not resolved."));
+  CHECK_THAT(text, Contains("Not determined: static friction F_s: needs --zero."));
+  CHECK_THAT(text, Contains("consistent with white noise") && !Contains("1.50"));
+}
+
+TEST_CASE("a summary is one screen, however much there is to say") {
+  slipfit::Analysis analysis = test::full_analysis();
+  const std::string words = "a long explanation with many words that a reader of the first screen does not need; ";
+  for (slipfit::Parameter& parameter : analysis.fit->parameters) {
+    parameter.status = slipfit::ParameterStatus::Weak;
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(parameter.id) % 4; ++i) parameter.estimate.note += words;
+  }
+  for (int i = 0; i < 20; ++i) analysis.warnings.push_back({"model_misfit", std::to_string(i) + words + words + words});
+  for (int i = 0; i < 20; ++i) analysis.warnings.push_back({"gaps", words + words});
+  const std::vector<std::string> lines = lines_of(summary_of(analysis));
+  CHECK(lines.size() <= 25);
+  for (const std::string& line : lines) CHECK(line.size() <= 100);
+  CHECK_THAT(summary_of(analysis), Contains("more warnings: --details"));
+}
+
+TEST_CASE("the summary orders warnings by their effect and leaves facts to a sentence") {
+  slipfit::Analysis analysis = test::full_analysis();
+  analysis.warnings = {{"period_drifts", "the period drifts"},
+                       {"gaps", "3 gaps in the clock"},
+                       {"implausible_units", "a stiffness of 1 MN/m"}};
+  const std::string text = summary_of(analysis);
+  CHECK(text.find("! a stiffness of 1 MN/m.") < text.find("! the period drifts."));
+  CHECK_THAT(text, Contains("3 gaps in the clock.") && !Contains("! 3 gaps"));
+}
+
+TEST_CASE("an analysis without results has a summary without numbers") {
+  const std::string text = summary_of(slipfit::Analysis());
+  CHECK_THAT(text, Contains("motion undetermined") && !Contains("nan") && !Contains("value"));
+}
