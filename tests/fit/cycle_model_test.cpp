@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/cycle/start.hpp"
 #include "fit/level/level_order.hpp"
 #include "fit/problem/block_fit.hpp"
@@ -62,11 +63,17 @@ CycleValues values_in(const CycleModel& model, bool has_difference, const double
   return values;
 }
 
+/// As many such cycles as a fit needs.
+CycleSet set_of(const CycleData& cycle, double reference_s, const LevelModel& level, const Scales& scales) {
+  constexpr std::size_t kCount = thresholds::kFewestFitted;
+  return CycleSet::create(std::vector(kCount, cycle), std::vector(kCount, reference_s), level, scales).value();
+}
+
 /// Every column against central differences, at 20 random points.
 void check_derivatives(const Scales& scales, const LevelModel& level, double step, double relative, double margin) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> near(-0.1, 0.1);
-  const CycleSet set({example_cycle()}, {0.05}, level, scales);
+  const CycleSet set = set_of(example_cycle(), 0.05, level, scales);
   const CycleModel model(set, 0, scales);
   const bool sweep = scales.population.has_value();
   const std::size_t rows = model.residuals();
@@ -174,7 +181,7 @@ TEST_CASE("friction that depends on the speed with slope 0 gives the residuals o
   coulomb.population = example_population();
   Scales dependent = coulomb;
   dependent.law = FrictionLaw::Exponential;
-  const CycleSet set({example_cycle()}, {0.05}, kPolynomial, coulomb);
+  const CycleSet set = set_of(example_cycle(), 0.05, kPolynomial, coulomb);
   const std::vector<double> globals{std::log(60.0), std::log(9.0), 0.1, 0.0, -1.0};
   const std::vector<double> rest{0.9, 0.1, 0.05, -0.02};
   const std::vector<double> local{0.1, 0.8};
@@ -225,7 +232,7 @@ TEST_CASE("samples on an even clock give the same rows as on one with a sample m
   const std::vector<double> x{std::log(60.0), std::log(9.0), 0.08, 0.1, 0.1, 0.8};
   for (const ForceView view : {ForceView::Spring, ForceView::Transmitted}) {
     const auto rows_of = [&](const CycleData& data) {
-      const CycleSet set({data}, {0.05}, {false, 1, {}}, example_scales(view));
+      const CycleSet set = set_of(data, 0.05, {false, 1, {}}, example_scales(view));
       const CycleModel model(set, 0, example_scales(view));
       std::vector<double> residuals(model.residuals());
       Eigen::MatrixXd rows(model.residuals(), model.columns() + 1);
@@ -252,9 +259,9 @@ TEST_CASE("a clock is even to what its written times are rounded by, not where a
     return cycle;
   };
   // 1 % of the noise on the steepest part of a slip of half drop 1.3 and half period 0.3 s: 37 us.
-  const CycleSet written({jittered(3e-5)}, {0.05}, level, scales);
-  CHECK(written.even_step_s[0] == Approx(0.011).epsilon(1e-4));
-  CHECK(CycleSet({jittered(5e-5)}, {0.05}, level, scales).even_step_s[0] == 0.0);
+  const CycleSet written = set_of(jittered(3e-5), 0.05, level, scales);
+  CHECK(written.even_step_s(0) == Approx(0.011).epsilon(1e-4));
+  CHECK(set_of(jittered(5e-5), 0.05, level, scales).even_step_s(0) == 0.0);
 
   const std::vector<double> x{std::log(60.0), std::log(9.0), 0.08, 0.1, 0.1, 0.8};
   const auto residuals_of = [&](const CycleSet& set) {
@@ -264,12 +271,23 @@ TEST_CASE("a clock is even to what its written times are rounded by, not where a
     return residuals;
   };
   const std::vector<double> as_written = residuals_of(written);
-  const std::vector<double> even = residuals_of(CycleSet({example_cycle()}, {0.05}, level, scales));
+  const std::vector<double> even = residuals_of(set_of(example_cycle(), 0.05, level, scales));
   for (std::size_t i = 0; i < even.size(); ++i) CHECK(std::abs(as_written[i] - even[i]) < 0.01);
 }
 
+TEST_CASE("no set of cycles has fewer cycles than a fit needs") {
+  const Scales scales = example_scales(ForceView::Spring);
+  for (std::size_t count = 0; count <= thresholds::kFewestFitted; ++count) {
+    CAPTURE(count);
+    const std::vector cycles(count, example_cycle());
+    const bool can_be_fitted = count == thresholds::kFewestFitted;
+    CHECK(CycleSet::create(cycles, std::vector(count, 0.0), kPolynomial, scales).has_value() == can_be_fitted);
+    CHECK(BlockFit::create(cycles, std::vector(count, 0.0), scales, kPolynomial).has_value() == can_be_fitted);
+  }
+}
+
 TEST_CASE("a cycle without friction drop is outside the model, not a number") {
-  const CycleSet set({example_cycle()}, {0.0}, {false, 1, {}}, example_scales(ForceView::Spring));
+  const CycleSet set = set_of(example_cycle(), 0.0, {false, 1, {}}, example_scales(ForceView::Spring));
   const CycleModel model(set, 0, example_scales(ForceView::Spring));
   const std::vector<double> x{4.0, 2.0, 0.05, 0.0, 0.0, -0.5};
   std::vector<double> residuals(model.residuals(), 7.0);
@@ -280,7 +298,9 @@ TEST_CASE("a cycle without friction drop is outside the model, not a number") {
 TEST_CASE("ramp residual derivatives agree with central differences") {
   CycleData first = example_cycle();
   first.continuous_with_next = true;
-  BlockFit fit({first, example_cycle()}, {0.0, 2.0}, example_scales(ForceView::Spring), {false, 1, {}});
+  const BlockFit fit = BlockFit::create({first, example_cycle(), example_cycle()}, {0.0, 2.0, 4.0},
+                                        example_scales(ForceView::Spring), {false, 1, {}})
+                           .value();
   const std::vector<double> x{std::log(60.0), std::log(9.0), 0.08, 0.1, 0.8, -0.2, 0.9};
   const auto value = [&](const std::vector<double>& p) {
     return ramp_residual(fit, 0, p.data(), p.data() + 3, p.data() + 5);

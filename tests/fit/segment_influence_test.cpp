@@ -52,7 +52,8 @@ fit::BlockFit without(const fit::BlockFit& fit, std::size_t phase) {
     cycles.push_back(std::move(cycle));
     references_s.push_back(fit.reference_s(i));
   }
-  fit::BlockFit refit(std::move(cycles), std::move(references_s), fit.scales(), fit.level());
+  fit::BlockFit refit =
+      fit::BlockFit::create(std::move(cycles), std::move(references_s), fit.scales(), fit.level()).value();
   refit.parameters = fit.parameters;
   return refit;
 }
@@ -107,7 +108,7 @@ TEST_CASE("influences of residuals tell where a refit to other samples goes") {
   };
   const fit::Coordinates before = refitted(fit);
   const fit::Coordinates after =
-      refitted(fit::BlockFit(std::move(cycles), std::move(references_s), fit.scales(), fit.level()));
+      refitted(fit::BlockFit::create(std::move(cycles), std::move(references_s), fit.scales(), fit.level()).value());
   // Gauss-Newton's matrix leaves out what residuals times second derivatives add: a tenth in slips so misshapen.
   for (const Eigen::Index quantity : {fit::kLogStiffness, fit::kLogFrequency, fit::kDamping, fit::kDifference}) {
     INFO("quantity " << quantity);

@@ -9,12 +9,12 @@
 namespace slipfit::fit {
 
 CycleModel::CycleModel(const CycleSet& set, std::size_t cycle, const Scales& scales)
-    : data_(&set.cycles[cycle]),
-      level_(&set.level),
-      rows_(&set.rows[cycle]),
+    : data_(&set.cycles()[cycle]),
+      level_(&set.level()),
+      rows_(&set.rows(cycle)),
       scales_(scales),
-      reference_s_(set.reference_s[cycle]),
-      even_step_s_(set.even_step_s[cycle]) {}
+      reference_s_(set.reference_s()[cycle]),
+      even_step_s_(set.even_step_s(cycle)) {}
 
 Globals CycleModel::globals_at_speed(const double* globals, double exponent) const {
   Globals own{};

@@ -48,17 +48,33 @@ struct CycleRows {
 /// Without the level's functions.
 CycleRows rows_of(const CycleData& cycle);
 
-/// The cycles of a recording as fits use them, with the level's functions at all their rows. Never changed, and so
-/// shared by all fits of the recording.
-struct CycleSet {
-  /// `scales` give the interval on which the polynomial lives.
+/// The cycles of a recording as fits use them, at least thresholds::kFewestFitted, with the level's functions at all
+/// their rows. Never changed, and so shared by all fits of the recording.
+class CycleSet {
+ public:
+  /// `reference_s`: time of each cycle from which its onset counts. `scales` give the interval on which the polynomial
+  /// lives. Empty where there are too few cycles to fit.
+  static std::optional<CycleSet> create(std::vector<CycleData> cycles, std::vector<double> reference_s,
+                                        LevelModel level, const Scales& scales);
+
+  /// The same cycles above another level.
+  [[nodiscard]] CycleSet with_level(LevelModel level, const Scales& scales) const;
+
+  [[nodiscard]] const std::vector<CycleData>& cycles() const { return cycles_; }
+  [[nodiscard]] const std::vector<double>& reference_s() const { return reference_s_; }
+  [[nodiscard]] const LevelModel& level() const { return level_; }
+  [[nodiscard]] const CycleRows& rows(std::size_t cycle) const { return rows_[cycle]; }
+  /// Step of the cycle's samples around the slip, of which some may be missing; 0 on an uneven clock.
+  [[nodiscard]] double even_step_s(std::size_t cycle) const { return even_step_s_[cycle]; }
+
+ private:
   CycleSet(std::vector<CycleData> cycles, std::vector<double> reference_s, LevelModel level, const Scales& scales);
 
-  std::vector<CycleData> cycles;
-  std::vector<double> reference_s;  ///< time of each cycle from which its onset counts
-  LevelModel level;
-  std::vector<CycleRows> rows;
-  std::vector<double> even_step_s;  ///< of each cycle's samples around the slip, some may be missing; 0: not even
+  std::vector<CycleData> cycles_;
+  std::vector<double> reference_s_;
+  LevelModel level_;
+  std::vector<CycleRows> rows_;
+  std::vector<double> even_step_s_;
 };
 
 /// A cycle's own numbers, scaled: onset time (from its reference, in half periods), force at onset above the level and,

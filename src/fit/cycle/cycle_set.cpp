@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/cycle/cycle_model.hpp"
 #include "fit/cycle/side_by_side.hpp"
 
@@ -147,20 +148,32 @@ CycleRows rows_of(const CycleData& cycle) {
   return rows;
 }
 
-CycleSet::CycleSet(std::vector<CycleData> of_cycles, std::vector<double> of_reference_s, LevelModel of_level,
+std::optional<CycleSet> CycleSet::create(std::vector<CycleData> cycles, std::vector<double> reference_s,
+                                         LevelModel level, const Scales& scales) {
+  if (cycles.size() < thresholds::kFewestFitted) return std::nullopt;
+  return CycleSet(std::move(cycles), std::move(reference_s), std::move(level), scales);
+}
+
+CycleSet::CycleSet(std::vector<CycleData> cycles, std::vector<double> reference_s, LevelModel level,
                    const Scales& scales)
-    : cycles(std::move(of_cycles)), reference_s(std::move(of_reference_s)), level(std::move(of_level)) {
+    : cycles_(std::move(cycles)),
+      reference_s_(std::move(reference_s)),
+      level_(std::move(level)),
+      rows_(cycles_.size()),
+      even_step_s_(cycles_.size()) {
   std::size_t samples = 0;
-  for (const CycleData& cycle : cycles) samples += cycle.time_s.size();
-  rows.resize(cycles.size());
-  even_step_s.resize(cycles.size());
-  for_cycles(cycles.size(), samples, [&](std::size_t begin, std::size_t end) {
+  for (const CycleData& cycle : cycles_) samples += cycle.time_s.size();
+  for_cycles(cycles_.size(), samples, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      rows[i] = rows_of(cycles[i]);
-      rows[i].level = level_of(cycles[i], level, scales);
-      even_step_s[i] = even_step_of(cycles[i].time_s, tolerated_rounding_s(scales));
+      rows_[i] = rows_of(cycles_[i]);
+      rows_[i].level = level_of(cycles_[i], level_, scales);
+      even_step_s_[i] = even_step_of(cycles_[i].time_s, tolerated_rounding_s(scales));
     }
   });
+}
+
+CycleSet CycleSet::with_level(LevelModel level, const Scales& scales) const {
+  return {cycles_, reference_s_, std::move(level), scales};
 }
 
 }  // namespace slipfit::fit

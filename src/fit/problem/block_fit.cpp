@@ -10,17 +10,23 @@
 namespace slipfit::fit {
 
 BlockFit::BlockFit(std::shared_ptr<const CycleSet> set, const Scales& scales) : set_(std::move(set)), scales_(scales) {
-  models_.reserve(set_->cycles.size());
-  for (std::size_t i = 0; i < set_->cycles.size(); ++i) models_.emplace_back(*set_, i, scales_);
-  if (models_.empty()) return;
+  const std::size_t cycles = set_->cycles().size();
+  models_.reserve(cycles);
+  for (std::size_t i = 0; i < cycles; ++i) models_.emplace_back(*set_, i, scales_);
   parameters.level.assign((models_[0].has_constant() ? 1 : 0) + models_[0].drift_parameters(), 0.0);
   parameters.cycles.assign(models_.size(), Local{});
 }
 
-BlockFit::BlockFit(std::vector<CycleData> cycles, std::vector<double> reference_s, const Scales& scales,
-                   LevelModel level)
-    : BlockFit(std::make_shared<const CycleSet>(std::move(cycles), std::move(reference_s), std::move(level), scales),
-               scales) {}
+std::optional<BlockFit> BlockFit::create(std::vector<CycleData> cycles, std::vector<double> reference_s,
+                                         const Scales& scales, LevelModel level) {
+  std::optional<CycleSet> set = CycleSet::create(std::move(cycles), std::move(reference_s), std::move(level), scales);
+  if (!set) return std::nullopt;
+  return BlockFit(std::make_shared<const CycleSet>(*std::move(set)), scales);
+}
+
+BlockFit BlockFit::with_level(LevelModel level, const Scales& scales) const {
+  return {std::make_shared<const CycleSet>(set_->with_level(std::move(level), scales)), scales};
+}
 
 CycleValues BlockFit::values(std::size_t cycle) const {
   CycleValues values;

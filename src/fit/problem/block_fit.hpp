@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,7 +25,12 @@ struct Parameters {
 class BlockFit {
  public:
   BlockFit(std::shared_ptr<const CycleSet> set, const Scales& scales);
-  BlockFit(std::vector<CycleData> cycles, std::vector<double> reference_s, const Scales& scales, LevelModel level);
+  /// All parameters 0. Empty where there are too few cycles to fit (CycleSet::create).
+  static std::optional<BlockFit> create(std::vector<CycleData> cycles, std::vector<double> reference_s,
+                                        const Scales& scales, LevelModel level);
+
+  /// The same cycles above another level, all parameters 0.
+  [[nodiscard]] BlockFit with_level(LevelModel level, const Scales& scales) const;
 
   /// Weighted sum of squares of one cycle's residuals at the solution; the part inside stick bins is not in it.
   [[nodiscard]] double cycle_sum_of_squares(std::size_t cycle) const;
@@ -36,11 +42,11 @@ class BlockFit {
 
   [[nodiscard]] std::size_t size() const { return models_.size(); }
   [[nodiscard]] const CycleModel& model(std::size_t cycle) const { return models_[cycle]; }
-  [[nodiscard]] const CycleData& data(std::size_t cycle) const { return set_->cycles[cycle]; }
+  [[nodiscard]] const CycleData& data(std::size_t cycle) const { return set_->cycles()[cycle]; }
   [[nodiscard]] const std::shared_ptr<const CycleSet>& set() const { return set_; }
   [[nodiscard]] const Scales& scales() const { return scales_; }
-  [[nodiscard]] const LevelModel& level() const { return set_->level; }
-  [[nodiscard]] double reference_s(std::size_t cycle) const { return set_->reference_s[cycle]; }
+  [[nodiscard]] const LevelModel& level() const { return set_->level(); }
+  [[nodiscard]] double reference_s(std::size_t cycle) const { return set_->reference_s()[cycle]; }
   [[nodiscard]] const double* level_data() const { return parameters.level.data(); }
   /// Coefficients of the rise after a slip, over Scales::force; where there is one.
   [[nodiscard]] const double* rise_data() const {

@@ -51,7 +51,6 @@ class AveragedWeakening {
   [[nodiscard]] AveragedWeakenings minima() const {
     AveragedWeakenings found;
     const std::vector<CycleData> cycles = solver_.cycles();
-    if (cycles.size() < thresholds::kFewestFitted) return found;
     const std::vector<CycleData> enough = solver_.enough_of(cycles);
     for (const Draft& draft : minima_of(solver_.some_of(cycles, kDraftCycles))) {
       const Start start = enough.empty() ? Start{draft.blocks, false} : refined(draft.blocks, enough);

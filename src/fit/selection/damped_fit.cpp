@@ -159,14 +159,15 @@ class Fitter {
     const bool is_damped = !held_[kDamping] && fit.parameters.globals[kDamping] > kMuchDamping;
     if (!is_damped || fit.level().per_cycle || fit.size() < kFewestWandering) return fit;
     const LevelModel level{true, 0, fit.level().lines_Hz, fit.level().reloading};
-    std::optional<BlockFit> wandering = fit_from(fit.set()->cycles, level, start_, kMaxIterations, tolerance);
+    std::optional<BlockFit> wandering = fit_from(fit.set()->cycles(), level, start_, kMaxIterations, tolerance);
     return wandering && explains_more(*wandering, fit) ? *std::move(wandering) : std::move(fit);
   }
 
   /// Short runs with zeta held, the best of them.
   [[nodiscard]] std::optional<BlockFit> fit_from_starts(const std::vector<CycleData>& cycles,
                                                         const LevelModel& level) const {
-    BlockFit fit(cycles, middles_s(segmentation_, cycles), scales_, level);
+    std::optional<BlockFit> fit = BlockFit::create(cycles, middles_s(segmentation_, cycles), scales_, level);
+    if (!fit) return fit;
     SolveOptions quick{held_, false, true, kQuickIterations, kRough};
     quick.held[kDamping] = true;
     double best_cost = std::numeric_limits<double>::infinity();
@@ -175,24 +176,25 @@ class Fitter {
     const std::vector<Globals> starts =
         near_.globals ? std::vector{*near_.globals} : first_globals(start_stiffness_, held_values_, scales_, step_s);
     for (const Globals& start : starts) {
-      set_start(fit, segmentation_, start);
-      const double cost = solve(fit, quick);
+      set_start(*fit, segmentation_, start);
+      const double cost = solve(*fit, quick);
       if (cost >= best_cost) continue;
       best_cost = cost;
-      best = fit.parameters;
-      if (reduced_chi2(fit) < thresholds::kSuspectChi2) return fit;  // nothing left to find
+      best = fit->parameters;
+      if (reduced_chi2(*fit) < thresholds::kSuspectChi2) return fit;  // nothing left to find
     }
     if (!std::isfinite(best_cost)) return std::nullopt;
-    fit.parameters = best;
+    fit->parameters = best;
     return fit;
   }
 
   [[nodiscard]] std::optional<BlockFit> fit_from(std::vector<CycleData> cycles, const LevelModel& level,
                                                  const Globals& globals, int max_iterations, double tolerance) const {
     std::vector<double> middles = middles_s(segmentation_, cycles);
-    BlockFit fit(std::move(cycles), std::move(middles), scales_, level);
-    set_start(fit, segmentation_, globals);
-    if (!std::isfinite(solve(fit, {held_, false, true, max_iterations, tolerance}))) return std::nullopt;
+    std::optional<BlockFit> fit = BlockFit::create(std::move(cycles), std::move(middles), scales_, level);
+    if (!fit) return fit;
+    set_start(*fit, segmentation_, globals);
+    if (!std::isfinite(solve(*fit, {held_, false, true, max_iterations, tolerance}))) return std::nullopt;
     return fit;
   }
 
@@ -252,10 +254,11 @@ class Fitter {
     for (int round = 0; round < 3; ++round) {
       std::vector<CycleData> cycles = weigh_by_slope(fit);
       std::vector<double> middles = middles_s(segmentation_, cycles);
-      BlockFit weighted(std::move(cycles), std::move(middles), scales_, fit.level());
-      weighted.parameters = fit.parameters;
-      if (!std::isfinite(solve(weighted, {held_, false, true, kMaxIterations, kFinal}))) return fit;
-      fit = std::move(weighted);
+      std::optional<BlockFit> weighted = BlockFit::create(std::move(cycles), std::move(middles), scales_, fit.level());
+      if (!weighted) return fit;
+      weighted->parameters = fit.parameters;
+      if (!std::isfinite(solve(*weighted, {held_, false, true, kMaxIterations, kFinal}))) return fit;
+      fit = *std::move(weighted);
     }
     return fit;
   }

@@ -158,20 +158,23 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   const double worth = 0.5 * thresholds::kTierPrice / effective_samples(plain);
   const double shown = std::min(1.0, static_cast<double>(kSearchCycles) / static_cast<double>(plain.blocks.size()));
   const double doubtful = -2.0 * thresholds::kNotRuledOut / (shown * effective_samples(plain));  // of a few of them
-  std::vector<KernelSearch::Least> minima = KernelSearch(input, plain, width_s, kSearchCycles).minima(doubtful);
+  const std::optional<KernelSearch> search = KernelSearch::create(input, plain, width_s, kSearchCycles);
+  if (!search) return {};
+  std::vector<KernelSearch::Least> minima = search->minima(doubtful);
   std::erase_if(minima, [&](const KernelSearch::Least& least) { return least.gain < worth && !hides_damping(least); });
   if (minima.empty()) return {};
   double longest_s2 = 0.0;
   for (const KernelSearch::Least& least : minima) longest_s2 = std::max(longest_s2, least.variance_s2);
   const double longest_lag_s = std::sqrt(kLongTail * longest_s2);
-  const KernelSearch comparison(input, plain, width_s + kForgottenLags * longest_lag_s, kCompareCycles);
-  const std::vector<KernelSearch::Least> averages = best_averages(minima, comparison, plain);
+  const std::optional<KernelSearch> comparison =
+      KernelSearch::create(input, plain, width_s + kForgottenLags * longest_lag_s, kCompareCycles);
+  const auto averages = comparison ? best_averages(minima, *comparison, plain) : std::vector<KernelSearch::Least>();
   if (averages.empty()) return {};
   auto [trial, other_s] = best_trial(AverageSolver(input, plain), plain, averages, recording.sample_interval_s(),
                                      -thresholds::kNotRuledOut);
   if (!trial) return {};
   const bool is_taken =
-      gain_of(trial->fit, plain) > thresholds::kTierPrice && rules_out_lag(averages.front(), comparison, plain);
+      gain_of(trial->fit, plain) > thresholds::kTierPrice && rules_out_lag(averages.front(), *comparison, plain);
   const double log_omega = trial->fit.blocks.parameters.globals[kLogFrequency];
   if (!is_taken && !hides_damping(trial->variance_s2, log_omega)) return {};
   const Recording averaged = with_average(recording, std::sqrt(12.0 * trial->variance_s2));

@@ -39,20 +39,28 @@ bool is_best_undamped(BlockFit fit) {
 
 }  // namespace
 
-KernelSearch::KernelSearch(const FitInput& input, const DampedFit& plain, double half_width_s, std::size_t count)
+KernelSearch::KernelSearch(const FitInput& input, const BlockFit& plain, CycleSet cycles)
     : segmentation_(input.segmentation),
       held_(held_of(input.held)),
       step_s_(input.recording.sample_interval_s()),
-      plain_(plain.blocks) {
-  const Scales& scales = plain_.scales();
-  const HumLines hum{plain_.level().lines_Hz, scales.time_begin_s};
+      plain_(plain),
+      cycles_(std::make_shared<const CycleSet>(std::move(cycles))) {}
+
+std::optional<KernelSearch> KernelSearch::create(const FitInput& input, const DampedFit& plain, double half_width_s,
+                                                 std::size_t count) {
+  const auto& [recording, quality, segmentation, held] = input;
+  const Scales& scales = plain.blocks.scales();
+  const LevelModel& level = plain.blocks.level();
+  const HumLines hum{level.lines_Hz, scales.time_begin_s};
   std::vector<CycleData> cycles = spread_subset(
-      same_cycles_of(plain_, cut_cycles(input.recording, segmentation_, half_width_s, plain.excluded, hum)), count);
-  std::vector<double> middles = middles_s(segmentation_, cycles);
+      same_cycles_of(plain.blocks, cut_cycles(recording, segmentation, half_width_s, plain.excluded, hum)), count);
+  std::vector<double> middles = middles_s(segmentation, cycles);
   for (std::size_t i = 0; i < cycles.size(); ++i) {
-    cycles[i] = thinned(std::move(cycles[i]), middles[i], scales.half_period_s, step_s_);
+    cycles[i] = thinned(std::move(cycles[i]), middles[i], scales.half_period_s, recording.sample_interval_s());
   }
-  cycles_ = std::make_shared<CycleSet>(std::move(cycles), std::move(middles), plain_.level(), scales);
+  std::optional<CycleSet> set = CycleSet::create(std::move(cycles), std::move(middles), level, scales);
+  if (!set) return std::nullopt;
+  return KernelSearch(input, plain.blocks, *std::move(set));
 }
 
 std::vector<KernelSearch::Least> KernelSearch::minima(double least_gain) const {
@@ -171,7 +179,7 @@ KernelSearch::Least KernelSearch::descended(BlockFit fit, Kernel kernel, double 
 
 double KernelSearch::residuals() const {
   double count = 0.0;
-  for (const CycleData& cycle : cycles_->cycles) count += static_cast<double>(cycle.residuals());
+  for (const CycleData& cycle : cycles_->cycles()) count += static_cast<double>(cycle.residuals());
   return count;
 }
 

@@ -21,8 +21,9 @@ enum class Kernel { MovingAverage, FirstOrder };
 class KernelSearch {
  public:
   /// `plain`: the fit of all cycles without a kernel. `count`: of cycles. `half_width_s`: around the middle of a slip,
-  /// what the kernel may change.
-  KernelSearch(const FitInput& input, const DampedFit& plain, double half_width_s, std::size_t count);
+  /// what the kernel may change. Empty where too few cycles are that wide.
+  static std::optional<KernelSearch> create(const FitInput& input, const DampedFit& plain, double half_width_s,
+                                            std::size_t count);
 
   /// A sum of squares, in units of the noise, and where it is.
   struct Least {
@@ -45,6 +46,8 @@ class KernelSearch {
   [[nodiscard]] double residuals() const;
 
  private:
+  KernelSearch(const FitInput& input, const BlockFit& plain, CycleSet cycles);
+
   [[nodiscard]] double seen_variance_s2() const;
   /// From the solution at another variance, or where the line through two leads if that is nearer.
   [[nodiscard]] Least at(double variance_s2, const Least& near, const Least* other) const;

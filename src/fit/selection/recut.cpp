@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/fit_thresholds.hpp"
 #include "fit/level/add_hum.hpp"
 #include "fit/level/mains_hum.hpp"
 #include "fit/selection/first_guess.hpp"
@@ -46,18 +45,19 @@ std::optional<BlockFit> recut(BlockFit fit, const Cut& cut, const std::vector<st
       kept.back().continuous_with_next = false;
     }
   }
-  if (kept.size() < thresholds::kFewestFitted) return std::nullopt;
   level.lines_Hz = lines_Hz;
   std::vector<double> middles = middles_s(cut.segmentation, kept);
-  BlockFit anew(std::move(kept), std::move(middles), scales, level);
-  anew.parameters.globals = start.globals;
+  std::optional<BlockFit> anew = BlockFit::create(std::move(kept), std::move(middles), scales, level);
+  if (!anew) return std::nullopt;
+  Parameters& parameters = anew->parameters;
+  parameters.globals = start.globals;
   const auto before_lines = static_cast<std::ptrdiff_t>(level.first_line());
-  std::copy_n(start.level.begin(), before_lines, anew.parameters.level.begin());
-  std::copy(hum_start.begin(), hum_start.end(), anew.parameters.level.begin() + before_lines);
+  std::copy_n(start.level.begin(), before_lines, parameters.level.begin());
+  std::copy(hum_start.begin(), hum_start.end(), parameters.level.begin() + before_lines);
   std::size_t old = 0;
-  for (std::size_t i = 0; i < anew.size(); ++i) {
-    while (old + 1 < slips.size() && slips[old] < anew.data(i).slip) ++old;  // a last slip may be new
-    anew.parameters.cycles[i] = start.cycles[old];
+  for (std::size_t i = 0; i < anew->size(); ++i) {
+    while (old + 1 < slips.size() && slips[old] < anew->data(i).slip) ++old;  // a last slip may be new
+    parameters.cycles[i] = start.cycles[old];
   }
   return anew;
 }
@@ -65,9 +65,10 @@ std::optional<BlockFit> recut(BlockFit fit, const Cut& cut, const std::vector<st
 BlockFit beside_hum(BlockFit fit, const Cut& cut) {
   std::vector<CycleData> cycles = same_cycles_of(fit, cycles_of(cut, hum_of(cut.recording, fit)));
   std::vector<double> middles = middles_s(cut.segmentation, cycles);
-  BlockFit same(std::move(cycles), std::move(middles), fit.scales(), fit.level());
-  same.parameters = std::move(fit.parameters);
-  return same;
+  std::optional<BlockFit> same = BlockFit::create(std::move(cycles), std::move(middles), fit.scales(), fit.level());
+  if (!same || same->size() != fit.size()) return fit;
+  same->parameters = std::move(fit.parameters);
+  return *std::move(same);
 }
 
 }  // namespace slipfit::fit

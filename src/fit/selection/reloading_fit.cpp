@@ -10,6 +10,7 @@
 #include "fit/problem/solve.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/finish.hpp"
+#include "fit/selection/first_guess.hpp"
 #include "fit/selection/ramps.hpp"
 #include "fit/selection/tiers.hpp"
 
@@ -28,12 +29,14 @@ constexpr double kMostLengthChange = 0.7;   // of ln l in one round
 constexpr int kMostLarger = 2;              // steps that are larger than another before them
 constexpr double kSmallLengthChange = 0.2;  // in standard errors
 
-/// `rise` after slips that begin and end where `fit` has them.
+/// `rise` after slips that begin and end where `fit` has them. A slip that has no solution there stays where it was.
 RiseAfterSlip moved(RiseAfterSlip rise, const BlockFit& fit) {
   for (std::size_t i = 0; i < fit.size(); ++i) {
-    const CycleState state = fit.state(i);
-    rise.slip_begin_s[fit.data(i).slip] = state.onset_s;
-    rise.slip_end_s[fit.data(i).slip] = state.onset_s + state.slip_s();
+    const Globals globals = fit.model(i).globals_at_speed(fit.parameters.globals.data(), fit.parameters.exponent);
+    const std::optional<CycleState> state = fit.model(i).state(globals.data(), fit.parameters.cycles[i].data());
+    if (!state) continue;
+    rise.slip_begin_s[fit.data(i).slip] = state->onset_s;
+    rise.slip_end_s[fit.data(i).slip] = state->onset_s + state->slip_s();
   }
   return rise;
 }
@@ -49,32 +52,17 @@ std::shared_ptr<const RiseAfterSlip> rise_over(double length_m, bool is_free, co
   return std::make_shared<const RiseAfterSlip>(moved(std::move(rise), fit));
 }
 
-/// The same cycles, those of `cycles`, with another rise.
-BlockFit with_rise(const BlockFit& fit, const std::vector<CycleData>& cycles, const Scales& scales,
-                   std::shared_ptr<const RiseAfterSlip> rise) {
-  std::vector<double> references_s;
-  std::vector<Local> locals;
-  std::size_t next = 0;
-  for (const CycleData& cycle : cycles) {
-    while (fit.data(next).slip != cycle.slip) ++next;
-    references_s.push_back(fit.reference_s(next));
-    locals.push_back(fit.parameters.cycles[next]);
-  }
+/// The same cycles with another rise.
+BlockFit with_rise(const BlockFit& fit, const Scales& scales, std::shared_ptr<const RiseAfterSlip> rise) {
   LevelModel level = fit.level();
   level.reloading = std::move(rise);
-  BlockFit other(cycles, std::move(references_s), scales, std::move(level));
+  BlockFit other = fit.with_level(std::move(level), scales);
   other.parameters.globals = fit.parameters.globals;
   other.parameters.difference = fit.parameters.difference;
-  other.parameters.cycles = std::move(locals);
+  other.parameters.cycles = fit.parameters.cycles;
   const std::size_t same = std::min(fit.parameters.level.size(), other.parameters.level.size());
   std::copy_n(fit.parameters.level.begin(), same, other.parameters.level.begin());
   return other;
-}
-
-std::vector<CycleData> cycles_of(const BlockFit& fit) {
-  std::vector<CycleData> cycles;
-  for (std::size_t i = 0; i < fit.size(); ++i) cycles.push_back(fit.data(i));
-  return cycles;
 }
 
 /// Standard errors of A / Scales::force and ln l.
@@ -86,6 +74,21 @@ double length_of(const DampedFit& fit) {
   return fit.blocks.level().reloading->length_m;
 }
 
+std::optional<BlockFit> some_cycles_of(const BlockFit& fit, const Segmentation& segmentation) {
+  std::vector<CycleData> cycles = spread_subset(fit.set()->cycles(), kSearchedCycles);
+  std::vector<double> middles = middles_s(segmentation, cycles);
+  std::optional<BlockFit> some = BlockFit::create(std::move(cycles), std::move(middles), fit.scales(), fit.level());
+  if (!some) return some;
+  some->parameters.globals = fit.parameters.globals;
+  some->parameters.level = fit.parameters.level;
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < some->size(); ++i) {
+    while (fit.data(same).slip != some->data(i).slip) ++same;
+    some->parameters.cycles[i] = fit.parameters.cycles[same];
+  }
+  return some;
+}
+
 /// A few cycles of `plain` with the rise over the length that explains them best, of several.
 std::optional<DampedFit> best_of_lengths(const FitInput& input, const DampedFit& plain) {
   const Held held = held_of(input.held);
@@ -95,12 +98,12 @@ std::optional<DampedFit> best_of_lengths(const FitInput& input, const DampedFit&
   const double longest_m = kLongestShare * stick_m;
   std::optional<DampedFit> best;
   if (!(longest_m > shortest_m)) return best;
-  const std::vector<CycleData> cycles = spread_subset(cycles_of(plain.blocks), kSearchedCycles);
+  const std::optional<BlockFit> some = some_cycles_of(plain.blocks, input.segmentation);
+  if (!some) return best;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kLengths; ++i) {
     const double length_m = shortest_m * std::pow(longest_m / shortest_m, static_cast<double>(i) / (kLengths - 1));
-    BlockFit trial =
-        with_rise(plain.blocks, cycles, plain.blocks.scales(), rise_over(length_m, false, input, plain.blocks));
+    BlockFit trial = with_rise(*some, some->scales(), rise_over(length_m, false, input, plain.blocks));
     if (!held[kDamping]) trial.parameters.globals[kDamping] = std::max(0.05, plain.blocks.parameters.globals[kDamping]);
     const double sum = solve(trial, {held, false, true, kSearchIterations, kRoughRise});
     if (!(sum < least)) continue;
@@ -115,8 +118,7 @@ std::optional<DampedFit> with_free_length(double length_m, const Quality& qualit
   RiseAfterSlip rise = moved(*fit.blocks.level().reloading, fit.blocks);
   rise.length_m = length_m;
   rise.is_free = true;
-  fit.blocks = with_rise(fit.blocks, cycles_of(fit.blocks), fit.blocks.scales(),
-                         std::make_shared<const RiseAfterSlip>(std::move(rise)));
+  fit.blocks = with_rise(fit.blocks, fit.blocks.scales(), std::make_shared<const RiseAfterSlip>(std::move(rise)));
   if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
   return with_uncertainty(std::move(fit), quality);
 }
@@ -187,14 +189,14 @@ BlockFit with_rise_after(const BlockFit& fit, const Scales& scales) {
   }
   RiseAfterSlip rise = moved(*fit.level().reloading, fit);
   rise.average_s = scales.sensor_average_s;
-  return with_rise(fit, cycles_of(fit), scales, std::make_shared<const RiseAfterSlip>(std::move(rise)));
+  return with_rise(fit, scales, std::make_shared<const RiseAfterSlip>(std::move(rise)));
 }
 
 BlockFit with_length_times(const BlockFit& fit, double times) {
   if (!fit.level().reloading) return fit;
   RiseAfterSlip rise = moved(*fit.level().reloading, fit);
   rise.length_m *= times;
-  return with_rise(fit, cycles_of(fit), fit.scales(), std::make_shared<const RiseAfterSlip>(std::move(rise)));
+  return with_rise(fit, fit.scales(), std::make_shared<const RiseAfterSlip>(std::move(rise)));
 }
 
 BlockFit with_next_length(const BlockFit& fit) {

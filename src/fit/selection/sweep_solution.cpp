@@ -166,8 +166,7 @@ std::optional<SweepSolution> with_length(const SweepSolution& solution, double l
     RiseAfterSlip rise = *level.reloading;
     rise.length_m = length_m;
     level.reloading = std::make_shared<const RiseAfterSlip>(std::move(rise));
-    const CycleSet& set = *recording.set();
-    BlockFit next(set.cycles, set.reference_s, recording.scales(), std::move(level));
+    BlockFit next = recording.with_level(std::move(level), recording.scales());
     next.parameters = std::move(recording.parameters);
     recording = std::move(next);
   }

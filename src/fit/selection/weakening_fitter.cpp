@@ -64,7 +64,6 @@ std::optional<DampedFit> fit_weakening(const FitInput& input, const DampedFit& c
   // A slow onset begins before the slip of the Coulomb fit.
   const WeakeningSolver solver(input, coulomb, 1.1 * median_slip_s(coulomb.blocks) + 0.5 * average_s);
   const std::vector<CycleData> cycles = solver.cycles();
-  if (cycles.size() < thresholds::kFewestFitted) return std::nullopt;
   const std::optional<WeakeningSolver::Draft> draft =
       solver.draft(solver.some_of(cycles, kTrialCycles), average_s,
                    {coulomb.blocks.parameters.globals[kLogFrequency], kStarts, kTrialIterations});

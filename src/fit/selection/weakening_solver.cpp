@@ -109,8 +109,9 @@ std::optional<WeakeningSolver::Draft> WeakeningSolver::draft(const std::vector<C
     if (!held_[kDamping]) globals[kDamping] = 0.05;
     globals[kFrictionSlope] = std::sqrt(weakening);
     for (const double times : lengths) {
-      BlockFit blocks = started(cycles, average_s, globals, coulomb_.blocks.level());
-      blocks = with_length_times(blocks, times);
+      const std::optional<BlockFit> first = started(cycles, average_s, globals, coulomb_.blocks.level());
+      if (!first) return best;
+      BlockFit blocks = with_length_times(*first, times);
       if (!solve_own(blocks, options)) continue;
       double sum = solve(blocks, options);
       for (int i = 0; i < kLengthSteps && blocks.level().reloading && std::isfinite(sum); ++i) {
@@ -126,9 +127,10 @@ std::optional<WeakeningSolver::Draft> WeakeningSolver::draft(const std::vector<C
 
 std::optional<BlockFit> WeakeningSolver::solved(const std::vector<CycleData>& cycles, const BlockFit& near,
                                                 double tolerance) const {
-  BlockFit blocks = started(cycles, near.scales().sensor_average_s, near.parameters.globals, near.level());
-  if (!solve_own(blocks, {held_, false, true})) return std::nullopt;
-  return settled(std::move(blocks), held_, tolerance);
+  std::optional<BlockFit> blocks =
+      started(cycles, near.scales().sensor_average_s, near.parameters.globals, near.level());
+  if (!blocks || !solve_own(*blocks, {held_, false, true})) return std::nullopt;
+  return settled(*std::move(blocks), held_, tolerance);
 }
 
 std::optional<DampedFit> WeakeningSolver::fit(const std::vector<CycleData>& cycles, const BlockFit& near) const {
@@ -150,25 +152,26 @@ std::vector<CycleData> WeakeningSolver::cycles_without(const std::vector<std::si
                         cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded, hum_));
 }
 
-BlockFit WeakeningSolver::blocks_of(const std::vector<CycleData>& cycles, double average_s,
-                                    const LevelModel& level) const {
+std::optional<BlockFit> WeakeningSolver::blocks_of(const std::vector<CycleData>& cycles, double average_s,
+                                                   const LevelModel& level) const {
   Scales scales = scales_;
   scales.sensor_average_s = average_s;
-  return {cycles, middles_s(input_.segmentation, cycles), scales, level};
+  return BlockFit::create(cycles, middles_s(input_.segmentation, cycles), scales, level);
 }
 
-BlockFit WeakeningSolver::started(const std::vector<CycleData>& cycles, double average_s, const Globals& start,
-                                  const LevelModel& level) const {
-  BlockFit blocks = blocks_of(cycles, average_s, level);
-  set_start(blocks, input_.segmentation, start);
-  return with_rise_after(blocks, blocks.scales());
+std::optional<BlockFit> WeakeningSolver::started(const std::vector<CycleData>& cycles, double average_s,
+                                                 const Globals& start, const LevelModel& level) const {
+  std::optional<BlockFit> blocks = blocks_of(cycles, average_s, level);
+  if (!blocks) return blocks;
+  set_start(*blocks, input_.segmentation, start);
+  return with_rise_after(*blocks, blocks->scales());
 }
 
 DampedFit WeakeningSolver::unfinished(BlockFit blocks, std::vector<std::size_t> excluded) const {
   return {std::move(blocks), false, held_, std::nullopt, half_width_s_, std::move(excluded)};
 }
 
-/// Outliers of the Coulomb fit may be what that law misses.
+/// Outliers of the Coulomb fit may be what that law misses. Empty where they leave too few cycles.
 std::optional<DampedFit> WeakeningSolver::without_outliers(BlockFit blocks) const {
   const std::vector<std::size_t> initial = initial_exclusions(input_.recording, input_.quality);
   const Residuals residuals = without(residuals_of(input_.recording, blocks), initial);
@@ -176,9 +179,10 @@ std::optional<DampedFit> WeakeningSolver::without_outliers(BlockFit blocks) cons
   const std::vector<std::size_t> censored = beyond_clip(input_.recording, input_.quality, residuals, scales_.noise);
   std::vector<std::size_t> excluded = united(initial, united(outliers, censored));
   if (excluded == coulomb_.excluded) return unfinished(std::move(blocks), std::move(excluded));
-  BlockFit clean = blocks_of(cycles_without(excluded), blocks.scales().sensor_average_s, blocks.level());
-  carry_over(blocks, clean);
-  std::optional<BlockFit> again = settled(with_rise_after(clean, clean.scales()), held_, kTolerance);
+  std::optional<BlockFit> clean = blocks_of(cycles_without(excluded), blocks.scales().sensor_average_s, blocks.level());
+  if (!clean) return std::nullopt;
+  carry_over(blocks, *clean);
+  std::optional<BlockFit> again = settled(with_rise_after(*clean, clean->scales()), held_, kTolerance);
   return again ? std::optional(unfinished(*std::move(again), std::move(excluded))) : std::nullopt;
 }
 

@@ -54,11 +54,13 @@ class WeakeningSolver {
 
  private:
   [[nodiscard]] std::vector<CycleData> cycles_without(const std::vector<std::size_t>& excluded) const;
-  [[nodiscard]] BlockFit blocks_of(const std::vector<CycleData>& cycles, double average_s,
-                                   const LevelModel& level) const;
-  /// With the rise after slips, where there is one, from the ends of the slips on, as the average shows it.
-  [[nodiscard]] BlockFit started(const std::vector<CycleData>& cycles, double average_s, const Globals& start,
-                                 const LevelModel& level) const;
+  /// Empty where there are too few cycles to fit.
+  [[nodiscard]] std::optional<BlockFit> blocks_of(const std::vector<CycleData>& cycles, double average_s,
+                                                  const LevelModel& level) const;
+  /// With the rise after slips, where there is one, from the ends of the slips on, as the average shows it. Empty where
+  /// there are too few cycles to fit.
+  [[nodiscard]] std::optional<BlockFit> started(const std::vector<CycleData>& cycles, double average_s,
+                                                const Globals& start, const LevelModel& level) const;
   [[nodiscard]] DampedFit unfinished(BlockFit blocks, std::vector<std::size_t> excluded) const;
   [[nodiscard]] std::optional<DampedFit> without_outliers(BlockFit blocks) const;
   [[nodiscard]] std::optional<DampedFit> without_damping(DampedFit fit) const;
