@@ -18,12 +18,14 @@ struct SlipAccuracy {
   double tolerance;     ///< of a step, over the size of each component
   double longest_step;  ///< at most 1: a third of the half turn in which v turns once
   double layer_share;   ///< of the way to rest, and of the layer there, that a step may cross
+  int most_steps;       ///< an ordinary slip needs 10 to 60; one that needs more than these has no solution
 };
 /// The end of slip to 1e-10, derivatives to 1e-9: local errors add up to a few 1e-12 over a slip. With a share of 0.5
 /// the end was good to 2e-10 only.
-inline constexpr SlipAccuracy kExact{1e-13, 1.0, 0.3};
-/// To 1e-7, all that fits need; quintic polynomials across steps of 0.5 are good to 4e-7 of the motion.
-inline constexpr SlipAccuracy kForFits{1e-9, 0.5, 0.5};
+inline constexpr SlipAccuracy kExact{1e-13, 1.0, 0.3, 5000};
+/// To 1e-7, all that fits need; quintic polynomials across steps of 0.5 are good to 4e-7 of the motion. A fit solves
+/// many thousand slips: a stiff one gets 1 ms at most.
+inline constexpr SlipAccuracy kForFits{1e-9, 0.5, 0.5, 500};
 
 /// With rate < 0 the friction changes within 1 / |rate| above rest. The error estimate of Fehlberg's steps misses what
 /// only the last stage meets, and friction that changes the motion little: the length of a step is bounded so that none
@@ -126,10 +128,9 @@ bool has_settled(const ScaledSlip& slip, const StepNode<N>& node) {
 /// `after_step(walker)` is called after each step.
 template <std::size_t N, class AfterStep>
 SlipEnd<N> follow_slip(const ScaledSlip& slip, const SlipAccuracy& accuracy, const AfterStep& after_step) {
-  constexpr int kMaxSteps = 5000;  // an ordinary slip needs 10 to 60; a stiff one gets 10 ms at most
   SlipWalker<N> walker = walk_slip<N>(slip, accuracy);
   bool slows_down = false;
-  for (int step = 0; step < kMaxSteps && walker.advance(); ++step) {
+  for (int step = 0; step < accuracy.most_steps && walker.advance(); ++step) {
     after_step(walker);
     slows_down = slows_down || falls_below_drive(walker);
     const SpeedEvent<N> event = slows_down ? speed_event(walker) : SpeedEvent<N>();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "fit/cycle/cycle_data.hpp"
 #include "model/velocity_track.hpp"
@@ -46,6 +47,7 @@ class SpeedDependentCycle {
     if (!track) return std::nullopt;
     SpeedDependentCycle cycle(std::move(*track), scales.view);
     cycle.half_window_ = 0.5 * std::exp(globals[kLogFrequency]) * scales.sensor_average_s;
+    if (cycle.half_window_ > 0.0) cycle.integrate_slip();
     cycle.by_slope_ = slope_unit * ratio.value;
     cycle.by_rate_ = slope_unit * globals[kFrictionSlope] * ratio.derivative;
     cycle.rate_unit_ = rate_unit;
@@ -86,49 +88,67 @@ class SpeedDependentCycle {
     return view_ == ForceView::Transmitted ? track_.transmitted_at(tau) : track_.at(tau);
   }
 
-  /// The mean over the window around tau, by parts: the motion bends where the slip begins and ends.
+  /// The mean over the window around tau.
   [[nodiscard]] Point mean_around(double tau) const {
     const double first = tau - half_window_;
     const double last = tau + half_window_;
-    Point mean;
-    double begin = first;
-    for (const double joint : {0.0, track_.tau_end(), last}) {
-      const double end = std::clamp(joint, begin, last);
-      add_part(begin, end, mean);
-      begin = end;
-    }
+    Point mean{integral_to(last), 0.0};
+    add(integral_to(first), -1.0, mean);
+    const double length = last - first;
+    for (double* const value : {&mean.z, &mean.d_z0, &mean.d_zeta, &mean.d_slope, &mean.d_rate}) *value /= length;
     const double z_first = instant_at(first).z;
     const double z_last = instant_at(last).z;
-    mean.d_tau = (z_last - z_first) / (last - first);
+    mean.d_tau = (z_last - z_first) / length;
     mean.d_log_omega = 0.5 * (z_first + z_last) - mean.z;  // the window is w_n W long
     return mean;
   }
 
-  /// Adds the part of a window between two times by Gauss's rule; over half a radian it is good to 1e-7.
-  void add_part(double begin, double end, Point& mean) const {
-    constexpr double kLongest = 0.5;
+  /// Integral of the force over tau from the onset on, in as many evaluations wherever tau lies: a window may be far
+  /// longer than the slip. The motion bends where the slip begins and ends; in sticks it is a straight line, of which
+  /// the rule is exact over any length.
+  [[nodiscard]] model::TrackPoint integral_to(double tau) const {
+    if (tau <= 0.0) return with_part({}, 0.0, tau);
+    if (tau >= track_.tau_end()) return with_part(integrals_.back(), track_.tau_end(), tau);
+    const auto before = std::min(static_cast<std::size_t>(tau / piece_), integrals_.size() - 2);
+    return with_part(integrals_[before], piece_ * static_cast<double>(before), tau);
+  }
+
+  void integrate_slip() {
+    constexpr double kLongest = 0.5;  // Gauss's rule over half a radian is good to 1e-7
+    const auto pieces = static_cast<std::size_t>(std::ceil(track_.tau_end() / kLongest));
+    piece_ = track_.tau_end() / static_cast<double>(pieces);
+    integrals_.assign(1, {});
+    for (std::size_t i = 0; i < pieces; ++i) {
+      const double begin = piece_ * static_cast<double>(i);
+      integrals_.push_back(with_part(integrals_.back(), begin, begin + piece_));
+    }
+  }
+
+  static void add(const model::TrackPoint& point, double weight, model::TrackPoint& sum) {
+    sum.z += weight * point.z;
+    sum.d_z0 += weight * point.d_z0;
+    sum.d_zeta += weight * point.d_zeta;
+    sum.d_slope += weight * point.d_slope;
+    sum.d_rate += weight * point.d_rate;
+  }
+
+  /// `sum` plus the integral between two times by Gauss's rule of three points.
+  [[nodiscard]] model::TrackPoint with_part(model::TrackPoint sum, double begin, double end) const {
     constexpr std::array<double, 3> kAt{-0.7745966692414834, 0.0, 0.7745966692414834};
     constexpr std::array<double, 3> kWeight{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-    const double pieces = std::ceil((end - begin) / kLongest);
-    const double length = (end - begin) / pieces;
-    for (double piece = 0.0; piece < pieces; ++piece) {
-      for (std::size_t i = 0; i < kAt.size(); ++i) {
-        const model::TrackPoint p = instant_at(begin + length * (piece + 0.5 + 0.5 * kAt[i]));
-        const double weight = kWeight[i] * length / (2.0 * half_window_);
-        mean.z += weight * p.z;
-        mean.d_z0 += weight * p.d_z0;
-        mean.d_zeta += weight * p.d_zeta;
-        mean.d_slope += weight * p.d_slope;
-        mean.d_rate += weight * p.d_rate;
-      }
+    for (std::size_t i = 0; i < kAt.size(); ++i) {
+      add(instant_at(0.5 * (begin + end) + 0.5 * (end - begin) * kAt[i]), kWeight[i] * (end - begin), sum);
     }
+    return sum;
   }
 
   model::VelocityTrack track_;
   ForceView view_;
-  double half_window_ = 0.0;  ///< of the sensor's average, in tau
-  double by_slope_ = 0.0;     ///< d (scaled slope) / d kFrictionSlope
-  double by_rate_ = 0.0;      ///< d (scaled slope) / d kFrictionRate
+  double half_window_ = 0.0;                  ///< of the sensor's average, in tau
+  double piece_ = 0.0;                        ///< of the slip, in tau
+  std::vector<model::TrackPoint> integrals_;  ///< of the force, from the onset to each piece's end; with an average
+  double by_slope_ = 0.0;                     ///< d (scaled slope) / d kFrictionSlope
+  double by_rate_ = 0.0;                      ///< d (scaled slope) / d kFrictionRate
   double rate_unit_ = 1.0;
 };
 
