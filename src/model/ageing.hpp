@@ -30,8 +30,11 @@ struct StickTime {
 using StickTimeOf = std::function<std::optional<StickTime>(double difference_N)>;
 
 /// F_s - F_k(0+) of the limit cycle, whose stick is just long enough for it. Of two such cycles the one with the longer
-/// stick: the other is unstable. Empty where there is none: after every slip the next is smaller.
-std::optional<double> aged_difference_N(const AgeingLaw& law, const StickTimeOf& stick_time);
+/// stick: the other is unstable. Empty where there is none: after every slip the next is smaller. `sharp`: relative
+/// error of the solution.
+inline constexpr double kSharpDifference = 1e-10;
+std::optional<double> aged_difference_N(const AgeingLaw& law, const StickTimeOf& stick_time,
+                                        double sharp = kSharpDifference);
 
 /// The same with derivatives (Jet as in Ceres), one Newton step from the solution: `stick_s` at F_s - F_k held there.
 template <class Jet>

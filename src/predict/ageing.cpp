@@ -1,11 +1,14 @@
 #include "predict/motion.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
 #include "model/ageing.hpp"
+#include "predict/draws.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -65,22 +68,99 @@ Jet end_speed(const ModelEstimate& model, double difference_N, double speed_m_pe
   return speed;
 }
 
-}  // namespace
+/// Where ends of stick-slip are looked for, in units of the speed of a slip.
+constexpr double kSlowestEnd = 1e-6;
+constexpr double kFastestEnd = 300.0;
 
-std::optional<double> aged_difference_N(const ModelEstimate& model, double speed_m_per_s) {
-  const auto [rate_N, reference_s, cutoff_s] = *model.ageing;
-  const model::AgeingLaw law{model.friction_difference_N, rate_N, reference_s, cutoff_s};
-  return model::aged_difference_N(law, [&](double difference_N) -> std::optional<model::StickTime> {
-    const MotionJets motion = held_motion_at(held_at(model, difference_N), speed_m_per_s);
-    if (!motion.cycle) return std::nullopt;
-    Jet stick_s = motion.cycle->stick_s;
-    const double by_difference = take_derivative_by_difference(stick_s, difference_N);
-    return model::StickTime{stick_s.a, by_difference};
-  });
+double speed_unit(const ModelEstimate& model) {
+  return model.natural_frequency_rad_per_s * model.friction_difference_N / model.stiffness_N_per_m;
 }
 
-MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s) {
-  const std::optional<double> difference_N = aged_difference_N(model, speed_m_per_s);
+/// The ends of stick-slip of the models that the covariance of one allows. A quantile asks each model only at speeds
+/// that may tell on which side of it its end lies, few of them more than twice.
+class EndsOfDraws {
+ public:
+  /// `near_m_per_s`: the end of `model`, where the search begins; 0 or infinite where there is none.
+  EndsOfDraws(const ModelEstimate& model, double near_m_per_s)
+      : slowest_(kSlowestEnd * speed_unit(model)),
+        fastest_(kFastestEnd * speed_unit(model)),
+        near_(std::clamp(near_m_per_s, 2.0 * slowest_, 0.5 * fastest_)) {
+    for (ModelEstimate& draw : draws_of(model)) draws_.push_back({std::move(draw), 0.0, HUGE_VAL});
+  }
+
+  /// To a share of 1e-3. 0 where that model has no stick-slip at any speed, infinite where it has at all.
+  [[nodiscard]] double quantile_m_per_s(double share) {
+    constexpr double kSharp = 1e-3;
+    if (draws_.empty()) return 0.0;
+    const auto most_below = static_cast<std::size_t>(share * static_cast<double>(draws_.size() - 1));
+    const auto is_above = [&](double speed_m_per_s) { return ending_below(speed_m_per_s) <= most_below; };
+    double low = near_;
+    double high = near_;
+    if (is_above(near_)) {
+      for (double step = 2.0; is_above(high); step *= step) {
+        if (high == fastest_) return HUGE_VAL;
+        low = high;
+        high = std::min(fastest_, high * step);
+      }
+    } else {
+      for (double step = 2.0; !is_above(low); step *= step) {
+        if (low == slowest_) return 0.0;
+        high = low;
+        low = std::max(slowest_, low / step);
+      }
+    }
+    while (high > (1.0 + kSharp) * low) {
+      const double middle = std::sqrt(low * high);
+      (is_above(middle) ? low : high) = middle;
+    }
+    return low;
+  }
+
+ private:
+  struct Draw {
+    ModelEstimate model;
+    double sticks_m_per_s;  ///< the highest speed known to
+    double slides_m_per_s;  ///< the lowest
+  };
+
+  std::size_t ending_below(double speed_m_per_s) {
+    constexpr double kRough = 1e-3;  // of the static friction of the limit cycle, whose existence alone counts
+    std::size_t count = 0;
+    for (Draw& draw : draws_) {
+      if (draw.sticks_m_per_s < speed_m_per_s && speed_m_per_s < draw.slides_m_per_s) {
+        const bool sticks = aged_difference_N(draw.model, speed_m_per_s, kRough).has_value();
+        (sticks ? draw.sticks_m_per_s : draw.slides_m_per_s) = speed_m_per_s;
+      }
+      if (draw.slides_m_per_s <= speed_m_per_s) ++count;
+    }
+    return count;
+  }
+
+  double slowest_;
+  double fastest_;
+  double near_;
+  std::vector<Draw> draws_;
+};
+
+}  // namespace
+
+std::optional<double> aged_difference_N(const ModelEstimate& model, double speed_m_per_s, double sharp) {
+  const auto [rate_N, reference_s, cutoff_s] = *model.ageing;
+  const model::AgeingLaw law{model.friction_difference_N, rate_N, reference_s, cutoff_s};
+  return model::aged_difference_N(
+      law,
+      [&](double difference_N) -> std::optional<model::StickTime> {
+        const MotionJets motion = held_motion_at(held_at(model, difference_N), speed_m_per_s);
+        if (!motion.cycle) return std::nullopt;
+        Jet stick_s = motion.cycle->stick_s;
+        const double by_difference = take_derivative_by_difference(stick_s, difference_N);
+        return model::StickTime{stick_s.a, by_difference};
+      },
+      sharp);
+}
+
+MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s, double sharp) {
+  const std::optional<double> difference_N = aged_difference_N(model, speed_m_per_s, sharp);
   if (!difference_N) {
     // Each slip is smaller than the one before, until nothing sticks: as for F_s = F_k.
     MotionJets motion = held_motion_at(held_at(model, 0.0), speed_m_per_s);
@@ -106,11 +186,8 @@ MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s) {
 }
 
 double ageing_end_m_per_s(const ModelEstimate& model, double sharp) {
-  constexpr double kSlowest = 1e-6;
-  constexpr double kFastest = 300.0;
-  const double unit = model.natural_frequency_rad_per_s * model.friction_difference_N / model.stiffness_N_per_m;
-  double sticks = kSlowest * unit;
-  double slides = kFastest * unit;
+  double sticks = kSlowestEnd * speed_unit(model);
+  double slides = kFastestEnd * speed_unit(model);
   if (!aged_difference_N(model, sticks)) return 0.0;
   if (aged_difference_N(model, slides)) return HUGE_VAL;
   while (slides > (1.0 + sharp) * sticks) {
@@ -122,17 +199,19 @@ double ageing_end_m_per_s(const ModelEstimate& model, double sharp) {
 
 CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagation& propagation) {
   constexpr double kSharp = 1e-14;
-  constexpr double kRough = 1e-3;
   // The speed goes as exp(-(F_s - F_k) / rate): its logarithm is nearly linear in the parameters.
   const ModelJets p(model);
   const double sticks = ageing_end_m_per_s(model, kSharp);
   if (sticks == 0.0) return CriticalPoint::unknown("no stick-slip at any speed");
-  const auto rough_end = [](const ModelEstimate& other) { return ageing_end_m_per_s(other, kRough); };
-  if (std::isinf(sticks)) return by_draws(model, "there is stick-slip at every speed looked at", rough_end);
+  const auto of_draws = [&](const char* why) {
+    EndsOfDraws ends(model, sticks);
+    return by_draws(model, why, sticks, [&](double share) { return ends.quantile_m_per_s(share); });
+  };
+  if (std::isinf(sticks)) return of_draws("there is stick-slip at every speed looked at");
   const double difference_N = *aged_difference_N(model, sticks);
   const Jet speed = end_speed(model, difference_N, sticks);
   if (propagation.quantile() * propagation.standard_error(speed) > thresholds::kWidestAgeing * sticks) {
-    return by_draws(model, "ageing and damping are not known well enough to tell where stick-slip ends", rough_end);
+    return of_draws("ageing and damping are not known well enough to tell where stick-slip ends");
   }
   const Jet lambda = p.omega_rad_per_s * difference_N / (p.stiffness_N_per_m * speed);
   return {propagation.positive(lambda), propagation.positive(speed)};

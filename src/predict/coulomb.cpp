@@ -3,8 +3,11 @@
 #include <cassert>
 #include <cmath>
 #include <utility>
+#include <vector>
 
+#include "core/quantile.hpp"
 #include "model/slip.hpp"
+#include "predict/draws.hpp"
 #include "slipfit/model/sensitivity.hpp"
 
 namespace slipfit::predict {
@@ -45,8 +48,12 @@ double coulomb_end_m_per_s(const ModelEstimate& model) {
 }
 
 CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagation& propagation) {
-  if (!model.damping_identified)
-    return by_draws(model, "the damping ratio cannot be distinguished from 0", coulomb_end_m_per_s);
+  if (!model.damping_identified) {
+    std::vector<double> ends;
+    for (const ModelEstimate& draw : draws_of(model)) ends.push_back(coulomb_end_m_per_s(draw));
+    return by_draws(model, "the damping ratio cannot be distinguished from 0", coulomb_end_m_per_s(model),
+                    [&](double share) { return quantile_of(ends, share); });
+  }
   if (!(model.damping_ratio > 0.0)) {
     return {{0.0, std::nullopt, std::nullopt, {}}, unknown("without damping there is stick-slip at every speed")};
   }

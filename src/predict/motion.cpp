@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
-#include "core/quantile.hpp"
 #include "core/student.hpp"
 #include "core/unknown.hpp"
-#include "predict/draws.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -23,8 +21,8 @@ CriticalPoint critical_point_by_law(const ModelEstimate& model) {
   return coulomb_critical_point(model, propagation);
 }
 
-MotionJets motion_by_law(const ModelEstimate& model, double speed_m_per_s) {
-  if (model.ageing) return ageing_motion_at(model, speed_m_per_s);
+MotionJets motion_by_law(const ModelEstimate& model, double speed_m_per_s, double sharp) {
+  if (model.ageing) return ageing_motion_at(model, speed_m_per_s, sharp);
   if (model.speed_dependence) return velocity_motion_at(model, speed_m_per_s);
   return coulomb_motion_at(model, speed_m_per_s);
 }
@@ -71,25 +69,22 @@ CriticalPoint critical_point_of(const ModelEstimate& model) {
 
 }  // namespace
 
-CriticalPoint by_draws(const ModelEstimate& model, const std::string& why,
-                       const std::function<double(const ModelEstimate&)>& end_m_per_s) {
+CriticalPoint by_draws(const ModelEstimate& model, const std::string& why, double end_m_per_s,
+                       const std::function<double(double share)>& end_quantile_m_per_s) {
   constexpr std::size_t kZeta = place_in_model(ParameterId::DampingRatio);
   constexpr double kTail = 0.025;
   // Without an error zeta says nothing: it may lie anywhere.
   if (!model.damping_identified && !(model.covariance[kZeta][kZeta] > 0.0)) return CriticalPoint::unknown(why);
-  std::vector<double> ends;
-  for (const ModelEstimate& draw : draws_of(model)) ends.push_back(end_m_per_s(draw));
-  const double low = quantile_of(ends, kTail);
+  const double low = end_quantile_m_per_s(kTail);
   // Where zeta may be 0, no draw is exactly that.
   const bool is_damped = model.damping_identified && model.damping_ratio > 0.0;
-  const double high = is_damped ? quantile_of(ends, 1.0 - kTail) : HUGE_VAL;
+  const double high = is_damped ? end_quantile_m_per_s(1.0 - kTail) : HUGE_VAL;
   CriticalPoint point = CriticalPoint::unknown(why);
   if (!(low > 0.0) || std::isinf(low)) return point;
   Estimate& speed = point.speed_m_per_s;
   speed.ci95 = Interval{low, high};
   if (std::isinf(high)) return point;
-  const double end = end_m_per_s(model);
-  speed.value = low < end && end < high ? end : std::sqrt(low * high);
+  speed.value = low < end_m_per_s && end_m_per_s < high ? end_m_per_s : std::sqrt(low * high);
   speed.standard_error = 0.5 * *speed.value * std::log(high / low) / kNormalQuantile;
   speed.note.clear();
   return point;
@@ -119,8 +114,8 @@ CriticalPoint critical_point(const ModelEstimate& model) {
   return CriticalPoint::unknown("the stiffness changes too much with the speed to tell where stick-slip ends");
 }
 
-MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s) {
-  MotionJets motion = motion_by_law(at_speed(model, speed_m_per_s), speed_m_per_s);
+MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s, double sharp) {
+  MotionJets motion = motion_by_law(at_speed(model, speed_m_per_s), speed_m_per_s, sharp);
   const auto follow = [&](Jet& y) { y = from_speed(y, model, speed_m_per_s); };
   if (motion.aged_difference_N) follow(*motion.aged_difference_N);
   if (motion.restick_margin) follow(*motion.restick_margin);

@@ -3,22 +3,26 @@
 #include <functional>
 #include <string>
 
+#include "model/ageing.hpp"
+
 #include "predict/delta.hpp"
 
 namespace slipfit::predict {
 
 /// By the Coulomb tier, or the velocity tier where `model` has a `speed_dependence`; where static friction ages, with
 /// that of the limit cycle. speed > 0.
-MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s);
+/// `sharp`: relative error of that static friction.
+MotionJets motion_at(const ModelEstimate& model, double speed_m_per_s, double sharp = model::kSharpDifference);
 
 /// With what a sweep does not know of speeds beyond its own. Unknown far beyond them where the recordings show no trend
 /// of static friction, or where it rests on one law of F_k(v) of several that would fit.
 CriticalPoint critical_point(const ModelEstimate& model);
 
 /// Over the models that the covariance allows, for where linear propagation does not hold. `why`: it does not, or has
-/// nothing to say; the answer where they do not tell more. `end_m_per_s`: of a model, infinite or 0 where it has none.
-CriticalPoint by_draws(const ModelEstimate& model, const std::string& why,
-                       const std::function<double(const ModelEstimate&)>& end_m_per_s);
+/// nothing to say; the answer where they do not tell more. `end_m_per_s`: of `model` itself, infinite or 0 where it has
+/// none. `end_quantile_m_per_s`: the speed below which this share of those models ends stick-slip.
+CriticalPoint by_draws(const ModelEstimate& model, const std::string& why, double end_m_per_s,
+                       const std::function<double(double share)>& end_quantile_m_per_s);
 
 /// As motion_at(), for a model with `speed_dependence`: docs/model.md section 5.
 MotionJets velocity_motion_at(const ModelEstimate& model, double speed_m_per_s);
@@ -35,8 +39,8 @@ double coulomb_end_m_per_s(const ModelEstimate& model);
 /// As critical_point(), likewise.
 CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagation& propagation);
 
-/// As motion_at(), for a model with `ageing`.
-MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s);
+/// As motion_at(), for a model with `ageing`; the static friction of the limit cycle to a share of `sharp`.
+MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s, double sharp = model::kSharpDifference);
 
 /// As coulomb_end_m_per_s(), for a model with `ageing`: to a share of `sharp`.
 double ageing_end_m_per_s(const ModelEstimate& model, double sharp);
@@ -46,6 +50,7 @@ double ageing_end_m_per_s(const ModelEstimate& model, double sharp);
 CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagation& propagation);
 
 /// F_s - F_k(0+) of the limit cycle at a speed, for a model with `ageing`; empty where there is no stick-slip.
-std::optional<double> aged_difference_N(const ModelEstimate& model, double speed_m_per_s);
+std::optional<double> aged_difference_N(const ModelEstimate& model, double speed_m_per_s,
+                                        double sharp = model::kSharpDifference);
 
 }  // namespace slipfit::predict

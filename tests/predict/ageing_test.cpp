@@ -8,8 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/quantile.hpp"
 #include "differences.hpp"
 #include "model/ageing.hpp"
+#include "predict/draws.hpp"
+#include "predict/motion.hpp"
 #include "slipfit/predict/plan.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
@@ -166,6 +169,21 @@ TEST_CASE("ageing: intervals follow from derivatives that agree with differences
   const PredictionModel model = GENERATE(example(), cut_off_example(), reloading_example());
   // The end is bracketed to 1e-14 of the speed, its F_s - F_k thereby to the root of that.
   test::check_intervals(model, 1e-6);
+}
+
+TEST_CASE("ageing: the search for quantiles of the end agrees with the ends of all models one by one") {
+  // Ageing that is known to a factor of 2: linear propagation does not hold.
+  PredictionModel model = example();
+  model.estimate.covariance[6][6] = 0.01 * 0.01;
+  std::vector<double> ends;
+  for (const ModelEstimate& draw : predict::draws_of(model.estimate)) {
+    ends.push_back(predict::ageing_end_m_per_s(draw, 1e-6));
+  }
+  const Estimate end = critical_speed(model);
+  REQUIRE(end.ci95);
+  // The search ends at a share of 1e-3.
+  CHECK(end.ci95->low == Approx(quantile_of(ends, 0.025)).epsilon(2e-3));
+  CHECK(end.ci95->high == Approx(quantile_of(ends, 0.975)).epsilon(2e-3));
 }
 
 TEST_CASE("ageing: a plan for its rate stays below the end of stick-slip and narrows it") {
