@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/quantile.hpp"
 #include "core/student.hpp"
+#include "slipfit/core/range.hpp"
 
 namespace slipfit {
 namespace {
@@ -16,6 +18,7 @@ struct RepeatedQuantity {
   const char* name;
   const char* words;
   const char* unit;
+  Range range;
   std::optional<double> (*of)(const Recording&, const Analysis&);
 };
 
@@ -33,14 +36,17 @@ std::optional<double> mean_force(const Recording& recording, const Analysis& ana
 }
 
 constexpr std::array kQuantities = std::to_array<RepeatedQuantity>({
-    {"frequency_Hz", "frequency", "Hz", [](const Recording&, const Analysis& a) { return a.frequency.quoted.value; }},
-    {"pattern_spacing_m", "spacing", "m",
+    {"frequency_Hz", "frequency", "Hz", kNotNegative,
+     [](const Recording&, const Analysis& a) { return a.frequency.quoted.value; }},
+    {"pattern_spacing_m", "spacing", "m", kNotNegative,
      [](const Recording&, const Analysis& a) { return a.derived.pattern_spacing_m.value; }},
-    {"stick_stiffness_N_per_m", "slope of the sticks / V", "N/m",
+    {"stick_stiffness_N_per_m", "slope of the sticks / V", "N/m", kNotNegative,
      [](const Recording&, const Analysis& a) { return a.cycles.stick_stiffness.value; }},
-    {"peak_force_N", "peak force", "N", [](const Recording&, const Analysis& a) { return a.cycles.peak_force; }},
-    {"force_drop_N", "force drop", "N", [](const Recording&, const Analysis& a) { return a.cycles.force_drop; }},
-    {"mean_force_N", "mean force", "N", mean_force},
+    {"peak_force_N", "peak force", "N", kAnyNumber,
+     [](const Recording&, const Analysis& a) { return a.cycles.peak_force; }},
+    {"force_drop_N", "force drop", "N", kNotNegative,
+     [](const Recording&, const Analysis& a) { return a.cycles.force_drop; }},
+    {"mean_force_N", "mean force", "N", kAnyNumber, mean_force},
 });
 
 bool are_at_one_speed(std::span<const SweepEntry> entries) {
@@ -62,7 +68,8 @@ std::vector<Repeat> compare_repeats(std::span<const SweepEntry> entries, std::sp
     }
     if (values.size() < 2) continue;
     const MeanAndSpread spread = describe(values);
-    const Estimate mean = symmetric(spread.mean, spread.sd / std::sqrt(spread.count), spread.count - 1.0);
+    Estimate mean = symmetric(spread.mean, spread.sd / std::sqrt(spread.count), spread.count - 1.0);
+    mean = within(std::move(mean), quantity.range);
     repeats.push_back({quantity.name, quantity.words, quantity.unit, values.size(), mean, spread.sd});
   }
   return repeats;

@@ -86,7 +86,8 @@ std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& hel
   const VectorXd common_step = steps.col(0);
   const double square = sum(common, common);
   const double information = square + sum.col(common).head(common).dot(common_step);
-  if (!(information > 1e-9 * square) || !common_step.allFinite()) return std::nullopt;
+  // Rounding may leave a sum of squares below 0 where nothing is left of it.
+  if (!(information > std::max(0.0, 1e-9 * square)) || !common_step.allFinite()) return std::nullopt;
   double gradient = 0.0;
   double spread = 0.0;
   for (const RowMajor& part : sides.cycles) {

@@ -11,6 +11,7 @@
 #include "fit/report/findings.hpp"
 #include "fit/report/model_estimate.hpp"
 #include "fit/selection/tiers.hpp"
+#include "slipfit/core/range.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -233,6 +234,12 @@ class Reporter {
     add_graded(Id::ReloadLength, f_.intervals.interval_of_one_sign(reload.length_m), doubt, note);
   }
 
+  static std::string why_only_slope(const Estimate& slope) {
+    if (!slope.value || !slope.ci95) return "the data determine neither f1 nor alpha, nor their product";
+    return fmt::format("only the product f1 alpha is determined: {:.3g} N s/m, 95 % interval {:.3g} to {:.3g}",
+                       *slope.value, slope.ci95->low, slope.ci95->high);
+  }
+
   void report_law() {
     if (!f_.law->depends_on_speed) return withhold_law("not required by the data: " + f_.law->reason);
     const Estimate slope = along([](const SlidingModel& model) { return model.slope; });
@@ -240,11 +247,7 @@ class Reporter {
     const Estimate alpha = f_.intervals.interval_of_one_sign(model_.alpha);
     // Nearer to 0 than 3 standard errors: those that come out so large by chance would be reported, the others not.
     const double relative = relative_error(f_.intervals.interval_of(model_.alpha));
-    if (!(relative < thresholds::kTellingError)) {
-      return withhold_law(
-          fmt::format("only the product f1 alpha is determined: {:.3g} N s/m, 95 % interval {:.3g} to {:.3g}",
-                      *slope.value, slope.ci95->low, slope.ci95->high));
-    }
+    if (!(relative < thresholds::kTellingError)) return withhold_law(why_only_slope(within(slope, kAnyNumber)));
     const std::string bends = "the speeds show little of the curvature; f1 alpha is known better";
     const auto noted = [&](ParameterStatus status) { return status == ParameterStatus::Weak ? bends : ""; };
     const ParameterStatus of_alpha = graded(Id::Alpha, alpha, slip_doubt());
