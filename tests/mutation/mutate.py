@@ -115,28 +115,31 @@ def refuse_constant(name):
 
 
 NO_NUMBER = re.compile(r"(?<!\w)(inf|nan)(?!\w)")
-MAY_BE_NEGATIVE = re.compile(r"_force_N$|^(static|kinetic)_friction|^(clip|zero)_|^f[01]_N$|^alpha|_En$|^(mean_steady|measured)")
+MAY_BE_NEGATIVE = re.compile(r"_force_N$|^(static|kinetic)_friction|^(clip|zero)_|^f[01]_N$|^mu[01]$|^alpha|^friction_slope|^ageing_N$|_En$|^(mean_steady|measured)")
 
 
-def broken_promises(node, key="document"):
+ANY_MAY_BE_NEGATIVE = re.compile("")
+
+
+def broken_promises(node, key="document", signed=MAY_BE_NEGATIVE):
     """Of a document: a value outside its interval, an interval below 0 where the quantity cannot be, an infinite number in words."""
     if isinstance(node, str) and NO_NUMBER.search(node):
         yield f"{key}: {node}"
     if isinstance(node, list):
         for item in node:
-            yield from broken_promises(item, key)
+            yield from broken_promises(item, key, signed)
     if not isinstance(node, dict):
         return
     unit = "_Hz" if "value_Hz" in node else ""
     value, ends = node.get("value" + unit), node.get("ci95" + unit)
     if ends and not ends[0] <= (ends[0] if value is None else value) <= ends[1]:
         yield f"{key}: {value} outside {ends}"
-    if ends and ends[0] < 0 and not MAY_BE_NEGATIVE.search(key):
+    if ends and ends[0] < 0 and not signed.search(key):
         yield f"{key}: {ends} reaches below 0"
     if "note" in node and node.get("status") in ("identified", "weak", "bounded", "fixed") and (value is None or ends is None):
         yield f"{key}: {node['status']} without a value or an interval"
     for name, child in node.items():
-        yield from broken_promises(child, name)
+        yield from broken_promises(child, name, signed)
 
 
 def bad_pictures(folder):
@@ -163,15 +166,23 @@ def outcome(slipfit, file, pictures):
 
 def outcome_of(command, folder):
     run = subprocess.run(command, capture_output=True, timeout=100 * LONGEST_S, check=False)
+    word, fault = judged(run, LONGEST_S)
+    broken = [*bad_pictures(folder)] if run.returncode == 0 and fault is None else []
+    return ("broken promise", "; ".join(broken)) if broken else (word, fault)
+
+
+def judged(run, longest_s, signed=MAY_BE_NEGATIVE):
+    """A word for what a finished command answered, and what is wrong with it (None: nothing). `longest_s`: its processor time. `signed`:
+    keys of quantities that may be negative."""
     if -run.returncode in (signal.SIGXCPU, signal.SIGKILL):
-        return "too long", f"no end within {LONGEST_S} s"
+        return "too long", f"no end within {longest_s} s"
     if run.returncode == 0:
         try:
             document = json.loads(run.stdout, parse_constant=refuse_constant)
         except ValueError as error:
             return "bad JSON", str(error)
-        broken = [*broken_promises(document), *bad_pictures(folder)]
-        return ("broken promise", "; ".join(broken)) if broken else (document["status"], None)
+        broken = [*broken_promises(document, signed=signed)]
+        return ("broken promise", "; ".join(broken)) if broken else (document.get("status", "compared"), None)
     message = run.stderr.decode("utf-8", errors="replace")
     if run.returncode not in (2, 3):
         return f"exit {run.returncode}", message
