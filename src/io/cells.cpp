@@ -73,16 +73,35 @@ Parsed parse_comma(std::string_view text) {
   return parsed.length > 0 && text[parsed.length - 1] == ',' ? Parsed{} : parsed;  // "1," is a cell and a delimiter
 }
 
+/// Minus signs of typesetting in UTF-8: minus sign, en dash, fullwidth hyphen-minus.
+constexpr std::array<std::string_view, 3> kMinusSigns = {"\xE2\x88\x92", "\xE2\x80\x93", "\xEF\xBC\x8D"};
+constexpr std::size_t kMinusBytes = 3;
+
+bool is_minus_at(std::string_view text, std::size_t place) {
+  return std::ranges::find(kMinusSigns, text.substr(std::min(place, text.size()), kMinusBytes)) != kMinusSigns.end();
+}
+
 Parsed parse(std::string_view text, bool decimal_comma) {
   const Decimal quick = read_decimal(text.data(), text.data() + text.size(), decimal_comma ? ',' : '.');
   if (quick.is_number && quick.end == text.data() + text.size()) return {quick.value, text.size()};
+  const std::size_t exponent = text.find_first_of("eE");
+  for (const std::size_t place : {std::size_t{0}, exponent == std::string_view::npos ? exponent : exponent + 1}) {
+    if (!is_minus_at(text, place)) continue;
+    std::string plain(text.substr(0, place));
+    plain += '-';
+    plain += text.substr(place + kMinusBytes);
+    Parsed parsed = parse(plain, decimal_comma);
+    if (parsed.length > place) parsed.length += kMinusBytes - 1;
+    return parsed;
+  }
   return decimal_comma ? parse_comma(text) : parse_point(text);
 }
 
 bool is_missing(std::string_view text) {
   constexpr std::string_view kWords =
       "nan na n/a #n/a null none inf +inf -inf +nan -nan infinity ol overload overflow err error - -- --- ---- #value! "
-      "#div/0! 1.#qnan 1.#inf -1.#ind 1.#ind invalid";
+      "#div/0! 1.#qnan 1.#inf -1.#ind 1.#ind invalid "
+      "\xE2\x88\x92 \xE2\x80\x93 \xE2\x80\x94";  // dashes
   constexpr std::size_t kLongest = 8;
   if (text.size() > kLongest) return false;
   return is_in(kWords, lower(text));

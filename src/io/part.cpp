@@ -103,6 +103,19 @@ Warnings warn_of_rows(const Part& part) {
   return warnings;
 }
 
+/// Error: unread_numbers.
+void check_unread(const Rows& rows, const LoadedFile& file) {
+  if (!rows.unread) return;
+  const bool is_time = file.choice.time && rows.unread->column == file.choice.time->column;
+  throw ThrownError(
+      {"unread_numbers",
+       fmt::format("{}:{}: {} such as '{}' in {} cannot be read as numbers, more than a tenth of the rows; write them "
+                   "with digits, one decimal sign and a minus in front, or choose another column with {}",
+                   file.name, rows.unread->first_line, counted(rows.unread->count, "cell"),
+                   printable(rows.unread->example), describe(file.layout, rows.unread->column),
+                   is_time ? "--time-column" : "--force-column")});
+}
+
 /// Nothing, or next to nothing, in what was asked for. Errors: window_empty, part_empty.
 void check_extent(const Rows& rows, const LoadedFile& file) {
   if (rows.time_s.size() >= 2) return;
@@ -167,6 +180,7 @@ std::vector<Part> take_segments(const Rows& rows) {
 
 void check_part(const Part& part, const LoadedFile& file) {
   const Rows& rows = part.rows;
+  check_unread(rows, file);
   const std::string force = describe(file.layout, file.choice.force.column);
   if (static_cast<double>(part.backward) > kMostBackward * static_cast<double>(part.in_window)) {
     throw ThrownError(

@@ -63,6 +63,7 @@ class RowReader {
 
   void add(const char* line, unsigned number) {
     read_plain(line);
+    cells_.clear();
     if (!is_complete()) {
       split(line, dialect_.delimiter, cells_);
       for (const WantedColumn& wanted : wanted_) reading_.values[wanted.slot] = number_at(wanted.column);
@@ -77,6 +78,8 @@ class RowReader {
 
   Rows finish() {
     if (low_s_ <= high_s_) rows_.clock = TimeWindow{low_s_, high_s_};
+    const std::size_t seen = rows_.time_s.size() + rows_.without_number + rows_.text_lines;
+    if (auto unread = unread_.most(); unread && 10 * unread->count > seen) rows_.unread = std::move(unread);
     return std::move(rows_);
   }
 
@@ -91,6 +94,7 @@ class RowReader {
   [[nodiscard]] bool is_row() const;
   void turn_into_SI();
   void count_text_line(std::string_view line, unsigned number);
+  void count_unread(unsigned number);
   void keep(unsigned number);
   void note_place(unsigned line);
 
@@ -104,7 +108,8 @@ class RowReader {
   double high_s_ = -std::numeric_limits<double>::infinity();
   std::size_t counted_ = 0;
   Reading reading_;
-  std::vector<std::string_view> cells_;  ///< of a line that is not plain
+  std::vector<std::string_view> cells_;  ///< of a line that is not plain, else empty
+  UnreadCellCount unread_;
   Rows rows_;
 };
 
@@ -170,8 +175,19 @@ void RowReader::count_text_line(std::string_view line, unsigned number) {
   const char delimiter = dialect_.delimiter == '\0' ? ' ' : dialect_.delimiter;
   if (std::ranges::all_of(line, [&](char c) { return c == delimiter || trim({&c, 1}).empty(); })) return;
   if (rows_.text_lines++ == 0) rows_.first_text_line = number;
+  const bool is_in_rows = !plan_.rows || (rows_.count + 1 >= plan_.rows->first && rows_.count < plan_.rows->last);
+  if (is_in_rows && reading_.is_wanted) count_unread(number);
   const bool is_names = !plan_.layout.names_line.empty() && trim(line) == plan_.layout.names_line;
   if (is_names && !rows_.time_s.empty()) rows_.blocks.push_back(rows_.time_s.size());
+}
+
+/// The cells that cost this line its sample.
+void RowReader::count_unread(unsigned number) {
+  for (const WantedColumn& wanted : wanted_) {
+    if ((wanted.slot != kTime && wanted.slot != kForce) || wanted.column >= cells_.size()) continue;
+    const std::string_view cell = cells_[wanted.column];
+    if (read_cell(cell, dialect_.decimal_comma).kind == CellKind::Text) unread_.add(cell, wanted.column, number);
+  }
 }
 
 void RowReader::turn_into_SI() {
@@ -198,6 +214,7 @@ void RowReader::keep(unsigned number) {
   }
   if (!std::isfinite(time_s) || !std::isfinite(values[kForce])) {
     ++rows_.without_number;
+    count_unread(number);
     return;
   }
   note_place(number);

@@ -9,6 +9,7 @@
 #include "io/columns.hpp"
 #include "io/layout.hpp"
 #include "io/text_source.hpp"
+#include "io/unread_cells.hpp"
 #include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {
@@ -45,8 +46,9 @@ struct Rows {
   std::size_t without_number = 0;
   std::size_t text_lines = 0;
   unsigned first_text_line = 0;
-  std::optional<TimeWindow> clock;  ///< where a window was asked for: what the clock covers inside and outside it
-  std::optional<Digest> digest;     ///< of the whole file; empty: of none
+  std::optional<UnreadCells> unread;  ///< where cells of one shape cost more than a tenth of the rows
+  std::optional<TimeWindow> clock;    ///< where a window was asked for: what the clock covers inside and outside it
+  std::optional<Digest> digest;       ///< of the whole file; empty: of none
   std::optional<std::uint64_t> bytes;
 
   /// Row number and line of a sample.

@@ -80,6 +80,17 @@ const std::vector<Format> kFormats = {
     {"trailing delimiter", "time [s],force [N],\n0,1.25,\n0.5,-2,\n1,3.5,\n1.5,4,\n"},
     {"trailing delimiter in the data only", "time [s],force [N]\n0,1.25,\n0.5,-2,\n1,3.5,\n1.5,4,\n"},
     {"plus signs and exponents", "t,F\n+0,+1.25\n5e-1,-2.0E+00\n+1.0e0,35E-1\n.15e1,4.\n"},
+    {"minus sign of typesetting", replace_all(kPlain, "-", "\xE2\x88\x92")},
+    {"minus sign in front and in the exponent, with a tag",
+     "0 s, 1.25 N1 \n0.5 s, \xE2\x88\x92"
+     "20e\xE2\x88\x92"
+     "1 N1\n1 s, 3.5 N1\n1.5 s, 4 N1\n"},
+    {"minus sign, decimal comma",
+     "t;F\n0,0;1,25\n0,5;\xE2\x88\x92"
+     "2,0\n1,0;3,5\n1,5;4,0\n"},
+    {"minus sign in UTF-16", "\xFF\xFE" + utf16(kPlain.substr(0, kPlain.find('-')), false, false) + "\x12\x22" +
+                                 utf16(kPlain.substr(kPlain.find('-') + 1), false, false)},
+    {"en dash", replace_all(kPlain, "-", "\xE2\x80\x93")},
     {"clock", "Time,Force\n11:59:59.500,1.25\n12:00:00.000,-2\n12:00:00.500,3.5\n12:00:01.000,4\n"},
     {"text column", "t,state,F\n0,ok,1.25\n0.5,ok,-2\n1,slip,3.5\n1.5,ok,4\n"},
     {"line numbers", "1,0,1.25\n2,0.5,-2\n3,1,3.5\n4,1.5,4\n"},

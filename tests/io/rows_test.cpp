@@ -45,6 +45,53 @@ TEST_CASE("rows without a number are left out, counted and warned of") {
   CHECK(warns(recording, "rows_without_number"));
 }
 
+TEST_CASE("where cells of one shape cost more than a tenth of the rows, they are refused with a place and a remedy") {
+  const auto with = [](int every, const std::string& cell) {
+    return rows([&](int i) { return i % every == 4 ? std::to_string(0.1 * i) + "," + cell : ""; });
+  };
+  const auto error_of = [](const std::string& content, const slipfit::ReadOptions& options = {}) {
+    const auto recording = read(content, options);
+    REQUIRE_FALSE(recording.ok());
+    return recording.error();
+  };
+  for (const char* const cell : {"(0.25)", "0.25-",
+                                 "\x96"
+                                 "0.25",
+                                 "1'000.5"}) {
+    CAPTURE(cell);
+    const slipfit::Error error = error_of(with(8, cell));
+    CHECK(error.code == "unread_numbers");
+    CHECK(contains(error.message, "run7.csv:6: 12 cells such as"));
+    CHECK(contains(error.message, "in column 2 'force'"));
+    CHECK(contains(error.message, "--force-column"));
+    CHECK(warns(read_ok(with(12, cell)), "rows_without_number"));  // 8 of 100
+  }
+  CHECK(contains(error_of(rows([](int i) { return i % 8 == 4 ? "(" + std::to_string(0.1 * i) + "),1" : ""; })).message,
+                 "--time-column"));
+  // A column alone, whose lost cells are lines without any number.
+  slipfit::ReadOptions options;
+  options.sample_rate_Hz = 10.0;
+  std::string alone = "Kraft [N]\n";
+  for (int i = 0; i < 100; ++i) alone += i % 8 == 4 ? "0.25-\n" : std::to_string(i % 3) + ".5\n";
+  CHECK(error_of(alone, options).code == "unread_numbers");
+  options.rows = slipfit::RowRange{1, 5};
+  CHECK(read(alone, options).ok());
+}
+
+TEST_CASE("cells of many shapes, missing readings and words are left out and counted, however many they are") {
+  CHECK(read_ok(rows([](int i) {
+          std::string damage = "1!";
+          for (int k = 0; k < i % 20; ++k) damage.insert(0, 1, '#');
+          return i % 5 == 4 ? std::to_string(0.1 * i) + "," + damage : "";
+        })).size() == 80);
+  for (const char* const cell : {"", "nan", "---", "\xE2\x80\x94", "broken", "range 2 to 3", "12:30 pause"}) {
+    CAPTURE(cell);
+    const auto recording = read_ok(rows([&](int i) { return i % 5 == 4 ? std::to_string(0.1 * i) + "," + cell : ""; }));
+    CHECK(recording.size() == 80);
+    CHECK(recording.provenance().rows_without_number == 20);
+  }
+}
+
 TEST_CASE("text lines among the data are skipped and counted, with the first line number") {
   const auto recording = read_ok(rows([](int i) -> std::string {
     return i == 10 ? "motor restarted" : i == 20 ? "# note" : i == 30 ? "time,force" : "";

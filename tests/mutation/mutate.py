@@ -185,7 +185,7 @@ def judged(run, longest_s, signed=MAY_BE_NEGATIVE):
         return ("broken promise", "; ".join(broken)) if broken else (document.get("status", "compared"), None)
     message = run.stderr.decode("utf-8", errors="replace")
     if run.returncode not in (2, 3):
-        return f"exit {run.returncode}", message
+        return f"exit {run.returncode}", f"exit {run.returncode} {message}"  # a program that crashes says nothing
     is_one_line = message.startswith("slipfit: ") and message.endswith("\n") and message.count("\n") == 1
     if "internal error" in message or not is_one_line or run.stdout:
         return "bad error", message
@@ -216,7 +216,7 @@ def try_mutant(slipfit, folder, source, seed, pictures):
     file.write_bytes(data)
     word, fault = outcome(slipfit, str(file), pictures)
     file.unlink()
-    return source, seed, damage, word, fault, data if fault else None
+    return source, seed, damage, word, fault, None if fault is None else data
 
 
 def print_table(counts):
@@ -242,6 +242,8 @@ def main():
     files = files_in(arguments.recordings)
     if not files:
         sys.exit("no recordings found")
+    if arguments.keep:
+        pathlib.Path(arguments.keep).mkdir(parents=True, exist_ok=True)
     counts = collections.defaultdict(collections.Counter)
     faults = 0
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -250,7 +252,7 @@ def main():
         for job in concurrent.futures.as_completed(jobs):
             source, seed, damage, word, fault, data = job.result()
             counts[damage][word] += 1
-            if not fault:
+            if fault is None:
                 continue
             faults += 1
             print(f"{source} seed {seed} ({damage}): {fault}")
