@@ -84,7 +84,7 @@ Choice choice_for(const Layout& layout, const ReadOptions& options, FileInfo& in
 
 /// The recording that would be read, where it can be; at any speed where no column tells it.
 void add_recording(FileInfo& info, Part part, const LoadedFile& file) {
-  info.strokes = std::max<std::size_t>(1, find_strokes(part.rows.force).size());
+  info.strokes = std::max<std::size_t>(1, find_strokes({part.rows.force, part.rows.displacement_m}).size());
   Conditions conditions;
   conditions.speed_m_per_s = info.taken.speed_m_per_s.value_or(1.0);
   auto recording = result_of([&] { return build_recording(std::move(part), file, conditions); });
