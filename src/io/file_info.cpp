@@ -22,8 +22,8 @@ namespace {
 using namespace reading;
 
 /// In the order of Role; empty where it cannot be told.
-constexpr std::array<const char*, 9> kQuantities{
-    "", "time", "force", "normal_force", "friction_coefficient", "displacement", "speed", "step", ""};
+constexpr std::array<const char*, 10> kQuantities{
+    "", "time", "force", "normal_force", "friction_coefficient", "displacement", "speed", "step", "torque", ""};
 
 std::vector<ColumnInfo> columns_of(const Layout& layout) {
   std::vector<ColumnInfo> columns;
