@@ -140,9 +140,11 @@ def gallery(folder):
 
 
 def without_links_out(page, folder):
-    """A link to a file that the site does not hold becomes its name."""
+    """A notebook becomes the page that is made of it, a link to a file that the site does not hold becomes its name."""
     def kept(match):
         image, text, target, _ = match.groups()
+        if target.endswith(".ipynb") and (page.parent / target).with_suffix(".md").exists():
+            return f"[{text}]({target[: -len('.ipynb')]}.md)"
         if "://" in target or (page.parent / target).resolve().exists() and (page.parent / target).resolve().is_relative_to(folder.resolve()):
             return match.group(0)
         return match.group(0) if image else f"{text} (`{os.path.normpath(target).lstrip('./')}`)"

@@ -15,7 +15,7 @@ const kFields = [
   { key: "force-view", choice: ["", "spring", "transmitted", "contact"], prefix: "view-", words: "Sensor sees" },
   { key: "step", steps: true, words: "Step" },
   { key: "strokes", choice: ["", "both", "positive", "negative", "segments"], prefix: "strokes-", words: "Strokes" },
-  { key: "radius", unit: "length", words: "Radius (for rpm)", more: true },
+  { key: "radius", unit: "length", words: "Radius (torque, rpm)", more: true },
   { key: "normal-force-column", column: true, words: "Column of normal force", more: true },
   { key: "speed-column", column: true, words: "Column of speed", more: true },
   { key: "speed-uncertainty", unit: "speed", words: "Uncertainty of speed", more: true },

@@ -29,8 +29,9 @@ function optionWords(options) {
   return words;
 }
 
-/** names: of the files; sides: so many of them, the first, are side A of a comparison. */
+/** names: of the files; sides: so many of them, the first, are side A of a comparison. Several files of a fit are fitted together. */
 function commandWords({ command, sides, options }, names) {
-  const files = sides === undefined ? names : ["--a", ...names.slice(0, sides), "--b", ...names.slice(sides)];
+  const together = command === "fit" && names.length > 1 ? ["--joint", ...names] : names;
+  const files = sides === undefined ? together : ["--a", ...names.slice(0, sides), "--b", ...names.slice(sides)];
   return ["slipfit", command, ...files, ...optionWords(options)];
 }

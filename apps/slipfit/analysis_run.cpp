@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "drafts.hpp"
 #include "failure.hpp"
 #include "memory.hpp"
+#include "several_documents.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/report/csv.hpp"
@@ -89,16 +91,44 @@ void write_all_results(const AnalysisArguments& arguments, const slipfit::Record
   }
 }
 
-/// What is of one recording alone.
-void refuse_for_pieces(const AnalysisArguments& arguments) {
+/// The first option that is given and asks for something of one recording alone; empty: none.
+std::string option_of_one(const AnalysisArguments& arguments) {
   for (const auto& [option, is_given] : {std::pair{"--cycles", arguments.document.has("--cycles")},
                                          {"--curve", arguments.document.has("--curve")},
                                          {"--plots", arguments.plots.has_value()},
                                          {"--timing", arguments.timing}}) {
-    if (!is_given) continue;
-    throw Failure(ExitCode::WrongUsage,
-                  fmt::format("{} is of one recording, and does not go with --strokes or --segments", option));
+    if (is_given) return option;
   }
+  return {};
+}
+
+void refuse_for_pieces(const AnalysisArguments& arguments) {
+  const std::string option = option_of_one(arguments);
+  if (option.empty()) return;
+  throw Failure(ExitCode::WrongUsage,
+                fmt::format("{} is of one recording, and does not go with --strokes or --segments", option));
+}
+
+void refuse_for_several(const AnalysisArguments& arguments) {
+  std::string option = option_of_one(arguments);
+  if (arguments.document.has("--report")) option = "--report";
+  if (!arguments.surface.file.empty()) option = "--surface";
+  if (option.empty()) return;
+  throw Failure(ExitCode::WrongUsage,
+                fmt::format("{} belongs to one recording, and {} are named; slipfit batch with these files, --out DIR "
+                            "and --report DIR/index.html writes a page for each",
+                            option, arguments.recording.files.size()));
+}
+
+std::string text_or_json(const AnalysisArguments& arguments, const slipfit::ManifestEntry& entry,
+                         const slipfit::Recording& recording, const slipfit::Analysis& analysis) {
+  if (!arguments.document.json) {
+    return arguments.document.details ? slipfit::to_text(recording, analysis)
+                                      : slipfit::to_summary(recording, analysis);
+  }
+  slipfit::JsonOptions options;
+  options.id = entry.id;
+  return slipfit::to_json(recording, analysis, options) + "\n";
 }
 
 }  // namespace
@@ -125,6 +155,26 @@ void run_analysis(const AnalysisArguments& arguments,
   result.timing.read_s = read_s;
   result.timing.total_s = seconds_since(start);
   write_all_results(arguments, recording, result);
+}
+
+void run_each(const AnalysisArguments& arguments,
+              const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis) {
+  refuse_for_several(arguments);
+  for (const std::string& file : arguments.recording.files) check_outputs(arguments.document.outputs, file);
+  const slipfit::ManifestDraft draft = slipfit::draft_manifest(
+      {arguments.recording.files.begin(), arguments.recording.files.end()}, read_options_from(arguments.recording));
+  const auto entries = entries_of(draft, arguments.recording, teller(arguments.document));
+  SeveralDocuments documents(entries.size() + draft.skipped.size(), arguments.document.json);
+  for (const slipfit::Error& error : draft.skipped) documents.add_failure(ExitCode::BadRecording, error);
+  for (const slipfit::ManifestEntry& entry : entries) {
+    const auto recording = slipfit::read_recording(entry.file, entry.conditions, entry.options);
+    if (!recording) {
+      documents.add_failure(exit_code_for(recording.error().code), recording.error());
+      continue;
+    }
+    documents.add(text_or_json(arguments, entry, recording.value(), analysis(recording.value())));
+  }
+  documents.write(arguments.document);
 }
 
 bool is_of_pieces(const AnalysisArguments& arguments) {

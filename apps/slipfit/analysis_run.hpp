@@ -28,6 +28,10 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments);
 void run_analysis(const AnalysisArguments& arguments,
                   const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis);
 
+/// The same of several recordings, each on its own: text or JSON only. Throws Failure.
+void run_each(const AnalysisArguments& arguments,
+              const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis);
+
 /// Whether the strokes or segments of the recording are to be read.
 bool is_of_pieces(const AnalysisArguments& arguments);
 

@@ -11,6 +11,7 @@ void add_analyze_command(CLI::App& program, const std::string& command_line) {
   command->callback([arguments] {
     if (is_of_pieces(*arguments))
       return run_pieces(*arguments, [](const auto& entries) { return analyze_each(entries); });
-    run_analysis(*arguments, slipfit::analyze);
+    arguments->recording.files.size() > 1 ? run_each(*arguments, slipfit::analyze)
+                                          : run_analysis(*arguments, slipfit::analyze);
   });
 }

@@ -16,6 +16,7 @@
 #include "output.hpp"
 #include "progress_line.hpp"
 #include "quantities.hpp"
+#include "slipfit/io/file_info.hpp"
 #include "stop_signals.hpp"
 
 namespace {
@@ -23,8 +24,9 @@ namespace {
 constexpr std::size_t kMostJobs = 1024;
 
 struct BatchArguments {
-  std::string manifest;
-  RecordingArguments recording;  ///< of a folder
+  std::vector<std::string> paths;
+  std::string manifest;          ///< the one that is named, or drafted of the paths
+  RecordingArguments recording;  ///< of files and folders
   std::string out;
   std::optional<std::size_t> jobs;
   double timeout_s = 600.0;
@@ -41,8 +43,9 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
   add_recording_options(command, arguments.recording);
   command.remove_option(command.get_option("REC"));
   command
-      .add_option("MANIFEST", arguments.manifest,
-                  "CSV: id,file,speed_m_per_s, one row a recording; or a folder: its manifest is drafted into --out")
+      .add_option("MANIFEST", arguments.paths,
+                  "CSV: id,file,speed_m_per_s, one row a recording; or recordings and folders of them: their manifest "
+                  "is drafted into --out")
       ->required();
   command.add_option("--out", arguments.out, "Folder of the results; made where it is missing")->required();
   command.add_option("--jobs", arguments.jobs, "Recordings at a time; without it one a core that this process may use");
@@ -90,11 +93,6 @@ std::size_t jobs_from(const std::optional<std::size_t>& jobs) {
 
 /// The command on the pages: what changes the results, so that the pages do not depend on the rest.
 slipfit::BatchReport report_from(const BatchArguments& arguments) {
-  if (std::filesystem::path(*arguments.report).extension() != ".html") {
-    throw Failure(
-        ExitCode::WrongUsage,
-        fmt::format("--report: '{}' is no page's name, expected one such as DIR/index.html", *arguments.report));
-  }
   std::vector<std::string> words{"slipfit", "batch", arguments.manifest};
   if (arguments.tier != "auto") words.insert(words.end(), {"--tier", arguments.tier});
   for (const std::string& fixed : arguments.fixed) words.insert(words.end(), {"--fix", fixed});
@@ -130,21 +128,44 @@ slipfit::BatchOutcome run_shown(const slipfit::BatchOptions& options, const Batc
   return std::move(outcome).value();
 }
 
-/// A manifest goes as it is; that of a folder is drafted first.
-BatchArguments with_manifest(BatchArguments arguments) {
+/// Whether a manifest is named: any file that is one, and a file alone that is no recording either, whose errors are
+/// then those of a manifest.
+bool names_manifest(const std::vector<std::string>& paths) {
   std::error_code ignored;
-  if (!std::filesystem::is_directory(arguments.manifest, ignored)) {
+  const std::string& first = paths.front();
+  if (paths.size() > 1 || std::filesystem::is_directory(first, ignored)) return false;
+  if (is_manifest(first)) return true;
+  const auto recording = slipfit::inspect_recording(first);
+  return !recording || recording.value().refusal;
+}
+
+/// A manifest as it is; that of files and folders is drafted first.
+BatchArguments with_manifest(BatchArguments arguments) {
+  if (arguments.report) {
+    if (std::filesystem::path(*arguments.report).extension().empty()) refuse_report_name(*arguments.report);
+    check_report_name(*arguments.report);
+  }
+  if (names_manifest(arguments.paths)) {
     refuse_recording_options(arguments.recording);
+    arguments.manifest = arguments.paths.front();
     return arguments;
   }
-  if (arguments.shard) {
+  for (const std::string& path : arguments.paths) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored) || !is_manifest(path)) continue;
     throw Failure(ExitCode::WrongUsage,
-                  fmt::format("--shard: the shards need one manifest, draft it first ({} --out runs.csv)",
-                              shell_line({"slipfit", "manifest", arguments.manifest})));
+                  fmt::format("'{}' is a manifest: name it alone, or name recordings and folders only", path));
+  }
+  if (arguments.shard) {
+    std::vector<std::string> draft{"slipfit", "manifest"};
+    draft.insert(draft.end(), arguments.paths.begin(), arguments.paths.end());
+    throw Failure(ExitCode::WrongUsage, fmt::format("--shard: the shards need one manifest, draft it first ({} --out "
+                                                    "runs.csv)",
+                                                    shell_line(draft)));
   }
   DocumentOptions messages;
   messages.quiet = arguments.quiet;
-  arguments.manifest = drafted_manifest({arguments.manifest, arguments.out, arguments.recording}, teller(messages));
+  arguments.manifest = drafted_manifest({arguments.paths, arguments.out, arguments.recording}, teller(messages));
   return arguments;
 }
 
@@ -168,7 +189,8 @@ void run(const BatchArguments& arguments) {
 }  // namespace
 
 void add_batch_command(CLI::App& program) {
-  CLI::App* const command = program.add_subcommand("batch", "The fit of every recording of a manifest, into a folder");
+  CLI::App* const command = program.add_subcommand(
+      "batch", "The fit of every recording of a manifest, or of the files and folders named, into a folder");
   const auto arguments = std::make_shared<BatchArguments>();
   add_options(*command, *arguments);
   command->callback([arguments] { run(with_manifest(*arguments)); });

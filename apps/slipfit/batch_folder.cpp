@@ -36,12 +36,20 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
   return !error && !way.empty() && *way.begin() != "..";
 }
 
-void fill(slipfit::ManifestDraft& draft, const RecordingArguments& options) {
+/// What is stated counts.
+void fill(slipfit::ManifestDraft& draft, const RecordingArguments& options, const Tell& tell) {
   const slipfit::Conditions stated = entry_from(options).conditions;
   for (slipfit::DraftEntry& entry : draft.entries) {
-    if (!entry.speed_m_per_s && stated.speed_m_per_s > 0.0) entry.speed_m_per_s = stated.speed_m_per_s;
-    if (!entry.normal_force_N) entry.normal_force_N = stated.normal_force_N;
+    tell_of_replaced(stated, entry, tell);
+    if (stated.speed_m_per_s > 0.0) entry.speed_m_per_s = stated.speed_m_per_s;
+    if (stated.normal_force_N) entry.normal_force_N = stated.normal_force_N;
   }
+}
+
+std::string manifest_command(const BatchFolder& folder) {
+  std::vector<std::string> words{"slipfit", "manifest"};
+  words.insert(words.end(), folder.recordings.begin(), folder.recordings.end());
+  return shell_line(words);
 }
 
 /// Nothing is begun where nothing could be fitted; of some without a speed the results say so.
@@ -50,9 +58,9 @@ void check_speeds(const slipfit::ManifestDraft& draft, const BatchFolder& folder
                                      [](const slipfit::DraftEntry& entry) { return !entry.speed_m_per_s; });
   if (without == static_cast<std::ptrdiff_t>(draft.entries.size())) {
     throw Failure(ExitCode::WrongUsage,
-                  fmt::format("'{}': no speed in a column or a name of any recording in this folder; give --speed, or "
-                              "draft a manifest ({} --out runs.csv) and fill it in",
-                              folder.recordings, shell_line({"slipfit", "manifest", folder.recordings})));
+                  fmt::format("'{}': no recording has a speed in a column or in its name; give --speed, or draft a "
+                              "manifest ({} --out runs.csv) and fill it in",
+                              folder.recordings.front(), manifest_command(folder)));
   }
   if (without > 0) tell(fmt::format("{} of {} without a speed: give --speed", without, draft.entries.size()));
 }
@@ -64,7 +72,7 @@ void check_same(const std::string& file, const std::string& text) {
   if (text_of_file(file) == text) return;
   throw Failure(ExitCode::WrongUsage,
                 fmt::format("'{}' is there and differs from what would be drafted now (other files or options): choose "
-                            "another --out, or go on with it as the manifest in place of the folder",
+                            "another --out, or name it as the manifest to continue",
                             file));
 }
 
@@ -72,10 +80,10 @@ void check_same(const std::string& file, const std::string& text) {
 
 std::string drafted_manifest(const BatchFolder& folder, const Tell& tell) {
   const std::vector<slipfit::DraftColumn> columns = columns_from(folder.options);
-  slipfit::ManifestDraft draft = draft_of({folder.recordings}, read_options_from(folder.options), tell);
+  slipfit::ManifestDraft draft = draft_of(folder.recordings, read_options_from(folder.options), tell);
   std::erase_if(draft.entries, [&folder](const auto& entry) { return lies_in(entry.file, folder.out); });
   if (draft.entries.empty()) throw Failure(ExitCode::BadRecording, "no recording found beside the results in --out");
-  fill(draft, folder.options);
+  fill(draft, folder.options, tell);
   check_speeds(draft, folder, tell);
   make_folder({"--out", folder.out});
   std::string file = (fs::path(folder.out) / "manifest.csv").string();

@@ -13,7 +13,6 @@
 #include "failure.hpp"
 #include "output.hpp"
 #include "progress_line.hpp"
-#include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/pipeline.hpp"
 #include "slipfit/report/comparison.hpp"
@@ -74,10 +73,6 @@ void add_results(const std::string& file, const SideArguments& arguments, Source
   if (source.side.fits.size() > before) return;
   const std::string group = arguments.group ? fmt::format(" of group '{}'", *arguments.group) : std::string();
   throw Failure(ExitCode::WrongUsage, fmt::format("'{}': no result{} in it", file, group));
-}
-
-bool is_manifest(const std::string& file) {
-  return slipfit::ManifestReader::open(file).ok();
 }
 
 void keep_group(const std::string& group, std::vector<ManifestEntry>& entries) {

@@ -8,6 +8,7 @@
 
 #include "failure.hpp"
 #include "output.hpp"
+#include "slipfit/io/manifest.hpp"
 
 namespace {
 
@@ -31,12 +32,9 @@ std::optional<std::string> speed_for(const RecordingArguments& arguments, std::s
                                                   speeds.size(), recordings));
 }
 
-void tell_of_other_speed(double stated_m_per_s, const slipfit::DraftEntry& drafted, const Tell& tell) {
+bool differ(double stated, double drafted) {
   constexpr double kRounding = 0.01;
-  const double speed_m_per_s = *drafted.speed_m_per_s;
-  if (!(stated_m_per_s > 0.0) || std::abs(stated_m_per_s - speed_m_per_s) <= kRounding * speed_m_per_s) return;
-  tell(fmt::format("'{}': {:.4g} m/s by its file or name; one --speed for several is for those that do not tell theirs",
-                   drafted.file.string(), speed_m_per_s));
+  return std::abs(stated - drafted) > kRounding * drafted;
 }
 
 [[noreturn]] void refuse_without_speed(const slipfit::DraftEntry& entry) {
@@ -47,6 +45,26 @@ void tell_of_other_speed(double stated_m_per_s, const slipfit::DraftEntry& draft
 }
 
 }  // namespace
+
+bool is_manifest(const std::string& file) {
+  return slipfit::ManifestReader::open(file).ok();
+}
+
+void tell_of_replaced(const slipfit::Conditions& stated, const slipfit::DraftEntry& drafted, const Tell& tell) {
+  const std::string file = drafted.file.string();
+  const double speed_m_per_s = stated.speed_m_per_s;
+  if (drafted.speed_m_per_s && speed_m_per_s > 0.0 && differ(speed_m_per_s, *drafted.speed_m_per_s)) {
+    tell(fmt::format("'{}': {:.4g} m/s by its file or name, but --speed states {:.4g} m/s, which is used", file,
+                     *drafted.speed_m_per_s, speed_m_per_s));
+  }
+  const auto& load_N = stated.normal_force_N;
+  if (drafted.normal_force_N && load_N && differ(*load_N, *drafted.normal_force_N)) {
+    tell(
+        fmt::format("'{}': a normal force of {:.4g} N by its file or name, but --normal-force states {:.4g} N, which "
+                    "is used",
+                    file, *drafted.normal_force_N, *load_N));
+  }
+}
 
 void check_found(const slipfit::ManifestDraft& draft) {
   if (!draft.entries.empty()) return;
@@ -73,9 +91,9 @@ std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& dra
   for (std::size_t i = 0; i < count; ++i) {
     const slipfit::DraftEntry& drafted = draft.entries[i];
     const std::optional<std::string> stated = speed_for(arguments, i, count);
-    const bool has_own = drafted.speed_m_per_s && arguments.speeds.size() != count;
-    if (has_own && stated) tell_of_other_speed(entry_at(arguments, stated).conditions.speed_m_per_s, drafted, tell);
-    slipfit::ManifestEntry entry = entry_at(arguments, has_own ? fmt::format("{}", *drafted.speed_m_per_s) : stated);
+    const bool is_filled = !stated && drafted.speed_m_per_s;
+    slipfit::ManifestEntry entry = entry_at(arguments, is_filled ? fmt::format("{}", *drafted.speed_m_per_s) : stated);
+    tell_of_replaced(entry.conditions, drafted, tell);
     entry.id = drafted.id;
     entry.file = drafted.file;
     entry.group = drafted.group;

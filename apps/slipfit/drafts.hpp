@@ -8,6 +8,9 @@
 #include "slipfit/io/manifest_draft.hpp"
 #include "slipfit/io/manifest_entry.hpp"
 
+/// Whether a file is a manifest by its line of names.
+bool is_manifest(const std::string& file);
+
 using Tell = std::function<void(const std::string&)>;
 
 /// Throws Failure(BadRecording) where the draft has no recording.
@@ -18,7 +21,10 @@ void check_found(const slipfit::ManifestDraft& draft);
 slipfit::ManifestDraft draft_of(const std::vector<std::string>& paths, const slipfit::ReadOptions& options,
                                 const Tell& tell);
 
-/// The recordings of a draft, to be read with these options. Where --speed is given once for several, it is for those
-/// whose file and name do not tell theirs. Throws Failure(WrongUsage) where one is left without a speed.
+/// Says where a stated speed or load is used instead of another one that the file or its name gives.
+void tell_of_replaced(const slipfit::Conditions& stated, const slipfit::DraftEntry& drafted, const Tell& tell);
+
+/// The recordings of a draft, to be read with these options: a stated speed and load count, those of the file or its
+/// name fill in what is not stated. Throws Failure(WrongUsage) where one is left without a speed.
 std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& draft, const RecordingArguments& arguments,
                                                const Tell& tell);

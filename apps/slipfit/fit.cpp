@@ -18,12 +18,27 @@ struct FitArguments {
   AnalysisArguments analysis;
   std::string tier = "auto";
   std::vector<std::string> fixed;
-  std::optional<std::string> sweep;
+  std::optional<std::string> sweep;  ///< manifest, or the first of several recordings
   std::optional<std::string> group;
   std::vector<std::string> only;
 };
 
-/// The manifest says how the recordings of a fit of a sweep were made: only what is not about a recording goes with it.
+/// Recordings of different groups share no parameters: one has to be chosen.
+void check_one_group(const FitArguments& arguments, const std::vector<slipfit::ManifestEntry>& entries) {
+  if (arguments.group || !arguments.only.empty()) return;
+  std::vector<std::string> groups;
+  for (const slipfit::ManifestEntry& entry : entries) {
+    if (std::find(groups.begin(), groups.end(), entry.group) == groups.end()) groups.push_back(entry.group);
+  }
+  if (groups.size() < 2) return;
+  throw Failure(ExitCode::WrongUsage,
+                fmt::format("{}: holds {} groups ('{}', '{}'{}), and a joint fit is of one: choose it with --group, or "
+                            "recordings with --only",
+                            *arguments.sweep, groups.size(), groups[0], groups[1], groups.size() > 2 ? ", ..." : ""));
+}
+
+/// The manifest says how the recordings of a fit of a sweep were made: only what is not about a recording may be stated
+/// beside it.
 SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& command) {
   static const std::set<std::string> kAllowed{"--joint", "--group",   "--only", "--tier",   "--fix",
                                               "--json",  "--details", "--out",  "--report", "--quiet"};
@@ -34,9 +49,9 @@ SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& co
   }
   const AnalysisArguments& analysis = arguments.analysis;
   const std::string name = arguments.group ? *arguments.group : std::filesystem::path(*arguments.sweep).stem().string();
-  return {{name, analysis.document, analysis.command_line},
-          *arguments.sweep,
-          manifest_entries(*arguments.sweep, arguments.group, arguments.only)};
+  auto entries = manifest_entries(*arguments.sweep, arguments.group, arguments.only);
+  check_one_group(arguments, entries);
+  return {{name, analysis.document, analysis.command_line}, *arguments.sweep, std::move(entries)};
 }
 
 /// The strokes or segments of one file as a joint fit.
@@ -57,8 +72,10 @@ std::string name_of(const std::vector<slipfit::ManifestEntry>& entries) {
   return is_common && !group.empty() ? group : fmt::format("{} and {} more", entries.front().id, entries.size() - 1);
 }
 
-/// Several recordings, each as its file, its name and the options tell.
+/// Several recordings that are fitted together, each as the options, its file and its name say.
 SweepArguments sweep_of_files(const FitArguments& arguments, const CLI::App& command) {
+  std::vector<std::string> files = arguments.analysis.recording.files;
+  files.insert(files.begin(), *arguments.sweep);
   for (const char* const single :
        {"--cycles", "--curve", "--plots", "--timing", "--mass", "--sensor-bandwidth", "--sensor-resonance"}) {
     if (command.get_option(single)->count() == 0) continue;
@@ -67,17 +84,30 @@ SweepArguments sweep_of_files(const FitArguments& arguments, const CLI::App& com
   }
   const AnalysisArguments& analysis = arguments.analysis;
   const Tell tell = teller(analysis.document);
-  const auto draft = draft_of(analysis.recording.files, read_options_from(analysis.recording), tell);
+  const auto draft = draft_of(files, read_options_from(analysis.recording), tell);
   std::vector<slipfit::ManifestEntry> entries = entries_of(draft, analysis.recording, tell);
   const std::string name = name_of(entries);
   return {{name, analysis.document, analysis.command_line}, {}, std::move(entries)};
 }
 
+/// --joint names a manifest, or the first of several recordings.
+bool is_joint_of_files(const FitArguments& arguments) {
+  return arguments.sweep && !arguments.analysis.recording.files.empty() && !is_manifest(*arguments.sweep);
+}
+
+void fit_each(const FitArguments& arguments, const slipfit::FitOptions& options) {
+  run_each(arguments.analysis,
+           [&options](const slipfit::Recording& recording) { return slipfit::analyze_and_fit(recording, options); });
+  teller(arguments.analysis.document)(
+      "each recording was fitted on its own; --joint before the files fits them together, with one set of parameters");
+}
+
 void run(const FitArguments& arguments, const CLI::App& command) {
   const std::vector<std::string>& files = arguments.analysis.recording.files;
-  const bool is_of_several = arguments.sweep || files.size() > 1 || is_of_pieces(arguments.analysis);
+  const bool is_together = arguments.sweep || is_of_pieces(arguments.analysis);
   slipfit::FitOptions options = fit_options_from(arguments.tier, arguments.fixed,
-                                                 is_of_several ? slipfit::FitKind::Sweep : slipfit::FitKind::Single);
+                                                 is_together ? slipfit::FitKind::Sweep : slipfit::FitKind::Single);
+  if (is_joint_of_files(arguments)) return run_sweep(sweep_of_files(arguments, command), options);
   if (arguments.sweep) return run_sweep(sweep_arguments(arguments, command), options);
   if (arguments.group || !arguments.only.empty()) {
     throw Failure(ExitCode::WrongUsage, "--group and --only choose recordings of a manifest: give it with --joint");
@@ -86,7 +116,7 @@ void run(const FitArguments& arguments, const CLI::App& command) {
   if (is_of_pieces(arguments.analysis)) {
     return run_pieces(arguments.analysis, fit_together(options, arguments.analysis.document));
   }
-  if (is_of_several) return run_sweep(sweep_of_files(arguments, command), options);
+  if (files.size() > 1) return fit_each(arguments, options);
   const DocumentOptions& document = arguments.analysis.document;
   options.curve = document.has("--curve") || document.has("--report") || arguments.analysis.plots;
   run_analysis(arguments.analysis, [&options](const slipfit::Recording& recording) {
@@ -103,7 +133,7 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
   arguments->analysis.command_line = command_line;
   add_analysis_options(*command, arguments->analysis);
   command->get_option("REC")->required(false)->description(
-      "Recording; several are fitted together, each at its own speed");
+      "Recording; several are fitted each on its own (--joint: together)");
   command->add_option("--tier", arguments->tier, "Model: auto, sawtooth, undamped, damped, weakening, velocity (joint)")
       ->capture_default_str();
   command->add_option("--fix", arguments->fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
@@ -113,7 +143,8 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
   command->add_option("--surface", arguments->analysis.surface.file,
                       "Profile or image of the worn track: is its pattern that of the slips?");
   add_profile_options(*command, arguments->analysis.surface);
-  command->add_option("--joint", arguments->sweep, "Manifest (CSV): one set of parameters for its recordings");
+  command->add_option("--joint", arguments->sweep,
+                      "Manifest (CSV), or several recordings: one set of parameters for them");
   command->add_option("--group", arguments->group, "With --joint: this group of the manifest");
   command->add_option("--only", arguments->only, "With --joint: these recordings (ID,ID,...)")->delimiter(',');
   command->callback([arguments, command] { run(*arguments, *command); });

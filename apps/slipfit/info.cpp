@@ -5,6 +5,7 @@
 #include "failure.hpp"
 #include "output.hpp"
 #include "recording_options.hpp"
+#include "several_documents.hpp"
 #include "slipfit/report/info.hpp"
 
 namespace {
@@ -15,13 +16,20 @@ struct InfoArguments {
 };
 
 void run(const InfoArguments& arguments) {
-  const std::string& file = only_file(arguments.recording);
-  check_outputs(arguments.document.outputs, file);
-  const auto inspection = slipfit::inspect(file, read_options_from(arguments.recording));
-  if (!inspection) throw Failure(ExitCode::BadRecording, inspection.error());
-  write_results(arguments.document, [&](const std::string&) {
-    return arguments.document.json ? to_json(inspection.value(), file) + "\n" : to_text(inspection.value(), file);
-  });
+  const std::vector<std::string>& files = arguments.recording.files;
+  for (const std::string& file : files) check_outputs(arguments.document.outputs, file);
+  const slipfit::ReadOptions options = read_options_from(arguments.recording);
+  SeveralDocuments documents(files.size(), arguments.document.json);
+  for (const std::string& file : files) {
+    const auto inspection = slipfit::inspect(file, options);
+    if (!inspection) {
+      documents.add_failure(ExitCode::BadRecording, inspection.error());
+      continue;
+    }
+    documents.add(arguments.document.json ? to_json(inspection.value(), file) + "\n"
+                                          : to_text(inspection.value(), file));
+  }
+  documents.write(arguments.document);
 }
 
 }  // namespace
@@ -30,7 +38,8 @@ void add_info_command(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("info", "What a file holds: columns, units, clock, steps; and what would be read of it");
   const auto arguments = std::make_shared<InfoArguments>();
-  command->add_option("FILE", arguments->recording.files, "Recording")->required();
+  command->add_option("FILE", arguments->recording.files, "Recording; several are described one after another")
+      ->required();
   add_options_where(*command, arguments->recording, [](const slipfit::RecordingOption& option) {
     return option.of == slipfit::RecordingOption::Of::Reading;
   });

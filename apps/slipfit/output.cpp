@@ -93,8 +93,26 @@ void add_output_option(CLI::App& command, DocumentOptions& options, const std::s
       help);
 }
 
+void refuse_report_name(const std::string& file) {
+  throw Failure(ExitCode::WrongUsage,
+                fmt::format("--report: '{}' is no name of a page; pages are HTML: name it '{}'{}", file,
+                            fs::path(file).replace_extension(".html").string(),
+                            fs::path(file).extension() == ".pdf" ? " and print it into a PDF from the browser" : ""));
+}
+
+void check_report_name(const std::string& file) {
+  const fs::path ending = fs::path(file).extension();
+  if (!ending.empty() && ending != ".html" && ending != ".htm") refuse_report_name(file);
+}
+
 void add_report_option(CLI::App& command, DocumentOptions& options) {
-  add_output_option(command, options, "--report", "Write a page to look at and to print (HTML, one file)");
+  command.add_option_function<std::string>(
+      "--report",
+      [&options](const std::string& file) {
+        check_report_name(file);
+        options.outputs.push_back({"--report", file});
+      },
+      "Write a page to look at and to print (HTML, one file)");
 }
 
 void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input,

@@ -27,6 +27,11 @@ void add_document_options(CLI::App& command, DocumentOptions& options, const std
 /// An option that names a further file.
 void add_output_option(CLI::App& command, DocumentOptions& options, const std::string& option, const std::string& help);
 
+/// Throws Failure(WrongUsage): pages are HTML, whatever the name says.
+[[noreturn]] void refuse_report_name(const std::string& file);
+/// The same for a name with an ending of another kind of file ("x.pdf").
+void check_report_name(const std::string& file);
+
 /// --report
 void add_report_option(CLI::App& command, DocumentOptions& options);
 

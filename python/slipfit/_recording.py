@@ -29,8 +29,8 @@ class Recording:
         Seconds (or `time_unit`). Lists, pandas Series and any array of numbers will do; contiguous doubles are read
         where they lie. None: `sample_rate` is the clock.
     force : array of shape (n,)
-        Newtons (or `force_unit`; ``"1"`` for a coefficient of friction). Values that are not finite are left out and
-        counted, as are samples whose time runs backwards: the result says so.
+        Newtons (or `force_unit`; ``"1"`` for a coefficient of friction, ``"N m"`` for a torque, with `radius`). Values that
+        are not finite are left out and counted, as are samples whose time runs backwards: the result says so.
     speed : float or str
         Driving speed in m/s, or text with a unit: ``"10 mm/s"``, ``"600 mm/min"``; ``"60 rpm"`` with `radius`.
     normal_force : float or str, optional
@@ -275,7 +275,7 @@ def read_recording(
     speed_uncertainty : float or str
         Standard error of the speed: ``"0.1 mm/s"``, ``"1 %"``.
     radius : float or str
-        Distance of the contact from the axis (m).
+        Distance of the contact from the axis (m): for a torque, or a speed of rotation.
     mass : float or str
         Moving mass (kg); gives w_n where averaging hides it, else held against k / w_n**2.
     mass_uncertainty : float or str

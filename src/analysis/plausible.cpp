@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "slipfit/core/range.hpp"
 
@@ -32,17 +34,20 @@ bool is_plausible(const Seen& seen) {
          !is_outside(seen.spacing_m, kSpacing_m);
 }
 
-/// A mistaken unit: what the true numbers are of those seen, and what to ask the user.
+/// A mistaken unit: what the true numbers are of those seen, and what to ask the user. Without a unit of the clock in
+/// the file the clock is the first suspect.
 struct Mistake {
   double stiffness = 1.0;
   double mass = 1.0;
   double spacing = 1.0;
   const char* question = "";
+  bool is_of_clock = false;
 };
 
 constexpr std::array kMistakes = std::to_array<Mistake>({
     {1e3, 1e3, 1e-3, "is the speed in mm/s, 1000 times smaller?"},
-    {1e3, 1e-3, 1e-3, "is the time in ms (--time-unit ms)?"},
+    {1e3, 1e-3, 1e-3, "is the time in ms (--time-unit ms)?", true},
+    {1e6, 1e-6, 1e-6, "is the time in us (--time-unit us)?", true},
     {1e-3, 1e-3, 1.0, "is the force in mN (--force-unit mN)?"},
     {1e3, 1e3, 1.0, "is the force in kN (--force-unit kN)?"},
     {1e-3, 1e-3, 1e3, "is the speed in m/s, 1000 times larger?"},
@@ -52,11 +57,15 @@ std::optional<double> scaled(const std::optional<double>& value, double factor) 
   return value ? std::optional(*value * factor) : std::nullopt;
 }
 
-std::string remedy_for(const Seen& seen) {
-  for (const Mistake& mistake : kMistakes) {
+std::string remedy_for(const Seen& seen, bool is_time_unit_assumed) {
+  std::vector<Mistake> mistakes(kMistakes.begin(), kMistakes.end());
+  if (is_time_unit_assumed)
+    std::stable_partition(mistakes.begin(), mistakes.end(), [](const Mistake& mistake) { return mistake.is_of_clock; });
+  for (const Mistake& mistake : mistakes) {
     if (is_plausible({scaled(seen.stiffness_N_per_m, mistake.stiffness), scaled(seen.mass_kg, mistake.mass),
                       scaled(seen.spacing_m, mistake.spacing)})) {
-      return mistake.question;
+      return (is_time_unit_assumed && mistake.is_of_clock ? "the file gives no unit of time: " : "") +
+             std::string(mistake.question);
     }
   }
   return "check the units of speed, time and force";
@@ -79,7 +88,8 @@ std::optional<Warning> implausible_units(const Recording& recording, const Analy
   add(seen.stiffness_N_per_m, kStiffness_N_per_m, "a stiffness in N/m of");
   add(seen.mass_kg, kMass_kg, "a mass in kg of");
   add(seen.spacing_m, kSpacing_m, "a way per slip in m of");
-  return Warning{"implausible_units", fmt::format("{} is beyond what testers have: {}", what, remedy_for(seen))};
+  return Warning{"implausible_units", fmt::format("{} is beyond what testers have: {}", what,
+                                                  remedy_for(seen, recording.provenance().is_time_unit_assumed))};
 }
 
 }  // namespace slipfit

@@ -56,6 +56,7 @@ constexpr Powers kSecond{0, 0, 1};
 constexpr Powers kPerSecond{0, 0, -1};
 constexpr Powers kSpeed{1, 0, -1};
 constexpr Powers kNewton{1, 1, -2};
+constexpr Powers kKilogramMetre{1, 1};
 constexpr Powers kPascal{-1, 1, -2};
 constexpr Powers kJoule{2, 1, -2};
 constexpr Powers kWatt{2, 1, -3};
@@ -77,6 +78,8 @@ constexpr Powers kUnconverted{0, 0, 0, 0, 0, 0, 0, 0, 1};
 
 constexpr double kGram_N = 1e-3 * kStandardGravity_m_per_s2;
 constexpr double kPound_kg = 0.45359237;  // exact by definition (1959), an ounce is its sixteenth, an inch 25.4 mm
+constexpr double kPound_N = kPound_kg * kStandardGravity_m_per_s2;
+constexpr double kInch_m = 0.0254;
 
 constexpr std::array kUnitTable = std::to_array<Unit>({
     {"s|sec|secs|sek", 1.0, kSecond, Prefixes::Small},
@@ -110,20 +113,24 @@ constexpr std::array kUnitTable = std::to_array<Unit>({
     {"gm", 1e-3, kKilogram},
     {"kg|kgs", 1.0, kKilogram},
     {"gram", 1e-3, kKilogram, Prefixes::Word},
+    {"gms", 1e-3, kKilogram},
     {"lb|lbs", kPound_kg, kKilogram},
+    {"klb|klbs", 1e3 * kPound_kg, kKilogram},
     {"pound", kPound_kg, kKilogram, Prefixes::Word},
     {"oz", kPound_kg / 16.0, kKilogram},  // never the fluid ounce
     {"ounce", kPound_kg / 16.0, kKilogram, Prefixes::Word},
+    {"tonne", 1e3, kKilogram, Prefixes::Word},
 
+    // A unit of mass with "f" or "force" behind it ("kgf", "lb-f", "gram force") is read as its weight: unit_text.cpp.
     {"N", 1.0, kNewton, Prefixes::Metric},
     {"kn", 1e3, kNewton},  // KN
     {"newton", 1.0, kNewton, Prefixes::Word},
-    {"gf", kGram_N, kNewton, Prefixes::Small},
-    {"kgf|kp", 1e3 * kGram_N, kNewton},
+    {"kp", 1e3 * kGram_N, kNewton},
     {"p", kGram_N, kNewton},
-    {"pond|gram_force", kGram_N, kNewton, Prefixes::Word},
-    {"lbf|pound_force", kPound_kg* kStandardGravity_m_per_s2, kNewton},
-    {"ozf|ounce_force", kPound_kg / 16.0 * kStandardGravity_m_per_s2, kNewton},
+    {"pond", kGram_N, kNewton, Prefixes::Word},
+    {"kip|kips", 1e3 * kPound_N, kNewton},
+    {"tf", 1e6 * kGram_N, kNewton},
+    {"pdl|poundal|poundals", kPound_kg * 0.3048, kNewton},
     {"dyn", 1e-5, kNewton},
     {"dyne", 1e-5, kNewton, Prefixes::Word},
 
@@ -153,11 +160,17 @@ constexpr std::array kUnitTable = std::to_array<Unit>({
     {"\xE2\x80\xB0", 1e-3, kPureNumber},
     {"ppm", 1e-6, kPureNumber},
 
-    // Recognised beside a force, so that a units row with them is one.
     {"NM", 1.0, kJoule},  // never a nanometre
     {"Nm|J", 1.0, kJoule, Prefixes::Metric},
     {"Nmm", 1e-3, kJoule, Prefixes::Metric},
     {"Ncm", 1e-2, kJoule},
+    {"kgcm|kgfcm", 10.0 * kGram_N, kJoule},
+    {"gcm|gfcm", 1e-2 * kGram_N, kJoule},
+    {"inlb|inlbs|inlbf|lbin|lbsin|lbfin", kPound_N* kInch_m, kJoule},
+    {"ftlb|ftlbs|ftlbf|lbft|lbsft|lbfft", kPound_N * 12.0 * kInch_m, kJoule},
+    {"ozin|ozfin|inoz|inozf", kPound_N / 16.0 * kInch_m, kJoule},
+
+    // Recognised beside a force, so that a units row with them is one.
     {"W", 1.0, kWatt, Prefixes::Metric},
     {"Pa", 1.0, kPascal, Prefixes::Metric},
     {"kpa", 1e3, kPascal},

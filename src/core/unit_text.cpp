@@ -92,9 +92,30 @@ std::optional<ParsedUnit> in_table(std::string_view text) {
   return std::nullopt;
 }
 
-std::optional<ParsedUnit> look_up(std::string_view text) {
+std::optional<ParsedUnit> look_up_plain(std::string_view text) {
   const auto exact = in_table(text);
   return exact ? exact : in_table(lower(text));
+}
+
+/// The text before "f", "-f", " force" or "_force", in any case; empty where the text does not end so.
+std::string_view without_force(std::string_view text) {
+  const std::string small = lower(text);
+  for (const std::string_view ending : {"force", "f"}) {
+    if (!small.ends_with(ending)) continue;
+    std::string_view rest = text.substr(0, text.size() - ending.size());
+    if (!rest.empty() && std::string_view("-_ ").find(rest.back()) != std::string_view::npos) rest.remove_suffix(1);
+    return rest;
+  }
+  return {};
+}
+
+/// A unit of the table, or the weight of a unit of mass: "kgf", "lb-f", "gram force".
+std::optional<ParsedUnit> look_up(std::string_view text) {
+  if (auto plain = look_up_plain(text)) return plain;
+  const std::string_view mass = without_force(text);
+  const auto parsed = mass.empty() ? std::nullopt : look_up_plain(mass);
+  if (!parsed || parsed->powers != kKilogram) return std::nullopt;
+  return ParsedUnit{parsed->factor * kStandardGravity_m_per_s2, kNewton};
 }
 
 ParsedUnit product(const ParsedUnit& a, const ParsedUnit& b, int power_of_b) {
@@ -132,7 +153,7 @@ class UnitReader {
       skip_blanks();
       if (rest_.empty() || rest_.front() == ')') return result;
       const bool divides = take("/");
-      if (!divides && !take("*")) take(".");
+      if (!divides && !take("*") && !take(".")) take("-");  // "in-lbf"; the minus of "mm s-1" is read by read_power
       skip_blanks();
       const auto next = read_power();
       if (!next) return std::nullopt;
@@ -145,7 +166,9 @@ class UnitReader {
     const auto unit = take("(") ? read_brackets() : read_name();
     if (!unit) return std::nullopt;
     const bool has_sign = take("^") || take("**");
-    const bool is_negative = take("-");
+    const bool is_hyphen =
+        rest_.size() > 1 && rest_[0] == '-' && std::isalpha(static_cast<unsigned char>(rest_[1])) != 0;
+    const bool is_negative = !is_hyphen && take("-");
     int power = 0;
     for (int digits = 0; digits < 2 && !rest_.empty() && std::isdigit(static_cast<unsigned char>(rest_.front())) != 0;
          ++digits) {

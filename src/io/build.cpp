@@ -62,7 +62,7 @@ ThrownError reciprocating(const std::vector<double>& time_s, const std::string& 
       {"reciprocating",
        fmt::format("{}: the sign of the force turns with every stroke (a reciprocating test), and one "
                    "stroke is one recording; take them all with --strokes, or one with --window T0:T1 (in s; from {} "
-                   "to {})",
+                   "to {}), or state the sensor's reading at no force with --zero",
                    file, time_s.front(), time_s.back())});
 }
 
@@ -125,13 +125,13 @@ Recording build_recording(Part part, const LoadedFile& file, const Conditions& c
     for (double& force : one.force) force = -force;
     one.provenance.assumed.emplace_back("The force is negative throughout: its sign was turned.");
   }
-  if (is_reciprocating(one.force)) throw reciprocating(one.time_s, file.name);
+  if (is_reciprocating({one.force, one.displacement_m})) throw reciprocating(one.time_s, file.name);
   return create(std::move(one), file.name);
 }
 
 std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, const Conditions& conditions) {
   const Interpreted all = interpret(std::move(part), file, conditions);
-  const std::vector<Stroke> strokes = take_strokes(all.force);
+  const std::vector<Stroke> strokes = take_strokes({all.force, all.displacement_m});
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     const bool is_wanted = file.options.pieces == Pieces::Strokes ||

@@ -70,7 +70,8 @@ Parsed parse_comma(std::string_view text) {
   }
   std::replace_copy(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(length), copy.begin(), ',', '.');
   const Parsed parsed = parse_point({copy.data(), length});
-  return parsed.length > 0 && text[parsed.length - 1] == ',' ? Parsed{} : parsed;  // "1," is a cell and a delimiter
+  const bool is_cut = parsed.length > 0 && parsed.length < text.size() && text[parsed.length - 1] == ',';
+  return is_cut ? Parsed{} : parsed;  // "1,on" is a cell, a delimiter and another cell
 }
 
 /// Minus signs of typesetting in UTF-8: minus sign, en dash, fullwidth hyphen-minus.
@@ -107,12 +108,24 @@ bool is_missing(std::string_view text) {
   return is_in(kWords, lower(text));
 }
 
-/// hh:mm:ss with an optional fraction, behind a date or alone; anything else gives no number.
-Parsed parse_clock(std::string_view text, bool decimal_comma) {
-  if (const auto date = read_date(text)) {
-    const Parsed clock = parse_clock(date->clock, decimal_comma);
-    return clock.length == 0 ? Parsed{} : Parsed{date->midnight_s + clock.value, text.size()};
+constexpr double kHalfDay_s = 43200.0;
+
+/// Takes "AM" or "PM" off the end of the text: 0 or 12 hours to add, 12 o'clock counted as 0. Empty where there is
+/// none.
+std::optional<double> take_half_day_s(std::string_view& text) {
+  const std::string small = lower(text.substr(text.size() - std::min<std::size_t>(4, text.size())));
+  for (const std::string_view ending : {"am", "pm", "a.m.", "p.m."}) {
+    if (!small.ends_with(ending)) continue;
+    text = trim(text.substr(0, text.size() - ending.size()));
+    return ending[0] == 'p' ? kHalfDay_s : 0.0;
   }
+  return std::nullopt;
+}
+
+/// h:m:s with decimals behind a point or a comma, on 24 or on 12 hours ("1:05:00 PM"); anything else gives no number.
+Parsed parse_time_of_day(std::string_view text) {
+  const std::size_t length = text.size();
+  const auto half_day_s = take_half_day_s(text);
   double seconds = 0.0;
   for (int colons = 0; colons < 2; ++colons) {
     int part = 0;
@@ -123,9 +136,19 @@ Parsed parse_clock(std::string_view text, bool decimal_comma) {
     text.remove_prefix(used + 1);
   }
   if (text.empty() || !is_digit(text[0])) return {};
-  const Parsed rest = parse(text, decimal_comma || text.find(',') != std::string_view::npos);
+  const Parsed rest = parse(text, text.find(',') != std::string_view::npos);
   if (rest.length != text.size() || !(rest.value < 61.0)) return {};
-  return {seconds + rest.value, text.size()};
+  seconds += rest.value;
+  if (half_day_s) seconds = std::fmod(seconds, kHalfDay_s) + *half_day_s;
+  return {seconds, length};
+}
+
+/// A time of day, behind a date or alone.
+Parsed parse_clock(std::string_view text) {
+  const auto date = read_date(text);
+  if (!date) return parse_time_of_day(text);
+  const Parsed clock = date->clock.empty() ? Parsed{} : parse_time_of_day(date->clock);
+  return clock.length == 0 ? Parsed{} : Parsed{date->midnight_s + clock.value, text.size()};
 }
 
 /// A tag begins with a letter or a unit sign, behind the blanks: neither a second number nor the rest of a date.
@@ -187,31 +210,38 @@ Cell read_cell(std::string_view text, bool decimal_comma) {
     }
   }
   if (is_missing(text)) return {CellKind::Missing, kNone, {}};
-  const Parsed clock = parse_clock(text, decimal_comma);
+  const Parsed clock = parse_clock(text);
   if (clock.length > 0) return {CellKind::Clock, clock.value, {}};
+  if (const auto date = read_date(text); date && date->clock.empty()) return {CellKind::Date, kNone, {}};
   return {CellKind::Text, kNone, {}};
 }
 
-std::vector<std::string_view> split(std::string_view line, char delimiter) {
+bool is_comma_in_clock(const char* begin, const char* comma, const char* line_end) {
+  if (comma == line_end || *comma != ',' || comma - begin < 3 || !is_digit(comma[-1])) return false;
+  const bool has_colon = comma[-2] == ':' || (is_digit(comma[-2]) && comma[-3] == ':');
+  return has_colon && comma + 1 != line_end && is_digit(comma[1]);
+}
+
+std::vector<std::string_view> split(std::string_view line, const Dialect& dialect) {
   std::vector<std::string_view> cells;
-  split(line, delimiter, cells);
+  split(line, dialect, cells);
   return cells;
 }
 
-void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
+void split(std::string_view line, const Dialect& dialect, std::vector<std::string_view>& cells) {
   cells.clear();
-  if (delimiter == '\0') {
+  if (dialect.delimiter == '\0') {
     cells.push_back(line);
     return;
   }
   const char* cell = line.data();
   const char* const line_end = cell + line.size();
   for (;;) {
-    if (delimiter == ' ') {
+    if (dialect.delimiter == ' ') {
       while (cell != line_end && is_blank(*cell)) ++cell;
       if (cell == line_end) return;
     }
-    const char* end = end_of_cell(cell, line_end, delimiter);
+    const char* end = end_of_cell(cell, line_end, dialect);
     cells.emplace_back(cell, static_cast<std::size_t>(end - cell));
     if (end == line_end) return;
     cell = end + 1;

@@ -11,11 +11,13 @@ namespace slipfit::reading {
 struct Dialect {
   char delimiter = ',';  ///< ',', ';', tab, ' ' for any run of blanks, NUL for one cell a line
   bool decimal_comma = false;
+  bool comma_in_clock = false;  ///< "10:00:00,005,4.2" has two cells: a comma behind h:m:s begins its decimals
 };
 
 enum class CellKind {
   Number,
   Clock,    ///< hh:mm:ss(.fff), value in seconds; with a date: since 1970
+  Date,     ///< a date alone
   Blank,    ///< nothing
   Missing,  ///< nan, inf, n/a, ---, overflow: a reading that is none
   Text
@@ -34,13 +36,18 @@ Cell read_cell(std::string_view text, bool decimal_comma);
 double plain_number(std::string_view text, bool decimal_comma);
 
 /// Every cell of a line. Quotes protect delimiters and stay in the cell.
-std::vector<std::string_view> split(std::string_view line, char delimiter);
+std::vector<std::string_view> split(std::string_view line, const Dialect& dialect);
 /// The same into a vector that is used again for every line.
-void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells);
+void split(std::string_view line, const Dialect& dialect, std::vector<std::string_view>& cells);
+
+/// Whether the comma at `comma`, in a line that begins at `begin`, stands behind h:m:s and before a digit.
+bool is_comma_in_clock(const char* begin, const char* comma, const char* line_end);
 
 /// The end of the cell that begins at `cell` (for blanks: that begins there with no blank), at the latest that of the
 /// line: `line_end`, or the NUL where that is null.
-inline const char* end_of_cell(const char* cell, const char* line_end, char delimiter) {
+inline const char* end_of_cell(const char* cell, const char* line_end, const Dialect& dialect) {
+  const char delimiter = dialect.delimiter;
+  const char* const begin = cell;
   const auto in_line = [line_end](const char* p) { return p != line_end && *p != '\0'; };
   if (in_line(cell) && *cell == '"') {
     const char* quote = cell + 1;
@@ -51,6 +58,9 @@ inline const char* end_of_cell(const char* cell, const char* line_end, char deli
     while (in_line(cell) && *cell != ' ' && *cell != '\t') ++cell;
   } else {
     while (in_line(cell) && *cell != delimiter) ++cell;
+    if (dialect.comma_in_clock && is_comma_in_clock(begin, cell, line_end)) {
+      for (++cell; in_line(cell) && *cell != delimiter;) ++cell;
+    }
   }
   return cell;
 }
@@ -64,11 +74,12 @@ std::string_view unquote(std::string_view text);
 
 struct DateStart {
   double midnight_s = 0.0;  ///< since 1970
-  std::string_view clock;   ///< what stands behind the date, without a time zone
+  std::string_view clock;   ///< what stands behind the date, without a time zone; empty: nothing does
 };
 
-/// Of "2024-05-12T12:22:17.5Z", "2024/05/12 12:22:17", "12.05.2024 12:22:17,5". Empty where no date begins the text, or
-/// nothing follows it.
+/// Of "2024-05-12T12:22:17.5Z", "2024/05/12 12:22:17", "12.05.2024 12:22:17,5", "5/12/2024 12:22:17 PM". Empty where no
+/// date begins the text. Which of day and month is first in the last of these forms is not known, so that its midnight
+/// is 0: its clock counts within the day.
 std::optional<DateStart> read_date(std::string_view text);
 
 }  // namespace slipfit::reading

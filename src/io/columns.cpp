@@ -79,6 +79,7 @@ Channel time_channel(const Request& request, std::size_t column) {
   if (!scale) throw unit_error(request, column, scale.error().message, "--time-unit");
   channel.scale = scale.value().scale;
   channel.is_clock = is_guess && guess.unit == "d";
+  channel.is_unit_assumed = is_guess;
   channel.sentence = is_guess ? fmt::format("Time is {}, taken to be in {} ({}).", name, unit, guess.why)
                               : fmt::format("Time is {}, in {}{}.", name, printable(unit), told ? " (as told)" : "");
   return channel;
@@ -143,6 +144,10 @@ std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<st
   if (forces.size() > 1) forces = those_of_coefficient(layout, std::move(forces));
   if (!forces.empty()) return forces;
   if (!coefficients.empty()) return coefficients;
+  auto torques = best_columns(layout, [&](const Column& column, std::size_t c) {
+    return is_usable(column, c) && column.name.role == Role::Torque ? column.name.rank : 0;
+  });
+  if (!torques.empty()) return torques;
   if (force_scale) {
     const auto scale = parse_force_scale(*force_scale);
     const auto of_scale = scale ? read_unit(scale->unit) : std::nullopt;
@@ -182,8 +187,8 @@ std::size_t choose_force(const Request& request, std::optional<std::size_t> time
   return candidates.front();
 }
 
-/// Of a voltage and its like, by what the user says a unit of it is. Without a unit in the file it is that of the
-/// scale.
+/// From a column of volts or of another quantity, by the stated force per unit of it. Without a unit in the file it is
+/// that of the scale.
 Channel scaled_channel(const Request& request, std::size_t column, const std::string& text) {
   const auto scale = parse_force_scale(text);
   const std::string described = describe(request.layout, column);
@@ -191,42 +196,65 @@ Channel scaled_channel(const Request& request, std::size_t column, const std::st
   const std::string unit = request.options.force_unit.value_or(named.empty() && scale ? scale->unit : named);
   const auto of_column = read_unit(unit);
   const auto of_scale = scale ? read_unit(scale->unit) : std::nullopt;
-  if (!of_scale || !of_column || of_scale->powers != of_column->powers) {
-    throw unit_error(request, column, fmt::format("'{}' does not go with --force-scale '{}'", unit, text),
+  const bool is_known = of_scale && of_column && of_scale->powers == of_column->powers;
+  const bool is_same_text = scale && !of_scale && lower(scale->unit) == lower(unit);
+  if (!is_known && !is_same_text) {
+    throw unit_error(request, column, fmt::format("'{}' is not the unit of --force-scale '{}'", unit, text),
                      "--force-unit");
   }
-  return Channel{column, of_column->factor * scale->N_per_SI, ForceQuantity::Force_N,
+  return Channel{column, (is_known ? of_column->factor : 1.0) * scale->N_per_SI, ForceQuantity::Force_N,
                  fmt::format("Force is {}, in {}, at {} (as told).", described, printable(unit), printable(text))};
 }
 
-/// The unit decides between force and coefficient; without one the name does.
-Channel force_channel(const Request& request, std::size_t column) {
-  const ColumnName& name = request.layout.columns[column].name;
-  if (request.options.force_scale) return scaled_channel(request, column, *request.options.force_scale);
-  const bool is_told = request.options.force_unit.has_value();
-  const std::string unit = is_told ? *request.options.force_unit : name.unit;
+/// A torque over the radius at which the contact lies. Error: no_radius.
+Channel torque_channel(const Request& request, std::size_t column, const std::string& unit, double N_m) {
   const std::string described = describe(request.layout, column);
-  if (unit.empty() && name.role == Role::FrictionCoefficient) {
+  const double radius_m = radius_for_torque(request.options.radius_m, fmt::format("{}: {}", request.file, described));
+  return Channel{
+      column, N_m / radius_m, ForceQuantity::Force_N,
+      fmt::format("Force is {}, a torque (unit {}), over the radius of {} m.", described, printable(unit), radius_m)};
+}
+
+/// What to do about a unit that is no force.
+std::string force_remedy(const std::string& unit) {
+  const auto known = read_unit(unit);
+  if (known && known->powers == kVolt) return "--force-scale '5 N/V' (newtons a volt of this sensor)";
+  return fmt::format(
+      "--force-unit, such as --force-unit N, or the newtons for a unit of the column with --force-scale, "
+      "such as --force-scale '5 N/{}'",
+      unit);
+}
+
+Channel without_unit(const Request& request, std::size_t column) {
+  const std::string described = describe(request.layout, column);
+  const Role role = request.layout.columns[column].name.role;
+  if (role == Role::Torque) return torque_channel(request, column, "N m, since none is given", 1.0);
+  if (role == Role::FrictionCoefficient) {
     return Channel{column, 1.0, ForceQuantity::FrictionCoefficient,
                    fmt::format("Friction coefficient is {}.", described)};
   }
-  if (unit.empty()) {
-    return Channel{column, 1.0, ForceQuantity::Force_N,
-                   fmt::format("Force is {}, taken to be in N (no unit is given).", described)};
-  }
+  return Channel{column, 1.0, ForceQuantity::Force_N,
+                 fmt::format("Force is {}, taken to be in N (no unit is given).", described)};
+}
+
+/// The unit decides between force, torque and coefficient; without one the name does.
+Channel force_channel(const Request& request, std::size_t column) {
+  if (request.options.force_scale) return scaled_channel(request, column, *request.options.force_scale);
+  const bool is_told = request.options.force_unit.has_value();
+  const std::string unit = is_told ? *request.options.force_unit : request.layout.columns[column].name.unit;
+  if (unit.empty()) return without_unit(request, column);
+  const std::string described = describe(request.layout, column);
   const std::string in_unit = fmt::format("in {}{}", printable(unit), is_told ? " (as told)" : "");
   const auto as_force = parse_unit(unit, Dimension::Force);
   if (as_force) {
     return Channel{column, as_force.value().scale, ForceQuantity::Force_N,
                    fmt::format("Force is {}, {}.", described, in_unit)};
   }
-  const auto as_number = parse_unit(unit, Dimension::Dimensionless);
-  if (!as_number) {
-    const auto known = read_unit(unit);
-    const bool is_volt = known && known->powers == kVolt;
-    throw unit_error(request, column, as_force.error().message,
-                     is_volt ? "--force-scale '5 N/V' (newtons a volt of this sensor)" : "--force-unit");
+  if (const auto torque = parse_unit(unit, Dimension::Torque)) {
+    return torque_channel(request, column, unit, torque.value().scale);
   }
+  const auto as_number = parse_unit(unit, Dimension::Dimensionless);
+  if (!as_number) throw unit_error(request, column, as_force.error().message, force_remedy(unit));
   return Channel{column, as_number.value().scale, ForceQuantity::FrictionCoefficient,
                  fmt::format("Friction coefficient is {}, {}.", described, in_unit)};
 }

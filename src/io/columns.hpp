@@ -18,6 +18,7 @@ struct Channel {
   ForceQuantity quantity = ForceQuantity::Force_N;  ///< of the force channel
   std::string sentence;                             ///< for Provenance::assumed
   bool is_clock = false;                            ///< of the time: counted from midnight of its first day
+  bool is_unit_assumed = false;                     ///< of the time: the file names none
 };
 
 /// Only rows whose cell says this are read.
@@ -43,6 +44,9 @@ struct Choice {
 /// ambiguous_force_column, unknown_unit, conflicting_options. `file` is how messages call the file. A displacement over
 /// `speed_m_per_s` (0: not known) stands in for a clock that is missing.
 Choice choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s, const std::string& file);
+
+/// By which a torque is divided to give the force. `place` begins the message. Error: no_radius.
+double radius_for_torque(const std::optional<double>& radius_m, const std::string& place);
 
 /// What stands beside time and force: normal force, speed, displacement, numbers of steps, the column of --where. A
 /// column that nobody named is used where its name and unit leave no doubt, and is otherwise no reason to refuse a

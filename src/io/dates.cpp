@@ -1,5 +1,6 @@
 #include "io/cells.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
@@ -43,12 +44,18 @@ std::string_view without_zone(std::string_view clock) {
 
 std::optional<DateStart> read_date(std::string_view text) {
   const auto parts = read_parts(text);
-  if (!parts || parts->length + 1 >= text.size()) return std::nullopt;
-  const char between = text[parts->length];
-  if (between != ' ' && between != 'T') return std::nullopt;
+  if (!parts) return std::nullopt;
+  std::string_view clock = text.substr(parts->length);
+  if (!clock.empty() && clock.front() != ' ' && clock.front() != 'T') return std::nullopt;
+  if (!clock.empty()) clock.remove_prefix(1);
+  while (clock.starts_with(' ')) clock.remove_prefix(1);
   const auto& [first, second, third] = parts->numbers;
   const bool is_ISO = (parts->separator == '-' || parts->separator == '/') && parts->digits[0] == 4;
   const bool is_German = parts->separator == '.' && (parts->digits[2] == 4 || parts->digits[2] == 2);
+  const bool is_slashed = parts->separator == '/' && (parts->digits[2] == 4 || parts->digits[2] == 2);
+  if (!is_ISO && is_slashed && std::max(first, second) <= 31 && std::min(first, second) <= 12) {
+    return DateStart{0.0, clock};
+  }
   if (!is_ISO && !is_German) return std::nullopt;
   const int century = parts->digits[2] == 2 ? 2000 : 0;
   using namespace std::chrono;
@@ -57,8 +64,6 @@ std::optional<DateStart> read_date(std::string_view text) {
              : year_month_day{year{century + third}, month{static_cast<unsigned>(second)},
                               day{static_cast<unsigned>(first)}};
   if (!date.ok()) return std::nullopt;
-  std::string_view clock = text.substr(parts->length + 1);
-  while (clock.starts_with(' ')) clock.remove_prefix(1);
   const auto since_1970 = sys_days{date}.time_since_epoch();
   return DateStart{86400.0 * static_cast<double>(since_1970.count()), is_ISO ? without_zone(clock) : clock};
 }

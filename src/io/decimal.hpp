@@ -66,7 +66,6 @@ inline Decimal read_decimal(const char* p, const char* end, char point) {
     read_digits();
     decimals = p - after_point;
     digits += decimals;
-    if (point == ',' && decimals == 0) return {};  // "1," is a cell and a delimiter
   }
   if (digits == 0) return {};
   const bool has_exponent = p != end && (*p == 'e' || *p == 'E');

@@ -13,6 +13,7 @@ constexpr std::size_t kLinesTried = 256;  // a dozen dialects on each cost under
 
 // In the order of preference where two explain the lines equally well.
 constexpr std::array kDialects = std::to_array<Dialect>({{',', false},
+                                                         {',', false, true},
                                                          {';', false},
                                                          {'\t', false},
                                                          {'|', false},
@@ -30,18 +31,33 @@ struct Score {
   std::size_t columns = 0;
 };
 
-/// 1 for a row of numbers only, little for one that holds text, 0 for one without a number.
+/// "005": behind a clock these are its decimals, and no column.
+bool has_zero_in_front(std::string_view cell) {
+  cell = unquote(cell);
+  return cell.size() > 1 && cell[0] == '0' && is_digit(cell[1]);
+}
+
+/// How much of a row is understood: 1 where every column is, little where one is not, 0 without a number. Dates and
+/// missing readings are understood, and are no numbers. Blank cells count a little: "6,<tab>1," has two columns of
+/// numbers, not three of which the last is blank in some rows.
 double row_weight(const std::vector<std::string_view>& cells, bool decimal_comma) {
+  constexpr double kBlank = 0.05;
   double numbers = 0.0;
-  double others = 0.0;
   double texts = 0.0;
+  double blanks = 0.0;
+  CellKind before = CellKind::Text;
   for (const std::string_view text : cells) {
-    const CellKind kind = read_cell(text, decimal_comma).kind;
-    (kind == CellKind::Number || kind == CellKind::Clock ? numbers : kind == CellKind::Text ? texts : others) += 1.0;
+    CellKind kind = read_cell(text, decimal_comma).kind;
+    if (kind == CellKind::Number && before == CellKind::Clock && has_zero_in_front(text)) kind = CellKind::Text;
+    numbers += kind == CellKind::Number || kind == CellKind::Clock ? 1.0 : 0.0;
+    texts += kind == CellKind::Text ? 1.0 : 0.0;
+    blanks += kind == CellKind::Blank ? 1.0 : 0.0;
+    before = kind;
   }
   if (numbers == 0.0) return 0.0;
-  const double part = numbers / (numbers + others + texts);
-  return texts == 0.0 ? 1.0 : 0.25 * part * part;
+  const auto columns = static_cast<double>(cells.size());
+  const double part = numbers / columns;
+  return texts == 0.0 ? 1.0 - kBlank * blanks / columns : 0.25 * part * part;
 }
 
 /// Nothing as soon as `least` is out of reach: a line adds 1 at most.
@@ -51,7 +67,7 @@ Score score(const std::vector<std::string_view>& lines, const Dialect& dialect, 
   double most = 0.0;
   double left = static_cast<double>(lines.size());
   for (const std::string_view line : lines) {
-    split(line, dialect.delimiter, cells);
+    split(line, dialect, cells);
     double& weight = weight_by_columns[cells.size()];
     weight += row_weight(cells, dialect.decimal_comma);
     most = std::max(most, weight);
@@ -70,6 +86,7 @@ Score score(const std::vector<std::string_view>& lines, const Dialect& dialect, 
 bool is_worth_trying(const Dialect& dialect, std::string_view all) {
   const auto holds = [&](char c) { return all.find(c) != std::string_view::npos; };
   if (dialect.decimal_comma && !holds(',')) return false;
+  if (dialect.comma_in_clock && !holds(':')) return false;
   if (dialect.delimiter == ',' && dialect.decimal_comma) return holds('"');
   if (dialect.delimiter == ' ') return holds(' ') || holds('\t');
   return dialect.delimiter == '\0' || holds(dialect.delimiter);
@@ -144,18 +161,18 @@ bool is_comma_twice(const std::vector<std::string_view>& lines, const Layout& la
   const bool are_whole = std::ranges::all_of(
       layout.columns, [](const Column& column) { return column.is_whole && column.clocks == 0 && column.texts == 0; });
   if (layout.dialect.delimiter != ',' || layout.dialect.decimal_comma || !are_whole || columns < 3) return false;
-  bool has_zero_in_front = false;  // "001" is no whole number that anybody writes
+  bool has_zero = false;  // "001" is no whole number that anybody writes
   for (std::size_t i = layout.first_data_line - 1; i < lines.size(); ++i) {
     if (lines[i].find('.') != std::string_view::npos) return false;
-    for (const std::string_view cell : split(lines[i], ',')) {
-      has_zero_in_front = has_zero_in_front || (cell.size() > 1 && cell[0] == '0' && is_digit(cell[1]));
+    for (const std::string_view cell : split(lines[i], layout.dialect)) {
+      has_zero = has_zero || has_zero_in_front(cell);
     }
   }
   std::size_t above = layout.first_data_line - 1;
   while (above > 0 && trim(lines[above - 1]).empty()) --above;
-  const std::size_t names = above > 0 ? split(lines[above - 1], ',').size() : 0;
-  return names > 1 && names < columns ? columns == 2 * names || has_zero_in_front
-                                      : has_zero_in_front && names != columns && columns % 2 == 0;
+  const std::size_t names = above > 0 ? split(lines[above - 1], layout.dialect).size() : 0;
+  return names > 1 && names < columns ? columns == 2 * names || has_zero
+                                      : has_zero && names != columns && columns % 2 == 0;
 }
 
 }  // namespace slipfit::reading

@@ -22,8 +22,8 @@ namespace {
 using namespace reading;
 
 /// In the order of Role; empty where it cannot be told.
-constexpr std::array<const char*, 9> kQuantities{
-    "", "time", "force", "normal_force", "friction_coefficient", "displacement", "speed", "step", ""};
+constexpr std::array<const char*, 10> kQuantities{
+    "", "time", "force", "normal_force", "friction_coefficient", "displacement", "speed", "step", "torque", ""};
 
 std::vector<ColumnInfo> columns_of(const Layout& layout) {
   std::vector<ColumnInfo> columns;
@@ -84,7 +84,7 @@ Choice choice_for(const Layout& layout, const ReadOptions& options, FileInfo& in
 
 /// The recording that would be read, where it can be; at any speed where no column tells it.
 void add_recording(FileInfo& info, Part part, const LoadedFile& file) {
-  info.strokes = std::max<std::size_t>(1, find_strokes(part.rows.force).size());
+  info.strokes = std::max<std::size_t>(1, find_strokes({part.rows.force, part.rows.displacement_m}).size());
   Conditions conditions;
   conditions.speed_m_per_s = info.taken.speed_m_per_s.value_or(1.0);
   auto recording = result_of([&] { return build_recording(std::move(part), file, conditions); });

@@ -49,11 +49,11 @@ std::vector<std::string_view> split_header(std::string_view line, const Dialect&
     return cells.size() == columns || (cells.size() + 1 == columns && cells.size() > 1) ||
            (cells.size() == columns + 1 && trim(cells.back()).empty());
   };
-  std::vector<std::vector<std::string_view>> ways = {split(line, dialect.delimiter)};
+  std::vector<std::vector<std::string_view>> ways = {split(line, dialect)};
   if (dialect.delimiter == ' ') ways.push_back(join_brackets(ways.front()));
   if (dialect.delimiter == ' ') ways.push_back(split_wide(line));
   if (columns > 1) {
-    for (const char other : {'\t', ';', ','}) ways.push_back(split(line, other));
+    for (const char other : {'\t', ';', ','}) ways.push_back(split(line, Dialect{other}));
   }
   for (auto& cells : ways) {
     if (!matches(cells)) continue;
@@ -95,12 +95,22 @@ bool is_names_row(const std::vector<std::string_view>& cells) {
   return texts > 0 && (name.role != Role::Unknown || !name.unit.empty()) && name.text.size() < 40;
 }
 
-/// Units alone; or most of them units, and a row of names above.
+/// Of names of columns, without regard to units.
+std::ptrdiff_t count_known_names(const std::vector<std::string_view>& cells) {
+  return std::ranges::count_if(cells, [](std::string_view cell) {
+    const Role role = read_name(cell, {}).role;
+    return role != Role::Unknown && role != Role::Other;
+  });
+}
+
+/// Units alone; or a row of names above, and most of them units, or the names known above and unknown here ("s,raw"
+/// below "time,force").
 bool is_units_row(const std::vector<std::string_view>& cells, const std::vector<std::string_view>& above) {
   const CountedUnits count = count_units(cells);
   if (count.known == 0) return false;
   if (count.unknown == 0) return true;
-  return count.known > count.unknown && is_names_row(above) && count_units(above).known <= count_units(above).unknown;
+  if (!is_names_row(above) || count_units(above).known > count_units(above).unknown) return false;
+  return count.known > count.unknown || count_known_names(above) > count_known_names(cells);
 }
 
 /// Neither blank nor a rule between header and data.

@@ -22,7 +22,7 @@ struct Row {
   bool has_text = false;
 
   void read(std::string_view line, const Dialect& dialect) {
-    split(line, dialect.delimiter, texts);
+    split(line, dialect, texts);
     cells.clear();
     has_number = has_text = false;
     for (const std::string_view text : texts) {
@@ -92,6 +92,34 @@ std::optional<std::size_t> find_data(const Lines& lines, const Dialect& dialect,
   return run > 0 && run < kRun ? std::optional(begin) : single;
 }
 
+/// "6x7", "1.2.3": nothing but signs of numbers, dates and clocks, and yet none of these.
+bool is_broken_number(std::string_view text) {
+  text = unquote(text);
+  return text.find_first_not_of("0123456789.,:/+-eE") == std::string_view::npos;
+}
+
+/// Lines above the data, counted from 1, that differ from its rows in a broken number alone; and all lines of numbers
+/// with as many cells where there are more of them than any preamble has.
+std::vector<std::size_t> find_unread_rows(const Lines& lines, std::size_t data, const Dialect& dialect,
+                                          const Shape& shape) {
+  constexpr std::size_t kLongestPreamble = 100;
+  std::vector<std::size_t> broken;
+  std::vector<std::size_t> alike;
+  Row row;
+  for (std::size_t i = 0; i < data && shape.columns > 1; ++i) {
+    row.read(lines[i], dialect);
+    if (!row.has_number || row.cells.size() != shape.columns) continue;
+    alike.push_back(i + 1);
+    bool is_broken = true;
+    for (std::size_t c = 0; c < shape.columns; ++c) {
+      const bool is_text = shape.is_number[c] && row.cells[c].kind == CellKind::Text;
+      is_broken = is_broken && (!is_text || is_broken_number(row.texts[c]));
+    }
+    if (is_broken) broken.push_back(i + 1);
+  }
+  return alike.size() > kLongestPreamble ? alike : broken;
+}
+
 /// Gathers what the rows say about one column.
 class ColumnScan {
  public:
@@ -156,6 +184,7 @@ std::optional<Layout> find_layout(const Lines& lines) {
   const auto filled = std::count_if(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(*data),
                                     [](std::string_view line) { return !trim(line).empty(); });
   layout.skipped_lines = static_cast<std::size_t>(filled) - header.lines;
+  layout.unread_rows = find_unread_rows(lines, *data, *dialect, shape);
   std::vector<ColumnScan> scans(shape.columns);
   double length = 0.0;
   Row row;

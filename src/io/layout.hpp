@@ -36,8 +36,9 @@ struct Column {
 struct Layout {
   Dialect dialect;
   std::vector<Column> columns;
-  std::size_t first_data_line = 1;  ///< 1-based
-  std::size_t skipped_lines = 0;    ///< text before the data that is neither names nor units
+  std::size_t first_data_line = 1;       ///< 1-based
+  std::size_t skipped_lines = 0;         ///< text before the data that is neither names nor units
+  std::vector<std::size_t> unread_rows;  ///< 1-based lines before the data that look like rows of it
   bool has_names = false;
   std::string names_line;  ///< as it stands in the file: above a further part of the data it stands again
   std::size_t rows = 0;    ///< looked at

@@ -28,13 +28,18 @@ Channel time_channel(const ReadOptions& options) {
   return channel;
 }
 
-Channel force_channel(const ReadOptions& options) {
+Channel force_channel(const ReadOptions& options, const std::string& name) {
   const std::string text = options.force_unit.value_or("N");
   const auto unit = parse_unit(text, Dimension::Force);
   const auto share = parse_unit(text, Dimension::Dimensionless);
-  if (!unit && !share) throw ThrownError(unit.error());
+  const auto torque = parse_unit(text, Dimension::Torque);
+  if (!unit && !share && !torque) throw ThrownError(unit.error());
   Channel channel;
   channel.column = 1;
+  if (torque) {
+    channel.scale = torque.value().scale / radius_for_torque(options.radius_m, name + ": the force");
+    return channel;
+  }
   channel.scale = unit ? unit.value().scale : share.value().scale;
   channel.quantity = unit ? ForceQuantity::Force_N : ForceQuantity::FrictionCoefficient;
   return channel;
@@ -86,7 +91,7 @@ LoadedFile load_samples(Samples samples, const ReadOptions& options) {
   file.layout.columns[0].name.text = "time";
   file.layout.columns[1].name.text = "force";
   if (!samples.time.empty()) file.choice.time = time;
-  file.choice.force = force_channel(options);
+  file.choice.force = force_channel(options, samples.name);
   Rows& rows = file.rows;
   rows.force = std::move(samples.force);
   rows.count = rows.force.size();

@@ -64,8 +64,9 @@ std::optional<Error> set_force_view(ManifestEntry& entry, const std::string& cel
 template <Dimension dimension, std::optional<std::string> ReadOptions::*target>
 std::optional<Error> set_unit(ManifestEntry& entry, const std::string& cell) {
   const Result<UnitScale> unit = parse_unit(cell, dimension);
-  const bool is_coefficient = dimension == Dimension::Force && parse_unit(cell, Dimension::Dimensionless);
-  if (!unit && !is_coefficient) return Error{"unknown_unit", printable(unit.error().message)};
+  const bool is_other = dimension == Dimension::Force &&
+                        (parse_unit(cell, Dimension::Dimensionless) || parse_unit(cell, Dimension::Torque));
+  if (!unit && !is_other) return Error{"unknown_unit", printable(unit.error().message)};
   entry.options.*target = cell;
   return std::nullopt;
 }
@@ -175,11 +176,13 @@ constexpr std::array kFields = std::to_array<ManifestField>({
                set_text_of<&ReadOptions::normal_force_column>),
     text_field({"speed_column", "--speed-column", "Name or 1-based number; of rpm with --radius", Of::Reading},
                set_text_of<&ReadOptions::speed_column>),
-    number_field({"radius", "--radius", "Distance of the contact from the axis: 12mm", Of::Reading}, "_m",
-                 Dimension::Length, Bound::AboveZero, set_number_of<&ReadOptions::radius_m>),
+    number_field({"radius", "--radius",
+                  "Distance of the contact from the axis: 12mm; for a torque, or a speed of rotation", Of::Reading},
+                 "_m", Dimension::Length, Bound::AboveZero, set_number_of<&ReadOptions::radius_m>),
     text_field({"time_unit", "--time-unit", "Unit of the time column: ms, min", Of::Reading},
                set_unit<Dimension::Time, &ReadOptions::time_unit>),
-    text_field({"force_unit", "--force-unit", "Unit of the force column: mN, gf; 1 for a coefficient", Of::Reading},
+    text_field({"force_unit", "--force-unit",
+                "Unit of the force column: mN, kgf; 1 for a coefficient, 'N m' for a torque", Of::Reading},
                set_unit<Dimension::Force, &ReadOptions::force_unit>),
     text_field(
         {"force_scale", "--force-scale", "Force for a unit of what the force column holds: '5 N/V'", Of::Reading},

@@ -1,6 +1,7 @@
 #include "io/names.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <vector>
 
@@ -13,12 +14,6 @@
 namespace slipfit::reading {
 namespace {
 
-/// "Force (left)" keeps its brackets, "Force (daN)" does not.
-bool is_unit_in_brackets(std::string_view text) {
-  const UnitClass known = classify_unit(text);
-  return known != UnitClass::NotAUnit && known != UnitClass::None;
-}
-
 /// Words that name a column as often as a unit: behind a blank or an underscore they are no unit ("Force_Min").
 bool may_be_a_word(std::string_view unit) {
   const bool is_letter = unit.size() == 1 && unit != "s" && unit != "N" && unit != "g" && unit != "m" && unit != "h";
@@ -29,39 +24,6 @@ struct NameAndUnit {
   std::string_view base;
   std::string_view unit;
 };
-
-NameAndUnit take_brackets(std::string_view name, char open, char close) {
-  const auto end = name.rfind(close);
-  const auto begin = end == std::string_view::npos ? end : name.rfind(open, end);
-  if (begin == std::string_view::npos) return {name, {}};
-  const std::string_view inside = trim(name.substr(begin + 1, end - begin - 1));
-  if (open == '(' && !is_unit_in_brackets(inside)) return {name, {}};
-  return {trim(name.substr(0, begin)), inside};
-}
-
-/// "F / N", "Force, N", "time, in s" (no inch-second), "Kraft in N", "force_N", "Time s".
-NameAndUnit take_suffix(std::string_view name) {
-  for (const std::string_view separator : {"/", ",", " in ", "_", " "}) {
-    const auto at = name.rfind(separator);
-    if (at == std::string_view::npos || at == 0) continue;
-    std::string_view unit = trim(name.substr(at + separator.size()));
-    if (separator == "," && unit.starts_with("in ")) unit = trim(unit.substr(3));
-    const UnitClass unit_class = classify_unit(unit);
-    const bool is_loose = separator == "_" || separator == " ";  // "Sensor A", "Channel 1", "Load C"
-    if (unit_class == UnitClass::None || unit_class == UnitClass::NotAUnit || (is_loose && may_be_a_word(unit)))
-      continue;
-    return {trim(name.substr(0, at)), unit};
-  }
-  return {name, {}};
-}
-
-NameAndUnit separate_unit(std::string_view name) {
-  for (const std::string_view brackets : {"[]", "()", "{}"}) {
-    const NameAndUnit found = take_brackets(name, brackets[0], brackets[1]);
-    if (!found.unit.empty()) return found;
-  }
-  return take_suffix(name);
-}
 
 /// Lower-case words: "StandardForce_2" is "standard", "force"; letters beyond ASCII count as letters.
 std::vector<std::string> words_of(std::string_view name) {
@@ -83,6 +45,76 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
+bool has(const std::vector<std::string>& words, std::string_view list) {
+  return std::ranges::any_of(words, [list](const std::string& word) { return is_in(list, word); });
+}
+
+/// Whether a text stands for a unit in brackets behind a name or behind a slash, known or not: "Force (daN)", "F/raw".
+/// "Force (left)" and "Ft/Fn" say something else, and so do more than two words.
+bool is_in_place_of_unit(std::string_view text) {
+  const UnitClass known = classify_unit(text);
+  if (known != UnitClass::NotAUnit) return known != UnitClass::None;
+  const std::vector<std::string> words = words_of(text);
+  if (words.empty() || words.size() > 2) return false;
+  const auto says_other = [](const std::string& word) {
+    const bool is_letter = word.size() == 1;
+    const bool is_of_a_name = std::ranges::any_of(
+        std::array{kRemarks, kTime, kForce, kLoad, kNominal, kNormal, kCoefficient, kFriction, kTangential, kLateral,
+                   kVelocity, kTorque, kStep, kCounter, kDisplacement, kOtherQuantity},
+        [&word](std::string_view list) { return is_in(list, word); });
+    return is_letter || is_of_a_name;
+  };
+  const auto is_digit_at = [&text](std::size_t i) {
+    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+  };
+  const bool is_scaled =  // "N*10", "x10"
+      text.find_first_of("*^") != std::string_view::npos || (words.front() == "x" && is_digit_at(1));
+  const bool is_channel = text.find_first_of("0123456789") != std::string_view::npos;  // "ai0", "SG1"
+  return is_scaled || (!is_channel && std::ranges::none_of(words, says_other));
+}
+
+NameAndUnit take_brackets(std::string_view name, char open, char close) {
+  const auto end = name.rfind(close);
+  const auto begin = end == std::string_view::npos ? end : name.rfind(open, end);
+  if (begin == std::string_view::npos) return {name, {}};
+  const std::string_view inside = trim(name.substr(begin + 1, end - begin - 1));
+  if (open == '(' && !is_in_place_of_unit(inside)) return {name, {}};
+  return {trim(name.substr(0, begin)), inside};
+}
+
+/// "F / N", "Force, N", "time, in s" (no inch-second), "Kraft in N", "force_N", "Time s".
+NameAndUnit take_suffix(std::string_view name) {
+  for (const std::string_view separator : {"/", ",", " in ", "_", " "}) {
+    const auto at = name.rfind(separator);
+    if (at == std::string_view::npos || at == 0) continue;
+    std::string_view unit = trim(name.substr(at + separator.size()));
+    if (separator == "," && unit.starts_with("in ")) unit = trim(unit.substr(3));
+    const bool has_inch = separator == " in " && has(words_of(name.substr(0, at)), kTorque);
+    if (has_inch && unit.find_first_of("bz") != std::string_view::npos) {  // "Torque in lbf", "Torque in ozf"
+      const std::string_view with_inch = name.substr(at + 1);
+      if (classify_unit(with_inch) == UnitClass::Torque) return {trim(name.substr(0, at)), with_inch};
+    }
+    const UnitClass unit_class = classify_unit(unit);
+    const bool is_loose = separator == "_" || separator == " ";  // "Sensor A", "Channel 1", "Load C"
+    if (unit_class == UnitClass::None || unit_class == UnitClass::NotAUnit || (is_loose && may_be_a_word(unit)))
+      continue;
+    return {trim(name.substr(0, at)), unit};
+  }
+  const auto slash = name.rfind('/');
+  if (slash == std::string_view::npos || slash == 0) return {name, {}};
+  const std::string_view behind = trim(name.substr(slash + 1));
+  if (behind.find(' ') != std::string_view::npos || !is_in_place_of_unit(behind)) return {name, {}};
+  return {trim(name.substr(0, slash)), behind};
+}
+
+NameAndUnit separate_unit(std::string_view name) {
+  for (const std::string_view brackets : {"[]", "()", "{}"}) {
+    const NameAndUnit found = take_brackets(name, brackets[0], brackets[1]);
+    if (!found.unit.empty()) return found;
+  }
+  return take_suffix(name);
+}
+
 /// "Force X", "Z-Force" are "fx", "fz".
 std::vector<std::string> with_direction(std::vector<std::string> words) {
   const auto letter = std::ranges::find_if(words, [](const std::string& word) {
@@ -91,10 +123,6 @@ std::vector<std::string> with_direction(std::vector<std::string> words) {
   const bool is_force = std::ranges::any_of(words, [](const auto& word) { return is_in(kForce, word); });
   if (is_force && letter != words.end()) letter->insert(letter->begin(), 'f');
   return words;
-}
-
-bool has(const std::vector<std::string>& words, std::string_view list) {
-  return std::ranges::any_of(words, [list](const std::string& word) { return is_in(list, word); });
 }
 
 struct RoleAndRank {
@@ -120,6 +148,11 @@ RoleAndRank role_of(const std::vector<std::string>& words, UnitClass unit) {
     return {Role::Time, words.size() == 1 ? 3 : 2};
   }
   if (has(words, kOtherQuantity)) return {Role::Other, 0};
+  if (has(words, kTorque)) {
+    return {unit == UnitClass::None || unit == UnitClass::Torque || unit == UnitClass::NotAUnit ? Role::Torque
+                                                                                                : Role::Other,
+            2};
+  }
   if (has(words, kVelocity) && words.front() != "f") return speed_role(words, unit);
   if (has(words, kStep) && (unit == UnitClass::None || unit == UnitClass::One)) {
     return {Role::Step, words.size() == 1 ? 2 : 1};
@@ -143,6 +176,7 @@ RoleAndRank role_of(const std::vector<std::string>& words, UnitClass unit) {
   if (has(words, kForce) && (words.front() != "f" || unit_allows_force)) return {Role::TangentialForce, 2};
   if (has(words, kLoad)) return {Role::TangentialForce, 1};
   if (unit == UnitClass::Force) return {Role::TangentialForce, 1};
+  if (unit == UnitClass::Torque) return {Role::Torque, 1};
   const bool is_other = unit == UnitClass::Other || unit == UnitClass::Speed || unit == UnitClass::Rotation;
   return {is_other || has(words, kCounter) ? Role::Other : Role::Unknown, 0};
 }
@@ -161,6 +195,8 @@ UnitClass classify_unit(std::string_view unit) {
   if (parsed->powers == kKilogram) return UnitClass::Mass;
   if (parsed->powers == kSpeed) return UnitClass::Speed;
   if (parsed->powers == kTurnsPerSecond || parsed->powers == kRadiansPerSecond) return UnitClass::Rotation;
+  const bool is_energy = lower(unit).find('j') != std::string::npos;  // "J", "mJ"
+  if (!is_energy && (parsed->powers == kJoule || parsed->powers == kKilogramMetre)) return UnitClass::Torque;
   const bool is_number = parsed->powers == kPureNumber && unit.find('/') == std::string_view::npos;
   return is_number ? UnitClass::One : UnitClass::Other;
 }

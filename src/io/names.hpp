@@ -6,10 +6,21 @@
 namespace slipfit::reading {
 
 /// What a column holds as far as its name and unit tell.
-enum class Role { Unknown, Time, TangentialForce, NormalForce, FrictionCoefficient, Displacement, Speed, Step, Other };
+enum class Role {
+  Unknown,
+  Time,
+  TangentialForce,
+  NormalForce,
+  FrictionCoefficient,
+  Displacement,
+  Speed,
+  Step,
+  Torque,
+  Other
+};
 
 /// What a unit measures, as far as columns are told apart by it.
-enum class UnitClass { None, NotAUnit, Time, Length, Force, Mass, Speed, Rotation, One, Other };
+enum class UnitClass { None, NotAUnit, Time, Length, Force, Mass, Speed, Rotation, One, Torque, Other };
 
 struct ColumnName {
   std::string text;  ///< as in the file, in UTF-8; empty where the file has none

@@ -20,7 +20,27 @@ namespace {
 constexpr std::size_t kHead = std::size_t{64} * 1024;
 constexpr std::size_t kLongHead = std::size_t{4} * 1024 * 1024;  // for a preamble that fills the first part
 constexpr std::size_t kMostShown = 40;
+constexpr std::size_t kMostUnreadRows = 3;           // cut-off first lines of a logger
 constexpr std::size_t kLongestLine = kLongHead / 4;  // of a file without rows of numbers in its head
+
+/// Errors: comma_twice, rows_before_data.
+void check_layout(const std::vector<std::string_view>& lines, const Layout& layout, const std::string& file) {
+  const auto shown = [&lines](std::size_t line) { return printable(lines[line - 1].substr(0, kMostShown)); };
+  if (is_comma_twice(lines, layout)) {
+    throw ThrownError(
+        {"comma_twice",
+         fmt::format("{}:{}: the comma parts the columns and is the decimal sign, too ('{}'), so that columns "
+                     "cannot be told from decimals; export with semicolons or tabs between the columns, or "
+                     "with decimal points",
+                     file, layout.first_data_line, shown(layout.first_data_line))});
+  }
+  const std::vector<std::size_t>& unread = layout.unread_rows;
+  if (unread.size() <= kMostUnreadRows) return;
+  throw ThrownError({"rows_before_data",
+                     fmt::format("{}:{}: {} lines before line {}, where the rows of numbers begin, look like rows but "
+                                 "hold text in a column of numbers ('{}'); correct or delete them",
+                                 file, unread.front(), unread.size(), layout.first_data_line, shown(unread.front()))});
+}
 
 Layout layout_of_head(TextSource& source, const std::string& file) {
   for (const std::size_t size : {kHead, kLongHead}) {
@@ -28,14 +48,8 @@ Layout layout_of_head(TextSource& source, const std::string& file) {
     const std::size_t last_length = lines.empty() ? 0 : lines.back().size();
     if (!source.head_is_everything() && !lines.empty()) lines.pop_back();  // may be cut
     if (auto layout = find_layout(lines)) {
-      if (!is_comma_twice(lines, *layout)) return *std::move(layout);
-      throw ThrownError(
-          {"comma_twice",
-           fmt::format("{}:{}: the comma parts the columns and is the decimal sign, too ('{}'), so that columns "
-                       "cannot be told from decimals; export with semicolons or tabs between the columns, or "
-                       "with decimal points",
-                       file, layout->first_data_line,
-                       printable(lines[layout->first_data_line - 1].substr(0, kMostShown)))});
+      check_layout(lines, *layout, file);
+      return *std::move(layout);
     }
     if (!source.head_is_everything() && last_length > kLongestLine) {
       throw ThrownError(

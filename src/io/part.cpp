@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/clock_step.hpp"
@@ -80,10 +82,33 @@ void order_by_time(Part& part) {
 }
 
 constexpr double kMostBackward = 0.02;
+constexpr double kCoarse = 2.0;      // rows on one time stamp, from which on the sampling rate is the better clock
+constexpr double kTooCoarse = 10.0;  // the same, from which on slips cannot be placed between the stamps
+
+/// Rows on one time stamp, on average.
+double rows_per_stamp(const Part& part) {
+  const auto rows = static_cast<double>(part.rows.time_s.size());
+  return rows / std::max(1.0, rows - static_cast<double>(part.repeating));
+}
+
+/// "--sample-rate 5000": rows over time from the first change of the stamp to the last one.
+std::string advised_rate(const std::vector<double>& time_s) {
+  const auto first = std::ranges::find_if(time_s, [&](double t) { return t != time_s.front(); });
+  const auto last = std::ranges::find(time_s, time_s.back());
+  if (first == time_s.end() || !(*first < *last)) return "--sample-rate";
+  return fmt::format("--sample-rate {:.4g}", static_cast<double>(last - first) / (*last - *first));
+}
 
 std::string clock_range(const Rows& rows) {
   return rows.clock ? fmt::format("the clock runs from {} to {} s", rows.clock->begin_s, rows.clock->end_s)
                     : std::string("no row has a time");
+}
+
+/// Where the sampling rate is the better clock; else empty.
+std::string advice_on_clock(const Part& part) {
+  if (rows_per_stamp(part) < kCoarse) return {};
+  return fmt::format("; the clock is coarser than the sampling: if the rows are evenly spaced, {} states a better one",
+                     advised_rate(part.rows.time_s));
 }
 
 Warnings warn_of_rows(const Part& part) {
@@ -98,7 +123,8 @@ Warnings warn_of_rows(const Part& part) {
                                     counted(part.backward, "row"), part.first_backward_line)});
   }
   if (part.repeating > 0) {
-    warnings.push_back({"repeated_time_stamps", counted(part.repeating, "repeated time stamp") + " kept"});
+    warnings.push_back(
+        {"repeated_time_stamps", counted(part.repeating, "repeated time stamp") + " kept" + advice_on_clock(part)});
   }
   return warnings;
 }
@@ -134,6 +160,18 @@ void check_extent(const Rows& rows, const LoadedFile& file) {
   throw ThrownError(
       {"part_empty", fmt::format("{}: {}{} hold {}; the file has {}: choose others with {}", file.name, rows_asked,
                                  of_where, held, counted(rows.count, "row"), where ? "--where" : "--rows")});
+}
+
+/// Error: time_too_coarse.
+void check_stamps(const Part& part, const LoadedFile& file) {
+  if (!file.choice.time || rows_per_stamp(part) < kTooCoarse) return;
+  throw ThrownError(
+      {"time_too_coarse",
+       fmt::format(
+           "{}:{}: {} rows share each time in {} on average, so that the clock is coarser than the sampling; if "
+           "the rows follow each other evenly, give the sampling rate ({})",
+           file.name, file.layout.first_data_line, std::lround(rows_per_stamp(part)),
+           describe(file.layout, file.choice.time->column), advised_rate(part.rows.time_s))});
 }
 
 /// About a part of the file, in words.
@@ -208,6 +246,7 @@ void check_part(const Part& part, const LoadedFile& file) {
          fmt::format("{}:{}: the time is {} s in all of {}; choose another column with --time-column", file.name,
                      file.layout.first_data_line, rows.time_s.front(), counted(rows.time_s.size(), "row"))});
   }
+  check_stamps(part, file);
 }
 
 Provenance describe_part(const Part& part, const LoadedFile& file) {
@@ -227,6 +266,7 @@ Provenance describe_part(const Part& part, const LoadedFile& file) {
                                              counted(part.rows.text_lines, "line"),
                                              part.rows.text_lines == 1 ? "was" : "were", part.rows.first_text_line));
   }
+  provenance.is_time_unit_assumed = file.choice.time && file.choice.time->is_unit_assumed;
   provenance.window_given = file.options.window.has_value() || file.options.rows.has_value();
   for (std::string& sentence : part_sentences(part, file)) provenance.assumed.push_back(std::move(sentence));
   return provenance;

@@ -32,8 +32,8 @@ std::optional<ForceScale> parse_force_scale(std::string_view text) {
   const std::string_view unit = trim(text.substr(slash + 1));
   const auto force = parse_quantity(text.substr(0, slash), Dimension::Force);
   const auto per = read_unit(unit);
-  if (!force || !per || !(std::abs(force.value()) > 0.0)) return std::nullopt;
-  return ForceScale{force.value() / per->factor, std::string(unit)};
+  if (!force || unit.empty() || !(std::abs(force.value()) > 0.0)) return std::nullopt;
+  return ForceScale{force.value() / (per ? per->factor : 1.0), std::string(unit)};
 }
 
 std::optional<ColumnValue> parse_column_value(std::string_view text) {

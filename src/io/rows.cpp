@@ -65,7 +65,7 @@ class RowReader {
     read_plain(line);
     cells_.clear();
     if (!is_complete()) {
-      split(line, dialect_.delimiter, cells_);
+      split(line, dialect_, cells_);
       for (const WantedColumn& wanted : wanted_) reading_.values[wanted.slot] = number_at(wanted.column);
       if (!is_complete() && !is_row()) return count_text_line(line, number);
     }
@@ -127,11 +127,11 @@ void RowReader::read_plain(const char* cell) {
     }
     const char* const begin = cell;
     if (column != wanted->column) {
-      cell = end_of_cell(cell, nullptr, dialect_.delimiter);
+      cell = end_of_cell(cell, nullptr, dialect_);
     } else {
       const Decimal number = read_decimal(cell, nullptr, point);
       const bool is_whole = number.is_number && (*number.end == dialect_.delimiter || *number.end == '\0');
-      cell = is_whole ? number.end : end_of_cell(cell, nullptr, dialect_.delimiter);
+      cell = is_whole ? number.end : end_of_cell(cell, nullptr, dialect_);
       const std::string_view text(begin, static_cast<std::size_t>(cell - begin));
       const double value = is_whole ? number.value : plain_number(text, dialect_.decimal_comma);
       for (; wanted != last && wanted->column == column; ++wanted) {

@@ -131,6 +131,12 @@ std::vector<std::size_t> those_of_coefficient(const Layout& layout, std::vector<
   return found.empty() ? candidates : found;
 }
 
+double radius_for_torque(const std::optional<double>& radius_m, const std::string& place) {
+  if (radius_m) return *radius_m;
+  throw ThrownError({"no_radius", place + " is a torque; give the distance of the contact from the axis with --radius, "
+                                          "for example --radius 12mm"});
+}
+
 Choice with_side_columns(Choice choice, const Layout& layout, const ReadOptions& options, const std::string& file) {
   choice.normal_force = choose_normal_force(layout, options, choice, file);
   choice.speed = choose_speed(layout, options, file);

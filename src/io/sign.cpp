@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/quantile.hpp"
@@ -12,58 +13,147 @@ namespace {
 // A uniform saw-tooth about zero has 27 % of its samples below 0.3 of its 90 % level, a sine 19 %, white noise 38 %;
 // strokes have what the turning takes, a few per cent.
 constexpr double kNear = 0.3;
-constexpr double kNearAsTold = 0.1;
 constexpr double kMostNear = 0.12;
 constexpr double kLeastOfEitherSign = 0.2;
 constexpr std::size_t kSmallestTurns = 2;
 constexpr std::size_t kShortestStroke = 8;  // samples: two levels of a coarse converter alternate faster
 constexpr std::size_t kLevelSamples = 8192;
 
+std::vector<double> thinned(std::span<const double> values) {
+  const std::size_t stride = std::max<std::size_t>(1, values.size() / kLevelSamples);
+  std::vector<double> kept;
+  for (std::size_t i = 0; i < values.size(); i += stride) {
+    if (std::isfinite(values[i])) kept.push_back(values[i]);
+  }
+  return kept;
+}
+
 double level_90(std::span<const double> force) {
-  const std::size_t stride = std::max<std::size_t>(1, force.size() / kLevelSamples);
-  std::vector<double> sizes;
-  for (std::size_t i = 0; i < force.size(); i += stride) sizes.push_back(std::abs(force[i]));
+  std::vector<double> sizes = thinned(force);
+  for (double& size : sizes) size = std::abs(size);
   return quantile_of(std::move(sizes), 0.9);
 }
 
-/// From the first to behind the last sample beyond the threshold on either side in turn.
-std::vector<Stroke> sides_of(std::span<const double> force, double threshold) {
+/// From the first to behind the last sample that lies farther than the threshold from the middle, on either side in
+/// turn.
+std::vector<Stroke> sides_of(std::span<const double> force, double middle, double threshold) {
   std::vector<Stroke> sides;
   for (std::size_t i = 0; i < force.size(); ++i) {
-    if (!(std::abs(force[i]) > threshold)) continue;
-    const bool is_positive = force[i] > 0.0;
+    const double off = force[i] - middle;
+    if (!(std::abs(off) > threshold)) continue;
+    const bool is_positive = off > 0.0;
     if (sides.empty() || sides.back().is_positive != is_positive) sides.push_back({{i, i}, is_positive});
     sides.back().end = i + 1;
   }
   return sides;
 }
 
-/// The force turns at the rate of the spring: from the rate through zero follows how long it takes from the highest
-/// level. A quarter more, as it bends near sliding, and a twentieth of the stroke at least.
-Stroke without_ends(Stroke stroke, std::span<const double> force, double samples_through_zero, double threshold) {
+/// Cuts off the ends in which the drive turns and takes up the play, and the force rises to its level or falls from it.
+/// The rise from zero to the median of sliding is continued to the highest level at its own mean rate, and a quarter is
+/// added, as it bends near sliding; a twentieth of the stroke goes at least.
+Stroke without_ends(Stroke stroke, std::span<const double> force) {
   constexpr double kReserve = 1.25;
   constexpr double kLeast = 0.05;
-  std::vector<double> sizes;
-  for (const double f : stroke.of(force)) sizes.push_back(std::abs(f));
-  const double rise = quantile_of(std::move(sizes), 0.95) - threshold;
-  const auto length = static_cast<double>(stroke.size());
-  const auto ends = static_cast<std::size_t>(
-      std::ceil(std::max(kReserve * rise * samples_through_zero / (2.0 * threshold), kLeast * length)));
-  const bool is_left = 3 * ends < stroke.size();
-  const SampleRange kept{stroke.begin + (is_left ? ends : 0), is_left ? stroke.end - ends : stroke.begin};
+  constexpr double kSliding = 0.5;  // of the highest level: below it the force turns, or the play is taken up
+  const auto part = stroke.of(force);
+  const double sign = stroke.is_positive ? 1.0 : -1.0;
+  std::vector<double> forces;
+  for (const double f : part) forces.push_back(sign * f);
+  const double highest = quantile_of(forces, 0.95);
+  std::vector<double> sliding = forces;
+  std::erase_if(sliding, [&](double f) { return !(f > kSliding * highest); });
+  const double level = quantile_of(std::move(sliding), 0.5);
+  const auto end_length = [&](auto first, auto last) {
+    const auto reached = std::find_if(first, last, [level](double f) { return f >= level; });
+    auto risen = reached;
+    while (risen != first && *std::prev(risen) > 0.0) --risen;  // before it lie the other side and the play
+    const double rise = reached == last ? 0.0 : level - *risen;
+    const auto samples = static_cast<double>(reached - risen);
+    const double whole = rise > 0.0 ? samples * (highest - *risen) / rise : samples;
+    return static_cast<std::size_t>(risen - first) +
+           static_cast<std::size_t>(std::ceil(std::max(kReserve * whole, kLeast * static_cast<double>(forces.size()))));
+  };
+  const std::size_t front = end_length(forces.begin(), forces.end());
+  const std::size_t back = end_length(forces.rbegin(), forces.rend());
+  const bool is_left = 3 * (front + back) < 2 * stroke.size();
+  const SampleRange kept{stroke.begin + (is_left ? front : 0), is_left ? stroke.end - back : stroke.begin};
   return {kept, stroke.is_positive};
 }
 
-std::vector<Stroke> parted(std::span<const double> force, double near) {
-  std::vector<Stroke> strokes = sides_of(force, near);
-  if (strokes.size() <= kSmallestTurns || force.size() < kShortestStroke * strokes.size()) return {};
-  std::vector<double> turns;
-  for (std::size_t i = 1; i < strokes.size(); ++i) {
-    turns.push_back(static_cast<double>(strokes[i].begin - strokes[i - 1].end + 1));
+/// Where the values turn by more than the hysteresis.
+std::vector<std::size_t> turns_of(std::span<const double> values, double hysteresis) {
+  std::vector<std::size_t> turns;
+  std::size_t extreme = 0;
+  double direction = 0.0;  // unknown until the values have moved by the hysteresis
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double moved = values[i] - values[extreme];
+    if (direction == 0.0 && std::abs(moved) > hysteresis) direction = moved > 0.0 ? 1.0 : -1.0;
+    if (direction * moved < -hysteresis) {
+      turns.push_back(extreme);
+      direction = -direction;
+      extreme = i;
+    } else if (direction * moved > 0.0) {
+      extreme = i;
+    }
   }
-  const double turn = quantile_of(std::move(turns), 0.5);
-  for (Stroke& stroke : strokes) stroke = without_ends(stroke, force, turn, near);
+  return turns;
+}
+
+/// The strokes of a displacement that turns; of each the side of the middle on which most of its forces lie. None where
+/// the force does not change its side with the displacement, as where that is the deflection of a spring.
+std::vector<Stroke> strokes_by_displacement(const Motion& motion) {
+  constexpr double kHysteresis = 0.1;  // of the range
+  constexpr double kAlternating = 0.8;
+  if (motion.displacement.empty()) return {};
+  const std::vector<double> places = thinned(motion.displacement);
+  const double range = quantile_of(places, 1.0) - quantile_of(places, 0.0);
+  std::vector<std::size_t> ends = turns_of(motion.displacement, kHysteresis * range);
+  if (ends.size() < kSmallestTurns) return {};
+  ends.insert(ends.begin(), 0);
+  ends.push_back(motion.force.size());
+  const std::vector<double> forces = thinned(motion.force);
+  const double middle = 0.5 * (quantile_of(forces, 0.05) + quantile_of(forces, 0.95));
+  std::vector<Stroke> strokes;
+  std::size_t alternating = 0;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    if (ends[i + 1] < ends[i] + kShortestStroke) continue;
+    Stroke stroke{{ends[i], ends[i + 1]}, true};
+    stroke.is_positive = quantile_of(thinned(stroke.of(motion.force)), 0.5) > middle;
+    alternating += !strokes.empty() && strokes.back().is_positive != stroke.is_positive ? 1U : 0U;
+    strokes.push_back(stroke);
+  }
+  const bool is_one_way = static_cast<double>(alternating) < kAlternating * (static_cast<double>(strokes.size()) - 1.0);
+  return is_one_way || strokes.size() <= kSmallestTurns ? std::vector<Stroke>{} : strokes;
+}
+
+std::vector<Stroke> long_enough(std::vector<Stroke> strokes, std::size_t samples) {
+  const bool are_strokes = strokes.size() > kSmallestTurns && samples >= kShortestStroke * strokes.size();
+  return are_strokes ? std::move(strokes) : std::vector<Stroke>{};
+}
+
+std::vector<Stroke> cut(std::vector<Stroke> strokes, std::span<const double> force) {
+  for (Stroke& stroke : strokes) stroke = without_ends(stroke, force);
   return strokes;
+}
+
+/// Median over the strokes of one side of how far the middle 80 % of a stroke's forces spread.
+double spread_of_side(const std::vector<Stroke>& strokes, std::span<const double> force, bool is_positive) {
+  std::vector<double> spreads;
+  for (const Stroke& stroke : strokes) {
+    if (stroke.is_positive != is_positive || stroke.size() == 0) continue;
+    const std::vector<double> forces = thinned(stroke.of(force));
+    spreads.push_back(quantile_of(forces, 0.9) - quantile_of(forces, 0.1));
+  }
+  return quantile_of(std::move(spreads), 0.5);
+}
+
+/// Forces of both directions scatter alike; those at rest do not scatter as those of sliding.
+bool are_sides_alike(const std::vector<Stroke>& strokes, std::span<const double> force) {
+  constexpr double kAlike = 5.0;
+  constexpr double kSmall = 0.1;  // of the level: both sides are smooth
+  const double positive = spread_of_side(strokes, force, true);
+  const double negative = spread_of_side(strokes, force, false);
+  return std::max(positive, negative) <= kAlike * std::min(positive, negative) + kSmall * level_90(force);
 }
 
 std::size_t count_negative(std::span<const double> force) {
@@ -72,22 +162,34 @@ std::size_t count_negative(std::span<const double> force) {
 
 }  // namespace
 
-std::vector<Stroke> find_strokes(std::span<const double> force) {
+std::vector<Stroke> find_strokes(const Motion& motion) {
+  const std::span<const double> force = motion.force;
   const auto samples = static_cast<double>(force.size());
   const auto negative = static_cast<double>(count_negative(force));
   if (std::min(negative, samples - negative) < kLeastOfEitherSign * samples) return {};
+  if (auto strokes = strokes_by_displacement(motion); !strokes.empty()) return cut(std::move(strokes), force);
   const double near = kNear * level_90(force);
   const auto near_zero = std::ranges::count_if(force, [&](double f) { return std::abs(f) < near; });
   if (static_cast<double>(near_zero) > kMostNear * samples) return {};
-  return parted(force, near);
+  auto strokes = cut(long_enough(sides_of(force, 0.0, near), force.size()), force);
+  return are_sides_alike(strokes, force) ? strokes : std::vector<Stroke>{};
 }
 
-std::vector<Stroke> take_strokes(std::span<const double> force) {
-  return parted(force, kNearAsTold * level_90(force));
+std::vector<Stroke> take_strokes(const Motion& motion) {
+  constexpr double kReversal = 0.5;  // of half the range: slips that nearly reach zero do not turn the force
+  constexpr double kOtherSign = 0.1;
+  if (auto strokes = strokes_by_displacement(motion); !strokes.empty()) return cut(std::move(strokes), motion.force);
+  const std::vector<double> forces = thinned(motion.force);
+  const double low = quantile_of(forces, 0.05);
+  const double high = quantile_of(forces, 0.95);
+  if (!(low < 0.0 && high > 0.0) || std::min(-low, high) < kOtherSign * std::max(-low, high)) return {};
+  const double middle = 0.5 * (low + high);
+  return cut(long_enough(sides_of(motion.force, middle, kReversal * (high - middle)), motion.force.size()),
+             motion.force);
 }
 
-bool is_reciprocating(std::span<const double> force) {
-  return !find_strokes(force).empty();
+bool is_reciprocating(const Motion& motion) {
+  return !find_strokes(motion).empty();
 }
 
 bool is_negative_throughout(std::span<const double> force) {

@@ -79,7 +79,7 @@ Columns read_columns(reading::OpenedFile file, const Choice& choice) {
   std::vector<std::string_view> cells;
   while (const char* const line = reader.next_line()) {
     if (reader.get_file_line() < first) continue;
-    reading::split(line, dialect.delimiter, cells);
+    reading::split(line, dialect, cells);
     const auto number = [&](std::size_t column) {
       if (column >= cells.size()) return std::pair(CellKind::Text, kHole);
       const reading::Cell cell = reading::read_cell(cells[column], dialect.decimal_comma);

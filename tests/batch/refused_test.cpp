@@ -51,8 +51,7 @@ TEST_CASE("a manifest with any fault is refused before anything is done") {
   refused(names, "holds no recordings");
   refused("", "empty");
   check_refused_batch(scene, scene.path("none.csv"), {}, "no such file");
-  check_refused_batch(scene, scene.path(""), {"--quiet"},
-                      "no speed in a column or a name of any recording in this folder");
+  check_refused_batch(scene, scene.path(""), {"--quiet"}, "no recording has a speed in a column or in its name");
   CHECK_FALSE(std::filesystem::exists(scene.path("refused")));
 }
 

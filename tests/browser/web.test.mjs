@@ -166,7 +166,7 @@ test("several files: a sweep and a comparison", { skip }, async () => {
   await openDemo(page, [path.join(SHOTS, "slow.csv"), path.join(SHOTS, "fast.csv")]);
   for (const [i, speed] of [10, 20].entries()) await page.locator("#files tbody input").nth(i).fill(String(speed));
   await page.check("input[value=sweep]");
-  assert.equal(await page.locator("#command").textContent(), 'slipfit fit slow.csv fast.csv --speed "10 mm/s" --speed "20 mm/s"');
+  assert.equal(await page.locator("#command").textContent(), 'slipfit fit --joint slow.csv fast.csv --speed "10 mm/s" --speed "20 mm/s"');
   await fit(page);
   assert.equal(await page.locator("#trouble").isHidden(), true, await page.locator("#trouble").textContent());
   assert.equal(JSON.parse(fs.readFileSync((await saved(page, "document")).file, "utf8")).recordings.length, 2);

@@ -1,4 +1,4 @@
-// Several recordings without a manifest written by hand: fit a.csv b.csv, batch FOLDER.
+// Several recordings without a manifest written by hand: fit and info of several files, batch of files and folders.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,14 +15,14 @@ using test::check_refused;
 using test::simulated_csv;
 using test::slipfit;
 
-TEST_CASE("fit of several files is the joint fit, with a speed each") {
+TEST_CASE("fit --joint of several files is the joint fit, with a speed each") {
   const test::SweepExample example;
   const std::string slow = example.folder.path("slow.csv");
   const std::string middle = example.folder.path("middle.csv");
   const std::string fast = example.folder.path("fast.csv");
   const json joint = example.fit({"--group", "pad"});
-  const test::ProgramResult result =
-      slipfit({"fit", slow, middle, fast, "--speed", "20mm/s", "--speed", "40mm/s", "--speed", "80mm/s", "--json"});
+  const test::ProgramResult result = slipfit(
+      {"fit", "--joint", slow, middle, fast, "--speed", "20mm/s", "--speed", "40mm/s", "--speed", "80mm/s", "--json"});
   REQUIRE(result.exit_code == 0);
   CHECK(result.err.empty());
   const json files = json::parse(result.out);
@@ -31,32 +31,119 @@ TEST_CASE("fit of several files is the joint fit, with a speed each") {
 
   const std::string named_slow = example.folder.file("pad_20mmps.csv", test::content_of(slow));
   const std::string named_fast = example.folder.file("pad_80mmps.csv", test::content_of(fast));
-  const test::ProgramResult named = slipfit({"fit", named_slow, named_fast, "--json"});
+  const test::ProgramResult named = slipfit({"fit", "--joint", named_slow, named_fast, "--json"});
   REQUIRE(named.exit_code == 0);
   CHECK(json::parse(named.out)["id"] == "pad");
   CHECK(json::parse(named.out)["recordings"][1]["recording"]["speed_m_per_s"].get<double>() == Approx(0.08));
 }
 
-TEST_CASE("fit of several files refuses in one line what it cannot tell, with a remedy that works") {
+TEST_CASE("fit, analyze and info of several files treat each on its own") {
+  const test::TemporaryFolder folder;
+  const std::string a = folder.file("a_20mmps.csv", simulated_csv("1"));
+  const std::string b = folder.file("b.csv", simulated_csv("2"));
+  const json one = json::parse(slipfit({"fit", b, "--speed", "20mm/s", "--json"}).out);
+  const test::ProgramResult each = slipfit({"fit", a, b, "--speed", "20mm/s", "--json"});
+  REQUIRE(each.exit_code == 0);
+  CHECK_THAT(each.err, Catch::Contains("each recording was fitted on its own") && Catch::Contains("--joint"));
+  const json documents = json::parse(each.out);
+  REQUIRE(documents.size() == 2);
+  CHECK(documents[0]["schema"] == "slipfit.fit/1");
+  CHECK(documents[0]["id"] == "a_20mmps");
+  CHECK(documents[1]["parameters"] == one["parameters"]);
+  const test::ProgramResult text = slipfit({"analyze", a, b, "--speed", "20mm/s", "--quiet"});
+  CHECK(text.exit_code == 0);
+  CHECK(text.err.empty());
+  CHECK_THAT(text.out, Catch::Contains(a + ": stick-slip") && Catch::Contains(b + ": stick-slip"));
+  const test::ProgramResult info = slipfit({"info", a, b});
+  CHECK(info.exit_code == 0);
+  CHECK_THAT(info.out, Catch::Contains(a) && Catch::Contains(b));
+  CHECK(json::parse(slipfit({"info", a, b, "--json"}).out).size() == 2);
+  CHECK(json::parse(slipfit({"info", a, "--json"}).out)["schema"] == "slipfit.info/1");
+}
+
+TEST_CASE("of several files those that cannot be read are named, and the others are fitted") {
+  const test::TemporaryFolder folder;
+  const std::string a = folder.file("a.csv", simulated_csv("1"));
+  const std::string b = folder.file("b.csv", simulated_csv("2"));
+  const test::ProgramResult some = slipfit({"fit", a, folder.path("none.csv"), b, "--speed", "20mm/s", "--json"});
+  CHECK(some.exit_code == 1);
+  CHECK_THAT(some.err, Catch::Contains("none.csv") && Catch::Contains("1 of 3 recordings failed"));
+  CHECK(json::parse(some.out).size() == 2);
+  const test::ProgramResult none = slipfit({"info", folder.path("x.csv"), folder.path("y.csv")});
+  CHECK(none.exit_code == 3);
+  check_refused({"fit", a, b, "--speed", "20mm/s", "--report", folder.path("r.html")}, "--report belongs to one");
+  check_refused({"fit", a, b, "--speed", "20mm/s", "--cycles", folder.path("c.csv")}, "--cycles belongs to one");
+}
+
+TEST_CASE("a stated speed counts before that of a name, and a message says so") {
+  const test::TemporaryFolder folder;
+  const std::string a = folder.file("a_20mmps.csv", simulated_csv("1"));
+  const std::string b = folder.file("b_20mmps.csv", simulated_csv("2"));
+  const test::ProgramResult fit = slipfit({"fit", a, b, "--speed", "10mm/s", "--json"});
+  REQUIRE(fit.exit_code == 0);
+  CHECK_THAT(fit.err, Catch::Contains("0.02 m/s by its file or name, but --speed states 0.01 m/s, which is used"));
+  CHECK(json::parse(fit.out)[0]["recording"]["speed_m_per_s"] == 0.01);
+  const std::string out = folder.path("out");
+  const test::ProgramResult batch = slipfit({"batch", a, b, "--out", out, "--speed", "10mm/s"});
+  REQUIRE(batch.exit_code == 0);
+  CHECK_THAT(batch.err, Catch::Contains("but --speed states 0.01 m/s, which is used"));
+  CHECK_THAT(test::content_of(out + "/manifest.csv"), Catch::Contains("a_20mmps,../a_20mmps.csv,0.01,"));
+  CHECK(test::lines_in(test::content_of(out + "/results.jsonl")) == 2);
+}
+
+TEST_CASE("batch takes one recording, several and folders, and a manifest alone") {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("runs"));
+  static_cast<void>(folder.file("runs/c.csv", simulated_csv("3")));
+  const std::string a = folder.file("a.csv", simulated_csv("1"));
+  const std::string one = folder.path("one");
+  REQUIRE(slipfit({"batch", a, "--out", one, "--speed", "20mm/s", "--quiet"}).exit_code == 0);
+  CHECK(test::lines_in(test::content_of(one + "/results.jsonl")) == 1);
+  const std::string two = folder.path("two");
+  REQUIRE(slipfit({"batch", a, folder.path("runs"), "--out", two, "--speed", "20mm/s", "--quiet"}).exit_code == 0);
+  CHECK(test::lines_in(test::content_of(two + "/results.jsonl")) == 2);
+  check_refused({"batch", a, one + "/manifest.csv", "--out", folder.path("o"), "--speed", "1"}, "is a manifest");
+  const std::string broken = folder.file("broken.csv", "id,fil,speed_m_per_s\na,a.csv,0.02\n");
+  check_refused({"batch", broken, "--out", folder.path("o")}, "there is no column 'file'");
+}
+
+TEST_CASE("a page is HTML, whatever the name of --report says") {
+  const test::TemporaryFolder folder;
+  const std::string a = folder.file("a.csv", simulated_csv("1"));
+  check_refused({"fit", a, "--speed", "20mm/s", "--report", folder.path("x.pdf")}, "print it into a PDF");
+  check_refused({"fit", a, "--speed", "20mm/s", "--report", folder.path("x.pdf")}, "x.html");
+  check_refused({"batch", a, "--speed", "20mm/s", "--out", folder.path("o"), "--report", folder.path("x.pdf")},
+                "x.html");
+  CHECK_FALSE(std::filesystem::exists(folder.path("o")));
+  CHECK_FALSE(std::filesystem::exists(folder.path("x.pdf")));
+}
+
+TEST_CASE("fit --joint of a manifest with several groups asks for one") {
+  const test::SweepExample example;
+  check_refused({"fit", "--joint", example.manifest}, "choose it with --group");
+}
+
+TEST_CASE("fit --joint of several files refuses in one line what it cannot do, with a remedy that works") {
   const test::SweepExample example;
   const std::string slow = example.folder.path("slow.csv");
   const std::string fast = example.folder.path("fast.csv");
-  check_refused({"fit", slow, fast}, "slipfit manifest " + slow + " --out runs.csv");
-  check_refused({"fit", slow, fast, slow, "--speed", "1", "--speed", "2"}, "--speed is given 2 times");
-  check_refused({"fit", slow, fast, "--speed", "1", "--cycles", example.folder.path("c.csv")}, "--cycles");
-  check_refused({"fit", slow, fast, "--speed", "1", "--tier", "sawtooth"}, "no tier of a joint fit");
+  check_refused({"fit", "--joint", slow, fast}, "slipfit manifest " + slow + " --out runs.csv");
+  check_refused({"fit", "--joint", slow, fast, slow, "--speed", "1", "--speed", "2"}, "--speed is given 2 times");
+  check_refused({"fit", "--joint", slow, fast, "--speed", "1", "--cycles", example.folder.path("c.csv")}, "--cycles");
+  check_refused({"fit", "--joint", slow, fast, "--speed", "1", "--tier", "sawtooth"}, "no tier of a joint fit");
   const std::string drafted = example.folder.path("runs.csv");
   CHECK(slipfit({"manifest", slow, fast, "--out", drafted, "--quiet"}).exit_code == 0);
-  const test::ProgramResult missing = slipfit({"fit", slow, example.folder.path("none.csv"), "--speed", "1"});
+  const test::ProgramResult missing =
+      slipfit({"fit", "--joint", slow, example.folder.path("none.csv"), "--speed", "1"});
   CHECK(missing.exit_code == 3);
   CHECK_THAT(missing.err, Catch::Contains("none.csv"));
   const std::string two = example.folder.file("two.csv", "time,left force,right force\n0,1,2\n1,2,1\n2,1,2\n3,2,1\n");
-  const test::ProgramResult ambiguous = slipfit({"fit", slow, two, "--speed", "1"});
+  const test::ProgramResult ambiguous = slipfit({"fit", "--joint", slow, two, "--speed", "1"});
   CHECK(ambiguous.exit_code == 3);
   CHECK_THAT(ambiguous.err, Catch::Contains("--force-column") && !Catch::Contains("manifest"));
 }
 
-TEST_CASE("batch takes a folder: its manifest is drafted, and options fill what names do not tell") {
+TEST_CASE("batch takes a folder: its manifest is drafted, and options state what the names do not") {
   const test::TemporaryFolder folder;
   const std::string runs = folder.path("runs");
   std::filesystem::create_directory(runs);
@@ -67,7 +154,7 @@ TEST_CASE("batch takes a folder: its manifest is drafted, and options fill what 
                                          "10mm/s", "--zero", "0.5 N", "--quiet"};
   REQUIRE(slipfit(command).exit_code == 0);
   const std::string manifest = test::content_of(out + "/manifest.csv");
-  CHECK_THAT(manifest, Catch::Contains("zero_force") && Catch::Contains("a_20mmps,../a_20mmps.csv,0.02,") &&
+  CHECK_THAT(manifest, Catch::Contains("zero_force") && Catch::Contains("a_20mmps,../a_20mmps.csv,0.01,") &&
                            Catch::Contains("b,../b.csv,0.01,"));
   const std::string results = test::content_of(out + "/results.jsonl");
   CHECK(test::lines_in(results) == 2);

@@ -75,7 +75,7 @@ const Case kCases[] = {
     {"Info", CellKind::Text, 0.0, ""},
     {"nano", CellKind::Text, 0.0, ""},
     {"1 2", CellKind::Text, 0.0, ""},
-    {"2024-05-01", CellKind::Text, 0.0, ""},
+    {"2024-05-01", CellKind::Date, 0.0, ""},
     {"1.2.3", CellKind::Text, 0.0, ""},
     {"+-1", CellKind::Text, 0.0, ""},
     {"1e999", CellKind::Text, 0.0, ""},
@@ -95,5 +95,6 @@ TEST_CASE("a cell is a number, a clock, missing, blank or text") {
   }
   CHECK(read_cell("0,5 N", true).value == 0.5);
   CHECK(read_cell("1.5", true).kind == CellKind::Text);
-  CHECK(read_cell("5,", true).kind == CellKind::Text);
+  CHECK(read_cell("5,", true).value == 5.0);
+  CHECK(read_cell("5,on", true).kind == CellKind::Text);
 }

@@ -4,15 +4,17 @@
 using namespace io_test;
 using slipfit::reading::read_date;
 
-TEST_CASE("dates are read as ISO and German write them, and nothing else is one") {
+TEST_CASE("dates are read as ISO, Germans and Americans write them, and nothing else is one") {
   REQUIRE(read_date("1970-01-02T00:00:01Z"));
   CHECK(read_date("1970-01-02T00:00:01Z")->midnight_s == 86400.0);
   CHECK(read_date("1970-01-02T00:00:01Z")->clock == "00:00:01");
   CHECK(read_date("2024/02/29 12:00:00.5+02:00")->clock == "12:00:00.5");
   CHECK(read_date("02.01.1970 00:00:01,5")->midnight_s == 86400.0);
   CHECK(read_date("02.01.70 00:00:01")->midnight_s == 86400.0 * (36525 + 1));
-  for (const char* const text : {"2023-02-29 12:00:00", "1.5", "1.2.3", "12-05-2024 12:00:00", "2024-05-12",
-                                 "2024-05-12x", "12.13.2024 1:00:00", "", "1--2-3 4"}) {
+  REQUIRE(read_date("2024-05-12"));
+  CHECK(read_date("2024-05-12")->clock.empty());
+  for (const char* const text : {"2023-02-29 12:00:00", "1.5", "1.2.3", "12-05-2024 12:00:00", "2024-05-12x",
+                                 "13/13/2024 1:00:00", "12.13.2024 1:00:00", "", "1--2-3 4"}) {
     CAPTURE(text);
     CHECK_FALSE(read_date(text));
   }

@@ -153,3 +153,23 @@ TEST_CASE("synthetic: every recording of the manifest is read, row for row") {
   }
   CHECK(files == 52);
 }
+
+TEST_CASE("real: strokes of a damper with play between sine-driven ends") {
+  if (is_absent()) return;
+  slipfit::ReadOptions options;
+  options.pieces = slipfit::Pieces::Strokes;
+  const auto strokes =
+      slipfit::read_pieces(kData / "real" / "damper" / "damper_whole_d1.csv", at_speed(0.066), options);
+  REQUIRE(strokes.ok());
+  CHECK(strokes.value().size() >= 10);
+}
+
+TEST_CASE("real: numbers that end with their decimal comma are read to the last row") {
+  if (is_absent()) return;
+  slipfit::ReadOptions options;
+  options.time_column = "Test Time";
+  options.force_column = "14";
+  const auto recording = read_shared("real/pin/pin_test_time.tsv", 0.25, options);
+  CHECK(recording.size() == 1801);
+  CHECK(recording.provenance().rows_without_number == 0);
+}

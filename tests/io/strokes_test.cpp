@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -6,7 +7,6 @@
 
 using namespace io_test;
 using slipfit::reading::is_negative_throughout;
-using slipfit::reading::is_reciprocating;
 
 namespace {
 
@@ -21,6 +21,10 @@ std::vector<double> sample(const Force& force) {
 
 double fraction(double x) {
   return x - std::floor(x);
+}
+
+bool is_reciprocating(const std::vector<double>& force) {
+  return slipfit::reading::is_reciprocating({force, {}});
 }
 
 /// Strokes of +1 and -1, turning linearly over `turning` of each stroke.
@@ -115,4 +119,81 @@ TEST_CASE("the zero force is subtracted before the sign is judged") {
   conditions.zero_force_N = 3.0;
   const auto recording = read_ok("time,force\n0,1.0\n1,2.0\n2,1.5\n", {}, conditions);
   CHECK(copy(recording.force()) == std::vector<double>{2.0, 1.0, 1.5});
+}
+
+namespace {
+
+/// A spring behind a play of a fifth of the amplitude, pulled to and fro by a sine of 10 mm and 1 s; the friction
+/// swings by a tenth, and the body rings while the play is taken up.
+struct RigWithPlay {
+  std::vector<double> displacement_mm;
+  std::vector<double> force_N;
+};
+
+RigWithPlay rig_with_play(double periods) {
+  constexpr double kRate_Hz = 1000.0;
+  constexpr double kAmplitude_mm = 10.0;
+  constexpr double kPlay_mm = 4.0;
+  constexpr double kSpring_N_per_mm = 50.0;
+  constexpr double kPi = 3.14159265358979;
+  RigWithPlay rig;
+  for (double t = 0.0; t < periods; t += 1.0 / kRate_Hz) {
+    const double x_mm = -kAmplitude_mm * std::cos(2.0 * kPi * t);
+    const bool is_forward = std::sin(2.0 * kPi * t) > 0.0;
+    const double turned_mm = is_forward ? -kAmplitude_mm : kAmplitude_mm;
+    const double way_mm = std::abs(x_mm - turned_mm) - kPlay_mm;
+    const double friction_N = 100.0 + 10.0 * fraction(t * 40.0);
+    const double ringing_N = way_mm < 0.0 ? 30.0 * std::sin(2.0 * kPi * 54.0 * t) : 0.0;
+    const double size_N = std::clamp(kSpring_N_per_mm * way_mm, 0.0, friction_N) + ringing_N;
+    rig.displacement_mm.push_back(x_mm);
+    rig.force_N.push_back((is_forward ? 1.0 : -1.0) * size_N);
+  }
+  return rig;
+}
+
+std::vector<slipfit::NamedRecording> strokes_in(const std::string& content) {
+  const TempFile file(content);
+  slipfit::ReadOptions options;
+  options.pieces = slipfit::Pieces::Strokes;
+  auto strokes = slipfit::read_pieces(file.path(), at_speed(0.05), options);
+  INFO((strokes ? std::string() : strokes.error().message));
+  REQUIRE(strokes.ok());
+  return std::move(strokes).value();
+}
+
+void check_strokes_with_play(const std::vector<slipfit::NamedRecording>& strokes) {
+  CHECK(strokes.size() >= 11);
+  CHECK(strokes.size() <= 12);
+  for (const slipfit::NamedRecording& stroke : strokes) {
+    CAPTURE(stroke.id);
+    const auto force = stroke.recording.force();
+    CHECK(*std::min_element(force.begin(), force.end()) > 95.0);
+    CHECK(stroke.recording.duration_s() > 0.08);
+    CHECK(stroke.recording.duration_s() < 0.4);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("strokes of a sinusoidal test with play are found, with and without a displacement") {
+  const RigWithPlay rig = rig_with_play(6.0);
+  std::string with = "time (s),friction force (N),displacement (mm)\n";
+  std::string without = "time (s),friction force (N)\n";
+  for (std::size_t i = 0; i < rig.force_N.size(); ++i) {
+    const std::string row = std::to_string(0.001 * static_cast<double>(i)) + "," + std::to_string(rig.force_N[i]);
+    with += row + "," + std::to_string(rig.displacement_mm[i]) + "\n";
+    without += row + "\n";
+  }
+  check_strokes_with_play(strokes_in(with));
+  check_strokes_with_play(strokes_in(without));
+  CHECK(read_error(with).code == "reciprocating");
+}
+
+TEST_CASE("a run between two rests whose sensor reads below zero is no reciprocating test") {
+  const auto torque = [](double t) {
+    const bool is_sliding = t > 0.3 && t < 0.7;
+    return is_sliding ? 0.8 + 0.5 * fraction(t * 100.0) : -1.0 + 0.001 * fraction(t * 977.0);
+  };
+  CHECK_FALSE(is_reciprocating(sample(torque)));
+  CHECK(read_ok(text_of(sample(torque))).size() == kSamples);
 }

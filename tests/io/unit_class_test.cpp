@@ -9,11 +9,10 @@ using slipfit::reading::read_name;
 using slipfit::reading::UnitClass;
 
 TEST_CASE("units of columns beside the force are recognised as units") {
-  for (const std::string unit :
-       {"dB",    "dB(A)",     "lux",   "mm^3",         "mm\xC2\xB3", "%RH", "% rF",   "Ohm",  "k\xCE\xA9",
-        "sccm",  "mm/s^2",    "m/s2",  "\xC2\xB0\x43", "degC",       "V",   "mV/V",   "Nmm",  "N mm",
-        "Nm/s",  "mm3/(N m)", "N/mm2", "MPa",          "mbar",       "psi", "counts", "a.u.", "\xC2\xB5m/m",
-        "mPa s", "ml/min",    "kA",    "\xC2\xB0",     "J",          "W/m"}) {
+  for (const std::string unit : {"dB",          "dB(A)",     "lux",    "mm^3", "mm\xC2\xB3",   "%RH",  "% rF",   "Ohm",
+                                 "k\xCE\xA9",   "sccm",      "mm/s^2", "m/s2", "\xC2\xB0\x43", "degC", "V",      "mV/V",
+                                 "Nm/s",        "mm3/(N m)", "N/mm2",  "MPa",  "mbar",         "psi",  "counts", "a.u.",
+                                 "\xC2\xB5m/m", "mPa s",     "ml/min", "kA",   "\xC2\xB0",     "J",    "W/m"}) {
     CAPTURE(unit);
     CHECK(classify_unit(unit) == UnitClass::Other);
   }
@@ -30,7 +29,8 @@ TEST_CASE("units of clocks, ways, forces and numbers are told apart, capitals or
       {"daN", UnitClass::Force},      {"ozf", UnitClass::Force},      {"oz", UnitClass::Mass},
       {"KG", UnitClass::Mass},        {"%", UnitClass::One},          {"-", UnitClass::One},
       {"mm/sec", UnitClass::Speed},   {"rpm", UnitClass::Rotation},   {"U/min", UnitClass::Rotation},
-      {"1/min", UnitClass::Rotation}, {"deg/s", UnitClass::Rotation}, {"NM", UnitClass::Other},
+      {"1/min", UnitClass::Rotation}, {"deg/s", UnitClass::Rotation}, {"NM", UnitClass::Torque},
+      {"Nmm", UnitClass::Torque},     {"N mm", UnitClass::Torque},    {"in-lbf", UnitClass::Torque},
       {"", UnitClass::None},          {"time", UnitClass::NotAUnit},  {"F", UnitClass::NotAUnit},
       {"left", UnitClass::NotAUnit},  {"u", UnitClass::NotAUnit},     {"Force", UnitClass::NotAUnit}};
   for (const Known& expected : known) {

@@ -121,6 +121,14 @@ def test_zero_and_load(demo):
     assert fit.parameters["static_friction_N"].status == "identified" and recording.normal_force == 10.0
 
 
+def test_a_torque_over_the_radius_is_the_force(demo):
+    torque = demo.force * 0.012
+    recording = sf.Recording(demo.time, torque, speed=0.01, force_unit="N m", radius="12mm")
+    np.testing.assert_allclose(recording.force, demo.force, rtol=1e-14)
+    error = error_of(lambda: sf.Recording(demo.time, torque, speed=0.01, force_unit="N m"))
+    assert error.code == "no_radius" and "radius" in error.remedy
+
+
 def test_strokes_are_several(demo):
     stroke = demo.force[2000:8000]
     force = np.concatenate([stroke, -stroke, stroke, -stroke])

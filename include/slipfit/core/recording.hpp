@@ -71,6 +71,7 @@ struct Provenance {
   std::size_t rows_without_number = 0;       ///< nan, inf, empty or text cells in the chosen columns: left out
   std::size_t rows_backward_in_time = 0;     ///< left out
   std::size_t rows_repeating_time = 0;       ///< kept: same time stamp as the row before
+  bool is_time_unit_assumed = false;         ///< no unit of the clock is given: seconds are assumed
   bool window_given = false;                 ///< the user chose what part to read: nothing else is left out
 };
 

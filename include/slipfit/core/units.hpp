@@ -8,14 +8,15 @@ namespace slipfit {
 
 /// The dimensions that slipfit reads; each is converted to the SI unit named here.
 enum class Dimension {
-  Time,          ///< s
-  Length,        ///< m
-  Speed,         ///< m/s
-  Force,         ///< N
-  Frequency,     ///< Hz
-  Mass,          ///< kg
-  AngularSpeed,  ///< rad/s ("rpm" included)
-  Dimensionless  ///< 1 ("%" included)
+  Time,           ///< s
+  Length,         ///< m
+  Speed,          ///< m/s
+  Force,          ///< N
+  Frequency,      ///< Hz
+  Mass,           ///< kg
+  AngularSpeed,   ///< rad/s ("rpm" included)
+  Dimensionless,  ///< 1 ("%" included)
+  Torque          ///< N m ("in lb" included)
 };
 
 /// value in SI = scale * value in the unit. (No unit that slipfit accepts has an offset.)

@@ -39,7 +39,7 @@ struct ReadOptions {
   std::optional<std::string> force_unit;
   std::optional<std::string> force_scale;  ///< "5 N/V": the force for a unit of what the column holds
   std::optional<double> sample_rate_Hz;    ///< for recordings without a clock
-  std::optional<double> radius_m;          ///< of the contact from the axis: turns a speed of rotation into one
+  std::optional<double> radius_m;          ///< of the contact from the axis: for a speed of rotation, or a torque
   // What in a container is the recording:
   std::optional<std::string> sheet;     ///< of a workbook, file of a zip archive: name or 1-based number
   std::optional<std::string> variable;  ///< of a .mat file, dataset or group of HDF5, group of TDMS
@@ -57,7 +57,8 @@ std::optional<RowRange> parse_row_range(std::string_view text);
 /// "both" or empty, "positive", "negative".
 std::optional<Pieces> parse_strokes(std::string_view text);
 
-/// What "5 N/V" says: newtons for one SI unit of the column's quantity.
+/// What "5 N/V" says: newtons for one SI unit of the column's quantity; for one of the unit itself where it is not
+/// known ("0.02 N/raw").
 struct ForceScale {
   double N_per_SI = 1.0;
   std::string unit;  ///< "V"
