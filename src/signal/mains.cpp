@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "signal/robust.hpp"
 
@@ -81,6 +82,16 @@ std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, d
   return MainsLine{frequency, 0.0, 1, half_width(resolution_Hz, frequency)};
 }
 
+/// Of a line, its width included.
+double power_near(std::span<const double> power, double bin_Hz, double resolution_Hz, double line_Hz) {
+  const double top = static_cast<double>(power.size()) - 1.0;
+  const double half = half_width(resolution_Hz, line_Hz);
+  const auto low = static_cast<std::size_t>(std::clamp(std::floor((line_Hz - half) / bin_Hz), 0.0, top));
+  const auto high = static_cast<std::size_t>(std::clamp(std::ceil((line_Hz + half) / bin_Hz), 0.0, top));
+  return std::accumulate(power.begin() + static_cast<std::ptrdiff_t>(low),
+                         power.begin() + static_cast<std::ptrdiff_t>(high) + 1, 0.0);
+}
+
 /// A local maximum of the spectrum.
 struct Peak {
   std::size_t bin = 0;
@@ -116,12 +127,15 @@ std::vector<double> find_lines(std::span<const double> power, double bin_Hz, dou
   constexpr double kFlat = 4.0;
   const double least_ratio = prominence_among(static_cast<double>(power.size()));
   const double highest_level = kFlat * median({power.begin(), power.end()});
+  const double most_power = 0.5 * std::accumulate(power.begin(), power.end(), 0.0);
   std::vector<double> lines_Hz;
   for (const auto& [bin, ratio] : highest_peaks(power, first)) {
     const double offset = peak_offset(power[bin - 1], power[bin], power[bin + 1]);
     const double frequency_Hz = (static_cast<double>(bin) + offset) * bin_Hz;
     const double level = level_beside(power, bin_Hz, resolution_Hz, frequency_Hz);
-    if (power[bin] > least_ratio * level && level < highest_level) lines_Hz.push_back(frequency_Hz);
+    const bool stands_out =
+        level < highest_level || power_near(power, bin_Hz, resolution_Hz, frequency_Hz) > most_power;
+    if (power[bin] > least_ratio * level && stands_out) lines_Hz.push_back(frequency_Hz);
   }
   return lines_Hz;
 }

@@ -54,11 +54,12 @@ bool is_in_step(const BlockFit& fit, double frequency_Hz) {
 }
 
 /// What the model misses of the cycles leaves lines at multiples of their frequency, and at half of it where large and
-/// small slips alternate: blurred by the scatter of the periods, but in some relation to the onsets. A line of unknown
-/// origin is only taken where the phases of it and of its octave are what one unrelated line in a hundred exceeds.
+/// small slips alternate. Where the periods scatter, a share R^2 of the power, R the coherence, stays in the line, and
+/// the rest spreads over as many places as there are cycles: the line exceeds it by n R^2 / (1 - R^2). A line of
+/// unknown origin is only taken where that would be no line.
 bool is_related_to_slips(const BlockFit& fit, double frequency_Hz) {
-  const double by_chance = std::sqrt(std::log(100.0) / static_cast<double>(fit.size()));
-  const double most = std::min(by_chance, thresholds::kInStep);
+  constexpr double kLine = 16.0;  // power over that beside it: four times in amplitude
+  const double most = std::sqrt(kLine / (kLine + static_cast<double>(fit.size())));
   return phase_coherence(fit, frequency_Hz) > most || phase_coherence(fit, 2.0 * frequency_Hz) > most;
 }
 
