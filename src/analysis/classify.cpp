@@ -75,18 +75,8 @@ bool spectrum_agrees(const Segmentation& segmentation, const SpectralFrequency& 
   return std::abs(*spectral.value_Hz * signal::median(slip_intervals_s(segmentation)) - 1.0) < thresholds::kSameRhythm;
 }
 
-std::optional<Classification> as_ripple(const Recording& recording, const Segmentation& segmentation) {
-  const double share = median_drop(segmentation) / std::abs(mean_of(recording.force()));
-  if (share > thresholds::kRipple || slips_are_sudden(segmentation)) return std::nullopt;
-  return Classification{
-      MotionClass::SteadySliding,
-      fmt::format("swings of {:.1f} % of the force, no sudden falls: pick-up or ripple on steady sliding",
-                  100.0 * share)};
-}
-
 /// What the trace shows by itself where no slip of the model is close to it.
-Classification without_model(const Recording& recording, const Segmentation& segmentation,
-                             const SpectralFrequency& spectral) {
+Classification without_model(const Segmentation& segmentation, const SpectralFrequency& spectral) {
   const double ratio = rise_over_fall(segmentation);
   if (slips_are_sudden(segmentation)) {
     return {MotionClass::StickSlip,
@@ -94,7 +84,6 @@ Classification without_model(const Recording& recording, const Segmentation& seg
                         "them, so that its parameters stay unknown",
                         segmentation.slips.size(), ratio)};
   }
-  if (auto ripple = as_ripple(recording, segmentation)) return *ripple;
   if (spectrum_agrees(segmentation, spectral)) {
     return {MotionClass::OscillatorySlip,
             fmt::format("swings without straight sticks: the force rises in {:.1f} times the time that it falls in",
@@ -163,12 +152,17 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   const Segmentation& segmentation = estimates.signals.segmentation;
   const SpectralFrequency& spectral = estimates.signals.spectral;
   if (auto early = by_counts(recording, segmentation, spectral)) return *early;
-  if (!estimates.fit) return without_model(recording, segmentation, spectral);
+  if (!estimates.fit) return without_model(segmentation, spectral);
   const FitDiagnostics& e = estimates.fit->diagnostics;
   std::size_t used = 0;
   for (const Cycle& cycle : estimates.fit->cycles) used += cycle.used ? 1 : 0;
   const bool sudden = slips_are_sudden(segmentation);
   if (used < 5 && !sudden && (e.onset_force_spread > 0.2 || e.relative_residual > 0.04)) {
+    if (ends_flat(recording, segmentation)) {
+      return {MotionClass::SteadySliding,
+              fmt::format("{} falls at the start, then no more", segmentation.slips.size())};
+    }
+    if (!keeps_rhythm(segmentation)) return without_model(segmentation, spectral);
     return {MotionClass::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
   }
   const bool close = e.relative_residual < thresholds::kCloseFit && e.onset_force_spread < thresholds::kWideSpread;
@@ -178,7 +172,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
     return {MotionClass::OscillatorySlip, "the swings die out: a ring-down to steady sliding", true};
   }
   const bool rests = e.restick_share >= thresholds::kRestickShare;
-  if ((!close && !loose) || (sudden && !rests)) return without_model(recording, segmentation, spectral);
+  if ((!close && !loose) || (sudden && !rests)) return without_model(segmentation, spectral);
   if (is_sine_like(segmentation) && std::abs(mains_share(segmentation) - 1.0) < thresholds::kMainsRhythm) {
     return {MotionClass::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
   }
@@ -186,7 +180,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   const std::optional<double> evidence =
       sudden ? std::nullopt : evidence_of_sticks(recording, estimates.signals, *estimates.fit, used);
   if (evidence && *evidence < thresholds::kEvidence) return as_wave(*evidence);
-  if (!close && !sudden) return without_model(recording, segmentation, spectral);
+  if (!close && !sudden) return without_model(segmentation, spectral);
   return {MotionClass::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
                       100.0 * e.relative_residual),
@@ -199,6 +193,10 @@ Classification classify(const Recording& recording, const Estimates& estimates) 
   Classification classification = classify_by_fit(recording, estimates);
   const bool keeps_time = keeps_time_like_a_clock(recording, estimates.signals.spectral);
   if (classification.motion == MotionClass::OscillatorySlip && !classification.dies_out && keeps_time) {
+    if (is_faint(estimates.signals.segmentation)) {
+      return {MotionClass::SteadySliding,
+              "swings not much larger than the noise that keep time like a clock: pick-up on steady sliding"};
+    }
     return {MotionClass::Undetermined,
             "swings without sticks that keep time like a clock: pick-up, ripple of the drive or an oscillation"};
   }

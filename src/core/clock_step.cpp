@@ -1,5 +1,9 @@
 #include "core/clock_step.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/line_sums.hpp"
 #include "core/quantile.hpp"
 
 namespace slipfit {
@@ -44,6 +48,41 @@ double median_positive_step(std::span<const double> time_s) {
   }
   const bool is_median = below <= positive / 2 && positive / 2 < below + equal;
   return is_median ? guess : median(positive_steps(time_s, 1));
+}
+
+std::optional<RoundedClock> rounded_clock(std::span<const double> time_s) {
+  constexpr std::size_t kFewest = 16;
+  constexpr double kDigits = 0.01;  // of the rounding: what binary fractions leave
+  constexpr double kOften = 0.05;  // of the steps: rarer long ones are lost samples of a clock that is even beside them
+  if (time_s.size() < kFewest) return std::nullopt;
+  const double step_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+  double shortest_s = time_s[1] - time_s[0];
+  double longest_s = shortest_s;
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    shortest_s = std::min(shortest_s, time_s[i] - time_s[i - 1]);
+    longest_s = std::max(longest_s, time_s[i] - time_s[i - 1]);
+  }
+  const double rounding_s = longest_s - shortest_s;
+  if (!(rounding_s > 0.5 * step_s) || !(step_s > 0.0)) return std::nullopt;
+  std::size_t longer = 0;
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    const double over_s = time_s[i] - time_s[i - 1] - shortest_s;
+    if (std::min(over_s, rounding_s - over_s) > kDigits * rounding_s) return std::nullopt;
+    longer += over_s > 0.5 * rounding_s ? std::size_t{1} : 0;
+  }
+  const double share = static_cast<double>(longer) / static_cast<double>(time_s.size() - 1);
+  if (std::min(share, 1.0 - share) < kOften) return std::nullopt;
+  const LineSums line = line_sums(
+      time_s.size(), [](std::size_t i) { return static_cast<double>(i); }, [&](std::size_t i) { return time_s[i]; });
+  double least_s = 0.0;
+  double most_s = 0.0;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    const double off_s = time_s[i] - line.at(static_cast<double>(i));
+    least_s = std::min(least_s, off_s);
+    most_s = std::max(most_s, off_s);
+  }
+  if (most_s - least_s > (1.0 + kDigits) * rounding_s + step_s) return std::nullopt;
+  return RoundedClock{line.at(0.0), line.slope(), rounding_s};
 }
 
 }  // namespace slipfit

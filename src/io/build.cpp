@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/clock_step.hpp"
 #include "core/quantile.hpp"
 #include "core/thrown_error.hpp"
 #include "io/levels.hpp"
@@ -43,6 +44,18 @@ void interpret_force(Interpreted& part, ForceQuantity column) {
        "a zero force in newtons cannot be subtracted from a friction coefficient without the normal force"});
 }
 
+/// Stamps in which a coarse rounding hides an even clock become that clock.
+void restore_clock(Interpreted& part) {
+  const std::optional<RoundedClock> clock = rounded_clock(part.time_s);
+  if (!clock) return;
+  for (std::size_t i = 0; i < part.time_s.size(); ++i) {
+    part.time_s[i] = clock->begin_s + clock->step_s * static_cast<double>(i);
+  }
+  part.provenance.assumed.push_back(
+      fmt::format("The times are those of an even clock rounded to {:.4g} s: one sample every {:.6g} s.",
+                  clock->rounding_s, clock->step_s));
+}
+
 Interpreted interpret(Part part, const LoadedFile& file, const Conditions& conditions) {
   check_part(part, file);
   const StatedConditions stated = state_conditions(part.rows, file.choice, file.layout, conditions, file.name);
@@ -54,7 +67,30 @@ Interpreted interpret(Part part, const LoadedFile& file, const Conditions& condi
   result.force = std::move(part.rows.force);
   result.displacement_m = std::move(part.rows.displacement_m);
   interpret_force(result, file.choice.force.quantity);
+  restore_clock(result);
   return result;
+}
+
+void turn_sign(Interpreted& part, const char* reason) {
+  for (double& force : part.force) force = -force;
+  part.provenance.assumed.emplace_back(reason);
+}
+
+/// A force that is negative throughout has the other sign, unless an unknown zero has made it negative: friction rises
+/// slowly and falls suddenly. One that is negative for the most part has it where that shows.
+void settle_sign(Interpreted& part) {
+  if (!is_mostly_negative(part.force)) return;
+  const SuddenChanges changes = sudden_changes(part.force);
+  if (!is_negative_throughout(part.force)) {
+    const bool is_turned = changes == SuddenChanges::Rises && !is_reciprocating({part.force, part.displacement_m});
+    if (is_turned) turn_sign(part, "The force is mostly negative and rises suddenly: its sign was turned.");
+  } else if (part.conditions.zero_force_N || changes != SuddenChanges::Falls) {
+    turn_sign(part, "The force is negative throughout: its sign was turned.");
+  } else {
+    part.provenance.assumed.emplace_back(
+        "The force is negative throughout, but it rises slowly and falls suddenly as friction does: its sign was kept, "
+        "and the zero of the sensor is not that of the force.");
+  }
 }
 
 ThrownError reciprocating(const std::vector<double>& time_s, const std::string& file) {
@@ -121,10 +157,7 @@ NamedRecording record(const Interpreted& part, const Stroke& stroke, std::size_t
 
 Recording build_recording(Part part, const LoadedFile& file, const Conditions& conditions) {
   Interpreted one = interpret(std::move(part), file, conditions);
-  if (is_negative_throughout(one.force)) {
-    for (double& force : one.force) force = -force;
-    one.provenance.assumed.emplace_back("The force is negative throughout: its sign was turned.");
-  }
+  settle_sign(one);
   if (is_reciprocating({one.force, one.displacement_m})) throw reciprocating(one.time_s, file.name);
   return create(std::move(one), file.name);
 }

@@ -34,4 +34,14 @@ bool is_reciprocating(const Motion& motion);
 /// The force is measured with the other sign: at least 90 % of the samples are negative.
 bool is_negative_throughout(std::span<const double> force);
 
+/// More than half of the samples are negative.
+bool is_mostly_negative(std::span<const double> force);
+
+/// Which way the force changes much faster than the other, again and again.
+enum class SuddenChanges { None, Falls, Rises };
+
+/// By the skewness of the changes over some time: far from 0 with one sign, whichever sixteenth of the trace is left
+/// out.
+SuddenChanges sudden_changes(std::span<const double> force);
+
 }  // namespace slipfit::reading

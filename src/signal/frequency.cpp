@@ -289,7 +289,10 @@ SpectralFrequency find_frequency(const Recording& recording, const Spectrum& spe
     comb = best_visible(bands, {0.0, bands.whole.highest_Hz()});
   }
   found.false_alarm_probability = comb.false_alarm_probability;
-  if (comb.false_alarm_probability <= thresholds::kSignificant) measure(recording, bands, comb, found);
+  if (comb.false_alarm_probability <= thresholds::kSignificant) {
+    const std::optional<Recording> even = signal::on_even_clock(recording, held);
+    measure(even ? *even : recording, bands, comb, found);
+  }
   found.suspicious_lines = suspicious(spectrum, mains, found, resolution_Hz, 1.0 / step_s);
   return found;
 }

@@ -22,6 +22,11 @@ struct MainsLine {
 std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz,
                                   std::span<const double> known_Hz = {});
 
+/// The frequencies, from `least_Hz` on, of the few lines that exceed their neighbours most, wherever they are: by more
+/// than noise would somewhere in the spectrum. Only where the neighbours are as low as most of the spectrum, or the
+/// line has most of the power: elsewhere it is not noise that they stand out of.
+std::vector<double> find_lines(std::span<const double> power, double bin_Hz, double resolution_Hz, double least_Hz);
+
 /// "mains 50 Hz", "3rd harmonic of 50 Hz mains".
 std::string describe(const MainsLine& line);
 
@@ -44,7 +49,7 @@ bool is_on_line(const std::vector<MainsLine>& lines, double frequency_Hz, double
 /// The force without lines of the mains, for looking at, not for fitting: cosine and sine of each under a Hann window,
 /// which keeps the cycles' own lines out.
 struct Dehummed {
-  std::vector<double> lines_Hz;  ///< empty: none stands out, the clock is uneven, or the mains is slower than 4 turns
+  std::vector<double> lines_Hz;  ///< empty: none stands out, or the mains is slower than 4 turns
   std::vector<double> force;
   double swing = 0.0;  ///< peak to peak, the largest line
 };

@@ -37,21 +37,27 @@ std::complex<double> amplitude_of(const std::vector<double>& values, const std::
 }  // namespace
 
 Dehummed without_mains(const Recording& recording) {
+  const auto time_s = recording.time_s();
+  const UniformTrace even = resample(recording, {});
+  const std::size_t length = good_length(even.force.size());
+  const std::vector<double> power = hann_power(even.force, length);
+  const double mean = mean_of(even.force);
+  const std::vector<double> window = window_of(even.force.size());
   Dehummed result;
   result.force.assign(recording.force().begin(), recording.force().end());
-  if (!recording.clock_is_even()) return result;
-  const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
-  const std::size_t length = good_length(recording.size());
-  const std::vector<double> power = hann_power(result.force, length);
-  const double mean = mean_of(result.force);
-  const std::vector<double> window = window_of(recording.size());
   for (const MainsLine& line :
-       find_mains(power, 1.0 / (static_cast<double>(length) * step_s), 1.0 / recording.duration_s())) {
-    const double step = kTurn * line.frequency_Hz * step_s;
-    const std::complex<double> amplitude = amplitude_of(result.force, window, mean, step);
+       find_mains(power, 1.0 / (static_cast<double>(length) * even.step_s), 1.0 / recording.duration_s())) {
+    const double omega = kTurn * line.frequency_Hz;
+    const std::complex<double> amplitude = amplitude_of(even.force, window, mean, omega * even.step_s);
     const double size = std::abs(amplitude);
-    for_turns(recording.size(), std::arg(amplitude), step,
-              [&](std::size_t i, double cosine, double) { result.force[i] -= size * cosine; });
+    if (recording.clock_is_even()) {
+      for_turns(recording.size(), std::arg(amplitude), omega * even.step_s,
+                [&](std::size_t i, double cosine, double) { result.force[i] -= size * cosine; });
+    } else {
+      for (std::size_t i = 0; i < time_s.size(); ++i) {
+        result.force[i] -= size * std::cos(std::arg(amplitude) + omega * (time_s[i] - time_s.front()));
+      }
+    }
     result.lines_Hz.push_back(line.frequency_Hz);
     result.swing = std::max(result.swing, 2.0 * size);
   }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <utility>
 
 #include "signal/fftw.hpp"
 #include "signal/turns.hpp"
@@ -140,6 +141,15 @@ UniformTrace resample(const Recording& recording, const std::vector<bool>& held)
     trace.force.push_back(force[left] + share * (force[right] - force[left]));
   }
   return trace;
+}
+
+std::optional<Recording> on_even_clock(const Recording& recording, const std::vector<bool>& held) {
+  if (recording.clock_is_even()) return std::nullopt;
+  UniformTrace trace = resample(recording, held);
+  std::vector<double> time_s(trace.force.size());
+  for (std::size_t i = 0; i < time_s.size(); ++i) time_s[i] = trace.step_s * static_cast<double>(i);
+  auto even = Recording::create(std::move(time_s), std::move(trace.force), recording.conditions());
+  return even ? std::optional(std::move(even).value()) : std::nullopt;
 }
 
 std::vector<double> thin(std::span<const double> values, std::size_t factor) {

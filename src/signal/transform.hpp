@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,10 @@ struct UniformTrace {
 /// Linear interpolation onto the median step (gaps are bridged by a line), where the clock is not even as it is. `held`
 /// samples are left out.
 UniformTrace resample(const Recording& recording, const std::vector<bool>& held);
+
+/// The recording as `resample` has it; empty where its clock is even. Sums that count each sample for as much time as
+/// any other need it: a lost one would be a hole of its force, which is more than its noise.
+std::optional<Recording> on_even_clock(const Recording& recording, const std::vector<bool>& held);
 
 /// Every `factor`-th value, each a mean weighted by a triangle over the `factor` values on either side (so that what is
 /// too fast for the new clock does not come back as something slow), less the first value.

@@ -114,6 +114,23 @@ TEST_CASE("a force that is negative throughout is turned, one that is often posi
   CHECK(read_ok(text_of(mostly(11))).force()[50] == Approx(-1.01));
 }
 
+TEST_CASE("where the zero is not stated, the sign of a force is that with which it falls suddenly") {
+  const auto saw_tooth = [](double sign, double offset) {
+    return sample(
+        [=](double t) { return sign * (0.7 + 0.3 * std::min(fraction(t * 40), 9 - 9 * fraction(t * 40))) + offset; });
+  };
+  const auto first = [](const std::vector<double>& force, std::optional<double> zero = {}) {
+    auto conditions = at_speed(1e-3);
+    conditions.zero_force_N = zero;
+    return read_ok(text_of(force), {}, conditions).force()[0];
+  };
+  CHECK(first(saw_tooth(1.0, 0.0)) == Approx(0.7));
+  CHECK(first(saw_tooth(-1.0, 0.0)) == Approx(0.7));   // turned
+  CHECK(first(saw_tooth(1.0, -5.0)) == Approx(-4.3));  // kept: the zero is off
+  CHECK(first(saw_tooth(1.0, -5.0), 0.0) == Approx(4.3));
+  CHECK(first(saw_tooth(-1.0, 0.78)) == Approx(-0.08));  // mostly negative, but not throughout
+}
+
 TEST_CASE("the zero force is subtracted before the sign is judged") {
   auto conditions = at_speed(1e-3);
   conditions.zero_force_N = 3.0;

@@ -13,6 +13,11 @@
 namespace slipfit::fit {
 namespace {
 
+/// Of a wave over the samples of a bin, plain and times the distance from the mean time.
+struct WaveSums {
+  std::complex<double> sum, moment;
+};
+
 constexpr std::size_t kBinsPerRamp = 4;  // lets a bent ramp or a drift show; a straight one loses nothing
 constexpr std::size_t kMinRampSamples = 2;
 constexpr double kForgottenLags = 8.0;  // e^-8: what a lagging sensor still shows of the slip before
@@ -27,6 +32,7 @@ class Cutter {
         offered_(offered_slips(recording, segmentation)),
         half_width_s_(half_width_s),
         step_s_(recording.sample_interval_s()),
+        clock_is_even_(recording.clock_is_even()),
         excluded_(excluded),
         hum_(hum) {
     const auto& bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz;
@@ -169,29 +175,50 @@ class Cutter {
     return {excluded_.data() + (from - excluded_.begin()), static_cast<std::size_t>(to - from)};
   }
 
-  /// On an even clock (hum is looked for on no other) the phase turns by the same angle from sample to sample, and the
-  /// sums over all samples have a closed form: with m = -(n - 1) / 2 ... (n - 1) / 2,
-  /// sum e^(i m a) = sin(n a / 2) / sin(a / 2), and its derivative by a is i sum m e^(i m a).
   [[nodiscard]] LineInBin reduce_line(std::size_t begin, std::size_t end, const StickBin& bin, double line_Hz) const {
-    using namespace std::complex_literals;
     const double omega = 2.0 * std::numbers::pi * line_Hz;
+    const auto [sum, moment] =
+        clock_is_even_ ? even_wave_sums(begin, end, bin, omega) : wave_sums(begin, end, bin, omega);
+    const double inertia = bin.time_spread > 0.0 ? 1.0 / bin.time_spread : 0.0;
+    return {{sum.real() / bin.count, sum.imag() / bin.count}, {moment.real() * inertia, moment.imag() * inertia}};
+  }
+
+  [[nodiscard]] std::complex<double> wave_at(double time_s, double omega) const {
+    return std::polar(1.0, omega * (time_s - hum_.begin_s));
+  }
+
+  [[nodiscard]] WaveSums wave_sums(std::size_t begin, std::size_t end, const StickBin& bin, double omega) const {
+    WaveSums sums;
+    for_each_run(begin, end, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) {
+        const std::complex<double> wave = wave_at(time_s_[i], omega);
+        sums.sum += wave;
+        sums.moment += (time_s_[i] - bin.time_s) * wave;
+      }
+    });
+    return sums;
+  }
+
+  /// On an even clock the phase turns by the same angle from sample to sample, and the sums over all samples have a
+  /// closed form: with m = -(n - 1) / 2 ... (n - 1) / 2, sum e^(i m a) = sin(n a / 2) / sin(a / 2), and its derivative
+  /// by a is i sum m e^(i m a).
+  [[nodiscard]] WaveSums even_wave_sums(std::size_t begin, std::size_t end, const StickBin& bin, double omega) const {
+    using namespace std::complex_literals;
     const double step_s = (time_s_.back() - time_s_.front()) / static_cast<double>(time_s_.size() - 1);
     const double half = 0.5 * omega * step_s;
     const auto n = static_cast<double>(end - begin);
     const double all = std::sin(n * half) / std::sin(half);
     const double derivative = 0.5 * (n * std::cos(n * half) - all * std::cos(half)) / std::sin(half);
     const double centre_s = 0.5 * (time_s_[begin] + time_s_[end - 1]);
-    const auto wave_at = [&](double t_s) { return std::polar(1.0, omega * (t_s - hum_.begin_s)); };
-    const std::complex<double> centre = wave_at(centre_s);
+    const std::complex<double> centre = wave_at(centre_s, omega);
     std::complex<double> sum = all * centre;
     std::complex<double> moment = (centre_s - bin.time_s) * sum - 1i * (step_s * derivative) * centre;
     for (const std::size_t i : excluded_in(begin, end)) {
-      const std::complex<double> wave = wave_at(time_s_[i]);
+      const std::complex<double> wave = wave_at(time_s_[i], omega);
       sum -= wave;
       moment -= (time_s_[i] - bin.time_s) * wave;
     }
-    const double inertia = bin.time_spread > 0.0 ? 1.0 / bin.time_spread : 0.0;
-    return {{sum.real() / bin.count, sum.imag() / bin.count}, {moment.real() * inertia, moment.imag() * inertia}};
+    return {sum, moment};
   }
 
   std::span<const double> time_s_;
@@ -200,6 +227,7 @@ class Cutter {
   OfferedSlips offered_;
   double half_width_s_;
   double step_s_;
+  bool clock_is_even_;
   const std::vector<std::size_t>& excluded_;
   const HumLines& hum_;
   double forgotten_s_ = 0.0;
@@ -242,35 +270,6 @@ std::vector<CycleData> cut_cycles_of(std::span<const double> force, const Record
                                      const Segmentation& segmentation, double half_width_s,
                                      const std::vector<std::size_t>& excluded, const HumLines& hum) {
   return Cutter(force, recording, segmentation, half_width_s, excluded, hum).cut();
-}
-
-CycleData thinned(CycleData cycle, double middle_s, double half_period_s, double step_s) {
-  constexpr double kSamples = 20.0;
-  constexpr double kReach = 2.0;
-  constexpr std::size_t kSmooth = 4;
-  const auto stride = static_cast<std::size_t>(std::max(1.0, half_period_s / step_s / kSamples));
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < cycle.time_s.size(); i += stride) {
-    const bool is_near = std::abs(cycle.time_s[i] - middle_s) <= kReach * half_period_s;
-    if (is_near || i % (kSmooth * stride) == 0) kept.push_back(i);
-  }
-  const auto thin = [&](auto& values) {
-    if (values.empty()) return;
-    for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
-    values.resize(kept.size());
-  };
-  thin(cycle.samples);
-  thin(cycle.time_s);
-  thin(cycle.force);
-  thin(cycle.weight);
-  return cycle;
-}
-
-std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size) {
-  if (cycles.size() <= size) return cycles;
-  std::vector<CycleData> subset;
-  for (std::size_t i = 0; i < size; ++i) subset.push_back(cycles[i * (cycles.size() - 1) / (size - 1)]);
-  return subset;
 }
 
 }  // namespace slipfit::fit

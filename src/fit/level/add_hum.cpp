@@ -7,20 +7,23 @@ namespace slipfit::fit {
 
 namespace {
 
-/// `use`: of a sample and the value of a line there, `factor` times; all lines one after the other.
+/// Calls `use` with each sample and `factor` times the value of a line there, for one line after the other.
 template <class Use>
 void for_each_wave(const Recording& recording, const BlockFit& fit, std::size_t begin, std::size_t end, double factor,
                    const Use& use) {
   if (begin >= end) return;
+  const auto time_s = recording.time_s();
+  const bool is_even = recording.clock_is_even();
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
-  const double since_s = recording.time_s()[begin] - fit.scales().time_begin_s;
   const double* pair = fit.wave_data();
   for (const double frequency_Hz : fit.level().lines_Hz) {
     const double omega = 2.0 * std::numbers::pi * frequency_Hz;
+    const std::complex<double> amplitude = factor * fit.scales().force * std::complex(pair[0], -pair[1]);
     const std::complex<double> turn = std::polar(1.0, omega * step_s);
-    std::complex<double> wave =
-        factor * fit.scales().force * std::complex(pair[0], -pair[1]) * std::polar(1.0, omega * since_s);
+    std::complex<double> wave;
     for (std::size_t i = begin; i < end; ++i) {
+      const bool is_anew = i == begin || !is_even;
+      if (is_anew) wave = amplitude * std::polar(1.0, omega * (time_s[i] - fit.scales().time_begin_s));
       use(i, wave.real());
       wave *= turn;
     }

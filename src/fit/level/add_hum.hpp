@@ -8,7 +8,7 @@
 
 namespace slipfit::fit {
 
-/// The fitted hum at the samples [begin, end) of an even clock, `factor` times, on top of the values that are not 0.
+/// Adds `factor` times the fitted interference to those of the values at the samples [begin, end) that are not 0.
 void add_hum(const Recording& recording, const BlockFit& fit, std::size_t begin, std::size_t end, double factor,
              std::vector<double>& values);
 

@@ -24,6 +24,7 @@ constexpr double kLeastShare = 1e-3;  // of the speed: changes k by no more than
 struct Stick {
   std::size_t first = 0;  ///< block of the recording
   Eigen::VectorXd time_s, force;
+  [[nodiscard]] std::size_t end() const { return first + static_cast<std::size_t>(force.size()); }
 };
 
 /// Without the straight line that fits best.
@@ -88,7 +89,7 @@ class Sticks {
     }
   }
 
-  /// Blocks stand at multiples of their length, so that all sticks lie on one grid.
+  /// Blocks begin at multiples of their length, so that all sticks lie on one grid.
   void add(std::size_t begin, std::size_t end) {
     // Beside a slip onset and end are known to about a sample, and an average still shows the slip.
     const auto margin =
@@ -97,7 +98,7 @@ class Sticks {
     const std::size_t last = end < margin ? 0 : (end - margin) / block_;
     if (last < first + kFewestBlocks) return;
     const auto count = static_cast<Eigen::Index>(last - first);
-    Stick stick{first, Eigen::VectorXd(count), Eigen::VectorXd(count)};
+    Stick stick{0, Eigen::VectorXd(count), Eigen::VectorXd(count)};
     for (Eigen::Index i = 0; i < count; ++i) {
       const std::size_t at = (first + static_cast<std::size_t>(i)) * block_;
       double sum = 0.0;
@@ -105,6 +106,10 @@ class Sticks {
       stick.time_s(i) = 0.5 * (recording_.time_s()[at] + recording_.time_s()[at + block_ - 1]);
       stick.force(i) = sum / static_cast<double>(block_);
     }
+    // By time, not by samples: where some are missing, later sticks keep their place.
+    const double place = (stick.time_s(0) - recording_.time_s().front()) / step_s_;
+    stick.first = static_cast<std::size_t>(place + 0.25);  // the middle of a block lies up to half a block behind
+    if (!sticks_.empty()) stick.first = std::max(stick.first, sticks_.back().end());
     sticks_.push_back(std::move(stick));
   }
 
@@ -112,7 +117,7 @@ class Sticks {
   /// level one exceeds r times it with exp(-r).
   [[nodiscard]] std::optional<double> peak() const {
     const std::size_t origin = sticks_.front().first;
-    std::vector<double> values(sticks_.back().first + static_cast<std::size_t>(sticks_.back().force.size()) - origin);
+    std::vector<double> values(sticks_.back().end() - origin);
     for (const Stick& stick : sticks_) {
       const Eigen::VectorXd straight = without_line(stick.time_s, stick.force);
       std::copy(straight.begin(), straight.end(), values.begin() + static_cast<std::ptrdiff_t>(stick.first - origin));
