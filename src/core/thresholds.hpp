@@ -77,11 +77,11 @@ inline constexpr double kSquare = 1.3;
 /// Scatter over mean of the intervals of what repeats. [1; convention: 1 for random times, 0.5 for noise]
 inline constexpr double kRhythm = 0.25;
 
-/// Swing over mean force, below which round swings are pick-up or ripple of the drive. [1; convention]
-inline constexpr double kRipple = 0.1;
-
 /// Relative distance of spectrum and count that show the same rhythm. [1; convention]
 inline constexpr double kSameRhythm = 0.1;
+
+/// Fewest samples of a recording that is analysed. [count; convention: two periods of eight samples]
+inline constexpr std::size_t kFewestSamples = 16;
 
 /// Fewest slips that make a kind of motion. [count; convention]
 inline constexpr std::size_t kFewestSlips = 3;

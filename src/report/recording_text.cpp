@@ -237,7 +237,9 @@ std::string to_text(const Recording& recording, const Analysis& analysis) {
   std::string text = judgement_text(recording, analysis);
   text += parameters_text(recording, analysis);
   text += frequency_text(analysis.frequency);
-  text += cycles_text(analysis.cycles, recording.conditions().quantity);
+  if (analysis.motion != MotionClass::SteadySliding) {
+    text += cycles_text(analysis.cycles, recording.conditions().quantity);
+  }
   text += transients_text(analysis.transients, recording.conditions().quantity);
   text += coefficients_text(analysis.coefficients);
   text += spacing_text(recording, analysis.derived);
