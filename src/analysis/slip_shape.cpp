@@ -81,13 +81,13 @@ double swing_share(const Segmentation& segmentation) {
   return std::sqrt(square / static_cast<double>(segmentation.slips.size())) / (highest - lowest);
 }
 
-double smoothness(const Recording& recording, const Signals& signals) {
+double smoothness(const Recording& recording, const Quality& quality, const Segmentation& segmentation) {
   std::vector<double> samples;
-  for (const DetectedSlip& slip : signals.segmentation.slips) {
+  for (const DetectedSlip& slip : segmentation.slips) {
     samples.push_back(static_cast<double>(slip.trough - slip.peak));
   }
   const auto step = static_cast<std::size_t>(std::max(1.0, std::round(signal::median(std::move(samples)) / 8.0)));
-  const std::vector<bool>& impulses = signals.quality.impulse_mask;
+  const std::vector<bool>& impulses = quality.impulse_mask;
   const double fine = second_difference(recording.force(), impulses, step);
   const double coarse = second_difference(recording.force(), impulses, 2 * step);
   return 0.5 * std::log2(coarse / fine);
@@ -95,23 +95,25 @@ double smoothness(const Recording& recording, const Signals& signals) {
 
 bool phase_wanders(const Segmentation& segmentation) {
   constexpr std::size_t kLongest = 16;  // intervals
+  constexpr std::size_t kShortest = 8;
+  constexpr double kReadingError = 0.1;  // of a sample, by interpolation
   const std::vector<DetectedSlip>& slips = segmentation.slips;
   const std::size_t lag = std::min(kLongest, slips.size() / 4);
-  if (lag < 2) return false;
+  if (lag < kShortest) return false;
   const auto distances = [&](std::size_t intervals) {
     std::vector<double> seconds;
     for (std::size_t i = intervals; i < slips.size(); ++i) {
       seconds.push_back(slips[i].middle_s - slips[i - intervals].middle_s);
     }
-    return seconds;
+    return describe(seconds);
   };
-  const MeanAndSpread one = describe(distances(1));
-  const MeanAndSpread many = describe(distances(lag));
-  // Times that are rounded to samples, each evenly within one: their distances scatter by this at any lag.
+  const MeanAndSpread one = distances(1);
+  const MeanAndSpread many = distances(lag);
   const double step_s =
       (slips.back().middle_s - slips.front().middle_s) / static_cast<double>(slips.back().peak - slips.front().peak);
   const double growth = 1.0 + thresholds::kWalkShare * (static_cast<double>(lag) - 1.0);
-  return many.sd * many.sd > growth * std::max(one.sd * one.sd, step_s * step_s / 6.0);
+  return many.sd > std::sqrt(growth) * std::max(one.sd, kReadingError * step_s) &&
+         many.sd > thresholds::kMainsWander * many.mean;
 }
 
 bool keeps_mains_phase(const Segmentation& segmentation) {

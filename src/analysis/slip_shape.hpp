@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "analysis/detect.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
 
 namespace slipfit {
 
@@ -30,7 +30,7 @@ double swing_share(const Segmentation& segmentation);
 
 /// Exponent by which the second differences of the force grow with their step, from an eighth of a fall on: 2 where a
 /// body moves smoothly, 1.5 between straight sticks, 0.5 where the level walks at random, 0 in white noise.
-double smoothness(const Recording& recording, const Signals& signals);
+double smoothness(const Recording& recording, const Quality& quality, const Segmentation& segmentation);
 
 /// The distance of falls that are several intervals apart scatters by more than that of neighbours: each interval has
 /// an error of its own, as slips have. The falls of hum keep the phase of a clock.

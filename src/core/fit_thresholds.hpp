@@ -271,10 +271,9 @@ inline constexpr double kStiffnessTrend = 0.15;
 /// The same of d ln F_k / d ln V. [1; derived: as kFrictionTrend]
 inline constexpr double kKineticTrend = 0.04;
 
-/// Least relative standard error of w_n, zeta and F_s - F_k at other speeds than the only one measured, where they are
-/// neither identified nor fixed; of k the limit of identified. [1; convention: the limit of identified for what a slip
-/// shows by its shape alone, 25 %]
-inline constexpr double kWeakShape = 0.25;
+/// Least relative standard error of a weak parameter at other speeds than the only one measured; of a conditional one
+/// it is the limit of identified. [1; convention: the largest limit of identified of the parameters that a slip shows]
+inline constexpr double kWeakError = 0.25;
 
 /// Reach of alpha V, above which linear propagation does not hold. [1; calibrated: up to it bands hold 93 % or more of
 /// the motions that the covariance allows, at 1.6 88 %, at 2.4 84 % (tests/predict)]

@@ -14,7 +14,8 @@ ModelEstimate from_single_speed(ModelEstimate model, double speed_m_per_s,
   for (std::size_t i = 0; i < statuses.size(); ++i) {
     if (statuses[i] == ParameterStatus::Identified || statuses[i] == ParameterStatus::Fixed) continue;
     const ParameterId id = kModelParameters[i];
-    const double relative = id == ParameterId::Stiffness ? info(id).identified_below : thresholds::kWeakShape;
+    const bool is_conditional = statuses[i] == ParameterStatus::Conditional;
+    const double relative = is_conditional ? info(id).identified_below : thresholds::kWeakError;
     const double scale = id == ParameterId::DampingRatio ? model.damping_ratio : 1.0;  // the others by their logarithms
     single.least_errors[i] = scale * relative;
   }

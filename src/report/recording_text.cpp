@@ -81,7 +81,8 @@ std::string regime_text(Regime regime) {
 std::string frequency_text(const FrequencyReport& frequency) {
   Table table({Align::Left, Align::Left});
   table.add({"by FFT", spectral_text(frequency.spectral)});
-  table.add({"by counting slips", frequency.counted.value ? with_error(frequency.counted) + " Hz" : "too few slips"});
+  const Estimate& counted = frequency.counted;
+  table.add({"by counting slips", counted.value ? with_error(counted) + " Hz" : "none: " + one_line(counted.note)});
   if (frequency.quoted.value) {
     const std::string interval = estimate_row(frequency.quoted, "Hz").interval;
     table.add({"result", with_error(frequency.quoted) + " Hz" +

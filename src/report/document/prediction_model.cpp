@@ -150,9 +150,10 @@ ModelEstimate with_single_speed(ModelEstimate estimate, const JsonNode& document
   std::array<ParameterStatus, 4> statuses{};
   for (std::size_t i = 0; i < statuses.size(); ++i) {
     const std::string status = document.member("parameters").member(key_of(kNeeded[i])).member("status").text();
-    statuses[i] = status == "identified" ? ParameterStatus::Identified
-                  : status == "fixed"    ? ParameterStatus::Fixed
-                                         : ParameterStatus::Weak;
+    statuses[i] = status == "identified"    ? ParameterStatus::Identified
+                  : status == "fixed"       ? ParameterStatus::Fixed
+                  : status == "conditional" ? ParameterStatus::Conditional
+                                            : ParameterStatus::Weak;
   }
   return from_single_speed(std::move(estimate), speed->positive(), statuses);
 }
