@@ -89,7 +89,8 @@ bool spectrum_agrees(const Segmentation& segmentation, const SpectralFrequency& 
 
 /// Large swings of a body that moves: smooth, or with falls quicker than rises. A level that wanders is neither.
 bool is_chatter(const Recording& recording, const Signals& signals) {
-  return swing_share(signals.segmentation) > thresholds::kLargeSwing &&
+  return signals.segmentation.slips.size() >= thresholds::kFewestSudden &&
+         swing_share(signals.segmentation) > thresholds::kLargeSwing &&
          (smoothness(recording, signals.quality, signals.segmentation) > thresholds::kSmoothMotion ||
           proven_rise_over_fall(signals.segmentation) > thresholds::kSquare);
 }
