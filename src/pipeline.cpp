@@ -1,6 +1,10 @@
 #include "slipfit/pipeline.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -14,6 +18,7 @@
 #include "analysis/ring_down.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/sweep_checks.hpp"
+#include "core/thresholds.hpp"
 #include "core/unknown.hpp"
 #include "fit/cycle/cycle_table.hpp"
 #include "fit/selection/qualify.hpp"
@@ -101,6 +106,16 @@ Analysis conclude(const Detected& detected, Estimates estimates, Classification 
   return analysis;
 }
 
+/// Steady sliding has no slips: its falls, which comparisons of several speeds look at, are not reported as such.
+Analysis without_falls(Analysis analysis) {
+  if (analysis.motion != MotionClass::SteadySliding) return analysis;
+  const Estimate none = unknown("steady sliding has no slips");
+  analysis.cycles = CycleStatistics{};
+  analysis.cycles.stick_stiffness = analysis.frequency.counted = none;
+  for (Cycle& cycle : analysis.cycle_table) cycle.used = false;
+  return analysis;
+}
+
 void append(Warnings& warnings, const Warnings& more) {
   warnings.insert(warnings.end(), more.begin(), more.end());
 }
@@ -125,11 +140,32 @@ Member analyze_member(const Recording& recording, const FitOptions& options) {
 
 }  // namespace
 
+std::optional<Error> missing_data(const Recording& recording) {
+  const std::span<const double> force = recording.force();
+  const std::string& file = recording.provenance().file;
+  const std::string place = file.empty() ? "the recording" : file;
+  if (force.size() < thresholds::kFewestSamples) {
+    return Error{"too_few_samples", fmt::format("{}: {} samples show no motion, at least {} are needed; record longer",
+                                                place, force.size(), thresholds::kFewestSamples)};
+  }
+  if (std::ranges::adjacent_find(force, std::not_equal_to<>()) != force.end()) return std::nullopt;
+  return Error{"force_constant",
+               fmt::format("{}: the force is {:.6g} in all {} samples: no data; choose another column with "
+                           "--force-column, or check the sensor",
+                           place, force.front(), force.size())};
+}
+
+Result<Recording> with_data(Result<Recording> recording) {
+  if (!recording) return recording;
+  if (std::optional<Error> error = missing_data(recording.value())) return *std::move(error);
+  return recording;
+}
+
 Analysis analyze(const Recording& recording) {
   const Detected detected = detect(recording);
   Estimates estimates = estimate_frequency(detected);
   Classification classification = classify_by_shape(detected.recording(), estimates.signals);
-  return conclude(detected, std::move(estimates), std::move(classification));
+  return without_falls(conclude(detected, std::move(estimates), std::move(classification)));
 }
 
 Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) {
@@ -138,7 +174,7 @@ Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) 
   informed.ring_down = ring_down_after_release(detected);
   Estimates estimates = estimate(detected, informed);
   Classification classification = classify(detected.recording(), estimates);
-  return conclude(detected, std::move(estimates), std::move(classification));
+  return without_falls(conclude(detected, std::move(estimates), std::move(classification)));
 }
 
 SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options) {
@@ -168,6 +204,7 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   sweep.fit_reason = describe_roles(sweep.roles);
   sweep.repeats = compare_repeats(entries, sweep.recordings);
   sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
+  sweep.recordings = without_passing_patterns(std::move(sweep.recordings), sweep.warnings);
   append(sweep.warnings, check_level_repeats(entries, sweep.recordings));
   append(sweep.warnings, check_duplicates(entries));
   append(sweep.warnings, check_resolution(entries, sweep.recordings, sweep.roles));
@@ -175,6 +212,7 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
     append(sweep.warnings, check_agreement(entries, sweep.recordings, *sweep.fit));
     append(sweep.warnings, sweep.fit->result.warnings);
   }
+  for (Analysis& analysis : sweep.recordings) analysis = without_falls(std::move(analysis));
   return sweep;
 }
 

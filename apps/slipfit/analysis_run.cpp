@@ -13,6 +13,7 @@
 #include "several_documents.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/io/recording_reader.hpp"
+#include "slipfit/pipeline.hpp"
 #include "slipfit/report/csv.hpp"
 #include "slipfit/report/html.hpp"
 #include "slipfit/report/json.hpp"
@@ -43,7 +44,8 @@ slipfit::Recording read(const AnalysisArguments& arguments) {
     entry.conditions.worn_track =
         std::make_shared<const slipfit::WornTrack>(slipfit::worn_track_of(measured.profile, measured.surface));
   }
-  auto recording = slipfit::read_recording(only_file(arguments.recording), entry.conditions, entry.options);
+  auto recording =
+      slipfit::with_data(slipfit::read_recording(only_file(arguments.recording), entry.conditions, entry.options));
   if (!recording) throw Failure(exit_code_for(recording.error().code), recording.error());
   return std::move(recording).value();
 }

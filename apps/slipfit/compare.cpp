@@ -117,7 +117,7 @@ std::string name_of(const SideArguments& arguments) {
 }
 
 slipfit::ComparedRecording analysed(const ManifestEntry& entry) {
-  auto recording = slipfit::read_recording(entry.file, entry.conditions, entry.options);
+  auto recording = slipfit::with_data(slipfit::read_recording(entry.file, entry.conditions, entry.options));
   if (!recording) {
     const slipfit::Error error = entry.line > 0 ? slipfit::in_words_of_manifest(recording.error()) : recording.error();
     throw Failure(ExitCode::BadRecording, error);

@@ -41,6 +41,7 @@ struct CycleStatistics {
   std::optional<double> peak_force, peak_force_sd, trough_force, force_drop, force_drop_sd;
   std::optional<double> drop_cv, period_cv;  ///< standard deviation over mean
   std::optional<Regularity> regularity;      ///< empty below 3 slips
+  std::optional<double> fall_time_s;         ///< median duration of the detected falls
   Estimate stick_stiffness;  ///< N/m: slope of the rises over the speed, whatever model fits; of newtons
 };
 

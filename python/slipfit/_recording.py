@@ -42,7 +42,7 @@ class Recording:
     sample_rate, time_unit, force_unit, window, rows
         As for `read_recording`.
     speed_uncertainty, radius, mass, mass_uncertainty, force_view, sensor_bandwidth, sensor_average, sensor_resonance,
-    drive_period, measured_spacing, measured_spacing_uncertainty, surface, group, sample, material, operator
+    drive_period, drive_path, measured_spacing, measured_spacing_uncertainty, surface, group, sample, material, operator
         As for `read_recording`.
 
     Raises
@@ -84,6 +84,7 @@ class Recording:
         sensor_average: Optional[Quantity] = None,
         sensor_resonance: Optional[Quantity] = None,
         drive_period: Optional[Quantity] = None,
+        drive_path: Optional[Quantity] = None,
         measured_spacing: Optional[Quantity] = None,
         measured_spacing_uncertainty: Optional[Quantity] = None,
         surface: Union[str, "os.PathLike[str]", None] = None,
@@ -226,6 +227,7 @@ def read_recording(
     sensor_average: Optional[Quantity] = None,
     sensor_resonance: Optional[Quantity] = None,
     drive_period: Optional[Quantity] = None,
+    drive_path: Optional[Quantity] = None,
     measured_spacing: Optional[Quantity] = None,
     measured_spacing_uncertainty: Optional[Quantity] = None,
     surface: Union[str, "os.PathLike[str]", None] = None,
@@ -288,6 +290,8 @@ def read_recording(
         Time over which each sample is averaged (s); 0 for an instant.
     drive_period : float or str
         Period of what may set the rhythm (s): a motor's step.
+    drive_path : float or str
+        Path over which the drive's force repeats (m): a tooth, a turn.
     measured_spacing, measured_spacing_uncertainty : float or str
         Of the pattern on the worn surface (m), to hold the prediction against.
     surface : path

@@ -26,7 +26,12 @@ Result<FitOptions> options_from(const std::string& tier, const std::vector<std::
   return known;
 }
 
+void check_data(const Recording& recording) {
+  if (const std::optional<Error> error = missing_data(recording)) raise(*error);
+}
+
 AnalysedRecording analyse(const SharedRecording& recording) {
+  check_data(*recording);
   return without_gil([&] {
     return AnalysedRecording{recording, std::make_shared<const Analysis>(analyze(*recording))};
   });
@@ -35,6 +40,7 @@ AnalysedRecording analyse(const SharedRecording& recording) {
 AnalysedRecording fit(const SharedRecording& recording, const std::string& tier,
                       const std::vector<std::string>& fixed) {
   const FitOptions options = value_or_raise(options_from(tier, fixed, FitKind::Single));
+  check_data(*recording);
   return without_gil([&] {
     return AnalysedRecording{recording, std::make_shared<const Analysis>(analyze_and_fit(*recording, options))};
   });

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "slipfit/model/motion.hpp"
+#include "slipfit/predict/single_speed.hpp"
 
 namespace slipfit {
 namespace {
@@ -67,9 +68,9 @@ Background gather_background(const Recording& recording, const Analysis& analysi
   }
   if (analysis.fit) background.reflection = reflection_of(*analysis.fit);
   if (analysis.fit && analysis.fit->estimate) {
-    const PredictionModel model{*analysis.fit->estimate, true, std::nullopt};
-    const std::vector<double> speeds =
-        speeds_around(recording.conditions().speed_m_per_s, analysis.derived.critical_speed_m_per_s);
+    const double speed_m_per_s = recording.conditions().speed_m_per_s;
+    const PredictionModel model{from_single_speed(*analysis.fit, speed_m_per_s), true, std::nullopt};
+    const std::vector<double> speeds = speeds_around(speed_m_per_s, analysis.derived.critical_speed_m_per_s);
     background.prediction = predict_at(model, speeds);
   }
   return background;

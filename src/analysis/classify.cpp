@@ -7,6 +7,7 @@
 
 #include "analysis/harmonic_null.hpp"
 #include "analysis/slip_shape.hpp"
+#include "core/slip_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "signal/robust.hpp"
 
@@ -15,6 +16,17 @@ namespace {
 
 bool no_repetition(const SpectralFrequency& spectral) {
   return !spectral.value_Hz;
+}
+
+/// Falls that come once in the stated path of the drive, or a whole number of times.
+bool follows_drive_path(const Conditions& conditions, const Segmentation& segmentation) {
+  if (!conditions.drive_path_m || segmentation.slips.size() < thresholds::kFewestSlips) return false;
+  const MeanAndSpread interval = describe(slip_intervals_s(segmentation));
+  const double paths = interval.mean * conditions.speed_m_per_s / *conditions.drive_path_m;
+  if (paths * thresholds::kMostDriveSteps < 1.0) return false;
+  const double nearest = paths < 1.0 ? 1.0 / std::round(1.0 / paths) : 1.0;
+  const double error = interval.sd / interval.mean / std::sqrt(interval.count);
+  return std::abs(paths / nearest - 1.0) < 2.0 * error + thresholds::kSamePath;
 }
 
 /// The periods of what repeats scatter by less than those of a motion with friction do.
@@ -75,20 +87,47 @@ bool spectrum_agrees(const Segmentation& segmentation, const SpectralFrequency& 
   return std::abs(*spectral.value_Hz * signal::median(slip_intervals_s(segmentation)) - 1.0) < thresholds::kSameRhythm;
 }
 
+/// Large swings of a body that moves: smooth, or with falls quicker than rises. A level that wanders is neither.
+bool is_chatter(const Recording& recording, const Signals& signals) {
+  return signals.segmentation.slips.size() >= thresholds::kFewestSudden &&
+         swing_share(signals.segmentation) > thresholds::kLargeSwing &&
+         (smoothness(recording, signals.quality, signals.segmentation) > thresholds::kSmoothMotion ||
+          proven_rise_over_fall(signals.segmentation) > thresholds::kSquare);
+}
+
+/// Swings that are no wander of a level, and no motion that repeats.
+Classification irregular(const Segmentation& segmentation) {
+  const MeanAndSpread interval = describe(slip_intervals_s(segmentation));
+  return {MotionClass::Undetermined,
+          fmt::format("irregular slip or chatter: {} falls, {:.3g} a second, of {:.0f} % of the range of the force; "
+                      "their intervals scatter by {:.0f} %",
+                      segmentation.slips.size(), 1.0 / interval.mean, 100.0 * swing_share(segmentation),
+                      100.0 * interval.sd / interval.mean)};
+}
+
 /// What the trace shows by itself where no slip of the model is close to it.
-Classification without_model(const Segmentation& segmentation, const SpectralFrequency& spectral) {
+Classification without_model(const Recording& recording, const Signals& signals) {
+  const Segmentation& segmentation = signals.segmentation;
   const double ratio = rise_over_fall(segmentation);
-  if (slips_are_sudden(segmentation)) {
+  const bool sudden = slips_are_sudden(segmentation);
+  if (sudden && proven_rise_over_fall(segmentation) > thresholds::kSudden) {
     return {MotionClass::StickSlip,
             fmt::format("{} sudden falls after rises that take {:.1f} times as long; no slip of the model is close to "
                         "them, so that its parameters stay unknown",
                         segmentation.slips.size(), ratio)};
   }
-  if (spectrum_agrees(segmentation, spectral)) {
+  if (sudden) {
+    return {MotionClass::Undetermined,
+            fmt::format("{} falls after rises that take {:.1f} times as long, and no slip of the model is close to "
+                        "them: too few falls to tell slips from ripple; record longer",
+                        segmentation.slips.size(), ratio)};
+  }
+  if (spectrum_agrees(segmentation, signals.spectral)) {
     return {MotionClass::OscillatorySlip,
             fmt::format("swings without straight sticks: the force rises in {:.1f} times the time that it falls in",
                         ratio)};
   }
+  if (!keeps_rhythm(segmentation) && is_chatter(recording, signals)) return irregular(segmentation);
   if (!keeps_rhythm(segmentation)) {
     return {MotionClass::SteadySliding,
             "the force wanders: its falls are no more sudden than its rises and keep no rhythm"};
@@ -152,7 +191,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   const Segmentation& segmentation = estimates.signals.segmentation;
   const SpectralFrequency& spectral = estimates.signals.spectral;
   if (auto early = by_counts(recording, segmentation, spectral)) return *early;
-  if (!estimates.fit) return without_model(segmentation, spectral);
+  if (!estimates.fit) return without_model(recording, estimates.signals);
   const FitDiagnostics& e = estimates.fit->diagnostics;
   std::size_t used = 0;
   for (const Cycle& cycle : estimates.fit->cycles) used += cycle.used ? 1 : 0;
@@ -162,7 +201,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
       return {MotionClass::SteadySliding,
               fmt::format("{} falls at the start, then no more", segmentation.slips.size())};
     }
-    if (!keeps_rhythm(segmentation)) return without_model(segmentation, spectral);
+    if (!keeps_rhythm(segmentation)) return without_model(recording, estimates.signals);
     return {MotionClass::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
   }
   const bool close = e.relative_residual < thresholds::kCloseFit && e.onset_force_spread < thresholds::kWideSpread;
@@ -172,15 +211,16 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
     return {MotionClass::OscillatorySlip, "the swings die out: a ring-down to steady sliding", true};
   }
   const bool rests = e.restick_share >= thresholds::kRestickShare;
-  if ((!close && !loose) || (sudden && !rests)) return without_model(segmentation, spectral);
-  if (is_sine_like(segmentation) && std::abs(mains_share(segmentation) - 1.0) < thresholds::kMainsRhythm) {
-    return {MotionClass::Undetermined, "nearly sinusoidal swings at the rhythm of the mains: they may be its hum"};
+  if ((!close && !loose) || (sudden && !rests)) return without_model(recording, estimates.signals);
+  if (is_sine_like(segmentation) && keeps_mains_phase(segmentation)) {
+    return {MotionClass::Undetermined,
+            "nearly sinusoidal swings at the frequency of the mains that keep its phase: they may be its hum"};
   }
   if (auto round = as_round_swings(segmentation, e)) return *round;
   const std::optional<double> evidence =
       sudden ? std::nullopt : evidence_of_sticks(recording, estimates.signals, *estimates.fit, used);
   if (evidence && *evidence < thresholds::kEvidence) return as_wave(*evidence);
-  if (!close && !sudden) return without_model(segmentation, spectral);
+  if (!close && !sudden) return without_model(recording, estimates.signals);
   return {MotionClass::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
                       100.0 * e.relative_residual),
@@ -191,6 +231,11 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
 
 Classification classify(const Recording& recording, const Estimates& estimates) {
   Classification classification = classify_by_fit(recording, estimates);
+  if (!classification.model_fits && follows_drive_path(recording.conditions(), estimates.signals.segmentation)) {
+    return {MotionClass::SteadySliding,
+            fmt::format("the force repeats every {:.4g} mm, the stated path of the drive: ripple, not slips",
+                        1e3 * *recording.conditions().drive_path_m)};
+  }
   const bool keeps_time = keeps_time_like_a_clock(recording, estimates.signals.spectral);
   if (classification.motion == MotionClass::OscillatorySlip && !classification.dies_out && keeps_time) {
     if (is_faint(estimates.signals.segmentation)) {
@@ -207,14 +252,20 @@ Classification classify_by_shape(const Recording& recording, const Signals& sign
   const Segmentation& segmentation = signals.segmentation;
   const SpectralFrequency& spectral = signals.spectral;
   if (auto early = by_counts(recording, segmentation, spectral)) return *early;
-  if (slips_are_sudden(segmentation)) {
+  const double ratio = rise_over_fall(segmentation);
+  const double proven = proven_rise_over_fall(segmentation);
+  if (slips_are_sudden(segmentation) && proven > thresholds::kSudden) {
     return {MotionClass::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   }
   if (is_faint(segmentation)) {
     return {MotionClass::Undetermined, "the falls are not much larger than the noise: only a fit can tell"};
   }
-  if (!is_sine_like(segmentation) && rise_over_fall(segmentation) > thresholds::kSquare) {
+  const bool are_few = segmentation.slips.size() < thresholds::kFewFalls;
+  if (!is_sine_like(segmentation) && ratio > thresholds::kSquare && !are_few) {
     return {MotionClass::StickSlip, "the force falls much faster than it rises (no model fitted)"};
+  }
+  if (ratio > thresholds::kSquare && are_few) {
+    return {MotionClass::Undetermined, "too few falls to tell slips from ripple without a fit"};
   }
   return {MotionClass::Undetermined, "the force falls about as slowly as it rises: only a fit can tell"};
 }

@@ -79,12 +79,15 @@ CycleStatistics summarise_cycles(const Recording& recording, const Segmentation&
   std::vector<double> peaks;
   std::vector<double> troughs;
   std::vector<double> drops;
+  std::vector<double> falls_s;
   const std::size_t first = segmentation.slips.size() > 3 ? 1 : 0;  // the first slip starts from rest
   for (std::size_t i = first; i < segmentation.slips.size(); ++i) {
     peaks.push_back(segmentation.slips[i].peak_force);
     troughs.push_back(segmentation.slips[i].trough_force);
     drops.push_back(segmentation.slips[i].drop());
+    falls_s.push_back(segmentation.slips[i].fall_s / 0.6);  // measured from 80 % to 20 %
   }
+  result.fall_time_s = signal::median(std::move(falls_s));
   const MeanAndSpread peak = describe(peaks);
   const MeanAndSpread drop = describe(drops);
   result.peak_force = peak.mean;

@@ -32,8 +32,10 @@ TimedFrequency frequency_of(const Recording& recording, const Signals& signals) 
   const Spectrum spectrum = compute_spectrum(recording, impulses);
   // A count that scatters may be of noise or hum: it would draw the spectrum to its own multiple.
   const Estimate counted = count_frequency(recording, signals.segmentation);
-  const bool sure = slips_stand_out(signals.segmentation) && counted.standard_error &&
-                    *counted.standard_error < thresholds::kSureCount * *counted.value;
+  const Segmentation& slips = signals.segmentation;
+  const bool are_slips = slips_stand_out(slips) || (!is_faint(slips) && phase_wanders(slips) && keeps_rhythm(slips));
+  const bool sure =
+      are_slips && counted.standard_error && *counted.standard_error < thresholds::kSureCount * *counted.value;
   const std::optional<double> hint_Hz = sure ? counted.value : std::nullopt;
   SpectralFrequency spectral = find_frequency(recording, spectrum, hint_Hz, impulses);
   return {std::move(spectral), stopwatch.elapsed_s()};
@@ -211,7 +213,7 @@ bool may_be_hum(const Signals& signals) {
     if (line.swing >= kHarmlessHum * drop) return true;
   }
   const double share = mains_share(signals.segmentation);
-  return share > 0.9 && share < 1.1;
+  return share > 0.9 && share < 1.1 && !phase_wanders(signals.segmentation);
 }
 
 }  // namespace slipfit

@@ -161,10 +161,22 @@ bool is_of_slips(double line_Hz, const Estimate& slips) {
   return std::abs(line_Hz / (order * *slips.value) - 1.0) < std::max(thresholds::kAlike, scatter);
 }
 
+/// Whether a line is a multiple of the slips' frequency as closely as that is known; far up every line would be.
+bool is_multiple_of(double line_Hz, const Estimate& slips, double resolution_Hz) {
+  constexpr double kDistinct = 0.1;  // of the distance between multiples
+  if (!slips.value || !slips.standard_error) return false;
+  const double order = std::max(1.0, std::round(line_Hz / *slips.value));
+  const double known_Hz = std::max(resolution_Hz, 3.0 * order * *slips.standard_error);
+  return std::abs(line_Hz - order * *slips.value) < std::min(known_Hz, kDistinct * *slips.value);
+}
+
 /// What repeats beside the slips.
 std::vector<SuspiciousLine> lines_beside(const Recording& recording, const SpectralFrequency& spectral,
                                          const Estimate& quoted) {
   std::vector<SuspiciousLine> lines = spectral.suspicious_lines;
+  std::erase_if(lines, [&](const SuspiciousLine& line) {
+    return is_multiple_of(line.frequency_Hz, quoted, 1.0 / recording.duration_s());
+  });
   if (spectral.value_Hz && !is_of_slips(*spectral.value_Hz, quoted)) {
     const char* const reason = quoted.value
                                    ? "not the slips: pick-up, ripple of the drive, ringing or a wave of the level"
@@ -232,16 +244,19 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
   const bool near = difference && *difference < thresholds::kAnotherThing;
   const bool contradict = !agree && (noise_hides_slips(signals) || (near && may_be_hum(signals)) ||
                                      (!difference && hum_makes_falls(signals)));
-  const bool hidden =
-      classification.motion == MotionClass::OscillatorySlip && !agree;  // the count may be of noise or of hum
+  // The count may be of noise or of hum.
+  const bool hidden = classification.motion == MotionClass::OscillatorySlip && !agree &&
+                      !(keeps_rhythm(signals.segmentation) && !is_faint(signals.segmentation) && !may_be_hum(signals));
   if (classification.dies_out && !agree) {
     report.quoted.note = "the swings die out, and spectrum and count do not agree on them";
   } else if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || hidden)) {
     report.method = FrequencyMethod::HarmonicLeastSquares;
     report.quoted = symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
+    if (!agree && counted.value) report.quoted.note = fmt::format("{:.4g} falls a second were counted", *counted.value);
   } else if (counted.value && !contradict) {
     report.method = FrequencyMethod::SlipCounting;
     report.quoted = near && !agree ? reaching(counted, spectral) : counted;
+    if (difference && !near) report.quoted.note = fmt::format("the spectrum shows {:.4g} Hz", *spectral.value_Hz);
   } else {
     report.quoted.note =
         "hum or noise as large as the slips may have made or hidden some, and the spectrum does not agree";

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/quantile.hpp"
+#include "core/slip_thresholds.hpp"
+#include "core/student.hpp"
 #include "core/thresholds.hpp"
 #include "signal/robust.hpp"
 
@@ -17,6 +19,19 @@ std::vector<double> rises_over_falls(const Segmentation& segmentation) {
     if (slip.rise_s > 0.0 && slip.fall_s > 0.0) ratios.push_back(slip.rise_s / slip.fall_s);
   }
   return ratios;
+}
+
+/// Mean square of the second differences at this step; samples that are masked count for nothing.
+double second_difference(std::span<const double> force, const std::vector<bool>& impulses, std::size_t step) {
+  double sum = 0.0;
+  double count = 0.0;
+  const auto is_masked = [&](std::size_t i) { return !impulses.empty() && impulses[i]; };
+  for (std::size_t i = step; i + step < force.size(); ++i) {
+    if (is_masked(i - step) || is_masked(i) || is_masked(i + step)) continue;
+    sum += std::pow(force[i - step] - 2.0 * force[i] + force[i + step], 2);
+    count += 1.0;
+  }
+  return sum / count;
 }
 
 }  // namespace
@@ -44,6 +59,65 @@ double mains_share(const Segmentation& segmentation) {
 
 double rise_over_fall(const Segmentation& segmentation) {
   return signal::median(rises_over_falls(segmentation));
+}
+
+double proven_rise_over_fall(const Segmentation& segmentation) {
+  std::vector<double> logs = rises_over_falls(segmentation);
+  if (logs.empty()) return 0.0;
+  for (double& ratio : logs) ratio = std::log(ratio);
+  const double scatter = std::max(thresholds::kRatioScatter, describe(logs).sd);
+  return rise_over_fall(segmentation) *
+         std::exp(-kNormalQuantile * scatter / std::sqrt(static_cast<double>(logs.size())));
+}
+
+double swing_share(const Segmentation& segmentation) {
+  if (segmentation.slips.empty()) return 0.0;
+  const auto by_peak = [](const DetectedSlip& a, const DetectedSlip& b) { return a.peak_force < b.peak_force; };
+  const auto by_trough = [](const DetectedSlip& a, const DetectedSlip& b) { return a.trough_force < b.trough_force; };
+  const double highest = std::ranges::max_element(segmentation.slips, by_peak)->peak_force;
+  const double lowest = std::ranges::min_element(segmentation.slips, by_trough)->trough_force;
+  double square = 0.0;
+  for (const DetectedSlip& slip : segmentation.slips) square += slip.drop() * slip.drop();
+  return std::sqrt(square / static_cast<double>(segmentation.slips.size())) / (highest - lowest);
+}
+
+double smoothness(const Recording& recording, const Quality& quality, const Segmentation& segmentation) {
+  std::vector<double> samples;
+  for (const DetectedSlip& slip : segmentation.slips) {
+    samples.push_back(static_cast<double>(slip.trough - slip.peak));
+  }
+  const auto step = static_cast<std::size_t>(std::max(1.0, std::round(signal::median(std::move(samples)) / 8.0)));
+  const std::vector<bool>& impulses = quality.impulse_mask;
+  const double fine = second_difference(recording.force(), impulses, step);
+  const double coarse = second_difference(recording.force(), impulses, 2 * step);
+  return 0.5 * std::log2(coarse / fine);
+}
+
+bool phase_wanders(const Segmentation& segmentation) {
+  constexpr std::size_t kLongest = 16;  // intervals
+  constexpr std::size_t kShortest = 8;
+  constexpr double kReadingError = 0.1;  // of a sample, by interpolation
+  const std::vector<DetectedSlip>& slips = segmentation.slips;
+  const std::size_t lag = std::min(kLongest, slips.size() / 4);
+  if (lag < kShortest) return false;
+  const auto distances = [&](std::size_t intervals) {
+    std::vector<double> seconds;
+    for (std::size_t i = intervals; i < slips.size(); ++i) {
+      seconds.push_back(slips[i].middle_s - slips[i - intervals].middle_s);
+    }
+    return describe(seconds);
+  };
+  const MeanAndSpread one = distances(1);
+  const MeanAndSpread many = distances(lag);
+  const double step_s =
+      (slips.back().middle_s - slips.front().middle_s) / static_cast<double>(slips.back().peak - slips.front().peak);
+  const double growth = 1.0 + thresholds::kWalkShare * (static_cast<double>(lag) - 1.0);
+  return many.sd > std::sqrt(growth) * std::max(one.sd, kReadingError * step_s) &&
+         many.sd > thresholds::kMainsWander * many.mean;
+}
+
+bool keeps_mains_phase(const Segmentation& segmentation) {
+  return std::abs(mains_share(segmentation) - 1.0) < thresholds::kMainsRhythm && !phase_wanders(segmentation);
 }
 
 bool is_faint(const Segmentation& segmentation) {

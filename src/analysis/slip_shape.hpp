@@ -2,7 +2,9 @@
 
 #include <vector>
 
+#include "slipfit/core/recording.hpp"
 #include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
 
 namespace slipfit {
 
@@ -19,6 +21,23 @@ double mains_share(const Segmentation& segmentation);
 
 /// How much longer the rises take than the falls before them: median; 0 where there are no rises.
 double rise_over_fall(const Segmentation& segmentation);
+
+/// The same, less what the scatter of so few ratios allows: what the falls of a motion prove.
+double proven_rise_over_fall(const Segmentation& segmentation);
+
+/// Root mean square of the drops over the range from the lowest trough to the highest peak.
+double swing_share(const Segmentation& segmentation);
+
+/// Exponent by which the second differences of the force grow with their step, from an eighth of a fall on: 2 where a
+/// body moves smoothly, 1.5 between straight sticks, 0.5 where the level walks at random, 0 in white noise.
+double smoothness(const Recording& recording, const Quality& quality, const Segmentation& segmentation);
+
+/// The distance of falls that are several intervals apart scatters by more than that of neighbours: each interval has
+/// an error of its own, as slips have. The falls of hum keep the phase of a clock.
+bool phase_wanders(const Segmentation& segmentation);
+
+/// Falls at the frequency of the mains that keep its phase.
+bool keeps_mains_phase(const Segmentation& segmentation);
 
 /// Noise alone makes turning points of this size.
 bool is_faint(const Segmentation& segmentation);

@@ -10,6 +10,7 @@
 #include "core/fit_thresholds.hpp"
 #include "core/quantile.hpp"
 #include "core/thresholds.hpp"
+#include "core/unknown.hpp"
 #include "fit/report/open_damping.hpp"
 
 namespace slipfit {
@@ -28,15 +29,15 @@ std::optional<Point> point_of(const Recording& recording, const Analysis& analys
   const FrequencyReport& report = analysis.frequency;
   const Estimate spectral{report.spectral.value_Hz, report.spectral.standard_error_Hz, {}, {}};
   const Estimate& frequency = report.quoted.value ? report.quoted : spectral;
-  if (!frequency.value || !frequency.standard_error || !analysis.cycles.slip_time_s) return std::nullopt;
+  const std::optional<double> fall_s =
+      analysis.cycles.slip_time_s ? analysis.cycles.slip_time_s : analysis.cycles.fall_time_s;
+  if (!frequency.value || !frequency.standard_error || !fall_s) return std::nullopt;
   Point point;
   point.log_speed = std::log(recording.conditions().speed_m_per_s);
   point.log_frequency = std::log(*frequency.value);
   point.log_frequency_se = *frequency.standard_error / *frequency.value;
   point.stick_share = analysis.cycles.sticking_degree.value_or(0.0);
-  if (*analysis.cycles.slip_time_s > thresholds::kSamplesOfFall * recording.sample_interval_s()) {
-    point.log_fall = std::log(*analysis.cycles.slip_time_s);
-  }
+  if (*fall_s > thresholds::kSamplesOfFall * recording.sample_interval_s()) point.log_fall = std::log(*fall_s);
   return point;
 }
 
@@ -166,6 +167,24 @@ Warnings check_level_repeats(std::span<const SweepEntry> entries, const std::vec
           ? fmt::format("every {:.3g} mm of sliding at every speed: texture of the counterface", 1e3 * paths_m.front())
           : fmt::format("every {:.3g} s at every speed: a wave of the drive or of the sensor", times_s.front());
   return {{"level_repeats", fmt::format("the force level of {} recordings repeats {}", paths_m.size(), what)}};
+}
+
+std::vector<Analysis> without_passing_patterns(std::vector<Analysis> analyses, const Warnings& warnings) {
+  const auto speaks_against = [](const Warning& warning) { return warning.code == "frequency_does_not_follow_speed"; };
+  if (std::ranges::none_of(warnings, speaks_against)) return analyses;
+  for (Analysis& analysis : analyses) {
+    const bool moves = analysis.motion == MotionClass::StickSlip || analysis.motion == MotionClass::OscillatorySlip;
+    if (!moves || has_values(analysis)) continue;
+    analysis.motion = MotionClass::Undetermined;
+    analysis.motion_reason =
+        "what repeats does not follow the speed as stick-slip does, by comparison with the other recordings";
+    analysis.frequency.quoted = unknown("the recordings at other speeds show that these are not slips");
+    analysis.frequency.method = FrequencyMethod::None;
+    const Estimate no_spacing = unknown("no frequency, no spacing");
+    analysis.derived.pattern_spacing_m = analysis.derived.impulse_rate_per_m = no_spacing;
+    analysis.derived.pattern_spacing_sd_m.reset();
+  }
+  return analyses;
 }
 
 Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses) {

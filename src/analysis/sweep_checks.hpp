@@ -27,6 +27,10 @@ ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<
 /// What only several speeds can tell: that the repetition is geometry or a control loop, not stick-slip.
 Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
 
+/// The analyses, those without a fitted slip undetermined where the frequency does not follow the speed as in
+/// stick-slip. `warnings`: of check_frequency_follows_speed.
+std::vector<Analysis> without_passing_patterns(std::vector<Analysis> analyses, const Warnings& warnings);
+
 /// Whether levels that repeat (`level_repeats` of the recordings) do so over one path at all speeds, which is texture
 /// of the counterface, or after one time.
 Warnings check_level_repeats(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);

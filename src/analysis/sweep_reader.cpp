@@ -1,5 +1,6 @@
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
+#include "slipfit/pipeline.hpp"
 #include "slipfit/surface/comparison.hpp"
 #include "slipfit/sweep.hpp"
 
@@ -8,6 +9,7 @@ namespace slipfit {
 std::optional<Error> check_joint(const Recording& recording) {
   const std::string& file = recording.provenance().file;
   const Conditions& conditions = recording.conditions();
+  if (std::optional<Error> error = missing_data(recording)) return error;
   if (conditions.quantity != ForceQuantity::Force_N) {
     return Error{"not_a_force", file +
                                     ": holds a friction coefficient, and a joint fit needs forces: give the normal "

@@ -136,7 +136,7 @@ Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions
   if (entry.options.pieces != Pieces::One) return fit_pieces_of(entry, options);
   const auto conditions = with_worn_track(entry.conditions, entry.surface);
   if (!conditions) return in_words_of_manifest(conditions.error());
-  const auto read = read_recording(entry.file, conditions.value(), entry.options);
+  const auto read = with_data(read_recording(entry.file, conditions.value(), entry.options));
   if (!read) return in_words_of_manifest(read.error());
   const Recording& recording = read.value();
   FitOptions fit = options.fit;

@@ -261,6 +261,20 @@ inline constexpr double kTrendBegins = 1.0 / 6.0;
 /// Ratio to the nearest speed of a sweep, beyond which a prediction is said to be far. [1; convention]
 inline constexpr double kFarRatio = 4.0;
 
+/// Half-width of the 95 % interval of d ln(F_s - F_k) / d ln V where only one speed was measured: static friction that
+/// ages and kinetic friction that depends on the speed. [1; derived: docs/model.md section 13]
+inline constexpr double kFrictionTrend = 0.33;
+
+/// The same of d ln k / d ln V: a stiffness that depends on the rate. [1; derived: as kFrictionTrend]
+inline constexpr double kStiffnessTrend = 0.15;
+
+/// The same of d ln F_k / d ln V. [1; derived: as kFrictionTrend]
+inline constexpr double kKineticTrend = 0.04;
+
+/// Least relative standard error of a weak parameter at other speeds than the only one measured; of a conditional one
+/// it is the limit of identified. [1; convention: the largest limit of identified of the parameters that a slip shows]
+inline constexpr double kWeakError = 0.25;
+
 /// Reach of alpha V, above which linear propagation does not hold. [1; calibrated: up to it bands hold 93 % or more of
 /// the motions that the covariance allows, at 1.6 88 %, at 2.4 84 % (tests/predict)]
 inline constexpr double kStraightLaw = 0.7;

@@ -80,6 +80,9 @@ inline constexpr double kRhythm = 0.25;
 /// Relative distance of spectrum and count that show the same rhythm. [1; convention]
 inline constexpr double kSameRhythm = 0.1;
 
+/// Fewest samples of a recording that is analysed. [count; convention: two periods of eight samples]
+inline constexpr std::size_t kFewestSamples = 16;
+
 /// Fewest slips that make a kind of motion. [count; convention]
 inline constexpr std::size_t kFewestSlips = 3;
 

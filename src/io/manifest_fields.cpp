@@ -158,6 +158,8 @@ constexpr std::array kFields = std::to_array<ManifestField>({
     number_field(
         {"drive_period", "--drive-period", "Period of what may set the rhythm, a motor's step or an excitation: 20ms"},
         "_s", Dimension::Time, Bound::AboveZero, set_number_of<&Conditions::drive_period_s>),
+    number_field({"drive_path", "--drive-path", "Path over which the drive's force repeats, a tooth or a turn: 2mm"},
+                 "_m", Dimension::Length, Bound::AboveZero, set_number_of<&Conditions::drive_path_m>),
     text_field(
         {"force_view", "--force-view", "Force that the sensor sees: spring (taken without it), transmitted, contact"},
         set_force_view),

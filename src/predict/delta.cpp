@@ -14,8 +14,34 @@ namespace {
 
 constexpr std::array<double, 2> kShare{1.0, 0.5};  // that ln k and ln w_n have in exponent times ln V
 
+constexpr std::size_t kDifferencePlace = place_in_model(ParameterId::FrictionDifference);
+
 double log_ratio(const ModelEstimate& model, double speed_m_per_s) {
   return std::log(speed_m_per_s / model.stiffness_trend->speed_m_per_s);
+}
+
+/// `half_width`: of the 95 % interval of ln k; w_n is that of the same mass.
+void add_stiffness_error(ModelEstimate& model, double half_width) {
+  const double variance = std::pow(half_width / t_quantile(model.degrees_of_freedom), 2);
+  for (std::size_t i = 0; i < kShare.size(); ++i) {
+    for (std::size_t j = 0; j < kShare.size(); ++j) model.covariance[i][j] += kShare[i] * kShare[j] * variance;
+  }
+}
+
+/// docs/model.md section 13
+ModelEstimate beyond_single(const ModelEstimate& model, double speed_m_per_s) {
+  const double distance = model.single_speed->distance_to(speed_m_per_s);
+  ModelEstimate wider = model;
+  // At the speed itself the recording shows the cycle, however the parameters share it out.
+  const double share = std::min(1.0, distance / std::log(thresholds::kUntrendedRatio));
+  for (std::size_t i = 0; i < model.single_speed->least_errors.size(); ++i) {
+    const double least = share * model.single_speed->least_errors[i];
+    wider.covariance[i][i] = std::max(wider.covariance[i][i], least * least);
+  }
+  const double friction_error = thresholds::kFrictionTrend * distance / t_quantile(model.degrees_of_freedom);
+  wider.covariance[kDifferencePlace][kDifferencePlace] += friction_error * friction_error;
+  add_stiffness_error(wider, thresholds::kStiffnessTrend * distance);
+  return wider;
 }
 
 }  // namespace
@@ -59,20 +85,16 @@ bool Propagation::law_is_open_at(double speed_m_per_s) const {
 }
 
 std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_per_s) {
+  if (model.single_speed) return beyond_single(model, speed_m_per_s);
   if (!model.reach) return model;
   const bool is_far = !(model.reach->distance_to(speed_m_per_s) < std::log(thresholds::kUntrendedRatio));
   if (!model.reach->trend && is_far) return std::nullopt;
   ModelEstimate wider = model;
-  constexpr std::size_t kDifference = place_in_model(ParameterId::FrictionDifference);
-  wider.covariance[kDifference][kDifference] +=
+  wider.covariance[kDifferencePlace][kDifferencePlace] +=
       std::pow(model.reach->half_width_at(speed_m_per_s) / t_quantile(model.degrees_of_freedom), 2);
   if (model.stiffness_trend) {
     // It may end there, or double.
-    const double half_width = model.stiffness_trend->exponent * model.reach->distance_beyond(speed_m_per_s);
-    const double variance = std::pow(half_width / t_quantile(model.degrees_of_freedom), 2);
-    for (std::size_t i = 0; i < kShare.size(); ++i) {
-      for (std::size_t j = 0; j < kShare.size(); ++j) wider.covariance[i][j] += kShare[i] * kShare[j] * variance;
-    }
+    add_stiffness_error(wider, model.stiffness_trend->exponent * model.reach->distance_beyond(speed_m_per_s));
   }
   return wider;
 }

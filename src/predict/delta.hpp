@@ -100,8 +100,8 @@ inline constexpr const char* kUntrended =
     "two recordings, or speeds within a factor of 2, cannot tell whether static friction ages: nothing is known more "
     "than a factor of 1.5 beyond them";
 
-/// The model with what its sweep does not know of F_s - F_k(0+) at a speed beyond the recordings; empty where it knows
-/// nothing of it there.
+/// The model with what its recordings do not determine at a speed beyond theirs; empty where a sweep determines nothing
+/// there.
 std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_per_s);
 
 /// Where stick-slip from rest ends; at zeta = 0 it has no end, from zeta = 1 on there is none. The interval of the

@@ -7,6 +7,7 @@
 #include "core/student.hpp"
 #include "predict/delta.hpp"
 #include "predict/motion.hpp"
+#include "slipfit/predict/single_speed.hpp"
 
 namespace slipfit {
 namespace {
@@ -78,7 +79,7 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   }
   const double speed = conditions.speed_m_per_s;
   const double speed_error = conditions.speed_standard_error_m_per_s.value_or(0.0) / speed;
-  const ModelEstimate model = at_the_measured_speed(*fit.estimate, speed_error);
+  const ModelEstimate model = at_the_measured_speed(from_single_speed(fit, speed), speed_error);
   const predict::Propagation propagation(model);
   const predict::ModelJets p(model);
   const predict::Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed);  // [Paper] eq. (9)

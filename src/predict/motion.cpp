@@ -42,7 +42,7 @@ CriticalPoint bound_of(const ModelEstimate& model, double least_m_per_s) {
   CriticalPoint point = critical_point_by_law(*wider);
   std::optional<Interval>& bounds = point.speed_m_per_s.ci95;
   const bool has_law = model.speed_dependence || model.ageing;
-  if (has_law && bounds)
+  if (has_law && bounds && model.reach)
     bounds->low = std::min(bounds->low, thresholds::kUntrendedRatio * model.reach->fastest_m_per_s);
   return point;
 }
@@ -50,9 +50,10 @@ CriticalPoint bound_of(const ModelEstimate& model, double least_m_per_s) {
 CriticalPoint critical_point_of(const ModelEstimate& model) {
   CriticalPoint point = critical_point_by_law(model);
   const std::optional<double> speed = point.speed_m_per_s.value;
-  if (!speed && point.speed_m_per_s.ci95 && model.reach) return bound_of(model, point.speed_m_per_s.ci95->low);
-  if (!speed || !(*speed > 0.0) || !model.reach) return point;
-  const double distance = model.reach->distance_to(*speed);
+  const bool is_fitted = model.reach || model.single_speed;
+  if (!speed && point.speed_m_per_s.ci95 && is_fitted) return bound_of(model, point.speed_m_per_s.ci95->low);
+  if (!speed || !(*speed > 0.0) || !is_fitted) return point;
+  const double distance = model.reach ? model.reach->distance_to(*speed) : 0.0;
   const std::optional<ModelEstimate> wider = beyond(model, *speed);
   if (!wider) {
     point.speed_m_per_s = unknown(kUntrended);

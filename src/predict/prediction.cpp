@@ -14,6 +14,10 @@ namespace {
 
 using predict::Jet;
 
+constexpr const char* kSingleSpeed =
+    "one speed was measured: the intervals allow for static friction that ages and for friction and stiffness that "
+    "depend on speed, as published for other materials; recordings at several speeds replace this";
+
 Estimate without_interval(const Estimate& estimate) {
   return {estimate.value, std::nullopt, std::nullopt, estimate.note};
 }
@@ -47,6 +51,8 @@ class Predictor {
       withdraw_intervals(row, "alpha is not known well enough for an interval at this speed");
     } else if (model_.has_covariance && model_.estimate.speed_dependence && may_be_either(motion.total_damping_ratio)) {
       row.note = "the data do not determine whether steady sliding is stable at this speed";
+    } else if (model_.has_covariance && away_from_single_speed() > std::log(thresholds::kUntrendedRatio)) {
+      row.note = kSingleSpeed;
     } else if (is_far()) {
       row.note = "more than a factor of 4 beyond the recordings";
     }
@@ -57,6 +63,12 @@ class Predictor {
   [[nodiscard]] bool is_beyond_observed_end() const {
     const std::optional<double>& slides = model_.observed_end.slides_m_per_s;
     return slides && speed_m_per_s_ >= *slides;
+  }
+
+  /// |ln| of the ratio to the speed of the one recording; 0 for a sweep or a stated model.
+  [[nodiscard]] double away_from_single_speed() const {
+    const std::optional<SingleSpeed>& single = model_.estimate.single_speed;
+    return single ? single->distance_to(speed_m_per_s_) : 0.0;
   }
 
   [[nodiscard]] bool is_far() const {
@@ -85,7 +97,10 @@ class Predictor {
     const double value = *model_.kinetic_friction_N->value + above_kinetic_N.a;
     const std::optional<double> kinetic_se = model_.kinetic_friction_N->standard_error;
     if (!model_.has_covariance || !kinetic_se) return {value, std::nullopt, std::nullopt, {}};
-    const double se = *kinetic_se + propagation_.standard_error(above_kinetic_N);
+    const double trend_N =
+        thresholds::kKineticTrend * away_from_single_speed() * std::abs(*model_.kinetic_friction_N->value);
+    const double se =
+        std::hypot(*kinetic_se, trend_N / propagation_.quantile()) + propagation_.standard_error(above_kinetic_N);
     const double reach = propagation_.quantile() * se;
     return {value, se, Interval{value - reach, value + reach}, {}};
   }

@@ -81,7 +81,8 @@ std::string regime_text(Regime regime) {
 std::string frequency_text(const FrequencyReport& frequency) {
   Table table({Align::Left, Align::Left});
   table.add({"by FFT", spectral_text(frequency.spectral)});
-  table.add({"by counting slips", frequency.counted.value ? with_error(frequency.counted) + " Hz" : "too few slips"});
+  const Estimate& counted = frequency.counted;
+  table.add({"by counting slips", counted.value ? with_error(counted) + " Hz" : "none: " + one_line(counted.note)});
   if (frequency.quoted.value) {
     const std::string interval = estimate_row(frequency.quoted, "Hz").interval;
     table.add({"result", with_error(frequency.quoted) + " Hz" +
@@ -237,7 +238,9 @@ std::string to_text(const Recording& recording, const Analysis& analysis) {
   std::string text = judgement_text(recording, analysis);
   text += parameters_text(recording, analysis);
   text += frequency_text(analysis.frequency);
-  text += cycles_text(analysis.cycles, recording.conditions().quantity);
+  if (analysis.motion != MotionClass::SteadySliding) {
+    text += cycles_text(analysis.cycles, recording.conditions().quantity);
+  }
   text += transients_text(analysis.transients, recording.conditions().quantity);
   text += coefficients_text(analysis.coefficients);
   text += spacing_text(recording, analysis.derived);

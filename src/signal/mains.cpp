@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "signal/robust.hpp"
 
@@ -142,9 +143,12 @@ std::vector<double> find_lines(std::span<const double> power, double bin_Hz, dou
 
 std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz,
                                   std::span<const double> known_Hz) {
-  std::vector<MainsLine> lines;
   const double highest_Hz = bin_Hz * (static_cast<double>(power.size()) - 2.0);
+  std::vector<MainsLine> best;
+  double best_power = 0.0;
   for (const double mains_Hz : kMains_Hz) {
+    std::vector<MainsLine> lines;
+    double total = 0.0;
     bool has_lower = false;
     for (int order = 1; order <= kMostHarmonics && mains_Hz * order < highest_Hz; ++order) {
       const double target_Hz = mains_Hz * order;
@@ -152,16 +156,20 @@ std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, 
       has_lower = has_lower ||
                   std::ranges::any_of(known_Hz, [&](double known) { return is_at(known, target_Hz, resolution_Hz); });
       const auto line = line_at(power, bin_Hz, resolution_Hz, target_Hz);
-      const auto same = [&](const MainsLine& other) { return other.frequency_Hz == line->frequency_Hz; };
-      if (!line || std::ranges::any_of(lines, same)) continue;
+      if (!line) continue;
       // Above the third a harmonic of the mains counts only where a lower one was found: mains has those, and a single
       // line at such a place is of something else.
       if (order > 3 && !has_lower) continue;
       has_lower = true;
       lines.push_back({line->frequency_Hz, mains_Hz, order, line->width_Hz});
+      total += power[static_cast<std::size_t>(std::lround(line->frequency_Hz / bin_Hz))];
+    }
+    if (total > best_power) {
+      best = std::move(lines);
+      best_power = total;
     }
   }
-  return lines;
+  return best;
 }
 
 std::optional<double> mains_in_step(double frequency_Hz, int harmonics, double duration_s) {

@@ -17,8 +17,8 @@ struct MainsLine {
   double width_Hz = 0.0;  ///< half width that the line takes
 };
 
-/// Lines four times (in amplitude) above their neighbours at multiples of 50 and 60 Hz. `known_Hz`: lines that are no
-/// longer in the spectrum.
+/// Lines four times (in amplitude) above their neighbours at multiples of 50 or of 60 Hz, whichever has more power in
+/// them: a laboratory has one mains. `known_Hz`: lines that are no longer in the spectrum.
 std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz,
                                   std::span<const double> known_Hz = {});
 

@@ -51,6 +51,7 @@ struct Conditions {
   std::optional<double>
       sensor_resonance_Hz;               ///< > 0, of the load cell as it is mounted: a frequency near it is doubted
   std::optional<double> drive_period_s;  ///< > 0, of what may set the rhythm: a motor's step, an excitation
+  std::optional<double> drive_path_m;    ///< > 0, over which the drive's force repeats: a pole pitch, a tooth, a turn
   /// > 0, of the moving body: gives w_n where averaging hides it, else held against k / w_n^2.
   std::optional<double> mass_kg;
   std::optional<double> mass_standard_error_kg;  ///< >= 0, of the stated mass; empty: 2 % of it

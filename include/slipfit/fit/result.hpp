@@ -121,6 +121,20 @@ struct SpeedReach {
   [[nodiscard]] double half_width_at(double speed_m_per_s) const;
 };
 
+/// One recording, which shows neither ageing nor any dependence on the driving speed: what predictions at other speeds
+/// have to allow for. docs/model.md section 13
+struct SingleSpeed {
+  double speed_m_per_s = 0.0;
+  /// Least standard errors of (ln k, ln w_n, zeta, ln (F_s - F_k(0+))) at other speeds: 0 where the parameter is
+  /// identified or fixed.
+  std::array<double, 4> least_errors{};
+
+  /// |ln| of the ratio of a speed to that of the recording.
+  [[nodiscard]] double distance_to(double other_m_per_s) const {
+    return std::abs(std::log(other_m_per_s / speed_m_per_s));
+  }
+};
+
 /// The fitted model as one point with its covariance, for everything that is computed from it.
 struct ModelEstimate {
   double stiffness_N_per_m = 0.0;
@@ -138,6 +152,7 @@ struct ModelEstimate {
   std::optional<Reloading> reloading{};               ///< empty: sticks are straight
   std::optional<StiffnessTrend> stiffness_trend{};    ///< empty: the same k at every speed
   std::optional<SpeedReach> reach{};                  ///< of a sweep
+  std::optional<SingleSpeed> single_speed{};          ///< of one recording, where a prediction is asked for
   std::optional<double> normal_force_N{};             ///< that the forces belong to, where loads are known
 };
 

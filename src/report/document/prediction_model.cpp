@@ -4,7 +4,10 @@
 
 #include <array>
 #include <limits>
+#include <utility>
 #include <vector>
+
+#include "slipfit/predict/single_speed.hpp"
 
 namespace slipfit::documents {
 namespace {
@@ -140,6 +143,21 @@ std::optional<SpeedReach> reach(const JsonNode& document) {
   return reach;
 }
 
+/// With what a document of one recording leaves open about other speeds.
+ModelEstimate with_single_speed(ModelEstimate estimate, const JsonNode& document) {
+  const auto speed = document.known("recording", "speed_m_per_s");
+  if (!speed) return estimate;
+  std::array<ParameterStatus, 4> statuses{};
+  for (std::size_t i = 0; i < statuses.size(); ++i) {
+    const std::string status = document.member("parameters").member(key_of(kNeeded[i])).member("status").text();
+    statuses[i] = status == "identified"    ? ParameterStatus::Identified
+                  : status == "fixed"       ? ParameterStatus::Fixed
+                  : status == "conditional" ? ParameterStatus::Conditional
+                                            : ParameterStatus::Weak;
+  }
+  return from_single_speed(std::move(estimate), speed->positive(), statuses);
+}
+
 std::optional<double> normal_force_N(const JsonNode& document) {
   const auto load = document.known("model", "normal_force_N");
   return load ? std::optional(load->positive()) : std::nullopt;
@@ -197,6 +215,7 @@ FitDocument fit_document_from(const JsonNode& document, const std::string& name)
   read_covariance(document, result.model);
   result.model.kinetic_friction_N = kinetic_friction_N(parameters);
   estimate.reach = reach(document);
+  estimate = with_single_speed(std::move(estimate), document);
   estimate.normal_force_N = normal_force_N(document);
   result.model.observed_end = observed_end(document);
   result.conditional_on = conditions(document);

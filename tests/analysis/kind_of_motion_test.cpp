@@ -1,0 +1,236 @@
+// What makes slips, ripple, chatter and hum different kinds of motion.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/slip_shape.hpp"
+#include "checks.hpp"
+#include "signal/mains.hpp"
+#include "slipfit/pipeline.hpp"
+#include "slipfit/sweep.hpp"
+
+namespace slipfit {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Recording recorded(std::vector<double> force, double sample_rate_Hz, Conditions conditions) {
+  std::vector<double> time_s;
+  for (std::size_t i = 0; i < force.size(); ++i) time_s.push_back(static_cast<double>(i) / sample_rate_Hz);
+  return Recording::create(std::move(time_s), std::move(force), conditions).value();
+}
+
+/// Ripple of a drive, once in 10 mm of its path: rises that take `ratio` times as long as the falls, as round as a
+/// sine's.
+Recording cogging(double ripples, double speed_m_per_s, double ratio, std::optional<double> drive_path_m = {}) {
+  constexpr double kPath_m = 0.01;
+  constexpr double kSamplesOfRipple = 150.0;
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<double> force;
+  const double rise = ratio / (1.0 + ratio);
+  for (double place = 0.0; place < ripples; place += 1.0 / kSamplesOfRipple) {
+    const double phase = std::fmod(place, 1.0);
+    const double turn = phase < rise ? phase / rise - 1.0 : (phase - rise) / (1.0 - rise);
+    // A second wave over the path, so that no slip of the model is close.
+    force.push_back(5.0 + std::cos(kPi * turn) + 0.4 * std::sin(2.0 * kPi * 0.37 * place) + 0.01 * normal(random));
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = speed_m_per_s;
+  conditions.drive_path_m = drive_path_m;
+  return recorded(std::move(force), kSamplesOfRipple * speed_m_per_s / kPath_m, conditions);
+}
+
+/// Low swings of very different size and length on a steady level.
+Recording chatter(double zero_N) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> even(0.0, 1.0);
+  std::vector<double> force;
+  while (force.size() < 6000) {
+    const double swing_N = 0.5 + 0.5 * even(random);
+    const auto samples = static_cast<std::size_t>(20.0 + 180.0 * even(random) * even(random));
+    for (std::size_t i = 0; i < samples; ++i) {
+      force.push_back(zero_N + swing_N * std::sin(2.0 * kPi * static_cast<double>(i) / static_cast<double>(samples)));
+    }
+  }
+  std::normal_distribution<double> noise(0.0, 0.005);
+  for (double& value : force) value += noise(random);
+  Conditions conditions;
+  conditions.speed_m_per_s = 0.01;
+  return recorded(std::move(force), 1000.0, conditions);
+}
+
+/// A body on a spring under Coulomb friction whose static friction scatters from stick to stick, lambda = 1: nearly a
+/// sine. Scaled, so that it repeats at about `frequency_Hz`.
+Recording round_slips(double frequency_Hz, double scatter, double duration_s) {
+  constexpr double kSampleRate_Hz = 2000.0;
+  constexpr int kSteps = 20;
+  constexpr double kZeta = 0.05;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  const double omega = 6.6325 * frequency_Hz;  // by counting the slips without scatter
+  const double step = omega / kSampleRate_Hz / kSteps;
+  double stretch = 0.0, speed = 0.0, limit = 1.0 + scatter * normal(random);
+  bool sticks = true;
+  std::vector<double> force;
+  while (static_cast<double>(force.size()) < duration_s * kSampleRate_Hz) {
+    force.push_back(3.0 + stretch + 0.003 * normal(random));
+    for (int i = 0; i < kSteps; ++i) {
+      const double push = stretch - 2.0 * kZeta * speed;
+      if (sticks) {
+        stretch += step;
+        sticks = stretch < limit;
+      } else {
+        const double before = speed;
+        speed += step * push;
+        stretch += step * (1.0 - 0.5 * (before + speed));
+        sticks = speed <= 0.0 && push < 0.0;
+        if (sticks) limit = 1.0 + scatter * normal(random);
+        if (sticks) speed = 0.0;
+      }
+    }
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = 0.01;
+  return recorded(std::move(force), kSampleRate_Hz, conditions);
+}
+
+Recording hum(double frequency_Hz, double duration_s) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  std::vector<double> force;
+  for (int i = 0; i < static_cast<int>(duration_s * 2000.0); ++i) {
+    force.push_back(3.0 + std::sin(2.0 * kPi * frequency_Hz * i / 2000.0) + 0.003 * normal(random));
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = 0.01;
+  return recorded(std::move(force), 2000.0, conditions);
+}
+
+Segmentation falls_of(const Recording& recording) {
+  return find_slips(recording, assess_quality(recording));
+}
+
+}  // namespace
+
+TEST_CASE("few falls after rises that are little longer than three times as long are not stick-slip") {
+  const double ripples = GENERATE(6.3, 8.3);
+  const Recording ripple = cogging(ripples, 0.001, 3.2);
+  REQUIRE(falls_of(ripple).slips.size() >= 5);
+  CHECK(analyze_and_fit(ripple).motion != MotionClass::StickSlip);
+  CHECK(analyze(ripple).motion != MotionClass::StickSlip);
+}
+
+TEST_CASE("ripple over the stated path of the drive is steady sliding") {
+  const Recording ripple = cogging(25.3, 0.001, 4.5, 0.01);
+  const Analysis analysis = analyze_and_fit(ripple);
+  CHECK(analysis.motion == MotionClass::SteadySliding);
+  CHECK(analysis.motion_reason.find("path of the drive") != std::string::npos);
+  CHECK_FALSE(analysis.frequency.quoted.value);
+  CHECK(analyze_and_fit(cogging(25.3, 0.001, 4.5, 0.0083)).motion != MotionClass::SteadySliding);
+}
+
+TEST_CASE("ripple over one path at two speeds is geometry in a sweep") {
+  const std::vector<SweepEntry> entries{{"slow", cogging(25.3, 0.001, 4.5)}, {"fast", cogging(25.3, 0.01, 4.5)}};
+  const SweepAnalysis sweep = analyze_sweep(entries);
+  REQUIRE_FALSE(sweep.warnings.empty());
+  CHECK(sweep.warnings.front().code == "frequency_does_not_follow_speed");
+  for (const Analysis& analysis : sweep.recordings) {
+    CHECK(analysis.motion == MotionClass::Undetermined);
+    CHECK_FALSE(analysis.frequency.quoted.value);
+  }
+}
+
+TEST_CASE("large irregular swings are not steady sliding, whatever the zero of the sensor") {
+  const double zero_N = GENERATE(0.0, 3.0, 300.0);
+  const Analysis analysis = analyze_and_fit(chatter(zero_N));
+  CHECK(analysis.motion == MotionClass::Undetermined);
+  CHECK(analysis.motion_reason.find("irregular") != std::string::npos);
+  CHECK(analysis.cycles.period_s);
+}
+
+TEST_CASE("nearly sinusoidal slips near the mains are told from its hum by their phase") {
+  const double frequency_Hz = GENERATE(49.8, 50.0, 60.0);
+  CAPTURE(frequency_Hz);
+  const Recording slips = round_slips(frequency_Hz, 0.02, 5.0);
+  CHECK(phase_wanders(falls_of(slips)));
+  const Analysis analysis = analyze_and_fit(slips);
+  CHECK((analysis.motion == MotionClass::StickSlip || analysis.motion == MotionClass::OscillatorySlip));
+  REQUIRE(analysis.frequency.quoted.value);
+  CHECK(*analysis.frequency.quoted.value == Approx(frequency_Hz).epsilon(0.01));
+  CHECK_FALSE(phase_wanders(falls_of(hum(frequency_Hz, 5.0))));
+  CHECK(analyze_and_fit(hum(frequency_Hz, 5.0)).motion == MotionClass::Undetermined);
+}
+
+TEST_CASE("a quoted frequency that is not the count says so") {
+  for (const double duration_s : {0.35, 0.7, 1.0, 2.0}) {
+    for (const double frequency_Hz : {48.0, 59.1, 61.0}) {
+      CAPTURE(duration_s, frequency_Hz);
+      const Analysis analysis = analyze_and_fit(round_slips(frequency_Hz, 0.02, duration_s));
+      const FrequencyReport& report = analysis.frequency;
+      if (!report.quoted.value || !report.counted.value) continue;
+      const bool agree = std::abs(*report.quoted.value / *report.counted.value - 1.0) < 0.05;
+      CHECK((agree || !report.quoted.note.empty()));
+      CHECK(*report.quoted.value == Approx(frequency_Hz).epsilon(0.05));
+    }
+  }
+}
+
+TEST_CASE("multiples of the slips' frequency are not called harmonics of the mains") {
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  std::vector<double> force;
+  constexpr double kSlips_Hz = 9.998;
+  for (int i = 0; i < 10000; ++i) {
+    const double phase = std::fmod(kSlips_Hz * i / 2000.0, 1.0);
+    const double fall = 0.5 * (1.0 + std::cos(kPi * (phase - 0.97) / 0.03));
+    const double ring = phase < 0.4 ? 0.1 * std::exp(-20.0 * phase) * std::sin(2.0 * kPi * 25.0 * phase) : 0.0;
+    force.push_back(2.0 + (phase < 0.97 ? phase / 0.97 : fall) + ring + 0.002 * normal(random));
+  }
+  Conditions conditions;
+  conditions.speed_m_per_s = 1e-3;
+  const Analysis analysis = analyze_and_fit(recorded(std::move(force), 2000.0, conditions));
+  REQUIRE(analysis.frequency.quoted.value);
+  for (const SuspiciousLine& line : analysis.frequency.lines) {
+    CAPTURE(line.frequency_Hz, line.reason);
+    CHECK(std::abs(std::remainder(line.frequency_Hz, kSlips_Hz)) > 0.3);
+  }
+}
+
+TEST_CASE("a spectrum has lines of one mains") {
+  constexpr double kBin_Hz = 0.5;
+  std::vector<double> power(2000, 1e-6);
+  const auto put = [&](double frequency_Hz, double value) {
+    power[static_cast<std::size_t>(frequency_Hz / kBin_Hz)] = value;
+  };
+  for (const double line_Hz : {50.0, 100.0, 150.0}) put(line_Hz, 1.0);
+  for (const double line_Hz : {60.0, 120.0}) put(line_Hz, 0.01);
+  const std::vector<signal::MainsLine> lines = signal::find_mains(power, kBin_Hz, kBin_Hz);
+  REQUIRE(lines.size() == 3);
+  for (const signal::MainsLine& line : lines) CHECK(line.mains_Hz == 50.0);
+}
+
+TEST_CASE("steady sliding reports no slips") {
+  const Analysis analysis = analyze_and_fit(cogging(25.3, 0.001, 4.5, 0.01));
+  REQUIRE(analysis.motion == MotionClass::SteadySliding);
+  CHECK(analysis.cycles.count == 0);
+  CHECK(analysis.cycles.used == 0);
+  CHECK_FALSE(analysis.frequency.counted.value);
+  CHECK(std::ranges::none_of(analysis.cycle_table, [](const Cycle& cycle) { return cycle.used; }));
+}
+
+TEST_CASE("three samples, or one and the same force, are no data") {
+  Conditions conditions;
+  conditions.speed_m_per_s = 1e-3;
+  CHECK(missing_data(recorded({1.0, 2.0, 1.0}, 10.0, conditions))->code == "too_few_samples");
+  CHECK(missing_data(recorded(std::vector<double>(2000, 0.0), 1000.0, conditions))->code == "force_constant");
+  CHECK_FALSE(missing_data(chatter(0.0)));
+}
+
+}  // namespace slipfit

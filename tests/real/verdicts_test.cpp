@@ -1,0 +1,117 @@
+// The kind of motion of measured recordings beside what their README says; skips, and says so, without the folder.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfit/io/recording_reader.hpp"
+#include "slipfit/pipeline.hpp"
+
+using namespace slipfit;
+
+namespace {
+
+const std::filesystem::path kReal = std::filesystem::path(SLIPFIT_SHARED_DIR) / "data/real";
+
+/// Kinds of motion that the README accepts, a letter each: S stick-slip, O oscillatory slip, U undetermined, C
+/// continuous (steady) sliding, I undetermined by the name of irregular.
+struct Stated {
+  std::string file;
+  double speed_m_per_s;
+  std::string kinds;
+  double events_per_s = 0.0;  ///< of slips, where the README states it
+  double tolerance = 0.05;
+  std::optional<std::string> force_column = {};
+  std::optional<double> sample_rate_Hz = {};
+};
+
+std::vector<Stated> stated() {
+  std::vector<Stated> list{{"colas/colas_k168_v42.csv", 42e-6, "S", 0.6, 0.12},
+                           {"colas/colas_k1002_v4300.csv", 4.3e-3, "OU", 35.0, 0.04},
+                           {"colas/colas_k2254_v42.csv", 42e-6, "CUO"},
+                           {"guldstrand/Force7_OG.txt", 1.198e-3, "S", 0.159, 0.05, {}, 4.0},
+                           {"giacomel/giacomel_velstep3_TR2_exp013_sepiolite.txt", 1e-5, "CU"},
+                           {"clutch/clutch_free_V300_a.csv", 5e-4, "S", 14.2},
+                           {"clutch/clutch_25Hz_V250_a.csv", 5e-4, "S", 25.05},
+                           {"clutch/clutch_V200_f10.csv", 5e-4, "S", 10.0},
+                           {"clutch/clutch_V250_f10.csv", 5e-4, "S", 10.5, 0.06},
+                           {"clutch/clutch_V300_f100.csv", 5e-4, "SI", 10.0, 0.2},
+                           {"clutch/clutch_V300_f1000_w6.csv", 5e-4, "SI", 16.0, 0.1},
+                           {"clutch/clutch_V100_f1000_steady.csv", 5e-4, "C"},
+                           {"damper/damper_p0_push.csv", 0.01147, "SO", 47.4},
+                           {"damper/damper_p5_push.csv", 0.02247, "SO", 50.9},
+                           {"damper/damper_p9_push.csv", 0.03371, "SO", 51.6},
+                           {"damper/damper_p0_pull.csv", 0.01148, "SOI"},
+                           {"damper/damper_p5_pull.csv", 0.02256, "SOI"},
+                           {"damper/damper_d1_0.5Hz_20lb_push.csv", 0.07, "CUO"},
+                           {"damper/damper_d1_0.5Hz_35lb_push.csv", 0.07, "CUO"},
+                           {"damper/damper_d1_0.5Hz_70lb_push.csv", 0.07, "CUO"},
+                           {"damper/damper_d1_0.5Hz_80lb_push.csv", 0.07, "CUO"},
+                           {"damper/damper_d1_0.5Hz_70lb_pull.csv", 0.0715, "SOUC", 158.5},
+                           {"oil/oil_0-1rps_0-3N.csv", 0.1, "CU"},
+                           {"oil/oil_0-1rps_15N.csv", 0.1, "CU"},
+                           {"oil/oil_1rps_3N.csv", 0.1, "CU"},
+                           {"oil/oil_2-5rps_6N.csv", 0.1, "CU"},
+                           {"pin/pin_PPS_60N_1.tsv", 0.1, "CU", 0.0, 0.0, "14"},
+                           {"pin/pin_test_time.tsv", 0.1, "CU", 0.0, 0.0, "14"},
+                           {"robot/robot_q1_03.txt", 3e-4, "CUO"},
+                           {"robot/robot_q1_5.txt", 5e-3, "CUO"}};
+  for (const char* const mass : {"77", "232"}) {
+    for (const int speed : {10, 30, 50, 100, 150, 200, 300, 600, 800, 1000, 1400, 1800}) {
+      list.push_back({"fdm/fdm_" + std::string(mass) + "g_" + std::to_string(speed) + "mm_min.csv", speed / 6e4,
+                      speed <= 300 ? "SO" : "CUO"});
+    }
+  }
+  return list;
+}
+
+bool accepts(const std::string& kinds, const Analysis& analysis) {
+  const auto has = [&](char kind) { return kinds.find(kind) != std::string::npos; };
+  switch (analysis.motion) {
+    case MotionClass::StickSlip:
+      return has('S');
+    case MotionClass::OscillatorySlip:
+      return has('O');
+    case MotionClass::SteadySliding:
+      return has('C');
+    case MotionClass::Undetermined:
+      return has('U') || (has('I') && analysis.motion_reason.find("irregular") != std::string::npos);
+  }
+  return false;
+}
+
+/// A quoted frequency is the stated one; events that are steady sliding to slipfit have none.
+bool has_events(const Stated& row, const Analysis& analysis) {
+  const std::optional<double>& quoted_Hz = analysis.frequency.quoted.value;
+  if (row.events_per_s == 0.0 || !quoted_Hz) return true;
+  return std::abs(*quoted_Hz / row.events_per_s - 1.0) < row.tolerance;
+}
+
+}  // namespace
+
+TEST_CASE("measured recordings have the kind of motion that their README states") {
+  if (!std::filesystem::exists(kReal / "robot")) {
+    WARN("skipped: no measured recordings beside the checkout");
+    return;
+  }
+  for (const Stated& row : stated()) {
+    Conditions conditions;
+    conditions.speed_m_per_s = row.speed_m_per_s;
+    ReadOptions options;
+    options.force_column = row.force_column;
+    options.sample_rate_Hz = row.sample_rate_Hz;
+    const auto recording = read_recording(kReal / row.file, conditions, options);
+    CAPTURE(row.file, row.kinds, row.events_per_s);
+    if (!recording.ok()) {
+      FAIL_CHECK(recording.error().message);
+      continue;
+    }
+    const Analysis analysis = analyze_and_fit(recording.value());
+    CAPTURE(static_cast<int>(analysis.motion), analysis.motion_reason, analysis.frequency.quoted.value.value_or(0.0));
+    CHECK(accepts(row.kinds, analysis));
+    CHECK(has_events(row, analysis));
+  }
+}
