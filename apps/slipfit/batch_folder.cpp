@@ -81,6 +81,9 @@ void check_same(const std::string& file, const std::string& text) {
 std::string drafted_manifest(const BatchFolder& folder, const Tell& tell) {
   const std::vector<slipfit::DraftColumn> columns = columns_from(folder.options);
   slipfit::ManifestDraft draft = draft_of(folder.recordings, read_options_from(folder.options), tell);
+  draft.skipped.clear();
+  draft = slipfit::writable(std::move(draft));
+  for (const slipfit::Error& error : draft.skipped) tell("left out: " + error.message);
   std::erase_if(draft.entries, [&folder](const auto& entry) { return lies_in(entry.file, folder.out); });
   if (draft.entries.empty()) throw Failure(ExitCode::BadRecording, "no recording found beside the results in --out");
   fill(draft, folder.options, tell);

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <sstream>
 
 #include "commands.hpp"
 #include "document_file.hpp"
@@ -53,20 +52,19 @@ bool is_results_file(const std::string& file) {
 }
 
 void add_fit(const std::string& document, const std::string& place, const SideArguments& arguments, Source& source) {
-  auto fit = slipfit::compared_fit(document);
-  if (!fit) throw Failure(ExitCode::WrongUsage, fmt::format("{}: {}", place, fit.error().message));
+  auto fit = slipfit::compared_fit(document, place);
+  if (!fit) throw Failure(ExitCode::WrongUsage, fit.error());
   const bool is_joint = fit.value().id.starts_with("group:");
   if (is_joint || (arguments.group && fit.value().group != *arguments.group)) return;
   source.side.fits.push_back(std::move(fit).value());
 }
 
 void add_results(const std::string& file, const SideArguments& arguments, Source& source) {
-  const std::string content = text_of_file(file);
   const std::size_t before = source.side.fits.size();
-  std::istringstream lines(content);
-  std::string line;
   const bool is_log = fs::path(file).extension() == ".jsonl";
-  if (!is_log) add_fit(content, file, arguments, source);
+  if (!is_log) add_fit(document_text(file), file, arguments, source);
+  std::ifstream lines(file, std::ios::binary);
+  std::string line;
   for (std::size_t number = 1; is_log && std::getline(lines, line); ++number) {
     add_fit(line, fmt::format("{}:{}", file, number), arguments, source);
   }

@@ -12,6 +12,7 @@
 
 #include "close_file.hpp"
 #include "failure.hpp"
+#include "slipfit/report/fit_document.hpp"
 
 std::string text_of_file(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -19,7 +20,6 @@ std::string text_of_file(const std::string& file) {
 }
 
 std::string document_text(const std::string& file) {
-  constexpr std::size_t kLargestDocument = std::size_t{64} << 20U;  // a thousand times a real one
   const auto refuse = [&file](const std::string& message) {
     throw Failure(ExitCode::WrongUsage, fmt::format("'{}': {}", file, message));
   };
@@ -33,7 +33,7 @@ std::string document_text(const std::string& file) {
   std::array<char, 65536> part{};
   while (const std::size_t count = std::fread(part.data(), 1, part.size(), stream.get())) {
     content.append(part.data(), count);
-    if (content.size() > kLargestDocument) refuse("is too large for a fit document (64 MiB at most)");
+    if (content.size() > slipfit::kLargestFitDocument) break;  // refused where documents are checked
   }
   if (std::ferror(stream.get()) != 0) refuse_reading();
   return content;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include "commands.hpp"
 #include "drafts.hpp"
 #include "output.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace {
 
@@ -30,12 +32,14 @@ void tell_of(const slipfit::ManifestDraft& draft) {
 void run(const ManifestArguments& arguments) {
   const OutputFile output{"--out", arguments.out.value_or("")};
   if (arguments.out) check_outputs({output}, "");
-  const slipfit::ManifestDraft draft = slipfit::draft_manifest(arguments.paths);
+  const slipfit::ManifestDraft draft = slipfit::writable(slipfit::draft_manifest(arguments.paths));
   check_found(draft);
   if (!arguments.quiet) tell_of(draft);
   const std::filesystem::path folder = std::filesystem::path(arguments.out.value_or("")).parent_path();
   const std::string text = slipfit::to_csv(draft, folder);
-  if (!arguments.out) return write_standard_output(text);
+  // A terminal gets no format characters of names; a file or a program gets the names as they are.
+  if (!arguments.out)
+    return write_standard_output(::isatty(STDOUT_FILENO) == 1 ? slipfit::printable_lines(text) : text);
   write_file(output, text);
   if (!arguments.quiet) say(fmt::format("wrote {} recordings to '{}'", draft.entries.size(), *arguments.out));
 }

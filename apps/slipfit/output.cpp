@@ -15,7 +15,7 @@
 
 #include "close_file.hpp"
 #include "failure.hpp"
-#include "slipfit/report/text.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace fs = std::filesystem;
 
@@ -167,11 +167,15 @@ void write_file(const OutputFile& output, const std::string& content) {
 
 void write_results(const DocumentOptions& options,
                    const std::function<std::string(const std::string& option)>& content_of) {
+  // Pages escape what they quote themselves; their scripts and styles stay as they are.
+  const auto text_of = [&](const std::string& option) {
+    return option == "--report" ? content_of(option) : slipfit::printable_lines(content_of(option));
+  };
   for (const OutputFile& output : options.outputs) {
-    write_file(output, content_of(output.option));
+    write_file(output, text_of(output.option));
     if (!options.quiet) say(fmt::format("wrote '{}'", output.file));
   }
-  if (!options.has("--out")) write_standard_output(content_of("--out"));
+  if (!options.has("--out")) write_standard_output(text_of("--out"));
 }
 
 void write_standard_output(const std::string& content) {
@@ -182,7 +186,7 @@ void write_standard_output(const std::string& content) {
 }
 
 void say(const std::string& message) {
-  const std::string line = "slipfit: " + slipfit::one_line(message) + "\n";
+  const std::string line = "slipfit: " + slipfit::printable(message) + "\n";
   (void)std::fwrite(line.data(), 1, line.size(), stderr);
 }
 

@@ -40,8 +40,9 @@ struct ComparedFit {
   std::vector<ComparedValue> values;  ///< in the order of compared_quantities()
 };
 
-/// From a document of the schema slipfit.fit/1, as `to_json` and `slipfit fit --json` write it. Error: bad_document.
-Result<ComparedFit> compared_fit(const std::string& document);
+/// From a document of the schema slipfit.fit/1, as `to_json` and `slipfit fit --json` write it. `name`: what messages
+/// call it. Errors: those of check_fit_document.
+Result<ComparedFit> compared_fit(const std::string& document, const std::string& name = "fit document");
 
 /// What is compared: one fit, or one for each repeat of a test.
 struct ComparisonSide {

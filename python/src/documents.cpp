@@ -63,7 +63,7 @@ Texts plan(const std::string& content, const std::string& name, const std::optio
 Result<ComparisonSide> side_of(const std::string& name, const Texts& documents) {
   ComparisonSide side{name, {}};
   for (const std::string& document : documents) {
-    auto fit = compared_fit(document);
+    auto fit = compared_fit(document, name);
     if (!fit) return fit.error();
     side.fits.push_back(std::move(fit).value());
   }
@@ -91,7 +91,7 @@ Texts info(const std::string& file, const Cells& cells) {
 
 /// The draft as a manifest that stands in `folder`; code and message of each file that holds no recording.
 py::tuple manifest(const std::vector<std::string>& paths, const std::string& folder) {
-  const ManifestDraft draft = without_gil([&] { return draft_manifest({paths.begin(), paths.end()}); });
+  const ManifestDraft draft = without_gil([&] { return writable(draft_manifest({paths.begin(), paths.end()})); });
   std::vector<std::pair<std::string, std::string>> skipped;
   for (const Error& error : draft.skipped) skipped.emplace_back(error.code, error.message);
   return py::make_tuple(to_csv(draft, folder), skipped);

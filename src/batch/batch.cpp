@@ -11,8 +11,8 @@
 #include "batch/run.hpp"
 #include "batch/run_file.hpp"
 #include "batch/work_list.hpp"
+#include "slipfit/core/printable.hpp"
 #include "slipfit/io/manifest.hpp"
-#include "slipfit/report/text.hpp"
 
 namespace slipfit {
 namespace {
@@ -50,13 +50,13 @@ FoundResults prepare_folder(const BatchOptions& options, const BatchHooks& hooks
 void report_other_processor(const BatchHooks& hooks, const RunRecord& before, const RunRecord& now) {
   if (!hooks.tell || before.processor == now.processor) return;
   hooks.tell(fmt::format("results were computed on another processor, too ({}; this one: {}): last digits may differ",
-                         one_line(before.processor), now.processor));
+                         printable(before.processor), now.processor));
 }
 
 void tell_ignored_columns(const BatchOptions& options, const BatchHooks& hooks) {
   const auto reader = ManifestReader::open(options.manifest);
   if (!hooks.tell || !reader || reader.value().ignored_columns().empty()) return;
-  hooks.tell(fmt::format("{}: columns that are not used: {}", one_line(options.manifest.string()),
+  hooks.tell(fmt::format("{}: columns that are not used: {}", printable(options.manifest.string()),
                          fmt::join(reader.value().ignored_columns(), ", ")));
 }
 

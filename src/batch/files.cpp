@@ -13,7 +13,7 @@
 #include <system_error>
 #include <vector>
 
-#include "slipfit/report/text.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
 namespace {
@@ -54,7 +54,7 @@ int open_temporary(const fs::path& file, std::string& name) {
 }  // namespace
 
 ThrownError file_error(std::string code, const fs::path& file, std::string_view message) {
-  return ThrownError({std::move(code), fmt::format("{}: {}", one_line(file.string()), message)});
+  return ThrownError({std::move(code), fmt::format("{}: {}", printable(file.string()), message)});
 }
 
 ThrownError cannot_write(const fs::path& file, int error_number) {

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "slipfit/report/text.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
 namespace {
@@ -52,7 +52,7 @@ ThrownError in_use(const fs::path& file, int descriptor) {
       "folder_in_use", file,
       fmt::format("in use by process {} ('{}', file of user {}); wait for it, or choose another folder; if that "
                   "process is no slipfit, remove the file",
-                  knows_process ? std::to_string(lock.l_pid) : "?", one_line(text_of(descriptor)), status.st_uid));
+                  knows_process ? std::to_string(lock.l_pid) : "?", printable(text_of(descriptor)), status.st_uid));
 }
 
 ThrownError not_opened(const fs::path& file, int reason) {

@@ -11,7 +11,8 @@
 #include "batch/run_file.hpp"
 #include "batch/tables.hpp"
 #include "slipfit/batch/batch.hpp"
-#include "slipfit/report/text.hpp"
+#include "slipfit/core/printable.hpp"
+#include "slipfit/report/fit_document.hpp"
 
 namespace slipfit {
 namespace {
@@ -46,11 +47,18 @@ class ShardReader {
   void move_to(FinalFiles& files) {
     std::string line;
     if (!std::getline(place_->has_failed ? failures_ : results_, line)) throw not_finished(folder_);
+    if (!place_->has_failed) check_result(line);
     place_->has_failed ? files.add_failure(line, row_) : files.add_result(line, row_);
     advance();
   }
 
  private:
+  /// Error: bad_document.
+  void check_result(const std::string& line) {
+    const std::string name = fmt::format("{}:{}", (folder_ / kResults).string(), ++results_read_);
+    if (auto error = check_fit_document(line, name)) throw ThrownError(*std::move(error));
+  }
+
   void advance() {
     place_.reset();
     if (!std::getline(summary_, row_)) return;
@@ -61,6 +69,7 @@ class ShardReader {
   fs::path folder_;
   std::ifstream summary_, results_, failures_;
   std::string row_;
+  std::size_t results_read_ = 0;
   std::optional<SummaryPlace> place_;
 };
 
@@ -82,36 +91,46 @@ RunRecord record_of(const fs::path& folder) {
   return record;
 }
 
+/// Names the first of them: their number is as large as run.json says.
+ThrownError shards_missing(const RunRecord& common, const std::set<std::size_t>& given) {
+  constexpr std::size_t kMostNamed = 20;
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 1; i <= common.shard.count && missing.size() < kMostNamed; ++i) {
+    if (!given.contains(i)) missing.push_back(i);
+  }
+  const bool are_more = common.shard.count - given.size() > missing.size();
+  return ThrownError(
+      {"shards_missing", fmt::format("shard {}{} of the batch of '{}' is missing; give the folders of all shards",
+                                     fmt::join(missing, ", "), are_more ? ", ..." : "", printable(common.manifest))});
+}
+
 /// What the shards have in common; all of them must be there, once.
 RunRecord common_record(const std::vector<fs::path>& shards) {
   RunRecord common;
-  std::set<std::size_t> missing;
+  std::set<std::size_t> given;
   for (const fs::path& folder : shards) {
     RunRecord shard = record_of(folder);
     if (&folder == &shards.front()) {
       common = shard;
       common.progress.seconds = 0.0;
-      for (std::size_t i = 1; i <= shard.shard.count; ++i) missing.insert(i);
     }
     const std::size_t index = std::exchange(shard.shard.index, common.shard.index);
     if (const auto differs = difference(common, shard)) {
       throw file_error("shards_differ", folder,
                        fmt::format("belongs to another batch than '{}': {}; merge the shards of one batch",
-                                   one_line(shards.front().string()), *differs));
+                                   printable(shards.front().string()), *differs));
     }
-    if (missing.erase(index) == 0) {
-      throw file_error(
-          "shards_differ", folder,
-          fmt::format("is shard {} of {}, which was given before; give each shard once", index, shard.shard.count));
+    if (index < 1 || index > shard.shard.count || !given.insert(index).second) {
+      throw file_error("shards_differ", folder,
+                       fmt::format("is shard {} of {}, which is none or was given before; give each shard once", index,
+                                   shard.shard.count));
     }
     common.progress.seconds += shard.progress.seconds;
     common.processor = processors_of(common, shard);
   }
+  if (given.size() < common.shard.count) throw shards_missing(common, given);
   common.shard = {};
-  if (missing.empty()) return common;
-  throw ThrownError(
-      {"shards_missing", fmt::format("shard {} of the batch of '{}' is missing; give the folders of all shards",
-                                     fmt::join(missing, ", "), one_line(common.manifest))});
+  return common;
 }
 
 /// Rows in the manifest's order, none left out and none twice. Counts them.

@@ -9,13 +9,23 @@
 
 #include "batch/tables.hpp"
 #include "core/parallel.hpp"
-#include "slipfit/report/text.hpp"
+#include "report/document/json_node.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
 namespace {
 
+/// Null where it is no document, or one out of all bounds.
+nlohmann::json parsed(const std::string& document) {
+  try {
+    return documents::parse_document(document, kResults);
+  } catch (const ThrownError&) {
+    return {};
+  }
+}
+
 std::optional<std::string> id_of(const std::string& document) {
-  const auto json = nlohmann::json::parse(document, nullptr, false);
+  const auto json = parsed(document);
   if (!json.is_object() || json.value("schema", nlohmann::json()) != "slipfit.fit/1") return std::nullopt;
   const auto id = json.find("id");
   return id != json.end() && id->is_string() ? std::optional(id->get<std::string>()) : std::nullopt;
@@ -170,7 +180,7 @@ void for_each_result(const std::filesystem::path& manifest, const WorkList& list
   std::size_t group = 0;
   Entries entries(manifest);
   while (const auto entry = entries.next()) {
-    use_slot(entry->row - 1, {entry->row, entry->id, entry->group, one_line(entry->file.string())});
+    use_slot(entry->row - 1, {entry->row, entry->id, entry->group, printable(entry->file.string())});
     for (; group < list.groups.size() && list.groups[group].last_row == entry->row; ++group) {
       const std::string& name = list.groups[group].name;
       use_slot(list.slot_of_group(group), {entry->row, id_of_group(name), name, ""});

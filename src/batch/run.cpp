@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "batch/pages.hpp"
-#include "slipfit/report/text.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
 namespace {
@@ -54,7 +54,9 @@ void Run::fit_recordings() {
   while (const auto entry = stopped_ ? std::nullopt : entries.next()) {
     const bool is_mine = entry->row <= list_.rows && list_.is_mine[entry->row - 1];  // the file may have grown
     if (!is_mine) continue;
-    offer({{entry->row - 1, entry->id}, {entry->file}, [this, entry] { return fit_recording_of(*entry, options_); }});
+    offer({{entry->row - 1, entry->id}, {input_paths_of(*entry)}, [this, entry] {
+             return fit_recording_of(*entry, options_);
+           }});
   }
   finish();
 }
@@ -66,7 +68,7 @@ void Run::fit_groups(std::size_t first_group, std::size_t count) {
     if (!list_.is_mine[slot]) continue;
     const Members& group = members[i];
     WorkItem item{{slot, id_of_group(list_.groups[first_group + i].name)}, {}, {}};
-    for (const ManifestEntry& member : group) item.inputs.push_back(member.file);
+    for (const ManifestEntry& member : group) item.inputs.push_back(input_paths_of(member));
     item.fit = [this, id = item.key.id, &group] { return options_.fit_group(id, group); };
     offer(std::move(item));
   }
@@ -88,7 +90,7 @@ std::vector<Run::Members> Run::members_of(std::size_t first_group, std::size_t c
 void Run::tell_replaced() const {
   if (!hooks_.tell) return;
   const auto tell = [this](const std::vector<std::string>& ids, const char* what) {
-    if (!ids.empty()) hooks_.tell(fmt::format("{} {} ('{}' first)", ids.size(), what, one_line(ids.front())));
+    if (!ids.empty()) hooks_.tell(fmt::format("{} {} ('{}' first)", ids.size(), what, printable(ids.front())));
   };
   tell(replaced_, "of the results were of other bytes than their files hold now, and were fitted again");
   tell(gone_, "recordings cannot be read now; their results are kept");

@@ -10,7 +10,7 @@
 #include "batch/build.hpp"
 #include "batch/files.hpp"
 #include "report/names.hpp"
-#include "slipfit/report/text.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
 
@@ -29,6 +29,7 @@ static void from_json(const Json& json, JsonText& options) {
 namespace {
 
 constexpr const char* kSchema = "slipfit.run/1";
+constexpr std::uintmax_t kLargestRecord = std::uintmax_t{1} << 20U;  // hundreds of times what is written
 
 /// Calls `use` with every member of a record and its place in run.json: writing and reading have one list.
 template <class Record, class Use>
@@ -78,7 +79,7 @@ RunRecord begin_record(const BatchOptions& options, const Digest& manifest_diges
   record.version = SLIPFIT_VERSION;
   record.build = build_of_program();
   record.processor = processor_of_machine();
-  record.manifest = one_line(options.manifest.string());
+  record.manifest = printable(options.manifest.string());
   record.manifest_digest = manifest_digest.text();
   record.options.text = options_text(options);
   record.shard = options.shard;
@@ -110,8 +111,9 @@ std::optional<RunRecord> read_record(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kRunFile;
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return std::nullopt;
+  const auto size = std::filesystem::file_size(file, ignored);
   std::ifstream stream(file, std::ios::binary);
-  Json json = Json::parse(stream, nullptr, false);
+  Json json = !ignored && size <= kLargestRecord ? Json::parse(stream, nullptr, false) : Json();
   try {
     for (const char* const added_later : {"build", "processor"}) json.emplace(added_later, "unknown");
     if (json.at("schema") == kSchema) {

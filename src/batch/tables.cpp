@@ -8,8 +8,8 @@
 #include "core/thrown_error.hpp"
 #include "io/cells.hpp"
 #include "report/quantities.hpp"
+#include "slipfit/core/printable.hpp"
 #include "slipfit/fit/parameter.hpp"
-#include "slipfit/report/text.hpp"
 
 namespace slipfit::batch {
 namespace {
@@ -21,12 +21,6 @@ struct SummaryColumn {
   std::string name;
   Json::json_pointer place;
 };
-
-/// Text from outside as a cell: what a spreadsheet would run as a formula (= + - @ in front) gets a ' in front.
-std::string text_cell(const std::string& text) {
-  const bool is_formula = !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
-  return is_formula ? "'" + text : text;
-}
 
 /// "_N_s_per_m" of "N s/m": how keys end.
 std::string suffix_of(std::string_view unit) {
@@ -83,7 +77,7 @@ const std::vector<SummaryColumn>& document_columns() {
 std::string cell_at(const Json& document, const Json::json_pointer& place) {
   if (!document.contains(place)) return {};
   const Json& value = document.at(place);
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return spreadsheet_cell(value.get<std::string>());
   return value.is_null() || value.is_structured() ? std::string() : value.dump();
 }
 
@@ -96,7 +90,8 @@ std::string warning_codes(const Json& document) {
 }
 
 std::vector<std::string> key_cells(const SummaryKey& key, const std::string& status) {
-  return {std::to_string(key.row), text_cell(key.id), text_cell(key.group), text_cell(key.file), status};
+  return {std::to_string(key.row), spreadsheet_cell(key.id), spreadsheet_cell(key.group), spreadsheet_cell(key.file),
+          status};
 }
 
 }  // namespace
@@ -111,7 +106,7 @@ std::string summary_names() {
 std::string summary_of_result(const SummaryKey& key, const std::string& document) {
   const Json json = Json::parse(document, nullptr, false);
   if (!json.is_object()) {
-    throw ThrownError({"not_readable", "results.jsonl: the line of '" + key.id + "' is no document"});
+    throw ThrownError({"not_readable", "results.jsonl: the line of '" + printable(key.id) + "' is no document"});
   }
   std::vector<std::string> cells = key_cells(key, cell_at(json, Json::json_pointer("/status")));
   for (const SummaryColumn& column : document_columns()) cells.push_back(cell_at(json, column.place));
@@ -140,7 +135,7 @@ std::string failure_names() {
 }
 
 std::string failure_line(const std::string& id, const Error& failure) {
-  return csv_line({text_cell(id), failure.code, text_cell(one_line(failure.message))});
+  return csv_line({spreadsheet_cell(id), printable(failure.code), spreadsheet_cell(failure.message)});
 }
 
 BatchPageFailure failure_from(const std::string& failure_line) {

@@ -10,7 +10,7 @@
 
 #include "batch/files.hpp"
 #include "io/message.hpp"
-#include "slipfit/report/text.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
 namespace {
@@ -30,13 +30,13 @@ void check_not_written(const std::filesystem::path& input, const std::filesystem
     std::error_code ignored;
     if (!std::filesystem::equivalent(input, folder / name, ignored)) continue;
     throw ThrownError({"output_is_input", fmt::format("--out: '{}' is '{}' of the results, choose another folder",
-                                                      one_line(input.string()), name)});
+                                                      printable(input.string()), name)});
   }
 }
 
 /// Comparing every recording with every written file would be six system calls a row: the name decides which ones are.
-bool has_written_name(const ManifestEntry& entry) {
-  const std::string name = entry.file.filename().string();
+bool has_written_name(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
   return name == kLock || std::ranges::find(kFolderFiles, name) != kFolderFiles.end();
 }
 
@@ -46,7 +46,9 @@ class WorkCollector {
   explicit WorkCollector(const BatchOptions& options) : options_(options) {}
 
   void add(const ManifestEntry& entry) {
-    if (has_written_name(entry)) check_not_written(entry.file, options_.folder);
+    for (const std::filesystem::path& file : {entry.file, entry.surface}) {
+      if (has_written_name(file)) check_not_written(file, options_.folder);
+    }
     list_.slots.add(entry.id, entry.row - 1);
     list_.rows = entry.row;
     const std::size_t first_row = options_.fit_group && !entry.group.empty() ? add_member(entry) : entry.row;
@@ -97,7 +99,7 @@ void check_duplicates(const std::filesystem::path& manifest, const std::vector<D
   while (const auto entry = entries.next()) {
     if (!std::binary_search(suspects.begin(), suspects.end(), digest_of(entry->id))) continue;
     const auto [first, is_new] = lines.try_emplace(entry->id, entry->line);
-    if (!is_new) throw ThrownError(reading::duplicate_id(one_line(manifest.string()), *entry, first->second));
+    if (!is_new) throw ThrownError(reading::duplicate_id(printable(manifest.string()), *entry, first->second));
   }
 }
 
@@ -109,7 +111,8 @@ std::vector<std::uint32_t> spread(const std::vector<std::uint64_t>& sizes, std::
   std::ranges::stable_sort(largest_first, [&sizes](std::uint32_t a, std::uint32_t b) { return sizes[a] > sizes[b]; });
   using Load = std::pair<std::uint64_t, std::uint32_t>;  // so far, shard
   std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
-  for (std::uint32_t shard = 1; shard <= shards; ++shard) loads.emplace(0, shard);
+  const std::size_t used = std::min(shards, sizes.size());  // more than pieces stay empty
+  for (std::uint32_t shard = 1; shard <= used; ++shard) loads.emplace(0, shard);
   std::vector<std::uint32_t> shard_of(sizes.size());
   for (const std::uint32_t piece : largest_first) {
     const auto [load, shard] = loads.top();
@@ -159,7 +162,7 @@ WorkList list_work(const BatchOptions& options) {
   Entries entries(options.manifest);
   while (const auto entry = entries.next()) collector.add(*entry);
   WorkList list = collector.finish();
-  if (list.rows == 0) throw ThrownError(reading::empty_manifest(one_line(options.manifest.string())));
+  if (list.rows == 0) throw ThrownError(reading::empty_manifest(printable(options.manifest.string())));
   check_duplicates(options.manifest, list.slots.repeated());
   list.manifest_digest = value_or_throw(digest);
   return list;

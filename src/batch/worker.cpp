@@ -12,6 +12,7 @@
 #include "batch/pages.hpp"
 #include "report/batch_html.hpp"
 #include "slipfit/background.hpp"
+#include "slipfit/core/printable.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/pipeline.hpp"
@@ -19,7 +20,6 @@
 #include "slipfit/report/json.hpp"
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/sweep_html.hpp"
-#include "slipfit/report/text.hpp"
 #include "slipfit/surface/comparison.hpp"
 #include "slipfit/sweep.hpp"
 
@@ -45,7 +45,7 @@ Result<BatchFit> fit_without_exceptions(const WorkItem& item) {
   } catch (const std::bad_alloc&) {
     return Error{"out_of_memory", name_of(item) + ": not enough memory; give a part of it as window, or fewer --jobs"};
   } catch (const std::exception& error) {
-    return Error{"internal_error", bug + ": " + one_line(error.what())};
+    return Error{"internal_error", bug + ": " + printable(error.what())};
   } catch (...) {
     return Error{"internal_error", bug};
   }
@@ -67,43 +67,62 @@ std::string fit_reply(const WorkItem& item, const BatchOptions& options, ResultL
 /// Gone: a file cannot be read, and none is known to have changed.
 enum class InputState { Same, Changed, Gone };
 
-InputState compare_input(const DocumentJson& recording, const std::filesystem::path& file) {
+/// `input`: what the document says of the file.
+InputState compare_input(const DocumentJson& input, const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) return InputState::Gone;
-  const DocumentJson digest = recording.value("input_digest", DocumentJson());
-  if (!digest.is_string() || recording.value("input_bytes", DocumentJson()) != size) return InputState::Changed;
+  const DocumentJson digest = input.value("input_digest", DocumentJson());
+  if (!digest.is_string() || input.value("input_bytes", DocumentJson()) != size) return InputState::Changed;
   const auto now = digest_of_file(file.string());
   if (!now) return InputState::Gone;
   return digest == now->text() ? InputState::Same : InputState::Changed;
 }
 
-/// What the document says of each file; several recordings in a row may be of one.
-std::vector<DocumentJson> files_of(const DocumentJson& recordings) {
-  std::vector<DocumentJson> files;
-  for (const DocumentJson& recording : recordings) {
-    DocumentJson file = recording.value("recording", DocumentJson::object());
-    const auto name = [](const DocumentJson& json) { return json.value("file", DocumentJson()); };
-    if (files.empty() || name(files.back()) != name(file)) files.push_back(std::move(file));
+/// What a document says of the files that were read for a recording: `file`, `input_digest`, `input_bytes` of each.
+std::vector<DocumentJson> inputs_in(const DocumentJson& recording) {
+  std::vector<DocumentJson> inputs{recording};
+  for (const DocumentJson& other : recording.value("other_inputs", DocumentJson::array())) {
+    inputs.push_back(other.is_object() ? other : DocumentJson::object());
   }
-  return files;
+  return inputs;
 }
 
-/// Whether the files of a recording, or of a group's recordings, are those that a document was made of, by their sizes
-/// and digests.
-InputState compare_inputs(const std::string& document, std::vector<std::filesystem::path> inputs) {
+/// Of each recording of a document; several recordings in a row may be of one file.
+std::vector<std::vector<DocumentJson>> inputs_of(const DocumentJson& recordings) {
+  const auto names_in = [](const std::vector<DocumentJson>& inputs) {
+    std::vector<DocumentJson> names;
+    for (const DocumentJson& input : inputs) names.push_back(input.value("file", DocumentJson()));
+    return names;
+  };
+  std::vector<std::vector<DocumentJson>> all;
+  for (const DocumentJson& recording : recordings) {
+    const DocumentJson none = DocumentJson::object();
+    const DocumentJson section = recording.is_object() ? recording.value("recording", none) : none;
+    std::vector<DocumentJson> inputs = inputs_in(section.is_object() ? section : none);
+    if (all.empty() || names_in(all.back()) != names_in(inputs)) all.push_back(std::move(inputs));
+  }
+  return all;
+}
+
+/// Whether the files of a recording, or of a group's recordings, are those that were read for a document, by their
+/// sizes and digests.
+InputState compare_inputs(const std::string& document, std::vector<InputPaths> paths) {
   const DocumentJson json = DocumentJson::parse(document, nullptr, false);
   if (!json.is_object()) return InputState::Changed;
   const DocumentJson recordings =
       json.contains("recording") ? DocumentJson::array({json}) : json.value("recordings", DocumentJson::array());
-  const std::vector<DocumentJson> files = files_of(recordings);
-  inputs.erase(std::unique(inputs.begin(), inputs.end()), inputs.end());
-  if (files.size() != inputs.size()) return InputState::Changed;
+  const std::vector<std::vector<DocumentJson>> inputs = inputs_of(recordings);
+  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+  if (inputs.size() != paths.size()) return InputState::Changed;
   InputState state = InputState::Same;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const InputState found = compare_input(files[i], inputs[i]);
-    if (found == InputState::Changed) return found;
-    if (found == InputState::Gone) state = found;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (inputs[i].size() != paths[i].size()) return InputState::Changed;
+    for (std::size_t k = 0; k < paths[i].size(); ++k) {
+      const InputState found = compare_input(inputs[i][k], paths[i][k]);
+      if (found == InputState::Changed) return found;
+      if (found == InputState::Gone) state = found;
+    }
   }
   return state;
 }
@@ -117,8 +136,12 @@ JsonOptions layout_of(const std::string& id) {
 
 }  // namespace
 
+InputPaths input_paths_of(const ManifestEntry& entry) {
+  return entry.surface.empty() ? InputPaths{entry.file} : InputPaths{entry.file, entry.surface};
+}
+
 std::string name_of(const WorkItem& item) {
-  return one_line(item.inputs.size() == 1 ? item.inputs.front().string() : item.key.id);
+  return printable(item.inputs.size() == 1 ? item.inputs.front().front().string() : item.key.id);
 }
 
 /// Of a row with strokes or segments: a fit of all of them, as of a group.

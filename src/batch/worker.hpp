@@ -14,10 +14,15 @@
 
 namespace slipfit::batch {
 
+/// The files that are read for a recording: its own, then others in the order in which its document lists them.
+using InputPaths = std::vector<std::filesystem::path>;
+
+InputPaths input_paths_of(const ManifestEntry& entry);
+
 /// A recording or a group, and how it is fitted.
 struct WorkItem {
   SlotKey key;
-  std::vector<std::filesystem::path> inputs;
+  std::vector<InputPaths> inputs;  ///< of each recording
   std::function<Result<BatchFit>()> fit;
 };
 

@@ -1,16 +1,16 @@
-#include <fmt/format.h>
-
 #include <string>
 #include <vector>
 
 #include "core/unknown.hpp"
-#include "report/json_values.hpp"
+#include "report/document/check_document.hpp"
 #include "report/quantities.hpp"
 #include "slipfit/compare.hpp"
 #include "slipfit/fit/parameter.hpp"
 
 namespace slipfit {
 namespace {
+
+using documents::JsonNode;
 
 std::vector<ComparedQuantity> make_quantities() {
   std::vector<ComparedQuantity> quantities;
@@ -29,24 +29,59 @@ std::vector<ComparedQuantity> make_quantities() {
   return quantities;
 }
 
+std::optional<double> number_in(const JsonNode& node, const std::string& key) {
+  const std::optional<JsonNode> found = node.known(key);
+  return found ? found->number() : std::nullopt;
+}
+
+std::string text_in(const JsonNode& node, const std::string& key) {
+  const std::optional<JsonNode> found = node.known(key);
+  return found ? found->text() : std::string();
+}
+
+Estimate estimate_in(const JsonNode& node, const std::string& suffix) {
+  Estimate estimate{number_in(node, "value" + suffix), number_in(node, "se" + suffix), {}, text_in(node, "note")};
+  if (const auto bounds = node.known("ci95" + suffix)) {
+    estimate.ci95 = Interval{*bounds->element(0).number(), *bounds->element(1).number()};
+  }
+  return estimate;
+}
+
 /// What is only an interval, or was not measured, cannot be compared.
-ComparedValue value_of(const Json& json, const std::string& suffix) {
-  ComparedValue value{estimate_in(json, suffix), text_in(json, "status"), !json.is_object()};
+ComparedValue value_of(const std::optional<JsonNode>& node, const std::string& suffix) {
+  if (!node || !node->is_object()) return {unknown("its result does not hold it"), {}, true};
+  ComparedValue value{estimate_in(*node, suffix), text_in(*node, "status"), false};
   Estimate& estimate = value.estimate;
   if (value.status == "bounded") {
     estimate = {{}, {}, estimate.ci95, "only its interval is known (status bounded)"};
   } else if (value.status == "fixed") {
     estimate = unknown("held at a stated value (status fixed)");
   } else if (!estimate.value) {
-    const char* const why = value.is_absent ? "its result does not hold it" : "not known";
-    estimate = unknown(estimate.note.empty() ? std::string(why) : estimate.note);
+    estimate = unknown(estimate.note.empty() ? "not known" : estimate.note);
   }
   return value;
 }
 
-ComparedValue value_in(const Json& document, const ComparedQuantity& quantity) {
-  if (quantity.section == "frequency") return value_of(child(document, "frequency"), "_Hz");
-  return value_of(child(child(document, quantity.section), quantity.key), {});
+ComparedValue value_in(const JsonNode& document, const ComparedQuantity& quantity) {
+  if (quantity.section == "frequency") return value_of(document.known("frequency"), "_Hz");
+  return value_of(document.known(quantity.section, quantity.key), {});
+}
+
+ComparedFit fit_from(const JsonNode& document) {
+  ComparedFit fit;
+  fit.id = text_in(document, "id");
+  fit.motion = text_in(document, "status");
+  if (const auto recording = document.known("recording")) {
+    fit.file = text_in(*recording, "file");
+    fit.source = text_in(*recording, "input_digest");
+    const auto slides = recording->known("sliding_s");
+    if (!fit.source.empty()) fit.source += slides ? slides->json_text() : "null";
+    fit.group = text_in(*recording, "group");
+    fit.speed_m_per_s = number_in(*recording, "speed_m_per_s");
+    fit.normal_force_N = number_in(*recording, "normal_force_N");
+  }
+  for (const ComparedQuantity& quantity : compared_quantities()) fit.values.push_back(value_in(document, quantity));
+  return fit;
 }
 
 }  // namespace
@@ -56,24 +91,8 @@ std::span<const ComparedQuantity> compared_quantities() {
   return quantities;
 }
 
-Result<ComparedFit> compared_fit(const std::string& document) {
-  const Json json = Json::parse(document, nullptr, false);
-  if (text_in(json, "schema") != "slipfit.fit/1") {
-    return Error{"bad_document",
-                 fmt::format("'{}': no fit document, expected what slipfit fit --json writes", document.substr(0, 60))};
-  }
-  const Json recording = child(json, "recording");
-  ComparedFit fit;
-  fit.id = text_in(json, "id");
-  fit.file = text_in(recording, "file");
-  const Json digest = child(recording, "input_digest");
-  if (digest.is_string()) fit.source = digest.get<std::string>() + child(recording, "sliding_s").dump();
-  fit.group = text_in(recording, "group");
-  fit.motion = text_in(json, "status");
-  fit.speed_m_per_s = number_in(recording, "speed_m_per_s");
-  fit.normal_force_N = number_in(recording, "normal_force_N");
-  for (const ComparedQuantity& quantity : compared_quantities()) fit.values.push_back(value_in(json, quantity));
-  return fit;
+Result<ComparedFit> compared_fit(const std::string& document, const std::string& name) {
+  return documents::with_document<ComparedFit>(document, name, fit_from);
 }
 
 }  // namespace slipfit

@@ -1,5 +1,7 @@
 #include "core/csv_line.hpp"
 
+#include "slipfit/core/printable.hpp"
+
 namespace slipfit {
 
 std::string csv_line(const std::vector<std::string>& cells) {
@@ -13,6 +15,11 @@ std::string csv_line(const std::vector<std::string>& cells) {
     if (!is_plain) line += '"';
   }
   return line;
+}
+
+std::string spreadsheet_cell(std::string_view text) {
+  const bool is_formula = !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
+  return (is_formula ? "'" : "") + printable(text);
 }
 
 }  // namespace slipfit

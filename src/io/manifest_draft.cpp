@@ -10,6 +10,7 @@
 #include "core/word_list.hpp"
 #include "io/file_name.hpp"
 #include "io/message.hpp"
+#include "slipfit/core/printable.hpp"
 #include "slipfit/io/file_info.hpp"
 
 namespace slipfit {
@@ -46,7 +47,7 @@ std::string stem_of(const fs::path& file) {
 
 /// One for each recording in the file.
 std::vector<DraftEntry> entries_of(const fs::path& file, const FileInfo& info) {
-  const std::string stem = reading::printable(stem_of(file));
+  const std::string stem = slipfit::printable(stem_of(file));
   const reading::ToldByName told = reading::read_file_name(stem);
   const bool are_steps = info.steps.size() > 1 && info.steps.size() <= kMostSteps && !info.is_one_recording;
   std::vector<DraftEntry> entries;
@@ -91,6 +92,18 @@ ManifestDraft draft_manifest(const std::vector<fs::path>& paths, const ReadOptio
   return draft;
 }
 
+ManifestDraft writable(ManifestDraft draft) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7F'; };
+  std::erase_if(draft.entries, [&](const DraftEntry& entry) {
+    if (std::ranges::none_of(entry.file.string(), is_control)) return false;
+    draft.skipped.push_back({"bad_id", slipfit::printable(entry.file.string()) +
+                                           ": the name has a line end or another control character, which a manifest "
+                                           "cannot hold; rename the file"});
+    return true;
+  });
+  return draft;
+}
+
 std::string to_csv(const ManifestDraft& draft, const fs::path& folder, const std::vector<DraftColumn>& columns) {
   const bool has_steps =
       std::ranges::any_of(draft.entries, [](const DraftEntry& entry) { return entry.step.has_value(); });
@@ -102,8 +115,10 @@ std::string to_csv(const ManifestDraft& draft, const fs::path& folder, const std
     std::error_code error;
     fs::path file = fs::proximate(entry.file, folder.empty() ? fs::path(".") : folder, error);
     if (error) file = entry.file;
-    std::vector<std::string> cells{entry.id, file.string(), number_cell(entry.speed_m_per_s),
-                                   number_cell(entry.normal_force_N), entry.group};
+    const bool is_formula = std::string_view("=+-@").find(file.string().front()) != std::string_view::npos;
+    std::vector<std::string> cells{spreadsheet_cell(entry.id), (is_formula ? "./" : "") + file.string(),
+                                   number_cell(entry.speed_m_per_s), number_cell(entry.normal_force_N),
+                                   spreadsheet_cell(entry.group)};
     if (has_steps) cells.push_back(entry.step ? std::to_string(*entry.step) : std::string());
     for (const DraftColumn& column : columns) cells.push_back(column.cell);
     text += csv_line(cells) + "\n";

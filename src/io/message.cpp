@@ -6,6 +6,8 @@
 #include <charconv>
 #include <iterator>
 
+#include "slipfit/core/printable.hpp"
+
 namespace slipfit::reading {
 
 using Utf8Traits = boost::locale::utf::utf_traits<char>;
@@ -34,20 +36,7 @@ std::string to_utf8(std::string_view text) {
 }
 
 std::string printable(std::string_view text) {
-  std::string result;
-  for (const char c : to_utf8(text)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '\n') {
-      result += "\\n";
-    } else if (c == '\t') {
-      result += "\\t";
-    } else if (byte < 0x20 || byte == 0x7F) {
-      result += fmt::format("\\x{:02x}", byte);
-    } else {
-      result += c;
-    }
-  }
-  return result;
+  return slipfit::printable(to_utf8(text));
 }
 
 std::optional<std::size_t> place_in_list(std::string_view text, std::size_t count) {
@@ -58,7 +47,7 @@ std::optional<std::size_t> place_in_list(std::string_view text, std::size_t coun
 }
 
 std::string name_of_file(const std::filesystem::path& file) {
-  return file == "-" ? "standard input" : printable(file.string());
+  return file == "-" ? "standard input" : slipfit::printable(file.string());
 }
 
 std::string counted(std::size_t count, std::string_view noun) {

@@ -21,7 +21,7 @@ void append_utf8(std::string& text, unsigned code_point);
 /// UTF-8 as it is; anything else is taken for Latin-1 and converted.
 std::string to_utf8(std::string_view text);
 
-/// One line of valid UTF-8: control characters are shown as \n, \t or \x1b.
+/// Text of a file, in UTF-8 or Latin-1, as one line that slipfit::printable makes of it.
 std::string printable(std::string_view text);
 
 /// 0-based, of a 1-based number as text; empty where the text is none, or one beyond `count`.

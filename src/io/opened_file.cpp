@@ -94,9 +94,13 @@ void make_forces(Rows& rows, Choice& choice, const Layout& layout) {
 }  // namespace
 
 OpenedFile open_file(const std::filesystem::path& path, const ReadOptions& options) {
+  return open_file(open_plain(path), name_of_file(path), options);
+}
+
+OpenedFile open_file(TextStream opened, const std::string& name, const ReadOptions& options) {
   OpenedFile file;
-  file.name = name_of_file(path);
-  file.source = TextSource::open(path, {options.sheet, options.variable});
+  file.name = name;
+  file.source = TextSource::over(unpacked(std::move(opened), name, {options.sheet, options.variable}), name);
   file.layout = layout_of_head(*file.source, file.name);
   return file;
 }

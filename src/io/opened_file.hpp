@@ -25,6 +25,8 @@ struct OpenedFile {
 
 /// Errors: those of TextSource, no_numeric_column, line_too_long, empty_file.
 OpenedFile open_file(const std::filesystem::path& path, const ReadOptions& options);
+/// The same of a file that open_plain opened.
+OpenedFile open_file(TextStream opened, const std::string& name, const ReadOptions& options);
 
 /// A file whose rows are read, and what was asked for.
 struct LoadedFile {

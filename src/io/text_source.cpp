@@ -67,10 +67,6 @@ std::unique_ptr<TextSource> TextSource::open(const std::filesystem::path& file) 
   return over(open_plain(file), name_of_file(file));
 }
 
-std::unique_ptr<TextSource> TextSource::open(const std::filesystem::path& file, const ContainerChoice& choice) {
-  return over(open_unpacked(file, choice), name_of_file(file));
-}
-
 std::unique_ptr<TextSource> TextSource::over(TextStream stream, const std::string& name) {
   std::unique_ptr<TextSource> source(new TextSource);
   source->stream_ = std::move(stream);

@@ -21,8 +21,8 @@ class TextSource final : public ::io::ByteSourceBase {
  public:
   /// Errors: file_not_found, is_directory, not_readable, empty_file, binary_file.
   static std::unique_ptr<TextSource> open(const std::filesystem::path& file);
-  /// Of what is packed in the file, too. Errors: those above, those of containers.
-  static std::unique_ptr<TextSource> open(const std::filesystem::path& file, const ContainerChoice& choice);
+  /// Of a file that is open; `name`: as messages show it. Errors: empty_file, binary_file.
+  static std::unique_ptr<TextSource> over(TextStream stream, const std::string& name);
 
   /// The first `size` bytes of the text (fewer when there are no more), without consuming them.
   std::string_view head(std::size_t size);
@@ -41,7 +41,6 @@ class TextSource final : public ::io::ByteSourceBase {
 
  private:
   enum class Encoding { Bytes, Utf16LittleEndian, Utf16BigEndian };
-  static std::unique_ptr<TextSource> over(TextStream stream, const std::string& name);
 
   TextSource() = default;
   void detect_encoding();

@@ -1,6 +1,8 @@
 #include "predict/draws.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstdint>
@@ -9,6 +11,7 @@
 #include <utility>
 
 #include "core/student.hpp"
+#include "slipfit/model/motion.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -41,7 +44,14 @@ MatrixXd root_of(const ModelEstimate& model) {
   return errors.asDiagonal() * solver.eigenvectors() * roots.asDiagonal() * solver.eigenvectors().transpose();
 }
 
-/// Empty where it is none that could be.
+bool is_model(const ModelEstimate& model) {
+  const auto slider = Slider::create(model.stiffness_N_per_m, model.natural_frequency_rad_per_s, model.damping_ratio);
+  if (!slider || !Friction::create(model.friction_difference_N, 0.0) || !(model.damping_ratio < 1.0)) return false;
+  const std::array<double, kModelValues> values = values_of(model);
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+/// Empty where it is no model: outside of the ranges, or beyond what a double can be.
 std::optional<ModelEstimate> moved(const ModelEstimate& model, const VectorXd& step) {
   const auto move = [&](ParameterId id) { return step(static_cast<Index>(place_in_model(id))); };
   ModelEstimate other = model;
@@ -49,7 +59,6 @@ std::optional<ModelEstimate> moved(const ModelEstimate& model, const VectorXd& s
   other.natural_frequency_rad_per_s *= std::exp(move(ParameterId::NaturalFrequency));
   other.damping_ratio += move(ParameterId::DampingRatio);
   other.friction_difference_N *= std::exp(move(ParameterId::FrictionDifference));
-  if (!(other.damping_ratio >= 0.0 && other.damping_ratio < 1.0)) return std::nullopt;
   if (other.speed_dependence) {
     other.speed_dependence->slope_N_s_per_m += move(ParameterId::FrictionSlope);
     other.speed_dependence->alpha_s_per_m += move(ParameterId::Alpha);
@@ -65,7 +74,7 @@ std::optional<ModelEstimate> moved(const ModelEstimate& model, const VectorXd& s
     if (!(other.reloading->force_N > 0.0)) return std::nullopt;
   }
   if (other.stiffness_trend) other.stiffness_trend->exponent += move(ParameterId::StiffnessExponent);
-  return other;
+  return is_model(other) ? std::optional(other) : std::nullopt;
 }
 
 /// Normal numbers, a row for each value of a model: every row has the same ones, evenly spread, in another order.

@@ -2,6 +2,7 @@
 
 #include <ceres/jet.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/slip_jets.hpp"
@@ -74,12 +75,16 @@ class Cycle {
   std::optional<model::VelocityTrack> track_;
 };
 
-/// Sum over the samples of one cycle, the first of the slip at `tau_first`; half a stick on either side.
-CycleMatrix normal_matrix(const Cycle& cycle, double tau_first, double tau_step, const Disturbance& disturbance) {
+/// Sum over the samples of one cycle, the first of the slip at `phase` of a step; half a stick on either side.
+CycleMatrix normal_matrix(const Cycle& cycle, double phase, double tau_step, const Disturbance& disturbance) {
+  // Among more samples than these one stands for several: the sum is then an integral.
+  constexpr double kMostSamples = 1000.0;
   CycleMatrix sum = CycleMatrix::Zero();
   const auto add = [&sum](const CycleJet& y, double weight) { sum += weight * y.v * y.v.transpose(); };
   const double precision = 1.0 / (disturbance.noise_rms_N * disturbance.noise_rms_N);
-  for (double tau = tau_first; tau < cycle.tau_slip(); tau += tau_step) add(cycle.force(tau), precision);
+  const double samples = std::max(1.0, std::ceil(cycle.tau_slip() / tau_step / kMostSamples));
+  const double stride = samples * tau_step;
+  for (double tau = phase * stride; tau < cycle.tau_slip(); tau += stride) add(cycle.force(tau), samples * precision);
   // Squares of straight lines: two Gauss points are exact.
   const double half = 0.5 * cycle.tau_stick();
   for (const double share : {0.5 - std::sqrt(1.0 / 12.0), 0.5 + std::sqrt(1.0 / 12.0)}) {
@@ -116,9 +121,8 @@ std::optional<Information> information_of(const ModelEstimate& model, const Reco
     // The clock is as likely in any phase of the slip; each cycle has one.
     constexpr int kPhases = 8;
     for (int phase = 0; phase < kPhases; ++phase) {
-      const double tau_first = (phase + 0.5) / kPhases * tau_step;
-      information.matrix +=
-          cycles / kPhases * marginal(normal_matrix(cycle, tau_first, tau_step, disturbance), kOnsetForce);
+      const CycleMatrix normals = normal_matrix(cycle, (phase + 0.5) / kPhases, tau_step, disturbance);
+      information.matrix += cycles / kPhases * marginal(normals, kOnsetForce);
     }
   }
   return information;

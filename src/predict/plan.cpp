@@ -80,7 +80,12 @@ class Planner {
         disturbance_{basis.noise_rms_N, scatter_N(basis)},
         propagation_(basis.estimate),
         before_(vague(basis.estimate)),
-        measured_(measured(disturbance_, 1.0)) {}
+        measured_(measured(disturbance_, 1.0)),
+        quiet_(measured({kGood * disturbance_.noise_rms_N, disturbance_.static_friction_sd_N}, 1.0)),
+        even_(measured({disturbance_.noise_rms_N, kGood * disturbance_.static_friction_sd_N}, 1.0)),
+        // More samples, each with more noise, so that nothing is won by their number.
+        dense_(measured({std::sqrt(kFastClock) * disturbance_.noise_rms_N, disturbance_.static_friction_sd_N},
+                        kFastClock)) {}
 
   [[nodiscard]] double error_now(const Jet& y) const { return propagation_.standard_error(y); }
 
@@ -152,16 +157,9 @@ class Planner {
   }
 
   [[nodiscard]] Limit most_helpful(const Jet& y, double now) const {
-    Disturbance quiet = disturbance_;
-    quiet.noise_rms_N *= kGood;
-    Disturbance even = disturbance_;
-    even.static_friction_sd_N *= kGood;
-    // More samples, each with more noise, so that nothing is won by their number.
-    Disturbance same_density = disturbance_;
-    same_density.noise_rms_N *= std::sqrt(kFastClock);
-    if (error_by(y, measured(same_density, kFastClock)) < kHelpful * now) return Limit::Sampling;
-    const double by_scatter = error_by(y, measured(even, 1.0));
-    const double by_noise = error_by(y, measured(quiet, 1.0));
+    if (error_by(y, dense_) < kHelpful * now) return Limit::Sampling;
+    const double by_scatter = error_by(y, even_);
+    const double by_noise = error_by(y, quiet_);
     if (std::min(by_scatter, by_noise) >= kHelpful * now) return Limit::Cycles;
     return by_scatter < by_noise ? Limit::Scatter : Limit::Noise;
   }
@@ -221,7 +219,8 @@ class Planner {
   Disturbance disturbance_;
   predict::Propagation propagation_;
   PlanMatrix before_;
-  PlanMatrix measured_;
+  // Information of the recordings: as they are; with less noise; with less scatter; with more samples.
+  PlanMatrix measured_, quiet_, even_, dense_;
 };
 
 /// The parameter with the widest relative interval; held ones need nothing.

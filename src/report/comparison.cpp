@@ -9,6 +9,7 @@
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
 #include "report/text_sections.hpp"
+#include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
@@ -55,7 +56,7 @@ std::string p_text(std::optional<double> p) {
 std::string note_of(const QuantityComparison& quantity) {
   std::string note;
   const auto add = [&note](const std::string& text) { note += (note.empty() ? "" : "; ") + text; };
-  if (!quantity.ratio.value) add("no ratio: " + one_line(quantity.ratio.note));
+  if (!quantity.ratio.value) add("no ratio: " + printable(quantity.ratio.note));
   const auto add_status = [&](const char* side, const std::string& status) {
     if (status == "weak" || status == "conditional") add(status + " in " + side);
   };
@@ -86,9 +87,9 @@ std::string side_text(const ComparisonSide& side) {
     const std::string motion = plain_words(fit.motion);
     if (std::ranges::find(motions, motion) == motions.end()) motions.push_back(motion);
   }
-  return fmt::format("{} ({}, {}{}{})", one_line(side.name),
+  return fmt::format("{} ({}, {}{}{})", printable(side.name),
                      side.fits.size() == 1 ? "one recording" : fmt::format("{} recordings", side.fits.size()),
-                     one_line(fmt::format("{}", fmt::join(motions, ", "))),
+                     printable(fmt::format("{}", fmt::join(motions, ", "))),
                      range_text(side, &ComparedFit::speed_m_per_s, "m/s"),
                      range_text(side, &ComparedFit::normal_force_N, "N"));
 }
@@ -175,7 +176,7 @@ std::string to_text(const Comparison& comparison) {
   text += table.text();
   const std::vector<NotCompared> left = not_compared(comparison);
   if (!left.empty()) text += "\nNot compared\n";
-  for (const NotCompared& one : left) text += fmt::format("  {}: {}\n", one.words, one_line(one.reason));
+  for (const NotCompared& one : left) text += fmt::format("  {}: {}\n", one.words, printable(one.reason));
   return text + warnings_text(comparison.warnings);
 }
 

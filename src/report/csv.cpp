@@ -7,7 +7,7 @@
 
 #include "report/format.hpp"
 #include "report/quantities.hpp"
-#include "slipfit/report/text.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace slipfit {
 
@@ -47,7 +47,7 @@ std::string curve_to_csv(const Recording& recording, const Analysis& analysis) {
 }
 
 std::string trace_to_csv(const SimulatedTrace& trace, const std::string& comment) {
-  std::string csv = fmt::format("# {}\ntime_s,force_N\n", one_line(comment));
+  std::string csv = fmt::format("# {}\ntime_s,force_N\n", printable(comment));
   for (std::size_t i = 0; i < trace.time_s.size() && i < trace.force_N.size(); ++i) {
     fmt::format_to(std::back_inserter(csv), "{},{}\n", cell(trace.time_s[i]), cell(trace.force_N[i]));
   }

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/student.hpp"
+#include "slipfit/core/printable.hpp"
 #include "slipfit/core/units.hpp"
-#include "slipfit/report/text.hpp"
 
 namespace slipfit {
 namespace {
@@ -119,15 +119,6 @@ Estimate scaled(const Estimate& estimate, double factor) {
   return result;
 }
 
-std::string one_line(std::string_view text) {
-  std::string line(text);
-  for (char& c : line) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20U || byte == 0x7FU) c = '?';
-  }
-  return line;
-}
-
 std::string force_unit(ForceQuantity quantity) {
   return quantity == ForceQuantity::Force_N ? "N" : "";
 }
@@ -181,7 +172,7 @@ std::string speed_text(const Conditions& conditions) {
 
 std::string plain_words(std::string_view name) {
   if (name == "stick_slip") return "stick-slip";
-  std::string words = one_line(name);
+  std::string words = printable(name);
   std::ranges::replace(words, '_', ' ');
   return words;
 }

@@ -7,6 +7,7 @@
 
 #include "report/json_values.hpp"
 #include "report/text_sections.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace slipfit {
 namespace {
@@ -89,13 +90,15 @@ std::string to_json(const Inspection& inspection, const std::string& file) {
 
 std::string to_text(const Inspection& inspection, const std::string& file) {
   const FileInfo& info = inspection.info;
-  std::string text = fmt::format("{}: {} rows of {} columns\n\nColumns\n", file, info.rows, info.columns.size());
+  std::string text =
+      fmt::format("{}: {} rows of {} columns\n\nColumns\n", printable(file), info.rows, info.columns.size());
   for (const ColumnInfo& column : info.columns) {
-    text += fmt::format("  {:<4} {:<24} {:<8} {}\n", column.index, column.name, column.unit, column.quantity);
+    text += fmt::format("  {:<4} {:<24} {:<8} {}\n", column.index, printable(column.name), printable(column.unit),
+                        column.quantity);
   }
   text += info_steps_text(info.steps) + info_taken_text(inspection);
   text += assumed_text(info.assumed);
-  if (info.refusal) text += "\nNot read as it is: " + info.refusal->message + "\n";
+  if (info.refusal) text += "\nNot read as it is: " + printable(info.refusal->message) + "\n";
   return text;
 }
 

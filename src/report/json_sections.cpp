@@ -30,6 +30,14 @@ Json quality_json(const Recording& recording, const Quality& quality) {
   return json;
 }
 
+/// Files that were read beside that of the recording, if any.
+void put_other_inputs(Json& json, const Conditions& conditions) {
+  if (!conditions.worn_track || conditions.worn_track->inputs.empty()) return;
+  json["other_inputs"] = array_of(conditions.worn_track->inputs, [](const InputFile& input) {
+    return Json{{"file", input.file}, {"input_digest", input.digest.text()}, {"input_bytes", input.bytes}};
+  });
+}
+
 }  // namespace
 
 Json recording_json(const Recording& recording, const Analysis& analysis) {
@@ -65,6 +73,7 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
                                    {"operator", &labels.operator_name}}) {
     if (!label->empty()) json[key] = *label;
   }
+  put_other_inputs(json, conditions);
   return json;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "slipfit/core/printable.hpp"
+
 namespace slipfit {
 
 void to_json(Json& json, const Interval& bounds) {
@@ -43,7 +45,7 @@ Estimate estimate_in(const Json& json, const std::string& suffix) {
 
 std::string text_of(const Json& json, JsonLayout layout) {
   const int indent = layout == JsonLayout::Indented ? 2 : -1;
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+  return printable_lines(json.dump(indent, ' ', false, Json::error_handler_t::replace));
 }
 
 void ForceKeys::put(const std::string& name, std::optional<double> value) {

@@ -9,6 +9,7 @@
 #include "report/format.hpp"
 #include "report/json_values.hpp"
 #include "report/text_sections.hpp"
+#include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
@@ -102,8 +103,8 @@ std::string to_text(const Plan& plan, const PredictionSource& source) {
     text +=
         " at " + quantity_text(*plan.target.speed_m_per_s, speed_unit(source.speed_unit, plan.target.speed_m_per_s));
   text += fmt::format(", known to {} (standard error) from {}\n", percent(plan.standard_error, plan.value),
-                      one_line(source.name));
-  for (const std::string& condition : source.conditional_on) text += "  assumed: " + one_line(condition) + "\n";
+                      printable(source.name));
+  for (const std::string& condition : source.conditional_on) text += "  assumed: " + printable(condition) + "\n";
   return text + options_text(plan, source) + limits_text(plan);
 }
 

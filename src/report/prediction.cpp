@@ -13,6 +13,7 @@
 #include "report/json_values.hpp"
 #include "report/names.hpp"
 #include "report/text_sections.hpp"
+#include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
@@ -82,7 +83,7 @@ class Footnotes {
   [[nodiscard]] std::string text() const {
     std::string text;
     for (std::size_t i = 0; i < notes_.size(); ++i) {
-      text += fmt::format("  {} {}\n", std::string(i + 1, '*'), one_line(notes_[i]));
+      text += fmt::format("  {} {}\n", std::string(i + 1, '*'), printable(notes_[i]));
     }
     return text;
   }
@@ -133,7 +134,7 @@ std::string to_text(const Prediction& prediction, const PredictionSource& source
                regime_words(row, notes.mark(row.note))});
     has_bands = has_bands || row.lambda.ci95.has_value();
   }
-  return fmt::format("Predicted from {}{}\n", one_line(source.name),
+  return fmt::format("Predicted from {}{}\n", printable(source.name),
                      has_bands ? ", [95 % interval of the mean cycle]" : "") +
          critical_speed_text(prediction.critical_speed_m_per_s, prediction.lambda_critical, source.speed_unit) +
          conditions_text(source.conditional_on) + "\n" + table.text() + notes.text() + warnings_text(source.warnings);

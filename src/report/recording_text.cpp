@@ -6,6 +6,7 @@
 #include "report/names.hpp"
 #include "report/quantities.hpp"
 #include "report/text_sections.hpp"
+#include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
@@ -14,20 +15,20 @@ namespace {
 std::string tests_text(const std::vector<ShortTest>& tests) {
   if (tests.empty()) return {};
   std::string text = "\nTests\n";
-  for (const ShortTest& test : tests) text += fmt::format("  - {}\n", one_line(test.finding));
+  for (const ShortTest& test : tests) text += fmt::format("  - {}\n", printable(test.finding));
   return text;
 }
 
 std::string judgement_text(const Recording& recording, const Analysis& analysis) {
   const std::string& file = recording.provenance().file;
   std::string text =
-      fmt::format("{}: {}", file.empty() ? "recording" : one_line(file), words_for_motion(analysis.motion));
+      fmt::format("{}: {}", file.empty() ? "recording" : printable(file), words_for_motion(analysis.motion));
   if (analysis.frequency.quoted.value) {
     text += fmt::format(", {} Hz", with_error(analysis.frequency.quoted));
     if (analysis.cycles.count > 0) text += fmt::format(", {} slips", analysis.cycles.count);
   }
   text += "\n";
-  if (!analysis.motion_reason.empty()) text += fmt::format("  {}\n", one_line(analysis.motion_reason));
+  if (!analysis.motion_reason.empty()) text += fmt::format("  {}\n", printable(analysis.motion_reason));
   return text;
 }
 
@@ -42,7 +43,8 @@ std::string spectral_text(const SpectralFrequency& spectral) {
 std::string lines_text(const std::vector<SuspiciousLine>& lines) {
   std::string text;
   for (const SuspiciousLine& line : lines) {
-    text += fmt::format("  suspicious line at {}: {}\n", quantity_text(line.frequency_Hz, "Hz"), one_line(line.reason));
+    text +=
+        fmt::format("  suspicious line at {}: {}\n", quantity_text(line.frequency_Hz, "Hz"), printable(line.reason));
   }
   return text;
 }
@@ -66,7 +68,7 @@ template <class Unit>
 void add_estimate(Table& table, std::string_view words, const Estimate& estimate, Unit unit) {
   if (!estimate.value && !estimate.ci95 && estimate.note.empty()) return;
   const EstimateRow row = estimate_row(estimate, unit);
-  table.add({std::string(words), row.value, row.unit, row.interval, one_line(estimate.note)});
+  table.add({std::string(words), row.value, row.unit, row.interval, printable(estimate.note)});
 }
 
 std::string regime_text(Regime regime) {
@@ -90,7 +92,7 @@ std::string frequency_text(const FrequencyReport& frequency) {
                              fmt::format(" (method: {})", plain_words(name_of(frequency.method)))});
   } else {
     const std::string& note = frequency.quoted.note;
-    table.add({"result", "none" + (note.empty() ? note : ": " + one_line(note))});
+    table.add({"result", "none" + (note.empty() ? note : ": " + printable(note))});
   }
   return "\nFrequency\n" + table.text() + lines_text(frequency.lines);
 }
@@ -161,7 +163,7 @@ std::string spacing_text(const Recording& recording, const Derived& derived) {
   const std::string title = fmt::format("\nSpacing, measured (V/f) at {}\n", speed_text(recording.conditions()));
   if (!derived.pattern_spacing_m.value) {
     const std::string& note = derived.pattern_spacing_m.note;
-    return title + fmt::format("  none{}\n", note.empty() ? note : ": " + one_line(note));
+    return title + fmt::format("  none{}\n", note.empty() ? note : ": " + printable(note));
   }
   Table table = estimate_table();
   for (const auto& row : kMeasured) add_estimate(table, row.words, derived.*row.estimate, std::string(row.unit));
@@ -176,13 +178,13 @@ std::string surface_text(const Derived& derived) {
   add_estimate(table, "pattern on the worn surface", *derived.surface_spacing_m, "m");
   add_estimate(table, "over the spacing by force (V/f)", derived.surface_ratio.value_or(Estimate{}), "");
   add_estimate(table, "E_n of the two (within +-1: agree)", derived.surface_En.value_or(Estimate{}), "");
-  return "\nOn the worn surface\n" + table.text() + "  " + one_line(derived.surface_verdict) + "\n";
+  return "\nOn the worn surface\n" + table.text() + "  " + printable(derived.surface_verdict) + "\n";
 }
 
 std::string predicted_text(const Recording& recording, const Derived& derived) {
   const std::string title = "\nPredicted by the model at this speed\n";
   if (!derived.lambda.value && !derived.lambda.note.empty())
-    return title + "  nothing: " + one_line(derived.lambda.note) + "\n";
+    return title + "  nothing: " + printable(derived.lambda.note) + "\n";
   Table table = estimate_table();
   for (const auto& row : kPredicted) {
     const Estimate& estimate = derived.*row.estimate;
@@ -221,7 +223,7 @@ std::string warnings_text(const Warnings& warnings) {
   if (warnings.empty()) return {};
   std::string text = "\nWarnings\n";
   for (const Warning& warning : warnings) {
-    text += fmt::format("  ! {} [{}]\n", one_line(warning.message), one_line(warning.code));
+    text += fmt::format("  ! {} [{}]\n", printable(warning.message), printable(warning.code));
   }
   return text;
 }
@@ -229,7 +231,7 @@ std::string warnings_text(const Warnings& warnings) {
 std::string assumed_text(const std::vector<std::string>& assumed) {
   if (assumed.empty()) return {};
   std::string text = "\nAssumed while reading\n";
-  for (const std::string& sentence : assumed) text += fmt::format("  - {}\n", one_line(sentence));
+  for (const std::string& sentence : assumed) text += fmt::format("  - {}\n", printable(sentence));
   return text;
 }
 

@@ -11,6 +11,7 @@
 
 #include "report/names.hpp"
 #include "report/text_sections.hpp"
+#include "slipfit/core/printable.hpp"
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -162,7 +163,7 @@ void Screen::add_warnings(const Warnings& warnings) {
   warnings_left_out_ = real.size() - std::min(real.size(), kMostWarnings);
   real.resize(real.size() - warnings_left_out_);
   for (const Warning* const warning : real)
-    warnings_.push_back(wrapped("  ! ", sentence(shortened(one_line(warning->message)))));
+    warnings_.push_back(wrapped("  ! ", sentence(shortened(printable(warning->message)))));
 }
 
 std::string Screen::text() const {
@@ -188,7 +189,7 @@ std::string Screen::text() const {
   }
   if (!notes_.empty() || !below_.empty()) put("");
   for (std::size_t i = 0; i < notes_.size(); ++i) {
-    for (const std::string& line : wrapped(fmt::format("  ({}) ", i + 1), sentence(one_line(notes_[i])))) put(line);
+    for (const std::string& line : wrapped(fmt::format("  ({}) ", i + 1), sentence(printable(notes_[i])))) put(line);
   }
   for (const std::vector<std::string>& sentences : below_) {
     if (lines + sentences.size() + (warnings_.empty() ? kBelowSentences : kRoomForWarnings) > kMostLines) continue;
@@ -245,7 +246,7 @@ std::string not_determined(const FitResult& fit, const Screen& screen) {
   if (names.empty()) return {};
   if (reason.empty()) return sentence("Not determined: " + names);
   const std::string shown = screen.reference(reason);
-  return shown == reason ? sentence("Not determined: " + names + ": " + one_line(reason))
+  return shown == reason ? sentence("Not determined: " + names + ": " + printable(reason))
                          : sentence("Not determined: " + names + " " + shown);
 }
 
@@ -279,7 +280,7 @@ std::string facts_text(const Warnings& warnings) {
   std::string facts;
   for (const Warning& warning : warnings) {
     if (!is_fact(warning) || warning.code == "suspicious_line") continue;
-    facts += (facts.empty() ? "" : "; ") + one_line(warning.message);
+    facts += (facts.empty() ? "" : "; ") + printable(warning.message);
   }
   if (facts.empty()) return facts;
   facts.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(facts.front())));
@@ -316,7 +317,7 @@ std::string headline_of(const Recording& recording, const Analysis& analysis) {
   std::string file = recording.provenance().file;
   if (file.size() > kLongestName) file = std::filesystem::path(file).filename().string();
   std::string text =
-      fmt::format("{}: {}", file.empty() ? "recording" : one_line(file), words_for_motion(analysis.motion));
+      fmt::format("{}: {}", file.empty() ? "recording" : printable(file), words_for_motion(analysis.motion));
   const Estimate& frequency = analysis.frequency.quoted;
   if (frequency.value) {
     const EstimateRow row = estimate_row(frequency, std::string("Hz"));
@@ -353,7 +354,7 @@ std::string to_summary(const Recording& recording, const Analysis& analysis) {
     }
   }
   if (analysis.motion != MotionClass::StickSlip && !analysis.motion_reason.empty())
-    screen.add_text(sentence("Reason: " + one_line(analysis.motion_reason)));
+    screen.add_text(sentence("Reason: " + printable(analysis.motion_reason)));
   if (!analysis.fit && has_slips) add_cycles(screen, analysis.cycles, conditions.quantity);
   if (has_fit) add_below_table(screen, *analysis.fit, conditions.quantity);
   if (const std::string facts = facts_text(analysis.warnings); !facts.empty()) screen.add_text(facts);
@@ -363,12 +364,12 @@ std::string to_summary(const Recording& recording, const Analysis& analysis) {
 
 std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name) {
   if (!sweep.fit) {
-    Screen screen(fmt::format("{}: {} recordings, no joint fit", one_line(name), entries.size()));
+    Screen screen(fmt::format("{}: {} recordings, no joint fit", printable(name), entries.size()));
     screen.add_text(sentence("Reason: " + sweep.fit_reason));
     screen.add_warnings(sweep.warnings);
     return screen.text();
   }
-  Screen screen(fmt::format("{}: {} recordings fitted together", one_line(name), entries.size()));
+  Screen screen(fmt::format("{}: {} recordings fitted together", printable(name), entries.size()));
   const bool zero_is_known = std::ranges::all_of(
       entries, [](const SweepEntry& entry) { return entry.recording.conditions().zero_force_N.has_value(); });
   add_parameters(screen, sweep.fit->result, zero_is_known);
@@ -382,7 +383,7 @@ std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis&
     const Analysis& analysis = sweep.recordings[i];
     const bool sticks = analysis.motion == MotionClass::StickSlip;
     screen.add_recording(
-        {one_line(entries[i].id), speed_text(entries[i].recording.conditions()),
+        {printable(entries[i].id), speed_text(entries[i].recording.conditions()),
          sticks ? estimate_text(analysis.derived.pattern_spacing_m, "m") : plain_words(name_of(analysis.motion)),
          estimate_text(sweep.fit->points[i].spacing_left_out_m, "m")});
   }

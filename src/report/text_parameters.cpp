@@ -6,6 +6,7 @@
 #include "report/format.hpp"
 #include "report/names.hpp"
 #include "report/text_sections.hpp"
+#include "slipfit/core/printable.hpp"
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -21,10 +22,10 @@ std::string notes_text(const std::vector<Parameter>& parameters) {
     if (note.empty() || std::any_of(parameters.begin(), first, has_note)) continue;
     std::string names;
     for (auto other = first; other != parameters.end(); ++other) {
-      if (has_note(*other)) names += (names.empty() ? "" : ", ") + one_line(info(other->id).words);
+      if (has_note(*other)) names += (names.empty() ? "" : ", ") + printable(info(other->id).words);
     }
     const bool is_of_all = std::ranges::all_of(parameters, has_note);
-    text += fmt::format("    {}: {}\n", is_of_all ? "all of them" : names, one_line(note));
+    text += fmt::format("    {}: {}\n", is_of_all ? "all of them" : names, printable(note));
   }
   return text;
 }
@@ -63,7 +64,7 @@ std::string candidates_text(const FitResult& fit, ForceQuantity quantity) {
   for (const Candidate& candidate : fit.candidates) {
     table.add({"", std::string(name_of(candidate.tier)), candidate.chosen ? "chosen" : "not chosen",
                candidate.rms ? quantity_text(candidate.rms, force_unit(quantity)) + " rms" : "",
-               one_line(candidate.reason)});
+               printable(candidate.reason)});
   }
   return table.text();
 }
@@ -73,9 +74,9 @@ std::string candidates_text(const FitResult& fit, ForceQuantity quantity) {
 std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit) {
   std::string text = "  critical speed: ";
   const std::string& note = speed_m_per_s.note;
-  if (!speed_m_per_s.value) return text + (note.empty() ? "not known" : one_line(note)) + "\n";
+  if (!speed_m_per_s.value) return text + (note.empty() ? "not known" : printable(note)) + "\n";
   text += estimate_text(speed_m_per_s, speed_unit(given_unit, speed_m_per_s.value));
-  if (!note.empty()) return text + "\n  " + one_line(note) + "\n";
+  if (!note.empty()) return text + "\n  " + printable(note) + "\n";
   return text + fmt::format(", lambda at it {}\n", estimate_text(lambda, display_unit("", {})));
 }
 
@@ -91,7 +92,7 @@ std::string conditions_text(const std::vector<std::string>& conditional_on) {
   if (conditional_on.empty()) return {};
   std::string text = "  assumed: ";
   for (std::size_t i = 0; i < conditional_on.size(); ++i) {
-    text += (i == 0 ? "" : "; ") + one_line(conditional_on[i]);
+    text += (i == 0 ? "" : "; ") + printable(conditional_on[i]);
   }
   return text + "\n";
 }
@@ -105,7 +106,7 @@ std::vector<ShownParameter> shown_parameters(const FitResult& fit) {
         parameter.status != ParameterStatus::Bounded && parameter.status != ParameterStatus::Unidentified;
     if (!has_value) row.value = "-";
     if (row.interval.empty()) row.interval = "-";
-    shown.push_back({one_line(name.words), row, parameter.status, one_line(parameter.estimate.note)});
+    shown.push_back({printable(name.words), row, parameter.status, printable(parameter.estimate.note)});
   }
   return shown;
 }
@@ -141,7 +142,7 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const SweepPoint* point = sweep.fit ? &sweep.fit->points[i] : nullptr;
     const Estimate& measured = sweep.recordings[i].derived.pattern_spacing_m;
-    table.add({one_line(entries[i].id), speed_text(entries[i].recording.conditions()),
+    table.add({printable(entries[i].id), speed_text(entries[i].recording.conditions()),
                fmt::format("{}{}", plain_words(name_of(sweep.recordings[i].motion)),
                            sweep.roles[i] == SweepRole::LeftOut ? " (left out)" : ""),
                point != nullptr ? estimate_text(point->kinetic_friction_N, "N") : "-", estimate_text(measured, "m"),
@@ -165,9 +166,9 @@ std::string repeats_text(const std::vector<Repeat>& repeats) {
 }  // namespace
 
 std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name) {
-  std::string text = fmt::format("{}: {} recordings fitted together\n", one_line(name), entries.size());
+  std::string text = fmt::format("{}: {} recordings fitted together\n", printable(name), entries.size());
   if (!sweep.fit)
-    text = fmt::format("{}: {} recordings, no joint fit: {}\n", one_line(name), entries.size(), sweep.fit_reason);
+    text = fmt::format("{}: {} recordings, no joint fit: {}\n", printable(name), entries.size(), sweep.fit_reason);
   if (sweep.fit) text += parameters_text(sweep.fit->result, ForceQuantity::Force_N, "");
   text += recordings_text(entries, sweep) + repeats_text(sweep.repeats);
   if (sweep.fit || sweep.derived.observed_end) {

@@ -78,7 +78,7 @@ SpacingComparison compare_spacings(const Estimate& by_force_m, const Estimate& o
 }
 
 WornTrack worn_track_of(const Profile& profile, const Surface& surface) {
-  return {profile.file, surface.spacing_m, profile.pitch_m, profile.height, surface.ridge_places_m};
+  return {profile.file, surface.spacing_m, profile.pitch_m, profile.height, surface.ridge_places_m, profile.inputs};
 }
 
 Result<Conditions> with_worn_track(Conditions conditions, const std::filesystem::path& file) {

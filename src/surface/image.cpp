@@ -1,4 +1,5 @@
 #include <array>
+#include <utility>
 
 #include "io/container/formats.hpp"
 #include "surface/readers.hpp"
@@ -10,9 +11,8 @@ HeightMap read_image(const SurfaceFile& file, const ProfileOptions& options) {
     throw ThrownError(
         {"no_pixel", file.name + ": an image; say how large its pixels are on the surface: --pixel 2.1um"});
   }
-  const reading::HelperOutput output =
-      reading::run_helper({"slipfit-image", {reading::kFileOfHelper}, "an image", "libleptonica-dev"},
-                          reading::open_plain(file.path), file.name);
+  const reading::HelperOutput output = reading::run_helper(
+      {"slipfit-image", {reading::kFileOfHelper}, "an image", "libleptonica-dev"}, std::move(*file.stream), file.name);
   HeightMap map{0, 0, *options.pixel_m, *options.pixel_m, {}, false};
   if (std::sscanf(output.first.c_str(), "%zux%zu", &map.columns, &map.rows) != 2 || map.columns == 0 || map.rows == 0) {
     throw damaged_surface(file, "the image is damaged");

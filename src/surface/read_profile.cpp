@@ -16,7 +16,7 @@ ThrownError damaged_surface(const SurfaceFile& file, const std::string& what) {
 }
 
 std::string whole_file(const SurfaceFile& file, std::size_t most) {
-  auto bytes = reading::read_all(*reading::open_plain(file.path).bytes, most);
+  auto bytes = reading::read_all(*file.stream->bytes, most);
   if (!bytes) throw map_too_large(file.name);
   return *std::move(bytes);
 }
@@ -63,16 +63,17 @@ Profile read(const SurfaceFile& file, const Magic& magic, const ProfileOptions& 
 }  // namespace surface
 
 Result<Profile> read_profile(const std::filesystem::path& file, const ProfileOptions& options) {
-  const surface::SurfaceFile opened{file, reading::printable(file.string())};
-  return reading::with_errors_of_reading(opened.name, [&] {
-    std::array<char, 16> start{};
-    const std::size_t size = reading::open_plain(file).bytes->read(start.data(), start.size());
+  const std::string name = reading::name_of_file(file);
+  return reading::with_errors_of_reading(name, [&] {
+    const surface::SurfaceFile opened{name, std::make_shared<reading::TextStream>(reading::open_plain(file))};
+    const std::shared_ptr<const Digester> digester = opened.stream->digester;
     surface::Magic found;
     for (const surface::Magic& magic : surface::kMagics) {
-      if (std::string_view(start.data(), size).starts_with(magic.start)) found = magic;
+      if (opened.stream->start.starts_with(magic.start)) found = magic;
     }
     Profile profile = surface::read(opened, found, options);
-    profile.file = opened.name;
+    profile.file = name;
+    profile.inputs = {{name, digester->digest(), digester->bytes()}};
     return profile;
   });
 }

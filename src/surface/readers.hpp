@@ -1,20 +1,21 @@
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <string>
 
 #include "core/thrown_error.hpp"
+#include "io/container/byte_stream.hpp"
 #include "slipfit/surface/surface.hpp"
 #include "surface/areal.hpp"
 
-// What each kind of file takes to become a profile. Errors are thrown (ThrownError): read_profile returns them. `name`
-// is how messages call the file.
+// What each kind of file takes to become a profile. Errors are thrown (ThrownError): read_profile returns them.
 
 namespace slipfit::surface {
 
+/// A file that is open and is read once, to its end.
 struct SurfaceFile {
-  std::filesystem::path path;
-  std::string name;
+  std::string name;  ///< as messages show it
+  std::shared_ptr<reading::TextStream> stream;
 };
 
 /// Columns of text. Errors: those of opening a text file, no_unit, no_pitch, unknown_column, ambiguous_columns.

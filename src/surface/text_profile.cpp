@@ -120,7 +120,7 @@ Profile made(Columns columns, const Choice& choice, const Layout& layout, const 
 }  // namespace
 
 Profile read_text_profile(const SurfaceFile& file, const ProfileOptions& options) {
-  reading::OpenedFile opened = reading::open_file(file.path, {});
+  reading::OpenedFile opened = reading::open_file(std::move(*file.stream), file.name, {});
   const Layout layout = opened.layout;
   const Choice choice = choose(layout, options, file.name);
   if (!choice.x && !options.pitch_m) {

@@ -192,8 +192,7 @@ HeightMap map_of(X3p& x3p) {
 }
 
 ZipArchive open_archive(const SurfaceFile& file) {
-  reading::TextStream bytes = reading::open_plain(file.path);
-  return ZipArchive::open(reading::read_all(bytes, file.name), file.name);
+  return ZipArchive::open(reading::read_all(*file.stream, file.name), file.name);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "batch/work_list.hpp"
 #include "manifests.hpp"
 #include "refusal.hpp"
+#include "slipfit/core/digest.hpp"
 
 using test::batch;
 using test::BatchScene;
@@ -113,4 +114,49 @@ TEST_CASE("shards that were cut at different sizes of the files are noticed") {
   REQUIRE(batch(scene.manifest(), scene.path("shard2"), {"--shard", "2/2"}).exit_code <= 1);
   check_refused({"merge", scene.path("shard1"), scene.path("shard2"), "--out", scene.path("merged")},
                 "in no shard, or in two");
+}
+
+TEST_CASE("a shard out of very many is one that may be empty") {
+  const BatchScene scene(2);
+  CHECK(batch(scene.manifest(), scene.path("first"), {"--shard", "1/1000000000000000000"}).exit_code == 0);
+  CHECK(test::lines_of(files_in(scene.path("first")).results).size() == 1);
+  CHECK(batch(scene.manifest(), scene.path("last"), {"--shard", "1000000000000000000/1000000000000000000"}).exit_code ==
+        0);
+  CHECK(files_in(scene.path("last")).results.empty());
+  check_refused({"merge", scene.path("first"), scene.path("last"), "--out", scene.path("merged")},
+                "shard 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, ... of the batch");
+}
+
+TEST_CASE("numbers in run.json that no batch has are refused at once") {
+  const BatchScene scene(2);
+  REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 0);
+  const auto forged = [&](const char* place, const nlohmann::json& value, const std::string& part) {
+    auto record = nlohmann::json::parse(test::content_of(scene.path("out/run.json")));
+    record[nlohmann::json::json_pointer(place)] = value;
+    std::filesystem::create_directory(scene.path("forged"));
+    for (const char* const name : {"results.jsonl", "summary.csv", "failures.csv"}) {
+      (void)scene.file(std::string("forged/") + name, test::content_of(scene.path(std::string("out/") + name)));
+    }
+    check_refused({"merge", scene.file("forged/run.json", record.dump()).substr(0, scene.path("forged").size()),
+                   "--out", scene.path("merged")},
+                  part);
+  };
+  forged("/shard/count", 1'000'000'000'000'000'000, "shard 2, 3, 4");
+  forged("/shard/index", 7, "is shard 7 of 1");
+  forged("/shard/index", 0, "is shard 0 of 1");
+  forged("/rows", 1'000'000'000'000'000'000, "is in no shard");
+  forged("/manifest", std::string(2'000'000, 'x'), "was not written by slipfit batch");
+}
+
+TEST_CASE("a result that no fit wrote is not merged") {
+  const BatchScene scene(1);
+  REQUIRE(batch(scene.manifest(), scene.path("out")).exit_code == 0);
+  auto document = nlohmann::json::parse(files_in(scene.path("out")).results);
+  document["parameters"]["stiffness_N_per_m"]["se"] = -1;
+  const std::string results = scene.file("out/results.jsonl", document.dump() + "\n");
+  auto record = nlohmann::json::parse(test::content_of(scene.path("out/run.json")));
+  record["digests"]["results"] = slipfit::digest_of(test::content_of(results)).text();
+  (void)scene.file("out/run.json", record.dump());
+  check_refused({"merge", scene.path("out"), "--out", scene.path("merged")},
+                "results.jsonl:1': parameters.stiffness_N_per_m.se is -1");
 }

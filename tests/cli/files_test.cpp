@@ -201,6 +201,29 @@ TEST_CASE("sample, material and operator of a manifest reach results and pages, 
                        Catch::Contains("operator: K\u00F6nig"));
 }
 
+TEST_CASE("drafts: names with line ends are left out, and no name runs as a formula in a spreadsheet") {
+  const test::TemporaryFolder folder;
+  (void)folder.file("=1+1 v10mmps.csv", test::simulated_csv("7"));
+  (void)folder.file("@sum v10mmps.csv", test::simulated_csv("8"));
+  (void)folder.file("a\nb,=2,0.01 v10mmps.csv", test::simulated_csv("9"));
+  const auto draft = slipfit({"manifest", folder.path("")});
+  CHECK_THAT(draft.err, Catch::Contains("the name has a line end"));
+  CHECK(test::lines_in(draft.out) == 3);
+  const std::string out = folder.path("out");
+  const auto run = slipfit({"batch", folder.path(""), "--out", out});
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err,
+             Catch::Contains("left out: ") && Catch::Contains("a\\nb,=2,0.01 v10mmps.csv: the name has a line end"));
+  for (const char* const name : {"manifest.csv", "summary.csv"}) {
+    const std::string table = test::content_of(out + "/" + name);
+    CAPTURE(table);
+    CHECK(test::lines_in(table) == 3);
+    for (const char* const start : {"\n=", ",=", "\n@", ",@", "\"=", "\"@"}) CHECK_THAT(table, !Catch::Contains(start));
+    CHECK_THAT(table, Catch::Contains("'=1+1") && Catch::Contains("'@sum"));
+  }
+}
+
 TEST_CASE("a result that replaces a file keeps its mode, and a new one has that of the umask") {
   namespace fs = std::filesystem;
   const test::TemporaryFolder folder;

@@ -147,8 +147,9 @@ TEST_CASE("what is no fit document is refused") {
   for (const char* const text : {"", "{}", "[1]", "{\"schema\":\"slipfit.predict/1\"}"}) {
     CHECK(compared_fit(text).error().code == "bad_document");
   }
+  CHECK(compared_fit(R"({"schema":"slipfit.fit/1","parameters":[1]})", "a.json").error().message ==
+        "'a.json': parameters is [1], expected an object");
   // Of another shape inside: nothing is known, and nothing breaks.
-  const ComparedFit odd =
-      fit_of({{"schema", "slipfit.fit/1"}, {"parameters", {1}}, {"frequency", 3}, {"recording", "x"}});
+  const ComparedFit odd = fit_of({{"schema", "slipfit.fit/1"}, {"frequency", 3}, {"recording", "x"}});
   CHECK(compare({"a", {odd}}, {"b", {odd}}).quantities.empty());
 }

@@ -147,6 +147,15 @@ def check_kinds(folder):
             assert printed.splitlines() == [f"={name}", name, *map(str, values)], f"{name} of order {order}: {printed[:200]}"
 
 
+def check_long_names(folder):
+    """Names of variables are cut: one of a million letters does not fill every message."""
+    times = [i / 1000 for i in range(50)]
+    (folder / "names.mat").write_bytes(mat_by_hand({letter * 1000000: (9, "d", times) for letter in "ab"}, "<"))
+    for arguments in (["info"], ["fit", "--speed", "0.01"], ["fit", "--speed", "0.01", "--variable", "c"]):
+        done = run(arguments[0], folder / "names.mat", *arguments[1:])
+        assert done.returncode in (0, 3) and len(done.stdout + done.stderr) < 10000, f"{len(done.stdout)}, {len(done.stderr)} letters"
+
+
 def bombs(folder):
     """Small files that unpack to much, or say so."""
     zeros = b"time,force\n" + b"0,0\n" * (1 << 26)
@@ -293,6 +302,7 @@ def main():
             found = numbers(folder / file, *options)
             assert found == wanted, f"{entry}: other numbers than the CSV's"
         check_kinds(folder)
+        check_long_names(folder)
         check_limits(folder)
         for file in bombs(folder):
             print(check_refused(folder / file, file))

@@ -105,7 +105,7 @@ TEST_CASE("a name with a line break keeps the message on one line") {
   const TempFile file("", "bad\nname\x1b.csv");
   const auto recording = slipfit::read_recording(file.path(), at_speed(1e-3));
   REQUIRE_FALSE(recording.ok());
-  CHECK(contains(recording.error().message, "bad\\nname\\x1b.csv: the file is empty"));
+  CHECK(contains(recording.error().message, "bad\\nname\\u001b.csv: the file is empty"));
   CHECK_FALSE(contains(recording.error().message, "\n"));
 }
 

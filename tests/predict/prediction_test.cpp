@@ -298,3 +298,20 @@ TEST_CASE("forces need the kinetic friction, and their interval is never too nar
   CHECK_FALSE(predicted(model, 0.02).force_peak_N.value);
   CHECK_FALSE(predicted(model, 0.02).force_trough_N.value);
 }
+
+TEST_CASE("a covariance whose draws are mostly no models gives no crash and no narrow interval") {
+  for (const std::size_t i : {0U, 1U, 2U, 3U}) {
+    for (const double se : {30.0, 300.0, 3000.0, 1e100}) {
+      CAPTURE(i, se);
+      PredictionModel model = example();
+      model.estimate.covariance[i][i] = se * se;
+      for (const double speed_m_per_s : {1e-3, 0.1, 0.44, 3.0}) {
+        const PredictedMotion row = predicted(model, speed_m_per_s);  // zeta, in [0, 1), changes a period little
+        if (i != 2 && row.period_s.ci95) CHECK(row.period_s.ci95->high > 1.5 * row.period_s.ci95->low);
+      }
+      model.estimate.damping_identified = false;
+      const std::array<double, 1> speeds{0.1};
+      (void)predict_at(model, speeds);
+    }
+  }
+}

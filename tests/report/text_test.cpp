@@ -102,7 +102,7 @@ TEST_CASE("control characters of a name cannot move the cursor or forge lines") 
   const auto recording = test::small_recording(slipfit::ForceQuantity::Force_N, "a\n\x1b[2Jb.csv");
   const std::string text = to_text(recording, test::full_analysis());
   CHECK(text.find('\x1b') == std::string::npos);
-  CHECK(text.rfind("a??[2Jb.csv: stick-slip", 0) == 0);
+  CHECK(text.rfind("a\\n\\u001b[2Jb.csv: stick-slip", 0) == 0);
 }
 
 TEST_CASE("the table of cycles leaves unknown cells empty") {
@@ -129,7 +129,7 @@ TEST_CASE("a point of the curve beyond the recording, or not finite, is left out
 TEST_CASE("a trace is written with every bit and a comment of one line") {
   const slipfit::SimulatedTrace trace{{0.0, 0.1 + 0.2}, {1.0 / 3.0, -2.0}};
   CHECK(trace_to_csv(trace, "made\nhere") ==
-        "# made?here\ntime_s,force_N\n0,0.3333333333333333\n0.30000000000000004,-2\n");
+        "# made\\nhere\ntime_s,force_N\n0,0.3333333333333333\n0.30000000000000004,-2\n");
 }
 
 TEST_CASE("run-up and ring-down are told where they are known") {

@@ -29,6 +29,13 @@ enum class LevelReading {
   None       ///< no trend
 };
 
+/// A file that was read, by the bytes that were parsed.
+struct InputFile {
+  std::string file;
+  Digest digest;
+  std::uint64_t bytes = 0;
+};
+
 /// The track that was worn in the test, as a profile of it shows it.
 struct WornTrack {
   std::string file;
@@ -36,6 +43,7 @@ struct WornTrack {
   double pitch_m = 0.0;
   std::vector<double> height;          ///< not a number where nothing was measured
   std::vector<double> ridge_places_m;  ///< from the first sample
+  std::vector<InputFile> inputs = {};  ///< that were read for it; empty: it is not from a file
 };
 
 /// What the user calls a recording and what it is of; each may be empty. Results carry them, nothing is computed of

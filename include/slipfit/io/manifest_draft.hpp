@@ -31,12 +31,16 @@ struct ManifestDraft {
 /// group. `options`: how each is read.
 ManifestDraft draft_manifest(const std::vector<std::filesystem::path>& paths, const ReadOptions& options = {});
 
+/// Without the recordings whose names no line of a manifest can hold; `skipped` says which. Error: bad_id.
+ManifestDraft writable(ManifestDraft draft);
+
 /// A column of a manifest with the same cell in every row.
 struct DraftColumn {
   std::string name, cell;
 };
 
-/// As `ManifestReader` reads it from a file in `folder`.
+/// As `ManifestReader` reads it from a file in `folder`, of a writable draft. Ids and groups that a spreadsheet would
+/// run as formulas get a ' in front.
 std::string to_csv(const ManifestDraft& draft, const std::filesystem::path& folder,
                    const std::vector<DraftColumn>& columns = {});
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,13 @@
 
 namespace slipfit {
 
+inline constexpr std::size_t kLargestFitDocument = std::size_t{64} << 20U;  ///< bytes: a thousand times a usual one
+
+/// What is wrong with a document of the schema slipfit.fit/1 that would mislead who reads it, if anything: too large or
+/// nested too deeply, not JSON, an unknown status, a number out of its range, a negative standard error, an interval
+/// without its value. `name`: what messages call the document, its file or its id. Error: bad_document.
+std::optional<Error> check_fit_document(const std::string& content, const std::string& name);
+
 /// What a prediction needs of a document of the schema slipfit.fit/1.
 struct FitDocument {
   PredictionModel model;
@@ -16,8 +25,7 @@ struct FitDocument {
   Warnings warnings;
 };
 
-/// `name`: what messages call the document, its file or its id. Errors: bad_document, cannot_predict (it leaves a
-/// parameter open that the motion depends on).
+/// Errors: those of check_fit_document, cannot_predict (it leaves a parameter open that the motion depends on).
 Result<FitDocument> read_fit_document(const std::string& content, const std::string& name);
 
 /// The same under another normal force, which is said in `conditional_on`; `name` as above. Error: no_normal_force (its

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slipfit/core/estimate.hpp"
+#include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"
 
 namespace slipfit {
@@ -22,6 +23,7 @@ struct Profile {
   /// Samples after which what coded the file repeats (the blocks of JPEG): a spacing equal to it is none.
   std::optional<double> block_samples;
   std::vector<std::string> assumed;
+  std::vector<InputFile> inputs;  ///< that were read
 };
 
 /// What the user says about the file; everything left empty is found out, and said in `Profile::assumed`.

@@ -165,8 +165,10 @@ std::vector<double> integers_of(const MatElement& element) {
   return mat_numbers(element);
 }
 
-std::string text_of_element(const MatElement& element) {
-  return std::string(element.data.substr(0, element.data.find('\0')));
+/// A name; MATLAB's have 63 characters at most.
+std::string name_in(const MatElement& element) {
+  constexpr std::size_t kLongestName = 200;
+  return std::string(element.data.substr(0, std::min(element.data.find('\0'), kLongestName)));
 }
 
 /// Empty for an array of another class, or of more than two extents, or none of numbers.
@@ -185,7 +187,7 @@ std::optional<MatArray> read_array(const MatElement& matrix) {
   if (extents.size() != 2 || extents[0] < 1 || extents[1] < 1 || extents[0] * extents[1] > kMost) return std::nullopt;
   array.rows = static_cast<std::uint64_t>(extents[0]);
   array.columns = static_cast<std::uint64_t>(extents[1]);
-  array.name = text_of_element(parts[2]);
+  array.name = name_in(parts[2]);
   array.parts.assign(parts.begin() + 3, parts.end());
   return array;
 }
@@ -203,7 +205,7 @@ std::vector<MatArray> fields_of(const MatArray& array) {
     if (array.parts[i].type != MatType::Matrix) refuse_damaged_mat();
     auto field = read_array(array.parts[i]);
     if (!field) continue;
-    field->name = text_of_element({MatType::Int8, names.substr((i - 2) * length, length)});
+    field->name = name_in({MatType::Int8, names.substr((i - 2) * length, length)});
     fields.push_back(*std::move(field));
   }
   return fields;

@@ -39,6 +39,7 @@ struct TextStream {
   std::unique_ptr<ByteStream> bytes;
   std::shared_ptr<const Digester> digester;  ///< of the bytes of the file itself
   std::size_t size = 0;                      ///< of the text; 0 where it is not known
+  std::string start;                         ///< first bytes of the file, which are still to be read
   std::vector<std::string> assumed;          ///< sentences about the container
   Warnings warnings;
 };
@@ -46,7 +47,8 @@ struct TextStream {
 /// The bytes of a file, or for "-" of standard input, as they are. Errors: file_not_found, is_directory, not_readable.
 TextStream open_plain(const std::filesystem::path& file);
 
-/// Unpacked where the first bytes say that it is a container. Errors: those above, those of containers, no_container.
-TextStream open_unpacked(const std::filesystem::path& file, const ContainerChoice& choice);
+/// A file that open_plain opened, unpacked where the first bytes say that it is a container; `name`: as messages show
+/// it. Errors: those of containers, no_container.
+TextStream unpacked(TextStream file, const std::string& name, const ContainerChoice& choice);
 
 }  // namespace slipfit::reading

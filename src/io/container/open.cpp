@@ -54,12 +54,7 @@ ThrownError open_error(const std::string& name, int reason) {
       {"not_readable", name + ": cannot be opened (" + std::strerror(reason) + "); check the permissions"});
 }
 
-struct OpenedBytes {
-  TextStream stream;
-  std::string start;
-};
-
-OpenedBytes open_bytes(const std::filesystem::path& file) {
+TextStream open_bytes(const std::filesystem::path& file) {
   constexpr std::size_t kStart = 1024;
   const std::string name = name_of_file(file);
   std::error_code ignored;
@@ -76,10 +71,13 @@ OpenedBytes open_bytes(const std::filesystem::path& file) {
     throw open_error(name, reason);
   }
   auto digester = std::make_shared<Digester>();
-  OpenedBytes bytes{{std::make_unique<FileStream>(opened, start, digester), digester, 0, {}, {}}, start};
+  TextStream stream;
+  stream.bytes = std::make_unique<FileStream>(opened, start, digester);
+  stream.digester = std::move(digester);
+  stream.start = std::move(start);
   const auto size = std::filesystem::file_size(file, ignored);
-  if (!ignored) bytes.stream.size = static_cast<std::size_t>(size);
-  return bytes;
+  if (!ignored) stream.size = static_cast<std::size_t>(size);
+  return stream;
 }
 
 /// A kind of file by its first bytes, and the option that chooses something in it.
@@ -148,17 +146,15 @@ TextStream open_old_workbook(TextStream /*packed*/, const std::string& name, con
 }
 
 TextStream open_plain(const std::filesystem::path& file) {
-  return open_bytes(file).stream;
+  return open_bytes(file);
 }
 
-TextStream open_unpacked(const std::filesystem::path& file, const ContainerChoice& choice) {
-  OpenedBytes bytes = open_bytes(file);
-  const std::string name = name_of_file(file);
-  const Format& format = format_of(bytes.start);
+TextStream unpacked(TextStream file, const std::string& name, const ContainerChoice& choice) {
+  const Format& format = format_of(file.start);
   check_choice(format, choice, name);
-  if (format.open == nullptr) return std::move(bytes.stream);
-  auto digester = bytes.stream.digester;
-  TextStream text = format.open(std::move(bytes.stream), name, choice);
+  if (format.open == nullptr) return file;
+  auto digester = file.digester;
+  TextStream text = format.open(std::move(file), name, choice);
   text.digester = std::move(digester);
   return text;
 }

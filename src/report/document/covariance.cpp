@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
+
+#include "report/document/check_document.hpp"
 
 namespace slipfit::documents {
 namespace {
@@ -13,6 +17,15 @@ struct Row {
   std::size_t place = 0;
   std::size_t row = 0;
 };
+
+constexpr double kLargestLogError = 10.0;  // a factor of e^20 either way, of a parameter that is said to be known
+
+/// Whether the model has the logarithm of the parameter, which a prediction needs to know.
+bool is_logarithmic(ParameterId id) {
+  constexpr std::array kLogarithmic{ParameterId::Stiffness, ParameterId::NaturalFrequency,
+                                    ParameterId::FrictionDifference};
+  return std::ranges::find(kLogarithmic, id) != kLogarithmic.end();
+}
 
 /// The four, and what else the fit has.
 std::vector<Row> rows_of(const JsonNode& names) {
@@ -49,7 +62,11 @@ std::optional<std::vector<double>> standard_errors(const JsonNode& document, con
   for (const Row& row : rows) {
     const bool is_of_four = rows.size() == kNeeded.size();
     const auto known = [&] { return document.member("parameters").member(key_of(kModelParameters[row.place])); };
-    const std::optional<double> error = checked_error(list.element(row.row));
+    const JsonNode node = list.element(row.row);
+    const std::optional<double> error = checked_error(node);
+    if (error && is_logarithmic(kModelParameters[row.place]) && *error > kLargestLogError) {
+      node.fail(fmt::format("a standard error of a logarithm, at most {}", kLargestLogError));
+    }
     if (!error || (is_of_four && !checked_error(known().member("se")))) return std::nullopt;
     errors.push_back(*error);
   }
@@ -60,12 +77,6 @@ std::optional<std::vector<double>> standard_errors(const JsonNode& document, con
 
 std::string key_of(ParameterId id) {
   return std::string(info(id).key);
-}
-
-std::optional<double> checked_error(const JsonNode& node) {
-  const std::optional<double> error = node.number();
-  if (error && !(*error >= 0.0)) node.fail("a number >= 0 or null");
-  return error;
 }
 
 std::optional<std::size_t> find_row(const JsonNode& names, const std::string& name) {

@@ -5,28 +5,28 @@
 #include <utility>
 
 #include "core/quantile.hpp"
+#include "report/document/check_document.hpp"
 #include "report/document/json_node.hpp"
 #include "report/document/prediction_model.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace slipfit {
 namespace {
 
 using documents::JsonNode;
 
-/// The result of `read(document)`, or what it refused.
-template <class Value, class Read>
-Result<Value> with_document(const std::string& content, const std::string& name, const Read& read) {
-  try {
-    const nlohmann::json json = documents::parse_document(content, name);
-    return read(JsonNode(name, json));
-  } catch (const ThrownError& refused) {
-    return refused.error();
-  }
-}
+constexpr double kMostSamples = 1e9;            // of a recording: more than any file that is read
+constexpr std::size_t kMostRecordings = 10000;  // of a sweep: a plan takes milliseconds for each
+
+using documents::with_document;
 
 RecordingPlan conditions_of(const JsonNode& recording) {
-  return {recording.member("speed_m_per_s").positive(), recording.member("sample_rate_Hz").positive(),
-          recording.member("duration_s").positive()};
+  const RecordingPlan made{recording.member("speed_m_per_s").positive(), recording.member("sample_rate_Hz").positive(),
+                           recording.member("duration_s").positive()};
+  if (made.sample_rate_Hz * made.duration_s > kMostSamples) {
+    recording.member("sample_rate_Hz").fail(fmt::format("at most {:g} samples in {} s", kMostSamples, made.duration_s));
+  }
+  return made;
 }
 
 /// The model, how the recordings with cycles were made, their noise and scatter (medians). Throws also where the
@@ -43,6 +43,7 @@ PlanBasis plan_basis_of(const JsonNode& document, ModelEstimate estimate) {
   const std::optional<bool> shared = document.member("model").member("level_shared").flag();
   if (shared.value_or(false)) result.levels = LevelSharing::Shared;
   const JsonNode members = document.member("recordings");
+  if (members.array_size() > kMostRecordings) members.fail(fmt::format("at most {} recordings", kMostRecordings));
   std::vector<double> noise;
   std::vector<double> scatter;
   for (std::size_t i = 0; i < members.array_size(); ++i) {
@@ -64,12 +65,18 @@ PlanBasis plan_basis_from(const JsonNode& document, const std::string& name) {
   const FitDocument fit = documents::fit_document_from(document, name);
   if (!fit.model.has_covariance) {
     throw ThrownError(
-        Error{"no_covariance", fmt::format("{}: has no covariance, and without one there is nothing to narrow", name)});
+        Error{"no_covariance",
+              fmt::format("{}: has no covariance, and without one there is nothing to narrow", printable(name))});
   }
   return plan_basis_of(document, fit.model.estimate);
 }
 
 }  // namespace
+
+std::optional<Error> check_fit_document(const std::string& content, const std::string& name) {
+  const auto checked = with_document<bool>(content, name, [](const JsonNode&) { return true; });
+  return checked ? std::nullopt : std::optional(checked.error());
+}
 
 Result<FitDocument> read_fit_document(const std::string& content, const std::string& name) {
   return with_document<FitDocument>(
@@ -81,7 +88,7 @@ Result<FitDocument> at_load(FitDocument document, double normal_force_N, const s
     return Error{"no_normal_force",
                  fmt::format("--normal-force: the recordings of '{}' state no normal force; fit them again with "
                              "--normal-force or the manifest's normal_force_N",
-                             name)};
+                             printable(name))};
   }
   document.model = at_load(std::move(document.model), normal_force_N);
   document.conditional_on.push_back(

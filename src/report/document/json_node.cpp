@@ -4,21 +4,39 @@
 
 #include <algorithm>
 
+#include "slipfit/core/printable.hpp"
+#include "slipfit/report/fit_document.hpp"
+
 using nlohmann::json;
 
 namespace slipfit::documents {
 
 namespace {
 
+// A document has some hundred values a recording, eight levels deep; beyond these bounds it is damaged, or made to take
+// all memory.
+constexpr int kDeepest = 64;
+constexpr std::size_t kMostValues = std::size_t{1} << 21U;
+
 [[noreturn]] void refuse_document(const std::string& name, const std::string& message) {
-  throw ThrownError(Error{"bad_document", fmt::format("'{}': {}", name, message)});
+  throw ThrownError(Error{"bad_document", fmt::format("'{}': {}", printable(name), message)});
 }
 
 }  // namespace
 
 json parse_document(const std::string& content, const std::string& name) {
+  if (content.size() > kLargestFitDocument) {
+    refuse_document(name, fmt::format("is too large for a fit document ({} MiB at most)", kLargestFitDocument >> 20U));
+  }
+  std::size_t values = 0;
+  const auto check_bounds = [&](int depth, json::parse_event_t event, const json& /*parsed*/) {
+    const bool is_end = event == json::parse_event_t::object_end || event == json::parse_event_t::array_end;
+    if (depth > kDeepest) refuse_document(name, "is nested too deeply for a fit document");
+    if (!is_end && ++values > kMostValues) refuse_document(name, "holds too many values for a fit document");
+    return true;
+  };
   try {
-    return json::parse(content);
+    return json::parse(content, check_bounds);
   } catch (const json::parse_error& error) {
     const std::size_t read = std::min(error.byte, content.size());
     const auto lines = std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(read), '\n');
@@ -72,6 +90,13 @@ double JsonNode::positive() const {
   const std::optional<double> value = number("a number > 0");
   if (!value || !(*value > 0.0)) fail("a number > 0");
   return *value;
+}
+
+std::vector<JsonNode::Member> JsonNode::members() const {
+  std::vector<Member> all;
+  if (!content_.is_object()) return all;
+  for (const auto& [key, value] : content_.items()) all.push_back({key, {file_, value, place_of(key)}});
+  return all;
 }
 
 std::optional<bool> JsonNode::flag() const {

@@ -5,13 +5,14 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/thrown_error.hpp"
 
 namespace slipfit::documents {
 
-/// The one JSON document that the text is. Throws ThrownError with the code bad_document, which the functions of
-/// slipfit/report/fit_document.hpp return as their error.
+/// The one JSON document that the text is, within bounds of size, depth and number of values. Throws ThrownError with
+/// the code bad_document, which the functions of slipfit/report/fit_document.hpp return as their error.
 nlohmann::json parse_document(const std::string& content, const std::string& name);
 
 /// A value in a document that others wrote. What is missing or of another kind throws ThrownError that names
@@ -21,16 +22,25 @@ class JsonNode {
   /// The document itself; both outlive the nodes.
   JsonNode(const std::string& file, const nlohmann::json& content) : file_(file), content_(content) {}
 
+  struct Member;
+
   [[nodiscard]] bool is_null() const { return content_.is_null(); }
+  [[nodiscard]] bool is_number() const { return content_.is_number(); }
+  [[nodiscard]] bool is_object() const { return content_.is_object(); }
+  [[nodiscard]] bool is_array() const { return content_.is_array(); }
   [[nodiscard]] bool has(const std::string& key) const { return content_.contains(key); }
   [[nodiscard]] JsonNode member(const std::string& key) const;
   /// The member, where there is one and it is not null.
   [[nodiscard]] std::optional<JsonNode> known(const std::string& key) const;
   /// The same of a member of that member.
   [[nodiscard]] std::optional<JsonNode> known(const std::string& key, const std::string& further) const;
+  /// Empty where it is no object.
+  [[nodiscard]] std::vector<Member> members() const;
   [[nodiscard]] JsonNode element(std::size_t index) const;  ///< index < array_size()
   [[nodiscard]] std::size_t array_size() const;
   [[nodiscard]] std::string text() const;
+  /// The value as JSON on one line.
+  [[nodiscard]] std::string json_text() const { return content_.dump(); }
   /// Empty where it is null.
   [[nodiscard]] std::optional<double> number(const std::string& expected = "a number or null") const;
   [[nodiscard]] double positive() const;
@@ -46,6 +56,11 @@ class JsonNode {
   const std::string& file_;
   const nlohmann::json& content_;
   std::string place_;
+};
+
+struct JsonNode::Member {
+  std::string key;
+  JsonNode node;
 };
 
 }  // namespace slipfit::documents

@@ -20,9 +20,6 @@ inline constexpr std::span kNeeded = std::span(kModelParameters).first<4>();
 
 std::string key_of(ParameterId id);
 
-/// A number >= 0, or null.
-std::optional<double> checked_error(const JsonNode& node);
-
 /// Of the correlation's matrix; empty where it has none of that name.
 std::optional<std::size_t> find_row(const JsonNode& names, const std::string& name);
 /// Refuses a document that has none.

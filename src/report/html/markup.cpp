@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "slipfit/report/text.hpp"
+#include "slipfit/core/printable.hpp"
 
 namespace slipfit::html {
 namespace {
@@ -56,7 +56,7 @@ const char* class_of(const std::string& heading) {
 }  // namespace
 
 std::string text(std::string_view content) {
-  return replaced(one_line(content), kMarkup);
+  return replaced(printable(content), kMarkup);
 }
 
 std::string formula_text(std::string_view content) {

@@ -7,7 +7,8 @@
 
 namespace slipfit::html {
 
-/// Text as text: & < > " ' escaped, control characters as '?'. For content and for attributes in double quotes.
+/// Text as text: & < > " ' escaped, control and format characters as \u202e. For content and for attributes in double
+/// quotes.
 std::string text(std::string_view content);
 
 /// The same with the symbols of our own sentences as people write them: F_s, F_k, w_n, zeta, lambda; options on one
