@@ -104,6 +104,7 @@ double Rest::power_at(double frequency_Hz) const {
   Correlation sums;
   for (const CycleRun& run : runs_) {
     const std::size_t count = run.end - run.begin;
+    if (count == 0) continue;
     if (recording_.clock_is_even()) {
       add_even(&values_[run.begin], count, step * static_cast<double>(run.begin), step, sums);
     } else {
