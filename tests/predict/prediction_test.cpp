@@ -6,6 +6,7 @@
 #include <random>
 
 #include "slipfit/predict/derived.hpp"
+#include "slipfit/predict/single_speed.hpp"
 
 using namespace slipfit;
 
@@ -151,7 +152,9 @@ TEST_CASE("at the recording's own speed a prediction is what the fit derives") {
   conditions.speed_m_per_s = 0.03;
   const Derived derived = derive_from_model(fit, conditions);
   const std::array<double, 1> speeds{0.03};
-  const Prediction prediction = predict_at(example(), speeds);
+  PredictionModel model = example();
+  model.estimate = from_single_speed(fit, speeds.front());
+  const Prediction prediction = predict_at(model, speeds);
   const auto same = [](const Estimate& a, const Estimate& b) {
     CHECK(*a.value == *b.value);
     CHECK(a.ci95->low == b.ci95->low);
