@@ -174,9 +174,6 @@ bool is_multiple_of(double line_Hz, const Estimate& slips, double resolution_Hz)
 std::vector<SuspiciousLine> lines_beside(const Recording& recording, const SpectralFrequency& spectral,
                                          const Estimate& quoted) {
   std::vector<SuspiciousLine> lines = spectral.suspicious_lines;
-  std::erase_if(lines, [&](const SuspiciousLine& line) {
-    return is_multiple_of(line.frequency_Hz, quoted, 1.0 / recording.duration_s());
-  });
   if (spectral.value_Hz && !is_of_slips(*spectral.value_Hz, quoted)) {
     const char* const reason = quoted.value
                                    ? "not the slips: pick-up, ripple of the drive, ringing or a wave of the level"
@@ -284,7 +281,10 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
   }
   report.spectral = signals.spectral;
   report.counted = count_frequency(recording, signals.segmentation);
-  report.lines = lines_beside(recording, signals.spectral, report.quoted);
+  std::erase_if(report.spectral.suspicious_lines, [&](const SuspiciousLine& line) {
+    return is_multiple_of(line.frequency_Hz, report.quoted, 1.0 / recording.duration_s());
+  });
+  report.lines = lines_beside(recording, report.spectral, report.quoted);
   return report;
 }
 
