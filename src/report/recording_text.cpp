@@ -84,7 +84,7 @@ std::string frequency_text(const FrequencyReport& frequency) {
   Table table({Align::Left, Align::Left});
   table.add({"by FFT", spectral_text(frequency.spectral)});
   const Estimate& counted = frequency.counted;
-  table.add({"by counting slips", counted.value ? with_error(counted) + " Hz" : "none: " + one_line(counted.note)});
+  table.add({"by counting slips", counted.value ? with_error(counted) + " Hz" : "none: " + printable(counted.note)});
   if (frequency.quoted.value) {
     const std::string interval = estimate_row(frequency.quoted, "Hz").interval;
     table.add({"result", with_error(frequency.quoted) + " Hz" +

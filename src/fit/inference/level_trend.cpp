@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/fit_thresholds.hpp"
 #include "core/line_sums.hpp"
@@ -34,25 +35,25 @@ Rate rate_of(const DampedFit& fit) {
   return {line.slope(), line.slope_error()};
 }
 
-/// Lowest and highest level from the first to the last sample of the recording, from the mean over the cycles.
+/// Lowest and highest level from the first to the last sample, the run-up before the sliding included, from the mean
+/// over the cycles. Before the first and behind the last cycle a polynomial goes on as a line.
 Interval range_of_level(const Recording& recording, const BlockFit& blocks, double rate) {
-  const double begin_s = recording.time_s().front();
-  const double end_s = recording.time_s().back();
-  const auto count = static_cast<double>(blocks.size());
-  double mean_s = 0.0;
-  for (std::size_t i = 0; i < blocks.size(); ++i) mean_s += blocks.reference_s(i) / count;
-  Interval range{std::min(rate * (begin_s - mean_s), rate * (end_s - mean_s)),
-                 std::max(rate * (begin_s - mean_s), rate * (end_s - mean_s))};
-  if (blocks.level().per_cycle) return range;
-  double mean = 0.0;
-  Interval inside{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::vector<double> levels;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const double level =
-        blocks.model(i).level_at(blocks.reference_s(i), blocks.level_data(), blocks.parameters.cycles[i].data());
-    mean += level / count;
-    inside = {std::min(inside.low, level), std::max(inside.high, level)};
+    const double time_s = blocks.reference_s(i);
+    levels.push_back(blocks.level().per_cycle
+                         ? rate * time_s
+                         : blocks.model(i).level_at(time_s, blocks.level_data(), blocks.parameters.cycles[i].data()));
   }
-  return {std::min(range.low, inside.low - mean), std::max(range.high, inside.high - mean)};
+  const std::size_t last = blocks.size() - 1;
+  const auto slope = [&](std::size_t from, std::size_t to) {
+    return (levels[to] - levels[from]) / (blocks.reference_s(to) - blocks.reference_s(from));
+  };
+  const double mean = mean_of(levels);
+  levels.push_back(levels[0] + slope(0, 1) * (recording.whole_begin_s() - blocks.reference_s(0)));
+  levels.push_back(levels[last] + slope(last - 1, last) * (recording.time_s().back() - blocks.reference_s(last)));
+  const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
+  return {*low - mean, *high - mean};
 }
 
 /// Share of a trend that the measured load explains where friction is proportional to the load; empty without one.
