@@ -53,16 +53,8 @@ double reload_slope_N_per_m(const Subject& of) {
   return rise_N / (0.6 * path_m);
 }
 
-/// Whether the middle three fifths of the rises are stick: from trough to stick, and from stick to peak, a slip takes
-/// up to atan(1 / lambda) / w_n, a quarter of its time at lambda = 1.
-bool has_long_sticks(const CycleStatistics& cycles) {
-  if (!cycles.slip_time_s) return true;  // not resolved: a jump
-  return cycles.stick_time_s && cycles.slip_time_s && 0.2 * *cycles.stick_time_s > 0.25 * *cycles.slip_time_s;
-}
-
 /// Slope of the sticks over V without the drift and the rise after a slip that the fit has.
 Estimate stiffness_by_sticks(const Subject& of) {
-  if (!has_long_sticks(of.analysis.cycles)) return {};
   const double drift = of.analysis.fit->level_trend.in_sticks_per_s / of.recording.conditions().speed_m_per_s;
   Estimate slope = shifted(of.analysis.cycles.stick_stiffness, -drift - reload_slope_N_per_m(of));
   // Slips may come at one phase of a line: its slope is then in every stick.
@@ -88,7 +80,7 @@ Estimate mass_by_secant(const Subject& of) {
   const Estimate omega = of.parameter(Id::NaturalFrequency);
   const Estimate slope = cycles.stick_stiffness;
   if (!omega.value || !omega.standard_error || !slope.value || !slope.standard_error || !cycles.force_drop ||
-      !cycles.stick_time_s || !has_long_sticks(cycles)) {
+      !cycles.stick_time_s || !(*cycles.stick_time_s > 0.0)) {
     return {};
   }
   const double secant = *cycles.force_drop / (*cycles.stick_time_s * of.recording.conditions().speed_m_per_s);

@@ -98,7 +98,6 @@ LevelReading reading_of(const Interval& shares) {
 TrendFindings find_level_trend(const Recording& recording, const DampedFit& fit) {
   const BlockFit& blocks = fit.blocks;
   TrendFindings result;
-  result.mass_is_stated = fit.mass_gives_frequency;
   const Rate rate = rate_of(fit);
   if (blocks.size() < thresholds::kFewestFitted || !(rate.standard_error > 0.0)) return result;
   const auto freedom = blocks.level().per_cycle ? static_cast<double>(blocks.size()) - 2.0
@@ -131,7 +130,6 @@ TrendFindings find_level_trend(const Recording& recording, const DampedFit& fit)
 
 TrendFindings trend_of_sweep(std::span<const SweepRecording> recordings, const SweepData& data, const Held& held) {
   TrendFindings all;
-  all.mass_is_stated = data.mass.has_value();
   double weights = 0.0;
   Interval range;
   for (const std::size_t i : data.fitted) {
@@ -153,23 +151,14 @@ TrendFindings trend_of_sweep(std::span<const SweepRecording> recordings, const S
   return all;
 }
 
-namespace {
-
-Coordinates move_of(const TrendFindings& trend, double log_k) {
-  Coordinates move = log_k * Coordinates::Unit(kLogStiffness);
-  if (trend.mass_is_stated) move(kLogFrequency) = 0.5 * log_k;
-  return move;
-}
-
-}  // namespace
-
-Coordinates with_trend(const Coordinates& values, const TrendFindings& trend) {
-  return values + move_of(trend, trend.log_k_to_value);
+Coordinates with_trend(Coordinates values, const TrendFindings& trend) {
+  values(kLogStiffness) += trend.log_k_to_value;
+  return values;
 }
 
 Spread with_trend(Spread spread, const TrendFindings& trend, double force_unit) {
   if (trend.log_k_to_other != 0.0) {
-    spread.to_rivals.push_back(move_of(trend, trend.log_k_to_other));
+    spread.to_rivals.emplace_back(trend.log_k_to_other * Coordinates::Unit(kLogStiffness));
   }
   if (!trend.trend.level_range) return spread;
   for (const double end : {trend.trend.level_range->low, trend.trend.level_range->high}) {

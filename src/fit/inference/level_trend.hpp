@@ -18,7 +18,6 @@ struct TrendFindings {
   bool is_significant = false;
   bool is_per_cycle = false;    ///< the fit has a level in every cycle: its k is that of friction that changes
   double log_k_to_value = 0.0;  ///< from ln k of the fit to that of the reading to report
-  bool mass_is_stated = false;  ///< and gives w_n, which goes as the root of k
   double log_k_to_other = 0.0;  ///< from there to the other possible reading; 0 where the reading is known
 };
 
@@ -29,7 +28,7 @@ TrendFindings find_level_trend(const Recording& recording, const DampedFit& fit)
 TrendFindings trend_of_sweep(std::span<const SweepRecording> recordings, const SweepData& data, const Held& held);
 
 /// The values by the reading to report.
-Coordinates with_trend(const Coordinates& values, const TrendFindings& trend);
+Coordinates with_trend(Coordinates values, const TrendFindings& trend);
 
 /// The spread with the other reading of the trend and, of absolute forces, the range of the level.
 Spread with_trend(Spread spread, const TrendFindings& trend, double force_unit);
