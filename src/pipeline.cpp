@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/audit.hpp"
 #include "analysis/classify.hpp"
 #include "analysis/conclusions.hpp"
 #include "analysis/detect.hpp"
@@ -65,21 +64,6 @@ Derived derive(const Recording& recording, const Analysis& analysis) {
   return in_range(with_worn_track(std::move(derived), recording.conditions()));
 }
 
-void append(Warnings& warnings, const Warnings& more) {
-  warnings.insert(warnings.end(), more.begin(), more.end());
-}
-
-/// Where values contradict each other, what follows from them is derived anew.
-Analysis audited(const Recording& recording, Analysis analysis) {
-  analysis.audit = audit_of(recording, analysis);
-  const auto contradicts = [](const AuditPair& pair) { return pair.contradicts; };
-  if (std::none_of(analysis.audit.begin(), analysis.audit.end(), contradicts)) return analysis;
-  analysis.fit = with_audit(*std::move(analysis.fit), analysis.audit);
-  analysis.frequency = with_audit(std::move(analysis.frequency), analysis.audit);
-  analysis.derived = derive(recording, analysis);
-  return analysis;
-}
-
 /// The fitted curve counts its samples in the part that slides: told in samples of the whole recording.
 std::optional<FitResult> told_of_whole(std::optional<FitResult> fit, const Detected& detected) {
   if (!fit) return fit;
@@ -111,14 +95,11 @@ Analysis conclude(const Detected& detected, Estimates estimates, Classification 
   analysis.fit = qualify(std::move(estimates.fit), classification, analysis, recording.duration_s());
   analysis.motion = classification.motion;
   analysis.motion_reason = std::move(classification.reason);
-  analysis.derived = derive(recording, analysis);
-  analysis = audited(recording, std::move(analysis));
   analysis.coefficients = in_range(find_coefficients(detected, analysis));
+  analysis.derived = derive(recording, analysis);
   analysis.tests = run_short_tests(recording, analysis);
   analysis.warnings = collect_warnings(detected, slips, analysis);
-  append(analysis.warnings, warn_of(analysis.audit));
   if (auto units = implausible_units(recording, analysis)) analysis.warnings.push_back(*std::move(units));
-  if (analysis.fit) analysis.fit = limited_by(analysis.warnings, *std::move(analysis.fit));
   analysis.fit = told_of_whole(std::move(analysis.fit), detected);
   analysis.timing.frequency_s = detected.seconds + estimates.frequency_s;
   analysis.timing.fit_s = estimates.fit_s;
@@ -133,6 +114,10 @@ Analysis without_falls(Analysis analysis) {
   analysis.cycles.stick_stiffness = analysis.frequency.counted = none;
   for (Cycle& cycle : analysis.cycle_table) cycle.used = false;
   return analysis;
+}
+
+void append(Warnings& warnings, const Warnings& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
 /// A recording of a sweep on its own.
@@ -151,32 +136,6 @@ Member analyze_member(const Recording& recording, const FitOptions& options) {
   const Classification classification = classify(member.detected.recording(), member.estimates);
   member.analysis = conclude(member.detected, member.estimates, classification);
   return member;
-}
-
-SweepAnalysis audited(std::span<const SweepEntry> entries, SweepAnalysis sweep) {
-  if (!sweep.fit) return sweep;
-  std::vector<const Recording*> recordings;
-  std::vector<const Analysis*> analyses;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (sweep.roles[i] != SweepRole::Cycles) continue;
-    recordings.push_back(&entries[i].recording);
-    analyses.push_back(&sweep.recordings[i]);
-  }
-  sweep.audit = audit_of(recordings, analyses, sweep.fit->result);
-  sweep.fit->result = with_audit(std::move(sweep.fit->result), sweep.audit);
-  return sweep;
-}
-
-/// The warnings of the sweep, and those that a recording of its fit has about its speed.
-Warnings with_warnings_of_speed(const SweepAnalysis& sweep) {
-  Warnings warnings = sweep.warnings;
-  for (std::size_t i = 0; i < sweep.recordings.size(); ++i) {
-    if (sweep.roles[i] != SweepRole::Cycles) continue;
-    for (const Warning& warning : sweep.recordings[i].warnings) {
-      if (warning.code.starts_with("speed_differs")) warnings.push_back(warning);
-    }
-  }
-  return warnings;
 }
 
 }  // namespace
@@ -240,7 +199,6 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
                           ring_down_of(sweep.recordings[i].transients)});
   }
   sweep.fit = in_range(fit_sweep(recordings, options));
-  sweep = audited(entries, std::move(sweep));
   const FitResult result = sweep.fit ? sweep.fit->result : FitResult{};
   sweep.derived = in_range(derive_from_sweep(result, observed_end(entries, sweep.recordings, result)));
   sweep.fit_reason = describe_roles(sweep.roles);
@@ -253,8 +211,6 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   if (sweep.fit) {
     append(sweep.warnings, check_agreement(entries, sweep.recordings, *sweep.fit));
     append(sweep.warnings, sweep.fit->result.warnings);
-    append(sweep.warnings, warn_of(sweep.audit));
-    sweep.fit->result = limited_by(with_warnings_of_speed(sweep), std::move(sweep.fit->result));
   }
   for (Analysis& analysis : sweep.recordings) analysis = without_falls(std::move(analysis));
   return sweep;

@@ -8,8 +8,6 @@ const kGermanWarnings = {
   time_runs_backwards: "Zeilen, deren Zeit vor einer früheren liegt, wurden ausgelassen.",
   repeated_time_stamps: "Einige Zeilen tragen die Zeit der vorigen; sie wurden behalten.",
   speed_differs_from_displacement: "Die Wegspalte bewegt sich mit einer anderen Geschwindigkeit als der angegebenen.",
-  level_trend: "Das Kraftniveau steigt oder fällt: Drift des Sensors oder geänderte Reibung (--drift sagt, was davon).",
-  values_contradict: "Zwei Angaben zu derselben Größe widersprechen sich; die Bereiche enthalten beide.",
   speed_differs: "Die Geschwindigkeitsspalte sagt etwas anderes als die Angabe; die Angabe gilt.",
   normal_force_differs: "Die Spalte der Normalkraft sagt etwas anderes als die Angabe; die Angabe gilt.",
   normal_force_varies: "Die Normalkraft schwankt um mehr als ein Zehntel; ihr Median steht für sie.",

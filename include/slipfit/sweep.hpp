@@ -40,7 +40,6 @@ struct SweepAnalysis {
   std::optional<SweepFit> fit;       ///< empty: fewer than two recordings with stick-slip cycles
   std::string fit_reason;            ///< what it is made of, or why there is none
   Derived derived;                   ///< critical speed; what belongs to one speed is empty
-  std::vector<AuditPair> audit;      ///< of the parameters of the sweep
   std::vector<Repeat> repeats;       ///< empty where the speeds differ
   Warnings warnings;                 ///< of the sweep as a whole, the fit of the sweep's included
 };

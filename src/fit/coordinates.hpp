@@ -28,7 +28,6 @@ enum Coordinate : Eigen::Index {
   kSlipDistance,       ///< sqrt(D_c / Units::slip_distance_m): the limit of Coulomb friction is reached as it goes to 0
   kReloadForce,        ///< A / Units::force, of the rise after a slip
   kReloadLength,       ///< ln (l / m), of the path over which it rises
-  kLevelRate,          ///< mean rise of the level polynomial from its first to its last cycle / Units::force, 1/s
   kStiffnessExponent,  ///< d ln k / d ln V, of a sweep; k and w_n are those at Units::speed_m_per_s
   kCoordinates
 };

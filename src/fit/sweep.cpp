@@ -14,7 +14,6 @@
 #include "fit/inference/sweep_outcome.hpp"
 #include "fit/report/findings.hpp"
 #include "fit/report/open_damping.hpp"
-#include "fit/report/trend_notes.hpp"
 #include "fit/selection/law_choice.hpp"
 #include "fit/selection/ring_down_fit.hpp"
 #include "fit/selection/sweep_solution.hpp"
@@ -71,11 +70,10 @@ class Assembler {
       : recordings_(recordings),
         data_(data),
         outcome_(outcome),
-        trend_(fit::trend_of_sweep(recordings, data, outcome.solution.held)),
-        values_(fit::with_trend(fit::with_damping_cut(outcome.values, outcome.spread.covariance), trend_)),
+        values_(fit::with_damping_cut(outcome.values, outcome.spread.covariance)),
         model_(values_, data.units),
         averaging_(data.motion ? 0.0 : fit::effect_of_averaging(recordings, outcome, data)),
-        intervals_(fit::with_trend(spread_of(outcome, averaging_), trend_, data.units.force)) {}
+        intervals_(spread_of(outcome, averaging_)) {}
 
   [[nodiscard]] SweepFit assemble(const fit::LawChoice& choice) const {
     SweepFit sweep;
@@ -89,8 +87,10 @@ class Assembler {
         })) {
       sweep.result.conditional_on.emplace_back(fit::kStatedSpeed);
     }
-    sweep.result.mass_gives_frequency = data_.mass.has_value();
-    if (data_.mass) sweep.result.conditional_on.push_back(fmt::format("a moving mass of {:.4g} kg", data_.mass->kg));
+    if (data_.mass) {
+      sweep.result.mass_gives_frequency = true;
+      sweep.result.conditional_on.push_back(fmt::format("a moving mass of {:.4g} kg", data_.mass->kg));
+    }
     sweep.result.residual.rms = residual_rms(solution);
     if (std::any_of(data_.loads.begin(), data_.loads.end(), [](double load) { return load != 1.0; })) {
       sweep.result.conditional_on.push_back(
@@ -128,7 +128,6 @@ class Assembler {
       findings.slip_doubt = findings.stiffness_doubt =
           "residuals exceed the noise: the model misses part of the data, and the interval may be too narrow";
     }
-    fit::state_trend(trend_, recordings_.front().recording.conditions(), findings);
     if (!findings.damping.value) findings.frequency_unknown = findings.damping.note;
     add_average(findings);
     add_difference_doubt(findings);
@@ -169,8 +168,8 @@ class Assembler {
     if (!outcome_.other_law) return;
     const fit::OtherLaw& other = *outcome_.other_law;
     findings.other_law = other.move;
-    const double moved_N = std::abs(data_.units.force * other.move(fit::kDifference));
-    if (!(moved_N > thresholds::kOtherLawShare * model_.difference.a)) return;
+    const double share = std::abs(data_.units.force * other.move(fit::kDifference) / model_.difference.a);
+    if (!(share > thresholds::kOtherLawShare)) return;
     findings.difference_doubt = fmt::format(
         "kinetic friction that changes {}ally with speed explains the recordings equally well and gives {:.3g} N",
         other.law == fit::FrictionLaw::Hyperbolic ? "hyperbolic" : "logarithmic", data_.units.force * other.difference);
@@ -256,7 +255,6 @@ class Assembler {
   std::span<const SweepRecording> recordings_;
   const SweepData& data_;
   const SweepOutcome& outcome_;
-  fit::TrendFindings trend_;
   fit::Coordinates values_;
   fit::SlidingModel model_;
   double averaging_;

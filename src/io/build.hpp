@@ -27,11 +27,9 @@ struct StatedConditions {
   Conditions conditions;
   std::vector<std::string> assumed;
   Warnings warnings;
-  std::optional<Estimate> moved_m_per_s{};  ///< Provenance
 };
 
-/// What the user states counts; a column fills in what is not stated. Errors: no_speed, speed_varies,
-/// speed_contradicted.
+/// What the user states counts; a column fills in what is not stated. Errors: no_speed, speed_varies.
 StatedConditions state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
                                   const Conditions& conditions, const std::string& file);
 

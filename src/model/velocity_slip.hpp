@@ -25,7 +25,7 @@ struct SlipAccuracy {
 inline constexpr SlipAccuracy kExact{1e-13, 1.0, 0.3, 5000};
 /// To 1e-7, all that fits need; quintic polynomials across steps of 0.5 are good to 4e-7 of the motion. A fit solves
 /// many thousand slips: a stiff one gets 1 ms at most.
-inline constexpr SlipAccuracy kForFits{1e-9, 0.5, 0.5, 500};
+inline constexpr SlipAccuracy kForFits{1e-9, 0.5, 0.5, 5000};
 
 /// With rate < 0 the friction changes within 1 / |rate| above rest. The error estimate of Fehlberg's steps misses what
 /// only the last stage meets, and friction that changes the motion little: the length of a step is bounded so that none

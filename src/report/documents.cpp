@@ -43,12 +43,7 @@ std::string id_of(const Recording& recording, const JsonOptions& options) {
 std::string to_json(const Recording& recording, const Analysis& analysis, const JsonOptions& options) {
   Json json{{"schema", "slipfit.fit/1"}, {"version", SLIPFIT_VERSION}, {"id", id_of(recording, options)}};
   add_analysis(json, recording, analysis, {});
-  if (analysis.fit) {
-    const ForceQuantity quantity = recording.conditions().quantity;
-    add_fit(json, *analysis.fit, quantity);
-    json["level_trend"] = level_trend_json(analysis.fit->level_trend, quantity);
-    json["audit"] = audit_json(analysis.audit);
-  }
+  if (analysis.fit) add_fit(json, *analysis.fit, recording.conditions().quantity);
   json["derived"] = derived_json(analysis.derived);
   json["transients"] = transients_json(analysis.transients, recording.conditions().quantity);
   json["coefficients"] = coefficients_json(analysis.coefficients);
@@ -113,7 +108,6 @@ std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   json["warnings"] = sweep.warnings;
   if (sweep.fit) {
     add_fit(json, sweep.fit->result, ForceQuantity::Force_N);
-    json["audit"] = audit_json(sweep.audit);
     json["model"]["level_shared"] = sweep.fit->level_shared;
     json["model"]["static_friction_shared"] = sweep.fit->difference_shared;
     if (sweep.fit->result.estimate) add_reach(json["model"], *sweep.fit->result.estimate);

@@ -186,7 +186,7 @@ TEST_CASE("a text that is no unit, or a unit of something else, is refused and n
       {"N m", Dimension::Force},
       {"V", Dimension::Force},
       {"rad", Dimension::Dimensionless},
-      {"gram-force", Dimension::Force},
+      {"gram-furlong", Dimension::Force},
       {"((((N", Dimension::Force},
       {"N^", Dimension::Force},
       {"m^99 m-98", Dimension::Time},

@@ -20,15 +20,6 @@ enum class ForceView { Spring, Transmitted, Contact };
 /// What the force column holds: newtons, or a friction coefficient whose normal force is not known.
 enum class ForceQuantity { Force_N, FrictionCoefficient };
 
-/// How a rise or fall of the force level over a recording is read: a sensor that drifts adds it to every stick,
-/// friction that changes does not.
-enum class LevelReading {
-  Open,      ///< not stated, and the data do not determine it: one of the next two
-  Sensor,    ///< drift of the sensor
-  Friction,  ///< change of the friction: run-in, a load that changes
-  None       ///< no trend
-};
-
 /// A file that was read, by the bytes that were parsed.
 struct InputFile {
   std::string file;
@@ -66,10 +57,9 @@ struct Conditions {
   /// one step of the clock.
   std::optional<double> sensor_average_s;
   std::optional<double>
-      sensor_resonance_Hz;                  ///< > 0, of the load cell as it is mounted: a frequency near it is doubted
-  LevelReading drift = LevelReading::Open;  ///< how the user reads a trend of the force level
-  std::optional<double> drive_period_s;     ///< > 0, of what may set the rhythm: a motor's step, an excitation
-  std::optional<double> drive_path_m;  ///< > 0, over which the drive's force repeats: a pole pitch, a tooth, a turn
+      sensor_resonance_Hz;               ///< > 0, of the load cell as it is mounted: a frequency near it is doubted
+  std::optional<double> drive_period_s;  ///< > 0, of what may set the rhythm: a motor's step, an excitation
+  std::optional<double> drive_path_m;    ///< > 0, over which the drive's force repeats: a pole pitch, a tooth, a turn
   /// > 0, of the moving body: gives w_n where averaging hides it, else held against k / w_n^2.
   std::optional<double> mass_kg;
   std::optional<double> mass_standard_error_kg;  ///< >= 0, of the stated mass; empty: 2 % of it
@@ -91,9 +81,7 @@ struct Provenance {
   std::size_t rows_backward_in_time = 0;     ///< left out
   std::size_t rows_repeating_time = 0;       ///< kept: same time stamp as the row before
   bool is_time_unit_assumed = false;         ///< no unit of the clock is given: seconds are assumed
-  /// Speed of a displacement column with its standard error; empty: no such column, or one that moves unsteadily.
-  std::optional<Estimate> moved_m_per_s{};
-  bool window_given = false;  ///< the user chose what part to read: nothing else is left out
+  bool window_given = false;                 ///< the user chose what part to read: nothing else is left out
 };
 
 /// Time and tangential force of one run: at least 2 samples, all finite, time never decreasing and not constant.
@@ -101,14 +89,11 @@ class Recording {
  public:
   /// Errors: too_few_samples, length_mismatch, not_finite, time_decreases, time_constant, speed_not_positive,
   /// normal_force_not_positive. `force` is in newtons, or a friction coefficient as `conditions.quantity` says.
-  /// `normal_force_N`: of every sample, where a column has it; not used where a value is missing or not finite.
   static Result<Recording> create(std::vector<double> time_s, std::vector<double> force, Conditions conditions,
-                                  Provenance provenance = {}, std::vector<double> normal_force_N = {});
+                                  Provenance provenance = {});
 
   [[nodiscard]] std::span<const double> time_s() const { return time_s_; }
   [[nodiscard]] std::span<const double> force() const { return force_; }
-  /// Measured with each sample; empty: not measured.
-  [[nodiscard]] std::span<const double> normal_force_N() const { return normal_force_N_; }
   [[nodiscard]] std::size_t size() const { return time_s_.size(); }
   [[nodiscard]] const Conditions& conditions() const { return conditions_; }
   [[nodiscard]] const Provenance& provenance() const { return provenance_; }
@@ -133,7 +118,6 @@ class Recording {
   struct Samples {
     std::vector<double> time_s;
     std::vector<double> force;
-    std::vector<double> normal_force_N;  ///< empty: not measured
   };
   [[nodiscard]] Recording with_samples(std::shared_ptr<const Samples> samples, std::size_t begin,
                                        std::size_t end) const;
@@ -141,7 +125,6 @@ class Recording {
   std::shared_ptr<const Samples> samples_;
   std::span<const double> time_s_;
   std::span<const double> force_;
-  std::span<const double> normal_force_N_;
   Conditions conditions_;
   Provenance provenance_;
   double sample_interval_s_ = 0.0;

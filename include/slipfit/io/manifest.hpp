@@ -20,8 +20,8 @@ class ManifestReader {
   static Result<ManifestReader> open(const std::filesystem::path& file);
 
   /// The next recording; nothing behind the last one. Errors: wrong_field_count, open_quote, missing_value, bad_id,
-  /// bad_number, out_of_range, bad_window, unknown_unit, unknown_force_view, unknown_drift, not_readable. An error is
-  /// about its row only: the next call goes on behind it (but after not_readable, where nothing follows).
+  /// bad_number, out_of_range, bad_window, unknown_unit, unknown_force_view, not_readable. An error is about its row
+  /// only: the next call goes on behind it (but after not_readable, where nothing follows).
   Result<std::optional<ManifestEntry>> next();
 
   /// Columns that mean nothing here, as they are called in the file.

@@ -96,11 +96,6 @@ double force_scale(const BlockFit& fit) {
   return std::exp(g[kLogStiffness] - g[kLogFrequency]) * fit.scales().speed_m_per_s;
 }
 
-/// Mean slope of a Legendre polynomial of odd order, which goes from -1 to 1 over the cycles, per second.
-double mean_rate_of_odd_term(const Scales& scales) {
-  return 2.0 / (scales.time_end_s - scales.time_begin_s);
-}
-
 /// Of all cycles.
 double parameters_of(const BlockFit& fit) {
   const CycleModel& any = fit.model(0);
@@ -129,9 +124,6 @@ Coordinates coordinates_of(const BlockFit& fit) {
     coordinates(kDifference) += p.cycles[i][1] / cycles;
   }
   coordinates(kDifference) += 2.0 * p.globals[kDamping] * force_scale(fit) / force;
-  for (std::size_t i = 1; i < fit.level().terms; i += 2) {
-    coordinates(kLevelRate) += mean_rate_of_odd_term(fit.scales()) * p.level[i];
-  }
   if (const auto& reloading = fit.level().reloading) {
     const double* const rise = fit.rise_data();
     coordinates(kReloadForce) = rise[0];
@@ -167,9 +159,6 @@ Selection select(const BlockFit& fit) {
     return selection;
   }
   const Scales& scales = fit.scales();
-  for (std::size_t i = 1; i < fit.level().terms; i += 2) {
-    selection.common(columns.level(0) + static_cast<Index>(i), kLevelRate) = mean_rate_of_odd_term(scales);
-  }
   std::vector<double> values(fit.level().terms);
   std::vector<double> slopes(fit.level().terms);
   for (std::size_t cycle = 0; cycle < fit.size(); ++cycle) {

@@ -38,19 +38,6 @@ double hum_amplitude(const BlockFit& fit) {
   return amplitude;
 }
 
-double slope_by_lines(const BlockFit& fit, double length_s) {
-  double square = 0.0;
-  for (const FittedLine& line : fitted_lines(fit)) {
-    // A line of least squares through a sin(w t), from -x to x in w t: 3 a (sin x - x cos x) w / x^3
-    const double omega = 2.0 * std::numbers::pi * line.frequency_Hz;
-    const double x = 0.5 * omega * length_s;
-    if (!(x > 0.0)) continue;
-    const double slope = 3.0 * line.force * (std::sin(x) - x * std::cos(x)) * omega / (x * x * x);
-    square += 0.5 * slope * slope;
-  }
-  return std::sqrt(square);
-}
-
 double mains_amplitude(const BlockFit& fit) {
   double amplitude = 0.0;
   for (const FittedLine& line : fitted_lines(fit)) {

@@ -9,10 +9,8 @@
 #include "core/fit_thresholds.hpp"
 #include "core/unknown.hpp"
 #include "fit/inference/covariance.hpp"
-#include "fit/inference/level_trend.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/level/mains_hum.hpp"
-#include "fit/report/trend_notes.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/ramps.hpp"
 #include "fit/selection/rival.hpp"
@@ -41,11 +39,13 @@ std::optional<StickRipple> ripple_of(const DampedFit& fit) {
   return fit.ripple && fit.ripple->speed_share > thresholds::kRippleShare ? fit.ripple : fitted_ripple(fit.blocks);
 }
 
-StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits) {
+StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits, const Spread& spread) {
   StiffnessFindings result;
   if (fits.damped.held[kLogStiffness]) return result;
   const BlockFit& blocks = reported(fits);
+  const double log_k_error = std::sqrt(spread.covariance(kLogStiffness, kLogStiffness));
   const Conditions& conditions = recording.conditions();
+  const double stiffness = std::exp(blocks.parameters.globals[kLogStiffness]);
   // Ramps that bend (creep before a slip, a tightening line) have no one slope: k depends on the stretch that is used,
   // by half of what the halves of the ramps differ.
   const std::optional<RampBend> bend = ramp_bend(blocks);
@@ -60,6 +60,13 @@ StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits)
     result.variance += std::pow(ripple->log_stiffness, 2);
     result.warnings.push_back(ripple_warning(*ripple));
     result.note = result.warnings.back().message;
+  }
+  const double drift = std::abs(level_trend(blocks) / (stiffness * conditions.speed_m_per_s));
+  if (drift > std::hypot(log_k_error, std::sqrt(result.variance))) {
+    result.variance += drift * drift;
+    result.note =
+        fmt::format("the mean force rises or falls throughout: k is wrong by {:.1f} % if that is drift of the sensor",
+                    100.0 * drift);
   }
   // The data give k V.
   result.variance += std::pow(conditions.speed_standard_error_m_per_s.value_or(0.0) / conditions.speed_m_per_s, 2);
@@ -76,13 +83,6 @@ Spread spread_of(const DampedFit& fit) {
   spread.scatter(kDifference, kDifference) = fit.uncertainty.onset_force_sd * fit.uncertainty.onset_force_sd / cycles;
   spread.scatter_degrees_of_freedom = cycles - 1.0;
   return spread;
-}
-
-/// A stiffness that the user holds has no other reading.
-TrendFindings trend_of(const Recording& recording, const TierFits& fits) {
-  TrendFindings trend = find_level_trend(recording, fits.damped);
-  if (fits.damped.held[kLogStiffness]) trend.log_k_to_value = trend.log_k_to_other = 0.0;
-  return trend;
 }
 
 /// What averaging in the instrument may have changed where its duration is not stated.
@@ -233,11 +233,6 @@ std::optional<Estimate> fitted_average_of(const DampedFit& fit) {
   return symmetric(fit.average->seconds, fit.average->standard_error_s, fit.uncertainty.degrees_of_freedom);
 }
 
-Units units_of(const BlockFit& blocks) {
-  const Scales& scales = blocks.scales();
-  return {.force = scales.force, .level = scales.level, .slip_distance_m = scales.slip_distance_m};
-}
-
 }  // namespace
 
 std::vector<std::string> conditions_of(const Recording& recording, Tier tier) {
@@ -258,15 +253,18 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   DampingFindings damping = damping_of(fits, blocks);
   damping.estimate.ci95 = lengthened_damping(*damping.estimate.ci95, spread);
   spread.profile = std::move(damping.profile);
-  StiffnessFindings stiffness = stiffness_of(recording, fits);
+  StiffnessFindings stiffness = stiffness_of(recording, fits, spread);
   spread.covariance(kLogStiffness, kLogStiffness) += stiffness.variance;
-  const TrendFindings trend = trend_of(recording, fits);
-  spread = with_trend(std::move(spread), trend, blocks.scales().force);
   if (spread.profile) spread.profile->held(kLogStiffness, kLogStiffness) += stiffness.variance;
 
-  Coordinates values = with_trend(coordinates_of(blocks), trend);
+  Coordinates values = coordinates_of(blocks);
   values(kDamping) = std::max(0.0, values(kDamping));
-  Findings findings{values, units_of(blocks), Intervals(std::move(spread)), std::move(damping.estimate),
+  Findings findings{values,
+                    {.force = blocks.scales().force,
+                     .level = blocks.scales().level,
+                     .slip_distance_m = blocks.scales().slip_distance_m},
+                    Intervals(std::move(spread)),
+                    std::move(damping.estimate),
                     fits.held_by_user()};
   state_conditions(recording, findings);
   findings.cycles = blocks.size();
@@ -280,7 +278,6 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
                         : findings.warnings.empty() ? ""
                                                     : findings.stiffness_note;
   findings.warnings.insert(findings.warnings.end(), averaging.warnings.begin(), averaging.warnings.end());
-  state_trend(trend, recording.conditions(), findings);
   state_law(fits.damped, findings);
   state_doubts(recording.conditions(), fits, resolution, residual, findings);
   return findings;

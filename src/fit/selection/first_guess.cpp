@@ -26,8 +26,7 @@ LevelModel first_level(const Recording& recording, const Segmentation& segmentat
     drops.push_back(slip.drop());
   }
   const std::vector<double> times_s = middles_s(segmentation, cycles);
-  const bool has_trend = recording.conditions().drift != LevelReading::None;
-  const std::size_t terms = has_trend ? choose_level_terms(times_s, middles) : 1;
+  const std::size_t terms = choose_level_terms(times_s, middles);
   const double left = unexplained_level(times_s, middles, drops, terms);
   const bool well_sampled = scales.half_period_s > thresholds::kWellSampled * recording.sample_interval_s();
   const bool wanders = well_sampled && left > thresholds::kWanderingShare * 2.0 * scales.force &&

@@ -95,23 +95,12 @@ std::optional<RampBend> ramp_bend(const BlockFit& fit) {
   return RampBend{difference / slope, std::sqrt(variance) / weights / slope};
 }
 
-std::optional<RampDrift> drift_in_ramps(const BlockFit& fit) {
-  if (fit.level().per_cycle || fit.level().terms < 3) return std::nullopt;
-  std::vector<double> measured, level, weight;
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    const StickBin late = merge(straightened(fit.data(i).bins_before, fit, i));
-    const StickBin early = merge(straightened(fit.data(i).bins_after, fit, i));
-    if (late.count < 3.0 || early.count < 3.0) continue;
-    weight.push_back(late.time_spread + early.time_spread);
-    measured.push_back((late.time_spread * late.slope + early.time_spread * early.slope) / weight.back());
-    level.push_back(
-        (late.time_spread * level_slope(fit, i, late.time_s) + early.time_spread * level_slope(fit, i, early.time_s)) /
-        weight.back());
-  }
-  if (measured.size() < 5) return std::nullopt;
-  const LineSums line = weighted_line_sums(level, measured, weight);
-  if (!(line.square > 0.0)) return std::nullopt;
-  return RampDrift{line.slope(), line.slope_error(), line.mean_x};
+double level_trend(const BlockFit& fit) {
+  if (!fit.level().per_cycle || fit.size() < 3) return 0.0;
+  const LineSums line = line_sums(
+      fit.size(), [&](std::size_t i) { return fit.reference_s(i); },
+      [&](std::size_t i) { return fit.parameters.cycles[i][2] * fit.scales().force; });
+  return std::abs(line.slope()) > 3.0 * line.slope_error() ? line.slope() : 0.0;
 }
 
 }  // namespace slipfit::fit
