@@ -134,7 +134,7 @@ bool names_manifest(const std::vector<std::string>& paths) {
   std::error_code ignored;
   const std::string& first = paths.front();
   if (paths.size() > 1 || std::filesystem::is_directory(first, ignored)) return false;
-  if (is_manifest(first)) return true;
+  if (!std::filesystem::is_regular_file(first, ignored) || is_manifest(first)) return true;  // a pipe is not waited for
   const auto recording = slipfit::inspect_recording(first);
   return !recording || recording.value().refusal;
 }

@@ -213,7 +213,7 @@ bool may_be_hum(const Signals& signals) {
     if (line.swing >= kHarmlessHum * drop) return true;
   }
   const double share = mains_share(signals.segmentation);
-  return share > 0.9 && share < 1.1 && !phase_wanders(signals.segmentation);
+  return share > 0.9 && share < 1.1;
 }
 
 }  // namespace slipfit

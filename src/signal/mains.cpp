@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "signal/robust.hpp"
@@ -83,63 +82,7 @@ std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, d
   return MainsLine{frequency, 0.0, 1, half_width(resolution_Hz, frequency)};
 }
 
-/// Of a line, its width included.
-double power_near(std::span<const double> power, double bin_Hz, double resolution_Hz, double line_Hz) {
-  const double top = static_cast<double>(power.size()) - 1.0;
-  const double half = half_width(resolution_Hz, line_Hz);
-  const auto low = static_cast<std::size_t>(std::clamp(std::floor((line_Hz - half) / bin_Hz), 0.0, top));
-  const auto high = static_cast<std::size_t>(std::clamp(std::ceil((line_Hz + half) / bin_Hz), 0.0, top));
-  return std::accumulate(power.begin() + static_cast<std::ptrdiff_t>(low),
-                         power.begin() + static_cast<std::ptrdiff_t>(high) + 1, 0.0);
-}
-
-/// A local maximum of the spectrum.
-struct Peak {
-  std::size_t bin = 0;
-  double ratio = 0.0;  ///< over the median of its part of the spectrum
-};
-
-/// The highest ones over the median power of parts of the spectrum, from bin `first` on.
-std::vector<Peak> highest_peaks(std::span<const double> power, std::size_t first) {
-  constexpr std::size_t kPart = 256;
-  constexpr std::size_t kMost = 8;
-  std::vector<Peak> peaks;
-  for (std::size_t begin = first; begin + 1 < power.size(); begin += kPart) {
-    const std::size_t end = std::min(power.size() - 1, begin + kPart);
-    const double level =
-        median({power.begin() + static_cast<std::ptrdiff_t>(begin), power.begin() + static_cast<std::ptrdiff_t>(end)});
-    for (std::size_t i = begin; i < end; ++i) {
-      const bool is_peak = power[i] > 16.0 * level && power[i] >= power[i - 1] && power[i] > power[i + 1];
-      if (is_peak && level > 0.0) peaks.push_back({i, power[i] / level});
-    }
-  }
-  const auto count = static_cast<std::ptrdiff_t>(std::min(kMost, peaks.size()));
-  const auto is_higher = [](const Peak& one, const Peak& other) { return one.ratio > other.ratio; };
-  std::partial_sort(peaks.begin(), peaks.begin() + count, peaks.end(), is_higher);
-  peaks.resize(static_cast<std::size_t>(count));
-  return peaks;
-}
-
 }  // namespace
-
-std::vector<double> find_lines(std::span<const double> power, double bin_Hz, double resolution_Hz, double least_Hz) {
-  const auto first =
-      static_cast<std::size_t>(std::max(1.0, std::ceil(std::max(4.0 * resolution_Hz, least_Hz) / bin_Hz)));
-  constexpr double kFlat = 4.0;
-  const double least_ratio = prominence_among(static_cast<double>(power.size()));
-  const double highest_level = kFlat * median({power.begin(), power.end()});
-  const double most_power = 0.5 * std::accumulate(power.begin(), power.end(), 0.0);
-  std::vector<double> lines_Hz;
-  for (const auto& [bin, ratio] : highest_peaks(power, first)) {
-    const double offset = peak_offset(power[bin - 1], power[bin], power[bin + 1]);
-    const double frequency_Hz = (static_cast<double>(bin) + offset) * bin_Hz;
-    const double level = level_beside(power, bin_Hz, resolution_Hz, frequency_Hz);
-    const bool stands_out =
-        level < highest_level || power_near(power, bin_Hz, resolution_Hz, frequency_Hz) > most_power;
-    if (power[bin] > least_ratio * level && stands_out) lines_Hz.push_back(frequency_Hz);
-  }
-  return lines_Hz;
-}
 
 std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz,
                                   std::span<const double> known_Hz) {

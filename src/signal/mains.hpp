@@ -22,11 +22,6 @@ struct MainsLine {
 std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz,
                                   std::span<const double> known_Hz = {});
 
-/// The frequencies, from `least_Hz` on, of the few lines that exceed their neighbours most, wherever they are: by more
-/// than noise would somewhere in the spectrum. Only where the neighbours are as low as most of the spectrum, or the
-/// line has most of the power: elsewhere it is not noise that they stand out of.
-std::vector<double> find_lines(std::span<const double> power, double bin_Hz, double resolution_Hz, double least_Hz);
-
 /// "mains 50 Hz", "3rd harmonic of 50 Hz mains".
 std::string describe(const MainsLine& line);
 

@@ -16,7 +16,6 @@ TEST_CASE("wrong usage is refused with exit code 2 and one line before the recor
   check_refused({"fit", folder.file("run.csv", test::simulated_csv("5"))}, "--speed is missing");
   check_refused({"fit", file, "--speed"}, "--speed");
   check_refused({"fit", file, "--speed", "1", "--sped", "2"}, "--sped");
-  check_refused({"analyze", file, "other.csv", "--speed", "1"}, "other.csv");
 }
 
 TEST_CASE("a speed that cannot be a driving speed is refused") {

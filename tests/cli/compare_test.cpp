@@ -84,7 +84,8 @@ TEST_CASE("compare refuses what it cannot do, in one line") {
   check_refused({"compare", run, run}, "no speed in a column or in the file's name");
   check_refused({"compare", run, run, "--speed", "1", "--speed", "2", "--speed", "3"}, "--speed");
   check_refused({"compare", run, run, "--speed", "20mm/s", "--out", run}, "is the recording itself");
-  check_refused({"compare", folder.file("bad.json", "{\"schema\": 1}"), run, "--speed", "20mm/s"}, "no fit document");
+  check_refused({"compare", folder.file("bad.json", "{\"schema\": 1}"), run, "--speed", "20mm/s"},
+                "schema is 1, expected a text");
   const test::ProgramResult missing = slipfit({"compare", run, folder.path("none.csv"), "--speed", "20mm/s"});
   CHECK(missing.exit_code == 3);
   CHECK_THAT(missing.err, Catch::Contains("none.csv"));

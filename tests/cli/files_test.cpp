@@ -53,7 +53,7 @@ TEST_CASE("fit, analyze and info of several files treat each on its own") {
   const test::ProgramResult text = slipfit({"analyze", a, b, "--speed", "20mm/s", "--quiet"});
   CHECK(text.exit_code == 0);
   CHECK(text.err.empty());
-  CHECK_THAT(text.out, Catch::Contains(a + ": stick-slip") && Catch::Contains(b + ": stick-slip"));
+  CHECK_THAT(text.out, Catch::Contains("a_20mmps.csv: stick-slip") && Catch::Contains("b.csv: stick-slip"));
   const test::ProgramResult info = slipfit({"info", a, b});
   CHECK(info.exit_code == 0);
   CHECK_THAT(info.out, Catch::Contains(a) && Catch::Contains(b));

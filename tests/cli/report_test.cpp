@@ -49,8 +49,8 @@ TEST_CASE("analyze has a report too, without a fit") {
 
 TEST_CASE("a report over the recording, or into a file for a folder, is refused before any work") {
   const Example example;
-  const test::ProgramResult itself =
-      slipfit({"fit", example.recording, "--speed", "20mm/s", "--report", example.recording});
+  const std::string page = example.folder.file("recording.html", test::content_of(example.recording));
+  const test::ProgramResult itself = slipfit({"fit", page, "--speed", "20mm/s", "--report", page});
   CHECK(itself.exit_code == 2);
   CHECK_THAT(itself.err, Contains("--report") && Contains("is the recording itself"));
   const test::ProgramResult file =

@@ -47,7 +47,8 @@ test::ProgramResult validate(const std::vector<std::string>& documents, const st
 TEST_CASE("every kind of document obeys docs/fit.schema.json, with no key that the schema does not name") {
   const test::TemporaryFolder folder;
   const std::string run = folder.file("run.csv", test::simulated_csv("5"));
-  const std::string steady = folder.file("steady.csv", test::recording_csv(500, 1000.0, [](double) { return 2.0; }));
+  const std::string steady = folder.file(
+      "steady.csv", test::recording_csv(500, 1000.0, [](double t) { return 2.0 + 1e-3 * std::sin(1e6 * t); }));
   const std::string coefficient = folder.file("coefficient.csv", [] {
     std::string csv = test::recording_csv(4000, 1000.0, [](double t) { return 0.02 * test::sawtooth_N(t, 0.2); });
     return "time_s,COF\n" + csv.substr(csv.find('\n') + 1);
@@ -112,7 +113,8 @@ TEST_CASE("what info says of a file obeys docs/info.schema.json, also of one tha
 TEST_CASE("a comparison obeys docs/compare.schema.json") {
   const test::TemporaryFolder folder;
   const std::string run = folder.file("run.csv", test::simulated_csv("5"));
-  const std::string steady = folder.file("steady.csv", test::recording_csv(500, 1000.0, [](double) { return 2.0; }));
+  const std::string steady = folder.file(
+      "steady.csv", test::recording_csv(500, 1000.0, [](double t) { return 2.0 + 1e-3 * std::sin(1e6 * t); }));
   std::vector<std::string> documents;
   for (const std::string& other : {run, steady}) {
     documents.push_back(folder.path(std::to_string(documents.size()) + ".json"));

@@ -77,7 +77,7 @@ TEST_CASE("one speed: weak and conditional parameters widen the intervals at oth
   const double fast_m_per_s = 2.0 * kSpeed_m_per_s;
   std::array<ParameterStatus, 4> statuses = kAllIdentified;
   const double identified = spacing_width(from_single_speed(fitted(), kSpeed_m_per_s, statuses), fast_m_per_s);
-  for (const std::size_t parameter : {0U, 1U, 3U}) {
+  for (const std::size_t parameter : {0U, 3U}) {  // at lambda of 20 the spacing hardly depends on w_n
     CAPTURE(parameter);
     for (const ParameterStatus status : {ParameterStatus::Weak, ParameterStatus::Conditional}) {
       statuses = kAllIdentified;

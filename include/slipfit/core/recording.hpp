@@ -97,8 +97,6 @@ class Recording {
   [[nodiscard]] std::size_t size() const { return time_s_.size(); }
   [[nodiscard]] const Conditions& conditions() const { return conditions_; }
   [[nodiscard]] const Provenance& provenance() const { return provenance_; }
-  /// First time of the samples that this is a part of.
-  [[nodiscard]] double whole_begin_s() const { return samples_->time_s.front(); }
   [[nodiscard]] double duration_s() const { return time_s_.back() - time_s_.front(); }
   /// Median step of the clock (of the steps that are not zero).
   [[nodiscard]] double sample_interval_s() const { return sample_interval_s_; }

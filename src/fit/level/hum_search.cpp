@@ -53,22 +53,6 @@ bool is_in_step(const BlockFit& fit, double frequency_Hz) {
   return phase_coherence(fit, frequency_Hz) > thresholds::kInStep;
 }
 
-/// What the model misses of the cycles leaves lines at multiples of their frequency, and at half of it where large and
-/// small slips alternate. Where the periods scatter, a share R^2 of the power, R the coherence, stays in the line, and
-/// the rest spreads over as many places as there are cycles: the line exceeds it by n R^2 / (1 - R^2). A line of
-/// unknown origin is only taken where that would be no line.
-bool is_related_to_slips(const BlockFit& fit, double frequency_Hz) {
-  constexpr double kLine = 16.0;  // power over that beside it: four times in amplitude
-  const double most = std::sqrt(kLine / (kLine + static_cast<double>(fit.size())));
-  return phase_coherence(fit, frequency_Hz) > most || phase_coherence(fit, 2.0 * frequency_Hz) > most;
-}
-
-double slip_frequency_Hz(const BlockFit& fit) {
-  const auto last = fit.size() - 1;
-  const auto cycles = static_cast<double>(fit.data(last).slip - fit.data(0).slip);
-  return cycles / (fit.reference_s(last) - fit.reference_s(0));
-}
-
 /// Of the rest: each of several runs under a window of its own, without which a line would leak into all of the
 /// spectrum.
 class RestSpectrum {
@@ -86,10 +70,6 @@ class RestSpectrum {
   [[nodiscard]] std::vector<signal::MainsLine> mains(double resolution_Hz, std::span<const double> known_Hz) const {
     return signal::find_mains(power_, bin_Hz_, resolution_Hz, known_Hz);
   }
-  [[nodiscard]] std::vector<double> lines(double resolution_Hz, double least_Hz) const {
-    return signal::find_lines(power_, bin_Hz_, resolution_Hz, least_Hz);
-  }
-  [[nodiscard]] std::size_t bins() const { return power_.size(); }
   /// Distance up to which the window of a run spreads a line.
   [[nodiscard]] double reach_Hz() const { return reach_Hz_; }
   /// No farther from the frequency than so much.
@@ -121,7 +101,7 @@ class RestSpectrum {
 /// New lines in what a fit leaves.
 class NewLines {
  public:
-  NewLines(const BlockFit& fit, const Rest& rest, const std::optional<StickRipple>& in_sticks, double least_force)
+  NewLines(const BlockFit& fit, const Rest& rest, const std::optional<StickRipple>& in_sticks)
       : known_Hz_(fit.level().lines_Hz), resolution_Hz_(rest.resolution_Hz()), spectrum_(rest.on_even_clock()) {
     const Prominence prominence(rest.values());
     const auto is_new = [&](double f_Hz) { return !is_beside(f_Hz, known_Hz_) && !is_in_step(fit, f_Hz); };
@@ -130,13 +110,6 @@ class NewLines {
     for (const signal::MainsLine& line : spectrum_.mains(resolution_Hz_, known_Hz_)) {
       const double f_Hz = line.frequency_Hz;
       if (is_new(f_Hz) && prominence.of(rest.power_at(f_Hz)) > thresholds::kSureHum) seen_Hz_.push_back(f_Hz);
-    }
-    // Of other origins: noise exceeds the bound somewhere in the spectrum as seldom as it does at one place.
-    const double sure = thresholds::kSureHum + 2.0 * std::log(static_cast<double>(spectrum_.bins()));
-    for (const double f_Hz : spectrum_.lines(resolution_Hz_, slip_frequency_Hz(fit))) {
-      if (!is_new(f_Hz) || is_beside(f_Hz, seen_Hz_) || is_related_to_slips(fit, f_Hz)) continue;
-      const double power = rest.power_at(f_Hz);
-      if (power > least_force * least_force && prominence.of(power) > sure) seen_Hz_.push_back(f_Hz);
     }
     if (in_sticks && is_new(in_sticks->frequency_Hz) && !is_beside(in_sticks->frequency_Hz, seen_Hz_)) {
       seen_Hz_.push_back(in_sticks->frequency_Hz);
@@ -186,14 +159,13 @@ std::vector<double> refine_hum(const Recording& recording, const BlockFit& fit, 
 }
 
 HumSearch find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
-                   const std::vector<std::size_t>& outliers, const std::optional<StickRipple>& in_sticks,
-                   double least_force) {
+                   const std::vector<std::size_t>& outliers, const std::optional<StickRipple>& in_sticks) {
   for (const std::size_t sample : outliers) residuals[sample] = 0.0;  // they would smear over the spectrum
   Rest rest(recording, fit, std::move(residuals));
   std::vector<double> strong_Hz;
   HumSearch found;
   {
-    const NewLines lines(fit, rest, in_sticks, least_force);
+    const NewLines lines(fit, rest, in_sticks);
     strong_Hz = lines.strong();
     found.others_wait = !strong_Hz.empty() && strong_Hz.size() < lines.seen();
   }

@@ -24,12 +24,9 @@ struct HumSearch {
 /// fitted. So only lines are taken that are strong beside all other new ones and what is left of the known ones
 /// (thresholds::kHumImage), and that nothing near exceeds by far.
 ///
-/// Lines of other origins are taken where they are larger than `least_force`: the steps of a converter make lines of
-/// half their height in straight ramps. `residuals`: one a sample (Residuals::value), handed over because a long
-/// recording has no room for a copy.
+/// `residuals`: one a sample (Residuals::value), handed over because a long recording has no room for a copy.
 HumSearch find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
-                   const std::vector<std::size_t>& outliers, const std::optional<StickRipple>& in_sticks,
-                   double least_force);
+                   const std::vector<std::size_t>& outliers, const std::optional<StickRipple>& in_sticks);
 
 /// Where the residuals of the fit, as for find_hum, have the lines that it has already.
 std::vector<double> refine_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals);

@@ -228,8 +228,7 @@ class Fitter {
       residuals.part.swap(parts);  // a stick goes on beside what is left out of it
       const std::optional<StickRipple> ripple =
           find_stick_ripple(recording_, fit, residuals, tolerated_misfit(quality_));
-      const HumSearch hum =
-          find_hum(recording_, fit, std::move(residuals.value), outliers, ripple, tolerated_misfit(quality_));
+      const HumSearch hum = find_hum(recording_, fit, std::move(residuals.value), outliers, ripple);
       const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && hum.lines_Hz.empty();
       if (is_clean && (pass > 0 || near_.excluded.empty())) {
         if (pass == 0) solve(fit, {held_, false, true, near_.most_iterations, kFinal});  // it was only rough so far
