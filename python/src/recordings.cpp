@@ -74,25 +74,29 @@ Pairs pairs_of(const Warnings& warnings) {
 
 using EstimateState =
     std::tuple<std::optional<double>, std::optional<double>, std::optional<std::pair<double, double>>, std::string>;
-using TrackState = std::tuple<std::string, EstimateState, double, std::vector<double>, std::vector<double>>;
+using InputState = std::tuple<std::string, std::uint64_t, std::uint64_t, std::uint64_t>;
+using TrackState =
+    std::tuple<std::string, EstimateState, double, std::vector<double>, std::vector<double>, std::vector<InputState>>;
 
 std::optional<TrackState> state_of(const std::shared_ptr<const WornTrack>& track) {
   if (!track) return std::nullopt;
   const Estimate& spacing = track->spacing_m;
   const auto interval = spacing.ci95 ? std::optional(std::pair(spacing.ci95->low, spacing.ci95->high)) : std::nullopt;
-  return TrackState{track->file,
-                    {spacing.value, spacing.standard_error, interval, spacing.note},
-                    track->pitch_m,
-                    track->height,
-                    track->ridge_places_m};
+  std::vector<InputState> inputs;
+  for (const InputFile& one : track->inputs) inputs.emplace_back(one.file, one.digest.high, one.digest.low, one.bytes);
+  return TrackState{track->file,           {spacing.value, spacing.standard_error, interval, spacing.note},
+                    track->pitch_m,        track->height,
+                    track->ridge_places_m, inputs};
 }
 
 std::shared_ptr<const WornTrack> track_from(const std::optional<TrackState>& state) {
   if (!state) return nullptr;
-  const auto& [file, spacing, pitch_m, height, places_m] = *state;
+  const auto& [file, spacing, pitch_m, height, places_m, files] = *state;
   const auto& [value, error, ends, note] = spacing;
   const auto interval = ends ? std::optional(Interval{ends->first, ends->second}) : std::nullopt;
-  return std::make_shared<const WornTrack>(WornTrack{file, {value, error, interval, note}, pitch_m, height, places_m});
+  WornTrack track{file, {value, error, interval, note}, pitch_m, height, places_m};
+  for (const auto& [name, high, low, bytes] : files) track.inputs.push_back({name, Digest{high, low}, bytes});
+  return std::make_shared<const WornTrack>(std::move(track));
 }
 
 // Plain values, so that a pickle needs nothing but Python's own types and numpy.

@@ -136,7 +136,7 @@ def main():
             else:
                 name, given = str(file) if content else folder, b""
                 file.write_bytes(content if isinstance(content, bytes) else content.encode())
-            done = subprocess.run([program, "fit", name, *options], input=given, capture_output=True, timeout=60)
+            done = subprocess.run([program, "fit", name, "--details", *options], input=given, capture_output=True, timeout=60)
             answer, message = done.stdout.decode(), done.stderr.decode()
             is_line = done.returncode == 0 or message.count("\n") == 1
             if done.returncode != code or says not in answer + message or not is_line:

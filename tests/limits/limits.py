@@ -201,7 +201,7 @@ def odd_names(arguments, folder):
         behind = run([slipfit, "fit", "--speed", "10mm/s", "--json", "--", encoded], cwd=folder)
         demand(behind.returncode == 0, f"{name!r} behind --: {behind.stderr[:200]}")
         for option in ("--out", "--cycles", "--curve", "--report"):
-            output = b"./" + encoded[:-2] + b".o"
+            output = b"./" + (encoded[:-6] + b"_.html" if option == "--report" else encoded[:-2] + b".o")
             result = run([slipfit, "fit", arguments.demo, "--speed", "10mm/s", "--quiet", option, output], cwd=folder)
             demand(result.returncode == 0, f"{option} {output!r}: {result.stderr[:200]}")
     demand(not os.path.exists(os.path.join(folder, "hurt")), "no name reaches a shell")

@@ -21,9 +21,13 @@ Scene scene_of(const Recording& recording) {
   return scene;
 }
 
-void check_invariant(const Scene& scene) {
+/// Interference is looked for at multiples of 50 and 60 Hz: a stretched clock moves the mains away from them.
+enum class Mains { Absent, Present };
+
+void check_invariant(const Scene& scene, Mains mains = Mains::Absent) {
   const Analysis plain = test::analyse_as_read(scene);
   for (const test::Transform& transform : test::invariances(17)) {
+    if (mains == Mains::Present && transform.name.starts_with("clock times")) continue;
     CAPTURE(transform.name);
     const Analysis found = test::analyse_as_read(transform.change(scene));
     CHECK(test::differences(plain, found, transform).text() == "");
@@ -52,7 +56,7 @@ Scene swings_on_a_level() {
 TEST_CASE("the demo, with drift and hum, gives the same answer whatever cannot matter") {
   Conditions conditions;
   conditions.speed_m_per_s = 0.01;
-  check_invariant(scene_of(read_recording(SLIPFIT_TESTDATA_DIR "/demo.csv", conditions).value()));
+  check_invariant(scene_of(read_recording(SLIPFIT_TESTDATA_DIR "/demo.csv", conditions).value()), Mains::Present);
 }
 
 TEST_CASE("random stick-slip gives the same answer whatever cannot matter") {
@@ -63,7 +67,7 @@ TEST_CASE("random stick-slip gives the same answer whatever cannot matter") {
 }
 
 TEST_CASE("stick-slip with much hum gives the same answer whatever cannot matter") {
-  check_invariant(scene_of(coverage::make_scene("defect", 7, 7).recording));
+  check_invariant(scene_of(coverage::make_scene("defect", 7, 7).recording), Mains::Present);
 }
 
 TEST_CASE("swings that are small against the mean force are judged alike whatever the zero") {

@@ -50,8 +50,14 @@ SAID = [
     (r"umt_014_FX2", dict(speed_column="Rotary.Velocity", radius="15 mm")),
     (r"umt_014_FX2", dict(speed_column="Rotary.Velocity", radius="15 mm", step=7)),
     (r"umt_HT", dict(speed="1 mm/s")),
+    (r"damper_p0_", dict(speed=0.01147)),
+    (r"damper_p5_", dict(speed=0.0225)),
+    (r"damper_p9_", dict(speed=0.03371)),
+    (r"damper_d1_", dict(speed=0.07)),
 ]
-NO_RECORDING = {"published_spacing.csv"}
+# A test of many strokes, and controls whose columns their README does not name: tests/real reads them.
+NO_RECORDING = {"published_spacing.csv", "damper_whole_d1.csv"}
+CONTROLS = {"oil", "pin", "robot"}
 
 _OF_MANIFEST = {"speed_m_per_s": "speed", "normal_force_N": "normal_force", "force_view": "force_view", "sample_rate_Hz": "sample_rate"}
 
@@ -66,7 +72,7 @@ def simulated() -> Iterator[Said]:
 
 
 def measured_files():
-    return sorted(file for file in MEASURED.rglob("*") if file.is_file() and file.name not in NO_RECORDING) if MEASURED.exists() else []
+    return sorted(file for file in MEASURED.rglob("*") if file.is_file() and file.name not in NO_RECORDING and file.parent.name not in CONTROLS) if MEASURED.exists() else []
 
 
 def said_of(file: pathlib.Path) -> Iterator[Said]:

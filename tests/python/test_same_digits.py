@@ -53,7 +53,7 @@ def test_analyze(demo):
 
 
 def test_text(demo_fit):
-    assert str(demo_fit) == printed("fit", TESTDATA / "demo.csv", "--speed", "10mm/s").stdout
+    assert str(demo_fit) == printed("fit", TESTDATA / "demo.csv", "--speed", "10mm/s", "--details").stdout
 
 
 def test_cycles_and_curve(demo_fit, tmp_path):
