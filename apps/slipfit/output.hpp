@@ -15,7 +15,7 @@ struct OutputFile {
 struct DocumentOptions {
   bool json = false;
   bool quiet = false;
-  bool details = false;             ///< all results as text in place of the summary
+  bool details = false;             ///< prints all results as text instead of the summary
   std::vector<OutputFile> outputs;  ///< that were named; --out: of the document
 
   [[nodiscard]] bool has(const std::string& option) const;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "report/names.hpp"
+#include "report/quantities.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/sweep.hpp"
@@ -36,7 +37,6 @@ constexpr auto kByEffect = std::to_array<std::string_view>({"implausible_units",
                                                             "frequency_does_not_follow_speed",
                                                             "recording_repeated",
                                                             "mains_in_step",
-                                                            "results_contradict",
                                                             "recordings_disagree",
                                                             "recording_disagrees",
                                                             "level_differs",
@@ -105,6 +105,8 @@ std::string value_text(const EstimateRow& row) {
 /// Collects rows and footnotes, then the lines below them until the screen is full.
 class Screen {
  public:
+  using Row = std::array<std::string, 4>;
+
   explicit Screen(std::string headline) : headline_(std::move(headline)) {}
 
   void add_row(std::string_view label, const EstimateRow& row, std::string status, const std::string& note) {
@@ -125,7 +127,7 @@ class Screen {
     const auto found = std::ranges::find(notes_, note);
     return found == notes_.end() ? note : fmt::format("({})", found - notes_.begin() + 1);
   }
-  void add_recording(std::array<std::string, 4> row) { recordings_.push_back(std::move(row)); }
+  void add_recording(Row row) { recordings_.push_back(std::move(row)); }
   void add_text(const std::string& text) { below_.push_back(wrapped("  ", text)); }
   void add_warnings(const Warnings& warnings);
 
@@ -145,8 +147,8 @@ class Screen {
   }
 
   std::string headline_;
-  std::vector<std::array<std::string, 4>> rows_;
-  std::vector<std::array<std::string, 4>> recordings_;
+  std::vector<Row> rows_;
+  std::vector<Row> recordings_;
   std::vector<std::string> notes_;
   std::vector<std::vector<std::string>> below_;
   std::vector<std::vector<std::string>> warnings_;
@@ -173,20 +175,16 @@ std::string Screen::text() const {
     text += line + "\n";
     ++lines;
   };
-  if (!rows_.empty()) {
+  const auto put_table = [&](const Row& head, const std::vector<Row>& rows) {
+    if (rows.empty()) return;
     Table table({Align::Left, Align::Right, Align::Left, Align::Left});
-    table.add({"", "value", "95 % interval", "status"});
-    for (const auto& row : rows_) table.add({row[0], row[1], row[2], row[3]});
+    table.add({head.begin(), head.end()});
+    for (const Row& row : rows) table.add({row.begin(), row.end()});
     text += "\n" + table.text();
-    lines += rows_.size() + 2;
-  }
-  if (!recordings_.empty()) {
-    Table table({Align::Left, Align::Right, Align::Left, Align::Left});
-    table.add({"recording", "speed", "spacing V/f, measured", "predicted without this recording"});
-    for (const auto& row : recordings_) table.add({row[0], row[1], row[2], row[3]});
-    text += "\n" + table.text();
-    lines += recordings_.size() + 2;
-  }
+    lines += rows.size() + 2;
+  };
+  put_table({"", "value", "95 % interval", "status"}, rows_);
+  put_table({"recording", "speed", "spacing V/f, measured", "predicted without this recording"}, recordings_);
   if (!notes_.empty() || !below_.empty()) put("");
   for (std::size_t i = 0; i < notes_.size(); ++i) {
     for (const std::string& line : wrapped(fmt::format("  ({}) ", i + 1), sentence(printable(notes_[i])))) put(line);
