@@ -76,7 +76,7 @@ class VelocitySlips {
   void start(double z0) {
     model::ScaledSlip slip = units_.slip;
     slip.lambda = z0 + 2.0 * slip.zeta;
-    end_ = model::first_slip<model::kPlain>(slip, [](const auto&) {});
+    end_ = model::follow_slip<model::kPlain>(slip, model::kExact, [](const auto&) {});
     trace_ = model::SlipTrace(slip);
     if (end_.outcome == model::SlipOutcome::NotSolved) runs_away_ = true;
   }

@@ -125,9 +125,11 @@ bool has_settled(const ScaledSlip& slip, const StepNode<N>& node) {
 
 /// From stick until the mass is at rest again, or has turned back before, or has settled. One turn decides: orbits of
 /// two variables do not cross, so what has turned back once stays inside its own loop, docs/model.md (16).
-/// `after_step(walker)` is called after each step.
+/// `after_step(walker)` is called after each step; there is none where an overdamped slip cannot even slow down to the
+/// driving speed again, which would take thousands of stiff steps to see.
 template <std::size_t N, class AfterStep>
 SlipEnd<N> follow_slip(const ScaledSlip& slip, const SlipAccuracy& accuracy, const AfterStep& after_step) {
+  if (!(2.0 * slip.zeta + slip.law.smallest_slope_of_fast_slip() < 2.0)) return {SlipOutcome::Settles, {}};
   SlipWalker<N> walker = walk_slip<N>(slip, accuracy);
   bool slows_down = false;
   for (int step = 0; step < accuracy.most_steps && walker.advance(); ++step) {
@@ -139,13 +141,6 @@ SlipEnd<N> follow_slip(const ScaledSlip& slip, const SlipAccuracy& accuracy, con
     if (has_settled(slip, walker.to)) return {SlipOutcome::Settles, walker.to};
   }
   return {};
-}
-
-/// As follow_slip to 1e-10, without the work where an overdamped slip cannot even slow down to the driving speed again.
-template <std::size_t N, class AfterStep>
-SlipEnd<N> first_slip(const ScaledSlip& slip, const AfterStep& after_step) {
-  if (!(2.0 * slip.zeta + slip.law.smallest_slope_of_fast_slip() < 2.0)) return {SlipOutcome::Settles, {}};
-  return follow_slip<N>(slip, kExact, after_step);
 }
 
 struct TracePoint {

@@ -89,6 +89,10 @@ void VelocityTrack::finish() {
   after_ = {x[0] - 2.0 * slip_.zeta - end.tau, by(0), by(1) - 2.0, by(2), by(3)};
 }
 
+double VelocityTrack::fastest_tau() const {
+  return std::ranges::max_element(nodes_, {}, [](const Node& node) { return node.x[kSpeed]; })->tau;
+}
+
 const VelocityTrack::Node* VelocityTrack::node_after(double tau) const {
   return &*std::lower_bound(nodes_.begin() + 1, nodes_.end() - 1, tau,
                             [](const Node& node, double time) { return node.tau < time; });

@@ -45,6 +45,8 @@ class VelocityTrack {
   [[nodiscard]] TrackPoint transmitted_at(double tau) const;
   [[nodiscard]] bool resticks() const { return resticks_; }
   [[nodiscard]] double tau_end() const { return end_.tau; }
+  /// The step's end at which the slip is fastest.
+  [[nodiscard]] double fastest_tau() const;
   /// After the slip z = value + tau.
   [[nodiscard]] const TrackValue& after() const { return after_; }
   [[nodiscard]] const TrackEnd& end() const { return end_; }

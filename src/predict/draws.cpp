@@ -20,10 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Of laws in closed form, and where each slip is integrated: the quantiles of few models have an error of a tenth and
-/// a fifth of the spread.
 constexpr Index kDraws = 800;
-constexpr Index kIntegratedDraws = 200;
 
 /// S with S S' = the covariance, as wide as the intervals are.
 MatrixXd root_of(const ModelEstimate& model) {
@@ -100,8 +97,7 @@ MatrixXd even_normals(Index count) {
 
 std::vector<ModelEstimate> draws_of(const ModelEstimate& model) {
   static const MatrixXd normals = even_normals(kDraws);  // a prediction at many speeds asks for them at each
-  static const MatrixXd few_normals = even_normals(kIntegratedDraws);
-  const MatrixXd steps = root_of(model) * (model.speed_dependence ? few_normals : normals);
+  const MatrixXd steps = root_of(model) * normals;
   std::vector<ModelEstimate> draws;
   for (Index i = 0; i < steps.cols(); ++i) {
     if (const std::optional<ModelEstimate> draw = moved(model, steps.col(i))) draws.push_back(*draw);

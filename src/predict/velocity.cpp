@@ -26,17 +26,6 @@ Jet extreme(const SlipJets& slip, const model::VelocityTrack& track, double befo
   return slip.force_unit_N * slip.jet(point.z, point);
 }
 
-/// The force is largest soon after the slip has started and smallest soon before it ends: between those two z' < 0.
-double time_of_falling_force(const model::VelocityTrack& track) {
-  constexpr int kSteps = 256;
-  double steepest = 0.0;
-  for (int i = 1; i < kSteps; ++i) {
-    const double tau = track.tau_end() * i / kSteps;
-    if (track.at(tau).d_tau < track.at(steepest).d_tau) steepest = tau;
-  }
-  return steepest;
-}
-
 /// Empty where the slip does not stick, or ends with the force above that of the next slip's start.
 std::optional<CycleJets> cycle_of(const SlipJets& slip, const model::VelocityTrack& track, const Jet& omega,
                                   double speed_m_per_s) {
@@ -44,7 +33,8 @@ std::optional<CycleJets> cycle_of(const SlipJets& slip, const model::VelocityTra
   const Jet tau_slip = slip.tau_slip(track.end());
   const Jet tau_period = slip.tau_period(track);
   if (!(tau_period.a > tau_slip.a)) return std::nullopt;
-  const double falling = time_of_falling_force(track);
+  // The force is largest soon after the slip has started and smallest soon before it ends: between those two it falls.
+  const double falling = track.fastest_tau();
   const Jet period_s = tau_period / omega;
   return CycleJets{
       tau_slip / omega,         (tau_period - tau_slip) / omega,    period_s,

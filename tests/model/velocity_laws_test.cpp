@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "model/velocity_law.hpp"
+#include "model/velocity_slip.hpp"
+#include "model/velocity_track.hpp"
 #include "slipfit/model/motion.hpp"
 #include "support/velocity_motion.hpp"
 
@@ -196,6 +198,17 @@ TEST_CASE("a slip that falls into a thin layer of friction at rest ends at the s
     if (!motion.value().motion.cycle) continue;
     CHECK(motion.value().motion.cycle->slip_s == Approx(derivatives.value()->slip_s.value).epsilon(1e-11));
   }
+}
+
+TEST_CASE("a slip that is overdamped above the driving speed settles without integration") {
+  // w = v - 1 obeys w'' + (2 zeta + g'(v)) w' + w = 0, and the factor of w' exceeds 2 where w > 0: w crosses 0 only
+  // once.
+  const model::ScaledSlip slip{7.5, 0.1, {18.6, 3.4}};
+  int steps = 0;
+  const auto end = model::follow_slip<model::kSensitive>(slip, model::kForFits, [&](const auto&) { ++steps; });
+  CHECK(end.outcome == model::SlipOutcome::Settles);
+  CHECK(steps == 0);
+  CHECK_FALSE(model::VelocityTrack::solve(slip.lambda - 2.0 * slip.zeta, slip.zeta, slip.law));
 }
 
 TEST_CASE("finite valid velocity-dependent parameters never give a number that is not finite") {

@@ -31,7 +31,7 @@ SlipPath<N> path_of(const model::ScaledSlip& slip) {
     }
     if (falls_below_drive(walker)) path.trough = locate_level(walker, 1.0, walker.to);
   };
-  const model::SlipEnd<N> last = model::first_slip<N>(slip, keep_extremes);
+  const model::SlipEnd<N> last = model::follow_slip<N>(slip, model::kExact, keep_extremes);
   path.outcome = last.outcome;
   path.end = last.node;
   return path;
