@@ -136,7 +136,9 @@ class Fitting {
       slipfit::ComparedRecording one = analysed(entry);
       slipfit::JsonOptions options;
       options.id = entry.id;
-      source.side.fits.push_back(slipfit::compared_fit(to_json(one.recording, one.analysis, options)).value());
+      auto compared = slipfit::compared_fit(to_json(one.recording, one.analysis, options), entry.file);
+      if (!compared) throw Failure(ExitCode::BadRecording, compared.error());
+      source.side.fits.push_back(std::move(compared).value());
       if (arguments_.document.has("--report")) kept.push_back(std::move(one));
     }
     return kept;

@@ -15,15 +15,19 @@ void add_note(Estimate& estimate, const std::string& reason) {
 std::optional<Interval> cut(const Interval& interval, const std::optional<double>& value, const Range& range) {
   Interval result{std::max(interval.low, range.low), std::min(interval.high, range.high)};
   if (value) result = {std::min(result.low, *value), std::max(result.high, *value)};
-  const bool is_interval = std::isfinite(result.low) && std::isfinite(result.high) && result.low <= result.high;
+  const bool is_interval = is_finite(result.low) && is_finite(result.high) && result.low <= result.high;
   return is_interval ? std::optional(result) : std::nullopt;
 }
 
 }  // namespace
 
+bool is_finite(double number) {
+  return std::abs(number) <= kLargestNumber;
+}
+
 std::optional<double> within(std::optional<double> number, const Range& range) {
   constexpr double kRounding = 1e-9;  // of the width of the range
-  if (!number || !std::isfinite(*number)) return std::nullopt;
+  if (!number || !is_finite(*number)) return std::nullopt;
   const double width = range.high - range.low;
   const double slack = std::isfinite(width) ? kRounding * width : 0.0;
   if (*number < range.low - slack || *number > range.high + slack) return std::nullopt;

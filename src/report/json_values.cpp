@@ -1,13 +1,12 @@
 #include "report/json_values.hpp"
 
-#include <cmath>
-
 #include "slipfit/core/printable.hpp"
+#include "slipfit/core/range.hpp"
 
 namespace slipfit {
 
 void to_json(Json& json, const Interval& bounds) {
-  if (std::isfinite(bounds.low) && std::isfinite(bounds.high)) json = {bounds.low, bounds.high};
+  if (is_finite(bounds.low) && is_finite(bounds.high)) json = {bounds.low, bounds.high};
 }
 
 void to_json(Json& json, const Estimate& quantity) {

@@ -16,6 +16,12 @@ inline constexpr Range kAnyNumber{};
 inline constexpr Range kNotNegative{0.0, std::numeric_limits<double>::infinity()};
 inline constexpr Range kShare{0.0, 1.0};
 
+/// No quantity of a test reaches it, and its powers are finite: a number beyond it counts as infinite.
+inline constexpr double kLargestNumber = 1e100;
+
+/// NaN is not finite.
+bool is_finite(double number);
+
 /// The number, where it is finite and in the range; an end of the range where rounding carried it beyond.
 std::optional<double> within(std::optional<double> number, const Range& range);
 

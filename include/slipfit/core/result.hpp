@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cassert>
 #include <string>
 #include <utility>
 #include <variant>
@@ -13,7 +12,8 @@ struct Error {
   std::string message;
 };
 
-/// A value, or the reason why there is none. Ask `ok()` (or convert to bool) before taking either.
+/// A value, or the reason why there is none. Ask `ok()` (or convert to bool) before taking either: what is not there
+/// throws std::bad_variant_access.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -23,18 +23,9 @@ class [[nodiscard]] Result {
   [[nodiscard]] bool ok() const { return content_.index() == 0; }
   explicit operator bool() const { return ok(); }
 
-  [[nodiscard]] const T& value() const& {
-    assert(ok());
-    return *std::get_if<0>(&content_);
-  }
-  [[nodiscard]] T&& value() && {
-    assert(ok());
-    return std::move(*std::get_if<0>(&content_));
-  }
-  [[nodiscard]] const Error& error() const {
-    assert(!ok());
-    return *std::get_if<1>(&content_);
-  }
+  [[nodiscard]] const T& value() const& { return std::get<0>(content_); }
+  [[nodiscard]] T&& value() && { return std::get<0>(std::move(content_)); }
+  [[nodiscard]] const Error& error() const { return std::get<1>(content_); }
 
  private:
   std::variant<T, Error> content_;

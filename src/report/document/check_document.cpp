@@ -12,8 +12,6 @@
 namespace slipfit::documents {
 namespace {
 
-constexpr double kLargestNumber = 1e100;  // no quantity of a test reaches it, and its powers are finite
-
 constexpr std::array kMotions{MotionClass::StickSlip, MotionClass::SteadySliding, MotionClass::OscillatorySlip,
                               MotionClass::Undetermined};
 constexpr std::array kStatuses{ParameterStatus::Identified,   ParameterStatus::Weak,  ParameterStatus::Bounded,
@@ -48,7 +46,7 @@ void check_interval(const JsonNode& estimate, const JsonNode& interval, const st
 
 /// The numbers of a value and of all that it holds.
 void check_numbers(const JsonNode& node) {
-  if (node.is_number() && !(std::abs(*node.number()) <= kLargestNumber)) {
+  if (node.is_number() && !is_finite(*node.number())) {
     node.fail(fmt::format("a number of at most {:g}", kLargestNumber));
   }
   for (std::size_t i = 0; node.is_array() && i < node.array_size(); ++i) check_numbers(node.element(i));
