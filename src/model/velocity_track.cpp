@@ -89,6 +89,13 @@ void VelocityTrack::finish() {
   after_ = {x[0] - 2.0 * slip_.zeta - end.tau, by(0), by(1) - 2.0, by(2), by(3)};
 }
 
+std::vector<double> VelocityTrack::knots() const {
+  std::vector<double> times;
+  times.reserve(nodes_.size());
+  for (const Node& node : nodes_) times.push_back(node.tau);
+  return times;
+}
+
 double VelocityTrack::fastest_tau() const {
   return std::ranges::max_element(nodes_, {}, [](const Node& node) { return node.x[kSpeed]; })->tau;
 }

@@ -45,7 +45,9 @@ class VelocityTrack {
   [[nodiscard]] TrackPoint transmitted_at(double tau) const;
   [[nodiscard]] bool resticks() const { return resticks_; }
   [[nodiscard]] double tau_end() const { return end_.tau; }
-  /// The step's end at which the slip is fastest.
+  /// Times between which the force is a polynomial of fifth degree, from the onset to the end of the slip.
+  [[nodiscard]] std::vector<double> knots() const;
+  /// The knot at which the slip is fastest.
   [[nodiscard]] double fastest_tau() const;
   /// After the slip z = value + tau.
   [[nodiscard]] const TrackValue& after() const { return after_; }

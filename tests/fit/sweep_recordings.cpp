@@ -1,5 +1,7 @@
 #include "sweep_recordings.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <utility>
@@ -40,6 +42,19 @@ std::vector<double> averaged(std::vector<double> values, std::size_t count) {
   return means;
 }
 
+/// Through a sensor of first order: exact for a force that is straight between the samples and before the first.
+std::vector<double> lagged(std::vector<double> values, double step_over_lag) {
+  const double decay = std::exp(-step_over_lag);
+  const double share = (1.0 - decay) / step_over_lag;
+  double before = values[0];
+  double shown = values[0] - (values[1] - values[0]) / step_over_lag;
+  for (double& value : values) {
+    shown = decay * shown + (1.0 - share) * value + (share - decay) * before;
+    before = std::exchange(value, shown);
+  }
+  return values;
+}
+
 slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offset_N, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -69,12 +84,14 @@ slipfit::Recording record(const SweepScene& s, double speed_m_per_s, double offs
     level_N = s.kinetic_friction_N() + s.level_scatter_N * level_normal(level_random);
     slip = slip_of(s, speed_m_per_s, next_N - level_N);
   }
+  if (s.lag_s > 0.0) force_N = lagged(std::move(force_N), step_s / s.lag_s);
   force_N = averaged(std::move(force_N), s.averaged);
   time_s = averaged(std::move(time_s), s.averaged);
   for (std::size_t i = 0; i < force_N.size(); ++i) force_N[i] += noise_N[i];
   slipfit::Conditions conditions;
   conditions.speed_m_per_s = speed_m_per_s;
   conditions.force_view = s.view;
+  if (s.lag_s > 0.0) conditions.sensor_bandwidth_Hz = 1.0 / (2.0 * std::numbers::pi * s.lag_s);
   conditions.normal_force_N = s.normal_force_N;
   if (s.normal_force_N) conditions.zero_force_N = 0.0;
   return slipfit::Recording::create(std::move(time_s), std::move(force_N), conditions).value();

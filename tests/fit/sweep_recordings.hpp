@@ -22,6 +22,7 @@ struct SweepScene {
   double cycles = 20.0;
   double samples_per_half_period = 25.0;
   std::size_t averaged = 1;      ///< samples: each is the mean of so many
+  double lag_s = 0.0;            ///< of a sensor of first order, as stated; needs many samples in a slip
   double scatter_N = 0.0;        ///< of F_s
   double level_scatter_N = 0.0;  ///< of F_k from cycle to cycle
   double noise_N = 0.01;

@@ -128,6 +128,26 @@ TEST_CASE("sweep: the force that spring and damper transmit together") {
   check_recovery(sweep, scene);
 }
 
+TEST_CASE("sweep: recordings through a sensor of first order share their friction") {
+  SweepScene scene{.samples_per_half_period = 100.0, .lag_s = 0.5 / 150.0};  // w_n T = 0.5
+  SECTION("friction that depends on the speed") {}
+  SECTION("Coulomb friction") {
+    scene.f0_N = 2.0;
+    scene.f1_N = 0.0;
+  }
+  SECTION("the force that spring and damper transmit together") {
+    scene.view = ForceView::Transmitted;
+  }
+  const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds));
+  REQUIRE(sweep.fit);
+  CHECK(sweep.fit->result.tier == (scene.f1_N > 0.0 ? Tier::Velocity : Tier::Damped));
+  CHECK(sweep.fit->level_shared);
+  CHECK(sweep.fit->difference_shared);
+  CHECK_FALSE(warns(sweep.fit->result.warnings, "static_friction_ages"));
+  CHECK(*sweep.fit->result.residual.reduced_chi2 == Approx(1.0).margin(0.1));
+  check_recovery(sweep, scene);
+}
+
 TEST_CASE("sweep: a sensor at the contact is left out") {
   SweepScene scene;
   std::vector<SweepEntry> entries = test::record_sweep(scene, {0.005, 0.01});

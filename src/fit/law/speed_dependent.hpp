@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fit/cycle/cycle_data.hpp"
+#include "fit/observation/lagged_track.hpp"
 #include "model/velocity_track.hpp"
 
 namespace slipfit::fit {
@@ -29,12 +30,10 @@ inline SlopeRatio slope_ratio(FrictionLaw law, double a) {
 }
 
 /// One cycle under friction that depends on the sliding speed, as the sensor shows it, in the units of
-/// model/velocity_track.hpp: integrated. A sensor of first order counts as one that shows the force as it is.
+/// model/velocity_track.hpp: integrated.
 class SpeedDependentCycle {
  public:
-  struct Point : model::TrackPoint {
-    double d_log_omega = 0.0;  ///< at fixed tau
-  };
+  using Point = ShownPoint;
 
   /// Empty where the slip has no solution.
   static std::optional<SpeedDependentCycle> solve(double z0, const double* globals, const Scales& scales) {
@@ -46,7 +45,12 @@ class SpeedDependentCycle {
     auto track = model::VelocityTrack::solve(z0, globals[kDamping], law);
     if (!track) return std::nullopt;
     SpeedDependentCycle cycle(std::move(*track), scales.view);
-    cycle.half_window_ = 0.5 * std::exp(globals[kLogFrequency]) * scales.sensor_average_s;
+    const double omega_rad_per_s = std::exp(globals[kLogFrequency]);
+    if (scales.sensor_lag_s > 0.0) {
+      cycle.lag_tau_ = omega_rad_per_s * scales.sensor_lag_s;
+      cycle.lagged_.emplace(cycle.track_, scales.view == ForceView::Transmitted, cycle.lag_tau_);
+    }
+    cycle.half_window_ = 0.5 * omega_rad_per_s * scales.sensor_average_s;
     if (cycle.half_window_ > 0.0) cycle.integrate_slip();
     cycle.by_slope_ = slope_unit * ratio.value;
     cycle.by_rate_ = slope_unit * globals[kFrictionSlope] * ratio.derivative;
@@ -57,10 +61,8 @@ class SpeedDependentCycle {
   /// Force above the level in units of k V / w_n, at any tau = w_n (t - onset).
   [[nodiscard]] Point at(double tau) const {
     // The mean of a straight line is its middle.
-    if (half_window_ == 0.0 || tau + half_window_ <= 0.0 || tau - half_window_ >= track_.tau_end()) {
-      return Point{instant_at(tau), 0.0};
-    }
-    return mean_around(tau);
+    const bool is_straight = tau + half_window_ <= 0.0 || (!lagged_ && tau - half_window_ >= track_.tau_end());
+    return half_window_ == 0.0 || is_straight ? shown_at(tau) : mean_around(tau);
   }
   [[nodiscard]] Point before_slip(double tau) const { return at(tau); }
   [[nodiscard]] Point after_slip(double tau) const { return at(tau); }
@@ -88,18 +90,31 @@ class SpeedDependentCycle {
     return view_ == ForceView::Transmitted ? track_.transmitted_at(tau) : track_.at(tau);
   }
 
+  /// As the sensor shows it before it is averaged.
+  [[nodiscard]] Point shown_at(double tau) const {
+    return lagged_ ? lagged_->at(track_, tau) : Point{instant_at(tau), 0.0};
+  }
+
   /// The mean over the window around tau.
   [[nodiscard]] Point mean_around(double tau) const {
     const double first = tau - half_window_;
     const double last = tau + half_window_;
+    const double length = last - first;
+    const Point shown_first = shown_at(first);
+    const Point shown_last = shown_at(last);
     Point mean{integral_to(last), 0.0};
     add(integral_to(first), -1.0, mean);
-    const double length = last - first;
-    for (double* const value : {&mean.z, &mean.d_z0, &mean.d_zeta, &mean.d_slope, &mean.d_rate}) *value /= length;
-    const double z_first = instant_at(first).z;
-    const double z_last = instant_at(last).z;
-    mean.d_tau = (z_last - z_first) / length;
-    mean.d_log_omega = 0.5 * (z_first + z_last) - mean.z;  // the window is w_n W long
+    if (lagged_) {
+      // y' = kappa (z - y) makes the integral of y that of z less y / kappa.
+      add(shown_last, -lag_tau_, mean);
+      add(shown_first, lag_tau_, mean);
+      mean.d_log_omega = -lag_tau_ * (shown_last.d_log_omega - shown_first.d_log_omega + shown_last.z - shown_first.z);
+    }
+    for (double* const value : {&mean.z, &mean.d_z0, &mean.d_zeta, &mean.d_slope, &mean.d_rate, &mean.d_log_omega}) {
+      *value /= length;
+    }
+    mean.d_tau = (shown_last.z - shown_first.z) / length;
+    mean.d_log_omega += 0.5 * (shown_first.z + shown_last.z) - mean.z;  // the window is w_n W long
     return mean;
   }
 
@@ -144,6 +159,8 @@ class SpeedDependentCycle {
 
   model::VelocityTrack track_;
   ForceView view_;
+  std::optional<LaggedTrack> lagged_;         ///< where the sensor lags
+  double lag_tau_ = 0.0;                      ///< w_n T
   double half_window_ = 0.0;                  ///< of the sensor's average, in tau
   double piece_ = 0.0;                        ///< of the slip, in tau
   std::vector<model::TrackPoint> integrals_;  ///< of the force, from the onset to each piece's end; with an average

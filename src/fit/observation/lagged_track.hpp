@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "model/velocity_track.hpp"
+
+namespace slipfit::fit {
+
+/// What a sensor shows, with the derivative with respect to ln w_n at fixed tau: its times are fixed in seconds.
+struct ShownPoint : model::TrackPoint {
+  double d_log_omega = 0.0;
+};
+
+/// A cycle as a sensor of first order shows it: y' + kappa (y - z) = 0 with kappa = 1 / (w_n T), in the units of
+/// model/velocity_track.hpp. Between the knots of the motion z is a polynomial, of which the response is known in
+/// closed form; the stick before counts as long enough for the slip before it to be forgotten. docs/model.md section 7
+class LaggedTrack {
+ public:
+  LaggedTrack(const model::VelocityTrack& track, bool transmitted, double lag_tau);
+
+  /// At any tau.
+  [[nodiscard]] ShownPoint at(const model::VelocityTrack& track, double tau) const;
+
+ private:
+  static constexpr std::size_t kTerms = 6;    ///< of a polynomial of fifth degree
+  static constexpr std::size_t kColumns = 5;  ///< z and its derivatives with respect to z0, zeta, slope and rate
+  using Column = std::array<double, kColumns>;
+
+  /// z = sum of terms[j] ((tau - begin) / length)^j, and what the sensor shows at its begin.
+  struct Piece {
+    double begin = 0.0, length = 0.0;
+    std::array<Column, kTerms> terms{};
+    Column shown{};
+    double d_log_omega = 0.0;
+  };
+  struct Response {
+    Column shown{};
+    double d_log_omega = 0.0;
+  };
+
+  [[nodiscard]] Column motion_at(const model::VelocityTrack& track, double tau) const;
+  [[nodiscard]] Piece piece_between(const model::VelocityTrack& track, double begin, double end) const;
+  /// At a share of the piece's length.
+  [[nodiscard]] Response response(const Piece& piece, double share) const;
+  [[nodiscard]] Response after_slip(const model::VelocityTrack& track, double tau) const;
+
+  bool transmitted_;
+  double kappa_;
+  std::vector<Piece> pieces_;  ///< of the slip
+  Response end_;               ///< at the end of the slip
+};
+
+}  // namespace slipfit::fit
