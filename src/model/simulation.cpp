@@ -76,13 +76,13 @@ class VelocitySlips {
   void start(double z0) {
     model::ScaledSlip slip = units_.slip;
     slip.lambda = z0 + 2.0 * slip.zeta;
-    end_ = model::follow_slip<model::kPlain>(slip, model::kExact, [](const auto&) {});
+    end_ = model::follow_slip<false>(slip, model::kExact, [](const auto&) {});
     trace_ = model::SlipTrace(slip);
     if (end_.outcome == model::SlipOutcome::NotSolved) runs_away_ = true;
   }
   [[nodiscard]] bool resticks() const { return end_.outcome == model::SlipOutcome::Resticks; }
   [[nodiscard]] double tau_end() const { return end_.node.tau; }
-  [[nodiscard]] double z_end() const { return end_.node.x[0] - 2.0 * units_.slip.zeta; }
+  [[nodiscard]] double z_end() const { return end_.node.state.s - 2.0 * units_.slip.zeta; }
   [[nodiscard]] Point at(double tau) {
     if (runs_away_) return {};
     const std::optional<model::TracePoint> point = trace_.at(tau);
@@ -95,7 +95,7 @@ class VelocitySlips {
   model::SpeedUnits units_;
   VelocityFriction friction_;
   double speed_m_per_s_;
-  model::SlipEnd<model::kPlain> end_;
+  model::SlipEnd end_;
   model::SlipTrace trace_;
   bool runs_away_ = false;
 };

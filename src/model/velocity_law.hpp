@@ -81,22 +81,4 @@ struct ScaledSlip {
   [[nodiscard]] double steady_s() const { return 2.0 * zeta + law.at(1.0).value; }
 };
 
-/// The state of a slip: s, v and the integral of s; or s, v and the derivatives of both at a fixed time with respect to
-/// the scaled parameters z0 = lambda - 2 zeta, zeta, slope and rate of the law.
-inline constexpr std::size_t kSpeed = 1;  ///< the component that comes to rest
-inline constexpr std::size_t kIntegral = 2;
-inline constexpr std::size_t kPlain = 3;
-inline constexpr std::size_t kScaledParameters = 4;
-inline constexpr std::size_t kFirstDs = 2;
-inline constexpr std::size_t kFirstDv = kFirstDs + kScaledParameters;
-inline constexpr std::size_t kSensitive = kFirstDv + kScaledParameters;
-
-/// State and its derivative at one instant.
-template <std::size_t N>
-struct StepNode {
-  double tau = 0.0;
-  std::array<double, N> x{};
-  std::array<double, N> dx{};
-};
-
 }  // namespace slipfit::model

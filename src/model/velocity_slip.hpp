@@ -1,6 +1,7 @@
 #pragma once
 
-// One slip with velocity-dependent friction, scaled (velocity_law.hpp), with or without its sensitivities.
+// One slip with velocity-dependent friction, scaled (velocity_law.hpp), followed by steps of its Taylor series: with or
+// without its derivatives, to the instant at which it comes to rest.
 
 #include <algorithm>
 #include <array>
@@ -8,95 +9,154 @@
 #include <cstddef>
 #include <optional>
 
+#include "model/slip_series.hpp"
 #include "model/velocity_law.hpp"
-#include "model/velocity_steps.hpp"
 
 namespace slipfit::model {
 
 /// How exactly a slip is followed.
 struct SlipAccuracy {
-  double tolerance;     ///< of a step, over the size of each component
-  double longest_step;  ///< at most 1: a third of the half turn in which v turns once
-  double layer_share;   ///< of the way to rest, and of the layer there, that a step may cross
-  int most_steps;       ///< an ordinary slip needs 10 to 60; one that needs more than these has no solution
+  double tolerance;  ///< of the last terms of a step, over the size of each component
+  int most_steps;    ///< an ordinary slip needs 4 to 20; one that needs more than these has no solution
 };
-/// The end of slip to 1e-10, derivatives to 1e-9: local errors add up to a few 1e-12 over a slip. With a share of 0.5
-/// the end was good to 2e-10 only.
-inline constexpr SlipAccuracy kExact{1e-13, 1.0, 0.3, 5000};
-/// To 1e-7, all that fits need; quintic polynomials across steps of 0.5 are good to 4e-7 of the motion. A fit solves
-/// many thousand slips: a stiff one gets 1 ms at most.
-inline constexpr SlipAccuracy kForFits{1e-9, 0.5, 0.5, 5000};
+/// The end of slip to 1e-10, derivatives to 1e-9.
+inline constexpr SlipAccuracy kExact{1e-13, 20000};
+/// To 1e-7, all that fits need: they solve many thousand slips.
+inline constexpr SlipAccuracy kForFits{1e-7, 20000};
 
-/// With rate < 0 the friction changes within 1 / |rate| above rest. The error estimate of Fehlberg's steps misses what
-/// only the last stage meets, and friction that changes the motion little: the length of a step is bounded so that none
-/// enters this layer from far above.
-inline double longest_slip_step(const ScaledLaw& law, const SlipAccuracy& accuracy, double v, double acceleration) {
-  constexpr double kLayer = 40.0;  // exp(-40) is below round-off
-  const bool leaves = acceleration >= 0.0 && law.rate * v < -kLayer;
-  if (law.rate >= 0.0 || leaves) return accuracy.longest_step;
-  return std::min(accuracy.longest_step, accuracy.layer_share * (v - 1.0 / law.rate) / std::abs(acceleration));
+/// The speed turns at most once in a step: a third of the half turn in which it does.
+inline constexpr double kLongestStep = 1.0;
+
+/// The last terms of a series do not show an exponential that is negligible at the start of a step and grows by more
+/// than its order in it: near rest with rate < 0, at high speed with rate > 0.
+inline double longest_slip_step(const ScaledLaw& law, double v, double acceleration) {
+  constexpr double kNegligible = 40.0;  // exp(-40) is below round-off
+  constexpr double kMostGrowth = 10.0;  // terms of order 13 and 14 are among the largest of exp(10)
+  constexpr double kFreeShare = 0.5;    // of the way to where it counts: the acceleration may grow
+  const double towards_friction = law.rate * acceleration;
+  if (!(towards_friction > 0.0) || law.slope == 0.0) return kLongestStep;
+  const double exponent = law.rate * v;
+  const double free = law.rate < 0.0 ? std::max(0.0, -exponent - kNegligible) : 0.0;
+  return std::min(kLongestStep, (kFreeShare * free + kMostGrowth) / towards_friction);
 }
 
-/// s' = 1 - v, v' = s - 2 zeta v - g(v), and beside them (N = kSensitive) the derivatives of both equations with
-/// respect to the four parameters. docs/model.md section 5.
-template <std::size_t N>
-struct SlipSystem {
-  ScaledSlip slip{};
-  SlipAccuracy accuracy{};
+/// One instant of a slip.
+struct SlipNode {
+  double tau = 0.0;
+  SlipState state;
+  double acceleration = 0.0;
+  double integral = 0.0;  ///< of s from the onset on
+};
 
-  [[nodiscard]] double longest_step(const StepNode<N>& node) const {
-    return longest_slip_step(slip.law, accuracy, node.x[kSpeed], node.dx[kSpeed]);
+/// Walks a slip from stick. `from` and `to` are the ends of the last step, between which `series` holds.
+template <bool kWithGradient>
+class SlipWalker {
+ public:
+  SlipWalker(const ScaledSlip& slip, const SlipAccuracy& accuracy) : slip_(slip), accuracy_(accuracy) {
+    to.state.s = slip.lambda;
+    if (kWithGradient) to.state.ds = {1.0, 2.0, 0.0, 0.0};  // s(0) = z0 + 2 zeta
+    to.acceleration = slip.lambda;
+    const double size = 1.0 + slip.lambda;
+    // Sizes of the derivatives; those of the law fade where the friction has changed before the slip is under way.
+    const double reach = size / (1.0 + std::abs(slip.law.rate) * size);
+    const double tiny = 1e-200;       // a law without slope has no derivative with respect to its rate: 0 / 0
+    constexpr double kRougher = 5.0;  // than the motion itself
+    sizes_ = {1.0, size, reach, std::abs(slip.law.slope) * reach * reach + tiny};
+    for (double& derivative : sizes_) derivative *= kRougher;
   }
 
-  void operator()(const std::array<double, N>& x, std::array<double, N>& dx, double /*tau*/) const {
-    const double v = x[kSpeed];
-    const ExcessFriction friction = slip.law.at(v);
-    dx[0] = 1.0 - v;
-    dx[kSpeed] = x[0] - 2.0 * slip.zeta * v - friction.value;
-    if constexpr (N == kPlain) dx[kIntegral] = x[0];
-    if constexpr (N == kSensitive) {
-      const double damping = 2.0 * slip.zeta + friction.d_speed;
-      const std::array<double, kScaledParameters> direct{0.0, 2.0 * v, friction.d_slope, friction.d_rate};
+  SlipNode from, to;
+  SlipSeries<kWithGradient> series;
+
+  /// False where no step length serves: the solution runs away.
+  bool advance() {
+    from = to;
+    series = SlipSeries<kWithGradient>(slip_, from.state);
+    double length = longest_slip_step(slip_.law, from.state.v, from.acceleration);
+    for (std::size_t n = kSeriesOrder - 1; n <= kSeriesOrder; ++n) {
+      const double last = size_of_term(n);
+      if (!std::isfinite(last)) return false;
+      if (last > 0.0) length = std::min(length, std::pow(accuracy_.tolerance / last, 1.0 / static_cast<double>(n)));
+    }
+    to = inside(length);
+    return to.tau > from.tau && std::isfinite(to.acceleration);
+  }
+
+  [[nodiscard]] double length() const { return to.tau - from.tau; }
+
+  /// So long after the begin of the last step.
+  [[nodiscard]] SlipNode inside(double time) const {
+    return {from.tau + time, series.at(time), series.acceleration_at(time),
+            from.integral + integral_of(series.s, time)};
+  }
+
+ private:
+  /// Of the power n in the last step, over the sizes of the components.
+  [[nodiscard]] double size_of_term(std::size_t n) const {
+    double worst = std::max(std::abs(series.s[n]), std::abs(series.v[n])) / (1.0 + slip_.lambda);
+    if constexpr (kWithGradient) {
       for (std::size_t p = 0; p < kScaledParameters; ++p) {
-        dx[kFirstDs + p] = -x[kFirstDv + p];
-        dx[kFirstDv + p] = x[kFirstDs + p] - damping * x[kFirstDv + p] - direct[p];
+        const double term = std::max(std::abs(series.ds[n][p]), std::abs(series.dv[n][p])) / sizes_[p];
+        if (!(term <= worst)) worst = term;  // NaN, too
       }
     }
+    return worst;
   }
+
+  ScaledSlip slip_;
+  SlipAccuracy accuracy_;
+  ScaledGradient sizes_{};
 };
 
-template <std::size_t N>
-StepError<N> step_error(const ScaledSlip& slip, const SlipAccuracy& accuracy) {
-  StepError<N> error{accuracy.tolerance, {}};
-  const double size = 1.0 + slip.lambda;
-  error.floor.fill(size);
-  if constexpr (N == kSensitive) {
-    // Sizes of the sensitivities; those of the law fade where the friction has changed before the slip is under way.
-    const double reach = size / (1.0 + std::abs(slip.law.rate) * size);
-    const double tiny = 1e-200;  // a law without slope has no sensitivity to its rate: 0 / 0
-    const std::array<double, kScaledParameters> sizes{1.0, size, reach,
-                                                      std::abs(slip.law.slope) * reach * reach + tiny};
-    for (std::size_t p = 0; p < kScaledParameters; ++p) {
-      error.floor[kFirstDs + p] = error.floor[kFirstDv + p] = sizes[p];
-    }
+/// The time at which a series reaches a level that lies between its values at two times: Newton's steps, halvings where
+/// one leaves the bracket.
+inline double time_at_level(const Series& series, double level, double low, double high) {
+  const double at_low = value_of(series, low) - level;
+  double time = 0.5 * (low + high);
+  constexpr int kMostSteps = 100;  // halvings alone need 53
+  for (int step = 0; step < kMostSteps; ++step) {
+    const double excess = value_of(series, time) - level;
+    ((excess < 0.0) == (at_low < 0.0) ? low : high) = time;
+    double next = time - excess / slope_of(series, time);
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const bool is_same = std::abs(next - time) <= 1e-15 * high;
+    time = next;
+    if (is_same) break;
   }
-  return error;
+  return time;
 }
 
-template <std::size_t N>
-using SlipWalker = StepWalker<N, SlipSystem<N>>;
+/// The instant at which the speed is `level`, which lies between the begin of the last step and `last` in it.
+template <bool kWithGradient>
+SlipNode node_at_speed(const SlipWalker<kWithGradient>& walker, double level, const SlipNode& last) {
+  SlipNode node = walker.inside(time_at_level(walker.series.v, level, 0.0, last.tau - walker.from.tau));
+  node.state.v = level;
+  return node;
+}
 
-/// A slip from stick. The first step must not jump over the layer at rest either; v grows as lambda tau.
-template <std::size_t N>
-SlipWalker<N> walk_slip(const ScaledSlip& slip, const SlipAccuracy& accuracy = kExact) {
-  std::array<double, N> start{};
-  start[0] = slip.lambda;
-  if constexpr (N == kSensitive) {  // s(0) = z0 + 2 zeta
-    start[kFirstDs] = 1.0;
-    start[kFirstDs + 1] = 2.0;
+/// The smallest speed inside the last step, which enters it falling and leaves it rising.
+template <bool kWithGradient>
+SlipNode node_at_turn(const SlipWalker<kWithGradient>& walker) {
+  Series acceleration{};
+  for (std::size_t n = 0; n < kSeriesOrder; ++n) {
+    acceleration[n] = static_cast<double>(n + 1) * walker.series.v[n + 1];
   }
-  const double first_step = 0.1 / (1.0 + std::abs(slip.law.rate) * (1.0 + slip.lambda));
-  return {SlipSystem<N>{slip, accuracy}, start, step_error<N>(slip, accuracy), first_step};
+  return walker.inside(time_at_level(acceleration, 0.0, 0.0, walker.length()));
+}
+
+/// What the speed does inside the last step: comes to rest from above, or turns back before it does.
+struct SpeedEvent {
+  std::optional<SlipNode> rest, turn;
+};
+
+template <bool kWithGradient>
+SpeedEvent speed_event(const SlipWalker<kWithGradient>& walker) {
+  if (walker.to.state.v <= 0.0) return {node_at_speed(walker, 0.0, walker.to), std::nullopt};
+  if (!(walker.from.acceleration < 0.0 && walker.to.acceleration >= 0.0)) return {};
+  const SlipNode turn = node_at_turn(walker);
+  // A grazing return: at rest for an instant inside the step although both its ends slide.
+  if (turn.state.v <= 0.0) return {node_at_speed(walker, 0.0, turn), std::nullopt};
+  return {std::nullopt, turn};
 }
 
 /// Resticks, turns back before it has come to rest, or settles to steady sliding.
@@ -107,19 +167,17 @@ enum class SlipOutcome { Resticks, TurnsBack, Settles, NotSolved };
 /// round-off.
 template <class Walker>
 bool falls_below_drive(const Walker& walker) {
-  return walker.from.x[kSpeed] >= 1.0 && walker.to.x[kSpeed] < 1.0;
+  return walker.from.state.v >= 1.0 && walker.to.state.v < 1.0;
 }
 
-template <std::size_t N>
 struct SlipEnd {
   SlipOutcome outcome = SlipOutcome::NotSolved;
-  StepNode<N> node;  ///< where it sticks or is slowest, or where the motion has settled
+  SlipNode node;  ///< where it sticks or is slowest, or where the motion has settled
 };
 
 /// Steady sliding is stable and so close that the linear motion about it cannot reach v = 0 any more.
-template <std::size_t N>
-bool has_settled(const ScaledSlip& slip, const StepNode<N>& node) {
-  const double distance = std::abs(node.x[kSpeed] - 1.0) + std::abs(node.x[0] - slip.steady_s());
+inline bool has_settled(const ScaledSlip& slip, const SlipState& state) {
+  const double distance = std::abs(state.v - 1.0) + std::abs(state.s - slip.steady_s());
   return distance * (1.0 + std::abs(slip.law.rate)) < 1e-6 && slip.total_damping_ratio() > 0.0;
 }
 
@@ -127,18 +185,18 @@ bool has_settled(const ScaledSlip& slip, const StepNode<N>& node) {
 /// two variables do not cross, so what has turned back once stays inside its own loop, docs/model.md (16).
 /// `after_step(walker)` is called after each step; there is none where an overdamped slip cannot even slow down to the
 /// driving speed again, which would take thousands of stiff steps to see.
-template <std::size_t N, class AfterStep>
-SlipEnd<N> follow_slip(const ScaledSlip& slip, const SlipAccuracy& accuracy, const AfterStep& after_step) {
+template <bool kWithGradient, class AfterStep>
+SlipEnd follow_slip(const ScaledSlip& slip, const SlipAccuracy& accuracy, const AfterStep& after_step) {
   if (!(2.0 * slip.zeta + slip.law.smallest_slope_of_fast_slip() < 2.0)) return {SlipOutcome::Settles, {}};
-  SlipWalker<N> walker = walk_slip<N>(slip, accuracy);
+  SlipWalker<kWithGradient> walker(slip, accuracy);
   bool slows_down = false;
   for (int step = 0; step < accuracy.most_steps && walker.advance(); ++step) {
     after_step(walker);
     slows_down = slows_down || falls_below_drive(walker);
-    const SpeedEvent<N> event = slows_down ? speed_event(walker) : SpeedEvent<N>();
+    const SpeedEvent event = slows_down ? speed_event(walker) : SpeedEvent();
     if (event.rest) return {SlipOutcome::Resticks, *event.rest};
     if (event.turn) return {SlipOutcome::TurnsBack, *event.turn};
-    if (has_settled(slip, walker.to)) return {SlipOutcome::Settles, walker.to};
+    if (has_settled(slip, walker.to.state)) return {SlipOutcome::Settles, walker.to};
   }
   return {};
 }
@@ -151,29 +209,29 @@ struct TracePoint {
 /// One slip and the stick after it, asked at times that never decrease.
 class SlipTrace {
  public:
-  explicit SlipTrace(const ScaledSlip& slip) : walker_(walk_slip<kPlain>(slip)) {}
+  explicit SlipTrace(const ScaledSlip& slip) : walker_(slip, kExact) {}
 
   /// Empty where the slip runs away or needs steps without end.
   std::optional<TracePoint> at(double tau) {
     while (!rest_ && walker_.to.tau < tau) {
       // Steps of 0.01 on average: too stiff.
-      if (++steps_ > 5000.0 + 100.0 * tau || !walker_.advance()) return std::nullopt;
+      if (++steps_ > 20000.0 + 100.0 * tau || !walker_.advance()) return std::nullopt;
       slows_down_ = slows_down_ || falls_below_drive(walker_);
       if (slows_down_) rest_ = speed_event(walker_).rest;
     }
-    if (rest_ && tau >= rest_->tau) return TracePoint{rest_->x[0] + (tau - rest_->tau), 0.0};
-    if (walker_.length() <= 0.0) return TracePoint{walker_.to.x[0], walker_.to.x[kSpeed]};  // before the first step
-    const StepNode<kPlain> node = walker_.inside(tau - walker_.from.tau);
-    return TracePoint{node.x[0], node.x[kSpeed]};
+    if (rest_ && tau >= rest_->tau) return TracePoint{rest_->state.s + (tau - rest_->tau), 0.0};
+    if (walker_.length() <= 0.0) return TracePoint{walker_.to.state.s, walker_.to.state.v};  // before the first step
+    const SlipState state = walker_.series.at(tau - walker_.from.tau);
+    return TracePoint{state.s, state.v};
   }
 
   /// Known as soon as a time after it has been asked for.
   [[nodiscard]] std::optional<double> tau_end() const { return rest_ ? std::optional(rest_->tau) : std::nullopt; }
 
  private:
-  SlipWalker<kPlain> walker_;
+  SlipWalker<false> walker_;
   bool slows_down_ = false;
-  std::optional<StepNode<kPlain>> rest_;
+  std::optional<SlipNode> rest_;
   double steps_ = 0.0;
 };
 

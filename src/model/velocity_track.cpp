@@ -6,118 +6,78 @@
 #include "model/velocity_slip.hpp"
 
 namespace slipfit::model {
-namespace {
-
-using Node = StepNode<kSensitive>;
-
-/// Quintic polynomials between two nodes at one time, through value, slope and curvature of both: of s with its
-/// derivatives, where s' and s'' = -v' stand in the nodes.
-class Quintic {
- public:
-  Quintic(const Node& from, const Node& to, double tau) : from_(from), to_(to) {
-    const double h = to.tau - from.tau;
-    const double s = (tau - from.tau) / h;
-    const double r = 1.0 - s;
-    // Weights of value, slope and curvature at the far end; at the near end the same with s and r exchanged.
-    const auto weights = [h](double x, double y) {
-      const double x3 = x * x * x;
-      return Weights{x3 * (1.0 + 3.0 * y + 6.0 * y * y), x3 * y * (1.0 + 3.0 * y) * h, 0.5 * x3 * y * y * h * h};
-    };
-    const auto slopes = [h](double x, double y) {
-      const double x2 = x * x;
-      return Weights{30.0 * x2 * y * y / h, x2 * (3.0 * y * (1.0 + 3.0 * y) - x * (1.0 + 6.0 * y)),
-                     0.5 * x2 * y * (3.0 * y - 2.0 * x) * h};
-    };
-    near_ = weights(r, s);
-    far_ = weights(s, r);
-    near_slope_ = slopes(r, s);
-    far_slope_ = slopes(s, r);
-  }
-
-  [[nodiscard]] double s() const { return value(0, kSpeed); }
-  [[nodiscard]] double ds() const { return slope(0, kSpeed); }
-  [[nodiscard]] double s_by(std::size_t p) const { return value(kFirstDs + p, kFirstDv + p); }
-  [[nodiscard]] double ds_by(std::size_t p) const { return slope(kFirstDs + p, kFirstDv + p); }
-
- private:
-  using Weights = std::array<double, 3>;
-
-  /// `i`: of s; `j`: of the speed that belongs to it.
-  [[nodiscard]] double value(std::size_t i, std::size_t j) const {
-    return near_[0] * from_.x[i] + near_[1] * from_.dx[i] - near_[2] * from_.dx[j] + far_[0] * to_.x[i] -
-           far_[1] * to_.dx[i] - far_[2] * to_.dx[j];
-  }
-  [[nodiscard]] double slope(std::size_t i, std::size_t j) const {
-    return -near_slope_[0] * from_.x[i] - near_slope_[1] * from_.dx[i] + near_slope_[2] * from_.dx[j] +
-           far_slope_[0] * to_.x[i] - far_slope_[1] * to_.dx[i] - far_slope_[2] * to_.dx[j];
-  }
-
-  const Node& from_;
-  const Node& to_;
-  Weights near_{}, far_{}, near_slope_{}, far_slope_{};
-};
-
-}  // namespace
 
 std::optional<VelocityTrack> VelocityTrack::solve(double z0, double zeta, const ScaledLaw& law) {
   const bool finite = std::isfinite(z0) && std::isfinite(law.slope) && std::isfinite(law.rate);
   if (!finite || !(z0 + 2.0 * zeta > 0.0) || !(std::abs(zeta) < 1.0)) return std::nullopt;
   VelocityTrack track;
   track.slip_ = {z0 + 2.0 * zeta, zeta, law};
-  track.nodes_.reserve(32);
-  const auto keep = [&track](const SlipWalker<kSensitive>& walker) { track.nodes_.push_back(walker.from); };
-  const SlipEnd<kSensitive> end = follow_slip<kSensitive>(track.slip_, kForFits, keep);
+  const auto keep = [&track](const SlipWalker<true>& walker) {
+    Step step{walker.from.tau, walker.from.integral, {}, walker.series};
+    if (!track.steps_.empty()) {
+      const Step& before = track.steps_.back();
+      const ScaledGradient part = integral_of(before.series.ds, step.begin - before.begin);
+      for (std::size_t p = 0; p < kScaledParameters; ++p) step.integral_of_ds[p] = before.integral_of_ds[p] + part[p];
+    }
+    track.steps_.push_back(step);
+  };
+  const SlipEnd end = follow_slip<true>(track.slip_, kForFits, keep);
   if (end.outcome != SlipOutcome::Resticks && end.outcome != SlipOutcome::TurnsBack) return std::nullopt;
-  track.nodes_.push_back(end.node);
   track.resticks_ = end.outcome == SlipOutcome::Resticks;
-  track.finish();
+  const SlipState& last = end.node.state;
+  const auto value = [](double y, const ScaledGradient& by, double sign) {
+    return TrackValue{y, sign * by[0], sign * by[1], sign * by[2], sign * by[3]};
+  };
+  const double rise = 1.0 - last.v;  // z'
+  ScaledGradient second{};           // of v', whose derivatives are those of dv
+  const double time = end.node.tau - track.steps_.back().begin;
+  const GradientSeries& dv = track.steps_.back().series.dv;
+  for (std::size_t n = kSeriesOrder; n > 0; --n) {
+    for (std::size_t p = 0; p < kScaledParameters; ++p) {
+      second[p] = second[p] * time + static_cast<double>(n) * dv[n][p];
+    }
+  }
+  track.end_.tau = end.node.tau;
+  track.end_.first = value(rise, last.dv, -1.0);
+  track.end_.second = value(-end.node.acceleration, second, -1.0);
+  track.end_.third = -rise + (2.0 * zeta + law.at(last.v).d_speed) * end.node.acceleration;
+  // A slip that sticks joins its ramp with equal slope (z' = 1): the moving end adds nothing to first order. One that
+  // does not ends where z'' = 0, which moves with the parameters: the third derivative is -z' there.
+  const double moves = track.resticks_ ? 0.0 : (rise - 1.0) / rise;
+  ScaledGradient by{};
+  for (std::size_t p = 0; p < kScaledParameters; ++p) by[p] = last.ds[p] - moves * second[p];
+  track.after_ = {last.s - 2.0 * zeta - end.node.tau, by[0], by[1] - 2.0, by[2], by[3]};
   return track;
 }
 
-void VelocityTrack::finish() {
-  const Node& end = nodes_.back();
-  const std::array<double, kSensitive>& x = end.x;
-  const std::array<double, kSensitive>& dx = end.dx;
-  end_.tau = end.tau;
-  end_.first = {dx[0], dx[kFirstDs], dx[kFirstDs + 1], dx[kFirstDs + 2], dx[kFirstDs + 3]};
-  end_.second = {-dx[kSpeed], -dx[kFirstDv], -dx[kFirstDv + 1], -dx[kFirstDv + 2], -dx[kFirstDv + 3]};
-  end_.third = -dx[0] + (2.0 * slip_.zeta + slip_.law.at(x[kSpeed]).d_speed) * dx[kSpeed];
-  // A slip that sticks joins its ramp with equal slope (z' = 1): the moving end adds nothing to first order. One that
-  // does not ends where z'' = 0, which moves with the parameters: the third derivative is -z' there.
-  const double moves = resticks_ ? 0.0 : (end_.first.value - 1.0) / end_.first.value;
-  const auto by = [&](std::size_t p) { return x[kFirstDs + p] - moves * dx[kFirstDv + p]; };
-  after_ = {x[0] - 2.0 * slip_.zeta - end.tau, by(0), by(1) - 2.0, by(2), by(3)};
-}
-
-std::vector<double> VelocityTrack::knots() const {
-  std::vector<double> times;
-  times.reserve(nodes_.size());
-  for (const Node& node : nodes_) times.push_back(node.tau);
-  return times;
-}
-
 double VelocityTrack::fastest_tau() const {
-  return std::ranges::max_element(nodes_, {}, [](const Node& node) { return node.x[kSpeed]; })->tau;
+  return std::ranges::max_element(steps_, {}, [](const Step& step) { return step.series.v[0]; })->begin;
 }
 
-const VelocityTrack::Node* VelocityTrack::node_after(double tau) const {
-  return &*std::lower_bound(nodes_.begin() + 1, nodes_.end() - 1, tau,
-                            [](const Node& node, double time) { return node.tau < time; });
+const VelocityTrack::Step& VelocityTrack::step_at(double tau) const {
+  const auto after = std::upper_bound(steps_.begin() + 1, steps_.end(), tau,
+                                      [](double time, const Step& step) { return time < step.begin; });
+  return *(after - 1);
 }
 
 TrackPoint VelocityTrack::inside(double tau) const {
-  const Node* const to = node_after(tau);
-  const Quintic at(*(to - 1), *to, tau);
-  return {at.s() - 2.0 * slip_.zeta, at.ds(), at.s_by(0), at.s_by(1) - 2.0, at.s_by(2), at.s_by(3)};
+  const Step& step = step_at(tau);
+  const double time = tau - step.begin;
+  const ScaledGradient ds = value_of(step.series.ds, time);
+  return {value_of(step.series.s, time) - 2.0 * slip_.zeta,
+          1.0 - value_of(step.series.v, time),
+          ds[0],
+          ds[1] - 2.0,
+          ds[2],
+          ds[3]};
 }
 
 /// z' and its derivatives.
 TrackPoint VelocityTrack::slope_inside(double tau) const {
-  const Node* const to = node_after(tau);
-  const Quintic at(*(to - 1), *to, tau);
-  const double v = 1.0 - at.ds();
-  const double second = 2.0 * slip_.zeta * v + slip_.law.at(v).value - at.s();
-  return {at.ds(), second, at.ds_by(0), at.ds_by(1), at.ds_by(2), at.ds_by(3)};
+  const Step& step = step_at(tau);
+  const double time = tau - step.begin;
+  const ScaledGradient dv = value_of(step.series.dv, time);
+  return {1.0 - value_of(step.series.v, time), -step.series.acceleration_at(time), -dv[0], -dv[1], -dv[2], -dv[3]};
 }
 
 TrackPoint VelocityTrack::at(double tau) const {
@@ -138,6 +98,52 @@ TrackPoint VelocityTrack::transmitted_at(double tau) const {
   point.d_slope += drag * slope.d_slope;
   point.d_rate += drag * slope.d_rate;
   return point;
+}
+
+TrackPoint VelocityTrack::integral_to(double tau) const {
+  const double z0 = slip_.lambda - 2.0 * slip_.zeta;
+  if (tau <= 0.0) return {tau * (z0 + 0.5 * tau), z0 + tau, tau, 0.0, 0.0, 0.0};
+  const double in_slip = std::min(tau, end_.tau);
+  const Step& step = step_at(in_slip);
+  const double time = in_slip - step.begin;
+  const ScaledGradient part = integral_of(step.series.ds, time);
+  ScaledGradient by{};
+  for (std::size_t p = 0; p < kScaledParameters; ++p) by[p] = step.integral_of_ds[p] + part[p];
+  TrackPoint sum{step.integral + integral_of(step.series.s, time) - 2.0 * slip_.zeta * in_slip,
+                 at(tau).z,
+                 by[0],
+                 by[1] - 2.0 * in_slip,
+                 by[2],
+                 by[3]};
+  const double after = tau - in_slip;
+  sum.z += after * (after_.value + in_slip + 0.5 * after);
+  sum.d_z0 += after * after_.d_z0;
+  sum.d_zeta += after * after_.d_zeta;
+  sum.d_slope += after * after_.d_slope;
+  sum.d_rate += after * after_.d_rate;
+  return sum;
+}
+
+std::vector<VelocityTrack::Part> VelocityTrack::parts(bool transmitted) const {
+  std::vector<Part> parts;
+  const double drag = transmitted ? 2.0 * slip_.zeta : 0.0;
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const SlipSeries<true>& series = steps_[i].series;
+    const double end = i + 1 < steps_.size() ? steps_[i + 1].begin : end_.tau;
+    Part part{steps_[i].begin, end - steps_[i].begin, {}};
+    for (std::size_t n = 0; n <= kSeriesOrder; ++n) {
+      const double slope = (n == 0 ? 1.0 : 0.0) - series.v[n];  // of z'
+      part.terms[n][0] = series.s[n] + drag * slope;
+      for (std::size_t p = 0; p < kScaledParameters; ++p) {
+        part.terms[n][p + 1] = series.ds[n][p] - drag * series.dv[n][p];
+      }
+      if (transmitted) part.terms[n][2] += 2.0 * slope;
+    }
+    part.terms[0][0] -= 2.0 * slip_.zeta;
+    part.terms[0][2] -= 2.0;
+    parts.push_back(part);
+  }
+  return parts;
 }
 
 }  // namespace slipfit::model

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/slip_series.hpp"
 #include "model/velocity_law.hpp"
 
 namespace slipfit::model {
@@ -39,33 +40,46 @@ class VelocityTrack {
   }
   static std::optional<VelocityTrack> solve(double z0, double zeta, const ScaledLaw& law);
 
+  /// A part of the slip in which the force is a polynomial: z and its derivatives with respect to z0, zeta, slope and
+  /// rate are sums of terms[n] (tau - begin)^n.
+  struct Part {
+    double begin = 0.0, length = 0.0;
+    std::array<std::array<double, 1 + kScaledParameters>, kSeriesOrder + 1> terms{};
+  };
+
   /// The whole cycle: tau < 0 is the stick before, tau > tau_end() the stick after.
   [[nodiscard]] TrackPoint at(double tau) const;
   /// What spring and damper carry together, z + 2 zeta z'.
   [[nodiscard]] TrackPoint transmitted_at(double tau) const;
+  /// Integral of z, and of its derivatives, from the onset to any time; `d_tau` is z itself.
+  [[nodiscard]] TrackPoint integral_to(double tau) const;
   [[nodiscard]] bool resticks() const { return resticks_; }
   [[nodiscard]] double tau_end() const { return end_.tau; }
-  /// Times between which the force is a polynomial of fifth degree, from the onset to the end of the slip.
-  [[nodiscard]] std::vector<double> knots() const;
-  /// The knot at which the slip is fastest.
+  /// The parts of the slip, of what `at` or `transmitted_at` gives.
+  [[nodiscard]] std::vector<Part> parts(bool transmitted) const;
+  /// The begin of the part in which the slip is fastest at its begin.
   [[nodiscard]] double fastest_tau() const;
   /// After the slip z = value + tau.
   [[nodiscard]] const TrackValue& after() const { return after_; }
   [[nodiscard]] const TrackEnd& end() const { return end_; }
 
  private:
-  using Node = StepNode<kSensitive>;
+  struct Step {
+    double begin = 0.0;
+    double integral = 0.0;            ///< of s from the onset to the begin
+    ScaledGradient integral_of_ds{};  ///< of its derivatives
+    SlipSeries<true> series;
+  };
 
+  [[nodiscard]] const Step& step_at(double tau) const;
   [[nodiscard]] TrackPoint inside(double tau) const;
   [[nodiscard]] TrackPoint slope_inside(double tau) const;
-  [[nodiscard]] const Node* node_after(double tau) const;
-  void finish();
 
   ScaledSlip slip_;
   bool resticks_ = false;
   TrackValue after_;
   TrackEnd end_;
-  std::vector<Node> nodes_;  ///< start of the slip, ends of the steps, end of the slip
+  std::vector<Step> steps_;
 };
 
 }  // namespace slipfit::model

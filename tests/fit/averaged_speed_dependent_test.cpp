@@ -42,8 +42,8 @@ TEST_CASE("an average shows the mean of the force over windows shorter and longe
     const SpeedDependentCycle averaged = cycle(average_tau, view);
     for (const double tau : {-2.0, -0.01, 0.0, 0.2, 1.7, 3.1, 5.0, 9.0}) {
       CAPTURE(average_tau, tau);
-      // Gauss's rule over half a radian is good to 1e-7 of the motion, which is of size 10; the rule of the middle to
-      // 1e-8 but for the kinks of the transmitted force, a jump of 2 zeta in a piece of the window.
+      // A series is good to 1e-7 of the motion, which is of size 10; the rule of the middle to 1e-8 but for the kinks
+      // of the transmitted force, a jump of 2 zeta in a piece of the window.
       const double rule = view == ForceView::Transmitted ? 1e-5 : 1e-7;
       CHECK(averaged.at(tau).z == Approx(mean_force(instant, tau, average_tau)).margin(1e-6 + rule));
     }

@@ -19,7 +19,7 @@ namespace {
 using Values = std::array<double, kVelocityParameters>;
 
 model::SlipOutcome outcome_of(const model::ScaledSlip& slip) {
-  return model::follow_slip<model::kPlain>(slip, model::kExact, [](const auto&) {}).outcome;
+  return model::follow_slip<false>(slip, model::kExact, [](const auto&) {}).outcome;
 }
 
 double& value(Values& p, VelocityParameter parameter) {
@@ -133,23 +133,26 @@ TEST_CASE("the end of a slip is the same whether a step ends on it, or one ulp b
   for (int trial = 0; trial < 200; ++trial) {
     const double rate = -3.0 * any(random);
     const model::ScaledSlip slip{1.0 + 30.0 * any(random), 0.1 * any(random), {5.0 * any(random) * rate, rate}};
-    auto walker = model::walk_slip<model::kSensitive>(slip);
-    while (walker.advance() && walker.to.x[model::kSpeed] > 0.0) {
+    model::SlipWalker<true> walker(slip, model::kExact);
+    while (walker.advance() && walker.to.state.v > 0.0) {
     }
-    const auto rest = *model::speed_event(walker).rest;
+    const model::SlipNode rest = *model::speed_event(walker).rest;
     const double length = rest.tau - walker.from.tau;
     for (const double step : {length, std::nextafter(length, 0.0), std::nextafter(length, 10.0)}) {
       auto again = walker;
       again.to = again.inside(step);
-      const bool before = again.to.x[model::kSpeed] > 0.0;
+      const bool before = again.to.state.v > 0.0;
       ++(before ? ends_before : ends_after);
       if (before) REQUIRE(again.advance());
       const auto event = model::speed_event(again);
       INFO("trial " << trial << " lambda " << slip.lambda << " rate " << rate);
       REQUIRE(event.rest);
       CHECK(event.rest->tau == Approx(rest.tau).epsilon(1e-12));
-      for (std::size_t i = 0; i < model::kSensitive; ++i) {
-        CHECK(event.rest->x[i] == Approx(rest.x[i]).epsilon(1e-9).margin(1e-10 * (1.0 + slip.lambda)));
+      const double margin = 1e-10 * (1.0 + slip.lambda);
+      CHECK(event.rest->state.s == Approx(rest.state.s).epsilon(1e-9).margin(margin));
+      for (std::size_t p = 0; p < model::kScaledParameters; ++p) {
+        CHECK(event.rest->state.ds[p] == Approx(rest.state.ds[p]).epsilon(1e-9).margin(margin));
+        CHECK(event.rest->state.dv[p] == Approx(rest.state.dv[p]).epsilon(1e-9).margin(margin));
       }
     }
   }

@@ -16,32 +16,31 @@ using model::is_positive;
 namespace {
 
 /// The instants that matter: s is largest and smallest where v = 1.
-template <std::size_t N>
 struct SlipPath {
   model::SlipOutcome outcome = model::SlipOutcome::NotSolved;
-  model::StepNode<N> peak, trough, end;
+  model::SlipNode peak, trough, end;
 };
 
-template <std::size_t N>
-SlipPath<N> path_of(const model::ScaledSlip& slip) {
-  SlipPath<N> path;
-  const auto keep_extremes = [&path](model::SlipWalker<N>& walker) {
-    if (walker.from.x[model::kSpeed] < 1.0 && walker.to.x[model::kSpeed] >= 1.0) {
-      path.peak = locate_level(walker, 1.0, walker.to);
+template <bool kWithGradient>
+SlipPath path_of(const model::ScaledSlip& slip) {
+  SlipPath path;
+  const auto keep_extremes = [&path](const model::SlipWalker<kWithGradient>& walker) {
+    if (walker.from.state.v < 1.0 && walker.to.state.v >= 1.0) {
+      path.peak = node_at_speed(walker, 1.0, walker.to);
     }
-    if (falls_below_drive(walker)) path.trough = locate_level(walker, 1.0, walker.to);
+    if (falls_below_drive(walker)) path.trough = node_at_speed(walker, 1.0, walker.to);
   };
-  const model::SlipEnd<N> last = model::follow_slip<N>(slip, model::kExact, keep_extremes);
+  const model::SlipEnd last = model::follow_slip<kWithGradient>(slip, model::kExact, keep_extremes);
   path.outcome = last.outcome;
   path.end = last.node;
   return path;
 }
 
-LimitCycle limit_cycle(const model::SpeedUnits& units, const SlipPath<model::kPlain>& path, const Slider& slider,
+LimitCycle limit_cycle(const model::SpeedUnits& units, const SlipPath& path, const Slider& slider,
                        const VelocityFriction& friction, double speed_m_per_s) {
   const double w_n = slider.natural_frequency_rad_per_s();
   const double zeta = slider.damping_ratio();
-  const double s_end = path.end.x[0];
+  const double s_end = path.end.state.s;
   const double tau_stick = units.slip.lambda - s_end;
   const double tau_period = path.end.tau + tau_stick;
   // s = z + 2 zeta; the integral of s over the stick, a straight line from s_end to lambda
@@ -55,9 +54,9 @@ LimitCycle limit_cycle(const model::SpeedUnits& units, const SlipPath<model::kPl
   cycle.periodic_displacement_m = speed_m_per_s * cycle.period_s;
   cycle.onset_force_N = force_N(units.slip.lambda);
   cycle.end_force_N = force_N(s_end);
-  cycle.force_peak_N = force_N(path.peak.x[0]);
-  cycle.force_trough_N = force_N(path.trough.x[0]);
-  cycle.mean_force_N = force_N((path.end.x[model::kIntegral] + stick_integral) / tau_period);
+  cycle.force_peak_N = force_N(path.peak.state.s);
+  cycle.force_trough_N = force_N(path.trough.state.s);
+  cycle.mean_force_N = force_N((path.end.integral + stick_integral) / tau_period);
   return cycle;
 }
 
@@ -74,7 +73,7 @@ Result<VelocityMotion> velocity_motion(const Slider& slider, const VelocityFrict
   const Result<model::SpeedUnits> in_units = model::in_speed_units(slider, friction, speed_m_per_s);
   if (!in_units) return in_units.error();
   const model::ScaledSlip& slip = in_units.value().slip;
-  const auto path = path_of<model::kPlain>(slip);
+  const auto path = path_of<false>(slip);
   if (path.outcome == model::SlipOutcome::NotSolved) return model::no_convergence(slip);
   VelocityMotion result;
   result.motion.lambda = slip.lambda;
@@ -138,18 +137,16 @@ Result<std::optional<VelocityDerivatives>> velocity_derivatives(const Slider& sl
   using Answer = std::optional<VelocityDerivatives>;
   const Result<model::SpeedUnits> in_units = model::in_speed_units(slider, friction, speed_m_per_s);
   if (!in_units) return in_units.error();
-  const auto path = path_of<model::kSensitive>(in_units.value().slip);
+  const auto path = path_of<true>(in_units.value().slip);
   if (path.outcome == model::SlipOutcome::NotSolved) return model::no_convergence(in_units.value().slip);
   if (path.outcome != model::SlipOutcome::Resticks) return Answer();
 
   const ChainRule chain(slider, friction, speed_m_per_s);
-  const auto s_at = [&](const model::StepNode<model::kSensitive>& node) {
-    return chain.quantity(node.x[0], node.x.data() + model::kFirstDs);
-  };
+  const auto s_at = [&](const model::SlipNode& node) { return chain.quantity(node.state.s, node.state.ds.data()); };
   // v(tau, p) = 0 moves the end by -dv/dp / v'; s' = 1 there, so s moves with it one to one.
-  const Jet v_end = chain.quantity(0.0, path.end.x.data() + model::kFirstDv);
-  const Jet tau_end = Jet(path.end.tau) - v_end / path.end.dx[model::kSpeed];
-  const Jet s_end = s_at(path.end) - v_end / path.end.dx[model::kSpeed];
+  const Jet v_end = chain.quantity(0.0, path.end.state.dv.data());
+  const Jet tau_end = Jet(path.end.tau) - v_end / path.end.acceleration;
+  const Jet s_end = s_at(path.end) - v_end / path.end.acceleration;
   const Jet slip_s = tau_end / chain.w_n;
   const Jet stick_s = (chain.lambda - s_end) / chain.w_n;
   const Jet period_s = slip_s + stick_s;

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "fit/cycle/cycle_data.hpp"
 #include "fit/observation/lagged_track.hpp"
@@ -51,7 +49,7 @@ class SpeedDependentCycle {
       cycle.lagged_.emplace(cycle.track_, scales.view == ForceView::Transmitted, cycle.lag_tau_);
     }
     cycle.half_window_ = 0.5 * omega_rad_per_s * scales.sensor_average_s;
-    if (cycle.half_window_ > 0.0) cycle.integrate_slip();
+    cycle.zeta_ = globals[kDamping];
     cycle.by_slope_ = slope_unit * ratio.value;
     cycle.by_rate_ = slope_unit * globals[kFrictionSlope] * ratio.derivative;
     cycle.rate_unit_ = rate_unit;
@@ -118,25 +116,17 @@ class SpeedDependentCycle {
     return mean;
   }
 
-  /// Integral of the force over tau from the onset on, in as many evaluations wherever tau lies: a window may be far
-  /// longer than the slip. The motion bends where the slip begins and ends; in sticks it is a straight line, of which
-  /// the rule is exact over any length.
+  /// Integral of the force over tau from the onset on.
   [[nodiscard]] model::TrackPoint integral_to(double tau) const {
-    if (tau <= 0.0) return with_part({}, 0.0, tau);
-    if (tau >= track_.tau_end()) return with_part(integrals_.back(), track_.tau_end(), tau);
-    const auto before = std::min(static_cast<std::size_t>(tau / piece_), integrals_.size() - 2);
-    return with_part(integrals_[before], piece_ * static_cast<double>(before), tau);
-  }
-
-  void integrate_slip() {
-    constexpr double kLongest = 0.5;  // Gauss's rule over half a radian is good to 1e-7
-    const auto pieces = static_cast<std::size_t>(std::ceil(track_.tau_end() / kLongest));
-    piece_ = track_.tau_end() / static_cast<double>(pieces);
-    integrals_.assign(1, {});
-    for (std::size_t i = 0; i < pieces; ++i) {
-      const double begin = piece_ * static_cast<double>(i);
-      integrals_.push_back(with_part(integrals_.back(), begin, begin + piece_));
-    }
+    model::TrackPoint sum = track_.integral_to(tau);
+    if (view_ != ForceView::Transmitted) return sum;
+    // The integral of z' is z.
+    const model::TrackPoint begin = track_.at(0.0);
+    const model::TrackPoint end = track_.at(tau);
+    add(end, 2.0 * zeta_, sum);
+    add(begin, -2.0 * zeta_, sum);
+    sum.d_zeta += 2.0 * (end.z - begin.z);
+    return sum;
   }
 
   static void add(const model::TrackPoint& point, double weight, model::TrackPoint& sum) {
@@ -147,25 +137,14 @@ class SpeedDependentCycle {
     sum.d_rate += weight * point.d_rate;
   }
 
-  /// `sum` plus the integral between two times by Gauss's rule of three points.
-  [[nodiscard]] model::TrackPoint with_part(model::TrackPoint sum, double begin, double end) const {
-    constexpr std::array<double, 3> kAt{-0.7745966692414834, 0.0, 0.7745966692414834};
-    constexpr std::array<double, 3> kWeight{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-    for (std::size_t i = 0; i < kAt.size(); ++i) {
-      add(instant_at(0.5 * (begin + end) + 0.5 * (end - begin) * kAt[i]), kWeight[i] * (end - begin), sum);
-    }
-    return sum;
-  }
-
   model::VelocityTrack track_;
   ForceView view_;
-  std::optional<LaggedTrack> lagged_;         ///< where the sensor lags
-  double lag_tau_ = 0.0;                      ///< w_n T
-  double half_window_ = 0.0;                  ///< of the sensor's average, in tau
-  double piece_ = 0.0;                        ///< of the slip, in tau
-  std::vector<model::TrackPoint> integrals_;  ///< of the force, from the onset to each piece's end; with an average
-  double by_slope_ = 0.0;                     ///< d (scaled slope) / d kFrictionSlope
-  double by_rate_ = 0.0;                      ///< d (scaled slope) / d kFrictionRate
+  std::optional<LaggedTrack> lagged_;  ///< where the sensor lags
+  double lag_tau_ = 0.0;               ///< w_n T
+  double zeta_ = 0.0;
+  double half_window_ = 0.0;  ///< of the sensor's average, in tau
+  double by_slope_ = 0.0;     ///< d (scaled slope) / d kFrictionSlope
+  double by_rate_ = 0.0;      ///< d (scaled slope) / d kFrictionRate
   double rate_unit_ = 1.0;
 };
 

@@ -1,6 +1,5 @@
 #include "fit/observation/lagged_track.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -11,13 +10,13 @@ namespace {
 template <std::size_t N>
 std::array<double, N> moments(double q) {
   std::array<double, N> moment{};
-  if (q >= 1.0) {
+  if (q >= static_cast<double>(N)) {
     moment[0] = -std::expm1(-q);
     for (std::size_t j = 1; j < N; ++j) moment[j] = 1.0 - static_cast<double>(j) / q * moment[j - 1];
     return moment;
   }
-  // The recursion upward loses digits where q is small: the series for the last one, and downward from it.
-  constexpr int kMostTerms = 20;  // 1 / 20! is below round-off
+  // The recursion upward loses digits where q is below j: the series for the last one, and downward from it.
+  constexpr int kMostTerms = 80;  // 16^80 exp(-16) / 80! is below round-off
   double power = q * std::exp(-q);
   for (int n = 0; n < kMostTerms; ++n) {
     moment[N - 1] += power / (n + static_cast<double>(N));
@@ -27,30 +26,16 @@ std::array<double, N> moments(double q) {
   return moment;
 }
 
-/// From values at N even places of [0, 1], both ends included, to coefficients of powers.
-template <int N>
-Eigen::Matrix<double, N, N> interpolation() {
-  Eigen::Matrix<double, N, N> powers;
-  for (int i = 0; i < N; ++i) {
-    for (int j = 0; j < N; ++j) powers(i, j) = std::pow(static_cast<double>(i) / (N - 1), j);
-  }
-  return powers.inverse();
-}
-
 }  // namespace
 
 LaggedTrack::LaggedTrack(const model::VelocityTrack& track, bool transmitted, double lag_tau)
     : transmitted_(transmitted), kappa_(1.0 / lag_tau) {
-  const std::vector<double> knots = track.knots();
   // A straight ramp lags by T.
   end_ = {motion_at(track, 0.0), -lag_tau};
   end_.shown[0] -= lag_tau;
-  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    Piece piece = piece_between(track, knots[i], knots[i + 1]);
-    piece.shown = end_.shown;
-    piece.d_log_omega = end_.d_log_omega;
-    end_ = response(piece, 1.0);
-    pieces_.push_back(piece);
+  for (const model::VelocityTrack::Part& part : track.parts(transmitted)) {
+    pieces_.push_back({part, end_});
+    end_ = response(pieces_.back(), part.length);
   }
 }
 
@@ -59,37 +44,21 @@ LaggedTrack::Column LaggedTrack::motion_at(const model::VelocityTrack& track, do
   return {z.z, z.d_z0, z.d_zeta, z.d_slope, z.d_rate};
 }
 
-LaggedTrack::Piece LaggedTrack::piece_between(const model::VelocityTrack& track, double begin, double end) const {
-  static const Eigen::Matrix<double, kTerms, kTerms> kInterpolation = interpolation<kTerms>();
-  Eigen::Matrix<double, kTerms, kColumns> values;
-  for (std::size_t i = 0; i < kTerms; ++i) {
-    const double share = static_cast<double>(i) / (kTerms - 1);
-    const Column here = motion_at(track, i + 1 < kTerms ? begin + share * (end - begin) : end);
-    for (std::size_t c = 0; c < kColumns; ++c)
-      values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = here[c];
-  }
-  const Eigen::Matrix<double, kTerms, kColumns> terms = kInterpolation * values;
-  Piece piece{begin, end - begin, {}, {}, 0.0};
-  for (std::size_t j = 0; j < kTerms; ++j) {
-    for (std::size_t c = 0; c < kColumns; ++c)
-      piece.terms[j][c] = terms(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(c));
-  }
-  return piece;
-}
-
-LaggedTrack::Response LaggedTrack::response(const Piece& piece, double share) const {
-  const double q = kappa_ * piece.length * share;
+LaggedTrack::Response LaggedTrack::response(const Piece& piece, double time) const {
+  constexpr std::size_t kTerms = model::kSeriesOrder + 1;
+  const double q = kappa_ * time;
   const std::array<double, kTerms + 1> moment = moments<kTerms + 1>(q);
   const double decay = std::exp(-q);
   Response response;
-  for (std::size_t c = 0; c < kColumns; ++c) response.shown[c] = decay * piece.shown[c];
-  response.d_log_omega = decay * (piece.d_log_omega + q * piece.shown[0]);
+  for (std::size_t c = 0; c < kColumns; ++c) response.shown[c] = decay * piece.begin.shown[c];
+  response.d_log_omega = decay * (piece.begin.d_log_omega + q * piece.begin.shown[0]);
   double power = 1.0;
   for (std::size_t j = 0; j < kTerms; ++j) {
-    for (std::size_t c = 0; c < kColumns; ++c) response.shown[c] += piece.terms[j][c] * power * moment[j];
+    const Column& terms = piece.motion.terms[j];
+    for (std::size_t c = 0; c < kColumns; ++c) response.shown[c] += terms[c] * power * moment[j];
     // kappa, and with it q, goes as 1 / w_n: less q times the derivative of the moment.
-    response.d_log_omega -= piece.terms[j][0] * power * (moment[j] - q * moment[j] + q * moment[j + 1]);
-    power *= share;
+    response.d_log_omega -= terms[0] * power * (moment[j] - q * moment[j] + q * moment[j + 1]);
+    power *= time;
   }
   return response;
 }
@@ -117,9 +86,9 @@ ShownPoint LaggedTrack::at(const model::VelocityTrack& track, double tau) const 
     y = after_slip(track, tau);
   } else {
     const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), tau,
-                                        [](double time, const Piece& piece) { return time < piece.begin; });
+                                        [](double time, const Piece& piece) { return time < piece.motion.begin; });
     const Piece& piece = *(after - 1);
-    y = response(piece, (tau - piece.begin) / piece.length);
+    y = response(piece, tau - piece.motion.begin);
   }
   ShownPoint point;
   point.z = y.shown[0];

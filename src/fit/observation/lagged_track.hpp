@@ -14,7 +14,7 @@ struct ShownPoint : model::TrackPoint {
 };
 
 /// A cycle as a sensor of first order shows it: y' + kappa (y - z) = 0 with kappa = 1 / (w_n T), in the units of
-/// model/velocity_track.hpp. Between the knots of the motion z is a polynomial, of which the response is known in
+/// model/velocity_track.hpp. In each part of the slip z is a polynomial, of which the response is known in
 /// closed form; the stick before counts as long enough for the slip before it to be forgotten. docs/model.md section 7
 class LaggedTrack {
  public:
@@ -24,26 +24,22 @@ class LaggedTrack {
   [[nodiscard]] ShownPoint at(const model::VelocityTrack& track, double tau) const;
 
  private:
-  static constexpr std::size_t kTerms = 6;    ///< of a polynomial of fifth degree
   static constexpr std::size_t kColumns = 5;  ///< z and its derivatives with respect to z0, zeta, slope and rate
   using Column = std::array<double, kColumns>;
 
-  /// z = sum of terms[j] ((tau - begin) / length)^j, and what the sensor shows at its begin.
-  struct Piece {
-    double begin = 0.0, length = 0.0;
-    std::array<Column, kTerms> terms{};
-    Column shown{};
-    double d_log_omega = 0.0;
-  };
+  /// What the sensor shows.
   struct Response {
     Column shown{};
     double d_log_omega = 0.0;
   };
+  /// A part of the slip, and what the sensor shows at its begin.
+  struct Piece {
+    model::VelocityTrack::Part motion;
+    Response begin;
+  };
 
   [[nodiscard]] Column motion_at(const model::VelocityTrack& track, double tau) const;
-  [[nodiscard]] Piece piece_between(const model::VelocityTrack& track, double begin, double end) const;
-  /// At a share of the piece's length.
-  [[nodiscard]] Response response(const Piece& piece, double share) const;
+  [[nodiscard]] Response response(const Piece& piece, double time) const;
   [[nodiscard]] Response after_slip(const model::VelocityTrack& track, double tau) const;
 
   bool transmitted_;
