@@ -1,6 +1,7 @@
 #include "tally.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <boost/math/distributions/binomial.hpp>

@@ -1,6 +1,7 @@
 #include "slipfit/batch/batch.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <system_error>
 #include <utility>

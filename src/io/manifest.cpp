@@ -1,6 +1,7 @@
 #include "slipfit/io/manifest.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <exception>
 #include <set>

@@ -1,6 +1,7 @@
 #include "io/manifest_fields.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>

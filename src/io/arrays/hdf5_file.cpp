@@ -86,7 +86,15 @@ void add_dataset(hid_t file, const std::string& path, Contents& contents) {
 constexpr std::size_t kMostPaths = 10000;
 using Paths = std::vector<std::string>;
 
-herr_t note_dataset(hid_t, const char* name, const H5O_info_t* info, void* data) {
+#if H5_VERSION_GE(1, 12, 0)  // which gave the description of an object another form
+using ObjectInfo = H5O_info2_t;
+constexpr auto* kVisitObjects = H5Ovisit3;
+#else
+using ObjectInfo = H5O_info_t;
+constexpr auto* kVisitObjects = H5Ovisit2;
+#endif
+
+herr_t note_dataset(hid_t, const char* name, const ObjectInfo* info, void* data) {
   auto* const datasets = static_cast<Paths*>(data);
   const bool is_of_MATLAB = name[0] == '#';  // what cells and objects refer to
   if (info->type == H5O_TYPE_DATASET && !is_of_MATLAB) datasets->push_back(std::string("/") + name);
@@ -158,7 +166,7 @@ hid_t open_in_memory(std::string file) {
 Contents contents_of(hid_t file) {
   Contents contents;
   Paths datasets;
-  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_dataset, &datasets, H5O_INFO_BASIC);
+  kVisitObjects(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_dataset, &datasets, H5O_INFO_BASIC);
   H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_outer_link, &contents.in_other_files);
   for (const std::string& path : datasets) add_dataset(file, path, contents);
   return contents;

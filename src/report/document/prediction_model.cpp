@@ -1,6 +1,7 @@
 #include "report/document/prediction_model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <limits>
