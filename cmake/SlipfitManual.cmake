@@ -6,10 +6,17 @@ if(Python3_Interpreter_FOUND)
     COMMAND "${Python3_EXECUTABLE}" "${PROJECT_SOURCE_DIR}/scripts/manual.py" "$<TARGET_FILE:slipfit_cli>" "${manual}"
     DEPENDS slipfit_cli "${PROJECT_SOURCE_DIR}/scripts/manual.py" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" VERBATIM)
   add_custom_target(slipfit_manual ALL DEPENDS "${manual}/slipfit.bash")
-  # Without its target (preset tool) there is none, and nothing to install.
+  # Without its target there is none, and nothing to install.
   install(DIRECTORY "${manual}/man/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" OPTIONAL)
   install(FILES "${manual}/slipfit.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME slipfit
     OPTIONAL)
   install(FILES "${manual}/changelog.gz" DESTINATION "${CMAKE_INSTALL_DOCDIR}" OPTIONAL)
+  install(CODE "if(NOT EXISTS \"${manual}/slipfit.bash\")
+    message(STATUS \"Left out: man pages and bash completion, which the target slipfit_manual makes\")
+  endif()")
+else()
+  add_custom_target(slipfit_manual
+    COMMAND "${CMAKE_COMMAND}" -E echo "No man pages and no bash completion: they need Python 3, which CMake did not find")
+  install(CODE "message(STATUS \"Left out: man pages and bash completion, which need Python 3 when slipfit is built\")")
 endif()
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright)

@@ -1,18 +1,20 @@
 #!/usr/bin/env bash
-# install_dependencies.sh [build|python|test|docs|browser|web]...: what the build needs on Debian 12, also the Python module, also
+# install_dependencies.sh [build|python|test|docs|browser|web]...: what the build needs on Debian 12 or 13, also the Python module, also
 # the tests (the default), or what scripts/docs.sh, scripts/test-report.sh or scripts/web.sh need.
-# Installs only what is missing, as root or through sudo; says what it installs, and nothing when all is there.
+# Installs only what is missing, as root or through sudo; says what it installs, and nothing when all is there. Waits up to ten
+# minutes while another program (a desktop's updates, the first start of a cloud machine) holds the lock of the packages.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libjs-dygraphs libxxhash-dev zlib1g-dev libminizip-dev libpugixml-dev
-  libhdf5-dev libleptonica-dev)
-python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-pip)
+  libhdf5-dev libleptonica-dev python3)
+python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-pip
+  python3-venv)
 notebooks=(python3-nbconvert jupyter-nbconvert python3-ipykernel python3-pandas python3-matplotlib python3-scipy)
 for group in "${@:-test}"; do
   case "$group" in
     python) packages+=("${python[@]}") ;;
-    test) packages+=(catch2 python3 python3-jsonschema python3-openpyxl python3-scipy python3-h5py
+    test) packages+=(catch2 libfast-float-dev python3 python3-jsonschema python3-openpyxl python3-scipy python3-h5py
       slurm-wlm munge locales dpkg-dev file "${python[@]}" "${notebooks[@]}" python3-pytest mypy) ;;
     docs) packages+=("${python[@]}" "${notebooks[@]}" mkdocs mkdocs-material doxygen) ;;
     web)
@@ -51,11 +53,17 @@ echo "installing: ${missing[*]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 install_missing() {
-  "${as_root[@]}" apt-get update -qq &&
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+  "${as_root[@]}" env LC_ALL=C apt-get update -qq &&
+    "${as_root[@]}" env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
-if ! install_missing >"$log" 2>&1; then
+deadline=$((SECONDS + 600))
+until install_missing >"$log" 2>&1; do
+  if grep -qi 'could not get lock\|unable to lock' "$log" && [ "$SECONDS" -lt "$deadline" ]; then
+    echo "another program installs packages; waiting ..." >&2
+    sleep 5
+    continue
+  fi
   cat "$log" >&2
   echo "install_dependencies.sh: apt-get could not install: ${missing[*]}" >&2
   exit 1
-fi
+done
