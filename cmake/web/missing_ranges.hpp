@@ -1,12 +1,14 @@
-// The range algorithms that slipfit uses, for emscripten's libc++ 13, which has none. CMake includes this file before every source of
-// the browser version (CMakePresets.json, preset web); other builds never see it. A missing algorithm is an error of that build:
-// scripts/web_layer.sh compiles one layer with every test run.
+// The range algorithms that slipfit uses, for emscripten's libc++ 13, which has none. CMake includes this file before
+// every source of the browser version (CMakePresets.json, preset web); other builds never see it. A missing algorithm
+// is an error of that build: scripts/web_layer.sh compiles one layer with every test run.
 #pragma once
 
 #include <algorithm>
 #include <functional>
 #include <iterator>
 #include <utility>
+
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 14000  // later ones have their own
 
 namespace std::ranges {
 
@@ -44,11 +46,23 @@ constexpr auto find_if_not(Range&& range, Predicate predicate, Projection projec
 }
 template <class Range, class Value, class Projection = std::identity>
 constexpr auto count(Range&& range, const Value& value, Projection projection = {}) {
-  return ranges::count_if(range, [&value](const auto& element) { return element == value; }, projection);
+  return ranges::count_if(
+      range, [&value](const auto& element) { return element == value; }, projection);
 }
 template <class Range, class Value, class Projection = std::identity>
 constexpr auto find(Range&& range, const Value& value, Projection projection = {}) {
-  return ranges::find_if(range, [&value](const auto& element) { return element == value; }, projection);
+  return ranges::find_if(
+      range, [&value](const auto& element) { return element == value; }, projection);
+}
+template <class Range, class Value, class Less = std::less<>, class Projection = std::identity>
+constexpr auto lower_bound(Range&& range, const Value& value, Less less = {}, Projection projection = {}) {
+  return std::lower_bound(std::begin(range), std::end(range), value, [&](const auto& element, const auto& bound) {
+    return std::invoke(less, std::invoke(projection, element), bound);
+  });
+}
+template <class Range, class Predicate = std::equal_to<>, class Projection = std::identity>
+constexpr auto adjacent_find(Range&& range, Predicate predicate = {}, Projection projection = {}) {
+  return std::adjacent_find(std::begin(range), std::end(range), on_projection(predicate, projection));
 }
 template <class Range, class Out, class Predicate>
 constexpr Out copy_if(Range&& range, Out out, Predicate predicate) {
@@ -98,3 +112,5 @@ constexpr auto minmax_element(Range&& range, Less less = {}, Projection projecti
 }
 
 }  // namespace std::ranges
+
+#endif

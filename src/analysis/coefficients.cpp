@@ -145,7 +145,7 @@ std::optional<Coefficients> find_coefficients(const Detected& detected, const An
   coefficients.kinetic_mean = of(mean_during_sliding(recording.force(), analysis.cycles.count));
   coefficients.kinetic_first_third = of(sliding.mean(0, size / 3));
   coefficients.kinetic_last_third = of(sliding.mean(size - size / 3, size));
-  coefficients.kinetic_sd = describe({recording.force().begin(), recording.force().end()}).sd / load_N;
+  coefficients.kinetic_sd = describe(recording.force()).sd / load_N;
   for (const Standard& standard : kStandards) {
     const double end_s = recording.time_s().front() + standard.travel_m / conditions.speed_m_per_s;
     const auto end = std::upper_bound(recording.time_s().begin(), recording.time_s().end(), end_s);
