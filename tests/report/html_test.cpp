@@ -140,6 +140,24 @@ TEST_CASE("what the fit does not know is said in words, with the reason") {
   CHECK_THAT(page, Contains("<dt>damping ratio</dt><dd>not known</dd>"));
 }
 
+TEST_CASE("peaks and troughs are not drawn against the damping where the sensor blunts them") {
+  const slipfit::Recording recording = test::stick_slip_recording(0.01);  // w_n 200 rad/s
+  const slipfit::Analysis analysis = fitted(recording);
+  const auto page_with = [&](std::optional<double> bandwidth_Hz) {
+    slipfit::Conditions conditions = recording.conditions();
+    conditions.sensor_bandwidth_Hz = bandwidth_Hz;
+    return page_of(slipfit::Recording::create({recording.time_s().begin(), recording.time_s().end()},
+                                              {recording.force().begin(), recording.force().end()}, conditions,
+                                              recording.provenance())
+                       .value(),
+                   analysis);
+  };
+  const std::string reason = "average or lag blunts peaks and troughs";
+  CHECK_THAT(page_with({}), Contains("<svg class=\"chart\" id=\"pairs\"") && !Contains(reason));
+  CHECK_THAT(page_with(1000.0), !Contains(reason));  // w_n tau = 0.03: the peak is 0.05 % too low
+  CHECK_THAT(page_with(100.0), Contains(reason));    // 0.32: 5 %
+}
+
 TEST_CASE("the packed trace gives every sample back to half a level") {
   if (!slipfit::has_interactive_trace()) return;
   const slipfit::Recording recording = sawtooth();

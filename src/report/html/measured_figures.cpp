@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "report/html/figure.hpp"
 #include "report/html/scaling.hpp"
@@ -164,6 +165,20 @@ chart::Panel pairs_panel(const Source& source, const std::vector<Point>& pairs) 
   return panel;
 }
 
+/// Whether the sensor's average or lag lowers peaks and troughs visibly. A lag tau shows a swing smaller by
+/// sqrt(1 + (w_n tau)^2): by 0.5 % at the limit.
+bool is_blunted(const Source& source) {
+  constexpr double kVisibleLag = 0.1;  // of 1 / w_n
+  const auto& fit = source.analysis.fit;
+  if (!fit) return false;
+  const Parameter* const average = fit->find(ParameterId::SensorAverage);
+  if (average != nullptr && average->estimate.value != 0.0) return true;
+  const Parameter* const omega = fit->find(ParameterId::NaturalFrequency);
+  const std::optional<double>& bandwidth_Hz = source.recording.conditions().sensor_bandwidth_Hz;
+  if (!bandwidth_Hz || omega == nullptr || !omega->estimate.value) return false;
+  return *omega->estimate.value > kVisibleLag * 2.0 * std::numbers::pi * *bandwidth_Hz;
+}
+
 std::string reason_for_none(const Source& source, const std::vector<Point>& pairs) {
   const Estimate& reflection = source.background.reflection;
   if (source.analysis.motion != MotionClass::StickSlip) return "Without stick-slip cycles there are no such pairs.";
@@ -174,8 +189,8 @@ std::string reason_for_none(const Source& source, const std::vector<Point>& pair
     const std::string why = reflection.note.empty() ? "the fitted model has none" : reflection.note;
     return "The damping ratio is not known: " + why + ".";
   }
-  if (source.analysis.fit && source.analysis.fit->find(ParameterId::SensorAverage) != nullptr) {
-    return "The sensor averages over a time that blunts peaks and troughs: their ratio does not show the damping.";
+  if (is_blunted(source)) {
+    return "The sensor's average or lag blunts peaks and troughs: their ratio does not show the damping.";
   }
   return pairs.size() < 3 ? "There are too few fitted cycles." : "";
 }
