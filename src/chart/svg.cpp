@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -48,18 +49,19 @@ class PanelDrawing {
     drawing_.raw("</g>\n");
     for (const Markers& markers : panel_.markers) {
       for (const Point& p : markers.points) {
-        if (has_place(p)) drawing_.marker(x_of(p.x), y_of(p.y), markers.colour, markers.shape);
+        if (has_mark(p)) drawing_.marker(x_of(p.x), y_of(p.y), markers.colour, markers.shape);
       }
     }
     for (const Note& note : panel_.notes) {
-      if (has_place(note.at)) draw_note(note);
+      if (has_mark(note.at)) draw_note(note);
     }
     draw_legend(drawing_, panel_, {kLeft, top_, width_, panel_.height_px}, id_);
   }
 
  private:
   static double share(const Axis& axis, double value) {
-    if (axis.scale == Scale::Logarithmic) {
+    if (axis.scale == Scale::Logarithmic) {  // 0 and below: far beneath, so that an outline stays closed
+      if (value <= 0.0) return -std::numeric_limits<double>::infinity();
       return (std::log(value) - std::log(axis.low)) / (std::log(axis.high) - std::log(axis.low));
     }
     return (value - axis.low) / (axis.high - axis.low);
@@ -70,6 +72,11 @@ class PanelDrawing {
 
   [[nodiscard]] bool has_place(const Point& point) const {
     return std::isfinite(x_of(point.x)) && std::isfinite(y_of(point.y));
+  }
+
+  /// What stands alone is drawn where it is, or not at all.
+  [[nodiscard]] bool has_mark(const Point& point) const {
+    return std::isfinite(share(x_, point.x)) && std::isfinite(share(y_, point.y));
   }
 
   [[nodiscard]] std::string path_of(const std::vector<Point>& points) const {

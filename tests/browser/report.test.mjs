@@ -175,12 +175,15 @@ test("screenshots: light, dark, narrow, paper", async () => {
   }
 });
 
-/** The charts that are visible on paper, by their ids. */
+/** The charts that are visible on paper, by their ids; the page as a PDF is left beside it to be looked at. */
 async function printedCharts(file) {
   const page = await open(file);
+  await page.pdf({ path: file.replace(/html$/, "pdf"), preferCSSPageSize: true });
   await page.emulateMedia({ media: "print" });
-  const ids = await page.locator("svg.chart").evaluateAll((all) =>
-    all.filter((svg) => svg.getBoundingClientRect().height > 50).map((svg) => svg.id));
+  const ids = await page.locator("svg.chart, svg.spark").evaluateAll((all) =>
+    all.filter((svg) => svg.getBoundingClientRect().height > (svg.classList.contains("spark") ? 5 : 50))
+      .map((svg) => svg.id || "spark"));
+  assert.deepEqual(page.faults, []);
   await page.close();
   return ids;
 }
@@ -188,14 +191,23 @@ async function printedCharts(file) {
 test("every kind of page prints all of its charts", async () => {
   assert.deepEqual(await printedCharts(report(demo, "demo.html")),
     ["trace", "spectrum", "cycles", "pairs", "map", "speed", "pattern"]);
+  slipfit("analyze", demo, "--speed", "10mm/s", "--report", shot("print-analyze.html"), "--quiet");
+  assert.deepEqual(await printedCharts(shot("print-analyze.html")), ["trace", "spectrum", "cycles", "pattern"]);
   const rows = sweep("print").map((run) => `${run.name},${run.name}.csv,${run.speed},print`);
   fs.writeFileSync(shot("print.csv"), `id,file,speed [mm/s],group\n${rows.join("\n")}\n`);
   slipfit("fit", "--joint", shot("print.csv"), "--report", shot("print-sweep.html"), "--quiet");
   assert.deepEqual(await printedCharts(shot("print-sweep.html")),
     ["sweep-spacing", "sweep-friction", "sweep-cycles", "sweep-traces"]);
+  fs.rmSync(shot("print-results"), { recursive: true, force: true });
+  slipfit("batch", shot("print.csv"), "--out", shot("print-results"), "--report", shot("print-batch.html"), "--quiet");
+  assert.deepEqual(await printedCharts(shot("print-batch.html")), ["spark", "spark", "spark"]);
   slipfit("compare", shot("print-5.csv"), shot("print-10.csv"), "--speed", "10mm/s", "--quiet", "--out", shot("print.txt"),
     "--report", shot("print-compare.html"));
-  assert.ok((await printedCharts(shot("print-compare.html"))).includes("cycles"));
+  assert.deepEqual(await printedCharts(shot("print-compare.html")), ["cycles"]);
+  const ridges = Array.from({ length: 4000 }, (_, i) => `${2 * i},${Math.sin((2 * Math.PI * 2 * i) / 400).toFixed(5)}`);
+  fs.writeFileSync(shot("print-profile.csv"), `x [um],z [um]\n${ridges.join("\n")}\n`);
+  slipfit("surface", shot("print-profile.csv"), "--report", shot("print-surface.html"), "--quiet");
+  assert.deepEqual(await printedCharts(shot("print-surface.html")), ["profile"]);
 });
 
 /** Recordings of three speeds; the file names begin with `prefix`. */

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <optional>
@@ -49,6 +50,20 @@ TEST_CASE("pictures are well-formed XML, small, and the same bytes twice") {
   }
   CHECK(pictures.size() == 8);
   if (const auto exit_code = parse_xml(pictures)) CHECK(*exit_code == 0);
+}
+
+TEST_CASE("an outline that reaches 0 or below stays closed on a logarithmic axis") {
+  chart::Panel panel;
+  panel.x = {"speed", 1.0, 10.0, chart::Scale::Logarithmic};
+  panel.y = {"spacing", 1.0, 10.0, chart::Scale::Logarithmic};
+  panel.areas.push_back(
+      {"band", chart::Colour::Blue, chart::Fill::Plain, {{1, 2}, {2, 0}, {5, -1}, {10, 2}, {10, 4}, {1, 4}}});
+  const std::string svg = chart::to_svg({"", {}, {panel}});
+  const std::size_t begin = svg.find("<path d=\"M", svg.find("clip-path"));
+  REQUIRE(begin != std::string::npos);
+  const std::string path = svg.substr(begin + 9, svg.find('"', begin + 9) - begin - 9);
+  CHECK(std::count(path.begin(), path.end(), 'M') == 1);
+  CHECK(std::count(path.begin(), path.end(), 'L') == 5);
 }
 
 TEST_CASE("pictures say which values are assumed") {

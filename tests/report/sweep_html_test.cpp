@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -93,6 +94,70 @@ TEST_CASE("the band of the critical speed ends with the axis, and there is none 
   CHECK_THAT(sweep.page(), !Contains("stick-slip ends, 95 %"));
   sweep.prediction->critical_speed_m_per_s = {};
   CHECK_THAT(sweep.page(), !Contains("stick-slip ends, 95 %"));
+}
+
+TEST_CASE("the band over speed ends where an interval is unknown, and begins again behind it") {
+  Sweep sweep;
+  PredictedMotion row = sweep.prediction->rows.front();
+  sweep.prediction->rows.clear();
+  for (const double speed_m_per_s : {0.01, 0.02, 0.04, 0.06, 0.08, 0.1}) {
+    row.speed_m_per_s = speed_m_per_s;
+    row.periodic_displacement_m = known(0.0018, 0.0017, 0.0019);
+    if (speed_m_per_s == 0.04) row.periodic_displacement_m.ci95.reset();
+    if (speed_m_per_s == 0.08) row.periodic_displacement_m = {};
+    sweep.prediction->rows.push_back(row);
+  }
+  const chart::Panel panel = sweep.spacing_figure().chart->panels.at(0);
+  REQUIRE(panel.areas.size() == 3);
+  CHECK(panel.areas[0].name == "its 95 % band");
+  CHECK(panel.areas[1].name.empty());
+  CHECK(panel.areas[0].outline.size() == 4);  // 10 and 20 mm/s
+  CHECK(panel.areas[1].outline.size() == 2);  // 60 mm/s
+  CHECK(panel.areas[2].outline.size() == 2);  // 100 mm/s
+  const chart::Line& line = panel.lines.front();
+  REQUIRE(line.points.size() == 6);
+  CHECK(std::isfinite(line.points[2].y));
+  CHECK_FALSE(std::isfinite(line.points[4].y));
+}
+
+TEST_CASE("the axis of spacing over speed holds the intervals, unless they reach far beyond the values") {
+  Sweep sweep;
+  sweep.prediction->rows.back().periodic_displacement_m = known(0.0018, 0.0009, 0.0036);
+  chart::Panel panel = sweep.spacing_figure().chart->panels.at(0);
+  CHECK(panel.y.low < 0.9);
+  CHECK(panel.y.high > 3.6);
+  sweep.prediction->rows.back().periodic_displacement_m = known(0.0018, 0.0, 180.0);
+  panel = sweep.spacing_figure().chart->panels.at(0);
+  CHECK(panel.y.low > 0.1);
+  CHECK(panel.y.high < 20.0);
+}
+
+TEST_CASE("recordings of one speed are one point of the fitted line") {
+  Sweep sweep;
+  sweep.entries.push_back({"again", Sweep::recording(0.1, std::nullopt)});
+  sweep.analysis.recordings.push_back(test::full_analysis());
+  sweep.analysis.roles.push_back(SweepRole::Cycles);
+  sweep.analysis.fit->points.push_back(sweep.analysis.fit->points.back());
+  sweep.analysis.fit->points.back().spacing_m = known(0.0020, 0.0018, 0.0023);
+  sweep.prediction.reset();
+  const chart::Panel panel = sweep.spacing_figure().chart->panels.at(0);
+  REQUIRE(panel.lines.front().points.size() == 2);
+  CHECK(panel.lines.front().points[1].y == Approx(1.9));
+  REQUIRE(panel.areas.front().outline.size() == 4);
+  CHECK(panel.areas.front().outline[1].y == Approx(1.7));
+  CHECK(panel.areas.front().outline[2].y == Approx(2.3));
+}
+
+TEST_CASE("the recordings of a large sweep are drawn in pictures that fit on a printed page") {
+  Sweep sweep;
+  for (std::size_t i = sweep.entries.size(); i < 10; ++i) sweep.entries.push_back(sweep.entries.front());
+  const std::vector<html::Figure> figures =
+      html::sweep_traces_figures({sweep.entries, sweep.analysis, sweep.prediction});
+  REQUIRE(figures.size() == 2);
+  CHECK(figures[0].id == "sweep-traces");
+  CHECK(figures[1].id == "sweep-traces-2");
+  CHECK(figures[0].chart->panels.size() == 8);
+  CHECK(figures[1].chart->panels.size() == 2);
 }
 
 TEST_CASE("the page of a sweep without a joint fit says why, and shows each recording as it is") {

@@ -32,7 +32,7 @@ bool has_fitted_curve(const Analysis& analysis);
 
 /// One chart with its words, or the reason why there is none.
 struct Figure {
-  std::string id;          ///< letters and '-': on the page, and the file's name
+  std::string id;          ///< letters, digits and '-': on the page, and the file's name
   std::string title;       ///< a few words
   std::string guide = {};  ///< how to read it, plain text
   std::string label = {};  ///< what there is to see, in words, for readers who cannot see it

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "report/html/scaling.hpp"
 
@@ -14,12 +16,39 @@ using chart::Colour, chart::Panel, chart::Point, chart::Shape, chart::Stroke;
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kSweepColumns = 610;
+constexpr std::size_t kTracesOfPicture = 8;  // no more fit on a printed page
+constexpr double kFarthestBound = 5.0;       // factor; what reaches further is cut at the axis
 
 /// One quantity of the recordings over speed, in SI.
 struct Series {
   std::vector<double> speeds_m_per_s;
   std::vector<Estimate> estimates;
 };
+
+/// One point for each speed: the mean, and an interval that holds those of all. A line through recordings of one speed
+/// would run up and down.
+Series merged_by_speed(const Series& series) {
+  Series merged;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < series.estimates.size(); ++i) {
+    const Estimate& next = series.estimates[i];
+    if (i == 0 || series.speeds_m_per_s[i] != series.speeds_m_per_s[i - 1]) {
+      merged.speeds_m_per_s.push_back(series.speeds_m_per_s[i]);
+      merged.estimates.push_back(next);
+      count = 1;
+      continue;
+    }
+    Estimate& mean = merged.estimates.back();
+    ++count;
+    *mean.value += (*next.value - *mean.value) / static_cast<double>(count);
+    if (mean.ci95 && next.ci95) {
+      mean.ci95 = Interval{std::min(mean.ci95->low, next.ci95->low), std::max(mean.ci95->high, next.ci95->high)};
+    } else if (next.ci95) {
+      mean.ci95 = next.ci95;
+    }
+  }
+  return merged;
+}
 
 /// From the slowest to the fastest; recordings without the quantity are left out.
 template <class Pick>
@@ -47,28 +76,39 @@ class SpeedPanel {
       const double speed = at(series.speeds_m_per_s[i]);
       markers.points.push_back(value_point(speed, *series.estimates[i].value));
       if (!series.estimates[i].ci95) continue;
-      bars.points.push_back(point(speed, series.estimates[i].ci95->low));
-      bars.points.push_back(point(speed, series.estimates[i].ci95->high));
+      bars.points.push_back(bound_point(speed, series.estimates[i].ci95->low));
+      bars.points.push_back(bound_point(speed, series.estimates[i].ci95->high));
       bars.points.push_back({kGap, kGap});
     }
     panel_.markers.push_back(std::move(markers));
     panel_.lines.push_back(std::move(bars));
   }
 
+  /// The line ends where a value is unknown, the band where an interval is.
   void add_curve(const std::string& name, Colour colour, const Series& series) {
     if (series.estimates.empty()) return;
     chart::Line line{name, colour, Stroke::Solid, {}};
     std::vector<Point> low;
     std::vector<Point> high;
+    std::string band = "its 95 % band";
+    const auto end_part = [&] {
+      if (low.empty()) return;
+      low.insert(low.end(), high.rbegin(), high.rend());
+      panel_.areas.push_back({std::exchange(band, ""), colour, chart::Fill::Plain, std::exchange(low, {}), kEdge_px});
+      high.clear();
+    };
     for (std::size_t i = 0; i < series.estimates.size(); ++i) {
       const double speed = at(series.speeds_m_per_s[i]);
-      line.points.push_back(value_point(speed, *series.estimates[i].value));
-      if (!series.estimates[i].ci95) continue;
-      low.push_back(point(speed, series.estimates[i].ci95->low));
-      high.push_back(point(speed, series.estimates[i].ci95->high));
+      const std::optional<double>& value = series.estimates[i].value;
+      line.points.push_back(value ? value_point(speed, *value) : Point{kGap, kGap});
+      if (const auto& ci95 = series.estimates[i].ci95; value && ci95) {
+        low.push_back(bound_point(speed, ci95->low));
+        high.push_back(bound_point(speed, ci95->high));
+      } else {
+        end_part();
+      }
     }
-    low.insert(low.end(), high.rbegin(), high.rend());
-    if (!low.empty()) panel_.areas.push_back({"its 95 % band", colour, chart::Fill::Plain, low, kEdge_px});
+    end_part();
     panel_.lines.push_back(std::move(line));
   }
 
@@ -81,7 +121,7 @@ class SpeedPanel {
     panel.x = speeds_.logarithmic_axis(label_with_unit("driving speed", speed_unit_.unit));
     const std::string full = label_with_unit(label, unit_.unit);
     if (scale == chart::Scale::Logarithmic) {
-      panel.y = heights_.logarithmic_axis(full);
+      panel.y = heights_with_bounds().logarithmic_axis(full);
       mark_critical_speed(panel, critical_speed);
       return panel;
     }
@@ -112,10 +152,22 @@ class SpeedPanel {
     for (const Point& point : points) heights.add(point.y);
   }
   [[nodiscard]] Point point(double speed, double SI) const { return {speed, unit_.per_SI * SI}; }
-  /// On a logarithmic axis intervals may reach beyond it, values not: an interval over decades would hide all else.
   Point value_point(double speed, double SI) {
     heights_.add(unit_.per_SI * SI);
     return point(speed, SI);
+  }
+  Point bound_point(double speed, double SI) {
+    bounds_.add(unit_.per_SI * SI);
+    return point(speed, SI);
+  }
+  /// A logarithmic axis reaches to the ends of the intervals, but no further than `kFarthestBound` from the values: an
+  /// interval over decades would hide all else.
+  [[nodiscard]] Span heights_with_bounds() const {
+    Span heights = heights_;
+    if (heights_.empty() || bounds_.empty()) return heights;
+    heights.add(std::max(bounds_.low(), heights_.low() / kFarthestBound));
+    heights.add(std::min(bounds_.high(), heights_.high() * kFarthestBound));
+    return heights;
   }
 
   DisplayUnit speed_unit_;
@@ -123,15 +175,19 @@ class SpeedPanel {
   Panel panel_;
   Span speeds_;
   Span heights_;
+  Span bounds_;
 };
 
-/// What a model predicts over speed; speeds without the quantity are left out.
+/// What a model predicts over speed, from the first to the last speed with the quantity; between them it may be
+/// unknown.
 Series predicted_series(const Prediction& prediction, Estimate PredictedMotion::*quantity) {
   Series series;
-  for (const PredictedMotion& row : prediction.rows) {
-    if (!(row.*quantity).value) continue;
-    series.speeds_m_per_s.push_back(row.speed_m_per_s);
-    series.estimates.push_back(row.*quantity);
+  const auto is_known = [quantity](const PredictedMotion& row) { return (row.*quantity).value.has_value(); };
+  const auto first = std::find_if(prediction.rows.begin(), prediction.rows.end(), is_known);
+  const auto last = std::find_if(prediction.rows.rbegin(), prediction.rows.rend(), is_known).base();
+  for (auto row = first; row < last; ++row) {
+    series.speeds_m_per_s.push_back(row->speed_m_per_s);
+    series.estimates.push_back((*row).*quantity);
   }
   return series;
 }
@@ -155,7 +211,7 @@ Panel panel_over_speed(const Source& source, const std::string& name, const Disp
 Series fitted_spacing(const SweepSource& source) {
   if (source.prediction) return predicted_series(*source.prediction, &PredictedMotion::periodic_displacement_m);
   const std::vector<SweepPoint>& points = source.sweep.fit->points;
-  return series_of(source, [&points](std::size_t i) { return points[i].spacing_m; });
+  return merged_by_speed(series_of(source, [&points](std::size_t i) { return points[i].spacing_m; }));
 }
 
 Estimate critical_speed_of(const SweepSource& source) {
@@ -236,8 +292,9 @@ Figure sweep_friction_figure(const SweepSource& source) {
       "Kinetic friction by the fitted friction law at the speeds of the sweep, with its 95 % band (alpha's uncertainty "
       "is in it). Dots: the mean force of recordings that slide steadily."};
   const std::vector<SweepPoint> points = source.sweep.fit ? source.sweep.fit->points : std::vector<SweepPoint>{};
-  const Series law =
-      points.empty() ? Series{} : series_of(source, [&points](std::size_t i) { return points[i].kinetic_friction_N; });
+  const Series law = points.empty() ? Series{} : merged_by_speed(series_of(source, [&points](std::size_t i) {
+    return points[i].kinetic_friction_N;
+  }));
   if (law.estimates.empty()) return figure.without_chart("Kinetic friction over speed is not known.");
   SpeedPanel panel(speed_unit_of(source), display_unit("N", law.estimates.front().value));
   panel.add_curve("kinetic friction by the fit", Colour::Blue, law);
@@ -248,30 +305,43 @@ Figure sweep_friction_figure(const SweepSource& source) {
   return figure;
 }
 
-Figure sweep_traces_figure(const SweepSource& source) {
-  Figure figure{"sweep-traces", "The recordings", "Each recording over its own time, with its own scale."};
-  chart::Chart chart{"Recordings of the sweep", {}, {}};
-  for (const SweepEntry& entry : source.entries) {
-    const Recording& recording = entry.recording;
-    const DisplayUnit unit = force_unit_of(recording);
-    std::vector<Point> points = envelope(recording.time_s(), recording.force(), kSweepColumns);
-    Span heights;
-    for (Point& point : points) {
-      point.y *= unit.per_SI;
-      heights.add(point.y);
-    }
-    Panel panel;
-    panel.height_px = 80.0;
-    panel.legend_at = chart::LegendAt::Above;
-    panel.x = {"time [s]", recording.time_s().front(), recording.time_s().back()};
-    panel.y = heights.linear_axis(label_with_unit("force", unit.unit));
-    panel.lines.push_back({fmt::format("{}, {}", entry.id, speed_text(recording.conditions())), Colour::Grey,
-                           Stroke::Solid, std::move(points), 1.0});
-    chart.panels.push_back(std::move(panel));
+namespace {
+
+Panel trace_panel(const SweepEntry& entry) {
+  const Recording& recording = entry.recording;
+  const DisplayUnit unit = force_unit_of(recording);
+  std::vector<Point> points = envelope(recording.time_s(), recording.force(), kSweepColumns);
+  Span heights;
+  for (Point& point : points) {
+    point.y *= unit.per_SI;
+    heights.add(point.y);
   }
-  figure.label = fmt::format("force over time of {} recordings", source.entries.size());
-  figure.chart = std::move(chart);
-  return figure;
+  Panel panel;
+  panel.height_px = 80.0;
+  panel.legend_at = chart::LegendAt::Above;
+  panel.x = {"time [s]", recording.time_s().front(), recording.time_s().back()};
+  panel.y = heights.linear_axis(label_with_unit("force", unit.unit));
+  panel.lines.push_back({fmt::format("{}, {}", entry.id, speed_text(recording.conditions())), Colour::Grey,
+                         Stroke::Solid, std::move(points), 1.0});
+  return panel;
+}
+
+}  // namespace
+
+std::vector<Figure> sweep_traces_figures(const SweepSource& source) {
+  std::vector<Figure> figures;
+  for (std::size_t first = 0; first < source.entries.size(); first += kTracesOfPicture) {
+    const auto entries = source.entries.subspan(first, std::min(kTracesOfPicture, source.entries.size() - first));
+    Figure figure =
+        first == 0 ? Figure{"sweep-traces", "The recordings", "Each recording over its own time, with its own scale."}
+                   : Figure{fmt::format("sweep-traces-{}", figures.size() + 1), "The recordings, continued"};
+    chart::Chart chart{"Recordings of the sweep", {}, {}};
+    for (const SweepEntry& entry : entries) chart.panels.push_back(trace_panel(entry));
+    figure.label = fmt::format("force over time of {} recordings", entries.size());
+    figure.chart = std::move(chart);
+    figures.push_back(std::move(figure));
+  }
+  return figures;
 }
 
 }  // namespace slipfit::html

@@ -33,6 +33,7 @@ Figure sweep_spacing_figure(const SweepSource& source);
 Figure sweep_friction_figure(const SweepSource& source);
 /// Cycles of each over those of the others.
 Figure sweep_cycles_figure(const SweepSource& source);
-Figure sweep_traces_figure(const SweepSource& source);
+/// Each recording over time, so many in a picture as a printed page holds.
+std::vector<Figure> sweep_traces_figures(const SweepSource& source);
 
 }  // namespace slipfit::html

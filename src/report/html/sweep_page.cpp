@@ -119,6 +119,12 @@ std::string repeats_of(const std::vector<Repeat>& repeats) {
                        {"", "mean, 95 % interval", "standard deviation between recordings", "#recordings"}, rows));
 }
 
+std::string traces_of(const SweepSource& source) {
+  std::string parts;
+  for (const Figure& figure : sweep_traces_figures(source)) parts += figure_part(figure);
+  return parts;
+}
+
 std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
   std::string facts = fact("program", fmt::format("slipfit {}", SLIPFIT_VERSION)) + command_fact(origin.command_line);
   for (std::size_t i = 0; i < source.entries.size(); ++i) {
@@ -174,7 +180,7 @@ std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   page.main = html::parameters_of(sweep) + html::figure_part(html::sweep_spacing_figure(source)) +
               html::figure_part(html::sweep_friction_figure(source)) + html::recordings_of(source) +
               html::repeats_of(sweep.repeats) + html::figure_part(html::sweep_cycles_figure(source)) +
-              html::figure_part(html::sweep_traces_figure(source)) + html::repeat_of(source, origin);
+              html::traces_of(source) + html::repeat_of(source, origin);
   return html::page_from(page);
 }
 
