@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# test-web.sh [BUILD]: the browser version of the last scripts/web.sh against the program of BUILD, in node, Chromium and
-# Firefox. Skips, saying so, what is not there, or not of these sources. Screenshots are left in build/web-test.
+# test-web.sh [BUILD]: the German words, which need no build; then the browser version of the last scripts/web.sh against the program
+# of BUILD, in node, Chromium and Firefox. Skips, saying so, what is not there, or not of these sources. Screenshots are left in
+# build/web-test.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -9,12 +10,13 @@ skip() {
   exit 0
 }
 
+command -v node >/dev/null 2>&1 || skip "no node"
+node --test tests/web/german.test.mjs  # needs no build
 [ -f build/web/slipfit.html ] || skip "there is no build/web; scripts/web.sh makes it"
 [ "$(scripts/web_sources.sh)" = "$(cat build/web/sources)" ] || skip "build/web is of other sources; scripts/web.sh makes it anew"
-command -v node >/dev/null 2>&1 || skip "no node"
 build=$(realpath "${1:-build/release}")
 export SLIPFIT="$build/apps/slipfit"
-node --test tests/web/
+node --test tests/web/module.test.mjs
 
 (cd tests/browser && npm ci --silent --no-audit --no-fund) || skip "playwright-core cannot be had: the page"
 mkdir -p build/web-test

@@ -28,10 +28,34 @@ const kGermanReport = new Map(Object.entries({
   cycles: "Zyklen", "95 % interval": "95-%-Bereich", "95 % intervals": "95-%-Bereiche", "exact limit of stick-slip": "Grenze des Stick-Slip", "this recording": "diese Aufzeichnung",
   predicted: "vorhergesagt", "stick-slip ends, 95 %": "Stick-Slip endet, 95 %", "measured, 95 %": "gemessen, 95 %", "its 95 % band": "sein 95-%-Band",
   time: "Zeit", "time since the slip began": "Zeit seit Beginn des Rutschers", "friction force": "Reibkraft", residual: "Residuum",
-  "friction force above kinetic level": "Reibkraft über der Gleitreibung", "rms per bin": "rms je Linie", "driving speed": "Antriebsgeschwindigkeit",
+  "friction force above kinetic level": "Reibkraft über der Gleitreibung", "friction force above trough": "Reibkraft über dem Tal", "rms per bin": "rms je Linie", "driving speed": "Antriebsgeschwindigkeit",
   "pattern spacing": "Musterabstand", "peak above kinetic friction": "Spitze über der Gleitreibung", "trough above kinetic friction": "Tal über der Gleitreibung",
   "path, coarse pattern (stick-slip)": "Weg, grobes Muster (Stick-Slip)", "path, fine pattern (an estimate)": "Weg, feines Muster (Schätzung)",
   "stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)": "Stick-Slip-Parameter λ = ωₙ (Fₛ − Fₖ) / (k V)",
+  "The recording": "Die Aufzeichnung", "To repeat this": "Zum Wiederholen", "Charts that are not available": "Diagramme, die fehlen",
+  "Coefficient of friction": "Reibungszahl", Distributions: "Verteilungen", Failures: "Fehlschläge", Recordings: "Aufzeichnungen",
+  "Parameters of all recordings": "Parameter aller Aufzeichnungen", "Pattern spacing over speed": "Musterabstand über der Geschwindigkeit",
+  "Friction over speed": "Reibung über der Geschwindigkeit", "Each recording, predicted without it": "Jede Aufzeichnung, ohne sie vorhergesagt",
+  "At one speed: scatter between the recordings": "Bei einer Geschwindigkeit: Streuung zwischen den Aufzeichnungen",
+  "Cycles of the recordings laid over each other": "Zyklen der Aufzeichnungen übereinandergelegt", "The recordings": "Die Aufzeichnungen",
+  "The recordings, continued": "Die Aufzeichnungen, Fortsetzung", "What is compared": "Was verglichen wird", "What cannot be compared": "Was sich nicht vergleichen lässt",
+  "Cycles of A and B laid over each other": "Zyklen von A und B übereinandergelegt", "The profile": "Das Profil",
+  program: "Programm", file: "Datei", "digest of its bytes": "Prüfsumme der Datei", "normal force": "Normalkraft", "not given": "nicht angegeben",
+  "force that the sensor sees": "Kraft, die der Sensor sieht", "sensor's zero": "Nullpunkt des Sensors", "Assumed while reading:": "Beim Lesen angenommen:",
+  weak: "schwach", ": an estimate that should be confirmed": ": eine Schätzung, die der Bestätigung bedarf",
+  "velocity dependence α": "Geschwindigkeitsabhängigkeit α", "friction at high speed f0": "Reibung bei hoher Geschwindigkeit f0",
+  "velocity-dependent friction f1": "geschwindigkeitsabhängige Reibung f1", "stiffness exponent p, k ~ V^p": "Exponent p der Steifigkeit, k ~ V^p",
+  "ageing rate B of static friction": "Alterungsrate B der Haftreibung", "ageing cut-off time t_c": "Anfangszeit t_c der Alterung",
+  "sensor averaging time T_b": "Mittelungszeit T_b des Sensors", "slip-weakening distance D_c": "Gleitweg D_c der Schwächung", "drop of the friction coefficient": "Abfall der Reibungszahl",
+  "static friction coefficient": "Haftreibungszahl", "kinetic friction coefficient": "Gleitreibungszahl", "force recovery after a slip, A": "Krafterholung nach einem Rutscher, A",
+  "recovery length l": "Erholungslänge l", "frequency of the slips": "Frequenz der Rutscher",
+  shows: "zeigt", differs: "verschieden", yes: "ja", no: "nein", "not shown": "nicht gezeigt", "stick-slip": "Stick-Slip", "no stick-slip": "kein Stick-Slip",
+  "overdamped, ζ ≥ 1": "überdämpft, ζ ≥ 1", sliding: "Gleiten", "measured, close up": "gemessen, vergrößert", "slip begins": "Rutscher beginnt", "slip ends": "Rutscher endet",
+  "joint fit": "gemeinsame Anpassung", "measured (V/f)": "gemessen (V/f)", "predicted without it": "ohne sie vorhergesagt", "spacing measured, V/f": "Abstand gemessen, V/f",
+  "off by": "Abweichung", "k without it": "k ohne sie", "without it": "ohne sie", sawtooth: "Sägezahn", undamped: "ungedämpft", damped: "gedämpft",
+  velocity: "mit der Geschwindigkeit", weakening: "schwächend", spring: "Feder", transmitted: "übertragen", contact: "am Kontakt", "kinetic friction by the fit": "Gleitreibung nach der Anpassung", "steady sliding, mean force": "gleichmäßiges Gleiten, mittlere Kraft",
+  "on the worn surface": "auf der abgeriebenen Fläche", profile: "Profil", spacing: "Abstand", force: "Kraft", "place along the track": "Ort entlang der Spur", height: "Höhe",
+  "path of the drive since the slip began": "Weg des Antriebs seit Beginn des Rutschers",
   "Copy table": "Tabelle kopieren", command: "Befehl", warnings: "Warnungen", status: "Status", speed: "Geschwindigkeit", recording: "Aufzeichnung", quantity: "Größe", difference: "Unterschied", ratio: "Verhältnis",
 }));
 const kGermanPatterns = [
@@ -42,19 +66,28 @@ const kGermanPatterns = [
   [/^Oscillatory slip(?: at (.*))?: almost no sticks\.$/, "Schwingendes Rutschen $1: der Körper haftet kaum."],
   [/^The data do not determine whether this is stick-slip\.$/, "Ob dies Stick-Slip ist, lässt sich nicht sagen."],
   [/^(\d+) cycles of straight sticks and quick slips, residual (.*) % of the friction drop$/, "$1 Zyklen aus geradem Haften und schnellem Rutschen, Residuum $2 % des Kraftabfalls"],
+  [/^(\d+) recordings, no joint fit\.$/, "$1 Aufzeichnungen, keine gemeinsame Anpassung."],
+  [/^(\d+) recordings, (\d+) fitted together: stick-slip ends at (.*)\.$/, "$1 Aufzeichnungen, $2 gemeinsam angepasst: Stick-Slip endet bei $3."],
+  [/^(\d+) recordings, (\d+) fitted together: where stick-slip ends is not known\.$/, "$1 Aufzeichnungen, $2 gemeinsam angepasst: wo Stick-Slip endet, ist nicht bekannt."],
+  [/^(\d+) recordings, (\d+) fitted together\.$/, "$1 Aufzeichnungen, $2 gemeinsam angepasst."],
+  [/^A and B differ in (\d+) of (\d+) quantities(.*)\.$/, "A und B unterscheiden sich in $1 von $2 Größen$3."],
+  [/^No difference is shown in any of (\d+) quantities\.$/, "In keiner von $1 Größen zeigt sich ein Unterschied."],
+  [/^No quantity is known on both sides: nothing can be compared\.$/, "Keine Größe ist auf beiden Seiten bekannt: es gibt nichts zu vergleichen."],
+  [/^Ridges every (.*)$/, "Riefen alle $1"], [/^No pattern$/, "Kein Muster"], [/^Not known whether there is a pattern$/, "Ob es ein Muster gibt, ist nicht bekannt"], [/^(\d+) ridges$/, "$1 Riefen"],
   [/^chosen frequency, (.*)$/, "gewählte Frequenz, $1"], [/^fitted damping, slope (.*)$/, "angepasste Dämpfung, Steigung $1"],
 ];
 
 function germanOf(text) {
   const told = kGermanReport.get(text);
   if (told) return told;
-  const [, name, unit] = /^(.*\S)( +\[.*\])$/.exec(text) ?? [];
+  const [, name, unit] = /^(.*\S)( +(?:\[.*\]|\(\S*\)))$/.exec(text) ?? [];
   if (kGermanReport.has(name)) return kGermanReport.get(name) + unit;
   const match = kGermanPatterns.find(([pattern]) => pattern.test(text));
   return match ? text.replace(match[0], match[1]) : null;
 }
 function translateReport(page) {
   page.documentElement.lang = "de";
+  page.documentElement.classList.add("is-translated"); // legends as lists: German words are longer than their places in the charts
   const walker = page.createTreeWalker(page.body, NodeFilter.SHOW_TEXT,
     (node) => (node.parentElement.closest("script, style, pre, code, .file, h1") ? NodeFilter.FILTER_REJECT : NodeFilter.FILTER_ACCEPT));
   while (walker.nextNode()) {
