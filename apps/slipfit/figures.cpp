@@ -22,7 +22,7 @@ struct FiguresArguments {
 };
 
 void run(const FiguresArguments& arguments) {
-  const std::string& folder = required(arguments.folder, "--out", "the folder for the figures");
+  const std::string folder = required(arguments.folder, "--out", "the folder for the figures");
   make_folder({"--out", folder});
   const std::vector<slipfit::FigureFile> files = slipfit::paper_figures();
   for (const slipfit::FigureFile& file : files)

@@ -341,6 +341,11 @@ test("narrow, dark and German", { skip }, async () => {
   assert.equal(await reportOf(page).locator("#parameters h2").textContent(), "Parameter des Modells");
   assert.ok((await reportOf(page).locator("svg.chart text").filter({ hasText: /^Frequenz \[Hz\]$/ }).count()) >= 1);
   await page.screenshot({ path: shot("400-dark-result"), fullPage: true });
+  await page.setViewportSize({ width: 1280, height: 900 });
+  const headings = await reportOf(page).locator("h2").allTextContents();
+  assert.deepEqual(headings.filter((heading) => /\b(the|of|and|to|recording|speed)\b/i.test(heading)), [], "no heading is English");
+  assert.equal(await reportOf(page).locator("#spectrum .entries").first().isVisible(), false, "German words have more room in a list");
+  assert.equal(await reportOf(page).locator("#spectrum-section .legend-list").first().isVisible(), true);
   await openDemo(page, withGap());
   await fit(page);
   const warning = reportOf(page).locator(".warnings li").filter({ hasText: "zeitliche Lücken" });
