@@ -38,6 +38,11 @@ bool is_even(std::span<const double> time_s) {
 
 }  // namespace
 
+struct Recording::Samples {
+  std::vector<double> time_s;
+  std::vector<double> force;
+};
+
 Result<Recording> Recording::create(std::vector<double> time_s, std::vector<double> force, Conditions conditions,
                                     Provenance provenance) {
   if (time_s.size() != force.size()) return Error{"length_mismatch", "time and force differ in length"};

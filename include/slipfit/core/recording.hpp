@@ -112,11 +112,7 @@ class Recording {
 
  private:
   Recording() = default;
-  /// Shared by a recording and its parts, which are never changed.
-  struct Samples {
-    std::vector<double> time_s;
-    std::vector<double> force;
-  };
+  struct Samples;  // shared by a recording and its parts, which are never changed
   [[nodiscard]] Recording with_samples(std::shared_ptr<const Samples> samples, std::size_t begin,
                                        std::size_t end) const;
 
