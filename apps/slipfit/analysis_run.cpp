@@ -33,7 +33,7 @@ double seconds_since(Clock::time_point start) {
 ExitCode exit_code_for(const std::string& error_code) {
   const bool options = error_code == "conflicting_options" || error_code == "bad_window" || error_code == "bad_rows" ||
                        error_code == "bad_sample_rate" || error_code == "no_speed" ||
-                       error_code == "speed_not_positive";
+                       error_code == "speed_contradicted" || error_code == "speed_not_positive";
   return options ? ExitCode::WrongUsage : ExitCode::BadRecording;
 }
 

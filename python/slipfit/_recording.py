@@ -41,7 +41,7 @@ class Recording:
         What results and messages call the recording.
     sample_rate, time_unit, force_unit, window, rows
         As for `read_recording`.
-    speed_uncertainty, radius, mass, mass_uncertainty, force_view, sensor_bandwidth, sensor_average, sensor_resonance,
+    speed_uncertainty, radius, mass, mass_uncertainty, force_view, drift, sensor_bandwidth, sensor_average, sensor_resonance,
     drive_period, drive_path, measured_spacing, measured_spacing_uncertainty, surface, group, sample, material, operator
         As for `read_recording`.
 
@@ -80,6 +80,7 @@ class Recording:
         mass: Optional[Quantity] = None,
         mass_uncertainty: Optional[Quantity] = None,
         force_view: Optional[str] = None,
+        drift: Optional[str] = None,
         sensor_bandwidth: Optional[Quantity] = None,
         sensor_average: Optional[Quantity] = None,
         sensor_resonance: Optional[Quantity] = None,
@@ -223,6 +224,7 @@ def read_recording(
     mass: Optional[Quantity] = None,
     mass_uncertainty: Optional[Quantity] = None,
     force_view: Optional[str] = None,
+    drift: Optional[str] = None,
     sensor_bandwidth: Optional[Quantity] = None,
     sensor_average: Optional[Quantity] = None,
     sensor_resonance: Optional[Quantity] = None,
@@ -284,6 +286,8 @@ def read_recording(
         Standard error of the mass: ``"5 g"``, ``"1 %"``; 2 % of it by default.
     force_view : "spring", "transmitted" or "contact"
         Which force the sensor sees.
+    drift : "sensor" or "friction"
+        How a trend of the force level is read; without it intervals include both readings where the data do not decide.
     sensor_bandwidth, sensor_resonance : float or str
         Of the sensor (Hz).
     sensor_average : float or str

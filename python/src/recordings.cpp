@@ -132,6 +132,7 @@ py::tuple state_of(const Recording& recording) {
   const Provenance& p = recording.provenance();
   const std::vector<double> time(recording.time_s().begin(), recording.time_s().end());
   const std::vector<double> force(recording.force().begin(), recording.force().end());
+  const std::vector<double> load(recording.normal_force_N().begin(), recording.normal_force_N().end());
   const auto digest =
       p.input_digest ? std::optional(std::pair(p.input_digest->high, p.input_digest->low)) : std::nullopt;
   return py::make_tuple(
@@ -139,7 +140,10 @@ py::tuple state_of(const Recording& recording) {
       state_of(c.worn_track), c.speed_unit,
       std::vector<std::string>{c.labels.group, c.labels.sample, c.labels.material, c.labels.operator_name}, p.file,
       digest, p.input_bytes, p.assumed, pairs_of(p.warnings),
-      std::vector<std::size_t>{p.rows_without_number, p.rows_backward_in_time, p.rows_repeating_time}, p.window_given);
+      std::vector<std::size_t>{p.rows_without_number, p.rows_backward_in_time, p.rows_repeating_time}, p.window_given,
+      static_cast<int>(c.drift), array_of(load),
+      p.moved_m_per_s ? std::optional(std::pair(p.moved_m_per_s->value, p.moved_m_per_s->standard_error))
+                      : std::nullopt);
 }
 
 Provenance provenance_from(const py::tuple& state) {
@@ -155,6 +159,9 @@ Provenance provenance_from(const py::tuple& state) {
   p.rows_backward_in_time = counts.at(1);
   p.rows_repeating_time = counts.at(2);
   p.window_given = state[14].cast<bool>();
+  using Moved = std::pair<std::optional<double>, std::optional<double>>;
+  const auto moved = state[17].cast<std::optional<Moved>>();
+  if (moved) p.moved_m_per_s = Estimate{moved->first, moved->second, std::nullopt, {}};
   return p;
 }
 
@@ -162,12 +169,14 @@ SharedRecording recording_from(const py::tuple& state) {
   Conditions c = conditions_from(state[2].cast<ConditionNumbers>());
   c.force_view = static_cast<ForceView>(state[3].cast<int>());
   c.quantity = static_cast<ForceQuantity>(state[4].cast<int>());
+  c.drift = static_cast<LevelReading>(state[15].cast<int>());
   c.worn_track = track_from(state[5].cast<std::optional<TrackState>>());
   c.speed_unit = state[6].cast<std::string>();
   const auto labels = state[7].cast<std::vector<std::string>>();
   c.labels = {labels.at(0), labels.at(1), labels.at(2), labels.at(3)};
-  return std::make_shared<Recording>(value_or_raise(Recording::create(
-      vector_of(state[0].cast<Numbers>()), vector_of(state[1].cast<Numbers>()), std::move(c), provenance_from(state))));
+  return std::make_shared<Recording>(
+      value_or_raise(Recording::create(vector_of(state[0].cast<Numbers>()), vector_of(state[1].cast<Numbers>()),
+                                       std::move(c), provenance_from(state), vector_of(state[16].cast<Numbers>()))));
 }
 
 }  // namespace

@@ -41,10 +41,15 @@ bool is_even(std::span<const double> time_s) {
 struct Recording::Samples {
   std::vector<double> time_s;
   std::vector<double> force;
+  std::vector<double> normal_force_N;  ///< empty: not measured
 };
 
+double Recording::whole_begin_s() const {
+  return samples_->time_s.front();
+}
+
 Result<Recording> Recording::create(std::vector<double> time_s, std::vector<double> force, Conditions conditions,
-                                    Provenance provenance) {
+                                    Provenance provenance, std::vector<double> normal_force_N) {
   if (time_s.size() != force.size()) return Error{"length_mismatch", "time and force differ in length"};
   if (time_s.size() < 2) return Error{"too_few_samples", "fewer than 2 samples with a time and a force"};
   if (!all_readable(time_s) || !all_readable(force)) {
@@ -59,11 +64,13 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
     return Error{"normal_force_not_positive", "the normal force must be a positive number of newtons"};
   }
   flush_to_zero(force);
+  if (normal_force_N.size() != time_s.size() || !all_readable(normal_force_N)) normal_force_N.clear();
   Recording empty;
   empty.conditions_ = std::move(conditions);
   empty.provenance_ = std::move(provenance);
   const std::size_t size = time_s.size();
-  auto samples = std::make_shared<const Samples>(Samples{std::move(time_s), std::move(force)});
+  auto samples =
+      std::make_shared<const Samples>(Samples{std::move(time_s), std::move(force), std::move(normal_force_N)});
   Recording recording = empty.with_samples(std::move(samples), 0, size);
   if (!(recording.sample_interval_s_ >= kSmallest))
     return Error{"time_constant", "the clock steps by less than 1e-36 s"};
@@ -75,6 +82,9 @@ Recording Recording::with_samples(std::shared_ptr<const Samples> samples, std::s
   recording.samples_ = std::move(samples);
   recording.time_s_ = std::span(recording.samples_->time_s).subspan(begin, end - begin);
   recording.force_ = std::span(recording.samples_->force).subspan(begin, end - begin);
+  if (!recording.samples_->normal_force_N.empty()) {
+    recording.normal_force_N_ = std::span(recording.samples_->normal_force_N).subspan(begin, end - begin);
+  }
   recording.sample_interval_s_ = median_positive_step(recording.time_s_);
   recording.clock_is_even_ = is_even(recording.time_s_);
   recording.conditions_ = conditions_;
@@ -94,7 +104,9 @@ Recording Recording::selected(std::span<const std::size_t> samples) const {
     for (const std::size_t i : samples) picked.push_back(values[i]);
     return picked;
   };
-  return with_samples(std::make_shared<const Samples>(Samples{pick(time_s_), pick(force_)}), 0, samples.size());
+  Samples picked{pick(time_s_), pick(force_), {}};
+  if (!normal_force_N_.empty()) picked.normal_force_N = pick(normal_force_N_);
+  return with_samples(std::make_shared<const Samples>(std::move(picked)), 0, samples.size());
 }
 
 }  // namespace slipfit

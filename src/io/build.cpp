@@ -20,6 +20,7 @@ struct Interpreted {
   std::vector<double> time_s;
   std::vector<double> force;
   std::vector<double> displacement_m;  ///< empty without such a column
+  std::vector<double> normal_force_N;  ///< the same
   Conditions conditions;
   Provenance provenance;
 };
@@ -59,13 +60,15 @@ void restore_clock(Interpreted& part) {
 Interpreted interpret(Part part, const LoadedFile& file, const Conditions& conditions) {
   check_part(part, file);
   const StatedConditions stated = state_conditions(part.rows, file.choice, file.layout, conditions, file.name);
-  Interpreted result{{}, {}, {}, stated.conditions, describe_part(part, file)};
+  Interpreted result{{}, {}, {}, {}, stated.conditions, describe_part(part, file)};
   const auto append = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
   append(result.provenance.assumed, stated.assumed);
   append(result.provenance.warnings, stated.warnings);
+  result.provenance.moved_m_per_s = stated.moved_m_per_s;
   result.time_s = std::move(part.rows.time_s);
   result.force = std::move(part.rows.force);
   result.displacement_m = std::move(part.rows.displacement_m);
+  result.normal_force_N = std::move(part.rows.normal_force_N);
   interpret_force(result, file.choice.force.quantity);
   restore_clock(result);
   return result;
@@ -103,8 +106,8 @@ ThrownError reciprocating(const std::vector<double>& time_s, const std::string& 
 }
 
 Recording create(Interpreted part, const std::string& file) {
-  auto recording =
-      Recording::create(std::move(part.time_s), std::move(part.force), part.conditions, std::move(part.provenance));
+  auto recording = Recording::create(std::move(part.time_s), std::move(part.force), part.conditions,
+                                     std::move(part.provenance), std::move(part.normal_force_N));
   if (!recording) throw ThrownError({recording.error().code, file + ": " + recording.error().message});
   return std::move(recording).value();
 }
@@ -140,7 +143,8 @@ NamedRecording record(const Interpreted& part, const Stroke& stroke, std::size_t
     return std::vector<double>(part_of_it.begin(), part_of_it.end());
   };
   const char sign = stroke.is_positive ? '+' : '-';
-  Interpreted own{cut(part.time_s), cut(part.force), {}, part.conditions, part.provenance};
+  Interpreted own{cut(part.time_s), cut(part.force), {}, {}, part.conditions, part.provenance};
+  if (!part.normal_force_N.empty()) own.normal_force_N = cut(part.normal_force_N);
   for (double& force : own.force) force = stroke.is_positive ? force : -force;
   own.provenance.assumed.push_back(
       fmt::format("Stroke {} is {:.6g} to {:.6g} s, without the ends in which the force turns; its force has the sign "

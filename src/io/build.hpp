@@ -27,9 +27,11 @@ struct StatedConditions {
   Conditions conditions;
   std::vector<std::string> assumed;
   Warnings warnings;
+  std::optional<Estimate> moved_m_per_s{};  ///< Provenance
 };
 
-/// What the user states counts; a column fills in what is not stated. Errors: no_speed, speed_varies.
+/// What the user states counts; a column fills in what is not stated. Errors: no_speed, speed_varies,
+/// speed_contradicted.
 StatedConditions state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
                                   const Conditions& conditions, const std::string& file);
 

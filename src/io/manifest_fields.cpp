@@ -61,6 +61,16 @@ std::optional<Error> set_force_view(ManifestEntry& entry, const std::string& cel
   return std::nullopt;
 }
 
+std::optional<Error> set_drift(ManifestEntry& entry, const std::string& cell) {
+  constexpr auto kReadings = std::to_array<std::pair<std::string_view, LevelReading>>(
+      {{"sensor", LevelReading::Sensor}, {"friction", LevelReading::Friction}});
+  const auto* const reading =
+      std::find_if(kReadings.begin(), kReadings.end(), [&](const auto& r) { return r.first == cell; });
+  if (reading == kReadings.end()) return refusal("unknown_drift", cell, "sensor or friction");
+  entry.conditions.drift = reading->second;
+  return std::nullopt;
+}
+
 template <Dimension dimension, std::optional<std::string> ReadOptions::*target>
 std::optional<Error> set_unit(ManifestEntry& entry, const std::string& cell) {
   const Result<UnitScale> unit = parse_unit(cell, dimension);
@@ -163,6 +173,10 @@ constexpr std::array kFields = std::to_array<ManifestField>({
     text_field(
         {"force_view", "--force-view", "Force that the sensor sees: spring (taken without it), transmitted, contact"},
         set_force_view),
+    text_field({"drift", "--drift",
+                "How a trend of the force level is read: sensor (the sensor drifts), friction (the friction changes); "
+                "without it intervals include both where the data do not decide"},
+               set_drift),
     text_field({"group"}, set_label<&Labels::group>),
     text_field({"sample"}, set_label<&Labels::sample>),
     text_field({"material"}, set_label<&Labels::material>),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/quantile.hpp"
@@ -24,9 +25,9 @@ bool differ(double stated, const Level& measured, double tolerance) {
   return std::abs(stated - measured.value) > bound;
 }
 
-/// The speed of the parts where a displacement moves (median of block slopes, without sign), if most of them move at
-/// one speed.
-std::optional<double> steady_speed_m_per_s(const Rows& rows) {
+/// The speed of the parts where a displacement moves (median of block slopes, without sign) with the error of that
+/// median, if most of them move at one speed.
+std::optional<Estimate> steady_speed_m_per_s(const Rows& rows) {
   std::vector<double> speeds = block_speeds_m_per_s(rows.time_s, rows.displacement_m, kBlocks);
   if (speeds.size() < 4) return std::nullopt;
   const double fast_m_per_s = quantile_of(speeds, 0.9);
@@ -36,7 +37,41 @@ std::optional<double> steady_speed_m_per_s(const Rows& rows) {
   const auto alike =
       std::ranges::count_if(speeds, [&](double v) { return std::abs(v - speed_m_per_s) <= 0.2 * speed_m_per_s; });
   const bool is_steady = 10 * alike >= 6 * static_cast<std::ptrdiff_t>(speeds.size());
-  return is_steady ? std::optional(speed_m_per_s) : std::nullopt;
+  if (!is_steady) return std::nullopt;
+  std::vector<double> off;
+  for (const double v : speeds) off.push_back(std::abs(v - speed_m_per_s));
+  constexpr double kMedianToSe = 1.4826 * 1.2533;  // of a median of deviations to the error of a median
+  const double se_m_per_s = kMedianToSe * quantile_of(off, 0.5) / std::sqrt(static_cast<double>(off.size()));
+  return Estimate{speed_m_per_s, se_m_per_s, std::nullopt, {}};
+}
+
+/// By how much speeds are off where their unit is mistaken: mm and cm, min and s, m and mm, m/s and mm/min, mm/s and
+/// m/min.
+constexpr std::array kUnitFactors{10.0, 60.0, 1000.0, 6e4, 1e3 / 60.0};
+
+/// "10mm/min" of a stated "10 mm/s" where the displacement moves at that; else the speed of the displacement.
+std::string speed_to_state(const Conditions& stated, double moved_m_per_s) {
+  const Result<UnitScale> unit = parse_unit(stated.speed_unit, Dimension::Speed);
+  const double number = stated.speed_m_per_s / (unit ? unit.value().scale : 1.0);
+  for (const char* const other : {"mm/min", "mm/s", "um/s", "cm/s", "cm/min", "m/min", "m/s"}) {
+    const double m_per_s = number * parse_unit(other, Dimension::Speed).value().scale;
+    if (std::abs(m_per_s / moved_m_per_s - 1.0) < kTolerance) return fmt::format("{:.6g}{}", number, other);
+  }
+  return fmt::format("{:.6g}m/s", moved_m_per_s);
+}
+
+/// A stated speed that a displacement contradicts by the factor of a mistaken unit.
+std::optional<Error> mistaken_speed(const Conditions& stated, double moved_m_per_s, const std::string& column,
+                                    const std::string& file) {
+  const double stated_m_per_s = stated.speed_m_per_s;
+  const double ratio = std::max(stated_m_per_s / moved_m_per_s, moved_m_per_s / stated_m_per_s);
+  const auto is_near = [&](double factor) { return std::abs(ratio / factor - 1.0) < kTolerance; };
+  if (std::none_of(kUnitFactors.begin(), kUnitFactors.end(), is_near)) return std::nullopt;
+  return Error{
+      "speed_contradicted",
+      fmt::format("{}: the speed is {:.6g} m/s, but {} moves at {:.6g} m/s, which differs by the factor {:.4g} "
+                  "of another unit; give --speed {}, or correct the unit in the name of that column",
+                  file, stated_m_per_s, column, moved_m_per_s, ratio, speed_to_state(stated, moved_m_per_s))};
 }
 
 ThrownError no_speed(const Choice& choice, const Layout& layout, const std::string& file) {
@@ -85,7 +120,7 @@ std::optional<Warning> compare_speed(double stated_m_per_s, double moved_m_per_s
 
 StatedConditions state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
                                   const Conditions& conditions, const std::string& file) {
-  StatedConditions stated{conditions, {}, {}};
+  StatedConditions stated{conditions, {}, {}, {}};
   double& speed_m_per_s = stated.conditions.speed_m_per_s;
   const auto measured = level_of(rows.speed_m_per_s);
   if (speed_m_per_s == 0.0) {
@@ -101,9 +136,12 @@ StatedConditions state_conditions(const Rows& rows, const Choice& choice, const 
                                       speed_m_per_s, describe(layout, choice.speed->column), measured->value)});
   }
   if (choice.displacement && !rows.displacement_m.empty()) {
-    if (const auto moved_m_per_s = steady_speed_m_per_s(rows)) {
+    if (auto moved = steady_speed_m_per_s(rows)) {
       const std::string name = describe(layout, choice.displacement->column);
-      if (auto warning = compare_speed(speed_m_per_s, *moved_m_per_s, name)) stated.warnings.push_back(*warning);
+      if (auto error = mistaken_speed(stated.conditions, *moved->value, name, file))
+        throw ThrownError(*std::move(error));
+      if (auto warning = compare_speed(speed_m_per_s, *moved->value, name)) stated.warnings.push_back(*warning);
+      stated.moved_m_per_s = std::move(moved);
     }
   }
   if (choice.normal_force) state_normal_force(stated, rows, choice, layout);

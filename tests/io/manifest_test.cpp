@@ -171,6 +171,7 @@ TEST_CASE("each fault of a manifest is one line with file, line, column, value a
               {"'segments'", "either strokes or segments"});
   check_error("id,file,speed_m_per_s,window_s\na,a.csv,1,3:1\n", "bad_window", {"'3:1'", "T0 < T1"});
   check_error("id,file,speed_m_per_s,window_s\na,a.csv,1,3\n", "bad_window", {"'3'", "T0:T1"});
+  check_error("id,file,speed_m_per_s,drift\na,a.csv,1,up\n", "unknown_drift", {"'up'", "friction"});
   check_error("id,file,speed_m_per_s,force_view\na,a.csv,1,top\n", "unknown_force_view", {"'top'", "contact"});
 }
 

@@ -165,6 +165,27 @@ TEST_CASE("the displacement is compared with the stated speed") {
   CHECK(contains(recording.provenance().warnings.back().message, "0.002 m/s"));
 }
 
+TEST_CASE("a stated speed that a displacement contradicts by the factor of a unit is an error") {
+  std::string content = "time [s],displacement [mm],force [N]\n";
+  for (int i = 0; i < 500; ++i) {
+    content += std::to_string(0.01 * i) + "," + std::to_string(0.02 * i) + "," + std::to_string(i % 5) + "\n";
+  }
+  for (const double stated_m_per_s : {2.0, 2e-6, 0.12, 0.02, 2e-4}) {
+    const auto refused = read(content, {}, at_speed(stated_m_per_s));
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.error().code == "speed_contradicted");
+    CHECK(contains(refused.error().message, "; give --speed "));
+  }
+  slipfit::Conditions in_millimetres = at_speed(0.12);
+  in_millimetres.speed_unit = "mm/s";
+  CHECK(contains(read(content, {}, in_millimetres).error().message, "--speed 120mm/min"));
+  CHECK(contains(read(content, {}, at_speed(2e-4)).error().message, "--speed 0.002m/s"));
+  CHECK(warns(read_ok(content, {}, at_speed(4e-3)), "speed_differs_from_displacement"));
+  const auto recording = read_ok(content, {}, at_speed(2e-3));
+  REQUIRE(recording.provenance().moved_m_per_s);
+  CHECK(*recording.provenance().moved_m_per_s->value == Approx(2e-3));
+}
+
 TEST_CASE("a displacement that does not run at one speed is not compared") {
   std::string content = "time [s],displacement [mm],force [N]\n";
   for (int i = 0; i < 500; ++i) {

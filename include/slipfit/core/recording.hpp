@@ -20,6 +20,14 @@ enum class ForceView { Spring, Transmitted, Contact };
 /// What the force column holds: newtons, or a friction coefficient whose normal force is not known.
 enum class ForceQuantity { Force_N, FrictionCoefficient };
 
+/// How a rise or fall of the force level over a recording is read: a sensor that drifts adds it to every stick,
+/// friction that changes does not.
+enum class LevelReading {
+  Open,     ///< not stated, and the data do not determine it: one of the next two
+  Sensor,   ///< drift of the sensor
+  Friction  ///< change of the friction: run-in, a load that changes
+};
+
 /// A file that was read, by the bytes that were parsed.
 struct InputFile {
   std::string file;
@@ -57,9 +65,10 @@ struct Conditions {
   /// one step of the clock.
   std::optional<double> sensor_average_s;
   std::optional<double>
-      sensor_resonance_Hz;               ///< > 0, of the load cell as it is mounted: a frequency near it is doubted
-  std::optional<double> drive_period_s;  ///< > 0, of what may set the rhythm: a motor's step, an excitation
-  std::optional<double> drive_path_m;    ///< > 0, over which the drive's force repeats: a pole pitch, a tooth, a turn
+      sensor_resonance_Hz;                  ///< > 0, of the load cell as it is mounted: a frequency near it is doubted
+  LevelReading drift = LevelReading::Open;  ///< how the user reads a trend of the force level
+  std::optional<double> drive_period_s;     ///< > 0, of what may set the rhythm: a motor's step, an excitation
+  std::optional<double> drive_path_m;  ///< > 0, over which the drive's force repeats: a pole pitch, a tooth, a turn
   /// > 0, of the moving body: gives w_n where averaging hides it, else held against k / w_n^2.
   std::optional<double> mass_kg;
   std::optional<double> mass_standard_error_kg;  ///< >= 0, of the stated mass; empty: 2 % of it
@@ -81,7 +90,9 @@ struct Provenance {
   std::size_t rows_backward_in_time = 0;     ///< left out
   std::size_t rows_repeating_time = 0;       ///< kept: same time stamp as the row before
   bool is_time_unit_assumed = false;         ///< no unit of the clock is given: seconds are assumed
-  bool window_given = false;                 ///< the user chose what part to read: nothing else is left out
+  /// Speed of a displacement column with its standard error; empty: no such column, or one that moves unsteadily.
+  std::optional<Estimate> moved_m_per_s{};
+  bool window_given = false;  ///< the user chose what part to read: nothing else is left out
 };
 
 /// Time and tangential force of one run: at least 2 samples, all finite, time never decreasing and not constant.
@@ -89,14 +100,19 @@ class Recording {
  public:
   /// Errors: too_few_samples, length_mismatch, not_finite, time_decreases, time_constant, speed_not_positive,
   /// normal_force_not_positive. `force` is in newtons, or a friction coefficient as `conditions.quantity` says.
+  /// `normal_force_N`: of every sample, where a column has it; not used where a value is missing or not finite.
   static Result<Recording> create(std::vector<double> time_s, std::vector<double> force, Conditions conditions,
-                                  Provenance provenance = {});
+                                  Provenance provenance = {}, std::vector<double> normal_force_N = {});
 
   [[nodiscard]] std::span<const double> time_s() const { return time_s_; }
   [[nodiscard]] std::span<const double> force() const { return force_; }
+  /// Measured with each sample; empty: not measured.
+  [[nodiscard]] std::span<const double> normal_force_N() const { return normal_force_N_; }
   [[nodiscard]] std::size_t size() const { return time_s_.size(); }
   [[nodiscard]] const Conditions& conditions() const { return conditions_; }
   [[nodiscard]] const Provenance& provenance() const { return provenance_; }
+  /// First time of the samples that this is a part of.
+  [[nodiscard]] double whole_begin_s() const;
   [[nodiscard]] double duration_s() const { return time_s_.back() - time_s_.front(); }
   /// Median step of the clock (of the steps that are not zero).
   [[nodiscard]] double sample_interval_s() const { return sample_interval_s_; }
@@ -119,6 +135,7 @@ class Recording {
   std::shared_ptr<const Samples> samples_;
   std::span<const double> time_s_;
   std::span<const double> force_;
+  std::span<const double> normal_force_N_;
   Conditions conditions_;
   Provenance provenance_;
   double sample_interval_s_ = 0.0;
