@@ -122,6 +122,15 @@ std::vector<std::string> differences(const Standard& standard, const Sliding& sl
   return differs;
 }
 
+/// A mean over a recording whose level has a trend: in an interval that includes the levels of all its parts.
+Estimate with_trend(Estimate mean, const Analysis& analysis) {
+  if (!analysis.fit || !analysis.fit->level_trend.level_range || !mean.ci95) return mean;
+  const Interval& range = *analysis.fit->level_trend.level_range;
+  mean.ci95 = Interval{mean.ci95->low + range.low, mean.ci95->high + range.high};
+  mean.standard_error = 0.5 * (mean.ci95->high - mean.ci95->low) / kNormalQuantile;
+  return mean;
+}
+
 }  // namespace
 
 std::optional<Coefficients> find_coefficients(const Detected& detected, const Analysis& analysis) {
@@ -137,12 +146,12 @@ std::optional<Coefficients> find_coefficients(const Detected& detected, const An
   const std::size_t size = recording.size();
   Coefficients coefficients;
   coefficients.static_first_peak = of(analysis.transients.breakaway_force);
-  Estimate peaks = mean_of_peaks(recording, analysis);
+  Estimate peaks = with_trend(mean_of_peaks(recording, analysis), analysis);
   if (auto fitted = fitted_static_friction(analysis)) peaks = in_both_intervals(*std::move(fitted), peaks);
   if (peaks.value && analysis.cycles.peak_force_sd)
     coefficients.static_peak_sd = *analysis.cycles.peak_force_sd / load_N;
   coefficients.static_mean_peak = of(std::move(peaks));
-  coefficients.kinetic_mean = of(mean_during_sliding(recording.force(), analysis.cycles.count));
+  coefficients.kinetic_mean = of(with_trend(mean_during_sliding(recording.force(), analysis.cycles.count), analysis));
   coefficients.kinetic_first_third = of(sliding.mean(0, size / 3));
   coefficients.kinetic_last_third = of(sliding.mean(size - size / 3, size));
   coefficients.kinetic_sd = describe(recording.force()).sd / load_N;

@@ -119,6 +119,25 @@ inline constexpr double kShapeSamples = 6.0;
 /// Standard errors between the slopes of early and late sticks, beyond which sticks bend. [1; derived: 0.3 % by chance]
 inline constexpr double kBendSigmas = 3.0;
 
+/// Standard errors of the rate of the force level, beyond which it is a trend; of the share of the level's slope that
+/// sticks contain, beyond which a reading is excluded. [1; derived: 6e-5 by chance]
+inline constexpr double kTrendSigmas = 4.0;
+
+/// Share of a trend that a measured load leaves unexplained, below which the trend is friction. [1; convention: a
+/// sensor zero of a tenth of the force does as much]
+inline constexpr double kLoadShare = 0.1;
+
+/// Least k of another reading of a trend, over that of the fit. [1; convention: a trend as steep as the sticks]
+inline constexpr double kLeastStiffness = 0.01;
+
+/// Standard errors between two values of one quantity, beyond which they contradict each other. [1; derived: 6e-5 by
+/// chance]
+inline constexpr double kAuditSigmas = 4.0;
+
+/// Their difference over the smaller one, up to which they do not; the same of the slopes of the halves of a stick.
+/// [1; convention]
+inline constexpr double kAuditShare = 0.01;
+
 /// Chance at which a line in the sticks is none. [1; convention]
 inline constexpr double kRippleChance = 1e-6;
 

@@ -41,6 +41,27 @@ LineSums line_sums(std::size_t count, const X& x, const Y& y) {
   return sums;
 }
 
+/// The same with a weight of each point, inversely proportional to the variance of y; the weights of all points count
+/// their number.
+inline LineSums weighted_line_sums(std::span<const double> x, std::span<const double> y,
+                                   std::span<const double> weight) {
+  LineSums sums;
+  sums.count = static_cast<double>(x.size());
+  double all = 0.0;
+  for (const double w : weight) all += w;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sums.mean_x += weight[i] / all * x[i];
+    sums.mean_y += weight[i] / all * y[i];
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double w = weight[i] / all * sums.count;
+    sums.square += w * (x[i] - sums.mean_x) * (x[i] - sums.mean_x);
+    sums.cross += w * (x[i] - sums.mean_x) * (y[i] - sums.mean_y);
+    sums.scatter += w * (y[i] - sums.mean_y) * (y[i] - sums.mean_y);
+  }
+  return sums;
+}
+
 /// At least two points, not all at one x.
 inline LineSums line_sums(std::span<const double> x, std::span<const double> y) {
   return line_sums(

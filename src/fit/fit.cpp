@@ -51,6 +51,7 @@ FitDiagnostics diagnostics_of(const Recording& recording, const DampedFit& dampe
   diagnostics.restick_share = resting_share(blocks);
   diagnostics.span_share = (blocks.scales().time_end_s - blocks.scales().time_begin_s) / recording.duration_s();
   diagnostics.samples_per_slip = resolution.samples_per_slip;
+  diagnostics.stick_slope_by_lines = slope_by_lines(blocks, 0.6 * median_stick_s(blocks));
   diagnostics.hum_share = mains_amplitude(blocks) / std::abs(mean);
   return diagnostics;
 }

@@ -14,6 +14,7 @@
 #include "fit/inference/sweep_outcome.hpp"
 #include "fit/report/findings.hpp"
 #include "fit/report/open_damping.hpp"
+#include "fit/report/trend_notes.hpp"
 #include "fit/selection/law_choice.hpp"
 #include "fit/selection/ring_down_fit.hpp"
 #include "fit/selection/sweep_solution.hpp"
@@ -70,10 +71,11 @@ class Assembler {
       : recordings_(recordings),
         data_(data),
         outcome_(outcome),
-        values_(fit::with_damping_cut(outcome.values, outcome.spread.covariance)),
+        trend_(fit::trend_of_sweep(recordings, data, outcome.solution.held)),
+        values_(fit::with_trend(fit::with_damping_cut(outcome.values, outcome.spread.covariance), trend_)),
         model_(values_, data.units),
         averaging_(data.motion ? 0.0 : fit::effect_of_averaging(recordings, outcome, data)),
-        intervals_(spread_of(outcome, averaging_)) {}
+        intervals_(fit::with_trend(spread_of(outcome, averaging_), trend_, data.units.force)) {}
 
   [[nodiscard]] SweepFit assemble(const fit::LawChoice& choice) const {
     SweepFit sweep;
@@ -128,6 +130,7 @@ class Assembler {
       findings.slip_doubt = findings.stiffness_doubt =
           "residuals exceed the noise: the model misses part of the data, and the interval may be too narrow";
     }
+    fit::state_trend(trend_, recordings_.front().recording.conditions(), findings);
     if (!findings.damping.value) findings.frequency_unknown = findings.damping.note;
     add_average(findings);
     add_difference_doubt(findings);
@@ -255,6 +258,7 @@ class Assembler {
   std::span<const SweepRecording> recordings_;
   const SweepData& data_;
   const SweepOutcome& outcome_;
+  fit::TrendFindings trend_;
   fit::Coordinates values_;
   fit::SlidingModel model_;
   double averaging_;

@@ -28,6 +28,10 @@ std::string_view name_of(ForceQuantity quantity) {
   return name_in({"force", "friction_coefficient"}, quantity);
 }
 
+std::string_view name_of(LevelReading reading) {
+  return name_in({"open", "sensor", "friction"}, reading);
+}
+
 std::string_view name_of(MotionClass motion) {
   return name_in({"stick_slip", "steady_sliding", "oscillatory_slip", "undetermined"}, motion);
 }

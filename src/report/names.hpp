@@ -11,6 +11,7 @@ namespace slipfit {
 std::string_view name_of(Tier tier);
 std::string_view name_of(ForceView view);
 std::string_view name_of(ForceQuantity quantity);
+std::string_view name_of(LevelReading reading);
 std::string_view name_of(MotionClass motion);
 std::string_view name_of(ParameterStatus status);
 std::string_view name_of(SweepRole role);

@@ -97,7 +97,20 @@ std::string frequency_text(const FrequencyReport& frequency) {
   return "\nFrequency\n" + table.text() + lines_text(frequency.lines);
 }
 
-std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity) {
+/// "0.199 ± 0.002 N/s (drift of the sensor)"; empty where the level has no significant trend.
+std::string trend_text(const Analysis& analysis, ForceQuantity quantity) {
+  if (!analysis.fit || !analysis.fit->level_trend.level_range) return {};
+  const LevelTrend& trend = analysis.fit->level_trend;
+  const char* const reading = trend.reading == LevelReading::Sensor ? "drift of the sensor"
+                              : trend.reading == LevelReading::Friction
+                                  ? "change of the friction"
+                                  : "drift of the sensor or change of the friction";
+  return fmt::format("{}{} ({})", with_error(trend.rate_per_s), quantity == ForceQuantity::Force_N ? " N/s" : " /s",
+                     reading);
+}
+
+std::string cycles_text(const Analysis& analysis, ForceQuantity quantity) {
+  const CycleStatistics& cycles = analysis.cycles;
   const std::string unit = force_unit(quantity);
   Table table({Align::Left, Align::Left});
   table.add({"slips", fmt::format("{} counted, {} minor{}, {} used in the fit", cycles.count, cycles.minor,
@@ -113,6 +126,8 @@ std::string cycles_text(const CycleStatistics& cycles, ForceQuantity quantity) {
   if (cycles.stick_stiffness.value && quantity == ForceQuantity::Force_N) {
     table.add({"slope of the sticks / V", with_error(cycles.stick_stiffness) + " N/m"});
   }
+  const std::string trend = trend_text(analysis, quantity);
+  if (!trend.empty()) table.add({"trend of the level", trend});
   return "\nCycles\n" + table.text();
 }
 
@@ -241,7 +256,7 @@ std::string to_text(const Recording& recording, const Analysis& analysis) {
   text += parameters_text(recording, analysis);
   text += frequency_text(analysis.frequency);
   if (analysis.motion != MotionClass::SteadySliding) {
-    text += cycles_text(analysis.cycles, recording.conditions().quantity);
+    text += cycles_text(analysis, recording.conditions().quantity);
   }
   text += transients_text(analysis.transients, recording.conditions().quantity);
   text += coefficients_text(analysis.coefficients);

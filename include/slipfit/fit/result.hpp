@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slipfit/core/estimate.hpp"
+#include "slipfit/core/recording.hpp"
 #include "slipfit/fit/parameter.hpp"
 
 namespace slipfit {
@@ -60,6 +61,14 @@ struct CurvePoint {
   double interference = 0.0;  ///< the part of `force` that the fit attributes to interference (mains, pick-up)
 };
 
+/// Mean slope of the force level over the recording.
+struct LevelTrend {
+  Estimate rate_per_s;                        ///< unit of the force column over s; empty: the level is constant
+  LevelReading reading = LevelReading::Open;  ///< of a significant trend
+  double in_sticks_per_s = 0.0;           ///< part of the rate that sticks have in addition to k V, by the reported k
+  std::optional<Interval> level_range{};  ///< over the recording, from its mean; empty: no significant trend
+};
+
 /// How well the cycles look like stick-slip cycles of the model; the kind of motion rests on it.
 struct FitDiagnostics {
   double relative_residual = 0.0;   ///< residual rms over the mean onset force above F_k
@@ -68,6 +77,9 @@ struct FitDiagnostics {
   double restick_share = 0.0;       ///< share of the cycles whose slip ends in stick
   double span_share = 0.0;          ///< duration of the cycles over duration of the recording
   double samples_per_slip = 0.0;
+  /// Largest slope, whatever their phases, that the fitted lines give to a line through the middle three fifths of a
+  /// stick; force per second.
+  double stick_slope_by_lines = 0.0;
   double hum_share = 0.0;  ///< amplitude of the fitted mains hum over the mean onset force
 };
 
@@ -162,6 +174,7 @@ std::array<double, kModelValues> values_of(const ModelEstimate& model);
 struct FitResult {
   Tier tier = Tier::Sawtooth;
   FitDiagnostics diagnostics;
+  LevelTrend level_trend;                   ///< of one recording
   std::optional<ModelEstimate> estimate;    ///< empty where the slip is not resolved or forces have no newtons
   bool mass_gives_frequency = false;        ///< w_n is that of the stated mass: averaging of the samples hides it
   std::vector<std::string> conditional_on;  ///< what the numbers assume ("Coulomb friction", ...)

@@ -54,6 +54,14 @@ std::size_t choose_level_terms(const std::vector<double>& time_s, const std::vec
   return best_terms;
 }
 
+std::vector<double> smooth_level(const std::vector<double>& time_s, const std::vector<double>& level,
+                                 std::size_t terms) {
+  const Eigen::MatrixXd basis = legendre_basis(time_s, terms);
+  const Eigen::Map<const Eigen::VectorXd> values(level.data(), static_cast<Eigen::Index>(level.size()));
+  const Eigen::VectorXd smooth = basis * basis.colPivHouseholderQr().solve(values);
+  return {smooth.data(), smooth.data() + smooth.size()};
+}
+
 double unexplained_level(const std::vector<double>& time_s, const std::vector<double>& level,
                          const std::vector<double>& drop, std::size_t terms) {
   const auto count = static_cast<Eigen::Index>(time_s.size());

@@ -38,6 +38,19 @@ double hum_amplitude(const BlockFit& fit) {
   return amplitude;
 }
 
+double slope_by_lines(const BlockFit& fit, double length_s) {
+  double slope = 0.0;
+  for (const FittedLine& line : fitted_lines(fit)) {
+    // A line of least squares through a sin(w t), from -x to x in w t, has the slope 3 a (sin x - x cos x) w / x^3. x
+    // is not known to a fraction of a period: |sin x - x cos x| <= sqrt(1 + x^2), and the slope of the sine is at most
+    // a w.
+    const double omega = 2.0 * std::numbers::pi * line.frequency_Hz;
+    const double x = 0.5 * omega * length_s;
+    if (x > 0.0) slope += line.force * omega * std::min(1.0, 3.0 * std::hypot(1.0, x) / (x * x * x));
+  }
+  return slope;
+}
+
 double mains_amplitude(const BlockFit& fit) {
   double amplitude = 0.0;
   for (const FittedLine& line : fitted_lines(fit)) {

@@ -12,6 +12,8 @@ namespace slipfit::fit {
 double hum_amplitude(const BlockFit& fit);
 /// Of those of the mains.
 double mains_amplitude(const BlockFit& fit);
+/// FitDiagnostics::stick_slope_by_lines, of a line through so many seconds.
+double slope_by_lines(const BlockFit& fit, double length_s);
 
 /// Coefficients of the level for lines of these frequencies, where a fit that follows may begin: the lines that `fit`
 /// has come first, in its order, with the same phase in the middle of the recording; others are 0.

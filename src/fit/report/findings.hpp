@@ -49,6 +49,8 @@ struct Findings {
   /// Why k is not identified, whatever its interval; empty: no reason.
   std::string stiffness_doubt{};
   std::string stiffness_note{};
+  std::string level_doubt{};  ///< why absolute forces depend on the part of the recording; empty: they do not
+  LevelTrend level_trend{};
   /// Why w_n, and m with it, is not identified, whatever its interval; empty: no reason.
   std::string frequency_doubt{};
   std::string frequency_unknown{};  ///< why there is no natural frequency to read from the slips; empty: there is

@@ -27,6 +27,7 @@ class Reporter {
         result_(result) {}
 
   void report() {
+    result_.level_trend = f_.level_trend;
     report_stiffness();
     report_friction();
     report_dynamics();
@@ -134,16 +135,17 @@ class Reporter {
     add_graded(Id::AgeingTime, f_.intervals.interval_of_one_sign(model_.ageing_time), slip_doubt(), slip_note());
   }
 
-  /// A force level depends on the sensor's zero.
+  /// A force level depends on the sensor's zero, and on the part of the recording where it has a trend.
   void report_absolute(Id id, const Jet& y) {
     const Estimate estimate = of_rest_.interval_of(y);
     ParameterStatus status = graded(id, estimate, slip_doubt());
-    if (f_.zero_known) {
+    if (f_.zero_known && f_.level_doubt.empty()) {
       // The peaks show F_s whatever the law.
       if (id == Id::KineticFriction || id == Id::KineticFrictionCoefficient) status = at_one_speed(status);
       return add(id, estimate, status, status == ParameterStatus::Conditional ? kOneSpeed : slip_note());
     }
-    add(id, estimate, status == ParameterStatus::Identified ? ParameterStatus::Conditional : status, kZeroUnknown);
+    add(id, estimate, status == ParameterStatus::Identified ? ParameterStatus::Conditional : status,
+        f_.zero_known ? f_.level_doubt : kZeroUnknown);
   }
 
   void report_dynamics() {

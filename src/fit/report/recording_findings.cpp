@@ -9,8 +9,10 @@
 #include "core/fit_thresholds.hpp"
 #include "core/unknown.hpp"
 #include "fit/inference/covariance.hpp"
+#include "fit/inference/level_trend.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/level/mains_hum.hpp"
+#include "fit/report/trend_notes.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/ramps.hpp"
 #include "fit/selection/rival.hpp"
@@ -31,6 +33,7 @@ const BlockFit& reported(const TierFits& fits) {
 struct StiffnessFindings {
   double variance = 0.0;  ///< of ln k
   std::string note;
+  std::string doubt;  ///< why k is not identified, whatever its interval; empty: no reason
   Warnings warnings;
 };
 
@@ -39,13 +42,11 @@ std::optional<StickRipple> ripple_of(const DampedFit& fit) {
   return fit.ripple && fit.ripple->speed_share > thresholds::kRippleShare ? fit.ripple : fitted_ripple(fit.blocks);
 }
 
-StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits, const Spread& spread) {
+StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits) {
   StiffnessFindings result;
   if (fits.damped.held[kLogStiffness]) return result;
   const BlockFit& blocks = reported(fits);
-  const double log_k_error = std::sqrt(spread.covariance(kLogStiffness, kLogStiffness));
   const Conditions& conditions = recording.conditions();
-  const double stiffness = std::exp(blocks.parameters.globals[kLogStiffness]);
   // Ramps that bend (creep before a slip, a tightening line) have no one slope: k depends on the stretch that is used,
   // by half of what the halves of the ramps differ.
   const std::optional<RampBend> bend = ramp_bend(blocks);
@@ -55,18 +56,12 @@ StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits,
         "the sticks are curved: their slope {} by {:.1f} % from start to end; the interval of k includes this",
         bend->log_ratio > 0.0 ? "decreases" : "increases", 100.0 * std::abs(bend->log_ratio));
     result.warnings.push_back({"model_misfit", result.note});
+    if (std::abs(bend->log_ratio) > thresholds::kAuditShare) result.doubt = result.note;
   }
   if (const std::optional<StickRipple> ripple = ripple_of(fits.damped)) {
     result.variance += std::pow(ripple->log_stiffness, 2);
     result.warnings.push_back(ripple_warning(*ripple));
     result.note = result.warnings.back().message;
-  }
-  const double drift = std::abs(level_trend(blocks) / (stiffness * conditions.speed_m_per_s));
-  if (drift > std::hypot(log_k_error, std::sqrt(result.variance))) {
-    result.variance += drift * drift;
-    result.note =
-        fmt::format("the mean force rises or falls throughout: k is wrong by {:.1f} % if that is drift of the sensor",
-                    100.0 * drift);
   }
   // The data give k V.
   result.variance += std::pow(conditions.speed_standard_error_m_per_s.value_or(0.0) / conditions.speed_m_per_s, 2);
@@ -193,7 +188,11 @@ std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, co
 /// Why what is read from the slip cannot be told, or not surely.
 void state_doubts(const Conditions& conditions, const TierFits& fits, const Resolution& resolution,
                   const Residual& residual, Findings& findings) {
-  const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
+  // White residuals that exceed the noise are noise of the slips, which the scatter of the cycles has in the
+  // covariance.
+  const bool coloured = !residual.whiteness_p || *residual.whiteness_p < thresholds::kColouredChance;
+  const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2 &&
+                     (coloured || !fits.damped.uncertainty.from_cycles);
   if (large) {
     findings.warnings.push_back(
         {"model_misfit",
@@ -210,8 +209,9 @@ void state_doubts(const Conditions& conditions, const TierFits& fits, const Reso
   } else if (fits.damped.misfit) {
     // A sensor that lags, or creep, moves w_n more than leaving out parts of the slip shows.
     findings.slip_doubt = "the slip is not a damped oscillation: the error of w_n may exceed its interval";
-  } else if (large && residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance) {
-    findings.slip_doubt = "residuals are correlated and larger than the noise: the interval may be too narrow";
+  } else if (large) {
+    findings.slip_doubt = fmt::format("residuals are {}larger than the noise: the interval may be too narrow",
+                                      coloured ? "correlated and " : "");
   }
   findings.slip_unresolved =
       resolution.slip_resolved ? doubt_of_fall(conditions, fits.damped, residual, findings) : resolution.reason;
@@ -231,6 +231,11 @@ void state_doubts(const Conditions& conditions, const TierFits& fits, const Reso
 std::optional<Estimate> fitted_average_of(const DampedFit& fit) {
   if (!fit.average) return std::nullopt;
   return symmetric(fit.average->seconds, fit.average->standard_error_s, fit.uncertainty.degrees_of_freedom);
+}
+
+Units units_of(const BlockFit& blocks) {
+  const Scales& scales = blocks.scales();
+  return {.force = scales.force, .level = scales.level, .slip_distance_m = scales.slip_distance_m};
 }
 
 }  // namespace
@@ -253,23 +258,21 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   DampingFindings damping = damping_of(fits, blocks);
   damping.estimate.ci95 = lengthened_damping(*damping.estimate.ci95, spread);
   spread.profile = std::move(damping.profile);
-  StiffnessFindings stiffness = stiffness_of(recording, fits, spread);
+  StiffnessFindings stiffness = stiffness_of(recording, fits);
   spread.covariance(kLogStiffness, kLogStiffness) += stiffness.variance;
+  const TrendFindings trend = find_level_trend(recording, fits.damped);
+  spread = with_trend(std::move(spread), trend, blocks.scales().force);
   if (spread.profile) spread.profile->held(kLogStiffness, kLogStiffness) += stiffness.variance;
 
-  Coordinates values = coordinates_of(blocks);
+  Coordinates values = with_trend(coordinates_of(blocks), trend);
   values(kDamping) = std::max(0.0, values(kDamping));
-  Findings findings{values,
-                    {.force = blocks.scales().force,
-                     .level = blocks.scales().level,
-                     .slip_distance_m = blocks.scales().slip_distance_m},
-                    Intervals(std::move(spread)),
-                    std::move(damping.estimate),
+  Findings findings{values, units_of(blocks), Intervals(std::move(spread)), std::move(damping.estimate),
                     fits.held_by_user()};
   state_conditions(recording, findings);
   findings.cycles = blocks.size();
   findings.samples_per_slip = resolution.samples_per_slip;
   findings.stiffness_note = std::move(stiffness.note);
+  findings.stiffness_doubt = std::move(stiffness.doubt);
   findings.warnings = std::move(stiffness.warnings);
   findings.fitted_average = fitted_average_of(fits.damped);
   findings.frequency_doubt = std::move(averaging.small_doubt);
@@ -278,6 +281,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
                         : findings.warnings.empty() ? ""
                                                     : findings.stiffness_note;
   findings.warnings.insert(findings.warnings.end(), averaging.warnings.begin(), averaging.warnings.end());
+  state_trend(trend, recording.conditions(), findings);
   state_law(fits.damped, findings);
   state_doubts(recording.conditions(), fits, resolution, residual, findings);
   return findings;

@@ -95,12 +95,43 @@ std::optional<RampBend> ramp_bend(const BlockFit& fit) {
   return RampBend{difference / slope, std::sqrt(variance) / weights / slope};
 }
 
-double level_trend(const BlockFit& fit) {
-  if (!fit.level().per_cycle || fit.size() < 3) return 0.0;
-  const LineSums line = line_sums(
-      fit.size(), [&](std::size_t i) { return fit.reference_s(i); },
-      [&](std::size_t i) { return fit.parameters.cycles[i][2] * fit.scales().force; });
-  return std::abs(line.slope()) > 3.0 * line.slope_error() ? line.slope() : 0.0;
+std::vector<double> level_offsets(const BlockFit& fit) {
+  std::vector<double> offsets;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    const CycleState state = fit.state(i);
+    const double* const local = fit.parameters.cycles[i].data();
+    double sum = 0.0;
+    double count = 0.0;
+    for (const auto* bins : {&fit.data(i).bins_before, &fit.data(i).bins_after}) {
+      const StickBin ramp = merge(straightened(*bins, fit, i));
+      if (ramp.count == 0.0) continue;
+      const double level = fit.model(i).level_at(ramp.time_s, fit.level_data(), local);
+      sum += ramp.force - level - state.force_at(ramp.time_s);
+      count += 1.0;
+    }
+    offsets.push_back(count > 0.0 ? sum / count : 0.0);
+  }
+  return offsets;
+}
+
+std::optional<RampDrift> drift_in_ramps(const BlockFit& fit) {
+  if (fit.level().per_cycle || fit.level().terms < 3) return std::nullopt;
+  std::vector<double> measured, level, weight;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    const StickBin late = merge(straightened(fit.data(i).bins_before, fit, i));
+    const StickBin early = merge(straightened(fit.data(i).bins_after, fit, i));
+    if (late.count < 3.0 || early.count < 3.0) continue;
+    weight.push_back(late.time_spread + early.time_spread);
+    const auto mean = [&](double of_late, double of_early) {
+      return (late.time_spread * of_late + early.time_spread * of_early) / weight.back();
+    };
+    measured.push_back(mean(late.slope, early.slope));
+    level.push_back(mean(level_slope(fit, i, late.time_s), level_slope(fit, i, early.time_s)));
+  }
+  if (measured.size() < 5) return std::nullopt;
+  const LineSums line = weighted_line_sums(level, measured, weight);
+  if (!(line.square > 0.0)) return std::nullopt;
+  return RampDrift{line.slope(), line.slope_error(), line.mean_x};
 }
 
 }  // namespace slipfit::fit

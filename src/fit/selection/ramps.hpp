@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "fit/problem/block_fit.hpp"
 
@@ -14,8 +15,18 @@ struct RampBend {
 };
 std::optional<RampBend> ramp_bend(const BlockFit& fit);
 
-/// Rate (force a second) at which levels of their own rise from cycle to cycle, 0 where that is chance (3 standard
-/// errors) or the level is a polynomial. A sensor that drifts adds it to every ramp, friction that changes does not.
-double level_trend(const BlockFit& fit);
+/// Of every cycle the mean of its sticks, before and after the slip, above the model: how its level differs from the
+/// fitted one.
+std::vector<double> level_offsets(const BlockFit& fit);
+
+/// Share of the slope of the level polynomial that the sticks contain: 1 where a sensor drifts, 0 where friction
+/// changes. Known where that slope changes over the recording. Empty below 5 cycles, and where the level is no
+/// polynomial of second order or more.
+struct RampDrift {
+  double share = 0.0;
+  double standard_error = 0.0;
+  double level_rate = 0.0;  ///< mean slope of the polynomial over the sticks, weighted as they determine k; force/s
+};
+std::optional<RampDrift> drift_in_ramps(const BlockFit& fit);
 
 }  // namespace slipfit::fit
