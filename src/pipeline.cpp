@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/audit.hpp"
 #include "analysis/classify.hpp"
 #include "analysis/conclusions.hpp"
 #include "analysis/detect.hpp"
@@ -64,6 +65,21 @@ Derived derive(const Recording& recording, const Analysis& analysis) {
   return in_range(with_worn_track(std::move(derived), recording.conditions()));
 }
 
+void append(Warnings& warnings, const Warnings& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
+/// The analysis with the values that contradict each other not identified, and what follows from them derived anew.
+Analysis audited(const Recording& recording, Analysis analysis) {
+  analysis.audit = audit_of(recording, analysis);
+  const auto contradicts = [](const AuditPair& pair) { return pair.contradicts; };
+  if (std::none_of(analysis.audit.begin(), analysis.audit.end(), contradicts)) return analysis;
+  analysis.fit = with_audit(*std::move(analysis.fit), analysis.audit);
+  analysis.frequency = with_audit(std::move(analysis.frequency), analysis.audit);
+  analysis.derived = derive(recording, analysis);
+  return analysis;
+}
+
 /// The fitted curve counts its samples in the part that slides: told in samples of the whole recording.
 std::optional<FitResult> told_of_whole(std::optional<FitResult> fit, const Detected& detected) {
   if (!fit) return fit;
@@ -98,8 +114,11 @@ Analysis conclude(const Detected& detected, Estimates estimates, Classification 
   analysis.coefficients = in_range(find_coefficients(detected, analysis));
   analysis.derived = derive(recording, analysis);
   analysis.tests = run_short_tests(recording, analysis);
+  analysis = audited(recording, std::move(analysis));
   analysis.warnings = collect_warnings(detected, slips, analysis);
+  append(analysis.warnings, warn_of(analysis.audit));
   if (auto units = implausible_units(recording, analysis)) analysis.warnings.push_back(*std::move(units));
+  if (analysis.fit) analysis.fit = limited_by(analysis.warnings, *std::move(analysis.fit));
   analysis.fit = told_of_whole(std::move(analysis.fit), detected);
   analysis.timing.frequency_s = detected.seconds + estimates.frequency_s;
   analysis.timing.fit_s = estimates.fit_s;
@@ -116,8 +135,13 @@ Analysis without_falls(Analysis analysis) {
   return analysis;
 }
 
-void append(Warnings& warnings, const Warnings& more) {
-  warnings.insert(warnings.end(), more.begin(), more.end());
+/// The warnings of the sweep and of the recordings in its fit.
+Warnings all_warnings(const SweepAnalysis& sweep) {
+  Warnings warnings = sweep.warnings;
+  for (std::size_t i = 0; i < sweep.recordings.size(); ++i) {
+    if (sweep.roles[i] == SweepRole::Cycles) append(warnings, sweep.recordings[i].warnings);
+  }
+  return warnings;
 }
 
 /// A recording of a sweep on its own.
@@ -211,6 +235,7 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   if (sweep.fit) {
     append(sweep.warnings, check_agreement(entries, sweep.recordings, *sweep.fit));
     append(sweep.warnings, sweep.fit->result.warnings);
+    sweep.fit->result = limited_by(all_warnings(sweep), std::move(sweep.fit->result));
   }
   for (Analysis& analysis : sweep.recordings) analysis = without_falls(std::move(analysis));
   return sweep;

@@ -22,6 +22,7 @@ const kFields = [
   { key: "sample-rate", unit: "frequency", words: "Sampling rate", more: true },
   { key: "mass", unit: "mass", words: "Moving mass", more: true },
   { key: "sensor-average", unit: "time", words: "Averaging time", more: true },
+  { key: "drift", choice: ["", "sensor", "friction"], prefix: "drift-", words: "Trend of the force level", more: true },
   { key: "sheet", words: "Sheet", more: true },
   { key: "variable", words: "Variable", more: true },
 ];

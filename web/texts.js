@@ -26,6 +26,7 @@ const kGerman = {
   "normal-force": "Normalkraft", zero: "Nullpunkt der Kraft", "force-view": "Sensor sieht", step: "Schritt",
   strokes: "Hübe", "sample-rate": "Abtastrate", mass: "Bewegte Masse", "sensor-average": "Mittelungszeit",
   "speed-uncertainty": "Unsicherheit v", sheet: "Blatt", variable: "Variable", more: "Weitere Angaben", surface: "Verschleißspur: stammt ihr Muster von den Rutschern?", "surface-file": "Profil der Oberfläche (Text, X3P, SDF)",
+  drift: "Trend des Kraftniveaus", "drift-sensor": "Drift des Sensors", "drift-friction": "Reibung ändert sich",
   automatic: "automatisch", "view-spring": "Federkraft", "view-transmitted": "übertragene Kraft", "view-contact": "Kraft am Kontakt",
   "strokes-none": "nicht teilen", "strokes-both": "beide Richtungen", "strokes-positive": "positive", "strokes-negative": "negative",
   segments: "Stücke je einer Geschwindigkeit", all: "alle", "speed-missing": "Die Antriebsgeschwindigkeit fehlt: bitte angeben.",

@@ -97,6 +97,14 @@ struct Coefficients {
   std::vector<StandardCoefficients> standards;
 };
 
+/// A quantity that a document gives in two ways, each under its own key.
+struct AuditPair {
+  std::string pair;
+  std::string first_of, second_of;
+  Estimate first, second;
+  bool contradicts = false;  ///< they differ by more than 4 standard errors and 1 %
+};
+
 /// Everything that is known about one recording.
 struct Analysis {
   Quality quality;   ///< of the whole recording
@@ -111,6 +119,7 @@ struct Analysis {
   Derived derived;
   Transients transients;
   std::optional<Coefficients> coefficients;  ///< empty without a normal force
+  std::vector<AuditPair> audit;              ///< pairs of which both values are known; of stick-slip with a fit
   std::vector<ShortTest> tests;              ///< only where the kind of motion is stick-slip with a fit
   Timing timing;
 };

@@ -43,7 +43,12 @@ std::string id_of(const Recording& recording, const JsonOptions& options) {
 std::string to_json(const Recording& recording, const Analysis& analysis, const JsonOptions& options) {
   Json json{{"schema", "slipfit.fit/1"}, {"version", SLIPFIT_VERSION}, {"id", id_of(recording, options)}};
   add_analysis(json, recording, analysis, {});
-  if (analysis.fit) add_fit(json, *analysis.fit, recording.conditions().quantity);
+  if (analysis.fit) {
+    const ForceQuantity quantity = recording.conditions().quantity;
+    add_fit(json, *analysis.fit, quantity);
+    json["level_trend"] = level_trend_json(analysis.fit->level_trend, quantity);
+    json["audit"] = audit_json(analysis.audit);
+  }
   json["derived"] = derived_json(analysis.derived);
   json["transients"] = transients_json(analysis.transients, recording.conditions().quantity);
   json["coefficients"] = coefficients_json(analysis.coefficients);

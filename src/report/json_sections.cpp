@@ -59,6 +59,7 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
             {"mass_se_kg", conditions.mass_standard_error_kg},
             {"sensor_bandwidth_Hz", conditions.sensor_bandwidth_Hz},
             {"drive_period_s", conditions.drive_period_s},
+            {"drift", conditions.drift == LevelReading::Open ? Json() : Json(name_of(conditions.drift))},
             {"sensor_average_s", conditions.sensor_average_s},
             {"sensor_resonance_Hz", conditions.sensor_resonance_Hz},
             {"assumed", provenance.assumed},
@@ -197,6 +198,27 @@ Json correlation_json(const FitResult& fit) {
     json["scaled_se"] = scaled_errors_json(*fit.correlation, *fit.estimate);
   }
   return json;
+}
+
+Json level_trend_json(const LevelTrend& trend, ForceQuantity quantity) {
+  const bool newtons = quantity == ForceQuantity::Force_N;
+  Json json{{"value_N_per_s", newtons ? Json(trend.rate_per_s.value) : Json()}};
+  if (!newtons) json["value_per_s"] = trend.rate_per_s.value;
+  json["se"] = trend.rate_per_s.standard_error;
+  json["ci95"] = trend.rate_per_s.ci95;
+  json["reading"] = trend.level_range ? name_of(trend.reading) : "none";
+  return json;
+}
+
+Json audit_json(const std::vector<AuditPair>& pairs) {
+  const auto value_of = [](const std::string& of, const Estimate& estimate) {
+    return Json{{"of", of}, {"value", estimate.value}, {"se", estimate.standard_error}};
+  };
+  return array_of(pairs, [&](const AuditPair& pair) {
+    return Json{{"pair", pair.pair},
+                {"values", {value_of(pair.first_of, pair.first), value_of(pair.second_of, pair.second)}},
+                {"contradicts", pair.contradicts}};
+  });
 }
 
 Json tests_json(const std::vector<ShortTest>& tests) {

@@ -12,6 +12,8 @@ Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity);
 Json model_json(const FitResult& fit, ForceQuantity quantity);
 Json parameters_json(const FitResult& fit);
 Json correlation_json(const FitResult& fit);
+Json level_trend_json(const LevelTrend& trend, ForceQuantity quantity);
+Json audit_json(const std::vector<AuditPair>& pairs);
 Json tests_json(const std::vector<ShortTest>& tests);
 Json derived_json(const Derived& derived);
 Json coefficients_json(const std::optional<Coefficients>& coefficients);

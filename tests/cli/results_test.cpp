@@ -190,3 +190,36 @@ TEST_CASE("file names in any encoding are reported without an exception") {
   CHECK(nlohmann::json::accept(json.out));
   CHECK(slipfit({"analyze", odd, "--speed", "20mm/s"}).exit_code == 0);
 }
+
+TEST_CASE("intervals of the demonstration file include what it was made with, its trend read either way") {
+  const std::string demo = std::string(SLIPFIT_TESTDATA_DIR) + "/demo.csv";
+  const std::vector<std::string> arguments{"fit", demo, "--speed", "10mm/s", "--zero", "0", "--json"};
+  const auto with_drift = [&](const std::string& reading) {
+    std::vector<std::string> stated = arguments;
+    stated.insert(stated.end(), {"--drift", reading});
+    return fit_json(stated);
+  };
+  const auto document = fit_json(arguments);
+  for (const auto& [name, truth] : {std::pair{"stiffness_N_per_m", 5000.0},
+                                    {"friction_difference_N", 1.0},
+                                    {"static_friction_N", 4.0},
+                                    {"kinetic_friction_N", 3.0},
+                                    {"natural_frequency_rad_per_s", 900.0},
+                                    {"mass_kg", 5000.0 / (900.0 * 900.0)},
+                                    {"damping_ratio", 0.05}}) {
+    CAPTURE(name, truth);
+    CHECK(document["parameters"][name]["ci95"][0] <= truth);
+    CHECK(document["parameters"][name]["ci95"][1] >= truth);
+  }
+  CHECK(document["parameters"]["static_friction_N"]["status"] == "conditional");
+  CHECK(document["level_trend"]["reading"] == "open");
+  CHECK(document["level_trend"]["ci95"][0] <= 0.2);
+  CHECK(document["level_trend"]["ci95"][1] >= 0.2);
+  const auto sensor = with_drift("sensor")["parameters"]["stiffness_N_per_m"];
+  const auto friction = with_drift("friction")["parameters"]["stiffness_N_per_m"];
+  CHECK(sensor["ci95"][1] < friction["ci95"][0]);  // 0.2 N/s over 10 mm/s: 20 N/m
+  const auto open = document["parameters"]["stiffness_N_per_m"];
+  CHECK(open["ci95"][0] <= sensor["ci95"][0]);
+  CHECK(open["ci95"][1] >= friction["value"]);
+  CHECK(slipfit({"fit", demo, "--speed", "10mm/s", "--drift", "none"}).exit_code == 2);
+}

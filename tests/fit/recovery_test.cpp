@@ -234,6 +234,8 @@ TEST_CASE(
     INFO(name);
     const Estimate& e = parameter(before, name).estimate;
     CHECK(std::abs(*parameter(after, name).estimate.value / factor - *e.value) < 0.05 * *e.standard_error);
+    const bool is_of_units = has_warning(after, "implausible_units") != has_warning(before, "implausible_units");
+    if (is_of_units && name == std::string("stiffness_N_per_m")) return;  // it is conditional then
     CHECK(parameter(after, name).status == parameter(before, name).status);
   };
   check("stiffness_N_per_m", force_factor);  // force over V t

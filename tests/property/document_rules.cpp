@@ -35,9 +35,10 @@ bool is_share(std::string_view key) {
 }
 
 /// Times and frequencies by their unit, spreads and residuals by their name. The stretch that slides stands on the
-/// recording's own clock, which may begin anywhere.
+/// recording's own clock, which may begin anywhere; a level falls or rises.
 bool is_not_negative(std::string_view key) {
-  const bool by_unit = key.ends_with("_Hz") || (key.ends_with("_s") && key != "sliding_s") || key == "harmonics";
+  const bool is_signed = key == "sliding_s" || key == "value_N_per_s" || key == "value_per_s";
+  const bool by_unit = key.ends_with("_Hz") || (key.ends_with("_s") && !is_signed) || key == "harmonics";
   const bool by_name = key.find("_sd_") != key.npos || key.find("rms") != key.npos || key == "force_drop_N";
   return by_unit || by_name || is_share(key) ||
          std::find(kNotNegative.begin(), kNotNegative.end(), key) != kNotNegative.end();
@@ -75,6 +76,10 @@ class Walk {
       check_quantity({node["value"], node.value("se", json()), node.value("ci95", json())}, place);
     if (node.contains("value_Hz")) {
       check_quantity({node["value_Hz"], node.value("se_Hz", json()), node.value("ci95_Hz", json())}, place);
+    }
+    for (const char* const rate : {"value_N_per_s", "value_per_s"}) {
+      if (!node.contains(rate) || node[rate].is_null()) continue;
+      check_quantity({node[rate], node.value("se", json()), node.value("ci95", json())}, place);
     }
     if (node.contains("status") && node.contains("note")) check_status(node, place);
     for (const auto& [name, member] : node.items()) {

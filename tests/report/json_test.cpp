@@ -136,8 +136,8 @@ TEST_CASE("the keys stand in the order of the interface") {
   std::vector<std::string> keys;
   for (const auto& [key, value] : document.items()) keys.push_back(key);
   CHECK(keys == std::vector<std::string>{"schema", "version", "id", "recording", "status", "status_reason", "warnings",
-                                         "frequency", "cycles", "model", "parameters", "correlation", "derived",
-                                         "transients", "coefficients", "tests"});
+                                         "frequency", "cycles", "model", "parameters", "correlation", "level_trend",
+                                         "audit", "derived", "transients", "coefficients", "tests"});
 }
 
 TEST_CASE("one line for a file with one result a line") {

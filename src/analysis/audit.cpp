@@ -1,0 +1,260 @@
+#include "analysis/audit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/fit_thresholds.hpp"
+#include "core/student.hpp"
+
+namespace slipfit {
+namespace {
+
+using Id = ParameterId;
+
+struct Subject {
+  const Recording& recording;
+  const Analysis& analysis;
+
+  [[nodiscard]] Estimate parameter(Id id) const { return analysis.fit->estimate_of(id); }
+  [[nodiscard]] double speed_m_per_s() const { return recording.conditions().speed_m_per_s; }
+};
+
+/// A parameter is proportional to this power of the audited quantity.
+struct Concern {
+  Id id{};
+  double power = 1.0;
+};
+
+constexpr std::array kOfStiffness{Concern{Id::Stiffness}, Concern{Id::Mass}, Concern{Id::DampingCoefficient}};
+constexpr std::array kOfMass{Concern{Id::Mass}, Concern{Id::NaturalFrequency, -0.5}};
+
+/// Whether the middle three fifths of the rises are stick: from trough to stick, and from stick to peak, a slip takes
+/// up to atan(1 / lambda) / w_n, a quarter of its time at lambda = 1.
+bool has_long_sticks(const CycleStatistics& cycles) {
+  if (!cycles.slip_time_s) return true;  // not resolved: a jump
+  return cycles.stick_time_s && 0.2 * *cycles.stick_time_s > 0.25 * *cycles.slip_time_s;
+}
+
+/// Slope of the sticks over V without the drift in it, with an error by lines, whose phase is alike in all sticks where
+/// these are taken from the lowest to the highest force. Empty where the model's sticks are not straight, and of a
+/// contact sensor, whose fit states no drift.
+Estimate stiffness_by_sticks(const Subject& of) {
+  const FitResult& fit = *of.analysis.fit;
+  Estimate slope = of.analysis.cycles.stick_stiffness;
+  if (!slope.value || !slope.standard_error || !has_long_sticks(of.analysis.cycles)) return {};
+  if (fit.find(Id::ReloadLength) != nullptr || of.recording.conditions().force_view == ForceView::Contact) return {};
+  *slope.value -= fit.level_trend.in_sticks_per_s / of.speed_m_per_s();
+  const double by_lines = fit.diagnostics.stick_slope_by_lines / of.speed_m_per_s();
+  *slope.standard_error = std::hypot(*slope.standard_error, by_lines / kNormalQuantile);
+  slope.ci95.reset();
+  return slope;
+}
+
+/// The data give k V: k at the speed of the displacement.
+Estimate stiffness_by_displacement(const Subject& of) {
+  const std::optional<Estimate>& moved = of.recording.provenance().moved_m_per_s;
+  const Estimate k = of.parameter(Id::Stiffness);
+  if (!moved || !k.value) return {};
+  const double value = *k.value * of.speed_m_per_s() / *moved->value;
+  return {value, value * *moved->standard_error / *moved->value, std::nullopt, {}};
+}
+
+/// Drop over stick time and V, over w_n^2: the secant of the whole stick, whatever bends in it.
+Estimate mass_by_secant(const Subject& of) {
+  const CycleStatistics& cycles = of.analysis.cycles;
+  const Estimate omega = of.parameter(Id::NaturalFrequency);
+  const Estimate slope = cycles.stick_stiffness;
+  if (!omega.value || !omega.standard_error || !slope.value || !slope.standard_error || !cycles.force_drop ||
+      !cycles.stick_time_s || !has_long_sticks(cycles)) {
+    return {};
+  }
+  const double secant = *cycles.force_drop / (*cycles.stick_time_s * of.speed_m_per_s());
+  const double mass = secant / (*omega.value * *omega.value);
+  const double relative = std::hypot(*slope.standard_error / *slope.value, 2.0 * *omega.standard_error / *omega.value);
+  return {mass, mass * relative, std::nullopt, {}};
+}
+
+Estimate stated_mass(const Subject& of) {
+  const Conditions& conditions = of.recording.conditions();
+  if (!conditions.mass_kg || of.analysis.fit->mass_gives_frequency) return {};
+  constexpr double kUnstatedError = 0.02;  // Conditions::mass_standard_error_kg
+  const double error_kg = conditions.mass_standard_error_kg.value_or(kUnstatedError * *conditions.mass_kg);
+  return {*conditions.mass_kg, error_kg, std::nullopt, {}};
+}
+
+/// Empty where the spectrum's line is not that of the slips, or a harmonic of it.
+Estimate frequency_by_spectrum(const Subject& of) {
+  const FrequencyReport& report = of.analysis.frequency;
+  const SpectralFrequency& spectral = report.spectral;
+  const auto is_it = [&](const SuspiciousLine& line) { return line.frequency_Hz == spectral.value_Hz; };
+  if (!spectral.value_Hz || !report.quoted.value) return {};
+  if (std::any_of(report.lines.begin(), report.lines.end(), is_it)) return {};
+  if (std::lround(*spectral.value_Hz / *report.quoted.value) != 1) return {};
+  return {spectral.value_Hz, spectral.standard_error_Hz, std::nullopt, {}};
+}
+
+Estimate stiffness(const Subject& of) {
+  return of.parameter(Id::Stiffness);
+}
+Estimate quoted(const Subject& of) {
+  return of.analysis.frequency.quoted;
+}
+Estimate counted(const Subject& of) {
+  return of.analysis.frequency.counted;
+}
+
+/// A pair of quantities that are the same: where the document has each, and the parameters that a contradiction puts in
+/// question (none: the quoted frequency).
+struct Row {
+  std::string_view pair, first_of, second_of;
+  std::span<const Concern> concerns;
+  Estimate (*first)(const Subject&);
+  Estimate (*second)(const Subject&);
+  ParameterStatus highest = ParameterStatus::Weak;
+};
+
+constexpr std::array kRows = std::to_array<Row>({
+    {"stiffness_and_sticks", "parameters.stiffness_N_per_m", "cycles.stick_stiffness_N_per_m", kOfStiffness, stiffness,
+     stiffness_by_sticks},
+    {"stiffness_by_displacement", "parameters.stiffness_N_per_m", "parameters.stiffness_N_per_m by displacement",
+     kOfStiffness, stiffness, stiffness_by_displacement, ParameterStatus::Conditional},
+    {"mass_and_stated_mass", "secant of the sticks / w_n^2", "recording.mass_kg", kOfMass, mass_by_secant, stated_mass},
+    {"frequency_and_count", "frequency.value_Hz", "frequency.counted", {}, quoted, counted},
+    {"frequency_and_spectrum", "frequency.value_Hz", "frequency.spectral", {}, quoted, frequency_by_spectrum},
+});
+
+const Row& row_of(const AuditPair& pair) {
+  return *std::find_if(kRows.begin(), kRows.end(), [&](const Row& row) { return row.pair == pair.pair; });
+}
+
+bool has_error(const Estimate& estimate) {
+  return estimate.value && (estimate.standard_error || estimate.ci95);
+}
+
+/// Standard error on the side of another value: an interval may be longer there.
+double error_towards(const Estimate& estimate, double other) {
+  if (!estimate.ci95) return *estimate.standard_error;
+  const double reach =
+      other > *estimate.value ? estimate.ci95->high - *estimate.value : *estimate.value - estimate.ci95->low;
+  return std::max(reach / kNormalQuantile, 0.0);
+}
+
+bool contradict(const Estimate& first, const Estimate& second) {
+  const double difference = std::abs(*first.value - *second.value);
+  const double error = std::hypot(error_towards(first, *second.value), error_towards(second, *first.value));
+  return difference > thresholds::kAuditSigmas * error &&
+         difference > thresholds::kAuditShare * std::min(std::abs(*first.value), std::abs(*second.value));
+}
+
+void include(Estimate& estimate, double value) {
+  if (!estimate.value) return;
+  const Interval ci95 = estimate.ci95.value_or(Interval{*estimate.value, *estimate.value});
+  estimate.ci95 = Interval{std::min(ci95.low, value), std::max(ci95.high, value)};
+  const double reach = std::max(estimate.ci95->high - *estimate.value, *estimate.value - estimate.ci95->low);
+  estimate.standard_error = std::max(estimate.standard_error.value_or(0.0), reach / kNormalQuantile);
+}
+
+void append(std::string& note, const std::string& more) {
+  note += (note.empty() ? "" : "; ") + more;
+}
+
+/// Never a higher status.
+void lower(Parameter& parameter, ParameterStatus highest) {
+  const bool is_higher = parameter.status == ParameterStatus::Identified ||
+                         (parameter.status == ParameterStatus::Conditional && highest == ParameterStatus::Weak);
+  if (is_higher) parameter.status = highest;
+}
+
+std::string sentence_of(const AuditPair& pair) {
+  return fmt::format("{} is {:.4g}, {} gives {:.4g}", pair.first_of, *pair.first.value, pair.second_of,
+                     *pair.second.value);
+}
+
+/// The model's covariance with the way to the other value.
+void widen(ModelEstimate& model, std::span<const Concern> concerns, double log_ratio) {
+  std::array<double, kModelValues> move{};
+  for (const Concern& concern : concerns) {
+    const std::size_t place = place_in_model(concern.id);
+    if (place < kModelValues) move[place] = concern.power * log_ratio / kNormalQuantile;
+  }
+  for (std::size_t i = 0; i < kModelValues; ++i) {
+    for (std::size_t j = 0; j < kModelValues; ++j) model.covariance[i][j] += move[i] * move[j];
+  }
+}
+
+}  // namespace
+
+std::vector<AuditPair> audit_of(const Recording& recording, const Analysis& analysis) {
+  std::vector<AuditPair> pairs;
+  if (analysis.motion != MotionClass::StickSlip || !analysis.fit) return pairs;
+  const Subject subject{recording, analysis};
+  for (const Row& row : kRows) {
+    AuditPair pair{std::string(row.pair), std::string(row.first_of), std::string(row.second_of), row.first(subject),
+                   row.second(subject)};
+    if (!has_error(pair.first) || !has_error(pair.second)) continue;
+    pair.contradicts = contradict(pair.first, pair.second);
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs) {
+  for (const AuditPair& pair : pairs) {
+    if (!pair.contradicts) continue;
+    const Row& row = row_of(pair);
+    const double ratio = *pair.second.value / *pair.first.value;
+    for (const Concern& concern : row.concerns) {
+      for (Parameter& parameter : fit.parameters) {
+        if (parameter.id != concern.id || parameter.status == ParameterStatus::Fixed) continue;
+        lower(parameter, row.highest);
+        if (ratio > 0.0 && parameter.estimate.value) {
+          include(parameter.estimate, *parameter.estimate.value * std::pow(ratio, concern.power));
+        }
+        append(parameter.estimate.note, "contradicted: " + sentence_of(pair));
+      }
+    }
+    if (fit.estimate && ratio > 0.0) widen(*fit.estimate, row.concerns, std::log(ratio));
+  }
+  return fit;
+}
+
+FrequencyReport with_audit(FrequencyReport frequency, const std::vector<AuditPair>& pairs) {
+  for (const AuditPair& pair : pairs) {
+    if (pair.contradicts && row_of(pair).concerns.empty()) include(frequency.quoted, *pair.second.value);
+  }
+  return frequency;
+}
+
+Warnings warn_of(const std::vector<AuditPair>& pairs) {
+  Warnings warnings;
+  for (const AuditPair& pair : pairs) {
+    if (pair.contradicts) warnings.push_back({"values_contradict", sentence_of(pair) + ": the intervals include both"});
+  }
+  return warnings;
+}
+
+FitResult limited_by(const Warnings& warnings, FitResult fit) {
+  constexpr std::array kDoubts{"implausible_units", "speed_differs_from_displacement", "speed_differs"};
+  constexpr std::array kDoubted{Id::Stiffness, Id::StiffnessExponent, Id::Mass, Id::DampingCoefficient};
+  for (const char* const code : kDoubts) {
+    const auto has_code = [&](const Warning& warning) { return warning.code == code; };
+    if (std::none_of(warnings.begin(), warnings.end(), has_code)) continue;
+    for (Parameter& parameter : fit.parameters) {
+      const bool is_doubted = std::find(kDoubted.begin(), kDoubted.end(), parameter.id) != kDoubted.end();
+      if (!is_doubted || parameter.status != ParameterStatus::Identified) continue;
+      parameter.status = ParameterStatus::Conditional;
+      append(parameter.estimate.note, fmt::format("see the warning {}", code));
+    }
+  }
+  return fit;
+}
+
+}  // namespace slipfit

@@ -1,0 +1,112 @@
+#include "analysis/audit.hpp"
+
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "core/student.hpp"
+
+namespace slipfit {
+namespace {
+
+Recording recording_at(double speed_m_per_s, std::optional<Estimate> moved_m_per_s = {}) {
+  Conditions conditions;
+  conditions.speed_m_per_s = speed_m_per_s;
+  Provenance provenance;
+  provenance.moved_m_per_s = std::move(moved_m_per_s);
+  return Recording::create({0.0, 1.0, 2.0}, {1.0, 2.0, 1.0}, conditions, provenance).value();
+}
+
+/// Stick-slip with k = 5000 N/m, m = 6 g, and sticks of this slope over V.
+Analysis analysis_with(double stick_stiffness_N_per_m) {
+  FitResult fit;
+  fit.parameters = {{ParameterId::Stiffness, symmetric(5000.0, 2.0), ParameterStatus::Identified},
+                    {ParameterId::FrictionDifference, symmetric(1.0, 0.01), ParameterStatus::Conditional},
+                    {ParameterId::NaturalFrequency, symmetric(900.0, 1.0), ParameterStatus::Identified},
+                    {ParameterId::Mass, symmetric(6e-3, 1e-5), ParameterStatus::Identified}};
+  Analysis analysis;
+  analysis.motion = MotionClass::StickSlip;
+  analysis.fit = fit;
+  analysis.cycles.slip_time_s = 4e-3;
+  analysis.cycles.stick_time_s = 0.04;
+  analysis.cycles.stick_stiffness = symmetric(stick_stiffness_N_per_m, 3.0);
+  return analysis;
+}
+
+const Parameter& of(const FitResult& fit, ParameterId id) {
+  REQUIRE(fit.find(id) != nullptr);
+  return *fit.find(id);
+}
+
+}  // namespace
+
+TEST_CASE("k that the slope of the sticks contradicts is not identified, and its interval includes both") {
+  const Recording recording = recording_at(0.01);
+  const Analysis analysis = analysis_with(4000.0);
+  const std::vector<AuditPair> pairs = audit_of(recording, analysis);
+  REQUIRE(pairs.size() == 1);
+  CHECK(pairs.front().pair == "stiffness_and_sticks");
+  CHECK(pairs.front().contradicts);
+  const FitResult fit = with_audit(*analysis.fit, pairs);
+  CHECK(of(fit, ParameterId::Stiffness).status == ParameterStatus::Weak);
+  CHECK(of(fit, ParameterId::Stiffness).estimate.ci95->low == Approx(4000.0));
+  CHECK(of(fit, ParameterId::Mass).estimate.ci95->low == Approx(4.8e-3));
+  CHECK(of(fit, ParameterId::NaturalFrequency).status == ParameterStatus::Identified);
+  REQUIRE(warn_of(pairs).size() == 1);
+  CHECK(warn_of(pairs).front().code == "values_contradict");
+}
+
+TEST_CASE("values that agree within 4 standard errors, or 1 %, contradict nothing") {
+  const Recording recording = recording_at(0.01);
+  for (const double slope : {5000.0, 5012.0, 5045.0, 4955.0}) {  // 13.9 N/m are 4 errors, 50 are 1 %
+    const std::vector<AuditPair> pairs = audit_of(recording, analysis_with(slope));
+    REQUIRE(pairs.size() == 1);
+    CHECK_FALSE(pairs.front().contradicts);
+  }
+}
+
+TEST_CASE("the slope of the sticks is compared without the drift that the fit has") {
+  Analysis analysis = analysis_with(5200.0);
+  analysis.fit->level_trend.in_sticks_per_s = 2.0;  // 200 N/m at 10 mm/s
+  const std::vector<AuditPair> pairs = audit_of(recording_at(0.01), analysis);
+  REQUIRE(pairs.size() == 1);
+  CHECK(*pairs.front().second.value == Approx(5000.0));
+  CHECK_FALSE(pairs.front().contradicts);
+}
+
+TEST_CASE("k by the displacement makes k conditional where the two speeds differ") {
+  const Estimate moved{0.0095, 1e-6, std::nullopt, {}};
+  const Analysis analysis = analysis_with(5000.0);
+  const std::vector<AuditPair> pairs = audit_of(recording_at(0.01, moved), analysis);
+  REQUIRE(pairs.size() == 2);
+  CHECK(pairs.back().pair == "stiffness_by_displacement");
+  const FitResult fit = with_audit(*analysis.fit, pairs);
+  CHECK(of(fit, ParameterId::Stiffness).status == ParameterStatus::Conditional);
+  CHECK(of(fit, ParameterId::Stiffness).estimate.ci95->high == Approx(5000.0 / 0.95));
+}
+
+TEST_CASE("short sticks have no slope to compare") {
+  Analysis analysis = analysis_with(4000.0);
+  analysis.cycles.stick_time_s = 4e-3;
+  CHECK(audit_of(recording_at(0.01), analysis).empty());
+}
+
+TEST_CASE("only stick-slip with a fit is audited") {
+  Analysis analysis = analysis_with(4000.0);
+  analysis.motion = MotionClass::Undetermined;
+  CHECK(audit_of(recording_at(0.01), analysis).empty());
+}
+
+TEST_CASE("beside a warning that doubts the speed or the units, k, m and c are conditional") {
+  const FitResult fit = *analysis_with(5000.0).fit;
+  for (const char* const code : {"speed_differs_from_displacement", "speed_differs", "implausible_units"}) {
+    CAPTURE(code);
+    const FitResult limited = limited_by({{code, ""}}, fit);
+    CHECK(of(limited, ParameterId::Stiffness).status == ParameterStatus::Conditional);
+    CHECK(of(limited, ParameterId::Mass).status == ParameterStatus::Conditional);
+    CHECK(of(limited, ParameterId::NaturalFrequency).status == ParameterStatus::Identified);
+  }
+  CHECK(of(limited_by({{"gaps", ""}}, fit), ParameterId::Stiffness).status == ParameterStatus::Identified);
+}
+
+}  // namespace slipfit
