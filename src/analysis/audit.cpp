@@ -67,7 +67,9 @@ Estimate stiffness_by_displacement(const Subject& of) {
   return {value, value * *moved->standard_error / *moved->value, std::nullopt, {}};
 }
 
-/// Drop over stick time and V, over w_n^2: the secant of the whole stick, whatever bends in it.
+/// Drop over stick time and V, over w_n^2: the secant of the whole stick, whatever bends in it. Noise raises the
+/// highest sample and lowers the lowest one: the drop is too large by about twice the noise, which are two of its
+/// standard errors here.
 Estimate mass_by_secant(const Subject& of) {
   const CycleStatistics& cycles = of.analysis.cycles;
   const Estimate omega = of.parameter(Id::NaturalFrequency);
@@ -78,7 +80,9 @@ Estimate mass_by_secant(const Subject& of) {
   }
   const double secant = *cycles.force_drop / (*cycles.stick_time_s * of.speed_m_per_s());
   const double mass = secant / (*omega.value * *omega.value);
-  const double relative = std::hypot(*slope.standard_error / *slope.value, 2.0 * *omega.standard_error / *omega.value);
+  const double of_slope = *slope.standard_error / *slope.value;
+  const double of_omega = 2.0 * *omega.standard_error / *omega.value;
+  const double relative = std::hypot(of_slope, of_omega, of.analysis.quality.noise_rms / *cycles.force_drop);
   return {mass, mass * relative, std::nullopt, {}};
 }
 

@@ -115,7 +115,7 @@ def refuse_constant(name):
 
 
 NO_NUMBER = re.compile(r"(?<!\w)(inf|nan)(?!\w)")
-MAY_BE_NEGATIVE = re.compile(r"_force_N$|^(static|kinetic)_friction|^(clip|zero)_|^f[01]_N$|^mu[01]$|^alpha|^friction_slope|^ageing_N$|_En$|^(mean_steady|measured)")
+MAY_BE_NEGATIVE = re.compile(r"_force_N$|^(static|kinetic)_friction|^(clip|zero)_|^f[01]_N$|^mu[01]$|^alpha|^friction_slope|^ageing_N$|_En$|^(mean_steady|measured)|^level_trend$")
 
 
 ANY_MAY_BE_NEGATIVE = re.compile("")

@@ -19,11 +19,11 @@ std::string note_on_stiffness(const TrendFindings& trend) {
 const char* words_for(LevelReading reading) {
   switch (reading) {
     case LevelReading::Sensor:
-      return "drift of the sensor";
+      return "the sensor drifts";
     case LevelReading::Friction:
-      return "a change of the friction";
+      return "the friction changes";
     default:
-      return "drift of the sensor or a change of the friction: state which with --drift sensor or --drift friction";
+      return "the sensor drifts or the friction changes (--drift sensor or --drift friction states which)";
   }
 }
 
@@ -50,7 +50,7 @@ void state_trend(const TrendFindings& trend, const Conditions& conditions, Findi
   findings.level_trend = trend.trend;
   if (of_stiffness.empty() && findings.level_doubt.empty()) return;
   std::string message =
-      fmt::format("the force level {}, {}", words_for_rate(trend.trend, unit), words_for(trend.trend.reading));
+      fmt::format("the force level {}: {}", words_for_rate(trend.trend, unit), words_for(trend.trend.reading));
   if (!of_stiffness.empty()) message += "; " + of_stiffness;
   findings.warnings.push_back({"level_trend", std::move(message)});
   if (findings.stiffness_note.empty()) findings.stiffness_note = std::move(of_stiffness);

@@ -21,6 +21,9 @@ FitResult without_parameters(FitResult fit) {
   }
   fit.correlation.reset();
   fit.estimate.reset();
+  fit.level_trend = {};
+  const auto is_trend = [](const Warning& warning) { return warning.code == "level_trend"; };
+  fit.warnings.erase(std::remove_if(fit.warnings.begin(), fit.warnings.end(), is_trend), fit.warnings.end());
   for (Warning& warning : fit.warnings) {  // how far off it is says nothing where it is another motion
     if (warning.code != "model_misfit") continue;
     warning.message = "the model does not describe the slips: no parameter is determined";
