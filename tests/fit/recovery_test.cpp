@@ -180,6 +180,8 @@ TEST_CASE("sticks that bend widen the interval of the stiffness and are warned o
   CHECK_FALSE(warned(plain));
   CHECK(warned(creeping));
   CHECK(width(creeping) > 10.0 * width(plain));
+  CHECK(parameter(plain, "stiffness_N_per_m").status == ParameterStatus::Identified);
+  CHECK(parameter(creeping, "stiffness_N_per_m").status == ParameterStatus::Weak);
 }
 
 TEST_CASE("held parameters stay where they are put") {

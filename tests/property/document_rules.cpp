@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <initializer_list>
 #include <string_view>
 
 namespace test {
@@ -110,11 +111,40 @@ class Walk {
   }
 };
 
+/// Parameters that are identified beside a warning that puts them in question, or outside of a contradicting value.
+std::vector<std::string> contradictions_of(const json& document) {
+  std::vector<std::string> breaches;
+  if (!document.is_object() || !document.contains("warnings") || !document.contains("parameters")) return breaches;
+  const json& parameters = document["parameters"];
+  const auto check = [&](const std::string& why, std::initializer_list<const char*> names) {
+    for (const char* const name : names) {
+      if (parameters.contains(name) && parameters[name]["status"] == "identified") {
+        breaches.push_back(std::string(name) + " identified beside " + why);
+      }
+    }
+  };
+  for (const json& warning : document["warnings"]) {
+    const auto code = warning["code"].get<std::string>();
+    if (code == "implausible_units" || code.starts_with("speed_differs")) {
+      check(code, {"stiffness_N_per_m", "mass_kg", "damping_coefficient_N_s_per_m"});
+    }
+    if (code == "model_misfit") check(code, {"natural_frequency_rad_per_s", "mass_kg", "damping_ratio"});
+  }
+  for (const json& pair : document.value("audit", json::array())) {
+    if (pair["contradicts"] && pair["pair"].get<std::string>().starts_with("stiffness")) {
+      check(pair["pair"].get<std::string>(), {"stiffness_N_per_m", "mass_kg"});
+    }
+  }
+  return breaches;
+}
+
 }  // namespace
 
 std::vector<std::string> breaches_of(const json& document) {
   Walk walk;
   walk.visit(document, "", "document");
+  const std::vector<std::string> more = contradictions_of(document);
+  walk.breaches.insert(walk.breaches.end(), more.begin(), more.end());
   return walk.breaches;
 }
 

@@ -145,7 +145,7 @@ def test_shortcuts(demo_fit):
     assert demo_fit.friction_difference.status == "conditional" and demo_fit.friction_difference.note
     assert demo_fit.natural_frequency.se > 0 and demo_fit.frequency.unit == "Hz"
     assert demo_fit.pattern_spacing.value == pytest.approx(0.01 / demo_fit.frequency.value, rel=1e-12)
-    assert demo_fit.warnings[0].code == "hum_fitted" and demo_fit.status == "stick_slip"
+    assert [warning.code for warning in demo_fit.warnings] == ["level_trend", "hum_fitted"] and demo_fit.status == "stick_slip"
     frame = demo_fit.to_frame()
     assert frame.loc["stiffness_N_per_m", "value"] == demo_fit.stiffness.value
     assert frame.loc["damping_ratio", "status"] == "conditional"
