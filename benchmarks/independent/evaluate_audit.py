@@ -11,7 +11,7 @@ import collections
 import command_line
 from evaluate import analysed
 
-CHECKS = {"stiffness_and_sticks": "stiffness_N_per_m", "stiffness_by_displacement": "stiffness_N_per_m",
+CHECKS = {"stiffness_and_sticks": "stiffness_N_per_m", "speed_and_displacement": "stiffness_N_per_m",
           "mass_and_stated_mass": "natural_frequency_rad_per_s", "frequency_and_count": None, "frequency_and_spectrum": None}
 
 

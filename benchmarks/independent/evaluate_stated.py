@@ -17,7 +17,7 @@ import numpy as np
 import command_line
 
 CONCERNS = {"mass_and_stated_mass": ("mass_kg", "natural_frequency_rad_per_s"),
-            "stiffness_by_displacement": ("stiffness_N_per_m", "mass_kg", "damping_coefficient_N_s_per_m")}
+            "speed_and_displacement": ("stiffness_N_per_m", "mass_kg", "damping_coefficient_N_s_per_m")}
 
 
 def fitted(program, file, truth, *options):
@@ -45,7 +45,7 @@ def analysed(program, folder, truth):
     with tempfile.TemporaryDirectory() as scratch:
         for factor in (1.0, 1.03, 1000.0):
             moved = with_displacement(file, pathlib.Path(scratch) / "moved.csv", truth, factor)
-            documents["stiffness_by_displacement", factor] = fitted(program, moved, truth)
+            documents["speed_and_displacement", factor] = fitted(program, moved, truth)
     return documents
 
 

@@ -34,6 +34,9 @@ struct Concern {
 };
 
 constexpr std::array kOfStiffness{Concern{Id::Stiffness}, Concern{Id::Mass}, Concern{Id::DampingCoefficient}};
+/// The data give k V.
+constexpr std::array kOfSpeed{Concern{Id::Stiffness, -1.0}, Concern{Id::Mass, -1.0},
+                              Concern{Id::DampingCoefficient, -1.0}};
 constexpr std::array kOfMass{Concern{Id::Mass}, Concern{Id::NaturalFrequency, -0.5}};
 
 /// Whether the middle three fifths of the rises are stick: from trough to stick, and from stick to peak, a slip takes
@@ -58,13 +61,13 @@ Estimate stiffness_by_sticks(const Subject& of) {
   return slope;
 }
 
-/// The data give k V: k at the speed of the displacement.
-Estimate stiffness_by_displacement(const Subject& of) {
-  const std::optional<Estimate>& moved = of.recording.provenance().moved_m_per_s;
-  const Estimate k = of.parameter(Id::Stiffness);
-  if (!moved || !k.value) return {};
-  const double value = *k.value * of.speed_m_per_s() / *moved->value;
-  return {value, value * *moved->standard_error / *moved->value, std::nullopt, {}};
+Estimate stated_speed(const Subject& of) {
+  const double error = of.recording.conditions().speed_standard_error_m_per_s.value_or(0.0);
+  return {of.speed_m_per_s(), error, std::nullopt, {}};
+}
+
+Estimate speed_of_displacement(const Subject& of) {
+  return of.recording.provenance().moved_m_per_s.value_or(Estimate{});
 }
 
 /// Drop over stick time and V, over w_n^2: the secant of the whole stick, whatever bends in it. Noise raises the
@@ -128,8 +131,8 @@ struct Row {
 constexpr std::array kRows = std::to_array<Row>({
     {"stiffness_and_sticks", "parameters.stiffness_N_per_m", "cycles.stick_stiffness_N_per_m", kOfStiffness, stiffness,
      stiffness_by_sticks},
-    {"stiffness_by_displacement", "parameters.stiffness_N_per_m", "parameters.stiffness_N_per_m by displacement",
-     kOfStiffness, stiffness, stiffness_by_displacement, ParameterStatus::Conditional},
+    {"speed_and_displacement", "recording.speed_m_per_s", "speed of the displacement column", kOfSpeed, stated_speed,
+     speed_of_displacement, ParameterStatus::Conditional},
     {"mass_and_stated_mass", "secant of the sticks / w_n^2", "recording.mass_kg", kOfMass, mass_by_secant, stated_mass},
     {"frequency_and_count", "frequency.value_Hz", "frequency.counted", {}, quoted, counted},
     {"frequency_and_spectrum", "frequency.value_Hz", "frequency.spectral", {}, quoted, frequency_by_spectrum},
@@ -178,7 +181,7 @@ void lower(Parameter& parameter, ParameterStatus highest) {
 }
 
 std::string sentence_of(const AuditPair& pair) {
-  return fmt::format("{} is {:.4g}, {} gives {:.4g}", pair.first_of, *pair.first.value, pair.second_of,
+  return fmt::format("{} is {:.4g}, {} is {:.4g}", pair.first_of, *pair.first.value, pair.second_of,
                      *pair.second.value);
 }
 

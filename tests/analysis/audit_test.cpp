@@ -79,7 +79,7 @@ TEST_CASE("k by the displacement makes k conditional where the two speeds differ
   const Analysis analysis = analysis_with(5000.0);
   const std::vector<AuditPair> pairs = audit_of(recording_at(0.01, moved), analysis);
   REQUIRE(pairs.size() == 2);
-  CHECK(pairs.back().pair == "stiffness_by_displacement");
+  CHECK(pairs.back().pair == "speed_and_displacement");
   const FitResult fit = with_audit(*analysis.fit, pairs);
   CHECK(of(fit, ParameterId::Stiffness).status == ParameterStatus::Conditional);
   CHECK(of(fit, ParameterId::Stiffness).estimate.ci95->high == Approx(5000.0 / 0.95));

@@ -131,7 +131,8 @@ std::vector<std::string> contradictions_of(const json& document) {
     if (code == "model_misfit") check(code, {"natural_frequency_rad_per_s", "mass_kg", "damping_ratio"});
   }
   for (const json& pair : document.value("audit", json::array())) {
-    if (pair["contradicts"] && pair["pair"].get<std::string>().starts_with("stiffness")) {
+    const bool is_of_stiffness = pair["pair"] == "stiffness_and_sticks" || pair["pair"] == "speed_and_displacement";
+    if (pair["contradicts"] && is_of_stiffness) {
       check(pair["pair"].get<std::string>(), {"stiffness_N_per_m", "mass_kg"});
     }
   }
