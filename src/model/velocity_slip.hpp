@@ -21,8 +21,8 @@ struct SlipAccuracy {
 };
 /// The end of slip to 1e-10, derivatives to 1e-9.
 inline constexpr SlipAccuracy kExact{1e-13, 20000};
-/// To 1e-7, all that fits need: they solve many thousand slips.
-inline constexpr SlipAccuracy kForFits{1e-7, 20000};
+/// To 1e-7, all that fits need: they solve many thousand slips, a stiff one in half a millisecond at most.
+inline constexpr SlipAccuracy kForFits{1e-7, 1000};
 
 /// The speed turns at most once in a step: a third of the half turn in which it does.
 inline constexpr double kLongestStep = 1.0;
@@ -96,7 +96,9 @@ class SlipWalker {
     double worst = std::max(std::abs(series.s[n]), std::abs(series.v[n])) / (1.0 + slip_.lambda);
     if constexpr (kWithGradient) {
       for (std::size_t p = 0; p < kScaledParameters; ++p) {
-        const double term = std::max(std::abs(series.ds[n][p]), std::abs(series.dv[n][p])) / sizes_[p];
+        // What has grown by an exponential is followed by its own size.
+        const double size = std::max(sizes_[p], std::abs(series.ds[0][p]) + std::abs(series.dv[0][p]));
+        const double term = std::max(std::abs(series.ds[n][p]), std::abs(series.dv[n][p])) / size;
         if (!(term <= worst)) worst = term;  // NaN, too
       }
     }

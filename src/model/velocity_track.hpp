@@ -34,7 +34,8 @@ struct TrackEnd {
 /// its smallest sliding speed, as Slip does.
 class VelocityTrack {
  public:
-  /// Empty where the slip has no start (z0 + 2 zeta <= 0), is not finite, runs away, or settles without turning back.
+  /// Empty where the slip has no start (z0 + 2 zeta <= 0), is not finite, runs away, settles without turning back, or
+  /// is stiffer than any that a recording shows: friction that grows by more than exp(10) within the slip.
   static std::optional<VelocityTrack> solve(double z0, double zeta, double slope, double rate) {
     return solve(z0, zeta, ScaledLaw{slope, rate});
   }
