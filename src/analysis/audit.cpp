@@ -13,6 +13,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/student.hpp"
+#include "core/unknown.hpp"
 
 namespace slipfit {
 namespace {
@@ -92,8 +93,7 @@ Estimate mass_by_secant(const Subject& of) {
 Estimate stated_mass(const Subject& of) {
   const Conditions& conditions = of.recording.conditions();
   if (!conditions.mass_kg || of.analysis.fit->mass_gives_frequency) return {};
-  constexpr double kUnstatedError = 0.02;  // Conditions::mass_standard_error_kg
-  const double error_kg = conditions.mass_standard_error_kg.value_or(kUnstatedError * *conditions.mass_kg);
+  const double error_kg = conditions.mass_standard_error_kg.value_or(thresholds::kUsualMassError * *conditions.mass_kg);
   return {*conditions.mass_kg, error_kg, std::nullopt, {}};
 }
 
@@ -169,10 +169,6 @@ void include(Estimate& estimate, double value) {
   estimate.standard_error = std::max(estimate.standard_error.value_or(0.0), reach / kNormalQuantile);
 }
 
-void append(std::string& note, const std::string& more) {
-  note += (note.empty() ? "" : "; ") + more;
-}
-
 /// Never a higher status.
 void lower(Parameter& parameter, ParameterStatus highest) {
   const bool is_higher = parameter.status == ParameterStatus::Identified ||
@@ -225,7 +221,7 @@ FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs) {
         if (ratio > 0.0 && parameter.estimate.value) {
           include(parameter.estimate, *parameter.estimate.value * std::pow(ratio, concern.power));
         }
-        append(parameter.estimate.note, "contradicted: " + sentence_of(pair));
+        add_note(parameter.estimate.note, "contradicted: " + sentence_of(pair));
       }
     }
     if (fit.estimate && ratio > 0.0) widen(*fit.estimate, row.concerns, std::log(ratio));
@@ -258,7 +254,7 @@ FitResult limited_by(const Warnings& warnings, FitResult fit) {
       const bool is_doubted = std::find(kDoubted.begin(), kDoubted.end(), parameter.id) != kDoubted.end();
       if (!is_doubted || parameter.status != ParameterStatus::Identified) continue;
       parameter.status = ParameterStatus::Conditional;
-      append(parameter.estimate.note, fmt::format("see the warning {}", code));
+      add_note(parameter.estimate.note, fmt::format("see the warning {}", code));
     }
   }
   return fit;

@@ -138,6 +138,9 @@ inline constexpr double kAuditSigmas = 4.0;
 /// [1; convention]
 inline constexpr double kAuditShare = 0.01;
 
+/// Relative standard error of a mass that is stated without one (Conditions::mass_standard_error_kg). [1; convention]
+inline constexpr double kUsualMassError = 0.02;
+
 /// Chance at which a line in the sticks is none. [1; convention]
 inline constexpr double kRippleChance = 1e-6;
 

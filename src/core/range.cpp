@@ -4,12 +4,10 @@
 #include <cmath>
 #include <string>
 
+#include "core/unknown.hpp"
+
 namespace slipfit {
 namespace {
-
-void add_note(Estimate& estimate, const std::string& reason) {
-  estimate.note += (estimate.note.empty() ? "" : "; ") + reason;
-}
 
 /// Where the range ends, and around the value.
 std::optional<Interval> cut(const Interval& interval, const std::optional<double>& value, const Range& range) {
@@ -39,14 +37,14 @@ Estimate within(Estimate estimate, const Range& range) {
   const bool had_interval = estimate.ci95.has_value();
   estimate.value = within(estimate.value, range);
   if (had_value && !estimate.value) {
-    add_note(estimate, "the data give no finite value that is possible for it");
+    add_note(estimate.note, "the data give no finite value that is possible for it");
     estimate.standard_error = std::nullopt;
     estimate.ci95 = std::nullopt;
     return estimate;
   }
   estimate.standard_error = estimate.value ? within(estimate.standard_error, kNotNegative) : std::nullopt;
   if (had_interval) estimate.ci95 = cut(*estimate.ci95, estimate.value, range);
-  if (had_interval && !estimate.ci95) add_note(estimate, "the data give no finite interval");
+  if (had_interval && !estimate.ci95) add_note(estimate.note, "the data give no finite interval");
   return estimate;
 }
 

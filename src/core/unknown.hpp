@@ -13,4 +13,9 @@ inline Estimate unknown(std::string why) {
   return {std::nullopt, std::nullopt, std::nullopt, std::move(why)};
 }
 
+/// Appends a text to those that a note has already.
+inline void add_note(std::string& note, const std::string& text) {
+  note += (note.empty() ? "" : "; ") + text;
+}
+
 }  // namespace slipfit

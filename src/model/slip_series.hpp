@@ -12,13 +12,13 @@
 
 namespace slipfit::model {
 
-/// With steps of at most one radian the terms beyond are below 1e-12 of an undisturbed swing.
+/// In a step of at most one radian the terms of higher order are below 1e-12 of an undisturbed swing.
 inline constexpr std::size_t kSeriesOrder = 14;
 
 /// Coefficients of the powers of the time since the instant.
 using Series = std::array<double, kSeriesOrder + 1>;
 
-/// 1 / n, as divisions take longer than all the rest.
+/// This table holds 1 / n: divisions would take longer than the rest of an integral.
 inline constexpr auto kReciprocals = [] {
   std::array<double, kSeriesOrder + 2> reciprocals{};
   for (std::size_t n = 1; n < reciprocals.size(); ++n) reciprocals[n] = 1.0 / static_cast<double>(n);
@@ -37,7 +37,7 @@ inline double slope_of(const Series& series, double time) {
   return value;
 }
 
-/// Integral from the instant on.
+/// The integral of the series over so much time from the instant on.
 inline double integral_of(const Series& series, double time) {
   double value = 0.0;
   for (std::size_t n = kSeriesOrder + 1; n > 0; --n) value = (value + series[n - 1] * kReciprocals[n]) * time;
@@ -57,6 +57,16 @@ inline ScaledGradient value_of(const GradientSeries& series, double time) {
   return value;
 }
 
+inline ScaledGradient slope_of(const GradientSeries& series, double time) {
+  ScaledGradient value{};
+  for (std::size_t n = kSeriesOrder; n > 0; --n) {
+    for (std::size_t p = 0; p < kScaledParameters; ++p) {
+      value[p] = value[p] * time + static_cast<double>(n) * series[n][p];
+    }
+  }
+  return value;
+}
+
 inline ScaledGradient integral_of(const GradientSeries& series, double time) {
   ScaledGradient value{};
   for (std::size_t n = kSeriesOrder + 1; n > 0; --n) {
@@ -67,7 +77,7 @@ inline ScaledGradient integral_of(const GradientSeries& series, double time) {
   return value;
 }
 
-/// Where a slip is: s and v, and their derivatives at a fixed time.
+/// The state of a slip: s and v, and their derivatives at a fixed time.
 struct SlipState {
   double s = 0.0, v = 0.0;
   ScaledGradient ds{}, dv{};

@@ -19,9 +19,9 @@ struct SlipAccuracy {
   double tolerance;  ///< of the last terms of a step, over the size of each component
   int most_steps;    ///< an ordinary slip needs 4 to 20; one that needs more than these has no solution
 };
-/// The end of slip to 1e-10, derivatives to 1e-9.
+/// This gives the end of slip to 1e-10 and derivatives to 1e-9.
 inline constexpr SlipAccuracy kExact{1e-13, 20000};
-/// To 1e-7, all that fits need: they solve many thousand slips, a stiff one in half a millisecond at most.
+/// Fits need 1e-7 only, and solve many thousand slips: this bounds a stiff one to half a millisecond.
 inline constexpr SlipAccuracy kForFits{1e-7, 1000};
 
 /// The speed turns at most once in a step: a third of the half turn in which it does.

@@ -7,47 +7,67 @@
 
 namespace slipfit::model {
 
+namespace {
+
+TrackValue track_value(double value, const ScaledGradient& by) {
+  return {value, by[0], by[1], by[2], by[3]};
+}
+
+/// 1 - v and -v' are z' and z'': their derivatives are those of v and v' with the other sign.
+ScaledGradient negative(ScaledGradient gradient) {
+  for (double& derivative : gradient) derivative = -derivative;
+  return gradient;
+}
+
+/// Adds 2 zeta z', or its integral, with its derivatives: the part of the damper.
+void add_drag(const TrackPoint& slope, double zeta, TrackPoint& point) {
+  const double drag = 2.0 * zeta;
+  point.z += drag * slope.z;
+  point.d_z0 += drag * slope.d_z0;
+  point.d_zeta += drag * slope.d_zeta + 2.0 * slope.z;
+  point.d_slope += drag * slope.d_slope;
+  point.d_rate += drag * slope.d_rate;
+}
+
+}  // namespace
+
 std::optional<VelocityTrack> VelocityTrack::solve(double z0, double zeta, const ScaledLaw& law) {
   const bool finite = std::isfinite(z0) && std::isfinite(law.slope) && std::isfinite(law.rate);
   if (!finite || !(z0 + 2.0 * zeta > 0.0) || !(std::abs(zeta) < 1.0)) return std::nullopt;
   VelocityTrack track;
   track.slip_ = {z0 + 2.0 * zeta, zeta, law};
-  const auto keep = [&track](const SlipWalker<true>& walker) {
-    Step step{walker.from.tau, walker.from.integral, {}, walker.series};
-    if (!track.steps_.empty()) {
-      const Step& before = track.steps_.back();
-      const ScaledGradient part = integral_of(before.series.ds, step.begin - before.begin);
-      for (std::size_t p = 0; p < kScaledParameters; ++p) step.integral_of_ds[p] = before.integral_of_ds[p] + part[p];
-    }
-    track.steps_.push_back(step);
-  };
+  const auto keep = [&track](const SlipWalker<true>& walker) { track.keep(walker.from, walker.series); };
   const SlipEnd end = follow_slip<true>(track.slip_, kForFits, keep);
   if (end.outcome != SlipOutcome::Resticks && end.outcome != SlipOutcome::TurnsBack) return std::nullopt;
   track.resticks_ = end.outcome == SlipOutcome::Resticks;
-  const SlipState& last = end.node.state;
-  const auto value = [](double y, const ScaledGradient& by, double sign) {
-    return TrackValue{y, sign * by[0], sign * by[1], sign * by[2], sign * by[3]};
-  };
-  const double rise = 1.0 - last.v;  // z'
-  ScaledGradient second{};           // of v', whose derivatives are those of dv
-  const double time = end.node.tau - track.steps_.back().begin;
-  const GradientSeries& dv = track.steps_.back().series.dv;
-  for (std::size_t n = kSeriesOrder; n > 0; --n) {
-    for (std::size_t p = 0; p < kScaledParameters; ++p) {
-      second[p] = second[p] * time + static_cast<double>(n) * dv[n][p];
-    }
+  track.finish(end.node);
+  return track;
+}
+
+void VelocityTrack::keep(const SlipNode& begin, const SlipSeries<true>& series) {
+  Step step{begin.tau, begin.integral, {}, series};
+  if (!steps_.empty()) {
+    const Step& before = steps_.back();
+    const ScaledGradient part = integral_of(before.series.ds, step.begin - before.begin);
+    for (std::size_t p = 0; p < kScaledParameters; ++p) step.integral_of_ds[p] = before.integral_of_ds[p] + part[p];
   }
-  track.end_.tau = end.node.tau;
-  track.end_.first = value(rise, last.dv, -1.0);
-  track.end_.second = value(-end.node.acceleration, second, -1.0);
-  track.end_.third = -rise + (2.0 * zeta + law.at(last.v).d_speed) * end.node.acceleration;
+  steps_.push_back(step);
+}
+
+void VelocityTrack::finish(const SlipNode& end) {
+  const double rise = 1.0 - end.state.v;  // z'
+  const ScaledGradient dv_tau = slope_of(steps_.back().series.dv, end.tau - steps_.back().begin);
+  end_.tau = end.tau;
+  end_.first = track_value(rise, negative(end.state.dv));
+  end_.second = track_value(-end.acceleration, negative(dv_tau));
+  end_.third = -rise + (2.0 * slip_.zeta + slip_.law.at(end.state.v).d_speed) * end.acceleration;
   // A slip that sticks joins its ramp with equal slope (z' = 1): the moving end adds nothing to first order. One that
   // does not ends where z'' = 0, which moves with the parameters: the third derivative is -z' there.
-  const double moves = track.resticks_ ? 0.0 : (rise - 1.0) / rise;
+  const double moves = resticks_ ? 0.0 : (rise - 1.0) / rise;
   ScaledGradient by{};
-  for (std::size_t p = 0; p < kScaledParameters; ++p) by[p] = last.ds[p] - moves * second[p];
-  track.after_ = {last.s - 2.0 * zeta - end.node.tau, by[0], by[1] - 2.0, by[2], by[3]};
-  return track;
+  for (std::size_t p = 0; p < kScaledParameters; ++p) by[p] = end.state.ds[p] - moves * dv_tau[p];
+  after_ = track_value(end.state.s - 2.0 * slip_.zeta - end.tau, by);
+  after_.d_zeta -= 2.0;
 }
 
 double VelocityTrack::fastest_tau() const {
@@ -90,13 +110,8 @@ TrackPoint VelocityTrack::transmitted_at(double tau) const {
   TrackPoint point = at(tau);
   const bool slips = tau > 0.0 && tau <= end_.tau;
   const TrackPoint slope = slips ? slope_inside(tau) : TrackPoint{1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  const double drag = 2.0 * slip_.zeta;
-  point.z += drag * slope.z;
-  point.d_tau += drag * slope.d_tau;
-  point.d_z0 += drag * slope.d_z0;
-  point.d_zeta += drag * slope.d_zeta + 2.0 * slope.z;
-  point.d_slope += drag * slope.d_slope;
-  point.d_rate += drag * slope.d_rate;
+  add_drag(slope, slip_.zeta, point);
+  point.d_tau += 2.0 * slip_.zeta * slope.d_tau;
   return point;
 }
 
@@ -121,6 +136,17 @@ TrackPoint VelocityTrack::integral_to(double tau) const {
   sum.d_zeta += after * after_.d_zeta;
   sum.d_slope += after * after_.d_slope;
   sum.d_rate += after * after_.d_rate;
+  return sum;
+}
+
+TrackPoint VelocityTrack::transmitted_integral_to(double tau) const {
+  TrackPoint sum = integral_to(tau);
+  // The integral of z' is z less its value at the onset.
+  TrackPoint rise = at(tau);
+  rise.z -= slip_.lambda - 2.0 * slip_.zeta;
+  rise.d_z0 -= 1.0;
+  add_drag(rise, slip_.zeta, sum);
+  sum.d_tau = transmitted_at(tau).z;
   return sum;
 }
 

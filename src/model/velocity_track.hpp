@@ -8,6 +8,8 @@
 
 namespace slipfit::model {
 
+struct SlipNode;
+
 /// Spring force above F_k(0+) in units of k V / w_n with its derivatives at fixed tau: WavePoint (slip.hpp) with two
 /// derivatives more.
 struct TrackPoint {
@@ -52,8 +54,10 @@ class VelocityTrack {
   [[nodiscard]] TrackPoint at(double tau) const;
   /// What spring and damper carry together, z + 2 zeta z'.
   [[nodiscard]] TrackPoint transmitted_at(double tau) const;
-  /// Integral of z, and of its derivatives, from the onset to any time; `d_tau` is z itself.
+  /// The integral of what `at` gives, and of its derivatives, from the onset to any time; `d_tau` is z itself.
   [[nodiscard]] TrackPoint integral_to(double tau) const;
+  /// The same of what `transmitted_at` gives.
+  [[nodiscard]] TrackPoint transmitted_integral_to(double tau) const;
   [[nodiscard]] bool resticks() const { return resticks_; }
   [[nodiscard]] double tau_end() const { return end_.tau; }
   /// The parts of the slip, of what `at` or `transmitted_at` gives.
@@ -72,6 +76,8 @@ class VelocityTrack {
     SlipSeries<true> series;
   };
 
+  void keep(const SlipNode& begin, const SlipSeries<true>& series);
+  void finish(const SlipNode& end);
   [[nodiscard]] const Step& step_at(double tau) const;
   [[nodiscard]] TrackPoint inside(double tau) const;
   [[nodiscard]] TrackPoint slope_inside(double tau) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/unknown.hpp"
 #include "report/comparison_text.hpp"
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
@@ -56,10 +57,9 @@ std::string p_text(std::optional<double> p) {
 
 std::string note_of(const QuantityComparison& quantity) {
   std::string note;
-  const auto add = [&note](const std::string& text) { note += (note.empty() ? "" : "; ") + text; };
-  if (!quantity.ratio.value) add("no ratio: " + printable(quantity.ratio.note));
+  if (!quantity.ratio.value) add_note(note, "no ratio: " + printable(quantity.ratio.note));
   const auto add_status = [&](const char* side, const std::string& status) {
-    if (status == "weak" || status == "conditional") add(status + " in " + side);
+    if (status == "weak" || status == "conditional") add_note(note, status + " in " + side);
   };
   if (quantity.a.status == quantity.b.status) {
     add_status("both", quantity.a.status);

@@ -45,11 +45,9 @@ class SpeedDependentCycle {
     SpeedDependentCycle cycle(std::move(*track), scales.view);
     const double omega_rad_per_s = std::exp(globals[kLogFrequency]);
     if (scales.sensor_lag_s > 0.0) {
-      cycle.lag_tau_ = omega_rad_per_s * scales.sensor_lag_s;
-      cycle.lagged_.emplace(cycle.track_, scales.view == ForceView::Transmitted, cycle.lag_tau_);
+      cycle.lagged_.emplace(cycle.track_, scales.view == ForceView::Transmitted, omega_rad_per_s * scales.sensor_lag_s);
     }
     cycle.half_window_ = 0.5 * omega_rad_per_s * scales.sensor_average_s;
-    cycle.zeta_ = globals[kDamping];
     cycle.by_slope_ = slope_unit * ratio.value;
     cycle.by_rate_ = slope_unit * globals[kFrictionSlope] * ratio.derivative;
     cycle.rate_unit_ = rate_unit;
@@ -88,7 +86,7 @@ class SpeedDependentCycle {
     return view_ == ForceView::Transmitted ? track_.transmitted_at(tau) : track_.at(tau);
   }
 
-  /// As the sensor shows it before it is averaged.
+  /// The force as the sensor would show it without its average.
   [[nodiscard]] Point shown_at(double tau) const {
     return lagged_ ? lagged_->at(track_, tau) : Point{instant_at(tau), 0.0};
   }
@@ -104,9 +102,10 @@ class SpeedDependentCycle {
     add(integral_to(first), -1.0, mean);
     if (lagged_) {
       // y' = kappa (z - y) makes the integral of y that of z less y / kappa.
-      add(shown_last, -lag_tau_, mean);
-      add(shown_first, lag_tau_, mean);
-      mean.d_log_omega = -lag_tau_ * (shown_last.d_log_omega - shown_first.d_log_omega + shown_last.z - shown_first.z);
+      const double lag_tau = lagged_->lag_tau();
+      add(shown_last, -lag_tau, mean);
+      add(shown_first, lag_tau, mean);
+      mean.d_log_omega = -lag_tau * (shown_last.d_log_omega - shown_first.d_log_omega + shown_last.z - shown_first.z);
     }
     for (double* const value : {&mean.z, &mean.d_z0, &mean.d_zeta, &mean.d_slope, &mean.d_rate, &mean.d_log_omega}) {
       *value /= length;
@@ -116,17 +115,8 @@ class SpeedDependentCycle {
     return mean;
   }
 
-  /// Integral of the force over tau from the onset on.
   [[nodiscard]] model::TrackPoint integral_to(double tau) const {
-    model::TrackPoint sum = track_.integral_to(tau);
-    if (view_ != ForceView::Transmitted) return sum;
-    // The integral of z' is z.
-    const model::TrackPoint begin = track_.at(0.0);
-    const model::TrackPoint end = track_.at(tau);
-    add(end, 2.0 * zeta_, sum);
-    add(begin, -2.0 * zeta_, sum);
-    sum.d_zeta += 2.0 * (end.z - begin.z);
-    return sum;
+    return view_ == ForceView::Transmitted ? track_.transmitted_integral_to(tau) : track_.integral_to(tau);
   }
 
   static void add(const model::TrackPoint& point, double weight, model::TrackPoint& sum) {
@@ -140,11 +130,9 @@ class SpeedDependentCycle {
   model::VelocityTrack track_;
   ForceView view_;
   std::optional<LaggedTrack> lagged_;  ///< where the sensor lags
-  double lag_tau_ = 0.0;               ///< w_n T
-  double zeta_ = 0.0;
-  double half_window_ = 0.0;  ///< of the sensor's average, in tau
-  double by_slope_ = 0.0;     ///< d (scaled slope) / d kFrictionSlope
-  double by_rate_ = 0.0;      ///< d (scaled slope) / d kFrictionRate
+  double half_window_ = 0.0;           ///< of the sensor's average, in tau
+  double by_slope_ = 0.0;              ///< d (scaled slope) / d kFrictionSlope
+  double by_rate_ = 0.0;               ///< d (scaled slope) / d kFrictionRate
   double rate_unit_ = 1.0;
 };
 

@@ -66,7 +66,7 @@ LaggedTrack::Response LaggedTrack::response(const Piece& piece, double time) con
 LaggedTrack::Response LaggedTrack::after_slip(const model::VelocityTrack& track, double tau) const {
   const double since = tau - track.tau_end();
   const double decay = std::exp(-kappa_ * since);
-  const double lag = 1.0 / kappa_;
+  const double lag = lag_tau();
   Response response{motion_at(track, tau), 0.0};
   // The line of the stick at the end of the slip.
   Column line = response.shown;
@@ -79,9 +79,9 @@ LaggedTrack::Response LaggedTrack::after_slip(const model::VelocityTrack& track,
 
 ShownPoint LaggedTrack::at(const model::VelocityTrack& track, double tau) const {
   const Column motion = motion_at(track, tau);
-  Response y{motion, -1.0 / kappa_};
+  Response y{motion, -lag_tau()};
   if (tau <= 0.0) {
-    y.shown[0] -= 1.0 / kappa_;
+    y.shown[0] -= lag_tau();
   } else if (tau >= track.tau_end()) {
     y = after_slip(track, tau);
   } else {

@@ -20,7 +20,8 @@ class LaggedTrack {
  public:
   LaggedTrack(const model::VelocityTrack& track, bool transmitted, double lag_tau);
 
-  /// At any tau.
+  [[nodiscard]] double lag_tau() const { return 1.0 / kappa_; }
+  /// The force that the sensor shows at any tau.
   [[nodiscard]] ShownPoint at(const model::VelocityTrack& track, double tau) const;
 
  private:

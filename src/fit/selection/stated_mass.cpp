@@ -12,8 +12,7 @@
 namespace slipfit::fit {
 namespace {
 
-constexpr double kUsualError = 0.02;  // of a mass stated without its standard error
-constexpr double kStep = 0.01;        // of ln w_n
+constexpr double kStep = 0.01;  // of ln w_n
 
 double stiffness_of(const DampedFit& fit) {
   return std::exp(fit.blocks.parameters.globals[kLogStiffness]);
@@ -32,7 +31,7 @@ std::optional<Coordinates> by_log_frequency(const DampedFit& fit) {
 std::optional<StatedMass> mass_for_frequency(const Conditions& conditions, const HeldParameters& held,
                                              double stiffness_N_per_m, double average_s) {
   if (!conditions.mass_kg || held.natural_frequency_rad_per_s) return std::nullopt;
-  StatedMass mass{*conditions.mass_kg, kUsualError};
+  StatedMass mass{*conditions.mass_kg, thresholds::kUsualMassError};
   if (conditions.mass_standard_error_kg) mass.relative_error = *conditions.mass_standard_error_kg / mass.kg;
   const bool hides = mass.frequency_rad_per_s(stiffness_N_per_m) * average_s > thresholds::kHidingAverage;
   return hides ? std::optional(mass) : std::nullopt;

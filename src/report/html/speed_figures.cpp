@@ -161,7 +161,7 @@ class SpeedPanel {
     return point(speed, SI);
   }
   /// A logarithmic axis reaches to the ends of the intervals, but no further than `kFarthestBound` from the values: an
-  /// interval over decades would hide all else.
+  /// interval of several decades would make the values look alike.
   [[nodiscard]] Span heights_with_bounds() const {
     Span heights = heights_;
     if (heights_.empty() || bounds_.empty()) return heights;
