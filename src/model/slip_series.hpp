@@ -138,19 +138,19 @@ class SlipSeries {
 
     /// growth to order n.
     template <std::size_t n>
-    void extend(const Series& v) {
+    void extend(const Series& speed) {
       if (law.shape == LawShape::Exponential) {
         if constexpr (n > 0) growth[n] = law.rate * unit[n];
         return;
       }
-      if constexpr (n > 0) inverse[n] = share * inverse[0] * product(inverse, v, n - 1, 1);
+      if constexpr (n > 0) inverse[n] = share * inverse[0] * product(inverse, speed, n - 1, 1);
       growth[n] = law.shape == LawShape::Hyperbolic ? product(inverse, inverse, n, 0) : inverse[n];
     }
 
     /// unit and d unit / d rate to order n + 1. Terms are summed in turns, as one sum waits for itself.
     template <std::size_t n>
-    void integrate(const Series& v) {
-      slope[n] = static_cast<double>(n + 1) * v[n + 1];
+    void integrate(const Series& speed) {
+      slope[n] = static_cast<double>(n + 1) * speed[n + 1];
       std::array<double, 2> units{};
       std::array<double, 2> rates{};
       for (std::size_t k = n + 1; k-- > 0;) {  // what is known last comes last
