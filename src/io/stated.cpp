@@ -10,6 +10,7 @@
 #include "core/thrown_error.hpp"
 #include "io/column_search.hpp"
 #include "io/levels.hpp"
+#include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {
 namespace {
@@ -39,6 +40,7 @@ std::optional<Estimate> steady_speed_m_per_s(const Rows& rows) {
   const bool is_steady = 10 * alike >= 6 * static_cast<std::ptrdiff_t>(speeds.size());
   if (!is_steady) return std::nullopt;
   std::vector<double> off;
+  off.reserve(speeds.size());
   for (const double v : speeds) off.push_back(std::abs(v - speed_m_per_s));
   constexpr double kMedianToSe = 1.4826 * 1.2533;  // of a median of deviations to the error of a median
   const double se_m_per_s = kMedianToSe * quantile_of(off, 0.5) / std::sqrt(static_cast<double>(off.size()));

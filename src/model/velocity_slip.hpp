@@ -21,8 +21,8 @@ struct SlipAccuracy {
 };
 /// This gives the end of slip to 1e-10 and derivatives to 1e-9.
 inline constexpr SlipAccuracy kExact{1e-13, 20000};
-/// Fits need 1e-7 only, and solve many thousand slips: this bounds a stiff one to half a millisecond.
-inline constexpr SlipAccuracy kForFits{1e-7, 1000};
+/// Fits need 1e-7 only, and solve some hundred thousand slips: five times what an ordinary one needs bounds their time.
+inline constexpr SlipAccuracy kForFits{1e-7, 100};
 
 /// The speed turns at most once in a step: a third of the half turn in which it does.
 inline constexpr double kLongestStep = 1.0;

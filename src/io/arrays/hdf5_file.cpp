@@ -88,11 +88,19 @@ using Paths = std::vector<std::string>;
 
 #if H5_VERSION_GE(1, 12, 0)  // which gave the description of an object another form
 using ObjectInfo = H5O_info2_t;
-constexpr auto* kVisitObjects = H5Ovisit3;
 #else
 using ObjectInfo = H5O_info_t;
-constexpr auto* kVisitObjects = H5Ovisit2;
 #endif
+
+/// Calls `visit` with every object of a file, in the order in which they are stored.
+template <class Visit>
+void visit_objects(hid_t file, Visit visit, void* data) {
+#if H5_VERSION_GE(1, 12, 0)
+  H5Ovisit3(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit, data, H5O_INFO_BASIC);
+#else
+  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit, data, H5O_INFO_BASIC);
+#endif
+}
 
 herr_t note_dataset(hid_t, const char* name, const ObjectInfo* info, void* data) {
   auto* const datasets = static_cast<Paths*>(data);
@@ -166,7 +174,7 @@ hid_t open_in_memory(std::string file) {
 Contents contents_of(hid_t file) {
   Contents contents;
   Paths datasets;
-  kVisitObjects(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_dataset, &datasets, H5O_INFO_BASIC);
+  visit_objects(file, note_dataset, &datasets);
   H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_outer_link, &contents.in_other_files);
   for (const std::string& path : datasets) add_dataset(file, path, contents);
   return contents;

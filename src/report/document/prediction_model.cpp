@@ -155,7 +155,7 @@ ModelEstimate with_single_speed(ModelEstimate estimate, const JsonNode& document
                   : status == "conditional" ? ParameterStatus::Conditional
                                             : ParameterStatus::Weak;
   }
-  return from_single_speed(std::move(estimate), speed->positive(), statuses);
+  return from_single_speed(estimate, speed->positive(), statuses);
 }
 
 std::optional<double> normal_force_N(const JsonNode& document) {
@@ -214,7 +214,7 @@ FitDocument fit_document_from(const JsonNode& document, const std::string& name)
   read_covariance(document, result.model);
   result.model.kinetic_friction_N = kinetic_friction_N(parameters);
   estimate.reach = reach(document);
-  estimate = with_single_speed(std::move(estimate), document);
+  estimate = with_single_speed(estimate, document);
   estimate.normal_force_N = normal_force_N(document);
   result.model.observed_end = observed_end(document);
   result.conditional_on = conditions(document);

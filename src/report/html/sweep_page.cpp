@@ -110,6 +110,7 @@ std::string recordings_of(const SweepSource& source) {
 std::string repeats_of(const std::vector<Repeat>& repeats) {
   if (repeats.empty()) return {};
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(repeats.size());
   for (const Repeat& repeat : repeats) {
     rows.push_back({text(repeat.words), text(estimate_text(repeat.mean, repeat.unit)),
                     text(quantity_text(repeat.standard_deviation, repeat.unit)), std::to_string(repeat.count)});
