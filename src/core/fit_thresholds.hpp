@@ -165,10 +165,6 @@ inline constexpr double kTellingError = 1.0 / 3.0;
 /// Standard errors of the rounding of the slips, beyond which samples were averaged. [1; derived: 0.6 % by chance]
 inline constexpr double kRoundedSigmas = 2.5;
 
-/// Standard errors of the averaging that is left, below which a search for it has settled. [1; convention: a twentieth
-/// of what the error adds]
-inline constexpr double kSettledAverage = 0.2;
-
 /// Share of the variance of an instrument's impulse response for which its unknown shape counts. [1; convention: the
 /// variance is all that counts to second order]
 inline constexpr double kKernelShape = 0.03;

@@ -29,6 +29,7 @@ enum Coordinate : Eigen::Index {
   kReloadForce,        ///< A / Units::force, of the rise after a slip
   kReloadLength,       ///< ln (l / m), of the path over which it rises
   kStiffnessExponent,  ///< d ln k / d ln V, of a sweep; k and w_n are those at Units::speed_m_per_s
+  kSensorTime,         ///< (time / Scales::sensor_time_unit_s)^2, of the time of the sensor that is free
   kCoordinates
 };
 

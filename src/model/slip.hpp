@@ -180,7 +180,8 @@ T restick_margin(const T& lambda, const T& zeta) {
 /// with derivatives with respect to z0, zeta (at fixed tau) and tau. z' is the transmitted view's extra term / 2 zeta.
 struct WavePoint {
   double z = 0.0, d_z0 = 0.0, d_zeta = 0.0, d_tau = 0.0;
-  double d_log_omega = 0.0;  ///< at fixed tau: only where something else than the slip has a time of its own
+  double d_log_omega = 0.0;    ///< at fixed tau: only where something else than the slip has a time of its own
+  double d_log_average = 0.0;  ///< by the time over which the instrument averages; 0 on a straight stick
 };
 
 /// The slip itself, 0 <= tau <= tau_end, from c = exp(-zeta tau) cos b tau and s = exp(-zeta tau) sin(b tau) / b.

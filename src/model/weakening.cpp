@@ -148,12 +148,14 @@ WeakeningPoint WeakeningSlip::at(double tau) const {
 }
 
 WeakeningPoint WeakeningSlip::mean_at(double tau, double average) const {
-  const State first = shown_at(tau - 0.5 * average);
-  const State last = shown_at(tau + 0.5 * average);
+  const double half = 0.5 * average;
+  if (tau + half <= 0.0 || tau - half > tau_end_) return at(tau);  // the mean of a straight line is its middle
+  const State first = shown_at(tau - half);
+  const State last = shown_at(tau + half);
   const Jet mean = (last.integral - first.integral) / average;
   const double by_tau = (last.z.a - first.z.a) / average;
   const double by_log_average = 0.5 * (first.z.a + last.z.a) - mean.a;
-  return {{mean.a, mean.v[0], mean.v[1], by_tau, by_log_average}, mean.v[2]};
+  return {{mean.a, mean.v[0], mean.v[1], by_tau, by_log_average, by_log_average}, mean.v[2]};
 }
 
 }  // namespace slipfit::model

@@ -117,7 +117,7 @@ inline WeakeningTrack::Jet WeakeningTrack::Walker::integral() const {
 
 WeakeningPoint WeakeningTrack::at(double tau) {
   const double reach = 0.5 * average_;
-  if (average_ == 0.0 && (tau <= 0.0 || tau > slip_.tau_end_)) return slip_.at(tau);
+  if (tau + reach <= 0.0 || tau - reach > slip_.tau_end_) return slip_.at(tau);  // the middle of a straight line
   last_.move_to(tau + reach);
   if (average_ == 0.0) return instant();
   first_.move_to(tau - reach);
@@ -144,7 +144,8 @@ WeakeningPoint WeakeningTrack::mean() const {
     last += 2.0 * slip_.zeta_.a * last_.slope();
   }
   const Jet mean = sum / average_;
-  return {{mean.a, mean.v[0], mean.v[1], (last - first) / average_, 0.5 * (first + last) - mean.a}, mean.v[2]};
+  const double by_log_average = 0.5 * (first + last) - mean.a;
+  return {{mean.a, mean.v[0], mean.v[1], (last - first) / average_, by_log_average, by_log_average}, mean.v[2]};
 }
 
 }  // namespace slipfit::model

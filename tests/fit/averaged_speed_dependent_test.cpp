@@ -22,7 +22,8 @@ SpeedDependentCycle cycle(double average_tau, ForceView view) {
   Population population;
   population.slip_speed_m_per_s = 0.12;
   scales.population = population;
-  return SpeedDependentCycle::solve(kOnset, kGlobals.data(), scales).value();
+  return SpeedDependentCycle::solve(kOnset, kGlobals.data(), {scales.sensor_lag_s, scales.sensor_average_s}, scales)
+      .value();
 }
 
 /// Mean of the force as it is, by the rule of the middle.

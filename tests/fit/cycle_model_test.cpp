@@ -40,6 +40,7 @@ Scales example_scales(ForceView view, double sensor_lag_s = 0.0) {
   scales.view = view;
   scales.half_period_s = 0.3;
   scales.sensor_lag_s = sensor_lag_s;
+  scales.sensor_time_unit_s = 0.02;
   return scales;
 }
 
@@ -47,13 +48,16 @@ Scales example_scales(ForceView view, double sensor_lag_s = 0.0) {
 
 namespace {
 
-/// Of a vector that holds globals, exponent, difference, constant, drift and own, as the Jacobian's columns do.
+/// Of a vector that holds globals, exponent, average, difference, constant, drift and own, as the Jacobian's columns
+/// do.
 CycleValues values_in(const CycleModel& model, bool has_difference, const double* x) {
   CycleValues values;
   values.globals = x;
   x += model.globals();
   values.exponent = x;
   x += model.has_exponent() ? 1 : 0;
+  values.sensor_time = x;
+  x += model.has_sensor_time() ? 1 : 0;
   values.difference = x;
   x += has_difference ? 1 : 0;
   values.constant = x;
@@ -85,6 +89,7 @@ void check_derivatives(const Scales& scales, const LevelModel& level, double ste
       x.insert(x.end(), {0.05, trial % 2 == 0 || scales.law != FrictionLaw::Exponential ? -1.5 : 0.4});
     }
     if (model.has_exponent()) x.push_back(0.07);
+    if (model.has_sensor_time()) x.push_back(0.6);
     if (sweep) x.push_back(0.9);
     x.resize(model.columns(), 0.1);
     x[model.common_parameters()] = 0.0;
@@ -119,6 +124,17 @@ void check_derivatives(const Scales& scales, const LevelModel& level, double ste
   }
 }
 
+/// An average of the sensor: none, one that is stated, one that is a parameter; or one beside a lag that is a
+/// parameter.
+enum class Average { None, Stated, Free, BesideFreeLag };
+
+Scales averaged_by(Average average, Scales scales) {
+  scales.sensor_average_s = average == Average::None ? 0.0 : 0.015;
+  if (average == Average::Free) scales.free_time = FreeTime::Average;
+  if (average == Average::BesideFreeLag && scales.sensor_lag_s > 0.0) scales.free_time = FreeTime::Lag;
+  return scales;
+}
+
 Population example_population() {
   Population population;
   population.load = 1.4;
@@ -137,10 +153,9 @@ const LevelModel kPerCycle{true, 0, {}};
 TEST_CASE("residual derivatives of Coulomb friction agree with central differences in every view and level model") {
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
   const double sensor_lag_s = GENERATE(0.0, 0.02);
-  const double sensor_average_s = GENERATE(0.0, 0.015);
+  const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
   for (const LevelModel& level : {kPolynomial, kPerCycle}) {
-    Scales scales = example_scales(view, sensor_lag_s);
-    scales.sensor_average_s = sensor_average_s;
+    Scales scales = averaged_by(average, example_scales(view, sensor_lag_s));
     // h^2 times third derivatives (up to 1e4 here) and round-off / h; a sample that an event crosses within h keeps its
     // first derivative, its second one jumps: h times that jump.
     check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);
@@ -154,11 +169,11 @@ TEST_CASE("residual derivatives of Coulomb friction agree with central differenc
 TEST_CASE("residual derivatives of friction that depends on the speed agree with central differences") {
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
   const FrictionLaw law = GENERATE(FrictionLaw::Exponential, FrictionLaw::Hyperbolic, FrictionLaw::Logarithmic);
-  const double sensor_average_s = GENERATE(0.0, 0.015);
+  const double sensor_lag_s = GENERATE(0.0, 0.02);
+  const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
   for (const LevelModel& level : {kPolynomial, kPerCycle}) {
-    Scales scales = example_scales(view);
+    Scales scales = averaged_by(average, example_scales(view, sensor_lag_s));
     scales.law = law;
-    scales.sensor_average_s = sensor_average_s;
     scales.population = example_population();
     // The slip is integrated to 1e-9: its noise is 1e-5 in the difference. Second derivatives of up to 1e3 jump where
     // the slip's end crosses a sample: h times that.
@@ -167,9 +182,10 @@ TEST_CASE("residual derivatives of friction that depends on the speed agree with
 }
 
 TEST_CASE("residual derivatives of friction that weakens over a slip distance agree with central differences") {
-  Scales scales = example_scales(GENERATE(ForceView::Spring, ForceView::Transmitted));
+  const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
+  const Average average = GENERATE(Average::None, Average::Stated, Average::Free);
+  Scales scales = averaged_by(average, example_scales(view));
   scales.law = FrictionLaw::Weakening;
-  scales.sensor_average_s = GENERATE(0.0, 0.015);
   scales.slip_distance_m = scales.force / 60.0;
   // As under Coulomb friction.
   for (const LevelModel& level : {kPolynomial, kPerCycle}) check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);

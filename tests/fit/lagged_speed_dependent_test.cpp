@@ -32,7 +32,8 @@ SpeedDependentCycle cycle(const Globals& globals, const Instrument& instrument, 
   Population population;
   population.slip_speed_m_per_s = 0.12;
   scales.population = population;
-  return SpeedDependentCycle::solve(onset, globals.data(), scales).value();
+  return SpeedDependentCycle::solve(onset, globals.data(), {scales.sensor_lag_s, scales.sensor_average_s}, scales)
+      .value();
 }
 
 Instrument any_instrument() {

@@ -25,6 +25,15 @@ struct Population {
   std::optional<double> log_speed{};
 };
 
+/// Which of the sensor's times a fit solves for.
+enum class FreeTime { None, Lag, Average };
+
+/// Of a sensor: its lag of first order T and the time W over which it averages; 0: none.
+struct SensorTimes {
+  double lag_s = 0.0;
+  double average_s = 0.0;
+};
+
 /// How a recording enters a fit: what makes its numbers of order one, and how its samples see a slip.
 struct Scales {
   double speed_m_per_s = 1.0;
@@ -35,8 +44,10 @@ struct Scales {
   double time_end_s = 1.0;
   ForceView view = ForceView::Spring;  ///< spring or transmitted: what the samples show of a slip
   double sensor_lag_s = 0.0;      ///< T of a first-order sensor, 1 / (2 pi bandwidth); 0: it shows the force as it is
-  double sensor_average_s = 0.0;  ///< each sample is the mean over this time around its time stamp
-  double half_period_s = 1.0;     ///< from the largest to the smallest force of a slip, pi / (w_n b)
+  double sensor_average_s = 0.0;  ///< W: each sample is the mean over this time around its time stamp
+  FreeTime free_time = FreeTime::None;  ///< T or W is a parameter of the fit, and stands where that is
+  double sensor_time_unit_s = 1.0;      ///< of that parameter, (time / unit)^2: what slips show of it is linear in that
+  double half_period_s = 1.0;           ///< from the largest to the smallest force of a slip, pi / (w_n b)
   FrictionLaw law = FrictionLaw::Coulomb;
   double slip_distance_m = 1.0;            ///< Units::slip_distance_m
   std::optional<Population> population{};  ///< of a sweep

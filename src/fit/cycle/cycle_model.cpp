@@ -46,17 +46,26 @@ double CycleModel::rise_at(double time_s, const double* level) const {
   return scales_.force * level_->reloading->sum_of(level_->reloading->at(data_->slip, time_s), rise);
 }
 
-std::optional<CycleState> CycleModel::state(const double* globals, const double* local) const {
+SensorTimes CycleModel::sensor_of(const CycleValues& values) const {
+  SensorTimes sensor{scales_.sensor_lag_s, scales_.sensor_average_s};
+  if (has_sensor_time()) {
+    double& time_s = scales_.free_time == FreeTime::Lag ? sensor.lag_s : sensor.average_s;
+    time_s = scales_.sensor_time_unit_s * std::sqrt(*values.sensor_time);
+  }
+  return sensor;
+}
+
+std::optional<CycleState> CycleModel::state(const double* globals, const double* local,
+                                            const SensorTimes& sensor) const {
   const CycleFrame f = frame(globals, local);
   if (scales_.law == FrictionLaw::Weakening) {
-    auto motion = WeakeningCycle::solve(f.z0(), f.omega_rad_per_s, globals, scales_);
+    auto motion = WeakeningCycle::solve(f.z0(), f.omega_rad_per_s, globals, sensor.average_s, scales_);
     return motion ? std::optional(CycleState{f, *std::move(motion)}) : std::nullopt;
   }
   if (!(f.z0() + 2.0 * f.zeta > 0.0) || !(std::abs(f.zeta) < 1.0) || !std::isfinite(f.z0())) return std::nullopt;
   const double w = f.omega_rad_per_s;
   const bool transmitted = scales_.view == ForceView::Transmitted;
-  const Sensor sensor{w * scales_.sensor_lag_s, w * scales_.sensor_average_s, transmitted};
-  return CycleState{f, CoulombCycle(f.z0(), f.zeta, sensor)};
+  return CycleState{f, CoulombCycle(f.z0(), f.zeta, {w * sensor.lag_s, w * sensor.average_s, transmitted})};
 }
 
 /// Forms residuals and their Jacobian column by column, as the processor's vectors do it several rows at a time. Where
@@ -77,7 +86,8 @@ class CycleModel::Rows {
         stride_(static_cast<Index>(cycle.residuals())),
         globals_(static_cast<Index>(cycle.globals())),
         exponent_(globals_),
-        difference_(exponent_ + (cycle.has_exponent() ? 1 : 0)),
+        sensor_time_(exponent_ + (cycle.has_exponent() ? 1 : 0)),
+        difference_(sensor_time_ + (cycle.has_sensor_time() ? 1 : 0)),
         constant_(difference_ + (cycle.has_difference() ? 1 : 0)),
         drift_(constant_ + (cycle.has_constant() ? 1 : 0)),
         onset_(drift_ + rows_.level.cols()) {}
@@ -87,19 +97,22 @@ class CycleModel::Rows {
     double* z = nullptr;
     double* by_tau = nullptr;
     double* by_z0 = nullptr;
-    double* by_log_omega = nullptr;  ///< at a fixed time
-    double* by_law = nullptr;        ///< one after the other at distances `stride`
+    double* by_log_omega = nullptr;    ///< at a fixed time
+    double* by_sensor_time = nullptr;  ///< null where none is free
+    double* by_law = nullptr;          ///< one after the other at distances `stride`
     std::ptrdiff_t stride = 0;
     std::ptrdiff_t row = 0;
 
     template <std::size_t N>
-    void put(double z_here, double d_tau, double d_z0, double d_log_omega, const std::array<double, N>& d_law) {
+    void put(double z_here, double d_tau, double d_z0, double d_log_omega, double d_log_time,
+             const std::array<double, N>& d_law) {
       const std::ptrdiff_t here = row++;
       z[here] = z_here;
       if (by_tau == nullptr) return;
       by_tau[here] = d_tau;
       by_z0[here] = d_z0;
       by_log_omega[here] = d_log_omega;
+      if (by_sensor_time != nullptr) by_sensor_time[here] = d_log_time;
       double* law = by_law + here;
       for (const double derivative : d_law) {
         *law = derivative;
@@ -108,8 +121,9 @@ class CycleModel::Rows {
     }
   };
   [[nodiscard]] Place first() const {
-    if (jacobian_ == nullptr) return {residuals_, nullptr, nullptr, nullptr, nullptr, stride_};
-    return {residuals_, at(onset_), at(onset_ + 1), at(kLogFrequency), at(kDamping), stride_};
+    if (jacobian_ == nullptr) return {residuals_, nullptr, nullptr, nullptr, nullptr, nullptr, stride_};
+    double* const by_time = cycle_.has_sensor_time() ? at(sensor_time_) : nullptr;
+    return {residuals_, at(onset_), at(onset_ + 1), at(kLogFrequency), by_time, at(kDamping), stride_};
   }
 
   /// What the rows have put becomes residuals and Jacobian.
@@ -172,6 +186,7 @@ class CycleModel::Rows {
     if (cycle_.has_exponent()) {
       column(exponent_) = log_speed() * (column(kLogStiffness) + 0.5 * column(kLogFrequency));
     }
+    if (cycle_.has_sensor_time()) column(sensor_time_) *= 0.5 / *values_.sensor_time * scaled * weight;
     if (cycle_.has_difference()) column(difference_).setZero();
     if (cycle_.has_constant() && per_cycle) column(constant_).setZero();
     if (cycle_.has_constant() && !per_cycle) {
@@ -198,7 +213,7 @@ class CycleModel::Rows {
   double* residuals_;
   double* jacobian_;
   Index stride_;
-  Index globals_, exponent_, difference_, constant_, drift_, onset_;  ///< first column of each
+  Index globals_, exponent_, sensor_time_, difference_, constant_, drift_, onset_;  ///< first column of each
 };
 
 /// F = level + u z(tau; z0, law), tau = w_n (t - onset), z0 = A / u, u = k V / w_n
@@ -206,8 +221,11 @@ template <class Law>
 void CycleModel::fill(const Law& law, const CycleFrame& frame, const Rows& rows) const {
   using Point = typename Law::Point;
   Rows::Place next = rows.first();
+  const bool is_lag = scales_.free_time == FreeTime::Lag;
   const auto put_point = [&](double tau, const Point& p) {
-    next.put(p.z, p.d_tau, p.d_z0, p.d_tau * tau + law.by_log_omega(p), law.by_law(p));
+    // What depends on w_n at fixed tau are the times of the sensor: what is not the average's is the lag's.
+    const double by_log_time = is_lag ? law.by_log_sensor(p) - p.d_log_average : p.d_log_average;
+    next.put(p.z, p.d_tau, p.d_z0, p.d_tau * tau + law.by_log_omega(p), by_log_time, law.by_law(p));
   };
   typename Law::Samples samples(law, frame.omega_rad_per_s * even_step_s_);
   for (const double time_s : data_->time_s) {
@@ -218,7 +236,7 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, const Rows& rows)
     put_point(tau, p);
     // The slope of a stick is k V: w_n in these units, so that it does not change with w_n.
     const double w = frame.omega_rad_per_s;
-    next.put(w, 0.0, 0.0, w, decltype(law.by_law(p)){});
+    next.put(w, 0.0, 0.0, w, 0.0, decltype(law.by_law(p)){});
   };
   const auto tau_of = [&](const StickBin& bin) { return frame.tau_at(bin.time_s); };
   for (const StickBin& bin : data_->bins_before) put_bin(tau_of(bin), law.before_slip(tau_of(bin)));
@@ -234,18 +252,18 @@ bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* 
   Rows rows(*this, values, residuals, jacobian);
   const Globals globals = globals_at_speed(values);
   if (!is_integrated()) {
-    const std::optional<CycleState> now = state(globals.data(), values.local);
+    const std::optional<CycleState> now = state(globals.data(), values.local, sensor_of(values));
     if (now) std::visit([&](const auto& law) { fill(law, *now, rows); }, now->motion);
     return now.has_value();
   }
   const CycleFrame f = frame(globals.data(), values.local);
-  const auto motion = SpeedDependentCycle::solve(f.z0(), globals.data(), scales_);
+  const auto motion = SpeedDependentCycle::solve(f.z0(), globals.data(), sensor_of(values), scales_);
   if (motion) fill(*motion, f, rows);
   return motion.has_value();
 }
 
 bool CycleModel::is_inside(const CycleValues& values) const {
-  return state(globals_at_speed(values).data(), values.local).has_value();
+  return state(globals_at_speed(values).data(), values.local, sensor_of(values)).has_value();
 }
 
 }  // namespace slipfit::fit

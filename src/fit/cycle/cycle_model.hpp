@@ -90,7 +90,8 @@ struct CycleValues {
   const double* constant = nullptr;
   const double* drift = nullptr;  ///< the level's other columns
   const double* local = nullptr;
-  const double* exponent = nullptr;  ///< d ln k / d ln V, where k goes with the speed
+  const double* exponent = nullptr;     ///< d ln k / d ln V, where k goes with the speed
+  const double* sensor_time = nullptr;  ///< (time / Scales::sensor_time_unit_s)^2, where one is free
 };
 
 /// What the physical numbers are for one cycle, whatever the friction law.
@@ -153,11 +154,13 @@ class CycleModel {
   [[nodiscard]] std::size_t globals() const { return globals_of(scales_.law); }
   [[nodiscard]] bool has_difference() const { return scales_.population.has_value(); }
   [[nodiscard]] bool has_exponent() const { return scales_.population && scales_.population->log_speed; }
-  /// Columns of the Jacobian: globals, exponent, difference, constant, drift, own; those that there are.
+  [[nodiscard]] bool has_sensor_time() const { return scales_.free_time != FreeTime::None; }
+  /// Columns of the Jacobian: globals, exponent, time of the sensor, difference, constant, drift, own; those that there
+  /// are.
   [[nodiscard]] std::size_t columns() const { return common_parameters() + local_parameters(); }
   [[nodiscard]] std::size_t common_parameters() const {
-    return globals() + (has_exponent() ? 1 : 0) + (scales_.population ? 1 : 0) + (has_constant() ? 1 : 0) +
-           drift_parameters();
+    return globals() + (has_exponent() ? 1 : 0) + (has_sensor_time() ? 1 : 0) + (scales_.population ? 1 : 0) +
+           (has_constant() ? 1 : 0) + drift_parameters();
   }
   [[nodiscard]] const CycleData& data() const { return *data_; }
   /// Friction that depends on the speed has no closed form.
@@ -177,8 +180,10 @@ class CycleModel {
   [[nodiscard]] Globals globals_at_speed(const CycleValues& values) const;
   /// `globals`: at the recording's speed, here and in state().
   [[nodiscard]] CycleFrame frame(const double* globals, const double* local) const;
-  /// Empty where the slip has no solution.
-  [[nodiscard]] std::optional<CycleState> state(const double* globals, const double* local) const;
+  /// As the sensor of the scales shows it. Empty where the slip has no solution.
+  [[nodiscard]] std::optional<CycleState> state(const double* globals, const double* local) const {
+    return state(globals, local, {scales_.sensor_lag_s, scales_.sensor_average_s});
+  }
   /// Without hum. `level`: constant, where there is one, and drift.
   [[nodiscard]] double level_at(double time_s, const double* level, const double* local) const;
   [[nodiscard]] double hum_at(double time_s, const double* level) const;
@@ -188,6 +193,9 @@ class CycleModel {
  private:
   class Rows;
 
+  [[nodiscard]] std::optional<CycleState> state(const double* globals, const double* local,
+                                                const SensorTimes& sensor) const;
+  [[nodiscard]] SensorTimes sensor_of(const CycleValues& values) const;
   [[nodiscard]] std::size_t ties() const { return scales_.population ? 1 + (level_->per_cycle ? 1 : 0) : 0; }
   template <class Law>
   void fill(const Law& law, const CycleFrame& frame, const Rows& rows) const;

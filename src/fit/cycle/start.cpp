@@ -85,6 +85,7 @@ Scales scales_of(const Recording& recording, const Quality& quality, const Segme
   }
   scales.sensor_average_s = recording.conditions().sensor_average_s.value_or(0.0);
   scales.half_period_s = std::max(half_period_of(segmentation), 1e-3 * recording.sample_interval_s());
+  scales.sensor_time_unit_s = scales.half_period_s;
   std::vector<double> drops;
   std::vector<double> middles;
   for (const DetectedSlip& slip : segmentation.slips) {

@@ -65,16 +65,8 @@ bool Smoothing::exceeds_step(double sample_interval_s) const {
   return variance_s2 - thresholds::kRoundedSigmas * standard_error_s2 > sample_interval_s * sample_interval_s / 12.0;
 }
 
-bool Smoothing::is_settled() const {
-  return std::abs(variance_s2) < thresholds::kSettledAverage * standard_error_s2;
-}
-
-double Smoothing::next_variance_s2(double known_s2) const {
-  constexpr double kMostChange = 4.0;
-  return std::clamp(known_s2 + variance_s2, known_s2 / kMostChange, kMostChange * known_s2);
-}
-
 std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& held, double sample_interval_s) {
+  if (fit.model(0).has_sensor_time()) return std::nullopt;
   const double known_s = fit.scales().sensor_average_s;
   const double trial_s = std::max(kTrialShare * fit.scales().half_period_s, kTrialSteps * sample_interval_s);
   const double variance_s2 = trial_s * trial_s / 12.0;

@@ -16,10 +16,6 @@ struct Smoothing {
 
   /// Beyond what averaging over one step of the clock explains.
   [[nodiscard]] bool exceeds_step(double sample_interval_s) const;
-  /// None is left to find: a search for an average has come to it.
-  [[nodiscard]] bool is_settled() const;
-  /// Of a model's average that has this variance, by Newton's step, at most four times as large or as small.
-  [[nodiscard]] double next_variance_s2(double known_s2) const;
   /// sigma^2 that what is seen allows for. The move per sigma^2 is that of little averaging: a quarter more of what is
   /// seen allows for the bend.
   [[nodiscard]] double largest_variance_s2() const { return 1.25 * variance_s2 + 2.0 * standard_error_s2; }
@@ -29,7 +25,7 @@ struct Smoothing {
 inline constexpr double kFrequencyByAverage = 0.62;
 
 /// sigma^2 as one parameter more at the solution of the fit: one Gauss-Newton step, errors from the scatter over the
-/// cycles. Ramps count as not joined. Empty where the data cannot tell it.
+/// cycles. Ramps count as not joined. Empty where the data cannot tell it, or it is a parameter of the fit already.
 std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& held, double sample_interval_s);
 
 }  // namespace slipfit::fit

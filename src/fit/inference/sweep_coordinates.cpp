@@ -83,7 +83,7 @@ void add_scatter(Spread& spread, const SweepSolution& solution, const AgeingLine
 Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& kind) {
   const AgeingLine line = static_friction_line(solution, kind);
   const VectorXd differences = shared_or_own(differences_of(solution), solution.sweep.sharing.difference);
-  Coordinates values;
+  Coordinates values = Coordinates::Zero();
   const Globals& globals = solution.recordings.front().parameters.globals;
   for (std::size_t i = 0; i < globals.size(); ++i) values(static_cast<Index>(i)) = globals[i];
   values(kStiffnessExponent) = solution.recordings.front().parameters.exponent;
@@ -91,7 +91,6 @@ Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& 
   values(kDifference) = line.difference_weights.dot(differences);
   values(kAgeing) = line.rate_weights.dot(differences);
   values(kAgeingTime) = kind ? kind->value : 0.0;
-  values(kSlipDistance) = values(kReloadForce) = values(kReloadLength) = 0.0;
   if (const VectorXd rises = rises_of(solution); rises.size() > 0) {
     values(kReloadForce) = rises.mean();
     values(kReloadLength) = std::log(solution.reload->metres);

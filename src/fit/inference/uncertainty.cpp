@@ -118,6 +118,7 @@ Coordinates coordinates_of(const BlockFit& fit) {
   for (std::size_t i = 0; i < fit.model(0).globals(); ++i) {
     coordinates(coordinate_of(fit.scales().law, i)) = p.globals[i];
   }
+  if (fit.model(0).has_sensor_time()) coordinates(kSensorTime) = fit.sensor_time();
   for (std::size_t i = 0; i < fit.size(); ++i) {
     const double level = fit.model(i).level_at(fit.reference_s(i), fit.level_data(), p.cycles[i].data());
     coordinates(kLevel) += (level - fit.scales().level) / force / cycles;
@@ -147,6 +148,7 @@ Selection select(const BlockFit& fit) {
   for (std::size_t i = 0; i < fit.model(0).globals(); ++i) {
     selection.common(static_cast<Index>(i), coordinate_of(fit.scales().law, i)) = 1.0;
   }
+  if (const auto time = columns.sensor_time()) selection.common(*time, kSensorTime) = 1.0;
   const double drag_unit = 2.0 * force_scale(fit) / fit.scales().force;
   const double drag = drag_unit * fit.parameters.globals[kDamping];
   selection.common(kLogStiffness, kDifference) = drag;

@@ -57,7 +57,9 @@ class CoulombCycle {
 
   /// Derivatives of the force with respect to the law's coordinates, of the point's.
   [[nodiscard]] static std::array<double, 1> by_law(const Point& point) { return {point.d_zeta}; }
+  /// At fixed tau, and the part of that by the times of the sensor.
   [[nodiscard]] static double by_log_omega(const Point& point) { return point.d_log_omega; }
+  [[nodiscard]] static double by_log_sensor(const Point& point) { return point.d_log_omega; }
 
   /// The cycle at samples in ascending order. At even steps (`step_tau`; 0: uneven), of which some may be left out, a
   /// slip's cosine and sine turn by the same angle from sample to sample.

@@ -18,9 +18,9 @@ class WeakeningCycle {
  public:
   using Point = model::WeakeningPoint;
 
-  /// Empty where D_c is far beyond (F_s - F_k) / k, from which on friction that weakens makes no stick-slip: a weak
-  /// slip may lie above that limit, but not all.
-  static std::optional<WeakeningCycle> solve(double z0, double omega_rad_per_s, const double* globals,
+  /// `average_s`: over which the sensor averages. Empty where D_c is far beyond (F_s - F_k) / k, from which on friction
+  /// that weakens makes no stick-slip: a weak slip may lie above that limit, but not all.
+  static std::optional<WeakeningCycle> solve(double z0, double omega_rad_per_s, const double* globals, double average_s,
                                              const Scales& scales) {
     const double root = globals[kFrictionSlope];
     const double unit = scales.slip_distance_m * omega_rad_per_s / scales.speed_m_per_s;
@@ -35,7 +35,7 @@ class WeakeningCycle {
     WeakeningCycle cycle({z0, zeta, distance, scales.view});
     cycle.distance_ = distance;
     cycle.by_root_ = 2.0 * unit * root;
-    cycle.average_ = omega_rad_per_s * scales.sensor_average_s;
+    cycle.average_ = omega_rad_per_s * average_s;
     return cycle;
   }
 
@@ -56,6 +56,8 @@ class WeakeningCycle {
   [[nodiscard]] std::array<double, 2> by_law(const Point& point) const {
     return {point.d_zeta, by_root_ * point.d_distance};
   }
+  /// At fixed tau, and the part of that by the times of the sensor.
+  [[nodiscard]] static double by_log_sensor(const Point& point) { return point.d_log_omega; }
   [[nodiscard]] double by_log_omega(const Point& point) const {
     return point.d_log_omega + distance_ * point.d_distance;
   }

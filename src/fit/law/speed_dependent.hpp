@@ -34,7 +34,8 @@ class SpeedDependentCycle {
   using Point = ShownPoint;
 
   /// Empty where the slip has no solution.
-  static std::optional<SpeedDependentCycle> solve(double z0, const double* globals, const Scales& scales) {
+  static std::optional<SpeedDependentCycle> solve(double z0, const double* globals, const SensorTimes& sensor,
+                                                  const Scales& scales) {
     const double rate_unit = scales.speed_m_per_s / scales.population->slip_speed_m_per_s;
     const double slope_unit = 2.0 * scales.population->load;
     const SlopeRatio ratio = slope_ratio(scales.law, globals[kFrictionRate]);
@@ -44,10 +45,10 @@ class SpeedDependentCycle {
     if (!track) return std::nullopt;
     SpeedDependentCycle cycle(std::move(*track), scales.view);
     const double omega_rad_per_s = std::exp(globals[kLogFrequency]);
-    if (scales.sensor_lag_s > 0.0) {
-      cycle.lagged_.emplace(cycle.track_, scales.view == ForceView::Transmitted, omega_rad_per_s * scales.sensor_lag_s);
+    if (sensor.lag_s > 0.0) {
+      cycle.lagged_.emplace(cycle.track_, scales.view == ForceView::Transmitted, omega_rad_per_s * sensor.lag_s);
     }
-    cycle.half_window_ = 0.5 * omega_rad_per_s * scales.sensor_average_s;
+    cycle.half_window_ = 0.5 * omega_rad_per_s * sensor.average_s;
     cycle.by_slope_ = slope_unit * ratio.value;
     cycle.by_rate_ = slope_unit * globals[kFrictionSlope] * ratio.derivative;
     cycle.rate_unit_ = rate_unit;
@@ -67,7 +68,9 @@ class SpeedDependentCycle {
   [[nodiscard]] std::array<double, 3> by_law(const Point& point) const {
     return {point.d_zeta, by_slope_ * point.d_slope, rate_unit_ * point.d_rate + by_rate_ * point.d_slope};
   }
+  /// At fixed tau, and the part of that by the times of the sensor.
   [[nodiscard]] static double by_log_omega(const Point& point) { return point.d_log_omega; }
+  [[nodiscard]] static double by_log_sensor(const Point& point) { return point.d_log_omega; }
 
   /// The cycle at samples in ascending order.
   class Samples {
@@ -87,9 +90,7 @@ class SpeedDependentCycle {
   }
 
   /// The force as the sensor would show it without its average.
-  [[nodiscard]] Point shown_at(double tau) const {
-    return lagged_ ? lagged_->at(track_, tau) : Point{instant_at(tau), 0.0};
-  }
+  [[nodiscard]] Point shown_at(double tau) const { return lagged_ ? lagged_->at(track_, tau) : Point{instant_at(tau)}; }
 
   /// The mean over the window around tau.
   [[nodiscard]] Point mean_around(double tau) const {
@@ -98,7 +99,7 @@ class SpeedDependentCycle {
     const double length = last - first;
     const Point shown_first = shown_at(first);
     const Point shown_last = shown_at(last);
-    Point mean{integral_to(last), 0.0};
+    Point mean{integral_to(last)};
     add(integral_to(first), -1.0, mean);
     if (lagged_) {
       // y' = kappa (z - y) makes the integral of y that of z less y / kappa.
@@ -111,7 +112,8 @@ class SpeedDependentCycle {
       *value /= length;
     }
     mean.d_tau = (shown_last.z - shown_first.z) / length;
-    mean.d_log_omega += 0.5 * (shown_first.z + shown_last.z) - mean.z;  // the window is w_n W long
+    mean.d_log_average = 0.5 * (shown_first.z + shown_last.z) - mean.z;
+    mean.d_log_omega += mean.d_log_average;  // the window is w_n W long
     return mean;
   }
 

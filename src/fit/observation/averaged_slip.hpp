@@ -73,8 +73,13 @@ inline AveragedSlip::Force AveragedSlip::sticking_at(double tau) const {
 
 inline model::WavePoint AveragedSlip::between(const Force& first, const Force& last) const {
   const double mean = by_average_ * (last.integral - first.integral);
-  return {mean, by_average_ * (last.d_z0 - first.d_z0), by_average_ * (last.d_zeta - first.d_zeta),
-          by_average_ * (last.z - first.z), 0.5 * (first.z + last.z) - mean};
+  const double by_log_average = 0.5 * (first.z + last.z) - mean;
+  return {mean,
+          by_average_ * (last.d_z0 - first.d_z0),
+          by_average_ * (last.d_zeta - first.d_zeta),
+          by_average_ * (last.z - first.z),
+          by_log_average,
+          by_log_average};
 }
 
 }  // namespace slipfit::fit

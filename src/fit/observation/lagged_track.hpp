@@ -8,9 +8,11 @@
 
 namespace slipfit::fit {
 
-/// What a sensor shows, with the derivative with respect to ln w_n at fixed tau: its times are fixed in seconds.
+/// What a sensor shows, with the derivative with respect to ln w_n at fixed tau (its times are fixed in seconds) and
+/// with respect to the logarithm of the time over which it averages.
 struct ShownPoint : model::TrackPoint {
   double d_log_omega = 0.0;
+  double d_log_average = 0.0;
 };
 
 /// A cycle as a sensor of first order shows it: y' + kappa (y - z) = 0 with kappa = 1 / (w_n T), in the units of

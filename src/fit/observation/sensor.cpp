@@ -78,13 +78,14 @@ SensedSlip::Force SensedSlip::shown_at(const Jet& tau) const {
 
 model::WavePoint SensedSlip::at(double tau) const {
   const Jet at(tau, 2);
-  Jet y;
-  if (sensor_.average_tau > 0.0) {
-    y = (shown_at(at + half_).integral - shown_at(at - half_).integral) / (2.0 * half_);
-  } else {
-    y = shown_at(at).z;
+  if (!(sensor_.average_tau > 0.0)) {
+    const Jet y = shown_at(at).z;
+    return {y.a, y.v[0], y.v[1], y.v[2], y.v[3]};
   }
-  return {y.a, y.v[0], y.v[1], y.v[2], y.v[3]};
+  const Force first = shown_at(at - half_);
+  const Force last = shown_at(at + half_);
+  const Jet y = (last.integral - first.integral) / (2.0 * half_);
+  return {y.a, y.v[0], y.v[1], y.v[2], y.v[3], 0.5 * (first.z.a + last.z.a) - y.a};
 }
 
 }  // namespace slipfit::fit

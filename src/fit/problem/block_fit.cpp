@@ -1,5 +1,6 @@
 #include "fit/problem/block_fit.hpp"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -9,10 +10,26 @@
 
 namespace slipfit::fit {
 
-BlockFit::BlockFit(std::shared_ptr<const CycleSet> set, const Scales& scales) : set_(std::move(set)), scales_(scales) {
-  const std::size_t cycles = set_->cycles().size();
-  models_.reserve(cycles);
-  for (std::size_t i = 0; i < cycles; ++i) models_.emplace_back(*set_, i, scales_);
+namespace {
+
+std::vector<CycleModel> models_of(const CycleSet& set, const Scales& scales) {
+  std::vector<CycleModel> models;
+  models.reserve(set.cycles().size());
+  for (std::size_t i = 0; i < set.cycles().size(); ++i) models.emplace_back(set, i, scales);
+  return models;
+}
+
+double& free_time_s(Scales& scales) {
+  return scales.free_time == FreeTime::Lag ? scales.sensor_lag_s : scales.sensor_average_s;
+}
+
+}  // namespace
+
+BlockFit::BlockFit(std::shared_ptr<const CycleSet> set, const Scales& scales)
+    : set_(std::move(set)),
+      scales_(scales),
+      sensor_time_(std::pow(free_time_s(scales_) / scales.sensor_time_unit_s, 2)),
+      models_(models_of(*set_, scales_)) {
   parameters.level.assign((models_[0].has_constant() ? 1 : 0) + models_[0].drift_parameters(), 0.0);
   parameters.cycles.assign(models_.size(), Local{});
 }
@@ -32,11 +49,18 @@ CycleValues BlockFit::values(std::size_t cycle) const {
   CycleValues values;
   values.globals = parameters.globals.data();
   values.exponent = &parameters.exponent;
+  values.sensor_time = &sensor_time_;
   values.difference = &parameters.difference;
   values.constant = parameters.level.data();
   values.drift = parameters.level.data() + (models_[cycle].has_constant() ? 1 : 0);
   values.local = parameters.cycles[cycle].data();
   return values;
+}
+
+void BlockFit::set_sensor_time(double value) {
+  sensor_time_ = value;
+  free_time_s(scales_) = scales_.sensor_time_unit_s * std::sqrt(value);
+  models_ = models_of(*set_, scales_);
 }
 
 CycleState BlockFit::state(std::size_t cycle) const {

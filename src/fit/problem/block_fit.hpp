@@ -55,6 +55,9 @@ class BlockFit {
   /// Of the cosine and sine of each line, over Scales::force; where there are lines.
   [[nodiscard]] const double* wave_data() const { return level_data() + model(0).first_wave(); }
   [[nodiscard]] CycleValues values(std::size_t cycle) const;
+  /// (time / Scales::sensor_time_unit_s)^2 of the time of the sensor that is free.
+  [[nodiscard]] double sensor_time() const { return sensor_time_; }
+  void set_sensor_time(double value);
   /// By a law in closed form, at a solution; under friction that depends on the speed as if it did not.
   [[nodiscard]] CycleState state(std::size_t cycle) const;
 
@@ -63,6 +66,7 @@ class BlockFit {
  private:
   std::shared_ptr<const CycleSet> set_;
   Scales scales_;
+  double sensor_time_ = 0.0;
   std::vector<CycleModel> models_;
 };
 

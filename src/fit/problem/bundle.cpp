@@ -22,6 +22,7 @@ class Gathered {
     const auto take = [&](std::size_t count) { return count > 0 ? std::exchange(next, next + count) : nullptr; };
     shared_.globals = take(any.globals());
     shared_.exponent = take(any.has_exponent() ? 1 : 0);
+    shared_.sensor_time = take(any.has_sensor_time() ? 1 : 0);
     shared_.difference = take(any.has_difference() ? 1 : 0);
     shared_.constant = take(any.has_constant() ? 1 : 0);
     shared_.drift = take(any.drift_parameters());
@@ -58,6 +59,8 @@ std::optional<Bundle::Point> Bundle::start(double damping) const {
   for (std::size_t r = problem_.recordings.size(); r-- > 0;) {  // what is shared is the first one's
     columns_.visit(r, problem_.recordings[r], problem_.recordings[r].parameters,
                    [&](Index column, double value) { values.common(column) = value; });
+    if (problem_.recordings[r].model(0).has_sensor_time())
+      values.common(*columns_.sensor_time()) = problem_.recordings[r].sensor_time();
   }
   for (const BlockFit& recording : problem_.recordings) {
     const std::vector<Local>& cycles = recording.parameters.cycles;
@@ -100,6 +103,7 @@ void Bundle::put(const Values& values, std::span<BlockFit> recordings) const {
     Parameters& parameters = recordings[r].parameters;
     columns_.visit(r, recordings[r], parameters, [&](Index column, double& value) { value = values.common(column); });
     for (Local& cycle : parameters.cycles) cycle = *next++;
+    if (recordings[r].model(0).has_sensor_time()) recordings[r].set_sensor_time(values.common(*columns_.sensor_time()));
   }
 }
 

@@ -9,6 +9,9 @@ CommonColumns::CommonColumns(const Problem& problem) {
   const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
   size_ = globals;
   if (problem.recordings.front().model(0).has_exponent()) exponent_ = size_++;
+  for (const BlockFit& recording : problem.recordings) {
+    if (recording.model(0).has_sensor_time() && !sensor_time_) sensor_time_ = size_++;
+  }
   const auto add = [&](std::vector<Index>& columns, auto&& width_of, bool shared) {
     for (std::size_t r = 0; r < count; ++r) {
       const Index width = width_of(problem.recordings[r]);
@@ -28,6 +31,7 @@ CommonColumns::CommonColumns(const Problem& problem) {
     of_.emplace_back();
     for (Index i = 0; i < globals; ++i) of_.back().push_back(i);
     if (exponent_) of_.back().push_back(*exponent_);
+    if (recording.model(0).has_sensor_time()) of_.back().push_back(*sensor_time_);
     if (populations(recording) > 0) of_.back().push_back(differences_[r]);
     if (constants(recording) > 0) of_.back().push_back(levels_[r]);
     for (Index i = 0; i < drifts(recording); ++i) of_.back().push_back(drifts_[r] + i);

@@ -9,8 +9,8 @@
 
 namespace slipfit::fit {
 
-/// Columns of what the cycles of a problem have in common: globals, exponent, then levels, differences and drifts
-/// of the recordings, those that there are; shared ones once.
+/// Columns of what the cycles of a problem have in common: globals, exponent, time of the sensor, then levels,
+/// differences and drifts of the recordings, those that there are; shared ones once.
 class CommonColumns {
  public:
   explicit CommonColumns(const Problem& problem);
@@ -18,12 +18,15 @@ class CommonColumns {
   [[nodiscard]] Eigen::Index size() const { return size_; }
   /// Where k goes with the speed.
   [[nodiscard]] std::optional<Eigen::Index> exponent() const { return exponent_; }
+  /// Where it is free in a recording; all of them share it.
+  [[nodiscard]] std::optional<Eigen::Index> sensor_time() const { return sensor_time_; }
   [[nodiscard]] Eigen::Index level(std::size_t recording) const { return levels_[recording]; }
   [[nodiscard]] Eigen::Index difference(std::size_t recording) const { return differences_[recording]; }
   [[nodiscard]] Eigen::Index drift(std::size_t recording) const { return drifts_[recording]; }
   /// Of the Jacobian of a recording's cycles, in its order.
   [[nodiscard]] const std::vector<Eigen::Index>& of(std::size_t recording) const { return of_[recording]; }
-  /// Calls f(column, value) for each common parameter that a recording has. `parameters`: its own, or a copy.
+  /// Calls f(column, value) for each common parameter that a recording has, but for the time of the sensor.
+  /// `parameters`: its own, or a copy.
   template <class P, class F>
   void visit(std::size_t recording, const BlockFit& fit, P& parameters, const F& f) const {
     const CycleModel& any = fit.model(0);
@@ -41,7 +44,7 @@ class CommonColumns {
 
  private:
   Eigen::Index size_ = 0;
-  std::optional<Eigen::Index> exponent_;
+  std::optional<Eigen::Index> exponent_, sensor_time_;
   std::vector<Eigen::Index> levels_, differences_, drifts_;
   std::vector<std::vector<Eigen::Index>> of_;
 };

@@ -153,6 +153,9 @@ int most_iterations(const Problem& problem, const SolveOptions& options, std::si
   return static_cast<int>(std::min<double>(options.max_iterations, std::max(kFewest, kMostEvaluations / evaluations)));
 }
 
+/// A time of the sensor of a hundredth of the slip leaves no trace, and none is not a value that derivatives lead to.
+constexpr double kLeastSensorTime = 1e-4;  // (time / Scales::sensor_time_unit_s)^2
+
 void hold(ceres::Problem& ceres, double* parameters, const Problem& problem, const SolveOptions& options,
           const Eigen::VectorXd& units) {
   const std::size_t globals = problem.recordings.front().model(0).globals();
@@ -165,6 +168,9 @@ void hold(ceres::Problem& ceres, double* parameters, const Problem& problem, con
   if (globals > kFrictionRate && !options.held[kFrictionRate]) {
     ceres.SetParameterLowerBound(parameters, static_cast<int>(kFrictionRate), kLeastRate / units(kFrictionRate));
     ceres.SetParameterUpperBound(parameters, static_cast<int>(kFrictionRate), kMostRate / units(kFrictionRate));
+  }
+  if (const auto time = CommonColumns(problem).sensor_time()) {
+    ceres.SetParameterLowerBound(parameters, static_cast<int>(*time), kLeastSensorTime / units(*time));
   }
 }
 

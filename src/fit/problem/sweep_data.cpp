@@ -97,6 +97,7 @@ Scales scales_in_sweep(const SweepData& data, std::size_t recording, FrictionLaw
   const double load = data.loads[recording];
   Scales scales = fit.blocks.scales();
   scales.noise = fit.uncertainty.noise;
+  scales.free_time = FreeTime::None;
   scales.law = law;
   Population population;
   population.load = load;

@@ -50,23 +50,10 @@ bool follows_slips(const DampedFit& fit, double sample_interval_s) {
          resting_share(fit.blocks) >= thresholds::kRestickShare && median_slip_s(fit.blocks) > sample_interval_s;
 }
 
-std::optional<AveragedFit> AverageSolver::fit(double variance_s2, const Globals& near, const DampedFit* other) const {
-  const double step_s = input_.recording.sample_interval_s();
-  const int most_fits = plain_.blocks.level().reloading ? 6 : 3;
-  std::optional<AveragedFit> best;
-  std::optional<DampedFit> fit = other != nullptr ? beside(*other, variance_s2, &near) : drafted(variance_s2, near);
-  for (int fits = 1; fit; ++fits) {
-    const auto beyond = estimate_smoothing(fit->blocks, fit->held, step_s);
-    if (!beyond) break;
-    AveragedFit trial{*std::move(fit), *beyond, variance_s2};
-    if (!best || trial.off() < best->off()) best = std::move(trial);
-    const bool is_worse = !follows_slips(best->fit, step_s) || best->fit.uncertainty.noise > plain_.uncertainty.noise;
-    if (fits == most_fits || is_worse || best->beyond.is_settled()) break;
-    variance_s2 += beyond->variance_s2;
-    if (!(variance_s2 > 0.0)) break;
-    fit = beside(best->fit, variance_s2, nullptr);
-  }
-  return best;
+std::optional<DampedFit> AverageSolver::fit(double variance_s2, const Globals& near, const DampedFit* other) const {
+  std::optional<DampedFit> fit = other != nullptr ? beside(*other, variance_s2, near) : drafted(variance_s2, near);
+  if (!fit || !follows_slips(*fit, input_.recording.sample_interval_s())) return std::nullopt;
+  return solved(with_free_time(fit->blocks, FreeTime::Average), *fit);
 }
 
 std::shared_ptr<const RiseAfterSlip> AverageSolver::reloading(double average_s) const {
@@ -91,11 +78,15 @@ bool AverageSolver::is_hopeless(const BlockFit& some) const {
   return resting_share(some) < thresholds::kFewRest || mean_square_in(some, some) > mean_square_in(some, plain_.blocks);
 }
 
-std::optional<DampedFit> AverageSolver::beside(const DampedFit& other, double variance_s2, const Globals* start) const {
+std::optional<DampedFit> AverageSolver::beside(const DampedFit& other, double variance_s2, const Globals& start) const {
   BlockFit blocks = averaged_by(other.blocks, variance_s2);
-  if (start != nullptr) set_start(blocks, input_.segmentation, *start);
-  if (!std::isfinite(solve(blocks, {other.held, false, true}))) return std::nullopt;
-  DampedFit fit{std::move(blocks), false, other.held, {}, other.half_width_s, other.excluded};
+  set_start(blocks, input_.segmentation, start);
+  return solved(std::move(blocks), other);
+}
+
+std::optional<DampedFit> AverageSolver::solved(BlockFit blocks, const DampedFit& near) const {
+  if (!std::isfinite(solve(blocks, {near.held, false, true}))) return std::nullopt;
+  DampedFit fit{std::move(blocks), false, near.held, {}, near.half_width_s, near.excluded};
   return settle_rise(input_, with_uncertainty(std::move(fit), input_.quality));
 }
 

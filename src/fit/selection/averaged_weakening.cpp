@@ -7,6 +7,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
+#include "fit/problem/solve.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/weakening_fitter.hpp"
@@ -26,7 +27,7 @@ constexpr double kSlip2 = 5.6;  // W^2 of an average that draws the fall out as 
 constexpr std::size_t kDraftCycles = 16;
 constexpr int kDraftIterations = 10;
 constexpr std::size_t kDescents = 3;  // of the starts
-constexpr int kMostSteps = 6;         // in sigma^2, of a few cycles
+constexpr int kDescentIterations = 20;
 constexpr double kSameAverage = 0.1;  // of ln T_b: two starts that led to one minimum
 constexpr double kRuledOut = 60.0;    // of AICc by all samples: few of the cycles tell less
 
@@ -56,9 +57,8 @@ class AveragedWeakening {
       const Start start = enough.empty() ? Start{draft.blocks, false} : refined(draft.blocks, enough);
       std::optional<DampedFit> fit;
       if (start.blocks) fit = solver_.fit(cycles, *start.blocks);
-      if (fit) fit = with_settled_average(input_, *std::move(fit));
-      if (fit) {
-        found.fits.push_back(*std::move(fit));
+      if (fit && !has_no_average(fit->blocks)) {
+        found.fits.push_back(with_average_error(*std::move(fit)));
       } else if (!start.is_simpler) {
         found.is_complete = false;
       }
@@ -73,17 +73,12 @@ class AveragedWeakening {
     bool is_simpler = false;  ///< the best slip distance, or average, is none, and so a simpler fit the same one
   };
 
-  /// Of more cycles. Empty also where their average does not settle.
+  /// Of more cycles.
   [[nodiscard]] Start refined(const BlockFit& draft, const std::vector<CycleData>& enough) const {
     std::optional<BlockFit> some = solver_.solved(enough, draft, WeakeningSolver::kRoughTolerance);
     if (!some || !has_slips_of_its_own(*some)) return {};
-    if (!solver_.tells_distance(*some)) return {std::nullopt, true};
-    const double sum = sum_of_squares(*some);
-    Draft descended_to = descended({*std::move(some), sum});
-    if (has_no_average(descended_to.blocks)) return {std::nullopt, true};
-    const std::optional<Smoothing> left = beyond(descended_to.blocks);
-    if (!left || !left->is_settled()) return {};
-    return {std::move(descended_to.blocks)};
+    if (!solver_.tells_distance(*some) || has_no_average(*some)) return {std::nullopt, true};
+    return {*std::move(some)};
   }
 
   /// They come to rest, and the average is shorter than a stick.
@@ -138,43 +133,20 @@ class AveragedWeakening {
     return std::abs(std::log(ratio)) > kSameAverage && behind < kRuledOut;
   }
 
-  /// What is left to smooth at a solution.
-  [[nodiscard]] std::optional<Smoothing> beyond(const BlockFit& blocks) const {
-    return estimate_smoothing(blocks, solver_.held(), input_.recording.sample_interval_s());
-  }
-
   /// Averages within a step of the clock cannot be told from none.
   [[nodiscard]] bool has_no_average(const BlockFit& blocks) const {
     return blocks.scales().sensor_average_s < input_.recording.sample_interval_s();
   }
 
-  /// Newton's steps in sigma^2 as long as they lead down. Where one leads below none at all, none is tried at once.
+  /// With the average free.
   [[nodiscard]] Draft descended(Draft draft) const {
-    for (int step = 0; step < kMostSteps && !has_no_average(draft.blocks); ++step) {
-      const std::optional<Smoothing> left = beyond(draft.blocks);
-      if (!left || left->is_settled()) break;
-      if (std::optional<Draft> none = without_average(draft, *left)) return *std::move(none);
-      std::optional<BlockFit> next = with_next_average(draft.blocks, *left, solver_.held());
-      if (!next) break;
-      const double sum = sum_of_squares(*next);
-      if (!(sum < draft.sum_of_squares)) break;
-      draft = {*std::move(next), sum};
+    draft.blocks = with_free_time(draft.blocks, FreeTime::Average);
+    BlockFit blocks = draft.blocks;
+    if (!std::isfinite(solve(blocks, {solver_.held(), false, true, kDescentIterations})) || !has_slips(blocks)) {
+      return draft;
     }
-    return draft;
-  }
-
-  /// With an average of half a step of the clock, which is none, where that explains more and no longer one still more.
-  [[nodiscard]] std::optional<Draft> without_average(const Draft& draft, const Smoothing& left) const {
-    const double average_s = draft.blocks.scales().sensor_average_s;
-    if (left.variance_s2 > -average_s * average_s / 12.0) return std::nullopt;
-    const double least_s = 0.5 * input_.recording.sample_interval_s();
-    std::optional<BlockFit> none = solved_behind(draft.blocks, least_s * least_s / 12.0, solver_.held());
-    if (!none) return std::nullopt;
-    const double sum = sum_of_squares(*none);
-    const std::optional<Smoothing> beyond_none = beyond(*none);
-    const bool is_longer = !beyond_none || (beyond_none->variance_s2 > 0.0 && !beyond_none->is_settled());
-    if (is_longer || !(sum < draft.sum_of_squares)) return std::nullopt;
-    return Draft{*std::move(none), sum};
+    const double sum = sum_of_squares(blocks);
+    return sum < draft.sum_of_squares ? Draft{std::move(blocks), sum} : std::move(draft);
   }
 
   const FitInput& input_;

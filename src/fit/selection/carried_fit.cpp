@@ -51,16 +51,12 @@ BlockFit averaged_by(const BlockFit& fit, double variance_s2) {
   return with_rise_after(fit, scales);
 }
 
-std::optional<BlockFit> solved_behind(const BlockFit& fit, double variance_s2, const Held& held) {
-  constexpr int kIterations = 8;
-  BlockFit next = averaged_by(fit, variance_s2);
-  const bool is_solved = std::isfinite(solve(next, {held, false, true, kIterations})) && has_slips(next);
-  return is_solved ? std::optional(std::move(next)) : std::nullopt;
-}
-
-std::optional<BlockFit> with_next_average(const BlockFit& fit, const Smoothing& beyond, const Held& held) {
-  const double average_s = fit.scales().sensor_average_s;
-  return solved_behind(fit, beyond.next_variance_s2(average_s * average_s / 12.0), held);
+BlockFit with_free_time(const BlockFit& fit, FreeTime time) {
+  Scales scales = fit.scales();
+  scales.free_time = time;
+  BlockFit free(fit.set(), scales);
+  free.parameters = fit.parameters;
+  return free;
 }
 
 double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor) {

@@ -19,11 +19,8 @@ BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& 
 /// The same cycles at the same parameters, seen through an average of this variance.
 BlockFit averaged_by(const BlockFit& fit, double variance_s2);
 
-/// The same, solved again from there. Empty where a slip has no solution.
-std::optional<BlockFit> solved_behind(const BlockFit& fit, double variance_s2, const Held& held);
-
-/// The same, by Newton's step from the solution of an average.
-std::optional<BlockFit> with_next_average(const BlockFit& fit, const Smoothing& beyond, const Held& held);
+/// The same with a time of the sensor as one parameter more.
+BlockFit with_free_time(const BlockFit& fit, FreeTime time);
 
 double sum_of_squares(const BlockFit& fit);
 std::size_t residuals_in(const BlockFit& fit);

@@ -29,6 +29,11 @@ constexpr double kSame = 0.05;              // of the variance: Newton's steps h
 constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
 constexpr double kForgottenLags = 8.0;      // e^-8
 
+/// Of the parameter, (W / Scales::sensor_time_unit_s)^2.
+double average_error(const DampedFit& fit) {
+  return std::sqrt(std::max(0.0, fit.uncertainty.covariance(kSensorTime, kSensorTime)));
+}
+
 /// Rounded slips, slips that are not shaped like the model's, or slips without damping: an average that lasts longer
 /// than the slip takes it away. Falls within a step of the clock show nothing of it.
 bool may_be_averaged(const FitInput& input, const DampedFit& plain) {
@@ -41,11 +46,11 @@ bool may_be_averaged(const FitInput& input, const DampedFit& plain) {
 }
 
 /// Slips behind it that are damped look like longer ones that are not.
-bool hides_damping(double variance_s2, double log_omega) {
-  return std::exp(log_omega) * std::sqrt(12.0 * variance_s2) > thresholds::kHidingAverage;
+bool hides_damping(double average_s, double log_omega) {
+  return std::exp(log_omega) * average_s > thresholds::kHidingAverage;
 }
 bool hides_damping(const KernelSearch::Least& least) {
-  return hides_damping(least.variance_s2, least.parameters.globals[kLogFrequency]);
+  return hides_damping(std::sqrt(12.0 * least.variance_s2), least.parameters.globals[kLogFrequency]);
 }
 
 /// Slips and W can be told apart.
@@ -90,28 +95,26 @@ bool rules_out_lag(const KernelSearch::Least& average, const KernelSearch& searc
 
 /// The fit of all cycles that explains them best, and another average that does so as well.
 struct Found {
-  std::optional<AveragedFit> trial;
+  std::optional<DampedFit> trial;
   std::optional<double> other_s;
 };
 Found best_trial(const AverageSolver& solver, const DampedFit& plain, const std::vector<KernelSearch::Least>& starts,
                  double sample_interval_s, double least_gain) {
   Found found;
-  std::optional<AveragedFit>& trial = found.trial;
+  std::optional<DampedFit>& trial = found.trial;
   for (const KernelSearch::Least& start : starts) {
-    std::optional<AveragedFit> next =
-        solver.fit(start.variance_s2, start.parameters.globals, trial ? &trial->fit : nullptr);
-    const bool is_better =
-        next && follows_slips(next->fit, sample_interval_s) && gain_of(next->fit, plain) > least_gain;
+    std::optional<DampedFit> next = solver.fit(start.variance_s2, start.parameters.globals, trial ? &*trial : nullptr);
+    const bool is_better = next && follows_slips(*next, sample_interval_s) && gain_of(*next, plain) > least_gain;
     if (!is_better) continue;
     if (!trial) {
       trial = std::move(next);
       continue;
     }
-    const double gain = gain_of(next->fit, trial->fit);
+    const double gain = gain_of(*next, *trial);
     if (gain > 0.0) std::swap(trial, next);
-    const double apart_s2 = std::abs(next->variance_s2 - trial->variance_s2);
-    const bool is_another = apart_s2 > thresholds::kSureTerm * trial->beyond.standard_error_s2;
-    if (is_another && std::abs(gain) < thresholds::kTierPrice) found.other_s = std::sqrt(12.0 * next->variance_s2);
+    const double apart = std::abs(next->blocks.sensor_time() - trial->blocks.sensor_time());
+    const bool is_another = apart > thresholds::kSureTerm * average_error(*trial);
+    if (is_another && std::abs(gain) < thresholds::kTierPrice) found.other_s = next->blocks.scales().sensor_average_s;
   }
   return found;
 }
@@ -127,17 +130,6 @@ std::string doubt_beside(const DampedFit& fit, std::optional<double> other_s) {
   if (tells_slips(fit)) return {};
   return "the slips and the average of the sensor behind which they are seen cannot be told apart: state the average "
          "with --sensor-average, or the mass";
-}
-
-/// With an average of this variance as a parameter of the fit that its model has, and what W is not known by in the
-/// covariance. `beyond`: what is left to smooth.
-DampedFit with_average_error(DampedFit fit, double variance_s2, const Smoothing& beyond) {
-  const double error_s2 =
-      std::hypot(beyond.standard_error_s2, beyond.variance_s2, thresholds::kKernelShape * variance_s2);
-  const double average_s = std::sqrt(12.0 * variance_s2);
-  fit.average = FittedAverage{average_s, 6.0 * error_s2 / average_s};
-  fit.uncertainty.covariance += error_s2 * error_s2 * beyond.move_per_s2 * beyond.move_per_s2.transpose();
-  return fit;
 }
 
 /// What an average of the instrument explains that a fit without does not.
@@ -174,14 +166,13 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
                                      -thresholds::kNotRuledOut);
   if (!trial) return {};
   const bool is_taken =
-      gain_of(trial->fit, plain) > thresholds::kTierPrice && rules_out_lag(averages.front(), *comparison, plain);
-  const double log_omega = trial->fit.blocks.parameters.globals[kLogFrequency];
-  if (!is_taken && !hides_damping(trial->variance_s2, log_omega)) return {};
-  const Recording averaged = with_average(recording, std::sqrt(12.0 * trial->variance_s2));
-  std::optional<DampedFit> finished = finish_fit({averaged, quality, segmentation, held}, std::move(trial->fit));
+      gain_of(*trial, plain) > thresholds::kTierPrice && rules_out_lag(averages.front(), *comparison, plain);
+  const double average_s = trial->blocks.scales().sensor_average_s;
+  if (!is_taken && !hides_damping(average_s, trial->blocks.parameters.globals[kLogFrequency])) return {};
+  const Recording averaged = with_average(recording, average_s);
+  std::optional<DampedFit> finished = finish_fit({averaged, quality, segmentation, held}, *std::move(trial));
   if (!finished) return {};
-  trial->fit = *std::move(finished);
-  DampedFit fit = with_average_error(std::move(trial->fit), trial->variance_s2, trial->beyond);
+  DampedFit fit = with_average_error(*std::move(finished));
   if (!(fit.average->seconds < median_stick_s(fit.blocks))) return {};
   if (!is_taken) return {std::nullopt, std::move(fit)};
   fit.fall_doubt = doubt_beside(fit, other_s);
@@ -197,22 +188,22 @@ bool tells_average(const FittedAverage& average) {
   return average.seconds > 2.0 * thresholds::kSureTerm * average.standard_error_s;
 }
 
-std::optional<DampedFit> with_settled_average(const FitInput& input, DampedFit fit) {
-  constexpr int kMostSteps = 5;
-  std::optional<DampedFit> next = std::move(fit);
-  for (int step = 0; next && step < kMostSteps; ++step) {
-    const auto beyond = estimate_smoothing(next->blocks, next->held, input.recording.sample_interval_s());
-    if (!beyond) break;
-    if (beyond->is_settled()) {
-      const double average_s = next->blocks.scales().sensor_average_s;
-      return with_average_error(*std::move(next), average_s * average_s / 12.0, *beyond);
-    }
-    std::optional<BlockFit> blocks = with_next_average(next->blocks, *beyond, next->held);
-    if (!blocks) break;
-    next->blocks = *std::move(blocks);
-    next = finish_settled(input, *std::move(next));
+std::optional<FittedAverage> estimated_average(const DampedFit& fit) {
+  const Scales& scales = fit.blocks.scales();
+  if (scales.free_time != FreeTime::Average) return fit.average;
+  const double unit_s2 = scales.sensor_time_unit_s * scales.sensor_time_unit_s;
+  return FittedAverage{scales.sensor_average_s, 0.5 * unit_s2 * average_error(fit) / scales.sensor_average_s};
+}
+
+DampedFit with_average_error(DampedFit fit) {
+  const double error = average_error(fit);
+  if (error > 0.0) {
+    const Coordinates by_average = fit.uncertainty.covariance.col(kSensorTime) / (error * error);
+    const double by_shape = thresholds::kKernelShape * fit.blocks.sensor_time();
+    fit.uncertainty.covariance += by_shape * by_shape * by_average * by_average.transpose();
   }
-  return std::nullopt;
+  fit.average = estimated_average(fit);
+  return fit;
 }
 
 std::optional<DampedFit> fit_as_sensed(const FitInput& input, DampedFit plain) {

@@ -7,10 +7,12 @@
 
 namespace slipfit::fit {
 
-/// The same law seen through the average that explains most beside what is held, by Newton's steps in sigma^2 from the
-/// one that `fit` has; each is finished, since the rise after a slip follows the average. The covariance holds what the
-/// average is not known by. Empty where the steps do not settle.
-std::optional<DampedFit> with_settled_average(const FitInput& input, DampedFit fit);
+/// The average that is a parameter of the fit, with its error in the covariance; where it is none, what the fit has.
+std::optional<FittedAverage> estimated_average(const DampedFit& fit);
+
+/// With the estimated average. The unknown shape of the instrument's impulse response adds to its error and to all that
+/// goes with it.
+DampedFit with_average_error(DampedFit fit);
 
 /// Its variance, which is what rounds the slips, is more than kSureTerm of its errors: T_b itself, a root, is twice as
 /// many of its own.

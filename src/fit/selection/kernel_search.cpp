@@ -21,7 +21,6 @@
 namespace slipfit::fit {
 namespace {
 
-constexpr double kSmallStep = 0.05;                                                   // in ln sigma^2
 constexpr double kSlipVariance = 0.25 - 2.0 / (std::numbers::pi * std::numbers::pi);  // of half a sine that lasts 1
 constexpr double kLargestShare = 1.4;  // of the seen variance: damping and the drive make a slip last longer
 constexpr double kBeyondSlip = 2.0;    // where the sum still falls at the largest
@@ -126,7 +125,7 @@ KernelSearch::Least KernelSearch::at(double variance_s2, const Least& near, cons
   least.variance_s2 = variance_s2;
   BlockFit fit(cycles_, plain_.scales());
   fit.parameters = near.parameters;
-  fit = with_kernel(fit, Kernel::MovingAverage, variance_s2);
+  fit = with_kernel(fit, FreeTime::Average, variance_s2);
   const double gain =
       held_[kLogFrequency] ? 0.0 : log_frequency_gain(variance_s2) - log_frequency_gain(near.variance_s2);
   fit.parameters.globals[kLogFrequency] += gain;
@@ -147,34 +146,24 @@ KernelSearch::Least KernelSearch::at(double variance_s2, const Least& near, cons
 KernelSearch::Least KernelSearch::least_lag(const Least& near, double variance_s2) const {
   BlockFit fit(cycles_, plain_.scales());
   fit.parameters = near.parameters;
-  return descended(with_kernel(fit, Kernel::FirstOrder, variance_s2), Kernel::FirstOrder, variance_s2);
+  return solved(with_kernel(fit, FreeTime::Lag, variance_s2), FreeTime::Lag);
 }
 
 KernelSearch::Least KernelSearch::refined(const Least& near) const {
   BlockFit fit(cycles_, plain_.scales());
   set_start(fit, segmentation_, near.parameters.globals);
   fit.parameters.level = plain_.parameters.level;
-  return descended(with_kernel(fit, Kernel::MovingAverage, near.variance_s2), Kernel::MovingAverage, near.variance_s2);
+  return solved(with_kernel(fit, FreeTime::Average, near.variance_s2), FreeTime::Average);
 }
 
-/// Newton's steps in sigma^2.
-KernelSearch::Least KernelSearch::descended(BlockFit fit, Kernel kernel, double variance_s2) const {
-  constexpr int kMostSteps = 3;
-  Least least;
-  for (int step = 0; step < kMostSteps; ++step) {
-    const std::optional<Held> held = solve_with_damping(fit);
-    if (!held) break;
-    const double sum = sum_of_squares(fit);
-    if (!(sum < least.sum)) break;
-    least = {sum, variance_s2, fit.parameters, resting_share(fit)};
-    const std::optional<Smoothing> beyond = estimate_smoothing(fit, *held, step_s_);
-    if (!beyond) break;
-    const double next_s2 = beyond->next_variance_s2(variance_s2);
-    if (std::abs(std::log(next_s2 / variance_s2)) < kSmallStep) break;
-    variance_s2 = next_s2;
-    fit = with_kernel(fit, kernel, variance_s2);
-  }
-  return least;
+/// With this time of the sensor as a parameter.
+KernelSearch::Least KernelSearch::solved(const BlockFit& start, FreeTime time) const {
+  BlockFit fit = with_free_time(start, time);
+  if (!solve_with_damping(fit)) return {};
+  const Scales& scales = fit.scales();
+  const double variance_s2 =
+      time == FreeTime::Lag ? std::pow(scales.sensor_lag_s, 2) : std::pow(scales.sensor_average_s, 2) / 12.0;
+  return {sum_of_squares(fit), variance_s2, fit.parameters, resting_share(fit)};
 }
 
 double KernelSearch::residuals() const {
@@ -183,10 +172,10 @@ double KernelSearch::residuals() const {
   return count;
 }
 
-BlockFit KernelSearch::with_kernel(const BlockFit& fit, Kernel kernel, double variance_s2) const {
+BlockFit KernelSearch::with_kernel(const BlockFit& fit, FreeTime kernel, double variance_s2) const {
   Scales scales = plain_.scales();
-  scales.sensor_average_s = kernel == Kernel::MovingAverage ? std::sqrt(12.0 * variance_s2) : 0.0;
-  scales.sensor_lag_s = kernel == Kernel::FirstOrder ? std::sqrt(variance_s2) : 0.0;
+  scales.sensor_average_s = kernel == FreeTime::Average ? std::sqrt(12.0 * variance_s2) : 0.0;
+  scales.sensor_lag_s = kernel == FreeTime::Lag ? std::sqrt(variance_s2) : 0.0;
   return with_rise_after(fit, scales);
 }
 

@@ -12,9 +12,6 @@
 
 namespace slipfit::fit {
 
-/// Shapes of an instrument's impulse response.
-enum class Kernel { MovingAverage, FirstOrder };
-
 /// The search for the variance sigma^2 of an instrument's kernel on some of the cycles and, of these, some of the
 /// samples around their slips, from the features of the slips. A moving average over W has sigma^2 = W^2 / 12, a lag T
 /// of first order T^2.
@@ -37,7 +34,7 @@ class KernelSearch {
   /// fall may be either W's or the slip's own (docs/model.md section 7). Those of at least this gain.
   [[nodiscard]] std::vector<Least> minima(double least_gain) const;
 
-  /// The least near one of another search, over a few of Newton's steps: infinity without a solution.
+  /// The least near one of another search, the average as a parameter: infinity without a solution.
   [[nodiscard]] Least refined(const Least& near) const;
   /// The same of a sensor of first order near a lag of this variance, from one of this search.
   [[nodiscard]] Least least_lag(const Least& near, double variance_s2) const;
@@ -52,8 +49,8 @@ class KernelSearch {
   /// From the solution at another variance, or where the line through two leads if that is nearer.
   [[nodiscard]] Least at(double variance_s2, const Least& near, const Least* other) const;
   [[nodiscard]] Parameters extrapolated(double variance_s2, const Least& near, const Least& other) const;
-  [[nodiscard]] Least descended(BlockFit fit, Kernel kernel, double variance_s2) const;
-  [[nodiscard]] BlockFit with_kernel(const BlockFit& fit, Kernel kernel, double variance_s2) const;
+  [[nodiscard]] Least solved(const BlockFit& start, FreeTime time) const;
+  [[nodiscard]] BlockFit with_kernel(const BlockFit& fit, FreeTime kernel, double variance_s2) const;
   [[nodiscard]] BlockFit started() const;
   [[nodiscard]] double log_frequency_gain(double variance_s2) const;
   [[nodiscard]] std::optional<Held> solve_with_damping(BlockFit& fit) const;

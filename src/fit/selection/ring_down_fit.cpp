@@ -26,23 +26,6 @@ double off_by_averaging(const Recording& recording, const DampedFit& fit) {
   return kFrequencyByAverage * omega * omega * unstated_variance_s2(fit, seen, recording.sample_interval_s());
 }
 
-/// A solution with w_n and zeta held, and what an average that was found is still off by there.
-struct Settled {
-  Coordinates coordinates;
-  double variance_s2 = 0.0;
-};
-
-/// `averaged`: the fit found its average, which goes with w_n and zeta.
-std::optional<Settled> settled(const BlockFit& blocks, const Held& held, double sample_interval_s, bool averaged) {
-  Settled settled{coordinates_of(blocks)};
-  if (!averaged) return settled;
-  const std::optional<Smoothing> beyond = estimate_smoothing(blocks, held, sample_interval_s);
-  if (!beyond) return std::nullopt;
-  settled.coordinates += beyond->variance_s2 * beyond->move_per_s2;
-  settled.variance_s2 = beyond->variance_s2;
-  return settled;
-}
-
 /// As the ring-down at a speed tells it of the mean of the speeds, by how k goes with the speed.
 FreeMotion at_mean_speed(FreeMotion ring, double speed_m_per_s, const SweepOutcome& outcome) {
   const double log_ratio = std::log(speed_m_per_s / outcome.solution.sweep.units.speed_m_per_s);
@@ -76,27 +59,18 @@ FreeMotion mean_of(const std::vector<FreeMotion>& motions) {
 }
 
 /// With the errors of w_n and zeta, which are held at `motion`.
-std::optional<DampedFit> with_errors_of(const FreeMotion& motion, DampedFit fit, double sample_interval_s) {
+std::optional<DampedFit> with_errors_of(const FreeMotion& motion, DampedFit fit) {
   constexpr double kStep = 0.01;  // of ln w_n and zeta
-  const bool averaged = fit.average.has_value();
-  const std::optional<Settled> here = settled(fit.blocks, fit.held, sample_interval_s, averaged);
-  if (!here) return std::nullopt;
+  const Coordinates here = coordinates_of(fit.blocks);
   MotionMoves moves;
-  Eigen::RowVector2d by_variance;
   for (const Coordinate i : {kLogFrequency, kDamping}) {
     BlockFit other = fit.blocks;
     other.parameters.globals[static_cast<std::size_t>(i)] += kStep;
     if (!std::isfinite(solve(other, {fit.held, fit.continuous, true}))) return std::nullopt;
-    const std::optional<Settled> there = settled(other, fit.held, sample_interval_s, averaged);
-    if (!there) return std::nullopt;
-    moves.col(i - kLogFrequency) = (there->coordinates - here->coordinates) / kStep;
-    by_variance(i - kLogFrequency) = (there->variance_s2 - here->variance_s2) / kStep;
+    moves.col(i - kLogFrequency) = (coordinates_of(other) - here) / kStep;
   }
   fit.uncertainty.covariance = with_motion(fit.uncertainty.covariance, moves, motion);
-  if (averaged) {
-    const double error_s2 = std::sqrt(by_variance * motion.covariance * by_variance.transpose());
-    fit.average->standard_error_s = std::hypot(fit.average->standard_error_s, 6.0 * error_s2 / fit.average->seconds);
-  }
+  fit.average = estimated_average(fit);
   fit.motion = motion;
   return fit;
 }
@@ -159,11 +133,13 @@ std::optional<DampedFit> held_at(const FreeMotion& motion, const FitInput& input
   fit.continuous = false;
   if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
   const bool averaged = fit.average.has_value();
-  const double step_s = input.recording.sample_interval_s();
   std::optional<DampedFit> next = finish_settled(input, std::move(fit));
-  if (next && averaged) next = with_settled_average(input, *std::move(next));
-  if (next && next->rounding) next->rounding = estimate_smoothing(next->blocks, next->held, step_s);
-  return next ? with_errors_of(motion, *std::move(next), step_s) : std::nullopt;
+  if (!next) return next;
+  if (averaged) next = with_average_error(*std::move(next));
+  if (next->rounding) {
+    next->rounding = estimate_smoothing(next->blocks, next->held, input.recording.sample_interval_s());
+  }
+  return with_errors_of(motion, *std::move(next));
 }
 
 }  // namespace slipfit::fit

@@ -109,7 +109,8 @@ std::optional<WeakeningSolver::Draft> WeakeningSolver::draft(const std::vector<C
     if (!held_[kDamping]) globals[kDamping] = 0.05;
     globals[kFrictionSlope] = std::sqrt(weakening);
     for (const double times : lengths) {
-      const std::optional<BlockFit> first = started(cycles, average_s, globals, coulomb_.blocks.level());
+      const std::optional<BlockFit> first =
+          started(cycles, {average_s, FreeTime::None}, globals, coulomb_.blocks.level());
       if (!first) return best;
       BlockFit blocks = with_length_times(*first, times);
       if (!solve_own(blocks, options)) continue;
@@ -127,8 +128,7 @@ std::optional<WeakeningSolver::Draft> WeakeningSolver::draft(const std::vector<C
 
 std::optional<BlockFit> WeakeningSolver::solved(const std::vector<CycleData>& cycles, const BlockFit& near,
                                                 double tolerance) const {
-  std::optional<BlockFit> blocks =
-      started(cycles, near.scales().sensor_average_s, near.parameters.globals, near.level());
+  std::optional<BlockFit> blocks = started(cycles, averaging_of(near), near.parameters.globals, near.level());
   if (!blocks || !solve_own(*blocks, {held_, false, true})) return std::nullopt;
   return settled(*std::move(blocks), held_, tolerance);
 }
@@ -152,16 +152,17 @@ std::vector<CycleData> WeakeningSolver::cycles_without(const std::vector<std::si
                         cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded, hum_));
 }
 
-std::optional<BlockFit> WeakeningSolver::blocks_of(const std::vector<CycleData>& cycles, double average_s,
+std::optional<BlockFit> WeakeningSolver::blocks_of(const std::vector<CycleData>& cycles, Averaging average,
                                                    const LevelModel& level) const {
   Scales scales = scales_;
-  scales.sensor_average_s = average_s;
+  scales.sensor_average_s = average.seconds;
+  scales.free_time = average.free;
   return BlockFit::create(cycles, middles_s(input_.segmentation, cycles), scales, level);
 }
 
-std::optional<BlockFit> WeakeningSolver::started(const std::vector<CycleData>& cycles, double average_s,
+std::optional<BlockFit> WeakeningSolver::started(const std::vector<CycleData>& cycles, Averaging average,
                                                  const Globals& start, const LevelModel& level) const {
-  std::optional<BlockFit> blocks = blocks_of(cycles, average_s, level);
+  std::optional<BlockFit> blocks = blocks_of(cycles, average, level);
   if (!blocks) return blocks;
   set_start(*blocks, input_.segmentation, start);
   return with_rise_after(*blocks, blocks->scales());
@@ -179,7 +180,7 @@ std::optional<DampedFit> WeakeningSolver::without_outliers(BlockFit blocks) cons
   const std::vector<std::size_t> censored = beyond_clip(input_.recording, input_.quality, residuals, scales_.noise);
   std::vector<std::size_t> excluded = united(initial, united(outliers, censored));
   if (excluded == coulomb_.excluded) return unfinished(std::move(blocks), std::move(excluded));
-  std::optional<BlockFit> clean = blocks_of(cycles_without(excluded), blocks.scales().sensor_average_s, blocks.level());
+  std::optional<BlockFit> clean = blocks_of(cycles_without(excluded), averaging_of(blocks), blocks.level());
   if (!clean) return std::nullopt;
   carry_over(blocks, *clean);
   std::optional<BlockFit> again = settled(with_rise_after(*clean, clean->scales()), held_, kTolerance);

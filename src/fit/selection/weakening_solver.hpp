@@ -41,7 +41,8 @@ class WeakeningSolver {
   /// Rough, of the sensor's `average_s`. Empty where no start has a solution.
   [[nodiscard]] std::optional<Draft> draft(const std::vector<CycleData>& cycles, double average_s,
                                            const Start& start) const;
-  /// A solution to `tolerance` with the average of `near`, from its shared parameters on. Empty where a slip has none.
+  /// A solution to `tolerance` with the average of `near`, free where it is free there, from its shared parameters on.
+  /// Empty where a slip has none.
   [[nodiscard]] std::optional<BlockFit> solved(const std::vector<CycleData>& cycles, const BlockFit& near,
                                                double tolerance) const;
   /// Of all cycles, without the outliers of this law, with what finish_fit adds to the uncertainty. zeta is held at 0
@@ -53,13 +54,20 @@ class WeakeningSolver {
   [[nodiscard]] const Held& held() const { return held_; }
 
  private:
+  /// Of the sensor.
+  struct Averaging {
+    double seconds = 0.0;
+    FreeTime free = FreeTime::None;
+  };
+  static Averaging averaging_of(const BlockFit& fit) { return {fit.scales().sensor_average_s, fit.scales().free_time}; }
+
   [[nodiscard]] std::vector<CycleData> cycles_without(const std::vector<std::size_t>& excluded) const;
   /// Empty where there are too few cycles to fit.
-  [[nodiscard]] std::optional<BlockFit> blocks_of(const std::vector<CycleData>& cycles, double average_s,
+  [[nodiscard]] std::optional<BlockFit> blocks_of(const std::vector<CycleData>& cycles, Averaging average,
                                                   const LevelModel& level) const;
   /// With the rise after slips, where there is one, from the ends of the slips on, as the average shows it. Empty where
   /// there are too few cycles to fit.
-  [[nodiscard]] std::optional<BlockFit> started(const std::vector<CycleData>& cycles, double average_s,
+  [[nodiscard]] std::optional<BlockFit> started(const std::vector<CycleData>& cycles, Averaging average,
                                                 const Globals& start, const LevelModel& level) const;
   [[nodiscard]] DampedFit unfinished(BlockFit blocks, std::vector<std::size_t> excluded) const;
   [[nodiscard]] std::optional<DampedFit> without_outliers(BlockFit blocks) const;
