@@ -139,7 +139,7 @@ def check_suspended(folder, how):
         process.send_signal(how)
         wait_until(lambda: stat_of(process.pid)[1] == "T", "suspension")
         if how == signal.SIGTSTP:
-            assert stat_of(child)[1] == "T", "the fits go on while the batch is suspended"
+            wait_until(lambda: stat_of(child)[1] == "T", "suspension of the fits")
         time.sleep(3)
         process.send_signal(signal.SIGCONT)
         time.sleep(0.3)

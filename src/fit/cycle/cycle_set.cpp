@@ -114,6 +114,7 @@ class LevelRow {
 Eigen::ArrayXXd level_of(const CycleData& data, const LevelModel& level, const Scales& scales) {
   Eigen::ArrayXXd rows(static_cast<Eigen::Index>(data.residuals()),
                        static_cast<Eigen::Index>(level.columns_behind_constant()));
+  if (rows.cols() == 0) return rows;  // an empty array has no rows to point to
   LevelRow functions(level, scales);
   Eigen::Index row = 0;
   for (const double time_s : data.time_s) functions.at(time_s, data.slip, rows.row(row++));
