@@ -10,6 +10,7 @@
 #include "core/thresholds.hpp"
 #include "core/unknown.hpp"
 #include "fit/inference/intervals.hpp"
+#include "fit/inference/sensor_time.hpp"
 #include "fit/inference/sliding_model.hpp"
 #include "fit/inference/sweep_outcome.hpp"
 #include "fit/report/findings.hpp"
@@ -147,7 +148,9 @@ class Assembler {
   }
 
   void add_average(fit::Findings& findings) const {
-    if (const std::optional<fit::FittedAverage>& average = outcome_.solution.average) {
+    const fit::BlockFit* averaged = outcome_.solution.with_sensor_time();
+    if (averaged != nullptr) {
+      const auto average = fit::average_of(*averaged, outcome_.spread.covariance);
       findings.fitted_average =
           symmetric(average->seconds, average->standard_error_s, static_cast<double>(data_.fitted.size()));
       findings.slip_doubt = fit::kFittedAverage;

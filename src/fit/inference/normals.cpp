@@ -46,7 +46,10 @@ std::vector<Normal> normals_without(const Problem& all, std::size_t recording, c
       kept.back().columns = columns.of(r < recording ? r : r - 1);
     }
   }
-  kept.insert(kept.end(), next, normals.end());  // steady ones have the first columns alone, which stay
+  for (; next != normals.end(); ++next) {
+    kept.push_back(*next);
+    kept.back().columns = columns.of_steady(others.recordings.front().model(0).globals());
+  }
   return kept;
 }
 

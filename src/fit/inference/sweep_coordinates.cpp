@@ -51,6 +51,7 @@ Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
     selection.common(i, i) = 1.0;
   }
   if (const auto exponent = columns.exponent()) selection.common(*exponent, kStiffnessExponent) = 1.0;
+  if (const auto time = columns.sensor_time()) selection.common(*time, kSensorTime) = 1.0;
   const Index levels = levels_of(solution).size();
   for (Index r = 0; r < levels; ++r) {
     selection.common(columns.level(static_cast<std::size_t>(r)), kLevel) = 1.0 / static_cast<double>(levels);
@@ -87,6 +88,7 @@ Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& 
   const Globals& globals = solution.recordings.front().parameters.globals;
   for (std::size_t i = 0; i < globals.size(); ++i) values(static_cast<Index>(i)) = globals[i];
   values(kStiffnessExponent) = solution.recordings.front().parameters.exponent;
+  if (const BlockFit* averaged = solution.with_sensor_time()) values(kSensorTime) = averaged->sensor_time();
   values(kLevel) = levels_of(solution).mean();
   values(kDifference) = line.difference_weights.dot(differences);
   values(kAgeing) = line.rate_weights.dot(differences);

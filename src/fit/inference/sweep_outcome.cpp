@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "fit/inference/ageing_line.hpp"
 #include "fit/inference/rate_profile.hpp"
+#include "fit/inference/sensor_time.hpp"
 #include "fit/inference/sliding_model.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/selection/sweep_solution.hpp"
@@ -141,9 +142,8 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
   LeftOut all = fit_of(data, normal, kind);
   SweepOutcome outcome{
       solution, kind, all.values, std::move(all.spread), all.reach, leave_out_each(data, normal, kind)};
-  if (const auto& average = solution.average) {
-    const double average_s = average->seconds + average->standard_error_s;
-    outcome.spread.covariance += by_error(with_average(data, solution, average_s), outcome);
+  if (const BlockFit* averaged = solution.with_sensor_time()) {
+    outcome.spread.covariance = with_unknown_shape(outcome.spread.covariance, *averaged);
   }
   if (data.mass || data.motion) outcome.spread.covariance = with_errors_of_held(data, solution, outcome);
   if (const auto& reload = solution.reload) {

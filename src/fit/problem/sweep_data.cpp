@@ -97,7 +97,10 @@ Scales scales_in_sweep(const SweepData& data, std::size_t recording, FrictionLaw
   const double load = data.loads[recording];
   Scales scales = fit.blocks.scales();
   scales.noise = fit.uncertainty.noise;
-  scales.free_time = FreeTime::None;
+  const bool is_averaged = data.average && fit.average;
+  scales.free_time = is_averaged ? FreeTime::Average : FreeTime::None;
+  if (is_averaged)
+    scales.sensor_time_unit_s = scales.sensor_average_s = data.average->seconds;  // one of all recordings
   scales.law = law;
   Population population;
   population.load = load;

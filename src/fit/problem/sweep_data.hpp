@@ -22,7 +22,7 @@ inline constexpr std::size_t kSteadyStretches = 10;
 /// cycles cannot be fitted are empty.
 struct SweepData {
   std::vector<std::optional<DampedFit>> single;  ///< in the order of the recordings
-  std::optional<FittedAverage> average{};        ///< OwnFits
+  std::optional<FittedAverage> average{};        ///< OwnFits; the fit of the sweep begins with it
   std::optional<FittedLength> reload{};          ///< OwnFits
   std::optional<double> rounding_s2{};           ///< OwnFits
   std::optional<StatedMass> mass{};              ///< OwnFits

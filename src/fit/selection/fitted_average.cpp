@@ -11,6 +11,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
+#include "fit/inference/sensor_time.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/selection/average_solver.hpp"
 #include "fit/selection/carried_fit.hpp"
@@ -28,11 +29,6 @@ constexpr std::size_t kCompareCycles = 40;  // enough to tell two kernels apart
 constexpr double kSame = 0.05;              // of the variance: Newton's steps have led to one minimum from two sides
 constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
 constexpr double kForgottenLags = 8.0;      // e^-8
-
-/// Of the parameter, (W / Scales::sensor_time_unit_s)^2.
-double average_error(const DampedFit& fit) {
-  return std::sqrt(std::max(0.0, fit.uncertainty.covariance(kSensorTime, kSensorTime)));
-}
 
 /// Rounded slips, slips that are not shaped like the model's, or slips without damping: an average that lasts longer
 /// than the slip takes it away. Falls within a step of the clock show nothing of it.
@@ -113,7 +109,7 @@ Found best_trial(const AverageSolver& solver, const DampedFit& plain, const std:
     const double gain = gain_of(*next, *trial);
     if (gain > 0.0) std::swap(trial, next);
     const double apart = std::abs(next->blocks.sensor_time() - trial->blocks.sensor_time());
-    const bool is_another = apart > thresholds::kSureTerm * average_error(*trial);
+    const bool is_another = apart > thresholds::kSureTerm * sensor_time_error(trial->uncertainty.covariance);
     if (is_another && std::abs(gain) < thresholds::kTierPrice) found.other_s = next->blocks.scales().sensor_average_s;
   }
   return found;
@@ -188,21 +184,10 @@ bool tells_average(const FittedAverage& average) {
   return average.seconds > 2.0 * thresholds::kSureTerm * average.standard_error_s;
 }
 
-std::optional<FittedAverage> estimated_average(const DampedFit& fit) {
-  const Scales& scales = fit.blocks.scales();
-  if (scales.free_time != FreeTime::Average) return fit.average;
-  const double unit_s2 = scales.sensor_time_unit_s * scales.sensor_time_unit_s;
-  return FittedAverage{scales.sensor_average_s, 0.5 * unit_s2 * average_error(fit) / scales.sensor_average_s};
-}
-
 DampedFit with_average_error(DampedFit fit) {
-  const double error = average_error(fit);
-  if (error > 0.0) {
-    const Coordinates by_average = fit.uncertainty.covariance.col(kSensorTime) / (error * error);
-    const double by_shape = thresholds::kKernelShape * fit.blocks.sensor_time();
-    fit.uncertainty.covariance += by_shape * by_shape * by_average * by_average.transpose();
-  }
-  fit.average = estimated_average(fit);
+  fit.uncertainty.covariance = with_unknown_shape(fit.uncertainty.covariance, fit.blocks);
+  const std::optional<FittedAverage> average = average_of(fit.blocks, fit.uncertainty.covariance);
+  if (average) fit.average = average;
   return fit;
 }
 

@@ -7,11 +7,7 @@
 
 namespace slipfit::fit {
 
-/// The average that is a parameter of the fit, with its error in the covariance; where it is none, what the fit has.
-std::optional<FittedAverage> estimated_average(const DampedFit& fit);
-
-/// With the estimated average. The unknown shape of the instrument's impulse response adds to its error and to all that
-/// goes with it.
+/// With the average that is a parameter of the fit, where it is one, and what its unknown shape adds to the covariance.
 DampedFit with_average_error(DampedFit fit);
 
 /// Its variance, which is what rounds the slips, is more than kSureTerm of its errors: T_b itself, a root, is twice as

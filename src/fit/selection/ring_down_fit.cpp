@@ -9,6 +9,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/student.hpp"
+#include "fit/inference/sensor_time.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/carried_fit.hpp"
@@ -70,7 +71,7 @@ std::optional<DampedFit> with_errors_of(const FreeMotion& motion, DampedFit fit)
     moves.col(i - kLogFrequency) = (coordinates_of(other) - here) / kStep;
   }
   fit.uncertainty.covariance = with_motion(fit.uncertainty.covariance, moves, motion);
-  fit.average = estimated_average(fit);
+  if (const auto average = average_of(fit.blocks, fit.uncertainty.covariance)) fit.average = average;
   fit.motion = motion;
   return fit;
 }
@@ -119,7 +120,7 @@ std::optional<Warning> join_ring_downs(std::span<const SweepRecording> recording
   if (!evidence) return std::nullopt;
   if (evidence->same.differs) return differing_motions(evidence->slips, evidence->rings);
   if (!evidence->same.both) return std::nullopt;
-  const std::optional<SweepSolution> informed = with_motion(data, outcome.solution, *evidence->same.both);
+  const std::optional<SweepSolution> informed = with_motion(outcome.solution, *evidence->same.both);
   if (!informed) return std::nullopt;
   data.motion = evidence->same.both;
   outcome = outcome_of(data, *informed);

@@ -25,7 +25,6 @@ constexpr int kSweepQuickIterations = 10;
 SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, const std::vector<std::size_t>& used) {
   SweepSolution solution;
   solution.sweep = {sharing, data.steady, data.units};
-  solution.average = data.average;
   solution.reload = data.reload;
   for (const std::size_t i : used) {
     const DampedFit& single = *data.single[i];
@@ -50,18 +49,17 @@ class SweepFitter {
     constexpr Sharing kAll{true, true};
     std::optional<SweepSolution> velocity = with_shares({FrictionLaw::Exponential}, kAll);
     if (!velocity) return std::nullopt;
-    SweepFits fits{at_best_average(data_, *std::move(velocity)), std::nullopt};
+    SweepFits fits{*std::move(velocity), std::nullopt};
     const Sharing shares = fits.velocity.sweep.sharing;
     std::optional<SweepSolution> coulomb = fit({FrictionLaw::Coulomb}, shares);
     if (coulomb) {
-      coulomb = at_best_average(data_, *std::move(coulomb));
       constexpr double kExtra = 2.0;  // slope and rate
       fits.coulomb_chi2 = coulomb->chi2;
       fits.p_value = chance(coulomb->chi2 - fits.velocity.chi2, kExtra, fits.velocity);
       // Friction that depends on the speed may explain levels that differ under Coulomb friction.
       std::optional<SweepSolution> own = with_shares({FrictionLaw::Coulomb}, shares);
       const bool shares_less = own && own->sweep.sharing != shares;
-      fits.coulomb = shares_less ? at_best_average(data_, *std::move(own)) : std::move(coulomb);
+      fits.coulomb = shares_less ? std::move(own) : std::move(coulomb);
       fits.growing = with_growing_stiffness(*fits.coulomb);
     }
     fits.depends_on_speed = fits.p_value < thresholds::kLawChance;
@@ -161,8 +159,7 @@ class SweepFitter {
     if (!may_grow) return std::nullopt;
     const std::optional<SweepSolution> growing = with_exponent(same, same.held);
     if (!growing || !(chance(same.chi2 - growing->chi2, 1.0, *growing) < thresholds::kLawChance)) return std::nullopt;
-    std::optional<SweepSolution> sharing = with_shares({FrictionLaw::Coulomb, true}, {true, true});
-    return sharing ? std::optional(at_best_average(data_, *std::move(sharing))) : std::nullopt;
+    return with_shares({FrictionLaw::Coulomb, true}, {true, true});
   }
 
   /// Of so much more misfit by what the recordings share.

@@ -42,6 +42,10 @@ SweepSolution moved_by(SweepSolution solution, const NewtonStep& step) {
     BlockFit& recording = solution.recordings[r];
     columns.visit(r, recording, recording.parameters,
                   [&](Eigen::Index column, double& value) { value += step.step(column); });
+    if (!recording.model(0).has_sensor_time()) continue;
+    constexpr double kMost = 0.5;  // of it, where a step leads to none
+    const double before = recording.sensor_time();
+    recording.set_sensor_time(std::max(kMost * before, before + step.step(*columns.sensor_time())));
   }
   solution.chi2 = step.sum_of_squares;
   solution.degrees_of_freedom = residual_freedom(solution);
@@ -54,6 +58,12 @@ std::size_t SweepSolution::cycles() const {
   std::size_t count = 0;
   for (const BlockFit& recording : recordings) count += recording.size();
   return count;
+}
+
+const BlockFit* SweepSolution::with_sensor_time() const {
+  const auto has_time = [](const BlockFit& recording) { return recording.model(0).has_sensor_time(); };
+  const auto found = std::find_if(recordings.begin(), recordings.end(), has_time);
+  return found == recordings.end() ? nullptr : &*found;
 }
 
 std::vector<double> SweepSolution::speeds_m_per_s() const {
@@ -104,18 +114,6 @@ std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw
   return at_minimum(std::move(other), solution.held);
 }
 
-std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolution& solution, double average_s) {
-  SweepSolution other = solution;
-  other.average->seconds = average_s;
-  for (std::size_t f = 0; f < other.recordings.size(); ++f) {
-    if (!data.single[data.fitted[f]]->average) continue;
-    Scales scales = other.recordings[f].scales();
-    scales.sensor_average_s = average_s;
-    other.recordings[f] = with_scales(other.recordings[f], scales);
-  }
-  return at_minimum(std::move(other), solution.held);
-}
-
 std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& held) {
   for (BlockFit& recording : solution.recordings) {
     Scales scales = recording.scales();
@@ -131,30 +129,14 @@ std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate
   return at_minimum(std::move(other), solution.held);
 }
 
-SweepSolution at_best_average(const SweepData& data, SweepSolution solution) {
-  if (!solution.average) return solution;
-  const double step_s = solution.average->standard_error_s;
-  const double middle_s = solution.average->seconds;
-  const auto less = with_average(data, solution, middle_s - step_s);
-  const auto more = with_average(data, solution, middle_s + step_s);
-  if (!less || !more) return solution;
-  const double bend = less->chi2 - 2.0 * solution.chi2 + more->chi2;
-  if (!(bend > 0.0)) return solution;
-  const double steps = std::clamp(0.5 * (less->chi2 - more->chi2) / bend, -3.0, 3.0);
-  auto best = with_average(data, solution, middle_s + steps * step_s);
-  return best && best->chi2 < solution.chi2 ? *std::move(best) : solution;
-}
-
-std::optional<SweepSolution> with_motion(const SweepData& data, SweepSolution solution, const FreeMotion& motion) {
+std::optional<SweepSolution> with_motion(SweepSolution solution, const FreeMotion& motion) {
   Held held = solution.held;
   held[kLogFrequency] = held[kDamping] = true;
   for (BlockFit& recording : solution.recordings) {
     recording.parameters.globals[kLogFrequency] = motion.values(0);
     recording.parameters.globals[kDamping] = motion.values(1);
   }
-  std::optional<SweepSolution> moved = at_minimum(std::move(solution), held);
-  if (moved) moved = at_best_average(data, *std::move(moved));
-  return moved;
+  return at_minimum(std::move(solution), held);
 }
 
 std::optional<SweepSolution> with_length(const SweepSolution& solution, double length_m) {

@@ -16,11 +16,12 @@ struct SweepSolution {
   Held held{};
   double chi2 = 0.0;  ///< in units of each recording's own noise
   double degrees_of_freedom = 0.0;
-  std::optional<FittedAverage> average{};  ///< in the recordings of which none is stated (SweepData::average)
-  std::optional<FittedLength> reload{};    ///< in the recordings whose sticks rise more steeply after a slip
+  std::optional<FittedLength> reload{};  ///< in the recordings whose sticks rise more steeply after a slip
 
   [[nodiscard]] Problem problem() const { return {recordings, sweep}; }
   [[nodiscard]] std::size_t cycles() const;
+  /// A recording with the time of the sensor that is free; null where none is.
+  [[nodiscard]] const BlockFit* with_sensor_time() const;
   /// Of the recordings' speeds, in their order.
   [[nodiscard]] std::vector<double> speeds_m_per_s() const;
   /// At least `fewest` recordings at speeds that are far enough apart to show what goes with the speed.
@@ -48,21 +49,14 @@ std::optional<SweepSolution> with_rate(const SweepSolution& solution, double rat
 /// The same fit with another law of kinetic friction, started from the solution.
 std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw law);
 
-/// The same fit with another average in the recordings that have the one which was found.
-std::optional<SweepSolution> with_average(const SweepData& data, const SweepSolution& solution, double average_s);
-
 /// The solution with k that goes with the speed as V^p, p free, moved to its minimum with these globals held.
 std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& held);
 
 /// The same fit with a global that is held elsewhere.
 std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate global, double change);
 
-/// At the average that explains all recordings best, where their own fits found one: by the parabola through the sums
-/// of squares beside that. Each law has its own: none may stand for the error of the average.
-SweepSolution at_best_average(const SweepData& data, SweepSolution solution);
-
 /// The solution with this w_n and zeta held.
-std::optional<SweepSolution> with_motion(const SweepData& data, SweepSolution solution, const FreeMotion& motion);
+std::optional<SweepSolution> with_motion(SweepSolution solution, const FreeMotion& motion);
 
 /// The same fit with a rise over another length in the recordings that have one.
 std::optional<SweepSolution> with_length(const SweepSolution& solution, double length_m);

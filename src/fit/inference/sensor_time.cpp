@@ -1,0 +1,29 @@
+#include "fit/inference/sensor_time.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fit_thresholds.hpp"
+
+namespace slipfit::fit {
+
+double sensor_time_error(const CoordinateMatrix& covariance) {
+  return std::sqrt(std::max(0.0, covariance(kSensorTime, kSensorTime)));
+}
+
+CoordinateMatrix with_unknown_shape(const CoordinateMatrix& covariance, const BlockFit& fit) {
+  const double variance = covariance(kSensorTime, kSensorTime);
+  if (!(variance > 0.0)) return covariance;
+  const Coordinates by_shape = thresholds::kKernelShape * fit.sensor_time() / variance * covariance.col(kSensorTime);
+  return covariance + by_shape * by_shape.transpose();
+}
+
+std::optional<FittedAverage> average_of(const BlockFit& fit, const CoordinateMatrix& covariance) {
+  const Scales& scales = fit.scales();
+  if (scales.free_time != FreeTime::Average) return std::nullopt;
+  const double unit_s2 = scales.sensor_time_unit_s * scales.sensor_time_unit_s;
+  return FittedAverage{scales.sensor_average_s,
+                       0.5 * unit_s2 * sensor_time_error(covariance) / scales.sensor_average_s};
+}
+
+}  // namespace slipfit::fit
