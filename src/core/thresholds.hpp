@@ -159,6 +159,10 @@ inline constexpr double kClippedPile = 6.0;
 /// Probability that noise shows such a comb somewhere, below which a repetition is found. [1; convention]
 inline constexpr double kSignificant = 0.01;
 
+/// Share of the energy of a line at the mains that one quarter of the recording holds, above which it is no mains.
+/// [1; derived: a line that is there for half of the recording has at most half of its energy in each of two quarters]
+inline constexpr double kBurst = 0.7;
+
 /// Fewest cycles of a repetition in the spectrum. [count; derived: fewer cannot be told from wander]
 inline constexpr double kFewestPeriods = 2.5;
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "signal/transform.hpp"
 #include "slipfit/core/recording.hpp"
 
 namespace slipfit::signal {
@@ -21,6 +22,9 @@ struct MainsLine {
 /// them: a laboratory has one mains. `known_Hz`: lines that are no longer in the spectrum.
 std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz,
                                   std::span<const double> known_Hz = {});
+
+/// The lines whose energy is spread over the recording: one that dies out or comes once is a motion's, not the mains'.
+std::vector<MainsLine> without_bursts(std::vector<MainsLine> lines, const UniformTrace& trace);
 
 /// "mains 50 Hz", "3rd harmonic of 50 Hz mains".
 std::string describe(const MainsLine& line);

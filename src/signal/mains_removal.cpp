@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <span>
+#include <utility>
 
 #include "core/quantile.hpp"
+#include "core/thresholds.hpp"
 #include "signal/segments.hpp"
 #include "signal/transform.hpp"
 #include "signal/turns.hpp"
@@ -21,7 +24,7 @@ std::vector<double> window_of(std::size_t samples) {
 }
 
 /// Complex amplitude of what turns by `step` from sample to sample, phase counted from the first one.
-std::complex<double> amplitude_of(const std::vector<double>& values, const std::vector<double>& window, double mean,
+std::complex<double> amplitude_of(std::span<const double> values, const std::vector<double>& window, double mean,
                                   double step) {
   double real = 0.0;
   double imaginary = 0.0;
@@ -34,7 +37,40 @@ std::complex<double> amplitude_of(const std::vector<double>& values, const std::
          std::complex(real, imaginary);  // Hann's window sums to half of them
 }
 
+/// Share of a line's energy that the quarter of the recording with most of it holds. Parts of so few periods that the
+/// mains keeps its phase in each of them.
+double largest_quarter(const UniformTrace& trace, double frequency_Hz) {
+  constexpr std::size_t kQuarters = 4;
+  constexpr double kPeriods = 250.0;  // the mains keeps its frequency to 0.1 %
+  const auto samples = static_cast<double>(trace.force.size());
+  const double periods = frequency_Hz * trace.step_s * samples;
+  const auto in_quarter = static_cast<std::size_t>(std::ceil(periods / (kPeriods * kQuarters)));
+  const std::size_t length = trace.force.size() / (kQuarters * in_quarter);
+  const std::vector<double> window = window_of(length);
+  double largest = 0.0;
+  double all = 0.0;
+  for (std::size_t quarter = 0; quarter < kQuarters; ++quarter) {
+    double energy = 0.0;
+    for (std::size_t i = 0; i < in_quarter; ++i) {
+      const auto part = std::span(trace.force).subspan((quarter * in_quarter + i) * length, length);
+      energy += std::norm(amplitude_of(part, window, mean_of(part), kTurn * frequency_Hz * trace.step_s));
+    }
+    largest = std::max(largest, energy);
+    all += energy;
+  }
+  return all > 0.0 ? largest / all : 0.0;
+}
+
 }  // namespace
+
+std::vector<MainsLine> without_bursts(std::vector<MainsLine> lines, const UniformTrace& trace) {
+  constexpr double kFewestPeriods = 16.0;  // four in a quarter: its window has to resolve them
+  std::erase_if(lines, [&](const MainsLine& line) {
+    const double periods = line.frequency_Hz * trace.step_s * static_cast<double>(trace.force.size());
+    return periods >= kFewestPeriods && largest_quarter(trace, line.frequency_Hz) > thresholds::kBurst;
+  });
+  return lines;
+}
 
 Dehummed without_mains(const Recording& recording) {
   const auto time_s = recording.time_s();
@@ -45,8 +81,8 @@ Dehummed without_mains(const Recording& recording) {
   const std::vector<double> window = window_of(even.force.size());
   Dehummed result;
   result.force.assign(recording.force().begin(), recording.force().end());
-  for (const MainsLine& line :
-       find_mains(power, 1.0 / (static_cast<double>(length) * even.step_s), 1.0 / recording.duration_s())) {
+  const double bin_Hz = 1.0 / (static_cast<double>(length) * even.step_s);
+  for (const MainsLine& line : without_bursts(find_mains(power, bin_Hz, 1.0 / recording.duration_s()), even)) {
     const double omega = kTurn * line.frequency_Hz;
     const std::complex<double> amplitude = amplitude_of(even.force, window, mean, omega * even.step_s);
     const double size = std::abs(amplitude);

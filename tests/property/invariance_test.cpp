@@ -70,6 +70,10 @@ TEST_CASE("stick-slip with much hum gives the same answer whatever cannot matter
   check_invariant(scene_of(coverage::make_scene("defect", 7, 7).recording), Mains::Present);
 }
 
+TEST_CASE("a ring-down at twice the frequency of the mains gives the same answer at any speed of the clock") {
+  check_invariant(scene_of(coverage::make_scene("ringdown", 2, 7).recording));
+}
+
 TEST_CASE("swings that are small against the mean force are judged alike whatever the zero") {
   const Scene scene = swings_on_a_level();
   CHECK(test::analyse_as_read(scene).motion == MotionClass::OscillatorySlip);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "finding.hpp"
 
@@ -75,6 +76,20 @@ TEST_CASE("hum is named and not chosen") {
     CHECK(names_line(found, 3.0 * mains_Hz,
                      mains_Hz == 50.0 ? "3rd harmonic of 50 Hz mains" : "3rd harmonic of 60 Hz mains"));
   }
+}
+
+TEST_CASE("a wave at the frequency of the mains that dies out is not hum") {
+  traces::Generator generator(9);
+  const std::vector<double> time_s = traces::clock(4000, 2000.0);
+  std::vector<double> force(time_s.size(), 3.0);
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    force[i] += std::exp(-6.0 * time_s[i]) * std::sin(2.0 * 3.141592653589793 * 60.02 * time_s[i]);
+  }
+  traces::add_noise(force, 0.001, generator);
+  const auto found = find(traces::recording(time_s, force));
+  CHECK(found.suspicious_lines.empty());
+  REQUIRE(found.value_Hz);
+  CHECK(*found.value_Hz == Approx(60.02).epsilon(0.01));
 }
 
 TEST_CASE("hum in the gap between two lines of the comb does not count as background") {
