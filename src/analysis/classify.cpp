@@ -187,6 +187,18 @@ Classification as_wave(double evidence) {
           "three sines follow the swings as well as sticks and slips do: it may be an oscillation"};
 }
 
+/// Whether the slips determine one of their parameters, be it weakly.
+bool determines_slips(const FitResult& fit) {
+  return std::ranges::any_of(fit.parameters, [](const Parameter& parameter) {
+    const bool is_of_slips = parameter.id == ParameterId::Stiffness ||
+                             parameter.id == ParameterId::FrictionDifference ||
+                             parameter.id == ParameterId::NaturalFrequency;
+    const bool is_known = parameter.status == ParameterStatus::Identified ||
+                          parameter.status == ParameterStatus::Weak || parameter.status == ParameterStatus::Conditional;
+    return is_of_slips && is_known;
+  });
+}
+
 Classification classify_by_fit(const Recording& recording, const Estimates& estimates) {
   const Segmentation& segmentation = estimates.signals.segmentation;
   const SpectralFrequency& spectral = estimates.signals.spectral;
@@ -212,6 +224,8 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   }
   const bool rests = e.restick_share >= thresholds::kRestickShare;
   if ((!close && !loose) || (sudden && !rests)) return without_model(recording, estimates.signals);
+  // Whether a fit that determines nothing is loose or worse than that may hang on how its search ended.
+  if (sudden && !close && !determines_slips(*estimates.fit)) return without_model(recording, estimates.signals);
   if (is_sine_like(segmentation) && keeps_mains_phase(segmentation)) {
     return {MotionClass::Undetermined,
             "nearly sinusoidal swings at the frequency of the mains that keep its phase: they may be its hum"};

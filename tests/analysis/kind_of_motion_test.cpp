@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/classify.hpp"
 #include "analysis/slip_shape.hpp"
 #include "checks.hpp"
+#include "core/thresholds.hpp"
 #include "signal/mains.hpp"
 #include "slipfit/pipeline.hpp"
 #include "slipfit/sweep.hpp"
@@ -227,6 +229,47 @@ TEST_CASE("a spectrum has lines of one mains") {
   const std::vector<signal::MainsLine> lines = signal::find_mains(power, kBin_Hz, kBin_Hz);
   REQUIRE(lines.size() == 3);
   for (const signal::MainsLine& line : lines) CHECK(line.mains_Hz == 50.0);
+}
+
+/// Falls of a tenth of the time between them, with these drops, once in a second.
+Segmentation falls(const std::vector<double>& drops, double noise) {
+  Segmentation segmentation;
+  segmentation.noise = noise;
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    const double second = static_cast<double>(i);
+    segmentation.slips.push_back({100 * i + 90, 100 * i + 100, 2.0, 2.0 - drops[i], second, 0.06, 0.54});
+  }
+  return segmentation;
+}
+
+TEST_CASE("whether a fit that determines nothing is loose or worse does not change the answer") {
+  Conditions conditions;
+  conditions.speed_m_per_s = 0.001;
+  const Recording recording = recorded(std::vector<double>(2000, 1.0), 100.0, conditions);
+  Estimates estimates;
+  estimates.signals.segmentation = falls(std::vector<double>(20, 1.0), 0.01);
+  FitResult fit;
+  fit.cycles.resize(20);
+  for (Cycle& cycle : fit.cycles) cycle.used = true;
+  fit.diagnostics.restick_share = 1.0;
+  fit.diagnostics.span_share = 1.0;
+  fit.diagnostics.onset_force_spread = 0.1;
+  Parameter difference;
+  difference.id = ParameterId::FrictionDifference;
+  const auto classified = [&](double residual, ParameterStatus status) {
+    fit.diagnostics.relative_residual = residual;
+    difference.status = status;
+    fit.parameters = {difference};
+    estimates.fit = fit;
+    return classify(recording, estimates);
+  };
+  for (const double residual : {0.17, 0.22}) {
+    const Classification found = classified(residual, ParameterStatus::Unidentified);
+    CHECK(found.motion == MotionClass::StickSlip);
+    CHECK_FALSE(found.model_fits);
+  }
+  CHECK(classified(0.17, ParameterStatus::Weak).model_fits);
+  CHECK(classified(0.05, ParameterStatus::Unidentified).model_fits);
 }
 
 TEST_CASE("steady sliding reports no slips") {
