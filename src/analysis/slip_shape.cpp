@@ -13,6 +13,12 @@
 namespace slipfit {
 namespace {
 
+std::vector<double> drops_of(const Segmentation& segmentation) {
+  std::vector<double> drops;
+  for (const DetectedSlip& slip : segmentation.slips) drops.push_back(slip.drop());
+  return drops;
+}
+
 std::vector<double> rises_over_falls(const Segmentation& segmentation) {
   std::vector<double> ratios;
   for (const DetectedSlip& slip : segmentation.slips) {
@@ -37,9 +43,7 @@ double second_difference(std::span<const double> force, const std::vector<bool>&
 }  // namespace
 
 double median_drop(const Segmentation& segmentation) {
-  std::vector<double> drops;
-  for (const DetectedSlip& slip : segmentation.slips) drops.push_back(slip.drop());
-  return signal::median(std::move(drops));
+  return signal::median(drops_of(segmentation));
 }
 
 std::vector<double> slip_intervals_s(const Segmentation& segmentation) {
@@ -121,7 +125,8 @@ bool keeps_mains_phase(const Segmentation& segmentation) {
 }
 
 bool is_faint(const Segmentation& segmentation) {
-  return median_drop(segmentation) < thresholds::kNoiseDrop * segmentation.noise;
+  // The lower median: of two falls, one that noise may make is half of them.
+  return quantile_of(drops_of(segmentation), 0.5) < thresholds::kNoiseDrop * segmentation.noise;
 }
 
 bool is_sine_like(const Segmentation& segmentation) {

@@ -272,6 +272,15 @@ TEST_CASE("whether a fit that determines nothing is loose or worse does not chan
   CHECK(classified(0.05, ParameterStatus::Unidentified).model_fits);
 }
 
+TEST_CASE("half of the falls no larger than noise makes them is faint, however many they are") {
+  const double noise = 1.0 / thresholds::kNoiseDrop;
+  CHECK(is_faint(falls({0.9, 2.0}, noise)));
+  CHECK(is_faint(falls({0.9, 0.7, 2.0}, noise)));
+  CHECK(is_faint(falls({2.0, 0.9, 0.7, 2.0}, noise)));
+  CHECK_FALSE(is_faint(falls({2.0, 0.9, 2.0}, noise)));
+  CHECK_FALSE(is_faint(falls({2.0, 2.0}, noise)));
+}
+
 TEST_CASE("steady sliding reports no slips") {
   const Analysis analysis = analyze_and_fit(cogging(25.3, 0.001, 4.5, 0.01));
   REQUIRE(analysis.motion == MotionClass::SteadySliding);
