@@ -87,12 +87,16 @@ bool spectrum_agrees(const Segmentation& segmentation, const SpectralFrequency& 
   return std::abs(*spectral.value_Hz * signal::median(slip_intervals_s(segmentation)) - 1.0) < thresholds::kSameRhythm;
 }
 
-/// Large swings of a body that moves: smooth, or with falls quicker than rises. A level that wanders is neither.
+/// Large swings of a body that moves: smooth, or with falls quicker than rises. A level that wanders is neither. Of a
+/// trace that is not smooth, how large its falls look depends on the scale at which they are seen where they are not
+/// clear of the noise.
 bool is_chatter(const Recording& recording, const Signals& signals) {
-  return signals.segmentation.slips.size() >= thresholds::kFewestSudden &&
-         swing_share(signals.segmentation) > thresholds::kLargeSwing &&
-         (smoothness(recording, signals.quality, signals.segmentation) > thresholds::kSmoothMotion ||
-          proven_rise_over_fall(signals.segmentation) > thresholds::kSquare);
+  const Segmentation& segmentation = signals.segmentation;
+  if (segmentation.slips.size() < thresholds::kFewestSudden) return false;
+  if (!(swing_share(segmentation) > thresholds::kLargeSwing)) return false;
+  if (smoothness(recording, signals.quality, segmentation) > thresholds::kSmoothMotion) return true;
+  return median_drop(segmentation) > thresholds::kClearDrop * segmentation.noise &&
+         proven_rise_over_fall(segmentation) > thresholds::kSquare;
 }
 
 /// Swings that are no wander of a level, and no motion that repeats.
