@@ -49,6 +49,17 @@ inline constexpr double kDriftHandicap = 10.0;
 /// in white noise]
 inline constexpr double kSureHum = 20.0;
 
+/// Power of a line at another frequency, as kSureHum. [1; derived: 1e-9 by chance in white noise of a million bins]
+inline constexpr double kSureLine = 70.0;
+
+/// Mean of the unit vectors of a line's phases at the onsets of the slips, up to which it has nothing to do with them.
+/// [1; derived: exceeded with exp(-0.25 n) by chance with n cycles]
+inline constexpr double kNoPhase = 0.5;
+
+/// Fewest cycles beside which a line is looked for at any frequency. [count; derived: exp(-0.25 n) is a percent of
+/// chance there]
+inline constexpr std::size_t kFewestOfLine = 16;
+
 /// Power of a line over that of the strongest in the same residuals, below which it may be an image of it. [1;
 /// calibrated: images are below 0.022 for 60 simulated recordings with hum]
 inline constexpr double kHumImage = 0.1;

@@ -115,6 +115,19 @@ std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, 
   return best;
 }
 
+std::optional<double> strongest_line(std::span<const double> power, double bin_Hz, double resolution_Hz,
+                                     double lowest_Hz) {
+  const auto lowest = static_cast<std::size_t>(std::max(1.0, std::ceil(lowest_Hz / bin_Hz)));
+  if (lowest + 2 >= power.size()) return std::nullopt;
+  const auto first = power.begin() + static_cast<std::ptrdiff_t>(lowest);
+  const auto peak = static_cast<std::size_t>(std::max_element(first, power.end() - 1) - power.begin());
+  const double offset = peak_offset(power[peak - 1], power[peak], power[peak + 1]);
+  const double frequency_Hz = (static_cast<double>(peak) + offset) * bin_Hz;
+  const double beside = level_beside(power, bin_Hz, resolution_Hz, frequency_Hz);
+  if (power[peak] <= prominence_among(static_cast<double>(power.size())) * beside) return std::nullopt;
+  return frequency_Hz;
+}
+
 std::optional<double> mains_in_step(double frequency_Hz, int harmonics, double duration_s) {
   constexpr double kTurns = 1.5;
   for (const double mains_Hz : kMains_Hz) {

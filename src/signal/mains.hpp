@@ -23,6 +23,11 @@ struct MainsLine {
 std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, double resolution_Hz,
                                   std::span<const double> known_Hz = {});
 
+/// The highest peak at `lowest_Hz` or above, where it is as narrow as a line and stands out of its surroundings more
+/// than noise does once in a thousand recordings.
+std::optional<double> strongest_line(std::span<const double> power, double bin_Hz, double resolution_Hz,
+                                     double lowest_Hz);
+
 /// The lines whose energy is spread over the recording: one that dies out or comes once is a motion's, not the mains'.
 std::vector<MainsLine> without_bursts(std::vector<MainsLine> lines, const UniformTrace& trace);
 

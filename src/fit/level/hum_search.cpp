@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -53,13 +54,26 @@ bool is_in_step(const BlockFit& fit, double frequency_Hz) {
   return phase_coherence(fit, frequency_Hz) > thresholds::kInStep;
 }
 
+/// Whether sampling at this rate shows a frequency in step with the slips where the line is: harmonics from beyond the
+/// Nyquist frequency. Those from farther than twice the rate are never the strongest.
+bool may_be_folded(const BlockFit& fit, double frequency_Hz, double rate_Hz) {
+  constexpr int kFolds = 2;
+  for (int fold = 1; fold <= kFolds; ++fold) {
+    for (const double sign : {-1.0, 1.0}) {
+      if (phase_coherence(fit, fold * rate_Hz + sign * frequency_Hz) > thresholds::kNoPhase) return true;
+    }
+  }
+  return false;
+}
+
 /// Of the rest: each of several runs under a window of its own, without which a line would leak into all of the
 /// spectrum.
 class RestSpectrum {
  public:
   explicit RestSpectrum(const EvenRest& rest) {
     const std::size_t length = signal::good_length(rest.values.size());
-    bin_Hz_ = 1.0 / (static_cast<double>(length) * rest.step_s);
+    rate_Hz_ = 1.0 / rest.step_s;
+    bin_Hz_ = rate_Hz_ / static_cast<double>(length);
     double samples = 0.0;
     for (const CycleRun& run : rest.runs) samples += run.size();
     reach_Hz_ = 2.0 * static_cast<double>(rest.runs.size()) / (samples * rest.step_s);
@@ -70,6 +84,12 @@ class RestSpectrum {
   [[nodiscard]] std::vector<signal::MainsLine> mains(double resolution_Hz, std::span<const double> known_Hz) const {
     return signal::find_mains(power_, bin_Hz_, resolution_Hz, known_Hz);
   }
+  /// The strongest line at this frequency or above, whatever its frequency.
+  [[nodiscard]] std::optional<double> strongest(double lowest_Hz, double resolution_Hz) const {
+    return signal::strongest_line(power_, bin_Hz_, resolution_Hz, lowest_Hz);
+  }
+  /// Of the samples.
+  [[nodiscard]] double rate_Hz() const { return rate_Hz_; }
   /// Distance up to which the window of a run spreads a line.
   [[nodiscard]] double reach_Hz() const { return reach_Hz_; }
   /// No farther from the frequency than so much.
@@ -94,6 +114,7 @@ class RestSpectrum {
   }
 
   std::vector<double> power_;
+  double rate_Hz_ = 0.0;
   double bin_Hz_ = 0.0;
   double reach_Hz_ = 0.0;
 };
@@ -110,6 +131,13 @@ class NewLines {
     for (const signal::MainsLine& line : spectrum_.mains(resolution_Hz_, known_Hz_)) {
       const double f_Hz = line.frequency_Hz;
       if (is_new(f_Hz) && prominence.of(rest.power_at(f_Hz)) > thresholds::kSureHum) seen_Hz_.push_back(f_Hz);
+    }
+    const std::optional<double> other_Hz = line_beside_slips(fit, rest);
+    if (other_Hz && is_new(*other_Hz) && !is_beside(*other_Hz, seen_Hz_)) {
+      const double square = rest.power_at(*other_Hz);
+      // Weaker ones may be of slips that a drive moves, or of rounding.
+      const bool is_large = square > fit.scales().noise * fit.scales().noise;
+      if (is_large && prominence.of(square) > thresholds::kSureLine) seen_Hz_.push_back(*other_Hz);
     }
     if (in_sticks && is_new(in_sticks->frequency_Hz) && !is_beside(in_sticks->frequency_Hz, seen_Hz_)) {
       seen_Hz_.push_back(in_sticks->frequency_Hz);
@@ -134,6 +162,17 @@ class NewLines {
   }
 
  private:
+  /// The strongest line of the rest where the slips have no line: with another phase at the onset of each. Among few
+  /// slips this is chance, and between runs of cycles lines have images.
+  [[nodiscard]] std::optional<double> line_beside_slips(const BlockFit& fit, const Rest& rest) const {
+    if (fit.size() < thresholds::kFewestOfLine || rest.runs().size() > 1) return std::nullopt;
+    const double span_s = fit.state(fit.size() - 1).onset_s - fit.state(0).onset_s;
+    const double slips_Hz = static_cast<double>(fit.size() - 1) / span_s;
+    const std::optional<double> line_Hz = spectrum_.strongest(slips_Hz, resolution_Hz_);
+    if (!line_Hz || phase_coherence(fit, *line_Hz) > thresholds::kNoPhase) return std::nullopt;
+    if (may_be_folded(fit, *line_Hz, spectrum_.rate_Hz())) return std::nullopt;
+    return line_Hz;
+  }
   /// The mains wanders.
   [[nodiscard]] double width_Hz(double frequency_Hz) const {
     return std::max(3.0 * resolution_Hz_, 2e-3 * frequency_Hz);

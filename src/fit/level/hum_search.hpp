@@ -15,9 +15,10 @@ struct HumSearch {
   bool others_wait = false;  ///< weaker ones, which the residuals of the next fit show, or show to be images
 };
 
-/// Frequencies of the mains lines that stand out of the residuals, and of the line in the sticks, unless they are in
-/// step with the slips. Small hum hides under the cycles' own spectrum; in the residuals it does not. Lines that the
-/// fit has already are looked at again, so that their frequency follows the better fit.
+/// Frequencies of the mains lines that stand out of the residuals, of the strongest line at another frequency where it
+/// is larger than the noise, and of the line in the sticks, unless they are in step with the slips. Small hum hides
+/// under the cycles' own spectrum; in the residuals it does not. Lines that the fit has already are looked at again, so
+/// that their frequency follows the better fit.
 ///
 /// A line that is not fitted yet has images: at multiples of the slips' frequency from it, because cycles take up part
 /// of it in numbers of their own, and near it where there are gaps between the fitted cycles. They go when the line is
