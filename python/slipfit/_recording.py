@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union, cast
 import numpy as np
 
 from . import _slipfit
+from ._arrays import column_of
 from ._cells import Quantity, cells_of
 from ._values import Notice
 
@@ -27,10 +28,11 @@ class Recording:
     ----------
     time : array of shape (n,), or None
         Seconds (or `time_unit`). Lists, pandas Series and any array of numbers will do; contiguous doubles are read
-        where they lie. None: `sample_rate` is the clock.
+        where they lie. Dates (`DatetimeIndex`, ``datetime64``, ``datetime``) and durations (``timedelta64``) become
+        seconds, dates since the first. None: `sample_rate` is the clock.
     force : array of shape (n,)
         Newtons (or `force_unit`; ``"1"`` for a coefficient of friction, ``"N m"`` for a torque, with `radius`). Values that
-        are not finite are left out and counted, as are samples whose time runs backwards: the result says so.
+        are masked, missing or not finite are left out and counted, as are samples whose time runs backwards: the result says so.
     speed : float or str
         Driving speed in m/s, or text with a unit: ``"10 mm/s"``, ``"600 mm/min"``; ``"60 rpm"`` with `radius`.
     normal_force : float or str, optional
@@ -97,8 +99,8 @@ class Recording:
         said = dict(locals())
         for own in ("self", "time", "force", "name", "__class__"):
             said.pop(own, None)
-        clock = None if time is None else _column(time, "time")
-        self._native = _slipfit.take_arrays(str(name), clock, _column(force, "force"), cells_of(said))[0][1]
+        clock = None if time is None else column_of(time, "time", unit=time_unit)
+        self._native = _slipfit.take_arrays(str(name), clock, column_of(force, "force"), cells_of(said))[0][1]
 
     @classmethod
     def _of(cls, native: _slipfit.Recording) -> "Recording":
@@ -188,13 +190,6 @@ class Recording:
 
     def __deepcopy__(self, memo: Dict[int, Any]) -> "Recording":
         return self
-
-
-def _column(values: Any, name: str) -> "Array":
-    array = np.ascontiguousarray(values, dtype=np.float64)
-    if array.ndim != 1:
-        raise ValueError(f"{name}: expected one dimension, got shape {array.shape}")
-    return cast("Array", array)
 
 
 def read_recording(

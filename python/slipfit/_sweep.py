@@ -167,27 +167,32 @@ def _check(recordings: Iterable[Any]) -> None:
             raise TypeError(f"expected recordings, not {type(one).__name__}: see Recording and read_recording")
 
 
+def _group_name(named: Mapping[str, Recording]) -> str:
+    """The group that all recordings share, else the first name and how many more there are."""
+    groups = {value.group for value in named.values()}
+    first = next(iter(named))
+    return groups.pop() if len(groups) == 1 and "" not in groups else f"{first} and {len(named) - 1} more"
+
+
 def _analysed(recordings: Recordings, name: Optional[str], options: Options) -> Any:
     if isinstance(recordings, Recording):
-        one = Fit(recordings, options)
-        one._id = name or ""
-        one._result()
-        return one
-    if isinstance(recordings, Mapping):
+        named = {name or "": recordings}
+    elif isinstance(recordings, Mapping):
         named = {str(key): value for key, value in recordings.items()}
     else:
         listed = list(recordings)
         _check(listed)
-        named = _named(listed)
+        named = {name or "": listed[0]} if len(listed) == 1 else _named(listed)
     _check(named.values())
     if not named:
         raise ValueError("expected at least one recording")
-    if name is None:
-        group = {value.group for value in named.values()}
-        first = next(iter(named))
-        name = group.pop() if len(group) == 1 and "" not in group else first
-        name = name if name != first or len(named) == 1 else f"{first} and {len(named) - 1} more"
-    sweep = Sweep(named, name, options)
+    if len(named) == 1:
+        own_name, recording = next(iter(named.items()))
+        one = Fit(recording, options)
+        one._id = name or own_name
+        one._result()
+        return one
+    sweep = Sweep(named, _group_name(named) if name is None else name, options)
     sweep._swept()
     return sweep
 
@@ -208,7 +213,7 @@ def fit(recordings: Recordings, *, tier: str = "auto", fix: Fix = None, name: Op
     Parameters
     ----------
     recordings : Recording, sequence of Recording, or mapping of str to Recording
-        One gives `Fit`. Several are a sweep of one sliding pair at several speeds: one set of parameters, `Sweep`.
+        One gives `Fit`, also in a sequence or mapping. Several are a sweep of one sliding pair at several speeds: one set of parameters, `Sweep`.
     tier : str
         ``"auto"``, ``"sawtooth"``, ``"undamped"``, ``"damped"``, ``"weakening"``; of several ``"auto"``, ``"damped"``, ``"velocity"``.
     fix : mapping of str to float, optional

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple
 
 _UNITS = (
@@ -34,8 +35,13 @@ class Notice(NamedTuple):
         return f"{self.message} [{self.code}]"
 
 
-class Estimate(NamedTuple):
-    """A number in SI with its standard error and 95 % interval; what is not known is None, and `note` says why."""
+@dataclass(frozen=True)
+class Estimate:
+    """A number in SI with its standard error and 95 % interval; what is not known is None, and `note` says why.
+
+    ``float(estimate)`` is its value, NaN where there is none. There is no arithmetic: ``estimate * 2`` is a TypeError,
+    since the interval of a product depends on what else is in it; ``estimate.value * 2`` is a number.
+    """
 
     name: str
     value: Optional[float]
@@ -62,6 +68,9 @@ class Estimate(NamedTuple):
 
     def __float__(self) -> float:
         return float("nan") if self.value is None else self.value
+
+    def __format__(self, layout: str) -> str:
+        return format(float(self), layout) if layout else str(self)
 
     def __str__(self) -> str:
         if self.value is None:
