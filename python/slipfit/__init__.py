@@ -10,14 +10,15 @@ Numbers are in SI. What is not known is None, and the note says why. Errors are 
 pandas and matplotlib are imported only by what needs them.
 """
 
-from ._batch import BatchResult, batch, manifest
+from ._batch import BatchResult, batch, manifest, merge, open_batch
 from ._documents import Comparison, Info, Plan, Prediction, Surface
 from ._errors import Error
 from ._fit import Curve, Fit
-from ._functions import compare, info, simulate, surface
+from ._functions import compare, figures, info, predict, simulate, surface
 from ._recording import Recording, read_recording
 from ._slipfit import __version__
-from ._sweep import Sweep, analyze, fit
+from ._saved import read_fit
+from ._sweep import Sweep, analyze, fit, fit_many
 from ._values import Estimate, Notice, Parameters
 
 __all__ = [
@@ -39,9 +40,15 @@ __all__ = [
     "analyze",
     "batch",
     "compare",
+    "figures",
     "fit",
+    "fit_many",
     "info",
     "manifest",
+    "merge",
+    "open_batch",
+    "predict",
+    "read_fit",
     "read_recording",
     "simulate",
     "surface",

@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import os
 import sys
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 from . import _slipfit
 from ._cells import Quantity, fixed_of, quantity_of
 from ._documents import Path, frame_of_csv
 from ._errors import Error
+from ._fit import Fit
+from ._saved import result_of
 from ._sweep import Fix
 from ._values import Notice
 
@@ -58,12 +60,48 @@ class BatchResult:
     def __init__(self, folder: str, counts: Dict[str, Any]) -> None:
         self.folder = folder
         self.counts = counts
+        self._places: Optional[Dict[str, Tuple[int, int]]] = None
 
     def __iter__(self) -> Iterator[Dict[str, Any]]:
         """The documents in the manifest's order."""
-        with open(os.path.join(self.folder, "results.jsonl"), encoding="utf-8") as stream:
-            for line in stream:
-                yield json.loads(line)
+        for line in self._lines():
+            yield json.loads(line)
+
+    def _lines(self) -> Iterator[str]:
+        with open(self._path("results.jsonl"), encoding="utf-8") as stream:
+            yield from stream
+
+    def fits(self) -> Iterator[Fit]:
+        """The results in the manifest's order, read one by one."""
+        for line in self._lines():
+            yield result_of(line, self._path("results.jsonl"))
+
+    @property
+    def ids(self) -> List[str]:
+        """Of the results, in the manifest's order; failures have none."""
+        return list(self._index())
+
+    def _index(self) -> Dict[str, Tuple[int, int]]:
+        """Where the line of each id stands: (begin, length) in bytes."""
+        if self._places is None:
+            self._places, begin = {}, 0
+            with open(self._path("results.jsonl"), "rb") as stream:
+                for line in stream:
+                    self._places[str(json.loads(line)["id"])] = (begin, len(line))
+                    begin += len(line)
+        return self._places
+
+    def __getitem__(self, id: str) -> Fit:
+        places = self._index()
+        if id not in places:
+            raise KeyError(f"{self.folder} has no result {id!r}: see .ids and .failures")
+        begin, length = places[id]
+        with open(self._path("results.jsonl"), "rb") as stream:
+            stream.seek(begin)
+            return result_of(stream.read(length).decode("utf-8"), self._path("results.jsonl"))
+
+    def __len__(self) -> int:
+        return len(self._index())
 
     def to_frame(self) -> "pd.DataFrame":
         """summary.csv: one row a recording."""
@@ -74,15 +112,55 @@ class BatchResult:
         """failures.csv: id, code and message of each recording that failed."""
         return self._table("failures.csv")
 
+    def _path(self, name: str) -> str:
+        return os.path.join(self.folder, name)
+
     def _table(self, name: str) -> "pd.DataFrame":
         import pandas
 
-        return pandas.read_csv(os.path.join(self.folder, name), float_precision="round_trip")
+        if not os.path.exists(self._path(name)):
+            raise Error("not_finished", f"{self.folder}: has no {name}, which a batch writes at its end; finish it with resume=True")
+        return pandas.read_csv(self._path(name), float_precision="round_trip")
 
     def __repr__(self) -> str:
         counts = self.counts
         done = counts["before"] + counts["fitted"]
         return f"<slipfit.BatchResult {self.folder!r}: {done} of {counts['total']} fitted, {counts['failed']} failed>"
+
+    def _repr_html_(self) -> str:
+        from . import _html
+
+        return _html.of_batch(self)
+
+
+def open_batch(folder: Path) -> BatchResult:
+    """The results of a batch, from its folder: of `batch`, `merge`, ``slipfit batch`` or ``slipfit merge``.
+
+    Raises
+    ------
+    Error
+        ``not_a_batch``.
+    """
+    name = os.fspath(folder)
+    try:
+        with open(os.path.join(name, "run.json"), encoding="utf-8") as stream:
+            run = json.load(stream)
+        counts = {key: run[key] for key in ("total", "before", "fitted", "failed", "seconds")}
+    except (OSError, ValueError, KeyError, TypeError):
+        raise Error("not_a_batch", f"{name}: holds no run.json of a batch, expected a folder that a batch wrote") from None
+    return BatchResult(name, counts)
+
+
+def merge(shards: Sequence[Path], *, out: Path) -> BatchResult:
+    """Put the finished shards of one batch together, in the manifest's order: the files that one machine would have written.
+
+    Raises
+    ------
+    Error
+        ``not_a_batch``, ``not_finished``, ``shards_differ``, ``shards_missing``, ...
+    """
+    _slipfit.merge([os.fspath(one) for one in shards], os.fspath(out))
+    return open_batch(out)
 
 
 Progress = Union[bool, Callable[[Dict[str, Any]], None]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 import os
@@ -20,6 +21,21 @@ def frame_of_csv(text: str) -> "pd.DataFrame":
     import pandas
 
     return pandas.read_csv(io.StringIO(text), float_precision="round_trip")
+
+
+def row_of(lines: Tuple[str, str]) -> Dict[str, Union[str, int, float, None]]:
+    """A line of names and a line of cells: numbers as numbers, an empty cell is None."""
+    names, cells = csv.reader(line.rstrip("\n") for line in lines)
+    return {name: _cell(text) for name, text in zip(names, cells)}
+
+
+def _cell(text: str) -> Union[str, int, float, None]:
+    for kind in (int, float):
+        try:
+            return cast(Union[int, float], kind(text))
+        except ValueError:
+            pass
+    return text or None
 
 
 def write_page(path: Path, page: str) -> None:
@@ -51,7 +67,16 @@ class Document:
         return self._text
 
     def __repr__(self) -> str:
-        return self._text
+        """The first line of the text."""
+        return f"<slipfit.{type(self).__name__} {self._summary()}>"
+
+    def _summary(self) -> str:
+        return next((line.strip() for line in self._text.splitlines() if line.strip()), "")
+
+    def _repr_html_(self) -> str:
+        from . import _html
+
+        return _html.of_document(self)
 
     def __reduce__(self) -> Tuple[Any, ...]:
         return (type(self), (self._content, self._text))

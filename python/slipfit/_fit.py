@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union, cast
+import warnings
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union, cast
 
 import numpy as np
 
 from . import _slipfit
 from ._cells import Quantity, text_of
-from ._documents import Path, Plan, Prediction, frame_of_csv, write_page
+from ._documents import Path, Plan, Prediction, frame_of_csv, row_of, write_page
 from ._errors import Error
 from ._recording import Recording
 from ._values import Estimate, Notice, Parameters, notices_of
@@ -53,25 +54,39 @@ class Fit:
     ``conditional``: known if what the note names holds; ``unidentified``: the recording cannot tell; ``fixed``: held.
     """
 
-    def __init__(self, recording: Recording, options: Options, native: Optional[_slipfit.Analysis] = None) -> None:
+    def __init__(
+        self, recording: Optional[Recording], options: Options, native: Optional[_slipfit.Analysis] = None, name: str = ""
+    ) -> None:
         self._recording = recording
         self._options = options
         self._native = native
         self._content: Optional[str] = None
         self._parsed: Optional[Dict[str, Any]] = None
-        self._id = ""
+        self._id = name
+        self._keeps_recording = False  # in a pickle
 
     # The document
 
     def _result(self) -> _slipfit.Analysis:
         """Made again after unpickling: the same input gives the same bytes."""
         if self._native is None:
-            native = self._recording._native
+            native = self.recording._native
             fitted = self._options.kind == "fit"
-            self._native = (
-                _slipfit.fit(native, self._options.tier, list(self._options.fixed)) if fitted else _slipfit.analyze(native)
-            )
+            made = _slipfit.fit(native, self._options.tier, list(self._options.fixed)) if fitted else _slipfit.analyze(native)
+            self._check_same(made.json(self._id))
+            self._native = made
         return self._native
+
+    def _check_same(self, made: str) -> None:
+        """Warns where what is made again differs from what was saved: other options, or another version."""
+        if self._content is None or self._content == made:
+            return
+        if json.loads(made).get("parameters") != self._document().get("parameters"):
+            warnings.warn(
+                f"{self.id}: made again, the fit has other parameters than the saved one "
+                f"(saved by version {self._document()['version']}, this is {_slipfit.__version__})",
+                stacklevel=4,
+            )
 
     def to_json(self) -> str:
         """The document of the schema slipfit.fit/1, byte for byte that of ``slipfit fit --json``."""
@@ -97,8 +112,30 @@ class Fit:
 
     @property
     def recording(self) -> Recording:
-        """What was analysed."""
+        """What was analysed. A document holds no samples: see `with_recording`."""
+        if self._recording is None:
+            raise Error("no_recording", f"{self.id}: a saved result holds no samples; attach them with fit.with_recording(recording)")
         return self._recording
+
+    def with_recording(self, recording: Optional[Recording] = None) -> "Fit":
+        """The same result with its recording, which a pickle of it carries, too.
+
+        Parameters
+        ----------
+        recording : Recording, optional
+            What a saved result was made of: curve, cycles, charts and page are made again from it. Without it the
+            recording that the result has.
+
+        Raises
+        ------
+        Error
+            ``another_recording`` where number of samples, duration or speed differ from those in the document.
+        """
+        taken = self.recording if recording is None else recording
+        _check_recording(self.id, self._document()["recording"], taken)
+        made = Fit(taken, self._options, self._native, self._id)
+        made._content, made._keeps_recording = self.to_json(), True
+        return made
 
     @property
     def status(self) -> str:
@@ -169,6 +206,65 @@ class Fit:
         """Speed at which stick-slip ends, by the fitted model (m/s)."""
         return self._derived("critical_speed_m_per_s")
 
+    @property
+    def aicc(self) -> Optional[float]:
+        """AICc of the chosen model, up to a constant of the recording; None without a fit."""
+        candidates = (self._document().get("model") or {}).get("candidates") or []
+        return next((one["aicc"] for one in candidates if one["chosen"]), None)
+
+    @property
+    def covariance(self) -> "pd.DataFrame":
+        """Covariance of the parameters in SI, names on both axes: by the delta method where the fit is in logarithms.
+
+        It describes the model that was fitted. Intervals (`Estimate.ci95`) include more: trends of the level, bounds,
+        the doubts that the notes name. `sample` draws from these.
+        """
+        from . import _uncertainty
+
+        return _uncertainty.covariance(self.id, self._document())
+
+    def sample(self, n: int, *, seed: int = 1) -> "pd.DataFrame":
+        """Draws of the parameters from their stated uncertainty: one row a draw, in SI.
+
+        Parameters
+        ----------
+        n : int
+            Number of draws.
+        seed : int
+            The same seed gives the same draws.
+
+        Returns
+        -------
+        DataFrame
+            The parameters of `covariance` with ``mass_kg`` and ``damping_coefficient_N_s_per_m`` that follow from them. Medians are
+            the values, the central 95 % of each column is its interval ``ci95``, with its skew; ranks depend on
+            each other as in the fit.
+
+        Raises
+        ------
+        Error
+            ``no_covariance``.
+        """
+        from . import _uncertainty
+
+        return _uncertainty.sample(self.id, self._document(), n, seed)
+
+    def to_xarray(self, n: int = 1000, *, seed: int = 1) -> Any:
+        """`sample` as an xarray.Dataset with the dimensions ``chain`` and ``draw``, units as attributes."""
+        from . import _uncertainty
+
+        return _uncertainty.dataset(self.sample(n, seed=seed))
+
+    def to_inference_data(self, n: int = 1000, *, seed: int = 1) -> Any:
+        """`sample` as the posterior of an arviz.InferenceData."""
+        import arviz
+
+        return arviz.InferenceData(posterior=self.to_xarray(n, seed=seed))
+
+    def row(self) -> Dict[str, Union[str, int, float, None]]:
+        """The row of summary.csv, without the manifest's ``row``: None where a cell is empty."""
+        return row_of(_slipfit.summary_row(self.to_json(), self.id))
+
     # Tables and arrays
 
     def to_frame(self) -> "pd.DataFrame":
@@ -199,8 +295,8 @@ class Fit:
     def curve(self) -> Curve:
         """Time, force, fitted force and residual, each of shape (n,)."""
         fitted = self._result().fitted()
-        force = self._recording.force
-        return Curve(self._recording.time, force, fitted, force - fitted)
+        recording = self.recording
+        return Curve(recording.time, recording.force, fitted, recording.force - fitted)
 
     # What follows from it
 
@@ -224,7 +320,7 @@ class Fit:
         load = None if normal_force is None else _slipfit.quantity(text_of(normal_force), "force")
         if load is not None and not load > 0.0:
             raise Error("out_of_range", f"normal_force: {normal_force!r} is not above zero, expected a load in N")
-        return Prediction(*_slipfit.predict(self.to_json(), self.id, _speeds_of(speeds), load))
+        return Prediction(*_slipfit.predict(self.to_json(), self.id, speeds_of(speeds), load))
 
     def plan(self, name: Optional[str] = None, *, speed: Optional[Quantity] = None) -> Plan:
         """Which recording to make next, so that one number becomes better known.
@@ -275,7 +371,8 @@ class Fit:
     # Python
 
     def __str__(self) -> str:
-        return self._result().text()
+        """As ``slipfit fit --details`` prints it; of a saved result without a recording its numbers."""
+        return _numbers_as_text(self) if self._recording is None else self._result().text()
 
     def __repr__(self) -> str:
         known = f", stiffness {self.stiffness}" if self.parameters else ""
@@ -290,13 +387,13 @@ class Fit:
         return (_remade, (type(self), self._state()))
 
     def _state(self) -> Tuple[Any, ...]:
-        return (self._recording, self._options, self.to_json(), self._id)
+        return (self._recording if self._keeps_recording else None, self._options, self.to_json(), self._id)
 
     @classmethod
     def _from_state(cls, recording: Any, options: Options, content: str, name: str) -> "Fit":
-        made = cls(recording, options)
+        made = cls(recording, options, name=name)
         made._content = content
-        made._id = name
+        made._keeps_recording = recording is not None
         return made
 
     def __copy__(self) -> "Fit":
@@ -306,11 +403,29 @@ class Fit:
         return self
 
 
+def _check_recording(name: str, stated: Mapping[str, Any], recording: Recording) -> None:
+    """Raises where the document is of another recording."""
+    for word, expected, found in (
+        ("samples", stated["samples"], len(recording)),
+        ("s", stated["duration_s"], recording.duration),
+        ("m/s", stated["speed_m_per_s"], recording.speed),
+    ):
+        if expected is not None and abs(found - expected) > 1e-9 * abs(expected):
+            raise Error("another_recording", f"{name}: the document is of {expected:.9g} {word}, this recording has {found:.9g}")
+
+
+def _numbers_as_text(fit: Fit) -> str:
+    lines = [f"{fit.id}: {fit.status.replace('_', ' ')}" + (f" ({fit.reason})" if fit.reason else "")]
+    known = [*fit.parameters.values(), fit.frequency, fit.pattern_spacing, fit.critical_speed]
+    lines += [f"  {one.name}: {one}" for one in known if one.value is not None or one.ci95 is not None]
+    return "\n".join(lines + [f"  warning: {notice}" for notice in fit.warnings])
+
+
 def _remade(kind: Any, state: Tuple[Any, ...]) -> Any:
     return kind._from_state(*state)
 
 
-def _speeds_of(speeds: Speeds) -> Union[str, List[float]]:
+def speeds_of(speeds: Speeds) -> Union[str, List[float]]:
     if isinstance(speeds, str):
         return speeds
     if isinstance(speeds, (int, float)):

@@ -8,12 +8,15 @@ import os
 from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union, cast
 
 from . import _slipfit
+from ._batch import BatchResult
 from ._cells import Quantity, cells_of, quantity_of, text_of
-from ._documents import Comparison, Info, Path, Surface
+from ._documents import Comparison, Info, Path, Prediction, Surface
 from ._errors import Error
-from ._fit import Fit
+from ._fit import Fit, Speeds, speeds_of
 from ._recording import Recording
-from ._sweep import Sweep, fit
+from ._saved import read_fit
+from ._sweep import Sweep
+from ._sweep import fit as fit_recordings
 
 
 def _friction(static: float, kinetic: Optional[Quantity], law: Sequence[Optional[Quantity]]) -> List[float]:
@@ -25,6 +28,17 @@ def _friction(static: float, kinetic: Optional[Quantity], law: Sequence[Optional
         return [static, quantity_of("kinetic_friction", kinetic, "force")]
     f0, f1, alpha = (cast(Quantity, one) for one in law)
     return [static, quantity_of("f0", f0, "force"), quantity_of("f1", f1, "force"), float(alpha)]
+
+
+def _natural_frequency(stiffness: float, mass: Optional[float], natural_frequency: Optional[Quantity]) -> float:
+    """sqrt(k/m) in rad/s."""
+    if (mass is None) == (natural_frequency is None):
+        raise Error("unknown_option", "natural_frequency: give either mass (kg) or natural_frequency (rad/s)")
+    if mass is None:
+        return quantity_of("natural_frequency", cast(Quantity, natural_frequency), "angular_speed", above=0.0)
+    if not (stiffness > 0.0 and mass > 0.0):
+        raise Error("out_of_range", "mass: stiffness or mass is not above zero, expected both above it")
+    return math.sqrt(stiffness / mass)
 
 
 def simulate(
@@ -88,14 +102,7 @@ def simulate(
         ``parameter_out_of_range`` for a body or friction that cannot be, ``out_of_range``, ``bad_number``,
         ``unknown_unit``.
     """
-    if (mass is None) == (natural_frequency is None):
-        raise Error("unknown_option", "natural_frequency: give either mass (kg) or natural_frequency (rad/s)")
-    if mass is not None:
-        if not (stiffness > 0.0 and mass > 0.0):
-            raise Error("out_of_range", "mass: stiffness and mass are above zero, expected so")
-        omega = math.sqrt(stiffness / mass)
-    else:
-        omega = quantity_of("natural_frequency", cast(Quantity, natural_frequency), "angular_speed", above=0.0)
+    omega = _natural_frequency(stiffness, mass, natural_frequency)
     added = [
         quantity_of("jitter", jitter, "force"),
         quantity_of("noise", noise, "force"),
@@ -120,7 +127,62 @@ def simulate(
     return Recording(time, force, speed=speed, force_view=force_view, name=name, **said)
 
 
-Side = Union[Fit, Recording, Path, Sequence[Union[Fit, Recording, Path]], Mapping[str, Union[Fit, Recording]]]
+def predict(
+    speeds: Speeds,
+    *,
+    fit: Union[Fit, Path, Mapping[str, Any], None] = None,
+    normal_force: Optional[Quantity] = None,
+    stiffness: Optional[float] = None,
+    mass: Optional[float] = None,
+    natural_frequency: Optional[Quantity] = None,
+    damping_ratio: float = 0.0,
+    static_friction: Optional[Quantity] = None,
+    kinetic_friction: Optional[Quantity] = None,
+    f0: Optional[Quantity] = None,
+    f1: Optional[Quantity] = None,
+    alpha: Optional[float] = None,
+) -> Prediction:
+    """What a model says at these speeds: that of a result, or one of stated parameters.
+
+    Parameters
+    ----------
+    speeds
+        As for `Fit.predict`.
+    fit : Fit, path or dict, optional
+        A result or its document: the intervals come from its covariance, under `normal_force` where that is given.
+    stiffness, mass, natural_frequency, damping_ratio, static_friction, kinetic_friction, f0, f1, alpha
+        As for `simulate`, in place of `fit`: a prediction without intervals.
+
+    Raises
+    ------
+    Error
+        ``cannot_predict``, ``bad_speeds``, ``parameter_out_of_range``, ``unknown_option``, ...
+    """
+    stated = (stiffness, mass, natural_frequency, static_friction, kinetic_friction, f0, f1, alpha)
+    if fit is not None:
+        if any(one is not None for one in stated) or damping_ratio != 0.0:
+            raise Error("unknown_option", "fit: give either a result, or the parameters of a model")
+        result = fit if isinstance(fit, Fit) else read_fit(fit)
+        return result.predict(speeds, normal_force=normal_force)
+    if stiffness is None or static_friction is None or normal_force is not None:
+        raise Error("unknown_option", "stiffness: give a result as fit, or stiffness, mass or natural_frequency, and friction")
+    slider = [float(stiffness), _natural_frequency(stiffness, mass, natural_frequency), float(damping_ratio)]
+    friction = _friction(quantity_of("static_friction", static_friction, "force"), kinetic_friction, (f0, f1, alpha))
+    return Prediction(*_slipfit.predict_stated(slider, friction, speeds_of(speeds)))
+
+
+def figures(out: Path) -> List[str]:
+    """Write figures 2 to 8 of the paper and the map of regimes (CSV and SVG) into a folder, and return their paths."""
+    os.makedirs(out, exist_ok=True)
+    paths = []
+    for name, content in _slipfit.figures():
+        paths.append(os.path.join(out, name))
+        with open(paths[-1], "w", encoding="utf-8", newline="") as file:
+            file.write(content)
+    return paths
+
+
+Side = Union[Fit, Recording, BatchResult, Path, Sequence[Union[Fit, Recording, Path]], Mapping[str, Union[Fit, Recording]]]
 
 
 def _documents_in(path: Path) -> List[str]:
@@ -146,9 +208,11 @@ def _side_of(side: Any) -> Tuple[List[str], List[Fit]]:
     if isinstance(side, Sweep):
         return _side_of(list(side.recordings.values()))
     if isinstance(side, Recording):
-        side = fit(side)
+        side = fit_recordings(side)
     if isinstance(side, Fit):
-        return [side.to_json()], [side]
+        return [side.to_json()], [side] if side._recording is not None else []
+    if isinstance(side, BatchResult):
+        return _documents_in(side.folder), []
     if isinstance(side, (str, os.PathLike)):
         return _documents_in(side), []
     documents: List[str] = []
@@ -165,7 +229,7 @@ def compare(a: Side, b: Side, *, names: Tuple[str, str] = ("A", "B")) -> Compari
 
     Parameters
     ----------
-    a, b : Fit, Recording (fitted first), path, or several of them
+    a, b : Fit, Recording (fitted first), BatchResult, path, or several of them
         A path is a document of ``slipfit fit --json``, a results.jsonl, or the folder of a batch. Several are repeats
         of one test; of a sweep each of its recordings. A recording counts once, however many cycles it has.
     names : (str, str)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from html import escape
-from typing import TYPE_CHECKING, Any, List
+from typing import TYPE_CHECKING, Any, Iterable, List, Sequence, Tuple
 
 import numpy as np
 
 from . import _slipfit
 
 if TYPE_CHECKING:
+    from ._batch import BatchResult
+    from ._documents import Document
     from ._fit import Fit
     from ._recording import Recording
     from ._values import Estimate
@@ -38,20 +40,27 @@ def _path(times: "np.ndarray[Any, Any]", values: "np.ndarray[Any, Any]", low: fl
     return "".join(pieces)
 
 
-def chart(recording: "Recording", fit: "Fit") -> str:
-    """The trace, and the fit on it, as a small picture."""
-    curve = fit.curve
-    low, high = float(np.min(curve.force)), float(np.max(curve.force))
-    lines = f'<path d="{_path(curve.time, curve.force, low, high)}" stroke="#8a8a8a" stroke-width="1"/>'
-    is_fitted = fit.status != "steady_sliding" and not np.isnan(curve.fitted).all()
-    if is_fitted:
-        lines += f'<path d="{_path(curve.time, curve.fitted, low, high)}" stroke="#c0392b" stroke-width="1"/>'
+def _picture(recording: "Recording", lines: Sequence[Tuple[Any, str]], about_lines: str) -> str:
+    """Values over time, each in its colour."""
+    low, high = float(np.min(recording.force)), float(np.max(recording.force))
+    time = recording.time
+    paths = "".join(f'<path d="{_path(time, values, low, high)}" stroke="{color}" stroke-width="1"/>' for values, color in lines)
     about = f"{recording.duration:.4g} s, {low:.4g} to {high:.4g} {recording.force_unit}"
     return (
         f'<svg viewBox="0 -2 {_WIDTH} {_HEIGHT + 4}" style="width:100%;max-width:{_WIDTH}px" fill="none" role="img" '
-        f'aria-label="force over time, {escape(about)}">{lines}</svg>'
-        f'<div style="font-size:85%">force over {escape(about)}{"; fit in red" if is_fitted else ""}</div>'
+        f'aria-label="force over time, {escape(about)}">{paths}</svg>'
+        f'<div style="font-size:85%">force over {escape(about)}{about_lines}</div>'
     )
+
+
+def chart(recording: "Recording", fit: "Fit") -> str:
+    """The trace, and the fit on it, as a small picture."""
+    curve = fit.curve
+    lines = [(curve.force, "#8a8a8a")]
+    is_fitted = fit.status != "steady_sliding" and not np.isnan(curve.fitted).all()
+    if is_fitted:
+        lines.append((curve.fitted, "#c0392b"))
+    return _picture(recording, lines, "; fit in red" if is_fitted else "")
 
 
 def _digits(one: "Estimate") -> int:
@@ -80,6 +89,45 @@ def _row(words: str, one: "Estimate") -> str:
     return f"<tr{note}><th style='text-align:left'>{escape(words)}</th>" + "".join(f"<td>{escape(c)}</td>" for c in cells) + "</tr>"
 
 
+_HEAD = "<tr><th></th><th>value</th><th>unit</th><th>95 % interval</th><th>status</th></tr>"
+
+
+def of_estimate(one: "Estimate") -> str:
+    return of_parameters([one])
+
+
+def of_parameters(estimates: Iterable["Estimate"]) -> str:
+    """A table, a row each."""
+    words = _slipfit.parameter_words()
+    rows = "".join(_row(words.get(one.name, (one.name, ""))[0], one) for one in estimates)
+    return f'<table style="{_STYLE}">{_HEAD}{rows}</table>'
+
+
+def of_document(document: "Document") -> str:
+    """The text as it is printed."""
+    return f'<pre style="{_STYLE}">{escape(str(document))}</pre>'
+
+
+def of_recording(recording: "Recording") -> str:
+    """What it is, the trace, and what was assumed."""
+    notes = [*recording.assumed, *(notice.message for notice in recording.warnings)]
+    listed = "".join(f"<li>{escape(one)}</li>" for one in notes)
+    return (
+        f'<div style="{_STYLE}"><b>{escape(repr(recording)[len("<slipfit.") : -1])}</b>'
+        + _picture(recording, [(recording.force, "#8a8a8a")], "")
+        + (f"<ul>{listed}</ul>" if listed else "")
+        + "</div>"
+    )
+
+
+def of_batch(result: "BatchResult") -> str:
+    """Counts, the first failures and where the table is."""
+    failed = result.failures if result.counts["failed"] else None
+    rows = [] if failed is None else failed.head(5).itertuples(index=False)
+    listed = "".join(f"<li><code>{escape(str(one.id))}</code>: {escape(str(one.message))}</li>" for one in rows)
+    return f'<div style="{_STYLE}"><b>{escape(repr(result)[len("<slipfit.") : -1])}</b>' + (f"<ul>{listed}</ul>" if listed else "") + "</div>"
+
+
 def of_fit(fit: "Fit") -> str:
     """Kind of motion, table with intervals and statuses, warnings, chart."""
     words = _slipfit.parameter_words()
@@ -87,13 +135,12 @@ def of_fit(fit: "Fit") -> str:
     rows += [_row(words.get(name, (name, ""))[0], one) for name, one in fit.parameters.items()]
     rows += [_row("pattern spacing V / f", fit.pattern_spacing)] if fit.pattern_spacing.value is not None else []
     rows += [_row("critical speed", fit.critical_speed)] if fit.critical_speed.ci95 is not None else []
-    head = "<tr><th></th><th>value</th><th>unit</th><th>95 % interval</th><th>status</th></tr>"
     notes = "".join(f"<li>{escape(one.message)} <code>{escape(one.code)}</code></li>" for one in fit.warnings)
-    picture = "" if hasattr(fit, "recordings") else chart(fit.recording, fit)
+    picture = "" if fit._recording is None else chart(fit.recording, fit)
     return (
         f'<div style="{_STYLE}"><b>{escape(fit.id)}: {escape(fit.status.replace("_", " "))}</b>'
         + (f"<div>{escape(fit.reason)}</div>" if fit.reason else "")
-        + (f"<table>{head}{''.join(rows)}</table>" if rows else "")
+        + (f"<table>{_HEAD}{''.join(rows)}</table>" if rows else "")
         + picture
         + (f"<div>Warnings<ul>{notes}</ul></div>" if notes else "")
         + "</div>"

@@ -182,6 +182,11 @@ class Recording:
         load = "" if self.normal_force is None else f", {self.normal_force:g} N load"
         return f"<slipfit.Recording {self.name!r}: {len(self)} samples, {self.duration:.4g} s, {self.speed:g} m/s{load}>"
 
+    def _repr_html_(self) -> str:
+        from . import _html
+
+        return _html.of_recording(self)
+
     def __reduce__(self) -> Tuple[Any, ...]:
         return (Recording._of, (self._native,))
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import functools
+import json
 import os
-from typing import TYPE_CHECKING, Any, Dict, Iterable, Mapping, Optional, Sequence, Tuple, Union, overload
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, Mapping, Optional, Sequence, Tuple, Union, overload
 
 from . import _slipfit
 from ._cells import Quantity, fixed_of
 from ._documents import Path, write_page
-from ._fit import Curve, Fit, Options
+from ._errors import Error
+from ._fit import Curve, Fit, Options, _check_recording, _numbers_as_text
 from ._recording import Recording
 from ._values import Estimate
 
@@ -27,22 +30,35 @@ class Sweep(Fit):
     def __init__(
         self, recordings: Mapping[str, Recording], name: str, options: Options, native: Optional[_slipfit.Sweep] = None
     ) -> None:
-        self._all = dict(recordings)
-        self._options = options
+        super().__init__(None, options, name=name)
+        self._all = dict(recordings)  # empty: of a saved sweep
         self._sweep = native
-        self._content = None
-        self._parsed = None
-        self._id = name
         self._members: Optional[Dict[str, Fit]] = None
 
     def _swept(self) -> _slipfit.Sweep:
         if self._sweep is None:
+            if not self._all:
+                raise Error("no_recording", f"{self.id}: a saved result holds no samples; attach them with sweep.with_recording(recordings)")
             named = [(name, one._native) for name, one in self._all.items()]
             if self._options.kind == "fit":
-                self._sweep = _slipfit.fit_sweep(named, self._options.tier, list(self._options.fixed))
+                made = _slipfit.fit_sweep(named, self._options.tier, list(self._options.fixed))
             else:
-                self._sweep = _slipfit.analyze_sweep(named)
+                made = _slipfit.analyze_sweep(named)
+            self._check_same(made.json(self._id))
+            self._sweep = made
         return self._sweep
+
+    def with_recording(self, recording: Any = None) -> "Sweep":
+        """The same result with its recordings, a mapping by the names in the document; as `Fit.with_recording`."""
+        taken = self._all if recording is None else {str(name): one for name, one in recording.items()}
+        stated = {one["id"]: one["recording"] for one in self._document()["recordings"]}
+        if set(taken) != set(stated):
+            raise Error("another_recording", f"{self.id}: the document has the recordings {', '.join(stated)}, not {', '.join(taken) or 'none'}")
+        for name, one in taken.items():
+            _check_recording(name, stated[name], one)
+        made = Sweep({name: taken[name] for name in stated}, self._id, self._options, self._sweep)
+        made._content, made._keeps_recording = self.to_json(), True
+        return made
 
     def to_json(self) -> str:
         """The document of the schema slipfit.fit/1 with ``recordings``, as ``slipfit fit --joint --json`` writes it."""
@@ -54,18 +70,24 @@ class Sweep(Fit):
     def recordings(self) -> Dict[str, Fit]:
         """Each recording's own result, by its name."""
         if self._members is None:
-            self._members = {}
-            for (name, recording), native in zip(self._all.items(), self._swept().members):
-                own = Fit(recording, self._options, native)
-                own._id = name
-                self._members[name] = own
+            if self._all:
+                natives = zip(self._all.items(), self._swept().members)
+                self._members = {name: Fit(one, self._options, native, name) for (name, one), native in natives}
+            else:
+                self._members = {one["id"]: self._saved_member(one) for one in self._document()["recordings"]}
         return self._members
+
+    def _saved_member(self, content: Dict[str, Any]) -> Fit:
+        """What the document of the sweep holds of a recording: no model of its own."""
+        member = Fit(None, Options("analyze"), name=content["id"])
+        member._content = json.dumps({"schema": "slipfit.fit/1", "version": self._document()["version"], **content})
+        return member
 
     def __getitem__(self, name: str) -> Fit:
         return self.recordings[name]
 
     def __len__(self) -> int:
-        return len(self._all)
+        return len(self._document()["recordings"])
 
     @property
     def recording(self) -> Recording:
@@ -130,19 +152,20 @@ class Sweep(Fit):
         return _plot.sweep(self, kind, ax)
 
     def __str__(self) -> str:
-        return self._swept().text(self._id)
+        return self._swept().text(self._id) if self._all else _numbers_as_text(self)
 
     def __repr__(self) -> str:
         known = f", stiffness {self.stiffness}" if self.parameters else ""
         return f"<slipfit.Sweep {self.id!r} of {len(self)}: {self.status.replace('_', ' ')}{known}>"
 
     def _state(self) -> Tuple[Any, ...]:
-        return (self._all, self._options, self.to_json(), self._id)
+        return (self._all if self._keeps_recording else {}, self._options, self.to_json(), self._id)
 
     @classmethod
     def _from_state(cls, recording: Any, options: Options, content: str, name: str) -> "Sweep":
         made = cls(recording, name, options)
         made._content = content
+        made._keeps_recording = bool(recording)
         return made
 
 
@@ -188,8 +211,7 @@ def _analysed(recordings: Recordings, name: Optional[str], options: Options) -> 
         raise ValueError("expected at least one recording")
     if len(named) == 1:
         own_name, recording = next(iter(named.items()))
-        one = Fit(recording, options)
-        one._id = name or own_name
+        one = Fit(recording, options, name=name or own_name)
         one._result()
         return one
     sweep = Sweep(named, _group_name(named) if name is None else name, options)
@@ -238,6 +260,51 @@ def fit(recordings: Recordings, *, tier: str = "auto", fix: Fix = None, name: Op
     Other Python threads run meanwhile: a pool of threads fits on all cores.
     """
     return _analysed(recordings, name, Options("fit", tier, tuple(fixed_of(fix))))
+
+
+def _fit_one(tier: str, fix: Fix, item: Tuple[str, Recording]) -> Fit:
+    """At the top of the module, so that other processes can be asked for it."""
+    name, recording = item
+    return fit(recording, tier=tier, fix=fix, name=name or None)
+
+
+def fit_many(
+    recordings: Union[Iterable[Recording], Mapping[str, Recording]],
+    *,
+    map: Callable[..., Iterable[Any]] = map,
+    tier: str = "auto",
+    fix: Fix = None,
+) -> Any:
+    """Fit each recording on its own, by any pool.
+
+    Parameters
+    ----------
+    recordings : iterable of Recording, or mapping of str to Recording
+    map : callable
+        ``map(function, sequence)``: that of a ``concurrent.futures`` executor, of a ``multiprocessing`` pool, or the
+        built-in one.
+    tier, fix
+        As for `fit`.
+
+    Returns
+    -------
+    list of Fit, or dict of str to Fit
+
+    Raises
+    ------
+    Error
+        Of the first recording that cannot be fitted. `batch` reports failures one by one.
+    """
+    items = (
+        [(str(name), one) for name, one in recordings.items()]
+        if isinstance(recordings, Mapping)
+        else [("", one) for one in recordings]
+    )
+    _check(one for _, one in items)
+    results = list(map(functools.partial(_fit_one, tier, fix), items))
+    for result, (_, recording) in zip(results, items):
+        result._recording = recording  # one that comes from another process has none
+    return {name: one for (name, _), one in zip(items, results)} if isinstance(recordings, Mapping) else results
 
 
 @overload

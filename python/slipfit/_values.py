@@ -83,6 +83,11 @@ class Estimate:
     def __repr__(self) -> str:
         return f"<{self.name}: {self}>"
 
+    def _repr_html_(self) -> str:
+        from . import _html
+
+        return _html.of_estimate(self)
+
 
 class Parameters(Dict[str, Estimate]):
     """The parameters of a fit by their keys in the document."""
@@ -90,6 +95,14 @@ class Parameters(Dict[str, Estimate]):
     def __missing__(self, key: str) -> Estimate:
         known = ", ".join(self) or "none: analyze() fits no model, and fit() found no cycles"
         raise KeyError(f"the fit has no parameter {key!r}; it has {known}")
+
+    def __repr__(self) -> str:
+        return "\n".join(repr(one) for one in self.values()) or "<no parameters>"
+
+    def _repr_html_(self) -> str:
+        from . import _html
+
+        return _html.of_parameters(self.values())
 
 
 def notices_of(content: List[Mapping[str, str]]) -> List[Notice]:

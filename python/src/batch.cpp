@@ -68,24 +68,43 @@ BatchOptions options_from(const py::dict& asked) {
   return options;
 }
 
+py::dict counts_of(const BatchProgress& progress) {
+  py::dict counts;
+  counts["total"] = progress.total;
+  counts["before"] = progress.before;
+  counts["fitted"] = progress.fitted;
+  counts["failed"] = progress.failed;
+  counts["seconds"] = progress.seconds;
+  return counts;
+}
+
 py::dict run(const py::dict& asked, const py::object& progress, const py::object& tell) {
   const BatchOptions options = options_from(asked);
   Listener listener(progress, tell);
   auto outcome = without_gil([&] { return run_batch(options, listener.hooks()); });
   listener.raise_kept();
   const BatchOutcome done = value_or_raise(std::move(outcome));
-  py::dict counts;
-  counts["total"] = done.progress.total;
-  counts["before"] = done.progress.before;
-  counts["fitted"] = done.progress.fitted;
-  counts["failed"] = done.progress.failed;
-  counts["seconds"] = done.progress.seconds;
-  return counts;
+  return counts_of(done.progress);
+}
+
+/// Finished shards into one folder.
+py::dict merge(const std::vector<std::string>& shards, const std::string& folder) {
+  const BatchProgress progress = value_or_raise(without_gil([&] {
+    return merge_batches({shards.begin(), shards.end()}, folder);
+  }));
+  return counts_of(progress);
+}
+
+/// Names and cells of a row of summary.csv, as two lines.
+py::tuple row_of(const std::string& document, const std::string& name) {
+  return py::make_tuple(summary_columns(), value_or_raise(summary_row(document, name)));
 }
 
 }  // namespace
 
 void add_batch(py::module_& module) {
+  module.def("merge", merge, py::arg("shards"), py::arg("folder"));
+  module.def("summary_row", row_of, py::arg("document"), py::arg("name"));
   module.def("batch", run, py::arg("options"), py::arg("progress"), py::arg("tell"));
 }
 

@@ -6,6 +6,7 @@
 #include "results.hpp"
 #include "slipfit/compare.hpp"
 #include "slipfit/core/units.hpp"
+#include "slipfit/figures/figures.hpp"
 #include "slipfit/io/manifest_draft.hpp"
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/predict/speeds.hpp"
@@ -22,24 +23,31 @@ namespace {
 /// A document as JSON and for people, and a table or a page where there is one.
 using Texts = std::vector<std::string>;
 
+Texts texts_of(const Prediction& prediction, const PredictionSource& source) {
+  return {to_json(prediction, source), to_text(prediction, source), prediction_to_csv(prediction)};
+}
+
 Result<Texts> prediction_of(const std::string& content, const std::string& name, const Speeds& speeds,
                             std::optional<double> normal_force_N) {
   auto document = read_fit_document(content, name);
   if (document && normal_force_N) document = at_load(std::move(document).value(), *normal_force_N, name);
   if (!document) return document.error();
   const FitDocument& fit = document.value();
-  const PredictionSource source{name, fit.conditional_on, speeds.unit, fit.warnings};
-  const Prediction prediction = predict_at(fit.model, speeds.speeds_m_per_s);
-  return Texts{to_json(prediction, source), to_text(prediction, source), prediction_to_csv(prediction)};
+  return texts_of(predict_at(fit.model, speeds.speeds_m_per_s), {name, fit.conditional_on, speeds.unit, fit.warnings});
+}
+
+Speeds speeds_from(const std::variant<std::string, std::vector<double>>& asked) {
+  const auto* const text = std::get_if<std::string>(&asked);
+  Speeds speeds = text != nullptr ? value_or_raise(parse_speeds(*text)) : Speeds{std::get<1>(asked), {}};
+  for (const double speed : speeds.speeds_m_per_s) {
+    if (!(speed > 0.0 && speed < 1e300)) raise({"out_of_range", "--speeds: a speed is not above zero or no number"});
+  }
+  return speeds;
 }
 
 Texts predict(const std::string& content, const std::string& name,
               const std::variant<std::string, std::vector<double>>& asked, std::optional<double> normal_force_N) {
-  const auto* const text = std::get_if<std::string>(&asked);
-  const Speeds speeds = text != nullptr ? value_or_raise(parse_speeds(*text)) : Speeds{std::get<1>(asked), {}};
-  for (const double speed : speeds.speeds_m_per_s) {
-    if (!(speed > 0.0 && speed < 1e300)) raise({"out_of_range", "--speeds: a speed is not above zero or no number"});
-  }
+  const Speeds speeds = speeds_from(asked);
   return value_or_raise(without_gil([&] { return prediction_of(content, name, speeds, normal_force_N); }));
 }
 
@@ -137,18 +145,53 @@ MeasuredSurface measure(const std::string& file, const std::optional<std::string
 /// Static friction, then the constant kinetic friction or f0, f1 and alpha.
 using FrictionNumbers = std::vector<double>;
 
-Result<SimulatedTrace> simulated(const std::vector<double>& slider, const FrictionNumbers& friction,
-                                 double speed_m_per_s, const SimulationOptions& options) {
-  const auto body = Slider::create(slider.at(0), slider.at(1), slider.at(2));
-  if (!body) return body.error();
-  if (friction.size() == 2) {
-    const auto law = Friction::create(friction.at(0), friction.at(1));
-    if (!law) return law.error();
-    return simulate(body.value(), law.value(), speed_m_per_s, options);
+/// A body and its friction; `by_speed` replaces `friction` where kinetic friction depends on the speed.
+struct StatedModel {
+  Slider slider;
+  Friction friction;
+  std::optional<VelocityFriction> by_speed;
+};
+
+StatedModel stated(const std::vector<double>& slider, const FrictionNumbers& numbers) {
+  auto body = value_or_raise(Slider::create(slider.at(0), slider.at(1), slider.at(2)));
+  if (numbers.size() == 2) {
+    return {std::move(body), value_or_raise(Friction::create(numbers.at(0), numbers.at(1))), std::nullopt};
   }
-  const auto law = VelocityFriction::create(friction.at(0), friction.at(1), friction.at(2), friction.at(3));
-  if (!law) return law.error();
-  return simulate(body.value(), law.value(), speed_m_per_s, options);
+  auto law = value_or_raise(VelocityFriction::create(numbers.at(0), numbers.at(1), numbers.at(2), numbers.at(3)));
+  return {std::move(body), value_or_raise(Friction::create(numbers.at(0), law.onset_N())), std::move(law)};
+}
+
+Texts predict_stated(const std::vector<double>& slider, const FrictionNumbers& friction,
+                     const std::variant<std::string, std::vector<double>>& asked) {
+  const StatedModel model = stated(slider, friction);
+  const Speeds speeds = speeds_from(asked);
+  PredictionModel prediction = stated_model(model.slider, model.friction);
+  if (model.by_speed) {
+    prediction.estimate.speed_dependence =
+        SpeedDependence{model.by_speed->f1_N() * model.by_speed->alpha_s_per_m(), model.by_speed->alpha_s_per_m()};
+  }
+  return without_gil([&] {
+    const Prediction predicted = predict_at(prediction, speeds.speeds_m_per_s);
+    return texts_of(predicted, {"parameters", {}, speeds.unit});
+  });
+}
+
+Result<SimulatedTrace> simulated(const StatedModel& model, double speed_m_per_s, const SimulationOptions& options) {
+  return model.by_speed ? simulate(model.slider, *model.by_speed, speed_m_per_s, options)
+                        : simulate(model.slider, model.friction, speed_m_per_s, options);
+}
+
+/// Raises bad_document where a reader of the document would be misled.
+void check_document(const std::string& content, const std::string& name) {
+  if (const auto error = without_gil([&] { return check_fit_document(content, name); })) raise(*error);
+}
+
+std::vector<std::pair<std::string, std::string>> figures() {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (FigureFile& file : without_gil([] { return paper_figures(); })) {
+    files.emplace_back(std::move(file.name), std::move(file.content));
+  }
+  return files;
 }
 
 ForceView view_called(const std::string& name) {
@@ -170,8 +213,8 @@ py::tuple simulate_arrays(const std::vector<double>& slider, const FrictionNumbe
                                   added.at(0), added.at(1),    added.at(2),
                                   added.at(3), added.at(4),    added.at(5),
                                   seed};
-  const SimulatedTrace trace =
-      value_or_raise(without_gil([&] { return simulated(slider, friction, speed_m_per_s, options); }));
+  const StatedModel model = stated(slider, friction);
+  const SimulatedTrace trace = value_or_raise(without_gil([&] { return simulated(model, speed_m_per_s, options); }));
   return py::make_tuple(array_of(trace.time_s), array_of(trace.force_N));
 }
 
@@ -179,6 +222,9 @@ py::tuple simulate_arrays(const std::vector<double>& slider, const FrictionNumbe
 
 void add_documents(py::module_& module) {
   module.def("predict", predict, py::arg("document"), py::arg("name"), py::arg("speeds"), py::arg("normal_force_N"));
+  module.def("predict_stated", predict_stated, py::arg("slider"), py::arg("friction"), py::arg("speeds"));
+  module.def("check_document", check_document, py::arg("document"), py::arg("name"));
+  module.def("figures", figures);
   module.def("info", info, py::arg("file"), py::arg("cells"));
   module.def("manifest", manifest, py::arg("paths"), py::arg("folder"));
   module.def("plan", plan, py::arg("document"), py::arg("name"), py::arg("target"), py::arg("speed_m_per_s"));

@@ -11,9 +11,11 @@
 #include "batch/result_log.hpp"
 #include "batch/run.hpp"
 #include "batch/run_file.hpp"
+#include "batch/tables.hpp"
 #include "batch/work_list.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/io/manifest.hpp"
+#include "slipfit/report/fit_document.hpp"
 
 namespace slipfit {
 namespace {
@@ -106,6 +108,15 @@ BatchOutcome run_or_throw(const BatchOptions& options, const BatchHooks& hooks) 
 
 Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& hooks) {
   return result_of([&] { return run_or_throw(options, hooks); });
+}
+
+std::string summary_columns() {
+  return summary_names_without_row();
+}
+
+Result<std::string> summary_row(const std::string& document, const std::string& name) {
+  if (const auto error = check_fit_document(document, name)) return *error;
+  return result_of([&] { return summary_without_row(document); });
 }
 
 }  // namespace slipfit

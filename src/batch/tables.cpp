@@ -89,6 +89,11 @@ std::string warning_codes(const Json& document) {
   return codes;
 }
 
+/// "row,id,..." without "row,".
+std::string without_row(const std::string& line) {
+  return line.substr(line.find(',') + 1);
+}
+
 std::vector<std::string> key_cells(const SummaryKey& key, const std::string& status) {
   return {std::to_string(key.row), spreadsheet_cell(key.id), spreadsheet_cell(key.group), spreadsheet_cell(key.file),
           status};
@@ -112,6 +117,21 @@ std::string summary_of_result(const SummaryKey& key, const std::string& document
   for (const SummaryColumn& column : document_columns()) cells.push_back(cell_at(json, column.place));
   cells.insert(cells.end(), {warning_codes(json), ""});
   return csv_line(cells);
+}
+
+std::string summary_names_without_row() {
+  return without_row(summary_names());
+}
+
+std::string summary_without_row(const std::string& document) {
+  const Json json = Json::parse(document, nullptr, false);
+  const auto text_at = [&](const char* place) {
+    const Json::json_pointer pointer(place);
+    if (!json.is_object() || !json.contains(pointer) || !json.at(pointer).is_string()) return std::string();
+    return json.at(pointer).get<std::string>();
+  };
+  return without_row(
+      summary_of_result({0, text_at("/id"), text_at("/recording/group"), text_at("/recording/file")}, document));
 }
 
 std::string summary_of_failure(const SummaryKey& key, const std::string& code) {

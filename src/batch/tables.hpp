@@ -26,6 +26,10 @@ std::string summary_of_result(const SummaryKey& key, const std::string& document
 /// Of a recording that failed.
 std::string summary_of_failure(const SummaryKey& key, const std::string& code);
 
+/// As `slipfit::summary_columns` and `slipfit::summary_row`.
+std::string summary_names_without_row();
+std::string summary_without_row(const std::string& document);
+
 /// What a merge needs of a row that summary_of_... made.
 struct SummaryPlace {
   std::size_t row = 0;

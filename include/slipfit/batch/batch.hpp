@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "slipfit/batch/options.hpp"
@@ -22,5 +23,12 @@ Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& ho
 /// shards_missing, folder_in_use, folder_of_another_batch, cannot_write.
 Result<BatchProgress> merge_batches(const std::vector<std::filesystem::path>& shards,
                                     const std::filesystem::path& folder);
+
+/// The names of summary.csv but for `row`, as a line of CSV.
+std::string summary_columns();
+
+/// The row of summary.csv of a fit document, as a line of CSV without `row`; group and file are those of its recording.
+/// `name`: what messages call the document. Errors: those of check_fit_document.
+Result<std::string> summary_row(const std::string& document, const std::string& name);
 
 }  // namespace slipfit

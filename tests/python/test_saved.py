@@ -1,0 +1,235 @@
+"""What was saved is opened again, and says the same."""
+
+import concurrent.futures
+import io
+import json
+import pickle
+import warnings
+
+import numpy as np
+import pandas as pd
+import pytest
+from conftest import MODEL, PROJECT, TESTDATA, WEAKENING
+
+import slipfit as sf
+
+
+def error_of(call):
+    with pytest.raises(sf.Error) as caught:
+        call()
+    return caught.value
+
+
+@pytest.fixture
+def saved(demo_fit, tmp_path):
+    file = tmp_path / "demo.json"
+    file.write_text(demo_fit.to_json())
+    return file
+
+
+@pytest.fixture(scope="module")
+def folder(runs, tmp_path_factory):
+    """A batch of three recordings and one that is missing."""
+    here = tmp_path_factory.mktemp("batch")
+    lines = ["id,file,speed_m_per_s,group"]
+    for name, recording in runs.items():
+        recording.to_frame().to_csv(here / f"{name}.csv", index=False)
+        lines.append(f"{name},{name}.csv,{recording.speed!r},dry")
+    (here / "runs.csv").write_text("\n".join([*lines, "absent,absent.csv,0.01,"]) + "\n")
+    sf.batch(here / "runs.csv", out=here / "out", jobs=2, joint_groups=True)
+    return here
+
+
+def test_a_fit_is_read_again(saved, demo_fit):
+    for source in (saved, str(saved), saved.open("rb"), io.StringIO(demo_fit.to_json()), demo_fit.to_dict()):
+        fit = sf.read_fit(source)
+        assert fit.to_dict() == demo_fit.to_dict() and fit.stiffness == demo_fit.stiffness
+    assert sf.read_fit(saved).to_json() == demo_fit.to_json()
+    assert fit.to_frame().equals(demo_fit.to_frame()) and fit.row() == demo_fit.row()
+    assert fit.predict([0.01, 0.02]).to_json() == demo_fit.predict([0.01, 0.02]).to_json()
+    assert fit.plan().to_json() == demo_fit.plan().to_json()
+    assert repr(fit) == repr(demo_fit) and "stiffness_N_per_m" in str(fit) and "tangential stiffness" in fit._repr_html_()
+    assert sf.compare(fit, demo_fit).to_dict() == sf.compare(demo_fit, demo_fit).to_dict()
+
+
+def test_a_document_holds_no_samples(saved, demo, demo_fit):
+    fit = sf.read_fit(saved)
+    for call in (lambda: fit.curve, lambda: fit.cycles, lambda: fit.plot(), lambda: fit.report("page.html"), lambda: fit.recording):
+        error = error_of(call)
+        assert error.code == "no_recording" and "with_recording" in error.remedy
+    whole = sf.read_fit(saved, recording=demo)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        np.testing.assert_array_equal(whole.curve.fitted, demo_fit.curve.fitted)
+    other = sf.Recording(demo.time[:-1], demo.force[:-1], speed=0.01)
+    assert error_of(lambda: fit.with_recording(other)).code == "another_recording"
+
+
+def test_a_fit_that_is_made_again_otherwise_is_warned_of(demo, demo_fit):
+    document = demo_fit.to_dict()
+    document["parameters"]["stiffness_N_per_m"]["value"] += 1.0
+    with pytest.warns(UserWarning, match="other parameters than the saved one"):
+        sf.read_fit(document, recording=demo).curve  # noqa: B018
+
+
+def test_held_parameters_are_held_again(demo):
+    fit = sf.fit(demo, fix={"damping_ratio": 0.05})
+    again = sf.read_fit(fit.to_dict(), recording=demo)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        np.testing.assert_array_equal(again.curve.fitted, fit.curve.fitted)
+
+
+def test_one_of_several_documents(folder, demo_fit, tmp_path):
+    lines = folder / "out" / "results.jsonl"
+    assert sf.read_fit(lines, id="v0.04").id == "v0.04"
+    assert "holds 4 documents" in error_of(lambda: sf.read_fit(lines)).message
+    assert "v0.02" in error_of(lambda: sf.read_fit(lines, id="v3")).message
+    (tmp_path / "two.json").write_text(json.dumps([demo_fit.to_dict(), {**demo_fit.to_dict(), "id": "other"}]))
+    assert sf.read_fit(tmp_path / "two.json", id="other").stiffness == demo_fit.stiffness
+
+
+@pytest.mark.parametrize("content", ["", "{}", "[]", "3", "not JSON", '{"schema": "slipfit.fit/1", "id": "a", "status": "new"}'])
+def test_what_is_no_document_is_refused(content, tmp_path):
+    (tmp_path / "bad.json").write_text(content)
+    assert error_of(lambda: sf.read_fit(tmp_path / "bad.json")).code == "bad_document"
+
+
+def test_a_sweep_is_read_again(sweep, runs, tmp_path):
+    (tmp_path / "dry.json").write_text(sweep.to_json())
+    again = sf.read_fit(tmp_path / "dry.json")
+    assert isinstance(again, sf.Sweep) and len(again) == 3 and again.parameters == sweep.parameters
+    assert again["v0.04"].frequency == sweep["v0.04"].frequency and again["v0.04"].pattern_spacing.value
+    assert again.recordings_frame().equals(sweep.recordings_frame())
+    assert again.predict([0.03]).to_json() == sweep.predict([0.03]).to_json()
+    assert error_of(lambda: again.plot()).code == "no_recording"
+    whole = again.with_recording(runs)
+    np.testing.assert_array_equal(whole["v0.04"].curve.fitted, sweep["v0.04"].curve.fitted)
+    assert error_of(lambda: again.with_recording({"v0.02": runs["v0.02"]})).code == "another_recording"
+    assert "tangential stiffness" in again._repr_html_() and "dry" in str(again)
+
+
+def test_a_pickle_has_no_samples_unless_asked(demo, demo_fit, sweep, runs):
+    small, whole = pickle.dumps(demo_fit), pickle.dumps(demo_fit.with_recording())
+    assert len(small) < 20_000 < 160_000 < len(whole)
+    assert pickle.loads(small).to_json() == demo_fit.to_json()
+    assert error_of(lambda: pickle.loads(small).cycles).code == "no_recording"
+    assert pickle.loads(whole).cycles.equals(demo_fit.cycles)
+    assert pickle.loads(small).with_recording(demo).cycles.equals(demo_fit.cycles)
+    assert len(pickle.loads(pickle.dumps(sweep))) == 3
+    assert len(pickle.dumps(sweep)) < 40_000 < len(pickle.dumps(sweep.with_recording()))
+
+
+def test_a_batch_is_opened(folder, runs):
+    batch = sf.open_batch(folder / "out")
+    assert batch.counts["total"] == 5 and batch.counts["failed"] == 1 and repr(batch).endswith("4 of 5 fitted, 1 failed>")
+    assert batch.ids == ["v0.02", "v0.04", "v0.08", "group:dry"] and len(batch) == 4
+    assert batch["v0.04"].stiffness == sf.fit(runs["v0.04"]).stiffness and isinstance(batch["group:dry"], sf.Sweep)
+    assert [fit.id for fit in batch.fits()] == batch.ids == [document["id"] for document in batch]
+    assert len(batch.to_frame()) == 5 and list(batch.failures.id) == ["absent"] and "absent.csv" in batch._repr_html_()
+    with pytest.raises(KeyError, match="absent"):
+        batch["absent"]
+    assert error_of(lambda: sf.open_batch(folder)).code == "not_a_batch"
+    assert sf.compare(batch, batch["v0.02"]).to_frame().size
+
+
+def test_rows_are_those_of_the_summary(folder):
+    batch = sf.open_batch(folder / "out")
+    written = batch.to_frame().set_index("id").drop(columns="row")
+    for fit in batch.fits():
+        row = pd.Series(fit.row(), dtype=object)
+        assert list(row.index.drop("id")) == list(written.columns)
+        for name, value in written.loc[fit.id].items():
+            if name == "file":
+                continue  # the manifest's folder stands in front of it
+            if name == "group" and fit.id == "group:dry":
+                continue  # of the manifest
+            assert (row[name] is None and pd.isna(value)) or row[name] == value, (fit.id, name)
+
+
+def test_shards_are_merged(folder, tmp_path):
+    shards = [tmp_path / f"part{i}" for i in (1, 2)]
+    for i, out in enumerate(shards, 1):
+        sf.batch(folder / "runs.csv", out=out, shard=(i, 2), joint_groups=True)
+    merged = sf.merge(shards, out=tmp_path / "whole")
+    assert merged.ids == sf.open_batch(folder / "out").ids
+    for name in ("results.jsonl", "summary.csv", "failures.csv"):
+        assert (tmp_path / "whole" / name).read_bytes() == (folder / "out" / name).read_bytes()
+    assert error_of(lambda: sf.merge(shards[:1], out=tmp_path / "half")).code == "shards_missing"
+
+
+@pytest.mark.parametrize("pool", [None, concurrent.futures.ThreadPoolExecutor, concurrent.futures.ProcessPoolExecutor])
+def test_any_pool_fits_many(pool, runs):
+    if pool is None:
+        fits = sf.fit_many(runs)
+    else:
+        with pool(2) as workers:
+            fits = sf.fit_many(runs, map=workers.map)
+    assert {name: one.to_json() for name, one in fits.items()} == {name: sf.fit(one, name=name).to_json() for name, one in runs.items()}
+    assert not np.isnan(fits["v0.04"].curve.fitted).all()
+    assert [one.to_json() for one in sf.fit_many(runs.values())] == [sf.fit(one).to_json() for one in runs.values()]
+
+
+def test_predictions_from_documents_and_parameters(saved, demo_fit):
+    expected = demo_fit.predict("5mm/s,10mm/s").to_json()
+    assert sf.predict("5mm/s,10mm/s", fit=saved).to_json() == expected == sf.predict("5mm/s,10mm/s", fit=demo_fit).to_json()
+    model = {key: value for key, value in MODEL.items() if key != "noise"}
+    stated = sf.predict([0.02], **model, kinetic_friction=4)
+    assert stated.to_frame().periodic_displacement_m[0] > 0 and stated.to_dict()["source"] == "parameters"
+    law = {key: value for key, value in WEAKENING.items() if key != "noise"}
+    assert sf.predict([0.02], **law).to_frame().periodic_displacement_m[0] > 0
+    assert error_of(lambda: sf.predict([0.02])).code == "unknown_option"
+    assert error_of(lambda: sf.predict([0.02], fit=demo_fit, stiffness=3)).code == "unknown_option"
+    assert error_of(lambda: sf.predict([0.02], **{**model, "kinetic_friction": 7})).code == "parameter_out_of_range"
+
+
+def test_the_figures_of_the_paper(tmp_path):
+    paths = sf.figures(tmp_path / "figures")
+    assert {"figure_7.csv", "figure_7.svg"} <= {path.rpartition("/")[2] for path in paths}
+    assert all((tmp_path / "figures" / path).exists() for path in paths)
+
+
+def test_covariance_and_aicc(demo_fit, demo):
+    covariance = demo_fit.covariance
+    names = ["stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio", "friction_difference_N"]
+    assert list(covariance.columns) == names == list(covariance.index)
+    for name in names:  # intervals hold more than the covariance: both readings of the trend of the level
+        assert 0.7 < covariance.loc[name, name] ** 0.5 / demo_fit.parameters[name].se < 1.01, name
+    assert demo_fit.aicc == demo_fit.to_dict()["model"]["candidates"][2]["aicc"]
+    assert sf.analyze(demo).aicc is None
+    assert error_of(lambda: sf.analyze(demo).covariance).code == "no_covariance"
+
+
+def test_draws_have_the_stated_intervals(demo_fit):
+    draws = demo_fit.sample(40_000, seed=3)
+    for name in draws.columns:
+        stated = demo_fit.parameters[name]
+        low, middle, high = np.percentile(draws[name], [2.5, 50, 97.5])
+        # The error of a percentile of 40 000 draws is 1.5 % of the half width; mass and c follow from the others.
+        reach = 0.05 if name in demo_fit.covariance.columns else 0.3
+        half = (stated.ci95[1] - stated.ci95[0]) / 2
+        assert abs(low - stated.ci95[0]) < reach * half and abs(high - stated.ci95[1]) < reach * half, name
+        assert abs(middle - stated.value) < reach * half, name
+    stiffness = demo_fit.stiffness
+    assert stiffness.ci95[1] - stiffness.value > 3 * (stiffness.value - stiffness.ci95[0])  # skewed, and so are the draws
+    skew = np.percentile(draws.stiffness_N_per_m, 97.5) - 2 * np.median(draws.stiffness_N_per_m) + np.percentile(draws.stiffness_N_per_m, 2.5)
+    assert skew > 10
+    matrix = np.array(demo_fit.to_dict()["correlation"]["matrix"])
+    assert draws[demo_fit.covariance.columns].corr("spearman").to_numpy() == pytest.approx(matrix, abs=0.03)
+    assert demo_fit.sample(5, seed=3).equals(demo_fit.sample(5, seed=3))
+
+
+def test_every_result_has_a_line_and_a_page_for_notebooks(demo, demo_fit, sweep, folder, tmp_path):
+    (tmp_path / "heights.txt").write_text("".join(f"{(i % 40) / 20 + 0.01 * (i * 7919 % 13):.3f}\n" for i in range(2000)))
+    results = [demo, demo_fit, sweep, demo_fit.predict([0.01]), demo_fit.plan(), sf.compare(demo_fit, demo_fit), sf.info(TESTDATA / "demo.csv"),
+               sf.surface(tmp_path / "heights.txt", pitch="0.5 um"), sf.open_batch(folder / "out"), demo_fit.stiffness]
+    for one in results:
+        assert repr(one).startswith("<") and "\n" not in repr(one) and len(repr(one)) < 250, repr(one)
+        assert one._repr_html_().startswith("<"), type(one)
+    assert "tangential stiffness" in demo_fit.parameters._repr_html_() and "stiffness_N_per_m: 5000.2" in repr(demo_fit.parameters)
+
+
+def test_the_schema_of_the_project_describes_what_is_read(saved):
+    jsonschema = pytest.importorskip("jsonschema")
+    schema = json.loads((PROJECT / "docs" / "fit.schema.json").read_text())
+    jsonschema.validate(sf.read_fit(saved).to_dict(), schema)
