@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Optional,
 from . import _slipfit
 from ._cells import Quantity, fixed_of, quantity_of
 from ._documents import Path, frame_of_csv
-from ._errors import Error
+from ._errors import Error, in_words_of_python
 from ._fit import Fit
 from ._saved import result_of
 from ._sweep import Fix
@@ -43,7 +43,7 @@ def manifest(paths: Union[Path, Sequence[Path]], *, out: Optional[Path] = None) 
         with open(out, "w", encoding="utf-8") as file:
             file.write(text)
     frame = frame_of_csv(text)
-    frame.attrs["left_out"] = [Notice(*pair) for pair in left_out]
+    frame.attrs["left_out"] = [Notice(code, in_words_of_python(message)) for code, message in left_out]
     return frame
 
 

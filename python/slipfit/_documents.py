@@ -8,6 +8,7 @@ import json
 import os
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union, cast
 
+from ._errors import in_words_of_python
 from ._values import Estimate, Notice, notices_of
 
 if TYPE_CHECKING:
@@ -157,7 +158,8 @@ class Info(Document):
     @property
     def refusal(self) -> Optional[str]:
         """Why the file would be refused as it is; None where it is a recording."""
-        return cast(Optional[str], self.to_dict()["refusal"])
+        refusal = self.to_dict()["refusal"]
+        return None if refusal is None else in_words_of_python(refusal)
 
     @property
     def columns(self) -> "pd.DataFrame":

@@ -11,7 +11,7 @@ import numpy as np
 from . import _slipfit
 from ._cells import Quantity, text_of
 from ._documents import Path, Plan, Prediction, frame_of_csv, row_of, write_page
-from ._errors import Error
+from ._errors import Error, in_words_of_python
 from ._recording import Recording
 from ._values import Estimate, Notice, Parameters, notices_of
 
@@ -145,7 +145,7 @@ class Fit:
     @property
     def reason(self) -> str:
         """Why that status, in a sentence."""
-        return cast(str, self._document().get("status_reason") or "")
+        return in_words_of_python(self._document().get("status_reason") or "")
 
     @property
     def warnings(self) -> List[Notice]:

@@ -10,6 +10,7 @@ import numpy as np
 from . import _slipfit
 from ._arrays import column_of
 from ._cells import Quantity, cells_of
+from ._errors import in_words_of_python
 from ._values import Notice
 
 if TYPE_CHECKING:
@@ -156,12 +157,12 @@ class Recording:
     @property
     def assumed(self) -> List[str]:
         """What reading had to assume, sentence by sentence."""
-        return self._native.assumed
+        return [in_words_of_python(one) for one in self._native.assumed]
 
     @property
     def warnings(self) -> List[Notice]:
         """What was found while reading."""
-        return [Notice(*pair) for pair in self._native.warnings]
+        return [Notice(code, in_words_of_python(message)) for code, message in self._native.warnings]
 
     def to_frame(self) -> "pd.DataFrame":
         """Columns ``time_s`` and ``force_N`` (``force_1`` for coefficients)."""

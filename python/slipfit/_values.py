@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple
 
+from ._errors import in_words_of_python
+
 _UNITS = (
     ("_N_s_per_m", "N s/m"),
     ("_N_per_m", "N/m"),
@@ -62,7 +64,7 @@ class Estimate:
             content.get("se" + suffix),
             None if ends is None else (ends[0], ends[1]),
             content.get("status"),
-            content.get("note") or "",
+            in_words_of_python(content.get("note") or ""),
             unit_of(name),
         )
 
@@ -106,4 +108,4 @@ class Parameters(Dict[str, Estimate]):
 
 
 def notices_of(content: List[Mapping[str, str]]) -> List[Notice]:
-    return [Notice(one["code"], one["message"]) for one in content]
+    return [Notice(one["code"], in_words_of_python(one["message"])) for one in content]

@@ -77,6 +77,39 @@ def test_a_remedy_is_what_to_do():
     assert "expected" in error_of(lambda: sf.read_recording(DEMO, speed="10 parsec")).remedy
 
 
+WORDS = {
+    "give the driving speed, for example --speed 10mm/s (no column tells it)": 'give the driving speed, for example speed="10mm/s" (no column tells it)',
+    "of another unit; give --speed 0.01, or correct": "of another unit; give speed=0.01, or correct",
+    "(--drift sensor or --drift friction states which)": '(drift="sensor" or drift="friction" states which)',
+    "state its reading with --zero": "state its reading with zero=",
+    "--tier velocity needs a speed sweep (--joint): one": 'tier="velocity" needs a speed sweep (several recordings): one',
+    "--tier: unknown tier 'x'": "tier: unknown tier 'x'",
+    "take one with --step N, --rows A:B or --where COLUMN=VALUE.": 'take one with step=N, rows="A:B" or where="COLUMN=VALUE".',
+    "--window T0:T1 chooses another": 'window="T0:T1" chooses another',
+    "--force-unit, such as --force-unit N, or": 'force_unit=, such as force_unit="N", or',
+    "is it in ms (--time-unit ms)?": 'is it in ms (time_unit="ms")?',
+    "--force-scale '5 N/V' (newtons)": 'force_scale="5 N/V" (newtons)',
+    "(k is off; --speed-uncertainty widens their intervals)": "(k is off; speed_uncertainty= widens their intervals)",
+    "finish it with slipfit batch --resume, then merge": "finish it with batch(..., resume=True), then merge",
+    "expected what slipfit fit --json --out FIT.json writes": "expected what Fit.to_json() returns",
+    "a long--dashed word, 10 -- 20": "a long--dashed word, 10 -- 20",
+}
+
+
+@pytest.mark.parametrize("said", WORDS)
+def test_options_of_the_command_line_become_arguments(said):
+    from slipfit._errors import in_words_of_python
+
+    assert in_words_of_python(said) == WORDS[said]
+
+
+def test_warnings_and_notes_speak_python(demo, demo_fit, sweep):
+    text = "\n".join([*(str(one) for one in demo_fit.warnings), *(one.note for one in demo_fit.parameters.values()), *demo.assumed,
+                      *(str(one) for one in sweep.warnings), demo_fit.reason])
+    assert "--" not in text and 'drift="sensor"' in text and "zero=" in text
+    assert "--drift sensor" in demo_fit.to_dict()["warnings"][0]["message"]  # the document stays as it is
+
+
 def test_errors_can_be_pickled():
     error = error_of(lambda: sf.read_recording(DEMO))
     again = pickle.loads(pickle.dumps(error))

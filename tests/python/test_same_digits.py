@@ -162,7 +162,7 @@ def test_what_a_file_holds():
 def test_what_a_refused_file_holds(tmp_path):
     file = tmp_path / "two.csv"
     file.write_text("time_s,channel1,channel2\n" + "".join(f"{i / 100},{i % 7},{i % 5}\n" for i in range(200)))
-    assert "--force-column" in sf.info(file).refusal
+    assert "force_column=" in sf.info(file).refusal
 
 
 def test_manifests_are_drafted(manifest, tmp_path):
