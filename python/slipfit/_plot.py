@@ -39,10 +39,16 @@ def trace(recording: "Recording", ax: Any) -> Any:
 def _fitted_trace(fit: "Fit", ax: Any) -> Any:
     ax = trace(fit.recording, ax)
     curve = fit.curve
+    ax.set_title(f"{fit.id}: {fit.status.replace('_', ' ')}")
     if fit.status != "steady_sliding" and not np.isnan(curve.fitted).all():
         ax.plot(curve.time, curve.fitted, color=_RED, linewidth=0.8, label="fit")
-        ax.plot(curve.time, curve.residual, color=_BLUE, linewidth=0.5, label="residual")
-    ax.set_title(f"{fit.id}: {fit.status.replace('_', ' ')}")
+        # The residual is far smaller than the force: a panel of its own below, with the same clock.
+        below = ax.inset_axes([0.0, -0.42, 1.0, 0.28], sharex=ax)
+        below.plot(curve.time, curve.residual, color=_BLUE, linewidth=0.5)
+        below.axhline(0.0, color=_GREY, linewidth=0.5)
+        below.set(xlabel=ax.get_xlabel(), ylabel="residual" if fit.recording.force_unit == "1" else "residual (N)")
+        ax.set_xlabel("")
+        ax.tick_params(labelbottom=False)
     ax.legend(loc="upper right")
     return ax
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union, cast
+from typing import TYPE_CHECKING, Any, Dict, List, Literal, Optional, Tuple, Union, overload
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from . import _slipfit
 from ._arrays import column_of
 from ._cells import Quantity, cells_of
 from ._errors import in_words_of_python
+from ._sources import Source, local_file
 from ._values import Notice
 
 if TYPE_CHECKING:
@@ -198,8 +199,54 @@ class Recording:
         return self
 
 
+@overload
 def read_recording(
-    file: Union[str, "os.PathLike[str]"],
+    file: Source,
+    *,
+    speed: Optional[Quantity] = ...,
+    normal_force: Optional[Quantity] = ...,
+    zero: Optional[Quantity] = ...,
+    window: Optional[Range] = ...,
+    step: Optional[int] = ...,
+    rows: Optional[Range] = ...,
+    where: Any = ...,
+    strokes: Literal[False, None] = ...,
+    segments: Literal[False, None] = ...,
+    time_column: Union[str, int, None] = ...,
+    force_column: Union[str, int, None] = ...,
+    normal_force_column: Union[str, int, None] = ...,
+    speed_column: Union[str, int, None] = ...,
+    time_unit: Optional[str] = ...,
+    force_unit: Optional[str] = ...,
+    force_scale: Optional[str] = ...,
+    sample_rate: Optional[Quantity] = ...,
+    sheet: Union[str, int, None] = ...,
+    variable: Optional[str] = ...,
+    speed_uncertainty: Optional[Quantity] = ...,
+    radius: Optional[Quantity] = ...,
+    mass: Optional[Quantity] = ...,
+    mass_uncertainty: Optional[Quantity] = ...,
+    force_view: Optional[str] = ...,
+    drift: Optional[str] = ...,
+    sensor_bandwidth: Optional[Quantity] = ...,
+    sensor_average: Optional[Quantity] = ...,
+    sensor_resonance: Optional[Quantity] = ...,
+    drive_period: Optional[Quantity] = ...,
+    drive_path: Optional[Quantity] = ...,
+    measured_spacing: Optional[Quantity] = ...,
+    measured_spacing_uncertainty: Optional[Quantity] = ...,
+    surface: Union[str, "os.PathLike[str]", None] = ...,
+    group: Optional[str] = ...,
+    sample: Optional[str] = ...,
+    material: Optional[str] = ...,
+    operator: Optional[str] = ...,
+) -> Recording: ...
+@overload
+def read_recording(file: Source, *, strokes: Union[Literal[True], str], **said: Any) -> Dict[str, Recording]: ...
+@overload
+def read_recording(file: Source, *, segments: Literal[True], **said: Any) -> Dict[str, Recording]: ...
+def read_recording(  # type: ignore[misc]  # arguments of the other two are those of the first
+    file: Source,
     *,
     speed: Optional[Quantity] = None,
     normal_force: Optional[Quantity] = None,
@@ -246,7 +293,8 @@ def read_recording(
 
     Parameters
     ----------
-    file : path
+    file : path, file object or address
+        Open files and what fsspec opens (``"s3://..."``) are copied first.
     speed : float or str
         Driving speed: 0.01 (m/s), ``"10 mm/s"``, ``"600 mm/min"``; ``"60 rpm"`` with `radius`. A column may tell it.
     normal_force : float or str
@@ -316,7 +364,8 @@ def read_recording(
     """
     said = dict(locals())
     said.pop("file")
-    pieces = _slipfit.read_file(os.fspath(file), cells_of(said))
+    with local_file(file) as (path, name):
+        pieces = _slipfit.read_file(path, cells_of(said), name)
     if strokes or segments:
         return {name: Recording._of(native) for name, native in pieces}
     return Recording._of(pieces[0][1])

@@ -4,11 +4,17 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "slipfit/core/result.hpp"
+#include "slipfit/core/stop.hpp"
 
 namespace slipfit::python {
 
@@ -34,6 +40,34 @@ template <class Work>
 auto without_gil(const Work& work) {
   const py::gil_scoped_release release;
   return work();
+}
+
+/// The result of `work()` like that of without_gil; a signal that Python turns into an exception (Ctrl-C) ends it.
+template <class Work>
+auto interruptible(const Work& work) {
+  constexpr auto kBetweenLooks = std::chrono::milliseconds(50);
+  const auto stop = std::make_shared<std::atomic<bool>>(false);
+  std::optional<py::error_already_set> raised;
+  auto result = [&] {
+    const py::gil_scoped_release release;
+    auto done = std::async(std::launch::async, [&] {
+      const StopScope scope(stop);
+      return work();
+    });
+    while (!*stop && done.wait_for(kBetweenLooks) != std::future_status::ready) {
+      const py::gil_scoped_acquire acquire;
+      if (PyErr_CheckSignals() == 0) continue;
+      raised.emplace();
+      *stop = true;
+    }
+    try {
+      return std::optional(done.get());
+    } catch (const Stopped&) {
+      return decltype(std::optional(done.get()))();
+    }
+  }();
+  if (raised) throw py::error_already_set(std::move(*raised));
+  return *std::move(result);
 }
 
 /// A copy for Python to keep.

@@ -33,11 +33,29 @@ NamedRecordings shared(std::vector<NamedRecording> recordings) {
   return result;
 }
 
-NamedRecordings read_file(const std::string& file, const Cells& cells) {
+/// The same recording with another name of its file.
+Result<Recording> renamed(const Recording& recording, const std::string& name) {
+  Provenance provenance = recording.provenance();
+  provenance.file = name;
+  const auto copy = [](std::span<const double> values) { return std::vector<double>(values.begin(), values.end()); };
+  return Recording::create(copy(recording.time_s()), copy(recording.force()), recording.conditions(),
+                           std::move(provenance), copy(recording.normal_force_N()));
+}
+
+/// `name`: of the file in results and messages; it is a copy where they differ.
+NamedRecordings read_file(const std::string& file, const Cells& cells, const std::string& name) {
   auto read = without_gil([&]() -> Result<std::vector<NamedRecording>> {
     const auto entry = entry_of(cells);
     if (!entry) return entry.error();
-    return read_pieces(file, entry.value().conditions, entry.value().options);
+    auto pieces = read_pieces(file, entry.value().conditions, entry.value().options);
+    if (!pieces || name == file) return pieces;
+    std::vector<NamedRecording> named;
+    for (const NamedRecording& one : pieces.value()) {
+      auto recording = renamed(one.recording, name);
+      if (!recording) return recording.error();
+      named.push_back({one.id, std::move(recording).value()});
+    }
+    return named;
   });
   return shared(value_or_raise(std::move(read)));
 }
@@ -143,7 +161,8 @@ py::tuple state_of(const Recording& recording) {
       std::vector<std::size_t>{p.rows_without_number, p.rows_backward_in_time, p.rows_repeating_time}, p.window_given,
       static_cast<int>(c.drift), array_of(load),
       p.moved_m_per_s ? std::optional(std::pair(p.moved_m_per_s->value, p.moved_m_per_s->standard_error))
-                      : std::nullopt);
+                      : std::nullopt,
+      p.is_time_unit_assumed);
 }
 
 Provenance provenance_from(const py::tuple& state) {
@@ -159,6 +178,7 @@ Provenance provenance_from(const py::tuple& state) {
   p.rows_backward_in_time = counts.at(1);
   p.rows_repeating_time = counts.at(2);
   p.window_given = state[14].cast<bool>();
+  p.is_time_unit_assumed = state[18].cast<bool>();
   using Moved = std::pair<std::optional<double>, std::optional<double>>;
   const auto moved = state[17].cast<std::optional<Moved>>();
   if (moved) p.moved_m_per_s = Estimate{moved->first, moved->second, std::nullopt, {}};
@@ -201,7 +221,7 @@ void add_recordings(py::module_& module) {
       .def("__len__", &Recording::size)
       .def(py::pickle([](const Recording& r) { return state_of(r); },
                       [](const py::tuple& state) { return recording_from(state); }));
-  module.def("read_file", read_file, py::arg("file"), py::arg("cells"));
+  module.def("read_file", read_file, py::arg("file"), py::arg("cells"), py::arg("name"));
   module.def("take_arrays", take_arrays, py::arg("name"), py::arg("time"), py::arg("force"), py::arg("cells"));
 }
 

@@ -32,7 +32,7 @@ void check_data(const Recording& recording) {
 
 AnalysedRecording analyse(const SharedRecording& recording) {
   check_data(*recording);
-  return without_gil([&] {
+  return interruptible([&] {
     return AnalysedRecording{recording, std::make_shared<const Analysis>(analyze(*recording))};
   });
 }
@@ -41,7 +41,7 @@ AnalysedRecording fit(const SharedRecording& recording, const std::string& tier,
                       const std::vector<std::string>& fixed) {
   const FitOptions options = value_or_raise(options_from(tier, fixed, FitKind::Single));
   check_data(*recording);
-  return without_gil([&] {
+  return interruptible([&] {
     return AnalysedRecording{recording, std::make_shared<const Analysis>(analyze_and_fit(*recording, options))};
   });
 }
@@ -62,11 +62,11 @@ Result<AnalysedSweep> sweep_of(const Named& recordings, const std::optional<FitO
 
 AnalysedSweep fit_sweep(const Named& recordings, const std::string& tier, const std::vector<std::string>& fixed) {
   const FitOptions options = value_or_raise(options_from(tier, fixed, FitKind::Sweep));
-  return value_or_raise(without_gil([&] { return sweep_of(recordings, options); }));
+  return value_or_raise(interruptible([&] { return sweep_of(recordings, options); }));
 }
 
 AnalysedSweep analyse_sweep(const Named& recordings) {
-  return value_or_raise(without_gil([&] { return sweep_of(recordings, std::nullopt); }));
+  return value_or_raise(interruptible([&] { return sweep_of(recordings, std::nullopt); }));
 }
 
 JsonOptions layout_of(const std::string& id) {

@@ -184,7 +184,7 @@ Estimates estimate(const Detected& detected, const FitOptions& options) {
   Estimates estimates{detected.signals, {}};
   // Named, and so copied: where there is no thread, async begins anew with what it was given.
   const auto spectrum_task = [&] { return frequency_of(recording, detected.signals); };
-  std::future<TimedFrequency> frequency = std::async(beside_caller(), spectrum_task);
+  std::future<TimedFrequency> frequency = std::async(beside_caller(), for_other_thread(spectrum_task));
   const auto take_frequency = [&] {
     if (!frequency.valid()) return;
     TimedFrequency timed = frequency.get();

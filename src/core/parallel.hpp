@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "slipfit/core/stop.hpp"
+
 namespace slipfit {
 
 #ifdef SLIPFIT_SINGLE_PROCESS  // async would wait without end for a thread that cannot begin
@@ -30,13 +32,22 @@ void share_processors(std::size_t processes);
   return usable_processors() > 1 ? kLaunch : std::launch::deferred;
 }
 
+/// `work` for another thread: a StopScope of the calling thread holds there, too.
+template <class Work>
+[[nodiscard]] auto for_other_thread(const Work& work) {
+  return [&work, token = stop_token()] {
+    const StopScope scope(token);
+    return work();
+  };
+}
+
 /// Calls `work` once on each of as many threads as there are processors to use, at most `most`, and waits for them.
 /// Threads that cannot be started are done without: `work` takes what there is to do until nothing is left.
 template <class Work>
 void on_processors(std::size_t most, const Work& work) {
   const std::size_t workers = std::min(most, usable_processors());
   std::vector<std::future<void>> others;
-  for (std::size_t i = 1; i < workers; ++i) others.push_back(std::async(kLaunch, std::cref(work)));
+  for (std::size_t i = 1; i < workers; ++i) others.push_back(std::async(kLaunch, for_other_thread(work)));
   work();
   for (std::future<void>& other : others) other.get();
 }
@@ -50,7 +61,10 @@ auto in_parallel(std::size_t count, const F& f, std::size_t most = std::numeric_
   std::vector<std::optional<Result>> slots(count);
   std::atomic<std::size_t> next = 0;
   on_processors(std::min(count, most), [&] {
-    for (std::size_t i = next++; i < count; i = next++) slots[i].emplace(f(i));
+    for (std::size_t i = next++; i < count; i = next++) {
+      throw_if_stopped();
+      slots[i].emplace(f(i));
+    }
   });
   std::vector<Result> results;
   results.reserve(count);
@@ -66,6 +80,7 @@ void for_ranges(std::size_t count, std::size_t grain, const F& f) {
   std::atomic<std::size_t> next = 0;
   on_processors((count + grain - 1) / grain, [&] {
     for (std::size_t begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain)) {
+      throw_if_stopped();
       f(begin, std::min(count, begin + grain));
     }
   });

@@ -52,3 +52,22 @@ TEST_CASE("an exception of parallel work reaches the caller") {
   };
   CHECK_THROWS_AS(slipfit::for_ranges(100, 1, fail_at_last), std::runtime_error);
 }
+
+TEST_CASE("work ends in all its threads where the caller asks for it") {
+  const auto stop = std::make_shared<std::atomic<bool>>(false);
+  const slipfit::StopScope scope(stop);
+  std::atomic<int> calls = 0;
+  const auto stop_at_tenth = [&](std::size_t) {
+    if (++calls == 10) *stop = true;
+    return 0;
+  };
+  CHECK_THROWS_AS(slipfit::in_parallel(100'000, stop_at_tenth), slipfit::Stopped);
+  CHECK(calls < 1000);  // the other threads end with their next index
+  CHECK_THROWS_AS(slipfit::for_ranges(10, 1, [](std::size_t, std::size_t) {}), slipfit::Stopped);
+  {
+    const slipfit::StopScope free({});
+    CHECK(slipfit::in_parallel(10, [](std::size_t i) { return i; }).size() == 10);
+  }
+  *stop = false;
+  CHECK(slipfit::in_parallel(10, [](std::size_t i) { return i; }).size() == 10);
+}

@@ -4,6 +4,7 @@ import ast
 import concurrent.futures
 import copy
 import gc
+import io
 import os
 import pickle
 import resource
@@ -419,3 +420,61 @@ def test_containers_are_read_by_the_programs_beside_the_module(demo, demo_fit, t
         file["time_s"], file["force_N"] = demo.time, demo.force
     fit = sf.fit(sf.read_recording(tmp_path / "run.h5", speed="10 mm/s"))
     assert fit.stiffness == demo_fit.stiffness
+
+
+def test_files_from_elsewhere(demo_fit, tmp_path):
+    fsspec = pytest.importorskip("fsspec")
+    content = DEMO.read_bytes()
+    fsspec.filesystem("memory").pipe_file("/bucket/demo.csv", content)
+    sources = [DEMO.open("rb"), DEMO.open(), io.BytesIO(content), "memory://bucket/demo.csv", fsspec.open("memory://bucket/demo.csv")]
+    for source, name in zip(sources, (str(DEMO), str(DEMO), "recording", "memory://bucket/demo.csv", "memory://bucket/demo.csv")):
+        recording = sf.read_recording(source, speed=0.01)
+        fit = sf.fit(recording)
+        assert recording.name.replace(":///", "://") == name and fit.parameters == demo_fit.parameters
+        assert fit.to_dict()["recording"]["input_digest"] == demo_fit.to_dict()["recording"]["input_digest"]
+    error = error_of(lambda: sf.read_recording(io.BytesIO(b"nothing but words\n"), speed=1))
+    assert error.message.startswith("recording") and "slipfit-" not in error.message
+    with pytest.raises(FileNotFoundError):
+        sf.read_recording("memory://bucket/absent.csv", speed=1)
+
+
+def test_a_pickle_keeps_an_assumed_unit_of_time(tmp_path):
+    recording = sf.simulate(**MODEL, kinetic_friction=4, speed=0.02, duration=2, sample_rate=1000)
+    rows = zip(1e3 * recording.time, recording.force)
+    (tmp_path / "ms.csv").write_text("time,force_N\n" + "".join(f"{t!r},{f!r}\n" for t, f in rows))  # seconds are assumed
+    read = sf.read_recording(tmp_path / "ms.csv", speed=0.02)
+    again = pickle.loads(pickle.dumps(read))
+    assert sf.fit(again).to_json() == sf.fit(read).to_json()
+
+
+def test_the_residual_has_a_panel_of_its_own(demo_fit):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    axes = demo_fit.plot("trace")
+    (panel,) = axes.child_axes
+    assert [line.get_label() for line in axes.lines] == ["measured", "fit"] and panel.get_ylabel() == "residual (N)"
+    low, high = panel.get_ylim()
+    assert high - low < 0.2 < np.ptp(demo_fit.recording.force)
+
+
+def test_ctrl_c_ends_a_fit_within_a_second(tmp_path):
+    """Some 20 s of work: 12 runs with ageing, each left out once."""
+    script = """
+import slipfit as sf, time
+model = dict(stiffness=1000, natural_frequency=200, damping_ratio=0.05, static_friction=6, f0=3, f1=1, alpha=-10, noise=0.05)
+runs = {str(i): sf.simulate(**model, speed=0.01 * 1.2 ** i, duration=30, sample_rate=1000, seed=i + 1) for i in range(12)}
+print("begins", flush=True)
+try:
+    sf.fit(runs)
+    print("done", flush=True)
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "begins\n"
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    begin = time.monotonic()
+    assert process.communicate(timeout=60)[0] == "interrupted\n" and process.returncode == 0
+    assert time.monotonic() - begin < 1.5  # one second, and the end of the interpreter
