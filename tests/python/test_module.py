@@ -458,23 +458,23 @@ def test_the_residual_has_a_panel_of_its_own(demo_fit):
     assert high - low < 0.2 < np.ptp(demo_fit.recording.force)
 
 
-def test_ctrl_c_ends_a_fit_within_a_second(tmp_path):
-    """Some 20 s of work: 12 runs with ageing, each left out once."""
+def test_ctrl_c_ends_a_fit_within_a_second():
+    """Judged by processor time, which other programs do not change: the whole fit takes 10 s of it."""
     script = """
 import slipfit as sf, time
 model = dict(stiffness=1000, natural_frequency=200, damping_ratio=0.05, static_friction=6, f0=3, f1=1, alpha=-10, noise=0.05)
-runs = {str(i): sf.simulate(**model, speed=0.01 * 1.2 ** i, duration=30, sample_rate=1000, seed=i + 1) for i in range(12)}
+runs = {str(i): sf.simulate(**model, speed=0.01 * 1.2 ** i, duration=60, sample_rate=1000, seed=i + 1) for i in range(12)}
+begin = time.process_time()
 print("begins", flush=True)
 try:
     sf.fit(runs)
-    print("done", flush=True)
 except KeyboardInterrupt:
-    print("interrupted", flush=True)
+    print(time.process_time() - begin, flush=True)
 """
     process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
     assert process.stdout.readline() == "begins\n"
-    time.sleep(1.0)
+    time.sleep(0.3)
     process.send_signal(signal.SIGINT)
-    begin = time.monotonic()
-    assert process.communicate(timeout=60)[0] == "interrupted\n" and process.returncode == 0
-    assert time.monotonic() - begin < 1.5  # one second, and the end of the interpreter
+    printed = process.communicate(timeout=120)[0]
+    assert process.returncode == 0
+    assert float(printed) < 0.3 * 2 + 2.0  # until the signal, and a second, on two processors
