@@ -38,6 +38,23 @@ function(slipfit_build_identity target header)
   target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
 endfunction()
 
+# slipfit_commit(TARGET HEADER): the commit of the sources as a header of TARGET, which changes with every commit: who includes it is best
+# compiled alone.
+function(slipfit_commit target header)
+  set(output "${CMAKE_CURRENT_BINARY_DIR}/${header}")
+  set(script "${PROJECT_SOURCE_DIR}/cmake/commit.cmake")
+  execute_process(COMMAND git -C "${PROJECT_SOURCE_DIR}" rev-parse --git-path logs/HEAD
+    OUTPUT_VARIABLE log OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  get_filename_component(log "${log}" ABSOLUTE BASE_DIR "${PROJECT_SOURCE_DIR}")
+  if(NOT EXISTS "${log}" OR IS_DIRECTORY "${log}")
+    set(log "")
+  endif()
+  add_custom_command(OUTPUT "${output}"
+    COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${PROJECT_SOURCE_DIR}" "-DOUTPUT=${output}" -P "${script}" DEPENDS "${script}" ${log} VERBATIM)
+  target_sources(${target} PRIVATE "${output}")
+  target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
+endfunction()
+
 # slipfit_remedies(TARGET HEADER): what docs/formats.md says to do about each error, as a header of TARGET.
 function(slipfit_remedies target header)
   set(output "${CMAKE_CURRENT_BINARY_DIR}/${header}")

@@ -198,7 +198,9 @@ Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) 
   informed.ring_down = ring_down_after_release(detected);
   Estimates estimates = estimate(detected, informed);
   Classification classification = classify(detected.recording(), estimates);
-  return without_falls(conclude(detected, std::move(estimates), std::move(classification)));
+  Analysis analysis = without_falls(conclude(detected, std::move(estimates), std::move(classification)));
+  analysis.asked = AskedFit{options.tier, options.held};
+  return analysis;
 }
 
 SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options) {
@@ -215,7 +217,9 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
     }
     Member& member = members.emplace_back(analyze_member(entry.recording, own));
     sweep.recordings.push_back(std::move(member.analysis));
+    sweep.recordings.back().asked = AskedFit{};
   }
+  sweep.asked = AskedFit{options.tier, options.held};
   sweep.roles = roles_of(entries, sweep.recordings);
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Signals& signals = members[i].estimates.signals;

@@ -105,6 +105,12 @@ struct AuditPair {
   bool contradicts = false;  ///< they differ by more than 4 standard errors and 1 %
 };
 
+/// What a user asked of a fit.
+struct AskedFit {
+  std::optional<Tier> tier{};  ///< empty: chosen by the data
+  HeldParameters held{};
+};
+
 /// Everything that is known about one recording.
 struct Analysis {
   Quality quality;   ///< of the whole recording
@@ -122,6 +128,7 @@ struct Analysis {
   std::vector<AuditPair> audit;              ///< pairs of which both values are known; of stick-slip with a fit
   std::vector<ShortTest> tests;              ///< only where the kind of motion is stick-slip with a fit
   Timing timing;
+  std::optional<AskedFit> asked{};  ///< empty: no fit was asked for
 };
 
 }  // namespace slipfit

@@ -42,6 +42,7 @@ struct SweepAnalysis {
   Derived derived;                   ///< critical speed; what belongs to one speed is empty
   std::vector<Repeat> repeats;       ///< empty where the speeds differ
   Warnings warnings;                 ///< of the sweep as a whole, the fit of the sweep's included
+  std::optional<AskedFit> asked{};   ///< empty: no fit was asked for
 };
 
 /// Each recording on its own, then one set of parameters for all. Needs at least one entry.

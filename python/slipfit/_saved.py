@@ -17,6 +17,10 @@ _HELD = ("stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio")  #
 
 
 def _options_of(document: Mapping[str, Any]) -> Options:
+    """Documents of version 0.1.0 have no options: those that their statuses tell."""
+    asked = document.get("options")
+    if asked is not None:
+        return Options("fit", asked["tier"], tuple(f"{name}={value!r}" for name, value in asked["fix"].items()))
     if "model" not in document:
         return Options("analyze")
     parameters = document.get("parameters") or {}

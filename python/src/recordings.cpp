@@ -162,7 +162,7 @@ py::tuple state_of(const Recording& recording) {
       static_cast<int>(c.drift), array_of(load),
       p.moved_m_per_s ? std::optional(std::pair(p.moved_m_per_s->value, p.moved_m_per_s->standard_error))
                       : std::nullopt,
-      p.is_time_unit_assumed);
+      p.is_time_unit_assumed, p.options);
 }
 
 Provenance provenance_from(const py::tuple& state) {
@@ -179,6 +179,7 @@ Provenance provenance_from(const py::tuple& state) {
   p.rows_repeating_time = counts.at(2);
   p.window_given = state[14].cast<bool>();
   p.is_time_unit_assumed = state[18].cast<bool>();
+  p.options = state[19].cast<Pairs>();
   using Moved = std::pair<std::optional<double>, std::optional<double>>;
   const auto moved = state[17].cast<std::optional<Moved>>();
   if (moved) p.moved_m_per_s = Estimate{moved->first, moved->second, std::nullopt, {}};

@@ -9,7 +9,7 @@
 
 #include "batch/build.hpp"
 #include "batch/files.hpp"
-#include "report/names.hpp"
+#include "report/json_sections.hpp"
 #include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
@@ -58,18 +58,9 @@ void for_each_member(Record& record, const Use& use) {
 }
 
 std::string options_text(const BatchOptions& options) {
-  Json fixed = Json::object();
-  const HeldParameters& held = options.fit.held;
-  const auto put = [&](ParameterId id, const std::optional<double>& value) {
-    if (value) fixed[std::string(info(id).key)] = *value;
-  };
-  put(ParameterId::Stiffness, held.stiffness_N_per_m);
-  put(ParameterId::NaturalFrequency, held.natural_frequency_rad_per_s);
-  put(ParameterId::DampingRatio, held.damping_ratio);
-  return Json{{"tier", options.fit.tier ? std::string(name_of(*options.fit.tier)) : "auto"},
-              {"fix", fixed},
-              {"joint_groups", static_cast<bool>(options.fit_group)}}
-      .dump();
+  Json json = options_json({options.fit.tier, options.fit.held});
+  json["joint_groups"] = static_cast<bool>(options.fit_group);
+  return json.dump();
 }
 
 }  // namespace

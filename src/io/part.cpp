@@ -268,6 +268,7 @@ Provenance describe_part(const Part& part, const LoadedFile& file) {
   }
   provenance.is_time_unit_assumed = file.choice.time && file.choice.time->is_unit_assumed;
   provenance.window_given = file.options.window.has_value() || file.options.rows.has_value();
+  provenance.options = stated_cells(file.options);
   for (std::string& sentence : part_sentences(part, file)) provenance.assumed.push_back(std::move(sentence));
   return provenance;
 }

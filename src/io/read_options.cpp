@@ -1,5 +1,7 @@
 #include "slipfit/io/read_options.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -9,6 +11,46 @@
 #include "slipfit/core/units.hpp"
 
 namespace slipfit {
+
+std::vector<std::pair<std::string, std::string>> stated_cells(const ReadOptions& options) {
+  std::vector<std::pair<std::string, std::string>> cells;
+  const auto add = [&](const char* column, const auto& value) {
+    if (value) cells.emplace_back(column, fmt::format("{}", *value));
+  };
+  add("time_column", options.time_column);
+  add("force_column", options.force_column);
+  add("normal_force_column", options.normal_force_column);
+  add("speed_column", options.speed_column);
+  add("radius_m", options.radius_m);
+  add("time_unit", options.time_unit);
+  add("force_unit", options.force_unit);
+  add("force_scale", options.force_scale);
+  add("sample_rate_Hz", options.sample_rate_Hz);
+  add("sheet", options.sheet);
+  add("variable", options.variable);
+  add("step", options.step);
+  if (const auto& rows = options.rows) cells.emplace_back("rows", fmt::format("{}:{}", rows->first, rows->last));
+  if (const auto& where = options.where) cells.emplace_back("where", where->column + "=" + where->value);
+  if (const auto& part = options.window)
+    cells.emplace_back("window_s", fmt::format("{}:{}", part->begin_s, part->end_s));
+  switch (options.pieces) {
+    case Pieces::One:
+      break;
+    case Pieces::Strokes:
+      cells.emplace_back("strokes", "both");
+      break;
+    case Pieces::PositiveStrokes:
+      cells.emplace_back("strokes", "positive");
+      break;
+    case Pieces::NegativeStrokes:
+      cells.emplace_back("strokes", "negative");
+      break;
+    case Pieces::Segments:
+      cells.emplace_back("segments", "yes");
+      break;
+  }
+  return cells;
+}
 
 std::optional<RowRange> parse_row_range(std::string_view text) {
   RowRange rows;

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <string>
 
+#include "report/commit.hpp"
 #include "report/json_sections.hpp"
 #include "report/names.hpp"
 #include "slipfit/report/json.hpp"
@@ -33,6 +34,18 @@ void add_fit(Json& json, const FitResult& fit, ForceQuantity quantity) {
   json["correlation"] = correlation_json(fit);
 }
 
+/// Schema and program, and what was asked of it.
+Json head_json(const std::string& id, const std::optional<AskedFit>& asked) {
+  const std::string commit = commit_of_program();
+  Json json{{"schema", "slipfit.fit/1"},
+            {"$schema", "urn:slipfit:schema:slipfit.fit/1"},
+            {"version", SLIPFIT_VERSION},
+            {"commit", commit.empty() ? Json() : Json(commit)},
+            {"id", id}};
+  if (asked) json["options"] = options_json(*asked);
+  return json;
+}
+
 std::string id_of(const Recording& recording, const JsonOptions& options) {
   if (!options.id.empty()) return options.id;
   return std::filesystem::path(recording.provenance().file).stem().string();
@@ -41,7 +54,7 @@ std::string id_of(const Recording& recording, const JsonOptions& options) {
 }  // namespace
 
 std::string to_json(const Recording& recording, const Analysis& analysis, const JsonOptions& options) {
-  Json json{{"schema", "slipfit.fit/1"}, {"version", SLIPFIT_VERSION}, {"id", id_of(recording, options)}};
+  Json json = head_json(id_of(recording, options), analysis.asked);
   add_analysis(json, recording, analysis, {});
   if (analysis.fit) {
     const ForceQuantity quantity = recording.conditions().quantity;
@@ -100,7 +113,7 @@ Json repeats_json(const std::vector<Repeat>& repeats) {
 }  // namespace
 
 std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const JsonOptions& options) {
-  Json json{{"schema", "slipfit.fit/1"}, {"version", SLIPFIT_VERSION}, {"id", options.id}};
+  Json json = head_json(options.id, sweep.asked);
   Json members = Json::array();
   for (std::size_t i = 0; i < entries.size(); ++i) {
     members.push_back(

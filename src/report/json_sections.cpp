@@ -38,7 +38,24 @@ void put_other_inputs(Json& json, const Conditions& conditions) {
   });
 }
 
+Json cells_json(const std::vector<std::pair<std::string, std::string>>& cells) {
+  Json json = Json::object();
+  for (const auto& [column, cell] : cells) json[column] = cell;
+  return json;
+}
+
 }  // namespace
+
+Json options_json(const AskedFit& asked) {
+  Json fix = Json::object();
+  const auto put = [&](ParameterId id, const std::optional<double>& value) {
+    if (value) fix[std::string(info(id).key)] = *value;
+  };
+  put(ParameterId::Stiffness, asked.held.stiffness_N_per_m);
+  put(ParameterId::NaturalFrequency, asked.held.natural_frequency_rad_per_s);
+  put(ParameterId::DampingRatio, asked.held.damping_ratio);
+  return Json{{"tier", asked.tier ? std::string(name_of(*asked.tier)) : "auto"}, {"fix", fix}};
+}
 
 Json recording_json(const Recording& recording, const Analysis& analysis) {
   const Conditions& conditions = recording.conditions();
@@ -62,6 +79,7 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
             {"drift", conditions.drift == LevelReading::Open ? Json() : Json(name_of(conditions.drift))},
             {"sensor_average_s", conditions.sensor_average_s},
             {"sensor_resonance_Hz", conditions.sensor_resonance_Hz},
+            {"options", cells_json(provenance.options)},
             {"assumed", provenance.assumed},
             {"sliding_s", {analysis.sliding.begin_s, analysis.sliding.end_s}},
             {"quality", quality_json(recording, analysis.quality)}};
@@ -181,7 +199,8 @@ Json model_json(const FitResult& fit, ForceQuantity quantity) {
 Json parameters_json(const FitResult& fit) {
   Json json = Json::object();
   for (const Parameter& parameter : fit.parameters) {
-    json[std::string(parameter.name())] = {{"value", parameter.estimate.value},
+    const bool is_interval = parameter.status == ParameterStatus::Bounded;  // its middle is no estimate
+    json[std::string(parameter.name())] = {{"value", is_interval ? Json() : Json(parameter.estimate.value)},
                                            {"se", parameter.estimate.standard_error},
                                            {"ci95", parameter.estimate.ci95},
                                            {"status", name_of(parameter.status)},

@@ -6,6 +6,7 @@
 namespace slipfit {
 
 // One function a section of the document (docs/formats.md).
+Json options_json(const AskedFit& asked);
 Json recording_json(const Recording& recording, const Analysis& analysis);
 Json frequency_json(const FrequencyReport& frequency);
 Json cycles_json(const CycleStatistics& cycles, ForceQuantity quantity);

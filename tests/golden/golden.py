@@ -35,7 +35,7 @@ STEPS = "Step,Timestamp,Fx (N),Fz (N),Velocity (mm/s),State\n" + "".join(
     f"{step},{0.01 * i:.2f},{1 + (i % 7) / 10},{2 * step},{5 * step},on\n" for step in (1, 2) for i in range(60))
 GROUPED = ["slow", "middle", "fast"]
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
-LEFT_OUT = {"version", "input_digest", "input_bytes"}  # the bytes of a recording hang on the last digit of each sample
+LEFT_OUT = {"version", "commit", "input_digest", "input_bytes"}  # the bytes of a recording hang on the last digit of each sample
 MEASURED = {"recording", "cycles"}  # no fit has a part in them
 
 

@@ -233,3 +233,39 @@ def test_the_schema_of_the_project_describes_what_is_read(saved):
     jsonschema = pytest.importorskip("jsonschema")
     schema = json.loads((PROJECT / "docs" / "fit.schema.json").read_text())
     jsonschema.validate(sf.read_fit(saved).to_dict(), schema)
+
+
+def test_the_document_says_how_it_was_made(demo, demo_fit, tmp_path):
+    document = demo_fit.to_dict()
+    assert document["options"] == {"tier": "auto", "fix": {}} and document["recording"]["options"] == {}
+    assert document["commit"] is None or len(document["commit"]) == 12
+    schema = json.loads((PROJECT / "docs" / "fit.schema.json").read_text())
+    assert document["$schema"] == schema["$id"]
+    read = sf.read_recording(TESTDATA / "demo.csv", speed=0.01, window=(0.2, 1.8), force_column=2, time_unit="s")
+    fit = sf.fit(read, tier="damped", fix={"damping_ratio": 0.05})
+    document = fit.to_dict()
+    assert document["options"] == {"tier": "damped", "fix": {"damping_ratio": 0.05}}
+    assert document["recording"]["options"] == {"force_column": "2", "time_unit": "s", "window_s": "0.2:1.8"}
+    assert pickle.loads(pickle.dumps(read))._native is not None
+    assert sf.fit(pickle.loads(pickle.dumps(read)), tier="damped", fix={"damping_ratio": 0.05}).to_json() == fit.to_json()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        np.testing.assert_array_equal(sf.read_fit(document, recording=read).curve.fitted, fit.curve.fitted)
+    analysed = sf.analyze(demo)
+    assert "options" not in analysed.to_dict()
+    assert sf.read_fit(analysed.to_dict(), recording=demo).cycles.equals(analysed.cycles)
+
+
+def test_a_bounded_parameter_is_an_interval_without_a_value(tmp_path):
+    """Slips of one sample: the drop is known, and F_s - F_k lies between half of it and all of it."""
+    recording = sf.simulate(stiffness=5000, natural_frequency=900, damping_ratio=0.05, static_friction=4, kinetic_friction=3, speed=0.01,
+                            duration=4, sample_rate=250, noise=0.01, jitter=0.03, seed=5)
+    fit = sf.fit(recording)
+    difference = fit.friction_difference
+    assert difference.status == "bounded" and difference.value is None and difference.ci95[0] < difference.ci95[1]
+    assert fit.to_dict()["parameters"]["friction_difference_N"]["value"] is None
+    assert fit.row()["friction_difference_N"] is None and fit.row()["friction_difference_low_N"] == difference.ci95[0]
+    assert str(difference).startswith("between") and np.isnan(float(difference))
+    assert sf.read_fit(fit.to_dict()).friction_difference == difference
+    reason = sf.compare(fit, fit).to_dict()["quantities"]["friction_difference_N"]
+    assert reason["difference"] is None or reason["difference"]["value"] is None

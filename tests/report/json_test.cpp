@@ -41,6 +41,8 @@ TEST_CASE("the words of the status are those of the interface") {
   const json parameters = document_of(test::small_recording(), test::full_analysis())["parameters"];
   CHECK(parameters["stiffness_N_per_m"]["status"] == "identified");
   CHECK(parameters["friction_difference_N"]["status"] == "bounded");
+  CHECK(parameters["friction_difference_N"]["value"].is_null());  // the middle of its interval is no estimate
+  CHECK(parameters["friction_difference_N"]["ci95"] == json::array({1.0, 2.0}));
   CHECK(parameters["static_friction_N"]["status"] == "unidentified");
   CHECK(parameters["natural_frequency_rad_per_s"]["status"] == "fixed");
   CHECK(parameters["damping_ratio"]["status"] == "weak");
@@ -135,9 +137,10 @@ TEST_CASE("the keys stand in the order of the interface") {
   const auto document = nlohmann::ordered_json::parse(to_json(test::small_recording(), test::full_analysis()));
   std::vector<std::string> keys;
   for (const auto& [key, value] : document.items()) keys.push_back(key);
-  CHECK(keys == std::vector<std::string>{"schema", "version", "id", "recording", "status", "status_reason", "warnings",
-                                         "frequency", "cycles", "model", "parameters", "correlation", "level_trend",
-                                         "audit", "derived", "transients", "coefficients", "tests"});
+  CHECK(keys == std::vector<std::string>{"schema",    "$schema", "version",       "commit",       "id",
+                                         "recording", "status",  "status_reason", "warnings",     "frequency",
+                                         "cycles",    "model",   "parameters",    "correlation",  "level_trend",
+                                         "audit",     "derived", "transients",    "coefficients", "tests"});
 }
 
 TEST_CASE("one line for a file with one result a line") {

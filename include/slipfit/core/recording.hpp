@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "slipfit/core/digest.hpp"
@@ -93,6 +94,8 @@ struct Provenance {
   /// Speed of a displacement column with its standard error; empty: no such column, or one that moves unsteadily.
   std::optional<Estimate> moved_m_per_s{};
   bool window_given = false;  ///< the user chose what part to read: nothing else is left out
+  /// How it was read, as far as a user stated it: columns of a manifest and their cells.
+  std::vector<std::pair<std::string, std::string>> options{};
 };
 
 /// Time and tangential force of one run: at least 2 samples, all finite, time never decreasing and not constant.

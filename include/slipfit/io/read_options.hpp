@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace slipfit {
 
@@ -50,6 +52,9 @@ struct ReadOptions {
   std::optional<TimeWindow> window;
   Pieces pieces = Pieces::One;  ///< `read_pieces` takes them apart
 };
+
+/// What is stated, as columns of a manifest and their cells: numbers in SI.
+std::vector<std::pair<std::string, std::string>> stated_cells(const ReadOptions& options);
 
 /// "A:B" with 1 <= A < B.
 std::optional<RowRange> parse_row_range(std::string_view text);

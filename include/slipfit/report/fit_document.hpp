@@ -14,8 +14,8 @@ namespace slipfit {
 inline constexpr std::size_t kLargestFitDocument = std::size_t{64} << 20U;  ///< bytes: a thousand times a usual one
 
 /// What is wrong with a document of the schema slipfit.fit/1 that would mislead who reads it, if anything: too large or
-/// nested too deeply, not JSON, an unknown status, a number out of its range, a negative standard error, an interval
-/// without its value. `name`: what messages call the document, its file or its id. Error: bad_document.
+/// nested too deeply, not JSON, an unknown status, a number out of its range, a negative standard error, a value
+/// outside its interval. `name`: what messages call the document, its file or its id. Error: bad_document.
 std::optional<Error> check_fit_document(const std::string& content, const std::string& name);
 
 /// What a prediction needs of a document of the schema slipfit.fit/1.
