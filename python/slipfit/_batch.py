@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import os
 import sys
+import warnings
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 from . import _slipfit
@@ -45,6 +47,24 @@ def manifest(paths: Union[Path, Sequence[Path]], *, out: Optional[Path] = None) 
     frame = frame_of_csv(text)
     frame.attrs["left_out"] = [Notice(code, in_words_of_python(message)) for code, message in left_out]
     return frame
+
+
+# Columns of summary.csv that hold text.
+_TEXTS = {"id", "group", "file", "status", "input_digest", "regime", "surface_verdict", "tier", "warnings", "error"}
+
+
+def _can_write_parquet() -> bool:
+    return all(importlib.util.find_spec(name) is not None for name in ("pandas", "pyarrow"))
+
+
+def _add_parquet(result: "BatchResult") -> None:
+    """A copy of the table: without it the batch is as complete."""
+    if not _can_write_parquet():
+        return
+    try:
+        result.to_parquet()
+    except Exception as error:  # of pyarrow, or of the disk
+        warnings.warn(f"{result.folder}: summary.parquet was not written ({error}); summary.csv holds the same", stacklevel=3)
 
 
 class BatchResult:
@@ -103,9 +123,33 @@ class BatchResult:
     def __len__(self) -> int:
         return len(self._index())
 
-    def to_frame(self) -> "pd.DataFrame":
-        """summary.csv: one row a recording."""
-        return self._table("summary.csv")
+    def to_frame(self, *, typed: bool = False) -> "pd.DataFrame":
+        """summary.csv: one row a recording.
+
+        Parameters
+        ----------
+        typed : bool
+            Types that do not depend on what the cells hold: ``string`` for text, ``float64`` for numbers, ``int64`` for ``row``.
+        """
+        if not typed:
+            return self._table("summary.csv")
+        frame = self._table("summary.csv", dtype="string", keep_default_na=False)
+        for name in frame.columns:
+            if name == "row":
+                frame[name] = frame[name].astype("int64")
+            elif name not in _TEXTS and not name.endswith("_status"):
+                frame[name] = frame[name].replace("", None).astype("float64")
+        return frame
+
+    def to_parquet(self, path: Optional[Path] = None) -> str:
+        """Write the table as summary.parquet, or to `path`, and return where; needs pandas and pyarrow.
+
+        Columns of numbers are doubles and columns of text strings in every batch, also where all cells are empty.
+        """
+        target = self._path("summary.parquet") if path is None else os.fspath(path)
+        table = self.to_frame(typed=True)
+        table.to_parquet(target, engine="pyarrow", index=False)
+        return target
 
     @property
     def failures(self) -> "pd.DataFrame":
@@ -115,12 +159,12 @@ class BatchResult:
     def _path(self, name: str) -> str:
         return os.path.join(self.folder, name)
 
-    def _table(self, name: str) -> "pd.DataFrame":
+    def _table(self, name: str, **reading: Any) -> "pd.DataFrame":
         import pandas
 
         if not os.path.exists(self._path(name)):
             raise Error("not_finished", f"{self.folder}: has no {name}, which a batch writes at its end; finish it with resume=True")
-        return pandas.read_csv(self._path(name), float_precision="round_trip")
+        return pandas.read_csv(self._path(name), float_precision="round_trip", **reading)
 
     def __repr__(self) -> str:
         counts = self.counts
@@ -160,7 +204,9 @@ def merge(shards: Sequence[Path], *, out: Path) -> BatchResult:
         ``not_a_batch``, ``not_finished``, ``shards_differ``, ``shards_missing``, ...
     """
     _slipfit.merge([os.fspath(one) for one in shards], os.fspath(out))
-    return open_batch(out)
+    result = open_batch(out)
+    _add_parquet(result)
+    return result
 
 
 Progress = Union[bool, Callable[[Dict[str, Any]], None]]
@@ -214,7 +260,8 @@ def batch(
     Returns
     -------
     BatchResult
-        A recording that fails is a row of ``BatchResult.failures``, and no exception.
+        A recording that fails is a row of ``BatchResult.failures``, and no exception. Where pandas and pyarrow are
+        installed, the folder holds summary.parquet beside summary.csv.
 
     Raises
     ------
@@ -255,5 +302,10 @@ def batch(
         "command": f"slipfit.batch({os.fspath(manifest)!r}, ...)  # Python",
         "joint_groups": bool(joint_groups),
     }
+    stale = os.path.join(os.fspath(out), "summary.parquet")  # of an earlier run; written again at the end
+    if resume and os.path.exists(stale):
+        os.unlink(stale)
     counts = _slipfit.batch(options, show if progress else None, None)
-    return BatchResult(os.fspath(out), counts)
+    result = BatchResult(os.fspath(out), counts)
+    _add_parquet(result)
+    return result

@@ -25,13 +25,13 @@ def frame_of_csv(text: str) -> "pd.DataFrame":
 
 
 def row_of(lines: Tuple[str, str]) -> Dict[str, Union[str, int, float, None]]:
-    """A line of names and a line of cells: numbers as numbers, an empty cell is None."""
+    """A line of names and a line of cells: numbers as numbers, names as text, an empty cell is None."""
     names, cells = csv.reader(line.rstrip("\n") for line in lines)
-    return {name: _cell(text) for name, text in zip(names, cells)}
+    return {name: _cell(text, name in ("id", "group", "file")) for name, text in zip(names, cells)}
 
 
-def _cell(text: str) -> Union[str, int, float, None]:
-    for kind in (int, float):
+def _cell(text: str, is_name: bool) -> Union[str, int, float, None]:
+    for kind in () if is_name else (int, float):
         try:
             return cast(Union[int, float], kind(text))
         except ValueError:
@@ -160,6 +160,16 @@ class Info(Document):
         """Why the file would be refused as it is; None where it is a recording."""
         refusal = self.to_dict()["refusal"]
         return None if refusal is None else in_words_of_python(refusal)
+
+    @property
+    def sheets(self) -> List[str]:
+        """What `sheet` can name: sheets of a workbook, files of an archive."""
+        return cast(List[str], self.to_dict()["sheets"])
+
+    @property
+    def variables(self) -> List[str]:
+        """What `variable` can name: groups and tables of HDF5, TDMS and MATLAB files."""
+        return cast(List[str], self.to_dict()["variables"])
 
     @property
     def columns(self) -> "pd.DataFrame":

@@ -29,21 +29,22 @@ std::string suffix_of(std::string_view unit) {
   return suffix;
 }
 
-/// Value and bounds of an estimate: the bound stands before the unit in the name.
+/// Value, bounds and standard error of an estimate: "low", "high" and "se" stand before the unit in the name.
 void add_estimate(std::vector<SummaryColumn>& columns, const std::string& place, const std::string& name,
                   const std::string& suffix) {
   columns.push_back({name + suffix, Json::json_pointer(place + "/value")});
   columns.push_back({name + "_low" + suffix, Json::json_pointer(place + "/ci95/0")});
   columns.push_back({name + "_high" + suffix, Json::json_pointer(place + "/ci95/1")});
+  columns.push_back({name + "_se" + suffix, Json::json_pointer(place + "/se")});
 }
 
 std::vector<SummaryColumn> make_columns() {
   using Place = Json::json_pointer;
-  std::vector<SummaryColumn> columns{{"speed_m_per_s", Place("/recording/speed_m_per_s")},
-                                     {"cycles", Place("/cycles/count")},
-                                     {"frequency_Hz", Place("/frequency/value_Hz")},
-                                     {"frequency_low_Hz", Place("/frequency/ci95_Hz/0")},
-                                     {"frequency_high_Hz", Place("/frequency/ci95_Hz/1")}};
+  std::vector<SummaryColumn> columns{
+      {"input_digest", Place("/recording/input_digest")},     {"speed_m_per_s", Place("/recording/speed_m_per_s")},
+      {"normal_force_N", Place("/recording/normal_force_N")}, {"cycles", Place("/cycles/count")},
+      {"frequency_Hz", Place("/frequency/value_Hz")},         {"frequency_low_Hz", Place("/frequency/ci95_Hz/0")},
+      {"frequency_high_Hz", Place("/frequency/ci95_Hz/1")},   {"frequency_se_Hz", Place("/frequency/se_Hz")}};
   add_estimate(columns, "/derived/pattern_spacing_m", "pattern_spacing", "_m");
   add_estimate(columns, "/derived/periodic_displacement_m", "periodic_displacement", "_m");
   add_estimate(columns, "/derived/critical_speed_m_per_s", "critical_speed", "_m_per_s");

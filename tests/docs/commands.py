@@ -19,6 +19,7 @@ ELSEWHERE = {
     "scripts/test.sh": "runs this test",
     "array=$(sbatch": "the test batch: Slurm",
     "sbatch": "the test batch: Slurm",
+    "python3 examples/dask_batch.py": "tests/python/test_dask.py",
     "coverage": "an hour; benchmarks",
     "python3 benchmarks/": "hours; benchmarks",
     "pip install": "builds the program again; tests/packages/pip_install.sh",

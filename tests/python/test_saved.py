@@ -269,3 +269,47 @@ def test_a_bounded_parameter_is_an_interval_without_a_value(tmp_path):
     assert sf.read_fit(fit.to_dict()).friction_difference == difference
     reason = sf.compare(fit, fit).to_dict()["quantities"]["friction_difference_N"]
     assert reason["difference"] is None or reason["difference"]["value"] is None
+
+
+def test_the_table_has_errors_digests_and_types(folder):
+    batch = sf.open_batch(folder / "out")
+    row, fit = batch["v0.04"].row(), batch["v0.04"]
+    assert row["stiffness_se_N_per_m"] == fit.stiffness.se and row["frequency_se_Hz"] == fit.frequency.se
+    assert row["input_digest"] == fit.to_dict()["recording"]["input_digest"] and row["normal_force_N"] is None
+    typed = batch.to_frame(typed=True)
+    numbers = {name for name in typed.columns if typed[name].dtype == "float64"}
+    texts = {name for name in typed.columns if typed[name].dtype == "string"}
+    assert numbers | texts | {"row"} == set(typed.columns) and typed.row.dtype == "int64"
+    assert {"surface_spacing_m", "normal_force_N", "stiffness_N_per_m", "cycles"} <= numbers  # some are empty in every row
+    assert {"id", "surface_verdict", "ageing_time_status", "input_digest", "error"} <= texts
+    plain = batch.to_frame()
+    for name in numbers:
+        assert plain[name].astype("float64").equals(typed[name]), name
+
+
+def test_a_batch_and_a_merge_write_parquet(folder, tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    for i in (1, 2):
+        sf.batch(folder / "runs.csv", out=tmp_path / f"part{i}", shard=(i, 2))
+    merged = sf.merge([tmp_path / "part1", tmp_path / "part2"], out=tmp_path / "whole")
+    table = parquet.read_table(tmp_path / "whole" / "summary.parquet")
+    assert table.to_pandas()["stiffness_N_per_m"].equals(merged.to_frame()["stiffness_N_per_m"])
+    assert parquet.read_schema(tmp_path / "part1" / "summary.parquet").equals(table.schema, check_metadata=False)
+
+
+def test_parquet_is_written_where_it_can_be(folder, tmp_path, monkeypatch):
+    from slipfit import _batch
+
+    written = []
+    monkeypatch.setattr(_batch, "_can_write_parquet", lambda: True)
+    monkeypatch.setattr(pd.DataFrame, "to_parquet", lambda frame, path, **_: written.append((path, frame.dtypes.astype(str).to_dict())))
+    sf.batch(folder / "runs.csv", out=tmp_path / "out")
+    ((path, types),) = written
+    assert path == str(tmp_path / "out" / "summary.parquet") and types["stiffness_N_per_m"] == "float64" and types["id"] == "string"
+
+    def fail(*_, **__):
+        raise OSError("disk full")
+
+    monkeypatch.setattr(pd.DataFrame, "to_parquet", fail)
+    with pytest.warns(UserWarning, match="disk full"):
+        assert len(sf.batch(folder / "runs.csv", out=tmp_path / "again").to_frame()) == 4
