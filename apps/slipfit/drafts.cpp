@@ -100,6 +100,8 @@ std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& dra
     entry.conditions.labels.group = drafted.group;
     if (!entry.conditions.normal_force_N) entry.conditions.normal_force_N = drafted.normal_force_N;
     if (drafted.step) entry.options.step = drafted.step;
+    if (drafted.sheet) entry.options.sheet = drafted.sheet;
+    if (drafted.variable) entry.options.variable = drafted.variable;
     if (!(entry.conditions.speed_m_per_s > 0.0)) refuse_without_speed(drafted);
     entries.push_back(std::move(entry));
   }

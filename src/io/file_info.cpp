@@ -95,10 +95,11 @@ void add_recording(FileInfo& info, Part part, const LoadedFile& file) {
   }
 }
 
-FileInfo inspect(const std::filesystem::path& path, const std::string& name, const ReadOptions& options) {
-  check_options(options, name);
-  OpenedFile opened = open_file(path, options);
+FileInfo inspect(OpenedFile opened, const std::string& name, const ReadOptions& options) {
   FileInfo info;
+  const TableKind kind = opened.source->table_kind();
+  if (kind == TableKind::Sheet) info.sheets = opened.source->tables();
+  if (kind == TableKind::Variable) info.variables = opened.source->tables();
   info.columns = columns_of(opened.layout);
   Choice choice = choice_for(opened.layout, options, info, name);
   LoadedFile file = load_rows(std::move(opened), std::move(choice), options);
@@ -119,11 +120,55 @@ FileInfo inspect(const std::filesystem::path& path, const std::string& name, con
   return info;
 }
 
+FileInfo inspect(const std::filesystem::path& path, const std::string& name, const ReadOptions& options) {
+  check_options(options, name);
+  return inspect(open_file(path, options), name, options);
+}
+
+/// Of one that is not a table among several.
+TableInfo inspect_whole(TextStream file, const std::string& name, const ReadOptions& options) {
+  auto info =
+      with_errors_of_reading(name, [&] { return inspect(open_file(std::move(file), name, options), name, options); });
+  return {"", options, std::move(info)};
+}
+
+std::vector<TableInfo> inspect_each(const std::filesystem::path& path, const std::string& name,
+                                    const ReadOptions& options) {
+  check_options(options, name);
+  TextStream file = open_plain(path);
+  const TableKind kind = options.sheet || options.variable ? TableKind::One : table_kind_of(file);
+  std::vector<TableInfo> tables;
+  if (kind == TableKind::One) {
+    tables.push_back(inspect_whole(std::move(file), name, options));
+  } else {
+    visit_tables(std::move(file), name, [&](const PackedTable& table) {
+      const std::string place = name + " ('" + printable(table.name) + "')";
+      auto info = with_errors_of_reading(
+          place, [&] { return inspect(open_file(table.open(), place, options), place, options); });
+      TableInfo& added = tables.emplace_back(TableInfo{table.name, options, std::move(info)});
+      (kind == TableKind::Sheet ? added.options.sheet : added.options.variable) = table.name;
+    });
+  }
+  for (TableInfo& table : tables) {
+    if (table.info) {
+      FileInfo known = std::move(table.info).value();
+      known.recording.reset();
+      table.info = std::move(known);
+    }
+  }
+  return tables;
+}
+
 }  // namespace
 
 Result<FileInfo> inspect_recording(const std::filesystem::path& file, const ReadOptions& options) {
   const std::string name = name_of_file(file);
   return with_errors_of_reading(name, [&] { return inspect(file, name, options); });
+}
+
+Result<std::vector<TableInfo>> inspect_tables(const std::filesystem::path& file, const ReadOptions& options) {
+  const std::string name = name_of_file(file);
+  return with_errors_of_reading(name, [&] { return inspect_each(file, name, options); });
 }
 
 }  // namespace slipfit

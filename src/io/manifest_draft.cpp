@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <set>
 #include <system_error>
 
@@ -45,14 +47,33 @@ std::string stem_of(const fs::path& file) {
   return stem.string();
 }
 
-/// One for each recording in the file.
-std::vector<DraftEntry> entries_of(const fs::path& file, const FileInfo& info) {
+/// A name of a table as part of an id: "/runs/7" becomes "runs-7".
+std::string id_part(std::string name) {
+  name.erase(0, std::min(name.find_first_not_of('/'), name.size()));
+  std::ranges::replace_if(
+      name, [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < 0x20; }, '-');
+  return slipfit::printable(name);
+}
+
+/// One for each recording in a table; `table` is empty where the file is one.
+std::vector<DraftEntry> entries_of(const fs::path& file, const TableInfo& table, const FileInfo& info) {
   const std::string stem = slipfit::printable(stem_of(file));
-  const reading::ToldByName told = reading::read_file_name(stem);
+  reading::ToldByName told = reading::read_file_name(stem);
+  std::string id = stem;
+  if (!table.name.empty()) {
+    id += "-" + id_part(table.name);
+    const reading::ToldByName own = reading::read_file_name(id_part(table.name));
+    if (own.speed_m_per_s) told.speed_m_per_s = own.speed_m_per_s;
+    if (own.normal_force_N) told.normal_force_N = own.normal_force_N;
+  }
   const bool are_steps = info.steps.size() > 1 && info.steps.size() <= kMostSteps && !info.is_one_recording;
   std::vector<DraftEntry> entries;
   for (std::size_t i = 0; i < (are_steps ? info.steps.size() : 1); ++i) {
-    DraftEntry entry{stem, file, told.speed_m_per_s, told.normal_force_N, told.group, {}};
+    DraftEntry entry{id, file, told.speed_m_per_s, told.normal_force_N, told.group, {}};
+    if (!table.name.empty()) {
+      entry.sheet = table.options.sheet;
+      entry.variable = table.options.variable;
+    }
     const bool is_step = are_steps && i < info.steps.size();
     if (is_step) {
       entry.step = info.steps[i].step;
@@ -68,6 +89,45 @@ std::vector<DraftEntry> entries_of(const fs::path& file, const FileInfo& info) {
   return entries;
 }
 
+/// Of a file that slipfit wrote: a table of a batch, of cycles, a curve, a prediction, a manifest.
+bool is_of_slipfit(const fs::path& file) {
+  constexpr auto kBeginnings = std::to_array<std::string_view>(
+      {"row,id,group,file,status,", "id,code,message", "id,file,speed_m_per_s", "cycle,peak_s,trough_s,",
+       "time_s,force_N,fitted_N,residual_N", "time_s,force_coefficient,fitted_coefficient,residual_coefficient",
+       "speed_m_per_s,regime,bistable,lambda,"});
+  constexpr std::size_t kLongest = 128;
+  std::string start(kLongest, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(stream.gcount()));
+  return std::ranges::any_of(kBeginnings, [&](std::string_view beginning) { return start.starts_with(beginning); });
+}
+
+/// The tables of a file of which recordings may be made; of the others `draft.skipped` says why. One of several that
+/// would be refused as it is, is none, unless all are.
+std::vector<TableInfo> recordings_in(const fs::path& file, const ReadOptions& options, ManifestDraft& draft) {
+  auto inspected = inspect_tables(file, options);
+  if (!inspected) {
+    draft.skipped.push_back(inspected.error());
+    return {};
+  }
+  std::vector<TableInfo> tables = std::move(inspected).value();
+  const bool any_is_read =
+      std::ranges::any_of(tables, [](const TableInfo& table) { return table.info && !table.info.value().refusal; });
+  std::vector<TableInfo> taken;
+  for (TableInfo& table : tables) {
+    if (!table.info) {
+      draft.skipped.push_back(table.info.error());
+    } else if (table.info.value().refusal && any_is_read) {
+      draft.skipped.push_back(*table.info.value().refusal);
+    } else {
+      taken.push_back(std::move(table));
+    }
+  }
+  if (tables.size() == 1 && taken.size() == 1) taken.front().name.clear();
+  return taken;
+}
+
 std::string number_cell(const std::optional<double>& value) {
   return value ? fmt::format("{:.6g}", *value) : std::string();
 }
@@ -79,13 +139,13 @@ ManifestDraft draft_manifest(const std::vector<fs::path>& paths, const ReadOptio
   std::set<std::string> ids;
   for (const fs::path& path : paths) {
     for (const fs::path& file : files_below(path)) {
-      const auto info = inspect_recording(file, options);
-      if (!info) draft.skipped.push_back(info.error());
-      if (!info) continue;
-      for (DraftEntry& entry : entries_of(file, info.value())) {
-        const std::string id = entry.id;
-        for (int copy = 2; !ids.insert(entry.id).second; ++copy) entry.id = fmt::format("{}-{}", id, copy);
-        draft.entries.push_back(std::move(entry));
+      if (file != path && is_of_slipfit(file)) continue;
+      for (const TableInfo& table : recordings_in(file, options, draft)) {
+        for (DraftEntry& entry : entries_of(file, table, table.info.value())) {
+          const std::string id = entry.id;
+          for (int copy = 2; !ids.insert(entry.id).second; ++copy) entry.id = fmt::format("{}-{}", id, copy);
+          draft.entries.push_back(std::move(entry));
+        }
       }
     }
   }
@@ -105,9 +165,15 @@ ManifestDraft writable(ManifestDraft draft) {
 }
 
 std::string to_csv(const ManifestDraft& draft, const fs::path& folder, const std::vector<DraftColumn>& columns) {
-  const bool has_steps =
-      std::ranges::any_of(draft.entries, [](const DraftEntry& entry) { return entry.step.has_value(); });
+  const auto has = [&](auto DraftEntry::*member) {
+    return std::ranges::any_of(draft.entries, [&](const DraftEntry& entry) { return (entry.*member).has_value(); });
+  };
+  const bool has_steps = has(&DraftEntry::step);
+  const bool has_sheets = has(&DraftEntry::sheet);
+  const bool has_variables = has(&DraftEntry::variable);
   std::vector<std::string> names{"id", "file", "speed_m_per_s", "normal_force_N", "group"};
+  if (has_sheets) names.emplace_back("sheet");
+  if (has_variables) names.emplace_back("variable");
   if (has_steps) names.emplace_back("step");
   for (const DraftColumn& column : columns) names.push_back(column.name);
   std::string text = csv_line(names) + "\n";
@@ -119,6 +185,8 @@ std::string to_csv(const ManifestDraft& draft, const fs::path& folder, const std
     std::vector<std::string> cells{spreadsheet_cell(entry.id), (is_formula ? "./" : "") + file.string(),
                                    number_cell(entry.speed_m_per_s), number_cell(entry.normal_force_N),
                                    spreadsheet_cell(entry.group)};
+    if (has_sheets) cells.push_back(entry.sheet.value_or(""));
+    if (has_variables) cells.push_back(entry.variable.value_or(""));
     if (has_steps) cells.push_back(entry.step ? std::to_string(*entry.step) : std::string());
     for (const DraftColumn& column : columns) cells.push_back(column.cell);
     text += csv_line(cells) + "\n";

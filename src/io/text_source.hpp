@@ -32,6 +32,9 @@ class TextSource final : public ::io::ByteSourceBase {
   [[nodiscard]] std::size_t estimated_size() const { return estimated_size_; }
   /// Sentences about what the text was packed in, and its encoding.
   [[nodiscard]] const std::vector<std::string>& assumed() const { return stream_.assumed; }
+  /// That a choice can name in the file.
+  [[nodiscard]] const std::vector<std::string>& tables() const { return stream_.tables; }
+  [[nodiscard]] TableKind table_kind() const { return stream_.table_kind; }
   [[nodiscard]] const Warnings& warnings() const { return stream_.warnings; }
   /// Of the file's bytes as they are read; it outlives the source, which a reader of lines takes.
   [[nodiscard]] std::shared_ptr<const Digester> digester() const { return stream_.digester; }

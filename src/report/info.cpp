@@ -31,6 +31,16 @@ Json step_json(const StepInfo& step) {
           {"normal_force_N", step.normal_force_N}};
 }
 
+/// What --sheet or --variable can name, where there is a choice.
+std::string tables_text(const char* heading, const std::vector<std::string>& names) {
+  constexpr std::size_t kMostShown = 50;
+  if (names.size() < 2) return {};
+  std::string text = fmt::format("\n{}\n", heading);
+  for (std::size_t i = 0; i < std::min(names.size(), kMostShown); ++i) text += "  " + printable(names[i]) + "\n";
+  if (names.size() > kMostShown) text += fmt::format("  ... and {} more\n", names.size() - kMostShown);
+  return text;
+}
+
 std::string info_steps_text(const std::vector<StepInfo>& steps) {
   constexpr std::size_t kMostShown = 50;
   std::string text = fmt::format("\nSteps\n");
@@ -73,6 +83,8 @@ std::string to_json(const Inspection& inspection, const std::string& file) {
   return text_of(Json{{"schema", "slipfit.info/1"},
                       {"version", SLIPFIT_VERSION},
                       {"file", file},
+                      {"sheets", info.sheets},
+                      {"variables", info.variables},
                       {"columns", array_of(info.columns, column_json)},
                       {"rows", info.rows},
                       {"sample_rate_Hz", info.sample_rate_Hz},
@@ -96,6 +108,7 @@ std::string to_text(const Inspection& inspection, const std::string& file) {
     text += fmt::format("  {:<4} {:<24} {:<8} {}\n", column.index, printable(column.name), printable(column.unit),
                         column.quantity);
   }
+  text += tables_text("Sheets (--sheet)", info.sheets) + tables_text("Variables (--variable)", info.variables);
   text += info_steps_text(info.steps) + info_taken_text(inspection);
   text += assumed_text(info.assumed);
   if (info.refusal) text += "\nNot read as it is: " + printable(info.refusal->message) + "\n";

@@ -37,6 +37,8 @@ struct TakenColumns {
 
 /// What a file holds.
 struct FileInfo {
+  std::vector<std::string> sheets;     ///< all that `ReadOptions::sheet` can name: of a workbook, files of an archive
+  std::vector<std::string> variables;  ///< all that `ReadOptions::variable` can name, of which a recording may be made
   std::vector<ColumnInfo> columns;
   std::size_t rows = 0;
   std::optional<double> sample_rate_Hz;  ///< by the median time step of the part that would be read
@@ -52,5 +54,17 @@ struct FileInfo {
 /// Looks at a file without refusing it for what `read_recording` needs. Errors: those of a file without rows of
 /// numbers, and of options that name what is not there.
 Result<FileInfo> inspect_recording(const std::filesystem::path& file, const ReadOptions& options = {});
+
+/// One of the tables in a file.
+struct TableInfo {
+  std::string name;     ///< of the sheet or variable; empty where the file is one table
+  ReadOptions options;  ///< that read it
+  Result<FileInfo> info;
+};
+
+/// Looks at each table of a file (sheets of a workbook, files of an archive, groups of HDF5 or TDMS, structures of
+/// MATLAB), which is opened and read once; with a sheet or variable in `options` at that one alone.
+/// `FileInfo::recording` stays empty. Errors: those of files that cannot be opened.
+Result<std::vector<TableInfo>> inspect_tables(const std::filesystem::path& file, const ReadOptions& options = {});
 
 }  // namespace slipfit

@@ -18,7 +18,8 @@ struct DraftEntry {
   std::optional<double> speed_m_per_s;
   std::optional<double> normal_force_N;
   std::string group;
-  std::optional<std::size_t> step;  ///< where a file holds several
+  std::optional<std::size_t> step;                 ///< where a file holds several
+  std::optional<std::string> sheet{}, variable{};  ///< the same
 };
 
 struct ManifestDraft {
@@ -26,9 +27,10 @@ struct ManifestDraft {
   std::vector<Error> skipped;  ///< files that hold no recording, and why
 };
 
-/// The recordings in files and folders (with what lies below, by the usual endings). Speed and load come from columns,
-/// else from the file's name ("fdm_232g_50mm_min", "V-100mmps"); the rest of the name without a last number is the
-/// group. `options`: how each is read.
+/// The recordings in files and folders (with what lies below, by the usual endings), every sheet of a workbook and
+/// every group of an HDF5 file; not what slipfit itself has written (tables of a batch, curves, manifests). Speed and
+/// load come from columns, else from the file's name ("fdm_232g_50mm_min", "V-100mmps"); the rest of the name without a
+/// last number is the group. `options`: how each is read.
 ManifestDraft draft_manifest(const std::vector<std::filesystem::path>& paths, const ReadOptions& options = {});
 
 /// Without the recordings whose names no line of a manifest can hold; `skipped` says which. Error: bad_id.

@@ -193,19 +193,33 @@ void refuse_other_files(const Contents& contents, const std::optional<std::strin
   }
 }
 
+NumberTable table_of(hid_t file, const TableShape& shape) {
+  NumberTable table;
+  for (const ArrayShape& array : shape.arrays) add_array(file, array, table);
+  return table;
+}
+
 }  // namespace
 
-NumberTable read_hdf5(std::string file, const std::optional<std::string>& variable, std::string& chosen) {
+ReadTable read_hdf5(std::string file, const std::optional<std::string>& variable) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const std::uint64_t size = file.size();
   const Handle opened(open_in_memory(std::move(file)), H5Fclose);
   const Contents contents = contents_of(opened);
   refuse_other_files(contents, variable);
   const TableShape shape = choose_table(contents.arrays, variable, size);
-  chosen = shape.name;
-  NumberTable table;
-  for (const ArrayShape& array : shape.arrays) add_array(opened, array, table);
-  return table;
+  return {table_of(opened, shape), shape.name, names_of(recordable_tables(contents.arrays, size))};
+}
+
+void take_all_of_hdf5(std::string file, const TakeTable& take) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  const std::uint64_t size = file.size();
+  const Handle opened(open_in_memory(std::move(file)), H5Fclose);
+  const Contents contents = contents_of(opened);
+  refuse_other_files(contents, std::nullopt);
+  for (const TableShape& shape : recordable_tables(contents.arrays, size)) {
+    take(shape.name, [&] { return table_of(opened, shape); });
+  }
 }
 
 }  // namespace slipfit::reading

@@ -243,17 +243,16 @@ std::string full_name(const MatArray& array, const std::string& group) {
   return group.empty() ? array.name : group + "." + array.name;
 }
 
-}  // namespace
-
-// Of one type with read_hdf5, which gives the bytes away. NOLINTNEXTLINE(performance-unnecessary-value-param)
-NumberTable read_mat(std::string file, const std::optional<std::string>& variable, std::string& chosen) {
+std::vector<ArrayShape> arrays_in(std::string_view file) {
   std::vector<ArrayShape> arrays;
   visit_arrays(file, [&](const MatArray& array, const std::string& group) {
     // Column by column in the file: rows and columns change places.
     arrays.push_back({full_name(array, group), group, array.columns, array.rows, {}});
   });
-  const TableShape shape = choose_table(arrays, variable, file.size());
-  chosen = shape.name;
+  return arrays;
+}
+
+NumberTable table_of(std::string_view file, const TableShape& shape) {
   std::set<std::string> left;
   for (const ArrayShape& array : shape.arrays) left.insert(array.name);
   NumberTable table;
@@ -265,6 +264,22 @@ NumberTable read_mat(std::string file, const std::optional<std::string>& variabl
     add_columns(table, {name, group, array.columns, array.rows, {}}, values, array.name);
   });
   return table;
+}
+
+}  // namespace
+
+// Of one type with read_hdf5, which gives the bytes away. NOLINTNEXTLINE(performance-unnecessary-value-param)
+ReadTable read_mat(std::string file, const std::optional<std::string>& variable) {
+  const std::vector<ArrayShape> arrays = arrays_in(file);
+  const TableShape shape = choose_table(arrays, variable, file.size());
+  return {table_of(file, shape), shape.name, names_of(recordable_tables(arrays, file.size()))};
+}
+
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
+void take_all_of_mat(std::string file, const TakeTable& take) {
+  for (const TableShape& shape : recordable_tables(arrays_in(file), file.size())) {
+    take(shape.name, [&] { return table_of(file, shape); });
+  }
 }
 
 }  // namespace slipfit::reading

@@ -55,14 +55,22 @@ bool is_better(const TableShape& a, const TableShape& b) {
   return a_is_table != b_is_table ? a_is_table : numbers_in(a) > numbers_in(b);
 }
 
+bool is_too_large(const TableShape& table, std::uint64_t file_size) {
+  const std::uint64_t numbers = numbers_in(table);
+  return numbers > kMostNumbers || columns_of(table) > kMostColumns || is_bomb(8 * numbers, file_size);
+}
+
 TableShape wanted_table(const std::vector<ArrayShape>& arrays, const std::string& variable) {
   for (const ArrayShape& array : arrays) {
     if (is_called(array.name, variable)) return {array.name, {array}};
   }
+  std::optional<TableShape> best;
   for (TableShape& table : tables_of(arrays)) {
     const std::string& group = table.arrays.front().group;
-    if (!group.empty() && is_called(group, variable)) return table;
+    if (group.empty() || !is_called(group, variable) || (best && !is_better(table, *best))) continue;
+    best = std::move(table);
   }
+  if (best) return *std::move(best);
   throw Refusal({"unknown_variable", "the file holds no numbers in '" + variable + "' but in " + listed(arrays) +
                                          "; choose one with --variable"});
 }
@@ -89,13 +97,39 @@ TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::option
     auto tables = tables_of(arrays);
     chosen = *std::ranges::min_element(tables, is_better);
   }
-  const std::uint64_t numbers = numbers_in(chosen);
-  if (numbers > kMostNumbers || columns_of(chosen) > kMostColumns || is_bomb(8 * numbers, file_size)) {
+  if (is_too_large(chosen, file_size)) {
     throw Refusal({"container_too_large",
                    "'" + chosen.name +
                        "' is said to hold far more than the file, or than a recording; export a part of it as CSV"});
   }
   return chosen;
+}
+
+std::vector<TableShape> recordable_tables(const std::vector<ArrayShape>& arrays, std::uint64_t file_size) {
+  constexpr std::uint64_t kFewestRows = 16;  // of a recording
+  std::map<std::string, TableShape> by_name;
+  for (TableShape& table : tables_of(arrays)) {
+    const bool can_be_named = table.arrays.size() == 1 || !table.arrays.front().group.empty();
+    if (!can_be_named || columns_of(table) < 2 || table.arrays.front().length() < kFewestRows) continue;
+    const auto [place, is_new] = by_name.try_emplace(table.name, table);
+    if (!is_new && is_better(table, place->second)) place->second = std::move(table);
+  }
+  std::vector<TableShape> tables;
+  for (auto& [name, table] : by_name) tables.push_back(std::move(table));
+  if (tables.empty()) {
+    if (arrays.empty()) return {choose_table(arrays, std::nullopt, file_size)};  // refuses
+    auto all = tables_of(arrays);
+    tables.push_back(*std::ranges::min_element(all, is_better));
+  }
+  std::erase_if(tables, [&](const TableShape& table) { return is_too_large(table, file_size); });
+  return tables;
+}
+
+std::vector<std::string> names_of(const std::vector<TableShape>& tables) {
+  std::vector<std::string> names;
+  names.reserve(tables.size());
+  for (const TableShape& table : tables) names.push_back(table.name);
+  return names;
 }
 
 void add_columns(NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,9 +51,29 @@ bool is_called(const std::string& name, std::string wanted);
 void add_columns(NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,
                  const std::string& name);
 
-/// The table in the bytes of a file: of MATLAB 5 to 7; of HDF5, which MATLAB 7.3 writes, too. `chosen`: what of it was
-/// read. Throw Refusal.
-NumberTable read_mat(std::string file, const std::optional<std::string>& variable, std::string& chosen);
-NumberTable read_hdf5(std::string file, const std::optional<std::string>& variable, std::string& chosen);
+/// Those that --variable can name, each name once, of which a recording may be made: at least two columns and 16 rows.
+/// Without any the one that choose_table takes. Throws Refusal.
+std::vector<TableShape> recordable_tables(const std::vector<ArrayShape>& arrays, std::uint64_t file_size);
+
+/// A table that was read, and the names of all that could have been.
+struct ReadTable {
+  NumberTable table;
+  std::string name;
+  std::vector<std::string> all;
+};
+
+/// The table in the bytes of a file: of MATLAB 5 to 7; of HDF5, which MATLAB 7.3 writes, too. Throw Refusal.
+ReadTable read_mat(std::string file, const std::optional<std::string>& variable);
+ReadTable read_hdf5(std::string file, const std::optional<std::string>& variable);
+
+/// Called with the name of a table and what reads it, which may throw Refusal.
+using TakeTable = std::function<void(const std::string& name, const std::function<NumberTable()>& read)>;
+
+/// All recordable tables of such a file.
+void take_all_of_mat(std::string file, const TakeTable& take);
+void take_all_of_hdf5(std::string file, const TakeTable& take);
+
+/// The names of tables.
+std::vector<std::string> names_of(const std::vector<TableShape>& tables);
 
 }  // namespace slipfit::reading

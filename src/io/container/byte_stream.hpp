@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,9 @@ struct ContainerChoice {
   std::optional<std::string> variable;  ///< of a .mat file, dataset of HDF5, group of TDMS
 };
 
+/// How a choice names the tables of a file: by a sheet, by a variable, or not at all since there is one.
+enum class TableKind { One, Sheet, Variable };
+
 /// The text in a file, whatever it is packed in.
 struct TextStream {
   std::unique_ptr<ByteStream> bytes;
@@ -41,6 +45,8 @@ struct TextStream {
   std::size_t size = 0;                      ///< of the text; 0 where it is not known
   std::string start;                         ///< first bytes of the file, which are still to be read
   std::vector<std::string> assumed;          ///< sentences about the container
+  std::vector<std::string> tables;           ///< that a choice can name
+  TableKind table_kind = TableKind::One;
   Warnings warnings;
 };
 
@@ -50,5 +56,20 @@ TextStream open_plain(const std::filesystem::path& file);
 /// A file that open_plain opened, unpacked where the first bytes say that it is a container; `name`: as messages show
 /// it. Errors: those of containers, no_container.
 TextStream unpacked(TextStream file, const std::string& name, const ContainerChoice& choice);
+
+/// A table of a container, as a choice names it. `open` unpacks it; its errors are those of containers.
+struct PackedTable {
+  std::string name;
+  std::function<TextStream()> open;
+};
+
+/// Called with the tables of a container one after another; the text of one is not read after the call.
+using TableVisitor = std::function<void(const PackedTable& table)>;
+
+/// Of a file that open_plain opened.
+TableKind table_kind_of(const TextStream& file);
+
+/// Visits the tables of a container, whose bytes are read once. Errors: those of containers.
+void visit_tables(TextStream file, const std::string& name, const TableVisitor& visit);
 
 }  // namespace slipfit::reading

@@ -15,6 +15,13 @@ namespace slipfit::reading {
 /// `packed`: the bytes of the whole file, which are read once; `name`: as messages show it.
 using OpenFormat = TextStream(TextStream packed, const std::string& name, const ContainerChoice& choice);
 
+/// Visits all tables of the container.
+using VisitFormat = void(TextStream packed, const std::string& name, const TableVisitor& visit);
+VisitFormat visit_zip;
+VisitFormat visit_tdms;
+VisitFormat visit_hdf5;
+VisitFormat visit_mat;
+
 /// Unpacked while it is read. Error: not_built_in.
 OpenFormat open_gzip;
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
@@ -224,15 +225,106 @@ std::unique_ptr<ProgramStream> start(const Helper& helper, const FileHandle& inp
   throw ThrownError({"not_readable", name + ": " + helper.program + " cannot be started; check its permissions"});
 }
 
+Helper array_reader(const std::string& kind) {
+  return {"slipfit-hdf5", {kind, kFileOfHelper}, "a MATLAB or HDF5 file", "libhdf5-dev"};
+}
+
+std::string sentence_of(const std::string& table) {
+  return "Of the file '" + printable(table) + "' was read.";
+}
+
 TextStream open_with_reader(const char* kind, TextStream packed, const std::string& name,
                             const ContainerChoice& choice) {
-  Helper helper{"slipfit-hdf5", {kind, kFileOfHelper}, "a MATLAB or HDF5 file", "libhdf5-dev"};
+  Helper helper = array_reader(kind);
   if (choice.variable) helper.arguments.push_back(*choice.variable);
   HelperOutput read = run_helper(helper, std::move(packed), name);
   TextStream text;
+  std::istringstream names(read.first);
+  std::string table;
+  std::getline(names, table, '\t');
+  text.assumed.push_back(sentence_of(table));
+  while (std::getline(names, table, '\t')) text.tables.push_back(table);
   text.bytes = std::move(read.bytes);
-  text.assumed.push_back("Of the file '" + printable(read.first) + "' was read.");
   return text;
+}
+
+/// The tables that slipfit-hdf5 writes one after another, each in pieces.
+class TablePieces {
+ public:
+  TablePieces(std::unique_ptr<ByteStream> bytes, std::string name) : bytes_(std::move(bytes)), name_(std::move(name)) {}
+
+  /// Up to the next line end; empty at the end of all.
+  std::string line() {
+    constexpr std::size_t kLongest = std::size_t{64} * 1024;
+    std::string text;
+    char c = '\0';
+    while (text.size() < kLongest && bytes_->read(&c, 1) == 1 && c != '\n') text += c;
+    return text;
+  }
+  /// Of the table whose name was read. Error: what its first line says.
+  void begin() { next_piece(); }
+  std::size_t read(char* buffer, std::size_t size) {
+    std::size_t count = 0;
+    while (count < size && left_ > 0) {
+      const std::size_t got = bytes_->read(buffer + count, std::min(size - count, left_));
+      if (got == 0) throw damaged(name_, "the file is damaged");
+      count += got;
+      left_ -= got;
+      if (left_ == 0) next_piece();
+    }
+    return count;
+  }
+  void skip_rest() {
+    std::vector<char> unread(std::size_t{64} * 1024);
+    while (read(unread.data(), unread.size()) > 0) continue;
+  }
+
+ private:
+  void next_piece() {
+    const std::string head = line();
+    left_ = 0;
+    if (head.starts_with('!')) {
+      const std::size_t blank = std::min(head.find(' '), head.size());
+      throw ThrownError({head.substr(1, blank - 1), name_ + ": " + printable(head.substr(blank))});
+    }
+    const auto [end, error] = std::from_chars(head.data(), head.data() + head.size(), left_);
+    if (error != std::errc() || end != head.data() + head.size()) throw damaged(name_, "the file is damaged");
+  }
+
+  std::unique_ptr<ByteStream> bytes_;
+  std::string name_;
+  std::size_t left_ = 0;  ///< of the piece
+};
+
+class PieceStream final : public ByteStream {
+ public:
+  explicit PieceStream(std::shared_ptr<TablePieces> pieces) : pieces_(std::move(pieces)) {}
+  std::size_t read(char* buffer, std::size_t size) override { return pieces_->read(buffer, size); }
+
+ private:
+  std::shared_ptr<TablePieces> pieces_;
+};
+
+void visit_with_reader(const char* kind, TextStream packed, const std::string& name, const TableVisitor& visit) {
+  HelperOutput output = run_helper(array_reader(kind), std::move(packed), name);
+  const auto pieces = std::make_shared<TablePieces>(std::move(output.bytes), name);
+  for (std::string line = "=" + output.first; line.starts_with('='); line = pieces->line()) {
+    const std::string table = line.substr(1);
+    bool has_begun = false;
+    const auto begin = [&] {
+      has_begun = true;
+      pieces->begin();
+    };
+    visit({table, [&] {
+             begin();
+             TextStream text;
+             text.bytes = std::make_unique<PieceStream>(pieces);
+             text.assumed.push_back(sentence_of(table));
+             return text;
+           }});
+    if (!has_begun) begin();
+    pieces->skip_rest();
+  }
 }
 
 }  // namespace
@@ -253,6 +345,14 @@ TextStream open_hdf5(TextStream packed, const std::string& name, const Container
 
 TextStream open_mat(TextStream packed, const std::string& name, const ContainerChoice& choice) {
   return open_with_reader("mat", std::move(packed), name, choice);
+}
+
+void visit_hdf5(TextStream packed, const std::string& name, const TableVisitor& visit) {
+  visit_with_reader("hdf5-all", std::move(packed), name, visit);
+}
+
+void visit_mat(TextStream packed, const std::string& name, const TableVisitor& visit) {
+  visit_with_reader("mat-all", std::move(packed), name, visit);
 }
 
 }  // namespace slipfit::reading

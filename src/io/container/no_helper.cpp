@@ -9,19 +9,42 @@
 namespace slipfit::reading {
 namespace {
 
-using ReadTable = NumberTable(std::string file, const std::optional<std::string>& variable, std::string& chosen);
-
-TextStream open_arrays(ReadTable* read, TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  std::string file = read_all(packed, name);
+/// What `work()` returns; a Refusal gets the name of the file.
+template <class Work>
+auto with_name(const std::string& name, const Work& work) {
   try {
-    TextStream text;
-    std::string chosen;
-    text.bytes = text_of(read(std::move(file), choice.variable, chosen));
-    text.assumed.push_back("Of the file '" + printable(chosen) + "' was read.");
-    return text;
+    return work();
   } catch (const Refusal& refusal) {
     throw ThrownError({refusal.error().code, name + ": " + printable(refusal.error().message)});
   }
+}
+
+TextStream text_of_table(NumberTable table, const std::string& name) {
+  TextStream text;
+  text.bytes = text_of(std::move(table));
+  text.assumed.push_back("Of the file '" + printable(name) + "' was read.");
+  return text;
+}
+
+using ReadOne = ReadTable(std::string file, const std::optional<std::string>& variable);
+
+TextStream open_arrays(ReadOne* read, TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  std::string file = read_all(packed, name);
+  ReadTable found = with_name(name, [&] { return read(std::move(file), choice.variable); });
+  TextStream text = text_of_table(std::move(found.table), found.name);
+  text.tables = std::move(found.all);
+  return text;
+}
+
+using TakeAll = void(std::string file, const TakeTable& take);
+
+void visit_arrays_of(TakeAll* take_all, TextStream packed, const std::string& name, const TableVisitor& visit) {
+  std::string file = read_all(packed, name);
+  with_name(name, [&] {
+    take_all(std::move(file), [&](const std::string& table, const std::function<NumberTable()>& read) {
+      visit({table, [&] { return text_of_table(with_name(name, read), table); }});
+    });
+  });
 }
 
 }  // namespace
@@ -38,6 +61,14 @@ TextStream open_hdf5(TextStream packed, const std::string& name, const Container
 
 TextStream open_mat(TextStream packed, const std::string& name, const ContainerChoice& choice) {
   return open_arrays(read_mat, std::move(packed), name, choice);
+}
+
+void visit_hdf5(TextStream packed, const std::string& name, const TableVisitor& visit) {
+  visit_arrays_of(take_all_of_hdf5, std::move(packed), name, visit);
+}
+
+void visit_mat(TextStream packed, const std::string& name, const TableVisitor& visit) {
+  visit_arrays_of(take_all_of_mat, std::move(packed), name, visit);
 }
 
 }  // namespace slipfit::reading

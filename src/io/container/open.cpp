@@ -85,6 +85,7 @@ struct Format {
   std::string_view magic;
   std::size_t offset = 0;
   OpenFormat* open = nullptr;
+  VisitFormat* visit = nullptr;  ///< nothing: it holds one table
   std::string_view kind;
   std::string_view option;
 };
@@ -93,14 +94,15 @@ using namespace std::string_view_literals;
 constexpr std::string_view kSheet = "--sheet";
 constexpr std::string_view kVariable = "--variable";
 constexpr std::array kFormats = std::to_array<Format>({
-    {"\x1F\x8B"sv, 0, open_gzip, "text packed with gzip", {}},
-    {"PK\x03\x04"sv, 0, open_zip, "a workbook or a zip archive", kSheet},
-    {"TDSm"sv, 0, open_tdms, "a TDMS file", kVariable},
-    {"\x89HDF\r\n\x1a\n"sv, 0, open_hdf5, "an HDF5 file", kVariable},
-    {"MATLAB 5.0 MAT-file"sv, 0, open_mat, "a MATLAB file", kVariable},
-    {"\x89HDF\r\n\x1a\n"sv, 512, open_hdf5, "a MATLAB file", kVariable},  // behind a block of the user's own
-    {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv, 0, open_old_workbook, {}, {}},
-    {{}, 0, nullptr, "plain text", {}},
+    {"\x1F\x8B"sv, 0, open_gzip, nullptr, "text packed with gzip", {}},
+    {"PK\x03\x04"sv, 0, open_zip, visit_zip, "a workbook or a zip archive", kSheet},
+    {"TDSm"sv, 0, open_tdms, visit_tdms, "a TDMS file", kVariable},
+    {"\x89HDF\r\n\x1a\n"sv, 0, open_hdf5, visit_hdf5, "an HDF5 file", kVariable},
+    {"MATLAB 5.0 MAT-file"sv, 0, open_mat, visit_mat, "a MATLAB file", kVariable},
+    {"\x89HDF\r\n\x1a\n"sv, 512, open_hdf5, visit_hdf5, "a MATLAB file",
+     kVariable},  // behind a block of the user's own
+    {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv, 0, open_old_workbook, nullptr, {}, {}},
+    {{}, 0, nullptr, nullptr, "plain text", {}},
 });
 
 const Format& format_of(std::string_view start) {
@@ -149,14 +151,34 @@ TextStream open_plain(const std::filesystem::path& file) {
   return open_bytes(file);
 }
 
+TableKind table_kind_of(const TextStream& file) {
+  const Format& format = format_of(file.start);
+  if (format.visit == nullptr) return TableKind::One;
+  return format.option == kSheet ? TableKind::Sheet : TableKind::Variable;
+}
+
 TextStream unpacked(TextStream file, const std::string& name, const ContainerChoice& choice) {
   const Format& format = format_of(file.start);
   check_choice(format, choice, name);
   if (format.open == nullptr) return file;
   auto digester = file.digester;
+  const TableKind kind = table_kind_of(file);
   TextStream text = format.open(std::move(file), name, choice);
+  text.table_kind = kind;
   text.digester = std::move(digester);
   return text;
+}
+
+void visit_tables(TextStream file, const std::string& name, const TableVisitor& visit) {
+  const auto digester = file.digester;
+  const Format& format = format_of(file.start);
+  format.visit(std::move(file), name, [&](const PackedTable& table) {
+    visit({table.name, [&] {
+             TextStream text = table.open();
+             text.digester = digester;
+             return text;
+           }});
+  });
 }
 
 std::optional<std::string> read_all(ByteStream& stream, std::size_t most) {

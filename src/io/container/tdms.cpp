@@ -51,32 +51,40 @@ NumberTable table_of(const std::vector<TdmsChannel>& channels, const std::string
   return table;
 }
 
-/// The group with the most values, or the one that was asked for.
-std::string choose_group(const std::vector<TdmsChannel>& channels, const std::string& name,
-                         const ContainerChoice& choice) {
+/// The number of values in each group that has any.
+std::map<std::string, std::size_t> values_by_group(const std::vector<TdmsChannel>& channels, const std::string& name) {
   std::map<std::string, std::size_t> values;
   for (const TdmsChannel& channel : channels) {
     if (!channel.values.empty()) values[names_in(channel.path).first] += channel.values.size();
   }
   if (values.empty()) throw damaged(name, "the TDMS file holds no channel of numbers");
+  return values;
+}
+
+std::vector<std::string> names_of(const std::map<std::string, std::size_t>& values) {
   std::vector<std::string> groups;
   groups.reserve(values.size());
   for (const auto& [group, count] : values) groups.push_back(group);
+  return groups;
+}
+
+/// The group with the most values, or the one that was asked for.
+std::string choose_group(const std::map<std::string, std::size_t>& values, const std::string& name,
+                         const ContainerChoice& choice) {
   if (choice.variable) {
     if (values.contains(*choice.variable)) return *choice.variable;
     throw ThrownError(
-        {"unknown_variable",
-         fmt::format("{}: the TDMS file holds no group '{}' with numbers but '{}'; choose "
-                     "one with --variable",
-                     name, printable(*choice.variable), printable(fmt::format("{}", fmt::join(groups, "', '"))))});
+        {"unknown_variable", fmt::format("{}: the TDMS file holds no group '{}' with numbers but '{}'; choose "
+                                         "one with --variable",
+                                         name, printable(*choice.variable),
+                                         printable(fmt::format("{}", fmt::join(names_of(values), "', '"))))});
   }
   return std::ranges::max_element(values, [](const auto& a, const auto& b) { return a.second < b.second; })->first;
 }
 
-}  // namespace
-
-TextStream open_tdms(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  const auto tdms = read_tdms(read_all(packed, name));
+/// Errors: damaged_container, container_too_large, daqmx_channels.
+TdmsContent read_file(TextStream packed, const std::string& name) {
+  auto tdms = read_tdms(read_all(packed, name));
   if (!tdms) throw damaged(name, "the TDMS file is cut off or damaged");
   for (const TdmsChannel& channel : tdms->channels) {
     if (!channel.is_daqmx && !channel.is_scaled) continue;
@@ -85,17 +93,37 @@ TextStream open_tdms(TextStream packed, const std::string& name, const Container
                                        "it as scaled values or CSV",
                                        name, printable(names_in(channel.path).second))});
   }
-  const std::string group = choose_group(tdms->channels, name, choice);
+  return *std::move(tdms);
+}
+
+TextStream text_of_group(const TdmsContent& tdms, const std::string& group) {
   TextStream text;
-  text.bytes = text_of(table_of(tdms->channels, group));
+  text.bytes = text_of(table_of(tdms.channels, group));
   text.assumed.push_back(fmt::format("Group '{}' of the TDMS file was read.", printable(group)));
-  if (tdms->bytes_left_over > 0) {
+  if (tdms.bytes_left_over > 0) {
     text.warnings.push_back(
         {"container_cut", fmt::format("the last block of the TDMS file is cut off: its {} bytes were left out; if "
                                       "samples are missing, copy the file again",
-                                      tdms->bytes_left_over)});
+                                      tdms.bytes_left_over)});
   }
   return text;
+}
+
+}  // namespace
+
+TextStream open_tdms(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  const TdmsContent tdms = read_file(std::move(packed), name);
+  const auto values = values_by_group(tdms.channels, name);
+  TextStream text = text_of_group(tdms, choose_group(values, name, choice));
+  text.tables = names_of(values);
+  return text;
+}
+
+void visit_tdms(TextStream packed, const std::string& name, const TableVisitor& visit) {
+  const TdmsContent tdms = read_file(std::move(packed), name);
+  for (const std::string& group : names_of(values_by_group(tdms.channels, name))) {
+    visit({group, [&] { return text_of_group(tdms, group); }});
+  }
 }
 
 }  // namespace slipfit::reading

@@ -239,20 +239,36 @@ std::string sheet_text(const pugi::xml_document& sheet, const Workbook& workbook
 
 }  // namespace
 
-TextStream open_workbook(const ZipArchive& archive, const std::string& name, const ContainerChoice& choice) {
-  const Workbook workbook = read_workbook(archive, name);
-  const std::vector<Sheet>& sheets = workbook.sheets;
+namespace {
+
+std::vector<std::string> names_of(const std::vector<Sheet>& sheets, const std::string& name) {
   if (sheets.empty()) throw damaged(name, "the workbook holds no sheet");
   std::vector<std::string> names;
   names.reserve(sheets.size());
   for (const Sheet& sheet : sheets) names.push_back(sheet.name);
-  const auto largest =
-      std::ranges::max_element(sheets, [](const Sheet& a, const Sheet& b) { return a.bytes < b.bytes; });
-  const Sheet& chosen = choice.sheet ? sheets[find_named(names, *choice.sheet, name)] : *largest;
-  std::string text = sheet_text(part_of(archive, chosen.path, kMostSheetBytes, name), workbook, name);
+  return names;
+}
+
+TextStream text_of_sheet(const ZipArchive& archive, const Workbook& workbook, const Sheet& sheet,
+                         const std::string& name) {
+  std::string text = sheet_text(part_of(archive, sheet.path, kMostSheetBytes, name), workbook, name);
   TextStream stream;
   stream.size = text.size();
   stream.bytes = text_of(std::move(text));
+  return stream;
+}
+
+}  // namespace
+
+TextStream open_workbook(const ZipArchive& archive, const std::string& name, const ContainerChoice& choice) {
+  const Workbook workbook = read_workbook(archive, name);
+  const std::vector<Sheet>& sheets = workbook.sheets;
+  const std::vector<std::string> names = names_of(sheets, name);
+  const auto largest =
+      std::ranges::max_element(sheets, [](const Sheet& a, const Sheet& b) { return a.bytes < b.bytes; });
+  const Sheet& chosen = choice.sheet ? sheets[find_named(names, *choice.sheet, name)] : *largest;
+  TextStream stream = text_of_sheet(archive, workbook, chosen, name);
+  stream.tables = names;
   stream.assumed.push_back(
       sheets.size() == 1 ? fmt::format("Sheet '{}' of the workbook was read.", printable(chosen.name))
                          : fmt::format("Sheet '{}' of {} in the workbook was read{}.", printable(chosen.name),
@@ -260,10 +276,22 @@ TextStream open_workbook(const ZipArchive& archive, const std::string& name, con
   return stream;
 }
 
+void visit_workbook(const ZipArchive& archive, const std::string& name, const TableVisitor& visit) {
+  const Workbook workbook = read_workbook(archive, name);
+  (void)names_of(workbook.sheets, name);
+  for (const Sheet& sheet : workbook.sheets) {
+    visit({sheet.name, [&] { return text_of_sheet(archive, workbook, sheet, name); }});
+  }
+}
+
 #else
 
 TextStream open_workbook(const ZipArchive& /*archive*/, const std::string& name, const ContainerChoice& /*choice*/) {
   throw not_built_in(name, "a workbook (.xlsx)", "libpugixml-dev");
+}
+
+void visit_workbook(const ZipArchive& archive, const std::string& name, const TableVisitor& /*visit*/) {
+  (void)open_workbook(archive, name, {});
 }
 
 #endif

@@ -154,31 +154,61 @@ std::string ZipArchive::content(const std::string& member, std::size_t most) con
   return *std::move(text);
 }
 
-TextStream open_zip(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  const ZipArchive archive = ZipArchive::open(read_all(packed, name), name);
-  if (archive.find("xl/workbook.xml") != nullptr) return open_workbook(archive, name, choice);
+namespace {
+
+std::vector<std::string> files_in(const ZipArchive& archive, const std::string& name) {
   std::vector<std::string> names;
   for (const ZipMember& member : archive.members()) {
     if (is_file(member)) names.push_back(member.name);
   }
   if (names.empty()) throw damaged(name, "the zip archive holds no file");
-  if (names.size() > 1 && !choice.sheet) {
-    throw ThrownError(
-        {"unknown_sheet", fmt::format("{}: the zip archive holds {} files ({}, {}, ...); unpack it, or name one "
-                                      "with --sheet",
-                                      name, names.size(), printable(names[0]), printable(names[1]))});
-  }
-  const std::string member = names[choice.sheet ? find_named(names, *choice.sheet, name) : 0];
+  return names;
+}
+
+TextStream text_of_member(const ZipArchive& archive, const std::string& member) {
   TextStream text;
   text.bytes = archive.stream(member);
   text.assumed.push_back(fmt::format("The file is packed (zip): '{}' was read.", printable(member)));
   return text;
 }
 
+bool is_workbook(const ZipArchive& archive) {
+  return archive.find("xl/workbook.xml") != nullptr;
+}
+
+}  // namespace
+
+TextStream open_zip(TextStream packed, const std::string& name, const ContainerChoice& choice) {
+  const ZipArchive archive = ZipArchive::open(read_all(packed, name), name);
+  if (is_workbook(archive)) return open_workbook(archive, name, choice);
+  const std::vector<std::string> names = files_in(archive, name);
+  if (names.size() > 1 && !choice.sheet) {
+    throw ThrownError(
+        {"unknown_sheet", fmt::format("{}: the zip archive holds {} files ({}, {}, ...); unpack it, or name one "
+                                      "with --sheet",
+                                      name, names.size(), printable(names[0]), printable(names[1]))});
+  }
+  TextStream text = text_of_member(archive, names[choice.sheet ? find_named(names, *choice.sheet, name) : 0]);
+  text.tables = names;
+  return text;
+}
+
+void visit_zip(TextStream packed, const std::string& name, const TableVisitor& visit) {
+  const ZipArchive archive = ZipArchive::open(read_all(packed, name), name);
+  if (is_workbook(archive)) return visit_workbook(archive, name, visit);
+  for (const std::string& member : files_in(archive, name)) {
+    visit({member, [&] { return text_of_member(archive, member); }});
+  }
+}
+
 #else
 
 TextStream open_zip(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
   throw not_built_in(name, "a zip archive or a workbook (.xlsx)", "zlib1g-dev, libminizip-dev and libpugixml-dev");
+}
+
+void visit_zip(TextStream packed, const std::string& name, const TableVisitor& /*visit*/) {
+  (void)open_zip(std::move(packed), name, {});
 }
 
 #endif
