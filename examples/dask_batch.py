@@ -22,10 +22,10 @@ def row_of(entry, folder):
     file = os.path.join(folder, entry["file"])
     said = {name: entry[column] for column, name in READ.items() if entry.get(column)}
     try:
-        row = sf.fit(sf.read_recording(file, **said), name=entry["id"]).row()
+        row = sf.fit(sf.read_recording(file, **said), name=entry["id"]).row(text=True)
     except sf.Error as error:
         row = {"status": "failed", "error": error.code}
-    return {**row, "id": entry["id"], "group": entry.get("group") or None, "file": file}
+    return {**row, "id": entry["id"], "group": entry.get("group") or "", "file": file}
 
 
 def rows_of(manifest, client):

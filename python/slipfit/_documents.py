@@ -24,9 +24,11 @@ def frame_of_csv(text: str) -> "pd.DataFrame":
     return pandas.read_csv(io.StringIO(text), float_precision="round_trip")
 
 
-def row_of(lines: Tuple[str, str]) -> Dict[str, Union[str, int, float, None]]:
-    """A line of names and a line of cells: numbers as numbers, names as text, an empty cell is None."""
+def row_of(lines: Tuple[str, str], text: bool) -> Dict[str, Union[str, int, float, None]]:
+    """A line of names and a line of cells: numbers as numbers, names as text, an empty cell is None; or all cells as text."""
     names, cells = csv.reader(line.rstrip("\n") for line in lines)
+    if text:
+        return dict(zip(names, cells))
     return {name: _cell(text, name in ("id", "group", "file")) for name, text in zip(names, cells)}
 
 

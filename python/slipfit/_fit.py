@@ -261,9 +261,15 @@ class Fit:
 
         return arviz.InferenceData(posterior=self.to_xarray(n, seed=seed))
 
-    def row(self) -> Dict[str, Union[str, int, float, None]]:
-        """The row of summary.csv, without the manifest's ``row``: None where a cell is empty."""
-        return row_of(_slipfit.summary_row(self.to_json(), self.id))
+    def row(self, *, text: bool = False) -> Dict[str, Union[str, int, float, None]]:
+        """The row of summary.csv, without the manifest's ``row``: None where a cell is empty.
+
+        Parameters
+        ----------
+        text : bool
+            The cells as summary.csv has them, digit for digit.
+        """
+        return row_of(_slipfit.summary_row(self.to_json(), self.id), text)
 
     # Tables and arrays
 

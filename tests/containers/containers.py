@@ -38,7 +38,7 @@ def numbers(file, *options):
     assert done.returncode == 0, f"{file}: {done.stderr}"
     document = json.loads(done.stdout)
     del document["id"]
-    for key in ("file", "input_digest", "input_bytes", "assumed"):
+    for key in ("file", "input_digest", "input_bytes", "assumed", "options"):
         del document["recording"][key]
     return document
 
