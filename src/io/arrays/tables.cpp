@@ -55,6 +55,11 @@ bool is_better(const TableShape& a, const TableShape& b) {
   return a_is_table != b_is_table ? a_is_table : numbers_in(a) > numbers_in(b);
 }
 
+/// By an array, or by the group of its vectors.
+bool can_be_named(const TableShape& table) {
+  return table.arrays.size() == 1 || !table.arrays.front().group.empty();
+}
+
 bool is_too_large(const TableShape& table, std::uint64_t file_size) {
   const std::uint64_t numbers = numbers_in(table);
   return numbers > kMostNumbers || columns_of(table) > kMostColumns || is_bomb(8 * numbers, file_size);
@@ -109,8 +114,7 @@ std::vector<TableShape> recordable_tables(const std::vector<ArrayShape>& arrays,
   constexpr std::uint64_t kFewestRows = 16;  // of a recording
   std::map<std::string, TableShape> by_name;
   for (TableShape& table : tables_of(arrays)) {
-    const bool can_be_named = table.arrays.size() == 1 || !table.arrays.front().group.empty();
-    if (!can_be_named || columns_of(table) < 2 || table.arrays.front().length() < kFewestRows) continue;
+    if (!can_be_named(table) || columns_of(table) < 2 || table.arrays.front().length() < kFewestRows) continue;
     const auto [place, is_new] = by_name.try_emplace(table.name, table);
     if (!is_new && is_better(table, place->second)) place->second = std::move(table);
   }
@@ -128,7 +132,9 @@ std::vector<TableShape> recordable_tables(const std::vector<ArrayShape>& arrays,
 std::vector<std::string> names_of(const std::vector<TableShape>& tables) {
   std::vector<std::string> names;
   names.reserve(tables.size());
-  for (const TableShape& table : tables) names.push_back(table.name);
+  for (const TableShape& table : tables) {
+    if (can_be_named(table)) names.push_back(table.name);
+  }
   return names;
 }
 

@@ -73,7 +73,7 @@ using TakeTable = std::function<void(const std::string& name, const std::functio
 void take_all_of_mat(std::string file, const TakeTable& take);
 void take_all_of_hdf5(std::string file, const TakeTable& take);
 
-/// The names of tables.
+/// The names of the tables that --variable can name.
 std::vector<std::string> names_of(const std::vector<TableShape>& tables);
 
 }  // namespace slipfit::reading
