@@ -136,8 +136,11 @@ def broken_promises(node, key="document", signed=MAY_BE_NEGATIVE):
         yield f"{key}: {value} outside {ends}"
     if ends and ends[0] < 0 and not signed.search(key):
         yield f"{key}: {ends} reaches below 0"
-    if "note" in node and node.get("status") in ("identified", "weak", "bounded", "fixed") and (value is None or ends is None):
-        yield f"{key}: {node['status']} without a value or an interval"
+    status = node.get("status") if "note" in node else None
+    if status in ("identified", "weak", "fixed") and (value is None or ends is None):
+        yield f"{key}: {status} without a value or an interval"
+    if status == "bounded" and (value is not None or ends is None):
+        yield f"{key}: bounded with a value, or without an interval"
     for name, child in node.items():
         yield from broken_promises(child, name, signed)
 

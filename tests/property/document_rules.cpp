@@ -105,7 +105,9 @@ class Walk {
 
   void check_status(const json& node, const std::string& place) {
     const bool is_known = node["status"] != "unidentified";
-    demand(is_known == node["value"].is_number(), place, node["status"].dump() + " with value " + node["value"].dump());
+    const bool has_value = is_known && node["status"] != "bounded";
+    demand(has_value == node["value"].is_number(), place,
+           node["status"].dump() + " with value " + node["value"].dump());
     demand(!is_known || node["ci95"].is_array(), place, node["status"].dump() + " without an interval");
     demand(is_known || !node["note"].get<std::string>().empty(), place, "unidentified without a reason");
   }
