@@ -61,8 +61,8 @@ inline constexpr double kMainsRhythm = 5e-3;
 inline constexpr double kNoiseDrop = 14.0;
 
 /// Drop over noise, above which irregular falls of a trace that is not smooth are those of a body that moves.
-/// [1; derived: twice kNoiseDrop, since between neighbouring scales the median drop over the noise differs by up to a
-/// third]
+/// [1; calibrated: twice kNoiseDrop; the figure of one measured recording differs by a third between the scales at
+/// which its falls are seen]
 inline constexpr double kClearDrop = 2.0 * kNoiseDrop;
 
 /// Time of a rise over that of a fall, above which falls are sudden. [1; derived: 1 for waves and noise, at least 2.3
