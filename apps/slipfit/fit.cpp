@@ -143,8 +143,12 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
   command->add_option("--surface", arguments->analysis.surface.file,
                       "Profile or image of the worn track: is its pattern that of the slips?");
   add_profile_options(*command, arguments->analysis.surface);
-  command->add_option("--joint", arguments->sweep,
-                      "Manifest (CSV), or several recordings: one set of parameters for them");
+  command
+      ->add_option("--joint", arguments->sweep, "Manifest (CSV), or several recordings: one set of parameters for them")
+      ->check([](const std::string& value) {
+        return value.starts_with("--") ? "needs a manifest or recordings right behind it, other options after these"
+                                       : "";
+      });
   command->add_option("--group", arguments->group, "With --joint: this group of the manifest");
   command->add_option("--only", arguments->only, "With --joint: these recordings (ID,ID,...)")->delimiter(',');
   command->callback([arguments, command] { run(*arguments, *command); });

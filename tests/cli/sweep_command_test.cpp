@@ -104,6 +104,7 @@ TEST_CASE("fit --joint refuses what it cannot do, in one line") {
   const std::string run = example.folder.path("slow.csv");
   check_refused({"fit", run, "--joint", example.manifest}, "REC does not go with --joint");
   check_refused({"fit", "--joint", example.folder.path("none.csv")}, "none.csv");
+  check_refused({"fit", "--joint", "--tier", "velocity", example.manifest}, "right behind it");
   check_refused({"fit", "--joint", example.manifest, "--group", "nobody"}, "nobody");
   check_refused({"fit", "--joint", example.manifest, "--only", "slow,nobody"}, "nobody");
   check_refused({"fit", "--joint", example.manifest, "--speed", "1"}, "--speed does not go with --joint");
