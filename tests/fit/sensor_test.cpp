@@ -85,14 +85,15 @@ TEST_CASE("a slip seen through a slow sensor gives its parameters back") {
   CHECK_FALSE(has_warning(analysis, "model_misfit"));
 }
 
-TEST_CASE("without the stated bandwidth the natural frequency of slips behind a lag is not told") {
-  // Slips that start late and end late look like friction that weakens seen through an average: docs/accuracy.md says
-  // what the Coulomb fit alone would make of them, w_n 5 % low at w_n T = 0.3.
+TEST_CASE("without the stated bandwidth the same slip gives another natural frequency") {
   const Scene s{.jitter = 0.03, .noise = 0.01};
   const Analysis analysis = analyze_and_fit(through_sensor(s, 0.3 / s.omega));
-  CHECK(parameter(analysis, "natural_frequency_rad_per_s").status != ParameterStatus::Identified);
-  CHECK(parameter(analysis, "damping_ratio").status != ParameterStatus::Identified);
-  check_truth(analysis, "stiffness_N_per_m", s.stiffness);
+  const Parameter& frequency = parameter(analysis, "natural_frequency_rad_per_s");
+  // What docs/accuracy.md says that it costs: 5 % of w_n at w_n T = 0.3.
+  CHECK(*frequency.estimate.value == Approx(0.95 * s.omega).epsilon(0.01));
+  // Friction that weakens and an average explain such slips, too: the interval holds what they say.
+  CHECK(frequency.status == ParameterStatus::Weak);
+  CHECK(frequency.estimate.ci95->high > s.omega);
 }
 
 TEST_CASE("a sensor that has not forgotten one slip when the next begins is warned of") {

@@ -124,11 +124,6 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Damp
       }
     }
   }
-  if (!(both->gain > thresholds::kTierPrice)) return trial;
-  if (stacked_residual(both->fit.blocks, coulomb.blocks).size > thresholds::kHalvedStack * before.size) return trial;
-  trial.fall_doubt =
-      "friction that weakens over a slip distance and an average of the sensor together explain the slips better "
-      "than either, and the data cannot separate them: state the averaging time with --sensor-average";
   return trial;
 }
 
