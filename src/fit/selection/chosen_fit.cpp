@@ -41,8 +41,7 @@ Chosen with_weakening(Chosen chosen, const FitInput& input, std::optional<Tier> 
   for (const DampedFit& rival : trial.rivals) {
     chosen.fits.damped = beside_rival(std::move(chosen.fits.damped), rival);
   }
-  chosen.fits.damped.average_doubt = trial.fall_doubt;
-  if (chosen.fits.damped.fall_doubt.empty()) chosen.fits.damped.fall_doubt = trial.fall_doubt;
+  chosen.fits.damped.average_doubt = trial.average_doubt;
   chosen.candidates.push_back(std::move(candidate));
   if (trial.warning) chosen.warnings.push_back(*std::move(trial.warning));
   return chosen;

@@ -148,11 +148,12 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
     const double gain = gain_on_same_samples(*trial.fit, coulomb) + (coulomb.average ? 2.0 : 0.0);
     trial.candidate = judged(std::move(trial.candidate), *trial.fit, coulomb, gain, missed);
     if (coulomb.average && !trial.candidate.chosen && gain > -thresholds::kTierPrice) {
-      trial.fall_doubt = fmt::format(
+      trial.average_doubt = fmt::format(
           "friction that weakens over a slip distance of {:.2g} um explains the slips as well as the average of the "
           "sensor: the data cannot separate the two",
           1e6 * slip_distance_m(*trial.fit));
-      trial.warning = Warning{"samples_averaged", trial.fall_doubt};
+      trial.warning = Warning{"samples_averaged", trial.average_doubt};
+      trial.rivals.push_back(*trial.fit);
     }
   } else {
     trial.candidate.reason =

@@ -13,8 +13,8 @@ namespace slipfit::fit {
 struct WeakeningTrial {
   std::optional<DampedFit> fit;  ///< empty: there is none
   Candidate candidate;
-  std::string fall_doubt{};         ///< of the fit that stays where this is not chosen: DampedFit::fall_doubt
-  std::vector<DampedFit> rivals{};  ///< of the fit that stays where this is not chosen: both terms, not ruled out
+  std::string average_doubt{};      ///< of the fit that stays where this is not chosen: DampedFit::average_doubt
+  std::vector<DampedFit> rivals{};  ///< of the fit that stays where this is not chosen: not ruled out
   std::optional<Warning> warning;   ///< an average of the sensor explains the slips as well
 };
 
