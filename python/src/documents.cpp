@@ -155,10 +155,10 @@ struct StatedModel {
 StatedModel stated(const std::vector<double>& slider, const FrictionNumbers& numbers) {
   auto body = value_or_raise(Slider::create(slider.at(0), slider.at(1), slider.at(2)));
   if (numbers.size() == 2) {
-    return {std::move(body), value_or_raise(Friction::create(numbers.at(0), numbers.at(1))), std::nullopt};
+    return {body, value_or_raise(Friction::create(numbers.at(0), numbers.at(1))), std::nullopt};
   }
   auto law = value_or_raise(VelocityFriction::create(numbers.at(0), numbers.at(1), numbers.at(2), numbers.at(3)));
-  return {std::move(body), value_or_raise(Friction::create(numbers.at(0), law.onset_N())), std::move(law)};
+  return {body, value_or_raise(Friction::create(numbers.at(0), law.onset_N())), law};
 }
 
 Texts predict_stated(const std::vector<double>& slider, const FrictionNumbers& friction,

@@ -119,6 +119,7 @@ std::vector<TableShape> recordable_tables(const std::vector<ArrayShape>& arrays,
     if (!is_new && is_better(table, place->second)) place->second = std::move(table);
   }
   std::vector<TableShape> tables;
+  tables.reserve(by_name.size());
   for (auto& [name, table] : by_name) tables.push_back(std::move(table));
   if (tables.empty()) {
     if (arrays.empty()) return {choose_table(arrays, std::nullopt, file_size)};  // refuses
