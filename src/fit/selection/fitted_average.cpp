@@ -1,11 +1,8 @@
 #include "fit/selection/fitted_average.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -92,7 +89,7 @@ bool rules_out_lag(const KernelSearch::Least& average, const KernelSearch& searc
 /// The fit of all cycles that explains them best, and another average that does so as well.
 struct Found {
   std::optional<DampedFit> trial;
-  std::optional<double> other_s;
+  std::optional<DampedFit> other;
 };
 Found best_trial(const AverageSolver& solver, const DampedFit& plain, const std::vector<KernelSearch::Least>& starts,
                  double sample_interval_s, double least_gain) {
@@ -110,22 +107,17 @@ Found best_trial(const AverageSolver& solver, const DampedFit& plain, const std:
     if (gain > 0.0) std::swap(trial, next);
     const double apart = std::abs(next->blocks.sensor_time() - trial->blocks.sensor_time());
     const bool is_another = apart > thresholds::kSureTerm * sensor_time_error(trial->uncertainty.covariance);
-    if (is_another && std::abs(gain) < thresholds::kTierPrice) found.other_s = next->blocks.scales().sensor_average_s;
+    if (is_another && std::abs(gain) < thresholds::kTierPrice) found.other = std::move(next);
   }
   return found;
 }
 
-/// Why w_n and zeta cannot be told beside an average; empty: they can.
-std::string doubt_beside(const DampedFit& fit, std::optional<double> other_s) {
-  if (other_s) {
-    return fmt::format(
-        "quick slips that are averaged over {:.3g} ms and slow ones that are averaged over {:.3g} ms explain the "
-        "recording alike: state the average with --sensor-average, or the mass",
-        1e3 * std::max(*other_s, fit.average->seconds), 1e3 * std::min(*other_s, fit.average->seconds));
-  }
-  if (tells_slips(fit)) return {};
-  return "the slips and the average of the sensor behind which they are seen cannot be told apart: state the average "
-         "with --sensor-average, or the mass";
+/// Finished, with what the average is not known by.
+std::optional<DampedFit> finish_averaged(const FitInput& input, DampedFit draft) {
+  const Recording averaged = with_average(input.recording, draft.blocks.scales().sensor_average_s);
+  std::optional<DampedFit> fit =
+      finish_fit({averaged, input.quality, input.segmentation, input.held}, std::move(draft));
+  return fit ? std::optional(with_average_error(*std::move(fit))) : std::nullopt;
 }
 
 /// What an average of the instrument explains that a fit without does not.
@@ -137,9 +129,9 @@ struct AverageTrial {
 /// The fit with one parameter more, the time W over which the instrument averages its samples (docs/model.md section
 /// 7), where it is not stated and `plain`, the fit without, shows a sign of it. Its covariance holds that of W. Not
 /// taken where W does not explain all that `plain` misses of the slips or a sensor of first order explains it as well.
-/// Where W cannot be told from the slips behind it, or another W explains them as well, DampedFit::fall_doubt says so.
+/// Where W cannot be told from the slips behind it DampedFit::fall_doubt says so; where another W explains them as
+/// well, intervals hold both fits.
 AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
-  const auto& [recording, quality, segmentation, held] = input;
   if (!may_be_averaged(input, plain)) return {};
   const double width_s = 2.0 * plain.blocks.scales().half_period_s;
   // Half of what all cycles have to gain: a few of them may tell less.
@@ -158,23 +150,23 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
       KernelSearch::create(input, plain, width_s + kForgottenLags * longest_lag_s, kCompareCycles);
   const auto averages = comparison ? best_averages(minima, *comparison, plain) : std::vector<KernelSearch::Least>();
   if (averages.empty()) return {};
-  auto [trial, other_s] = best_trial(AverageSolver(input, plain), plain, averages, recording.sample_interval_s(),
-                                     -thresholds::kNotRuledOut);
+  auto [trial, other] = best_trial(AverageSolver(input, plain), plain, averages, input.recording.sample_interval_s(),
+                                   -thresholds::kNotRuledOut);
   if (!trial) return {};
   const bool is_taken =
       gain_of(*trial, plain) > thresholds::kTierPrice && rules_out_lag(averages.front(), *comparison, plain);
   const double average_s = trial->blocks.scales().sensor_average_s;
   if (!is_taken && !hides_damping(average_s, trial->blocks.parameters.globals[kLogFrequency])) return {};
-  const Recording averaged = with_average(recording, average_s);
-  std::optional<DampedFit> finished = finish_fit({averaged, quality, segmentation, held}, *std::move(trial));
-  if (!finished) return {};
-  DampedFit fit = with_average_error(*std::move(finished));
-  if (!(fit.average->seconds < median_stick_s(fit.blocks))) return {};
+  std::optional<DampedFit> fit = finish_averaged(input, *std::move(trial));
+  if (!fit || !(fit->average->seconds < median_stick_s(fit->blocks))) return {};
   if (!is_taken) return {std::nullopt, std::move(fit)};
-  fit.fall_doubt = doubt_beside(fit, other_s);
-  if (other_s) {
-    fit.average->standard_error_s = std::hypot(fit.average->standard_error_s, *other_s - fit.average->seconds);
+  if (!tells_slips(*fit)) {
+    fit->fall_doubt =
+        "the slips and the average of the sensor behind which they are seen cannot be told apart: state the average "
+        "with --sensor-average, or the mass";
   }
+  if (other) other = finish_averaged(input, *std::move(other));
+  if (other) fit = beside_rival(*std::move(fit), *other);
   return {std::move(fit), std::nullopt};
 }
 
