@@ -17,7 +17,7 @@ _HELD = ("stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio")  #
 
 
 def _options_of(document: Mapping[str, Any]) -> Options:
-    """Documents of version 0.1.0 have no options: those that their statuses tell."""
+    """The options of a fit. Older documents do not hold them; their statuses show what was fixed."""
     asked = document.get("options")
     if asked is not None:
         return Options("fit", asked["tier"], tuple(f"{name}={value!r}" for name, value in asked["fix"].items()))

@@ -26,7 +26,7 @@ std::string summary_of_result(const SummaryKey& key, const std::string& document
 /// Of a recording that failed.
 std::string summary_of_failure(const SummaryKey& key, const std::string& code);
 
-/// As `slipfit::summary_columns` and `slipfit::summary_row`.
+/// These do what `slipfit::summary_columns` and `slipfit::summary_row` do.
 std::string summary_names_without_row();
 std::string summary_without_row(const std::string& document);
 

@@ -5,7 +5,7 @@
 namespace slipfit {
 namespace {
 
-/// Of this thread: work far below a caller asks for it, as boost::this_thread::interruption_point does.
+/// The token of this thread. Functions far below a caller read it, as boost::this_thread::interruption_point does.
 StopToken& token_of_thread() {
   thread_local StopToken token;
   return token;

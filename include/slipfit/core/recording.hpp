@@ -94,7 +94,7 @@ struct Provenance {
   /// Speed of a displacement column with its standard error; empty: no such column, or one that moves unsteadily.
   std::optional<Estimate> moved_m_per_s{};
   bool window_given = false;  ///< the user chose what part to read: nothing else is left out
-  /// How it was read, as far as a user stated it: columns of a manifest and their cells.
+  /// The options that the user stated for reading it: columns of a manifest and their cells.
   std::vector<std::pair<std::string, std::string>> options{};
 };
 

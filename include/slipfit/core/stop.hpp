@@ -26,7 +26,7 @@ class StopScope {
   StopToken before_;
 };
 
-/// Of the innermost StopScope of this thread; empty: none.
+/// The token of the innermost StopScope of this thread; empty where there is none.
 [[nodiscard]] StopToken stop_token();
 
 /// Throws Stopped where the work of this thread is to end.

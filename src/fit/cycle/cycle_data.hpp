@@ -25,7 +25,7 @@ struct Population {
   std::optional<double> log_speed{};
 };
 
-/// Which of the sensor's times a fit solves for.
+/// The time of the sensor that a fit solves for, if any.
 enum class FreeTime { None, Lag, Average };
 
 /// Of a sensor: its lag of first order T and the time W over which it averages; 0: none.

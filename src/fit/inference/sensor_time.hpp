@@ -11,8 +11,8 @@ namespace slipfit::fit {
 /// Standard error of the coordinate kSensorTime.
 double sensor_time_error(const CoordinateMatrix& covariance);
 
-/// The unknown shape of the instrument's impulse response adds to the error of the time of the sensor that the fit
-/// found and to all that goes with it.
+/// The covariance with an error for the unknown shape of the instrument's impulse response: it moves the fitted time of
+/// the sensor, and every coordinate that correlates with it.
 CoordinateMatrix with_unknown_shape(const CoordinateMatrix& covariance, const BlockFit& fit);
 
 /// The average that is a parameter of the fit; empty where it is none.

@@ -42,8 +42,7 @@ struct TwoSides {
 TwoSides two_sides_of(const BlockFit& fit, const std::vector<Index>& columns, double variance_s2, double average_s) {
   Scales scales = fit.scales();
   scales.sensor_average_s = average_s;
-  BlockFit wider(fit.set(), scales);
-  wider.parameters = fit.parameters;
+  const BlockFit wider = fit.with_scales(scales);
   TwoSides sides{Elimination(static_cast<Index>(columns.size()), 0.0, 2), {}};
   MatrixXd lines;
   const std::size_t step = 1 + fit.size() / kMostCycles;

@@ -25,7 +25,8 @@ struct Smoothing {
 inline constexpr double kFrequencyByAverage = 0.62;
 
 /// sigma^2 as one parameter more at the solution of the fit: one Gauss-Newton step, errors from the scatter over the
-/// cycles. Ramps count as not joined. Empty where the data cannot tell it, or it is a parameter of the fit already.
+/// cycles. Ramps count as not joined. Empty where the data do not
+/// determine it, or where it is a parameter of the fit already.
 std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& held, double sample_interval_s);
 
 }  // namespace slipfit::fit

@@ -45,6 +45,12 @@ BlockFit BlockFit::with_level(LevelModel level, const Scales& scales) const {
   return {std::make_shared<const CycleSet>(set_->with_level(std::move(level), scales)), scales};
 }
 
+BlockFit BlockFit::with_scales(const Scales& scales) const {
+  BlockFit other(set_, scales);
+  other.parameters = parameters;
+  return other;
+}
+
 CycleValues BlockFit::values(std::size_t cycle) const {
   CycleValues values;
   values.globals = parameters.globals.data();

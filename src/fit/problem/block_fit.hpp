@@ -32,6 +32,9 @@ class BlockFit {
   /// The same cycles above another level, all parameters 0.
   [[nodiscard]] BlockFit with_level(LevelModel level, const Scales& scales) const;
 
+  /// The same cycles at the same parameters, on other scales.
+  [[nodiscard]] BlockFit with_scales(const Scales& scales) const;
+
   /// Weighted sum of squares of one cycle's residuals at the solution; the part inside stick bins is not in it.
   [[nodiscard]] double cycle_sum_of_squares(std::size_t cycle) const;
   /// The same of every cycle, on all processors where they are large.

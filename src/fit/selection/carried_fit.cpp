@@ -54,9 +54,7 @@ BlockFit averaged_by(const BlockFit& fit, double variance_s2) {
 BlockFit with_free_time(const BlockFit& fit, FreeTime time) {
   Scales scales = fit.scales();
   scales.free_time = time;
-  BlockFit free(fit.set(), scales);
-  free.parameters = fit.parameters;
-  return free;
+  return fit.with_scales(scales);
 }
 
 double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor) {

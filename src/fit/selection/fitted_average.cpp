@@ -14,7 +14,6 @@
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/kernel_search.hpp"
-#include "fit/selection/reloading_fit.hpp"
 #include "fit/selection/rival.hpp"
 #include "fit/selection/tiers.hpp"
 

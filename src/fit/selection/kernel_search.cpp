@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "fit/cycle/start.hpp"
-#include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/first_guess.hpp"
@@ -41,7 +40,6 @@ bool is_best_undamped(BlockFit fit) {
 KernelSearch::KernelSearch(const FitInput& input, const BlockFit& plain, CycleSet cycles)
     : segmentation_(input.segmentation),
       held_(held_of(input.held)),
-      step_s_(input.recording.sample_interval_s()),
       plain_(plain),
       cycles_(std::make_shared<const CycleSet>(std::move(cycles))) {}
 

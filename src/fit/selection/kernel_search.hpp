@@ -57,7 +57,6 @@ class KernelSearch {
 
   const Segmentation& segmentation_;
   Held held_;
-  double step_s_;
   const BlockFit& plain_;
   std::shared_ptr<const CycleSet> cycles_;
 };

@@ -182,11 +182,7 @@ bool is_justified(const DampedFit& fit, const DampedFit& plain, const RampBend& 
 }  // namespace
 
 BlockFit with_rise_after(const BlockFit& fit, const Scales& scales) {
-  if (!fit.level().reloading) {
-    BlockFit same(fit.set(), scales);
-    same.parameters = fit.parameters;
-    return same;
-  }
+  if (!fit.level().reloading) return fit.with_scales(scales);
   RiseAfterSlip rise = moved(*fit.level().reloading, fit);
   rise.average_s = scales.sensor_average_s;
   return with_rise(fit, scales, std::make_shared<const RiseAfterSlip>(std::move(rise)));

@@ -15,12 +15,6 @@ namespace {
 constexpr double kSlowestRate = 0.3;  // alpha v_c with which the search for another law begins
 constexpr int kSweepMaxIterations = 50;
 
-BlockFit with_scales(const BlockFit& recording, const Scales& scales) {
-  BlockFit other(recording.set(), scales);
-  other.parameters = recording.parameters;
-  return other;
-}
-
 /// Residual rows over parameters: each stick bin counts as its two rows, as it does in chi2.
 double residual_freedom(const SweepSolution& solution) {
   double freedom = -static_cast<double>(CommonColumns(solution.problem()).size());
@@ -106,7 +100,7 @@ std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw
   for (BlockFit& recording : other.recordings) {
     Scales scales = recording.scales();
     scales.law = law;
-    recording = with_scales(recording, scales);
+    recording = recording.with_scales(scales);
     // The other laws have friction that changes ever less.
     double& rate = recording.parameters.globals[kFrictionRate];
     rate = std::min(rate, -kSlowestRate);
@@ -118,7 +112,7 @@ std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& h
   for (BlockFit& recording : solution.recordings) {
     Scales scales = recording.scales();
     scales.population->log_speed = std::log(scales.speed_m_per_s / solution.sweep.units.speed_m_per_s);
-    recording = with_scales(recording, scales);
+    recording = recording.with_scales(scales);
   }
   return at_minimum(std::move(solution), held);
 }
