@@ -168,8 +168,9 @@ fit::WeakeningCycle weakening_cycle(double average_tau) {
   scales.speed_m_per_s = 1.0;
   scales.slip_distance_m = kLambda;  // (F_s - F_k) / k in units of V / w_n
   scales.sensor_average_s = average_tau;
-  const fit::Globals globals{0.0, 0.0, kZeta, std::sqrt(0.2)};
-  return *fit::WeakeningCycle::solve(kLambda - 2.0 * kZeta, 1.0, globals.data(), scales.sensor_average_s, scales);
+  fit::Coordinates values = fit::oscillator(0.0, 0.0, kZeta);
+  values(fit::kSlipDistance) = std::sqrt(0.2);
+  return *fit::WeakeningCycle::solve(kLambda - 2.0 * kZeta, 1.0, values, scales.sensor_average_s, scales);
 }
 
 void coulomb_solved(benchmark::State& state) {

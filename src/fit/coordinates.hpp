@@ -8,10 +8,11 @@
 
 namespace slipfit::fit {
 
-/// What a fit solves for, dimensionless, in the order of every vector and matrix of it. The first ones are common to
-/// all cycles and recordings while fitting; the others are means over the cycles, or lines through the recordings' own
-/// values. With F_k(v) = F_k(0+) + b (exp(alpha v) - 1) / alpha (docs/model.md section 5; b = f1 alpha is its slope at
-/// v = 0, finite where alpha -> 0 and f1 has no limit) and v_c = Units::slip_speed_m_per_s:
+/// The parameters of a fit, dimensionless, in the order of every vector and matrix of it. A fit solves for those that
+/// its law, its sensor and its recordings have (cycle/columns.hpp); the others are means over the cycles, or lines
+/// through the recordings' own values. With F_k(v) = F_k(0+) + b (exp(alpha v) - 1) / alpha (docs/model.md section 5;
+/// b = f1 alpha is its slope at v = 0, finite where alpha -> 0 and f1 has no limit) and v_c =
+/// Units::slip_speed_m_per_s:
 enum Coordinate : Eigen::Index {
   kLogStiffness,  ///< ln k
   kLogFrequency,  ///< ln w_n
@@ -20,27 +21,32 @@ enum Coordinate : Eigen::Index {
   /// whatever alpha is, which the slope at v = 0 is not.
   kFrictionSlope,
   kFrictionRate,  ///< a = alpha v_c
-  kGlobals,
-  kLevel = kGlobals,   ///< F_k(0+) / Units::force, from Units::level
-  kDifference,         ///< (F_s - F_k(0+)) / Units::force
-  kAgeing,             ///< rate of ageing / Units::force
-  kAgeingTime,         ///< cut-off of ageing / Units::stick_s
-  kSlipDistance,       ///< sqrt(D_c / Units::slip_distance_m): the limit of Coulomb friction is reached as it goes to 0
-  kReloadForce,        ///< A / Units::force, of the rise after a slip
-  kReloadLength,       ///< ln (l / m), of the path over which it rises
-  kStiffnessExponent,  ///< d ln k / d ln V, of a sweep; k and w_n are those at Units::speed_m_per_s
-  kSensorTime,         ///< (time / Scales::sensor_time_unit_s)^2, of the time of the sensor that is free
+  kSlipDistance,  ///< sqrt(D_c / Units::slip_distance_m): the limit of Coulomb friction is reached as it goes to 0
+  kOfLaw,         ///< how many the rig and the laws of friction have
+  kStiffnessExponent = kOfLaw,  ///< d ln k / d ln V, of a sweep; k and w_n are those at Units::speed_m_per_s
+  kSensorTime,                  ///< (time / Scales::sensor_time_unit_s)^2, of the time of the sensor that is free
+  kLevel,                       ///< F_k(0+) / Units::force, from Units::level
+  kDifference,                  ///< (F_s - F_k(0+)) / Units::force
+  kAgeing,                      ///< rate of ageing / Units::force
+  kAgeingTime,                  ///< cut-off of ageing / Units::stick_s
+  kReloadForce,                 ///< A / Units::force, of the rise after a slip
+  kReloadLength,                ///< ln (l / m), of the path over which it rises
   kCoordinates
 };
 
-/// In the order of Coordinate; under friction that weakens the first behind zeta is kSlipDistance.
-using Globals = std::array<double, kGlobals>;
-/// Which of the globals stand still.
-using Held = std::array<bool, kGlobals>;
 using Coordinates = Eigen::Matrix<double, kCoordinates, 1>;
 using CoordinateMatrix = Eigen::Matrix<double, kCoordinates, kCoordinates>;
+/// Which of the coordinates stand still while fitting.
+using Held = std::array<bool, kCoordinates>;
 
-/// The globals that the user holds.
+/// k in N/m, w_n in rad/s and zeta by their logarithms and itself; all other coordinates are 0.
+inline Coordinates oscillator(double log_stiffness, double log_frequency, double zeta) {
+  Coordinates values = Coordinates::Zero();
+  values.head<3>() << log_stiffness, log_frequency, zeta;
+  return values;
+}
+
+/// The coordinates that the user holds.
 inline Held held_of(const HeldParameters& parameters) {
   Held held{};
   held[kLogStiffness] = parameters.stiffness_N_per_m.has_value();
@@ -62,16 +68,9 @@ enum class FrictionLaw {
   Weakening  ///< over a slip distance: in closed form
 };
 
-/// Coulomb friction has no slope and no rate, friction that weakens a slip distance in their place.
-constexpr std::size_t globals_of(FrictionLaw law) {
-  if (law == FrictionLaw::Weakening) return kFrictionSlope + 1;
-  return law == FrictionLaw::Coulomb ? kFrictionSlope : kGlobals;
-}
-
-/// What a global stands for.
-constexpr Coordinate coordinate_of(FrictionLaw law, std::size_t global) {
-  const bool is_distance = law == FrictionLaw::Weakening && global == kFrictionSlope;
-  return is_distance ? kSlipDistance : static_cast<Coordinate>(global);
+/// The slip of such a law is integrated.
+constexpr bool depends_on_speed(FrictionLaw law) {
+  return law == FrictionLaw::Exponential || law == FrictionLaw::Hyperbolic || law == FrictionLaw::Logarithmic;
 }
 
 /// What the coordinates count in.

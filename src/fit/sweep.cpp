@@ -141,7 +141,7 @@ class Assembler {
     }
     findings.law = fit::LawFindings{choice.velocity, choice.reason};
     findings.law->ageing = outcome_.static_friction;
-    findings.law->stiffness_grows = solution.recordings.front().model(0).has_exponent();
+    findings.law->stiffness_grows = solution.recordings.front().solves_for(fit::kStiffnessExponent);
     findings.law->at_one_speed = fit::speed_ratio(recordings_) < thresholds::kLeastSpeedRatio;
     findings.law->reference_normal_force_N = data_.mean_load_N;
     return findings;
@@ -210,7 +210,7 @@ class Assembler {
           {"static_friction_differs",
            "static friction differs between the recordings (ageing, or a changed surface): F_s - F_k is their mean"});
     }
-    const bool has_exponent = outcome_.solution.recordings.front().model(0).has_exponent();
+    const bool has_exponent = outcome_.solution.recordings.front().solves_for(fit::kStiffnessExponent);
     const auto trend = has_exponent ? intervals_.interval_of(model_.stiffness_exponent).ci95 : std::nullopt;
     if (trend && (trend->low > 0.0 || trend->high < 0.0)) {
       sweep.result.warnings.push_back(

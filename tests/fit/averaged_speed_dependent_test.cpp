@@ -10,7 +10,12 @@ using namespace slipfit::fit;
 
 namespace {
 
-const Globals kGlobals{std::log(60.0), std::log(9.0), 0.1, 0.05, -1.5};
+Coordinates values() {
+  Coordinates values = oscillator(std::log(60.0), std::log(9.0), 0.1);
+  values(kFrictionSlope) = 0.05;
+  values(kFrictionRate) = -1.5;
+  return values;
+}
 constexpr double kOnset = 6.0;
 
 SpeedDependentCycle cycle(double average_tau, ForceView view) {
@@ -18,12 +23,11 @@ SpeedDependentCycle cycle(double average_tau, ForceView view) {
   scales.speed_m_per_s = 0.01;
   scales.law = FrictionLaw::Exponential;
   scales.view = view;
-  scales.sensor_average_s = average_tau / std::exp(kGlobals[kLogFrequency]);
+  scales.sensor_average_s = average_tau / std::exp(values()(kLogFrequency));
   Population population;
   population.slip_speed_m_per_s = 0.12;
   scales.population = population;
-  return SpeedDependentCycle::solve(kOnset, kGlobals.data(), {scales.sensor_lag_s, scales.sensor_average_s}, scales)
-      .value();
+  return SpeedDependentCycle::solve(kOnset, values(), {scales.sensor_lag_s, scales.sensor_average_s}, scales).value();
 }
 
 /// Mean of the force as it is, by the rule of the middle.

@@ -141,7 +141,7 @@ TEST_CASE("residuals are data minus model in sticks and slips, and nothing where
   middles_s.reserve(cycles.size());
   for (const CycleData& cycle : cycles) middles_s.push_back(r.segmentation.slips[cycle.slip].middle_s);
   BlockFit fit = BlockFit::create(std::move(cycles), std::move(middles_s), scales, {false, 3, {50.0}}).value();
-  set_start(fit, r.segmentation, {std::log(500.0), std::log(120.0), 0.06});
+  set_start(fit, r.segmentation, oscillator(std::log(500.0), std::log(120.0), 0.06));
   fit.parameters.level = {0.02, -0.3, 0.1, 0.05, -0.02};
   const Residuals residuals = without(residuals_of(r.recording, fit), excluded);
   std::vector<double> expected(r.recording.size(), 0.0);

@@ -48,24 +48,22 @@ Scales example_scales(ForceView view, double sensor_lag_s = 0.0) {
 
 namespace {
 
-/// Of a vector that holds globals, exponent, average, difference, constant, drift and own, as the Jacobian's columns
-/// do.
-CycleValues values_in(const CycleModel& model, bool has_difference, const double* x) {
+/// The parameters in a vector that has the order of the Jacobian's columns.
+struct Unpacked {
+  Unpacked(const Columns& columns, const std::vector<double>& x) : x_(x) {
+    for (std::size_t i = 0; i < columns.coordinates().size(); ++i) shared_(columns.coordinates()[i]) = x[i];
+    const double* const rest = x_.data() + columns.coordinates().size();
+    values = {&shared_, rest, x_.data() + columns.first_drift(), x_.data() + columns.common()};
+  }
+  Unpacked(const Unpacked&) = delete;
+  Unpacked& operator=(const Unpacked&) = delete;
+
   CycleValues values;
-  values.globals = x;
-  x += model.globals();
-  values.exponent = x;
-  x += model.has_exponent() ? 1 : 0;
-  values.sensor_time = x;
-  x += model.has_sensor_time() ? 1 : 0;
-  values.difference = x;
-  x += has_difference ? 1 : 0;
-  values.constant = x;
-  x += model.has_constant() ? 1 : 0;
-  values.drift = x;
-  values.local = x + model.drift_parameters();
-  return values;
-}
+
+ private:
+  std::vector<double> x_;
+  Coordinates shared_ = Coordinates::Zero();
+};
 
 /// As many such cycles as a fit needs.
 CycleSet set_of(const CycleData& cycle, double reference_s, const LevelModel& level, const Scales& scales) {
@@ -78,31 +76,31 @@ void check_derivatives(const Scales& scales, const LevelModel& level, double ste
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> near(-0.1, 0.1);
   const CycleSet set = set_of(example_cycle(), 0.05, level, scales);
-  const CycleModel model(set, 0, scales);
-  const bool sweep = scales.population.has_value();
+  const Columns columns(scales, level);
+  const CycleModel model(set, 0, scales, columns);
   const std::size_t rows = model.residuals();
   for (int trial = 0; trial < 20; ++trial) {
-    std::vector<double> x{std::log(60.0), std::log(9.0), 0.1};
-    if (scales.law == FrictionLaw::Weakening) {
-      x.push_back(0.4);
-    } else if (model.globals() > 3) {
-      x.insert(x.end(), {0.05, trial % 2 == 0 || scales.law != FrictionLaw::Exponential ? -1.5 : 0.4});
-    }
-    if (model.has_exponent()) x.push_back(0.07);
-    if (model.has_sensor_time()) x.push_back(0.6);
-    if (sweep) x.push_back(0.9);
-    x.resize(model.columns(), 0.1);
-    x[model.common_parameters()] = 0.0;
-    x[model.common_parameters() + 1] = 0.8;
+    Coordinates here = oscillator(std::log(60.0), std::log(9.0), 0.1);
+    here(kSlipDistance) = 0.4;
+    here(kFrictionSlope) = 0.05;
+    here(kFrictionRate) = trial % 2 == 0 || scales.law != FrictionLaw::Exponential ? -1.5 : 0.4;
+    here(kStiffnessExponent) = 0.07;
+    here(kSensorTime) = 0.6;
+    here(kDifference) = 0.9;
+    std::vector<double> x;
+    for (const Coordinate coordinate : columns.coordinates()) x.push_back(here(coordinate));
+    x.resize(columns.size(), 0.1);
+    x[columns.common()] = 0.0;
+    x[columns.common() + 1] = 0.8;
     for (double& value : x) value += 0.5 * near(random);
     const auto evaluate = [&](const std::vector<double>& p, double* jacobian) {
       std::vector<double> residuals(rows);
-      REQUIRE(model.evaluate(values_in(model, sweep, p.data()), residuals.data(), jacobian));
+      REQUIRE(model.evaluate(Unpacked(columns, p).values, residuals.data(), jacobian));
       return residuals;
     };
-    std::vector<double> jacobian(rows * model.columns());
-    const std::vector<double> here = evaluate(x, jacobian.data());
-    for (std::size_t column = 0; column < model.columns(); ++column) {
+    std::vector<double> jacobian(rows * columns.size());
+    const std::vector<double> at_x = evaluate(x, jacobian.data());
+    for (std::size_t column = 0; column < columns.size(); ++column) {
       auto above = x;
       auto below = x;
       above[column] += step;
@@ -113,8 +111,8 @@ void check_derivatives(const Scales& scales, const LevelModel& level, double ste
         INFO("column " << column << " row " << row << " trial " << trial);
         const double exact = jacobian[column * rows + row];
         // A sample that the slip's onset or end crosses within the step lies on one side of the kink there.
-        const double above_it = (high[row] - here[row]) / step;
-        const double below_it = (here[row] - low[row]) / step;
+        const double above_it = (high[row] - at_x[row]) / step;
+        const double below_it = (at_x[row] - low[row]) / step;
         const bool kink = std::abs(above_it - below_it) > margin;
         const double central = 0.5 * (above_it + below_it);
         const double side = std::abs(above_it - exact) < std::abs(below_it - exact) ? above_it : below_it;
@@ -147,6 +145,7 @@ Population example_population() {
 
 const LevelModel kPolynomial{false, 3, {}};
 const LevelModel kPerCycle{true, 0, {}};
+const LevelModel kConstant{false, 1, {}};
 
 }  // namespace
 
@@ -198,12 +197,15 @@ TEST_CASE("friction that depends on the speed with slope 0 gives the residuals o
   Scales dependent = coulomb;
   dependent.law = FrictionLaw::Exponential;
   const CycleSet set = set_of(example_cycle(), 0.05, kPolynomial, coulomb);
-  const std::vector<double> globals{std::log(60.0), std::log(9.0), 0.1, 0.0, -1.0};
-  const std::vector<double> rest{0.9, 0.1, 0.05, -0.02};
+  Coordinates shared = oscillator(std::log(60.0), std::log(9.0), 0.1);
+  shared(kFrictionRate) = -1.0;
+  shared(kDifference) = 0.9;
+  const std::vector<double> level{0.1, 0.05, -0.02};
   const std::vector<double> local{0.1, 0.8};
-  const CycleValues values{globals.data(), &rest[0], &rest[1], &rest[2], local.data()};
+  const CycleValues values{&shared, level.data(), level.data() + 1, local.data()};
   const auto residuals_of = [&](const Scales& scales) {
-    const CycleModel model(set, 0, scales);
+    const Columns columns(scales, kPolynomial);
+    const CycleModel model(set, 0, scales, columns);
     Eigen::VectorXd residuals(static_cast<Eigen::Index>(model.residuals()));
     REQUIRE(model.evaluate(values, residuals.data(), nullptr));
     return residuals;
@@ -216,25 +218,27 @@ TEST_CASE("the residual of steady sliding and its derivatives") {
   const Units units{2.0, 0.0, 0.3};
   const SteadyRun run{0.05, 1.5, 4.0, 0.01};
   for (const double rate : {-2.0, 1e-6, 0.7}) {
-    const Globals globals{std::log(500.0), std::log(90.0), 0.05, 0.04, rate};
+    Coordinates values = oscillator(std::log(500.0), std::log(90.0), 0.05);
+    values(kFrictionSlope) = 0.04;
+    values(kFrictionRate) = rate;
     const double level = 0.7;
-    const SteadyResidual steady = steady_residual(run, units, FrictionLaw::Exponential, globals, level);
+    const SteadyResidual steady = steady_residual(run, units, FrictionLaw::Exponential, values, level);
     // F_k(V) = load (F_k(0+) + b (exp(alpha V) - 1) / alpha), with the slope b that makes the mean slope up to v_c
     // right
     const double alpha = rate / units.slip_speed_m_per_s;
-    const double gain = 2.0 * globals[kFrictionSlope] * units.slip_speed_m_per_s * 500.0 / 90.0;
+    const double gain = 2.0 * values(kFrictionSlope) * units.slip_speed_m_per_s * 500.0 / 90.0;
     const double excess = gain * std::expm1(alpha * run.speed_m_per_s) / std::expm1(rate);
     CHECK(steady.value ==
           Approx((run.mean_force - run.load * (units.force * level + excess)) / run.standard_error).epsilon(1e-6));
-    for (std::size_t i = 0; i < globals.size(); ++i) {
+    for (Eigen::Index i = 0; i < kCoordinates; ++i) {
       const double h = 1e-5;
-      Globals above = globals;
-      Globals below = globals;
-      above[i] += h;
-      below[i] -= h;
+      Coordinates above = values;
+      Coordinates below = values;
+      above(i) += h;
+      below(i) -= h;
       const double difference = steady_residual(run, units, FrictionLaw::Exponential, above, level).value -
                                 steady_residual(run, units, FrictionLaw::Exponential, below, level).value;
-      CHECK(steady.by_global[i] == Approx(difference / (2.0 * h)).epsilon(1e-6).margin(1e-6));
+      CHECK(steady.by_value(i) == Approx(difference / (2.0 * h)).epsilon(1e-6).margin(1e-6));
     }
   }
 }
@@ -248,11 +252,12 @@ TEST_CASE("samples on an even clock give the same rows as on one with a sample m
   const std::vector<double> x{std::log(60.0), std::log(9.0), 0.08, 0.1, 0.1, 0.8};
   for (const ForceView view : {ForceView::Spring, ForceView::Transmitted}) {
     const auto rows_of = [&](const CycleData& data) {
-      const CycleSet set = set_of(data, 0.05, {false, 1, {}}, example_scales(view));
-      const CycleModel model(set, 0, example_scales(view));
+      const CycleSet set = set_of(data, 0.05, kConstant, example_scales(view));
+      const Columns columns(example_scales(view), kConstant);
+      const CycleModel model(set, 0, example_scales(view), columns);
       std::vector<double> residuals(model.residuals());
-      Eigen::MatrixXd rows(model.residuals(), model.columns() + 1);
-      REQUIRE(model.evaluate(values_in(model, false, x.data()), residuals.data(), rows.data()));
+      Eigen::MatrixXd rows(model.residuals(), columns.size() + 1);
+      REQUIRE(model.evaluate(Unpacked(columns, x).values, residuals.data(), rows.data()));
       rows.rightCols<1>() = Eigen::VectorXd::Map(residuals.data(), rows.rows());
       return rows;
     };
@@ -268,26 +273,26 @@ TEST_CASE("samples on an even clock give the same rows as on one with a sample m
 
 TEST_CASE("a clock is even to what its written times are rounded by, not where a slip would show the difference") {
   const Scales scales = example_scales(ForceView::Spring);
-  const LevelModel level{false, 1, {}};
   const auto jittered = [](double size_s) {
     CycleData cycle = example_cycle();
     for (std::size_t i = 0; i < cycle.time_s.size(); ++i) cycle.time_s[i] += i % 3 == 1 ? size_s : 0.0;
     return cycle;
   };
   // 1 % of the noise on the steepest part of a slip of half drop 1.3 and half period 0.3 s: 37 us.
-  const CycleSet written = set_of(jittered(3e-5), 0.05, level, scales);
+  const CycleSet written = set_of(jittered(3e-5), 0.05, kConstant, scales);
   CHECK(written.even_step_s(0) == Approx(0.011).epsilon(1e-4));
-  CHECK(set_of(jittered(5e-5), 0.05, level, scales).even_step_s(0) == 0.0);
+  CHECK(set_of(jittered(5e-5), 0.05, kConstant, scales).even_step_s(0) == 0.0);
 
   const std::vector<double> x{std::log(60.0), std::log(9.0), 0.08, 0.1, 0.1, 0.8};
   const auto residuals_of = [&](const CycleSet& set) {
-    const CycleModel model(set, 0, scales);
+    const Columns columns(scales, kConstant);
+    const CycleModel model(set, 0, scales, columns);
     std::vector<double> residuals(model.residuals());
-    REQUIRE(model.evaluate(values_in(model, false, x.data()), residuals.data(), nullptr));
+    REQUIRE(model.evaluate(Unpacked(columns, x).values, residuals.data(), nullptr));
     return residuals;
   };
   const std::vector<double> as_written = residuals_of(written);
-  const std::vector<double> even = residuals_of(set_of(example_cycle(), 0.05, level, scales));
+  const std::vector<double> even = residuals_of(set_of(example_cycle(), 0.05, kConstant, scales));
   for (std::size_t i = 0; i < even.size(); ++i) CHECK(std::abs(as_written[i] - even[i]) < 0.01);
 }
 
@@ -303,11 +308,13 @@ TEST_CASE("no set of cycles has fewer cycles than a fit needs") {
 }
 
 TEST_CASE("a cycle without friction drop is outside the model, not a number") {
-  const CycleSet set = set_of(example_cycle(), 0.0, {false, 1, {}}, example_scales(ForceView::Spring));
-  const CycleModel model(set, 0, example_scales(ForceView::Spring));
+  const Scales scales = example_scales(ForceView::Spring);
+  const CycleSet set = set_of(example_cycle(), 0.0, kConstant, scales);
+  const Columns columns(scales, kConstant);
+  const CycleModel model(set, 0, scales, columns);
   const std::vector<double> x{4.0, 2.0, 0.05, 0.0, 0.0, -0.5};
   std::vector<double> residuals(model.residuals(), 7.0);
-  CHECK_FALSE(model.evaluate(values_in(model, false, x.data()), residuals.data(), nullptr));
+  CHECK_FALSE(model.evaluate(Unpacked(columns, x).values, residuals.data(), nullptr));
   CHECK(residuals.front() == 7.0);
 }
 
@@ -319,7 +326,7 @@ TEST_CASE("ramp residual derivatives agree with central differences") {
                            .value();
   const std::vector<double> x{std::log(60.0), std::log(9.0), 0.08, 0.1, 0.8, -0.2, 0.9};
   const auto value = [&](const std::vector<double>& p) {
-    return ramp_residual(fit, 0, p.data(), p.data() + 3, p.data() + 5);
+    return ramp_residual(fit, 0, oscillator(p[0], p[1], p[2]), p.data() + 3, p.data() + 5);
   };
   const RampResidual exact = value(x);
   for (std::size_t column = 0; column < x.size(); ++column) {
@@ -328,7 +335,7 @@ TEST_CASE("ramp residual derivatives agree with central differences") {
     auto below = x;
     above[column] += h;
     below[column] -= h;
-    const double derivative = column < 3   ? exact.d_globals[column]
+    const double derivative = column < 3   ? exact.d_values[column]
                               : column < 5 ? exact.d_first[column - 3]
                                            : exact.d_second[column - 5];
     INFO("column " << column);

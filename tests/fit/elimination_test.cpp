@@ -60,7 +60,7 @@ struct Scene {
       row(0, cycle * kOwn + i) = ramp.d_first[static_cast<std::size_t>(i)];
       row(0, (cycle + 1) * kOwn + i) = ramp.d_second[static_cast<std::size_t>(i)];
     }
-    for (std::size_t i = 0; i < 3; ++i) row(0, kCycles * kOwn + columns[i]) = ramp.d_globals[i];
+    for (std::size_t i = 0; i < 3; ++i) row(0, kCycles * kOwn + columns[i]) = ramp.d_values[i];
     row(0, all.cols() - 1) = ramp.value;
     return row;
   }

@@ -18,11 +18,14 @@ struct Instrument {
   ForceView view = ForceView::Spring;
 };
 
-Globals globals_of(double zeta, double slope, double rate) {
-  return {std::log(60.0), std::log(9.0), zeta, slope, rate};
+Coordinates values_of(double zeta, double slope, double rate) {
+  Coordinates values = oscillator(std::log(60.0), std::log(9.0), zeta);
+  values(kFrictionSlope) = slope;
+  values(kFrictionRate) = rate;
+  return values;
 }
 
-SpeedDependentCycle cycle(const Globals& globals, const Instrument& instrument, double onset = kOnset) {
+SpeedDependentCycle cycle(const Coordinates& values, const Instrument& instrument, double onset = kOnset) {
   Scales scales;
   scales.speed_m_per_s = 0.01;
   scales.law = FrictionLaw::Exponential;
@@ -32,8 +35,7 @@ SpeedDependentCycle cycle(const Globals& globals, const Instrument& instrument, 
   Population population;
   population.slip_speed_m_per_s = 0.12;
   scales.population = population;
-  return SpeedDependentCycle::solve(onset, globals.data(), {scales.sensor_lag_s, scales.sensor_average_s}, scales)
-      .value();
+  return SpeedDependentCycle::solve(onset, values, {scales.sensor_lag_s, scales.sensor_average_s}, scales).value();
 }
 
 Instrument any_instrument() {
@@ -49,7 +51,7 @@ constexpr std::array kTimes{-2.0, -0.01, 0.0, 0.2, 1.7, 3.1, 4.4, 5.0, 9.0};
 
 TEST_CASE("without dependence on the speed a lagging sensor shows the closed form of Coulomb friction") {
   const Instrument instrument = any_instrument();
-  const SpeedDependentCycle integrated = cycle(globals_of(0.1, 0.0, 0.0), instrument);
+  const SpeedDependentCycle integrated = cycle(values_of(0.1, 0.0, 0.0), instrument);
   const CoulombCycle exact(kOnset, 0.1,
                            {instrument.lag_tau, instrument.average_tau, instrument.view == ForceView::Transmitted});
   for (const double tau : kTimes) {
@@ -68,9 +70,9 @@ TEST_CASE("without dependence on the speed a lagging sensor shows the closed for
 
 TEST_CASE("what a lagging sensor shows of friction that depends on the speed obeys its equation") {
   const Instrument instrument = any_instrument();
-  const Globals globals = globals_of(0.1, 0.05, -1.5);
-  const SpeedDependentCycle before = cycle(globals, {0.0, instrument.average_tau, instrument.view});
-  const SpeedDependentCycle lagged = cycle(globals, instrument);
+  const Coordinates values = values_of(0.1, 0.05, -1.5);
+  const SpeedDependentCycle before = cycle(values, {0.0, instrument.average_tau, instrument.view});
+  const SpeedDependentCycle lagged = cycle(values, instrument);
   for (const double tau : kTimes) {
     CAPTURE(instrument.lag_tau, instrument.average_tau, tau);
     const ShownPoint shown = lagged.at(tau);
@@ -84,7 +86,7 @@ TEST_CASE("what a lagging sensor shows of friction that depends on the speed obe
 TEST_CASE("derivatives of a lagging sensor's view of friction that depends on the speed agree with differences") {
   const Instrument instrument = any_instrument();
   const std::array<double, 3> law{0.1, 0.05, -1.5};
-  const SpeedDependentCycle lagged = cycle(globals_of(law[0], law[1], law[2]), instrument);
+  const SpeedDependentCycle lagged = cycle(values_of(law[0], law[1], law[2]), instrument);
   for (const double tau : {-0.01, 0.2, 1.7, 3.1, 9.0}) {
     CAPTURE(instrument.lag_tau, instrument.average_tau, tau);
     const ShownPoint shown = lagged.at(tau);
@@ -94,17 +96,17 @@ TEST_CASE("derivatives of a lagging sensor's view of friction that depends on th
       const auto moved = [&](double step) {
         std::array<double, 3> other = law;
         other[i] += step;
-        return cycle(globals_of(other[0], other[1], other[2]), instrument).at(tau).z;
+        return cycle(values_of(other[0], other[1], other[2]), instrument).at(tau).z;
       };
       CHECK(by_law[i] == Approx((moved(kStep) - moved(-kStep)) / (2.0 * kStep)).margin(1e-3).epsilon(1e-3));
     }
     const auto started = [&](double step) {
-      return cycle(globals_of(law[0], law[1], law[2]), instrument, kOnset + step).at(tau).z;
+      return cycle(values_of(law[0], law[1], law[2]), instrument, kOnset + step).at(tau).z;
     };
     CHECK(shown.d_z0 == Approx((started(kStep) - started(-kStep)) / (2.0 * kStep)).margin(1e-3));
     const auto scaled = [&](double step) {  // the instrument's times are fixed in seconds
       const double ratio = std::exp(step);
-      return cycle(globals_of(law[0], law[1], law[2]),
+      return cycle(values_of(law[0], law[1], law[2]),
                    {ratio * instrument.lag_tau, ratio * instrument.average_tau, instrument.view})
           .at(tau)
           .z;

@@ -43,8 +43,8 @@ double sum_of_squares(const fit::BlockFit& fit) {
 
 /// Away from the minimum, the cycles' own parameters each by another amount.
 fit::BlockFit moved(fit::BlockFit fit) {
-  fit.parameters.globals[fit::kLogStiffness] += 0.01;
-  fit.parameters.globals[fit::kLogFrequency] -= 0.02;
+  fit.parameters.values(fit::kLogStiffness) += 0.01;
+  fit.parameters.values(fit::kLogFrequency) -= 0.02;
   for (std::size_t i = 0; i < fit.size(); ++i) {
     fit.parameters.cycles[i][0] += 0.02 * std::sin(1.7 * static_cast<double>(i));
     fit.parameters.cycles[i][1] += 0.02 * std::cos(2.3 * static_cast<double>(i));
@@ -74,9 +74,9 @@ TEST_CASE("a solve that starts at the minimum stays there") {
   const Recording recording = scattering();
   fit::BlockFit fit = fitted(recording);
   fit::solve(fit, {{}, false, true, 60, 1e-9});
-  const fit::Globals there = fit.parameters.globals;
+  const fit::Coordinates there = fit.parameters.values;
   const double end = sum_of_squares(fit);
   fit::solve(fit, {{}, false, true, 60, 0.1});
   CHECK(std::abs(sum_of_squares(fit) - end) < 1e-6 * end);
-  for (std::size_t i = 0; i < 3; ++i) CHECK(fit.parameters.globals[i] == Approx(there[i]).margin(1e-5));
+  for (Eigen::Index i = 0; i < 3; ++i) CHECK(fit.parameters.values(i) == Approx(there(i)).margin(1e-5));
 }

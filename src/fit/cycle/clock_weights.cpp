@@ -32,9 +32,9 @@ struct Slopes {
 Slopes slopes_of(const BlockFit& fit, std::size_t cycle) {
   const CycleModel& model = fit.model(cycle);
   std::vector<double> residuals(model.residuals());
-  std::vector<double> jacobian(model.residuals() * model.columns());
+  std::vector<double> jacobian(model.residuals() * model.columns().size());
   model.evaluate(fit.values(cycle), residuals.data(), jacobian.data());
-  const std::size_t onset = model.common_parameters();
+  const std::size_t onset = model.columns().common();
   Slopes result;
   const CycleData& data = fit.data(cycle);
   for (std::size_t j = 0; j < data.time_s.size(); ++j) {
@@ -49,7 +49,7 @@ Slopes slopes_of(const BlockFit& fit, std::size_t cycle) {
 
 std::vector<CycleData> weigh_by_slope(const BlockFit& fit) {
   const double noise2 = stick_variance(fit);
-  const double rate = std::exp(fit.parameters.globals[0]) * fit.scales().speed_m_per_s;
+  const double rate = std::exp(fit.parameters.values(0)) * fit.scales().speed_m_per_s;
   std::vector<Slopes> slopes;
   double excess = 0.0;
   double weight = 0.0;

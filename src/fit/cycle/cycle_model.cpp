@@ -8,58 +8,55 @@
 
 namespace slipfit::fit {
 
-CycleModel::CycleModel(const CycleSet& set, std::size_t cycle, const Scales& scales)
+SensorTimes sensor_of(const Scales& scales, const Coordinates& values) {
+  SensorTimes sensor{scales.sensor_lag_s, scales.sensor_average_s};
+  if (scales.free_time == FreeTime::None) return sensor;
+  double& time_s = scales.free_time == FreeTime::Lag ? sensor.lag_s : sensor.average_s;
+  time_s = scales.sensor_time_unit_s * std::sqrt(values(kSensorTime));
+  return sensor;
+}
+
+CycleModel::CycleModel(const CycleSet& set, std::size_t cycle, const Scales& scales, const Columns& columns)
     : data_(&set.cycles()[cycle]),
       level_(&set.level()),
       rows_(&set.rows(cycle)),
+      columns_(&columns),
       scales_(scales),
       reference_s_(set.reference_s()[cycle]),
       even_step_s_(set.even_step_s(cycle)) {}
 
-Globals CycleModel::globals_at_speed(const double* globals, double exponent) const {
-  Globals own{};
-  std::copy_n(globals, this->globals(), own.begin());
-  if (!has_exponent()) return own;
-  own[kLogStiffness] += exponent * *scales_.population->log_speed;
-  own[kLogFrequency] += 0.5 * exponent * *scales_.population->log_speed;
-  return own;
+Coordinates CycleModel::at_speed(const Coordinates& shared) const {
+  Coordinates here = shared;
+  if (!columns_->has(kStiffnessExponent)) return here;
+  const double growth = shared(kStiffnessExponent) * *scales_.population->log_speed;
+  here(kLogStiffness) += growth;
+  here(kLogFrequency) += 0.5 * growth;
+  return here;
 }
 
-CycleFrame CycleModel::frame(const double* globals, const double* local) const {
+CycleFrame CycleModel::frame(const Coordinates& here, const double* local) const {
   CycleFrame frame;
-  frame.stiffness_N_per_m = std::exp(globals[kLogStiffness]);
-  frame.omega_rad_per_s = std::exp(globals[kLogFrequency]);
-  frame.zeta = globals[kDamping];
+  frame.stiffness_N_per_m = std::exp(here(kLogStiffness));
+  frame.omega_rad_per_s = std::exp(here(kLogFrequency));
+  frame.zeta = here(kDamping);
   frame.force_scale = frame.stiffness_N_per_m * scales_.speed_m_per_s / frame.omega_rad_per_s;
   frame.onset_s = reference_s_ + scales_.half_period_s * local[0];
   frame.onset_force = scales_.force * local[1];
   return frame;
 }
 
-Globals CycleModel::globals_at_speed(const CycleValues& values) const {
-  return globals_at_speed(values.globals, has_exponent() ? *values.exponent : 0.0);
-}
-
 double CycleModel::rise_at(double time_s, const double* level) const {
   if (!level_->reloading) return 0.0;
-  const double* const rise = level + (has_constant() ? 1 : 0) + level_->first_rise();
+  const double* const rise = level + (columns_->has_constant() ? 1 : 0) + level_->first_rise();
   return scales_.force * level_->reloading->sum_of(level_->reloading->at(data_->slip, time_s), rise);
 }
 
-SensorTimes CycleModel::sensor_of(const CycleValues& values) const {
-  SensorTimes sensor{scales_.sensor_lag_s, scales_.sensor_average_s};
-  if (has_sensor_time()) {
-    double& time_s = scales_.free_time == FreeTime::Lag ? sensor.lag_s : sensor.average_s;
-    time_s = scales_.sensor_time_unit_s * std::sqrt(*values.sensor_time);
-  }
-  return sensor;
-}
-
-std::optional<CycleState> CycleModel::state(const double* globals, const double* local,
-                                            const SensorTimes& sensor) const {
-  const CycleFrame f = frame(globals, local);
+std::optional<CycleState> CycleModel::state(const Coordinates& shared, const double* local) const {
+  const Coordinates here = at_speed(shared);
+  const CycleFrame f = frame(here, local);
+  const SensorTimes sensor = sensor_of(scales_, here);
   if (scales_.law == FrictionLaw::Weakening) {
-    auto motion = WeakeningCycle::solve(f.z0(), f.omega_rad_per_s, globals, sensor.average_s, scales_);
+    auto motion = WeakeningCycle::solve(f.z0(), f.omega_rad_per_s, here, sensor.average_s, scales_);
     return motion ? std::optional(CycleState{f, *std::move(motion)}) : std::nullopt;
   }
   if (!(f.z0() + 2.0 * f.zeta > 0.0) || !(std::abs(f.zeta) < 1.0) || !std::isfinite(f.z0())) return std::nullopt;
@@ -83,14 +80,10 @@ class CycleModel::Rows {
         values_(values),
         residuals_(residuals),
         jacobian_(jacobian),
+        columns_(cycle.columns()),
         stride_(static_cast<Index>(cycle.residuals())),
-        globals_(static_cast<Index>(cycle.globals())),
-        exponent_(globals_),
-        sensor_time_(exponent_ + (cycle.has_exponent() ? 1 : 0)),
-        difference_(sensor_time_ + (cycle.has_sensor_time() ? 1 : 0)),
-        constant_(difference_ + (cycle.has_difference() ? 1 : 0)),
-        drift_(constant_ + (cycle.has_constant() ? 1 : 0)),
-        onset_(drift_ + rows_.level.cols()) {}
+        drift_(static_cast<Index>(columns_.first_drift())),
+        onset_(static_cast<Index>(columns_.common())) {}
 
   /// The force above the level and its derivatives, in units of k V / w_n, at the next row.
   struct Place {
@@ -122,7 +115,7 @@ class CycleModel::Rows {
   };
   [[nodiscard]] Place first() const {
     if (jacobian_ == nullptr) return {residuals_, nullptr, nullptr, nullptr, nullptr, nullptr, stride_};
-    double* const by_time = cycle_.has_sensor_time() ? at(sensor_time_) : nullptr;
+    double* const by_time = columns_.has(kSensorTime) ? at(of(kSensorTime)) : nullptr;
     return {residuals_, at(onset_), at(onset_ + 1), at(kLogFrequency), by_time, at(kDamping), stride_};
   }
 
@@ -143,14 +136,16 @@ class CycleModel::Rows {
   void tie_static_friction(const CycleFrame& frame, Index row) const {
     const double weight = 1.0 / scales_.population->onset_sd;
     const double drag = 2.0 * frame.zeta * frame.force_scale;
-    residuals_[row] = weight * (scales_.population->force * *values_.difference - frame.onset_force - drag);
+    residuals_[row] = weight * (scales_.population->force * (*values_.shared)(kDifference)-frame.onset_force - drag);
     if (jacobian_ == nullptr) return;
     Jacobian::RowXpr line = cleared(row);
     line(kLogStiffness) = -weight * drag;
     line(kLogFrequency) = weight * drag;
     line(kDamping) = -weight * 2.0 * frame.force_scale;
-    if (cycle_.has_exponent()) line(exponent_) = log_speed() * (line(kLogStiffness) + 0.5 * line(kLogFrequency));
-    line(difference_) = weight * scales_.population->force;
+    if (columns_.has(kStiffnessExponent)) {
+      line(of(kStiffnessExponent)) = log_speed() * (line(kLogStiffness) + 0.5 * line(kLogFrequency));
+    }
+    line(of(kDifference)) = weight * scales_.population->force;
     line(onset_ + 1) = -weight * scales_.force;
   }
 
@@ -161,12 +156,15 @@ class CycleModel::Rows {
     residuals_[row] = weight * (unit * *values_.constant - scales_.level - scales_.force * values_.local[2]);
     if (jacobian_ == nullptr) return;
     Jacobian::RowXpr line = cleared(row);
-    line(constant_) = weight * unit;
+    line(constant()) = weight * unit;
     line(onset_ + 2) = -weight * scales_.force;
   }
 
  private:
   [[nodiscard]] double* at(Index column) const { return jacobian_ + column * stride_; }
+  /// Of a coordinate that the fit solves for.
+  [[nodiscard]] Index of(Coordinate coordinate) const { return static_cast<Index>(*columns_.find(coordinate)); }
+  [[nodiscard]] Index constant() const { return drift_ - 1; }
   /// Of the rows that are not ties.
   [[nodiscard]] Column column(Index column) const { return {at(column), rows_.force.size()}; }
   [[nodiscard]] double constant_force() const {
@@ -182,15 +180,17 @@ class CycleModel::Rows {
     const double scaled = -by_noise * frame.force_scale;
     column(kLogStiffness) = scaled * weight * (z - frame.z0() * column(onset_ + 1));  // at a fixed tau
     column(kLogFrequency) = scaled * weight * column(kLogFrequency) - column(kLogStiffness);
-    for (Index i = kDamping; i < globals_; ++i) column(i) *= scaled * weight;
-    if (cycle_.has_exponent()) {
-      column(exponent_) = log_speed() * (column(kLogStiffness) + 0.5 * column(kLogFrequency));
+    for (const Coordinate of_law : {kDamping, kFrictionSlope, kFrictionRate, kSlipDistance}) {
+      if (columns_.has(of_law)) column(of(of_law)) *= scaled * weight;
     }
-    if (cycle_.has_sensor_time()) column(sensor_time_) *= 0.5 / *values_.sensor_time * scaled * weight;
-    if (cycle_.has_difference()) column(difference_).setZero();
-    if (cycle_.has_constant() && per_cycle) column(constant_).setZero();
-    if (cycle_.has_constant() && !per_cycle) {
-      column(constant_) = -by_noise * scales_.level_unit() * rows_.level_weight;
+    if (columns_.has(kStiffnessExponent)) {
+      column(of(kStiffnessExponent)) = log_speed() * (column(kLogStiffness) + 0.5 * column(kLogFrequency));
+    }
+    if (columns_.has(kSensorTime)) column(of(kSensorTime)) *= 0.5 / (*values_.shared)(kSensorTime)*scaled * weight;
+    if (columns_.has(kDifference)) column(of(kDifference)).setZero();
+    if (columns_.has_constant() && per_cycle) column(constant()).setZero();
+    if (columns_.has_constant() && !per_cycle) {
+      column(constant()) = -by_noise * scales_.level_unit() * rows_.level_weight;
     }
     for (Index i = 0; i < rows_.level.cols(); ++i) {
       column(drift_ + i) = -by_noise * scales_.force * weight * rows_.level.col(i);
@@ -201,7 +201,7 @@ class CycleModel::Rows {
   }
 
   [[nodiscard]] Jacobian::RowXpr cleared(Index row) const {
-    Jacobian jacobian(jacobian_, stride_, static_cast<Index>(cycle_.columns()));
+    Jacobian jacobian(jacobian_, stride_, static_cast<Index>(columns_.size()));
     jacobian.row(row).setZero();
     return jacobian.row(row);
   }
@@ -212,8 +212,9 @@ class CycleModel::Rows {
   const CycleValues values_;
   double* residuals_;
   double* jacobian_;
+  const Columns& columns_;
   Index stride_;
-  Index globals_, exponent_, sensor_time_, difference_, constant_, drift_, onset_;  ///< first column of each
+  Index drift_, onset_;  ///< first column of each
 };
 
 /// F = level + u z(tau; z0, law), tau = w_n (t - onset), z0 = A / u, u = k V / w_n
@@ -250,20 +251,16 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, const Rows& rows)
 
 bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* jacobian) const {
   Rows rows(*this, values, residuals, jacobian);
-  const Globals globals = globals_at_speed(values);
   if (!is_integrated()) {
-    const std::optional<CycleState> now = state(globals.data(), values.local, sensor_of(values));
+    const std::optional<CycleState> now = state(*values.shared, values.local);
     if (now) std::visit([&](const auto& law) { fill(law, *now, rows); }, now->motion);
     return now.has_value();
   }
-  const CycleFrame f = frame(globals.data(), values.local);
-  const auto motion = SpeedDependentCycle::solve(f.z0(), globals.data(), sensor_of(values), scales_);
+  const Coordinates here = at_speed(*values.shared);
+  const CycleFrame f = frame(here, values.local);
+  const auto motion = SpeedDependentCycle::solve(f.z0(), here, sensor_of(scales_, here), scales_);
   if (motion) fill(*motion, f, rows);
   return motion.has_value();
-}
-
-bool CycleModel::is_inside(const CycleValues& values) const {
-  return state(globals_at_speed(values).data(), values.local, sensor_of(values)).has_value();
 }
 
 }  // namespace slipfit::fit

@@ -10,12 +10,16 @@
 #include <variant>
 #include <vector>
 
+#include "fit/cycle/columns.hpp"
 #include "fit/cycle/cycle_data.hpp"
 #include "fit/law/coulomb.hpp"
 #include "fit/law/slip_weakening.hpp"
 #include "fit/level/reloading.hpp"
 
 namespace slipfit::fit {
+
+/// The times of the sensor, of which one may be a parameter.
+SensorTimes sensor_of(const Scales& scales, const Coordinates& values);
 
 /// Values of the Legendre polynomials P_0 ... P_(terms-1) at x, and their derivatives.
 void legendre(double x, std::size_t terms, double* values, double* derivatives);
@@ -83,15 +87,12 @@ using Local = std::array<double, 3>;
 
 /// Where a cycle's residuals find their parameters.
 struct CycleValues {
-  const double* globals = nullptr;     ///< globals_of(law)
-  const double* difference = nullptr;  ///< F_s - F_k(0+) / Population::force; of a sweep only
+  const Coordinates* shared = nullptr;  ///< those of Columns::coordinates are read
   /// The level's constant; null where it has none: a level per cycle outside a sweep. In a sweep a level per cycle
   /// follows this one.
   const double* constant = nullptr;
-  const double* drift = nullptr;  ///< the level's other columns
+  const double* drift = nullptr;  ///< coefficients of the level's other functions
   const double* local = nullptr;
-  const double* exponent = nullptr;     ///< d ln k / d ln V, where k goes with the speed
-  const double* sensor_time = nullptr;  ///< (time / Scales::sensor_time_unit_s)^2, where one is free
 };
 
 /// What the physical numbers are for one cycle, whatever the friction law.
@@ -141,49 +142,31 @@ struct CycleState : CycleFrame {
 /// level of its own to F_k(0+).
 class CycleModel {
  public:
-  CycleModel(const CycleSet& set, std::size_t cycle, const Scales& scales);
+  /// What is given must outlive the model.
+  CycleModel(const CycleSet& set, std::size_t cycle, const Scales& scales, const Columns& columns);
 
   [[nodiscard]] std::size_t residuals() const { return data_->residuals() + ties(); }
-  [[nodiscard]] std::size_t local_parameters() const { return level_->per_cycle ? 3 : 2; }
-  [[nodiscard]] bool has_constant() const { return level_->terms > 0 || scales_.population.has_value(); }
-  [[nodiscard]] std::size_t drift_parameters() const { return level_->columns_behind_constant(); }
+  [[nodiscard]] const Columns& columns() const { return *columns_; }
   /// Where the lines' cosines and sines stand in the level's parameters: at their end.
   [[nodiscard]] std::size_t first_wave() const {
-    return (has_constant() ? 1 : 0) + drift_parameters() - 2 * level_->lines_Hz.size();
-  }
-  [[nodiscard]] std::size_t globals() const { return globals_of(scales_.law); }
-  [[nodiscard]] bool has_difference() const { return scales_.population.has_value(); }
-  [[nodiscard]] bool has_exponent() const { return scales_.population && scales_.population->log_speed; }
-  [[nodiscard]] bool has_sensor_time() const { return scales_.free_time != FreeTime::None; }
-  /// Columns of the Jacobian: globals, exponent, time of the sensor, difference, constant, drift, own; those that there
-  /// are.
-  [[nodiscard]] std::size_t columns() const { return common_parameters() + local_parameters(); }
-  [[nodiscard]] std::size_t common_parameters() const {
-    return globals() + (has_exponent() ? 1 : 0) + (has_sensor_time() ? 1 : 0) + (scales_.population ? 1 : 0) +
-           (has_constant() ? 1 : 0) + drift_parameters();
+    return (columns_->has_constant() ? 1 : 0) + columns_->drift() - 2 * level_->lines_Hz.size();
   }
   [[nodiscard]] const CycleData& data() const { return *data_; }
   /// Friction that depends on the speed has no closed form.
-  [[nodiscard]] bool is_integrated() const {
-    return scales_.law != FrictionLaw::Coulomb && scales_.law != FrictionLaw::Weakening;
-  }
+  [[nodiscard]] bool is_integrated() const { return depends_on_speed(scales_.law); }
 
-  /// Residuals and, unless null, their Jacobian (residuals() x columns(), column after column). False where the slip
-  /// has no solution.
+  /// Residuals and, unless null, their Jacobian (residuals() x columns().size(), column after column). False where the
+  /// slip has no solution.
   bool evaluate(const CycleValues& values, double* residuals, double* jacobian) const;
 
   /// Whether the slip has a solution in closed form.
-  [[nodiscard]] bool is_inside(const CycleValues& values) const;
-
-  /// The globals at the recording's speed: k goes with it, and w_n of the same mass.
-  [[nodiscard]] Globals globals_at_speed(const double* globals, double exponent) const;
-  [[nodiscard]] Globals globals_at_speed(const CycleValues& values) const;
-  /// `globals`: at the recording's speed, here and in state().
-  [[nodiscard]] CycleFrame frame(const double* globals, const double* local) const;
-  /// As the sensor of the scales shows it. Empty where the slip has no solution.
-  [[nodiscard]] std::optional<CycleState> state(const double* globals, const double* local) const {
-    return state(globals, local, {scales_.sensor_lag_s, scales_.sensor_average_s});
+  [[nodiscard]] bool is_inside(const CycleValues& values) const {
+    return state(*values.shared, values.local).has_value();
   }
+
+  /// In closed form, as the sensor shows it; friction that depends on the speed counts as if it did not. Empty where
+  /// the slip has no solution. `shared`: at Units::speed_m_per_s where k goes with the speed.
+  [[nodiscard]] std::optional<CycleState> state(const Coordinates& shared, const double* local) const;
   /// Without hum. `level`: constant, where there is one, and drift.
   [[nodiscard]] double level_at(double time_s, const double* level, const double* local) const;
   [[nodiscard]] double hum_at(double time_s, const double* level) const;
@@ -193,9 +176,10 @@ class CycleModel {
  private:
   class Rows;
 
-  [[nodiscard]] std::optional<CycleState> state(const double* globals, const double* local,
-                                                const SensorTimes& sensor) const;
-  [[nodiscard]] SensorTimes sensor_of(const CycleValues& values) const;
+  /// At the recording's speed: k goes with it, and w_n of the same mass.
+  [[nodiscard]] Coordinates at_speed(const Coordinates& shared) const;
+  /// `here`: at the recording's speed.
+  [[nodiscard]] CycleFrame frame(const Coordinates& here, const double* local) const;
   [[nodiscard]] std::size_t ties() const { return scales_.population ? 1 + (level_->per_cycle ? 1 : 0) : 0; }
   template <class Law>
   void fill(const Law& law, const CycleFrame& frame, const Rows& rows) const;
@@ -203,6 +187,7 @@ class CycleModel {
   const CycleData* data_;
   const LevelModel* level_;
   const CycleRows* rows_;
+  const Columns* columns_;
   Scales scales_;
   double reference_s_;
   double even_step_s_;

@@ -111,15 +111,15 @@ double stiffness_of(const Recording& recording, const Segmentation& segmentation
   return signal::median(slopes) / recording.conditions().speed_m_per_s;
 }
 
-void set_start(BlockFit& fit, const Segmentation& segmentation, const Globals& globals) {
+void set_start(BlockFit& fit, const Segmentation& segmentation, const Coordinates& start) {
   const Scales& scales = fit.scales();
-  const double stiffness_N_per_m = std::exp(globals[kLogStiffness]);
-  const double omega_rad_per_s = std::exp(globals[kLogFrequency]);
-  const double zeta = globals[kDamping];
+  const double stiffness_N_per_m = std::exp(start(kLogStiffness));
+  const double omega_rad_per_s = std::exp(start(kLogFrequency));
+  const double zeta = start(kDamping);
   const double b = std::sqrt(1.0 - zeta * zeta);
   const double rebound = std::exp(-std::numbers::pi * zeta / b);  // trough over peak, both from the level
   const double u = stiffness_N_per_m * scales.speed_m_per_s / omega_rad_per_s;
-  fit.parameters.globals = globals;
+  fit.parameters.values.head<kOfLaw>() = start.head<kOfLaw>();
   std::vector<double> times_s;
   std::vector<double> levels;
   for (std::size_t i = 0; i < fit.size(); ++i) {

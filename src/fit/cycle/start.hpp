@@ -13,6 +13,6 @@ Scales scales_of(const Recording& recording, const Quality& quality, const Segme
 double stiffness_of(const Recording& recording, const Segmentation& segmentation);
 
 /// Fills `fit.parameters` for the given shared ones from peaks, troughs and middles of the slips.
-void set_start(BlockFit& fit, const Segmentation& segmentation, const Globals& globals);
+void set_start(BlockFit& fit, const Segmentation& segmentation, const Coordinates& start);
 
 }  // namespace slipfit::fit

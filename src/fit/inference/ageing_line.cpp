@@ -25,11 +25,8 @@ VectorXd log_speeds(const SweepSolution& solution) {
 /// from the straight ramp over twice F_s - F_k.
 VectorXd log_sticks(const SweepSolution& solution) {
   const VectorXd differences = differences_of(solution);
-  const Globals& globals = solution.recordings.front().parameters.globals;
   const Units& units = solution.sweep.units;
-  Coordinates values = Coordinates::Zero();
-  for (std::size_t i = 0; i < globals.size(); ++i) values(static_cast<Index>(i)) = globals[i];
-  values(kStiffnessExponent) = solution.recordings.front().parameters.exponent;
+  Coordinates values = solution.shared();
   if (solution.reload) {
     values(kReloadLength) = std::log(solution.reload->metres);
     if (const VectorXd rises = rises_of(solution); rises.size() > 0) values(kReloadForce) = rises.mean();
@@ -212,7 +209,7 @@ AgeingCutoff cutoff_of(const LinesOverSticks& lines) {
 VectorXd differences_of(const SweepSolution& solution) {
   VectorXd differences(static_cast<Index>(solution.recordings.size()));
   for (Index i = 0; i < differences.size(); ++i) {
-    differences(i) = solution.recordings[static_cast<std::size_t>(i)].parameters.difference;
+    differences(i) = solution.recordings[static_cast<std::size_t>(i)].parameters.values(kDifference);
   }
   return differences;
 }

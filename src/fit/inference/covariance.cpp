@@ -14,12 +14,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd common_steps(const RowMajor& reduced, Index sides, const Held& held) {
+MatrixXd common_steps(const RowMajor& reduced, Index sides, const std::vector<Index>& held) {
   const Index common = reduced.cols() - sides;
   MatrixXd hessian = reduced.topLeftCorner(common, common).selfadjointView<Eigen::Upper>();
   MatrixXd pull = reduced.topRightCorner(common, sides);
-  for (Index i = 0; i < std::min(common, static_cast<Index>(held.size())); ++i) {
-    if (!held[static_cast<std::size_t>(i)]) continue;
+  for (const Index i : held) {
     hessian.row(i).setZero();
     hessian.col(i).setZero();
     hessian(i, i) = 1.0;
@@ -49,7 +48,7 @@ struct Response {
 std::optional<RampResidual> ramp_after(const BlockFit& fit, std::size_t cycle, bool continuous) {
   if (!continuous || cycle + 1 >= fit.size() || !fit.data(cycle).continuous_with_next) return std::nullopt;
   const Parameters& p = fit.parameters;
-  RampResidual ramp = ramp_residual(fit, cycle, p.globals.data(), p.cycles[cycle].data(), p.cycles[cycle + 1].data());
+  RampResidual ramp = ramp_residual(fit, cycle, p.values, p.cycles[cycle].data(), p.cycles[cycle + 1].data());
   ramp.value = 0.0;
   return ramp;
 }
@@ -57,7 +56,8 @@ std::optional<RampResidual> ramp_after(const BlockFit& fit, std::size_t cycle, b
 /// `own`: S of the own parameters of each cycle.
 Response response_of(const Problem& problem, const std::vector<Normal>& normals, const Selection& selection,
                      const MatrixXd& own, const SolveOptions& solved) {
-  Elimination elimination(CommonColumns(problem).size(), 0.0, kCoordinates);
+  const CommonColumns columns(problem);
+  Elimination elimination(columns.size(), 0.0, kCoordinates);
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const Normal& normal = normals[i];
     const Index size = normal.common() + normal.own();
@@ -72,7 +72,7 @@ Response response_of(const Problem& problem, const std::vector<Normal>& normals,
   RowMajor reduced = elimination.common();
   if (elimination.is_singular()) reduced.setConstant(std::numeric_limits<double>::quiet_NaN());
   reduced.topRightCorner(selection.common.rows(), kCoordinates) += selection.common;
-  const MatrixXd common = common_steps(reduced, kCoordinates, held_in(problem, solved.held));
+  const MatrixXd common = common_steps(reduced, kCoordinates, columns.held(solved.held));
   return {common, elimination.own_steps(common, 1.0)};
 }
 
@@ -111,7 +111,8 @@ std::vector<MatrixXd> influences_of(const BlockFit& fit, const Selection& select
 }
 
 NewtonStep newton_step(const Problem& problem, const std::vector<Normal>& normals, const Held& held) {
-  Elimination elimination(CommonColumns(problem).size());
+  const CommonColumns columns(problem);
+  Elimination elimination(columns.size());
   NewtonStep result;
   for (const Normal& normal : normals) {
     const double square = normal.products(normal.products.rows() - 1, normal.products.cols() - 1);
@@ -123,7 +124,7 @@ NewtonStep newton_step(const Problem& problem, const std::vector<Normal>& normal
     result.sum_of_squares += weight.sum;
   }
   const RowMajor& reduced = elimination.common();
-  result.step = common_steps(reduced, 1, held_in(problem, held));
+  result.step = common_steps(reduced, 1, columns.held(held));
   result.gain = -reduced.rightCols<1>().head(result.step.size()).dot(result.step);
   result.sum_of_squares -= result.gain;
   return result;
@@ -147,7 +148,8 @@ MatrixXd own_response(const Normal& normal, Index common) {
 
 CoordinateMatrix jackknife_covariance(const Problem& problem, const std::vector<Normal>& normals,
                                       const Selection& selection, const Held& held) {
-  const Index common = CommonColumns(problem).size();
+  const CommonColumns columns(problem);
+  const Index common = columns.size();
   const Index local = selection.local.rows();
   Elimination elimination(common);
   std::vector<RowMajor> parts;  // of the units: cycles and steady recordings
@@ -167,13 +169,13 @@ CoordinateMatrix jackknife_covariance(const Problem& problem, const std::vector<
   }
   RowMajor sum = elimination.common();
   sum.rightCols<1>().setZero();  // the gradient at the solution
-  const Held held_here = held_in(problem, held);
+  const std::vector<Index> held_columns = columns.held(held);
   const double others = static_cast<double>(parts.size()) - 1.0;
   MatrixXd replicates(static_cast<Index>(parts.size()), Index{kCoordinates});
   for (std::size_t i = 0; i < parts.size(); ++i) {
     RowMajor remaining = sum;
     add_scattered(-parts[i], normals[i].columns, remaining);
-    const VectorXd step = common_steps(remaining, 1, held_here);
+    const VectorXd step = common_steps(remaining, 1, held_columns);
     replicates.row(static_cast<Index>(i)) = selection.common.transpose() * step;
     if (local == 0) continue;
     const VectorXd mean_local = (sum_of_locals - locals[i] + (response - responses[i]) * step) / others;

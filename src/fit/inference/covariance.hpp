@@ -24,9 +24,10 @@ struct NewtonStep {
 };
 NewtonStep newton_step(const Problem& problem, const std::vector<Normal>& normals, const Held& held);
 
-/// Steps of the common parameters to the least sums of squares, a column for each of the `sides`; held globals stay.
+/// Steps of the common parameters to the least sums of squares, a column for each of the `sides`; those of the
+/// columns `held` stay.
 /// `reduced`: as Elimination::common. Not a number where it is singular.
-Eigen::MatrixXd common_steps(const RowMajor& reduced, Eigen::Index sides, const Held& held);
+Eigen::MatrixXd common_steps(const RowMajor& reduced, Eigen::Index sides, const std::vector<Eigen::Index>& held);
 
 /// What the coordinates of a recording move by with steps of the common parameters (common_steps), the cycles' own
 /// following: of the first of the sides.

@@ -154,7 +154,7 @@ TrendFindings find_level_trend(const Recording& recording, const DampedFit& fit)
   const double other = result.is_per_cycle ? shares.low : shares.high;
   const double rate_in_sticks = in_ramps ? in_ramps->level_rate : rate;
   result.trend.in_sticks_per_s = (1.0 - reported) * rate_in_sticks;
-  const double stiffness = std::exp(blocks.parameters.globals[kLogStiffness]);
+  const double stiffness = std::exp(blocks.parameters.values(kLogStiffness));
   const double drift = rate_in_sticks / (stiffness * recording.conditions().speed_m_per_s);
   const auto log_k_at = [&](double share) {
     return std::log(std::max(thresholds::kLeastStiffness, 1.0 + (share - fitted_share) * drift));

@@ -25,11 +25,10 @@ std::vector<Normal> normals_of(const Problem& problem) {
   }
   if (!problem.sweep.sharing.level) return normals;
   const BlockFit& any = problem.recordings.front();
-  const std::size_t globals = any.model(0).globals();
   for (const SteadyRun& run : problem.sweep.steady) {
-    const SteadyResidual steady = steady_residual(run, problem.sweep.units, any.scales().law, any.parameters.globals,
+    const SteadyResidual steady = steady_residual(run, problem.sweep.units, any.scales().law, any.parameters.values,
                                                   any.parameters.level.front());
-    normals.push_back({columns.of_steady(globals), products_of(steady, globals), VectorXd()});
+    normals.push_back({columns.of_steady(), products_of(steady, any.columns()), VectorXd()});
   }
   return normals;
 }
@@ -48,7 +47,7 @@ std::vector<Normal> normals_without(const Problem& all, std::size_t recording, c
   }
   for (; next != normals.end(); ++next) {
     kept.push_back(*next);
-    kept.back().columns = columns.of_steady(others.recordings.front().model(0).globals());
+    kept.back().columns = columns.of_steady();
   }
   return kept;
 }

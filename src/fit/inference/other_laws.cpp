@@ -19,7 +19,7 @@ constexpr double kExcluding = 3.841458821;
 constexpr double kSteepest = -20.0;
 
 double rate_of(const SweepSolution& solution) {
-  return solution.recordings.front().parameters.globals[kFrictionRate];
+  return solution.recordings.front().parameters.values(kFrictionRate);
 }
 
 /// The hyperbolic law, and the logarithmic one at its best and at rates that begin to change the friction ever earlier.

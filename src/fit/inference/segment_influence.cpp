@@ -39,9 +39,7 @@ std::array<Rows, kSegments> stretches_of(const BlockFit& fit, std::size_t cycle)
 class SegmentInfluence {
  public:
   explicit SegmentInfluence(const BlockFit& fit)
-      : fit_(fit),
-        columns_(CommonColumns(Problem{{&fit, 1}}).of(0)),
-        without_(kSegments, Elimination(static_cast<Index>(columns_.size()))) {
+      : fit_(fit), columns_(Problem{{&fit, 1}}), without_(kSegments, Elimination(columns_.size())) {
     for (std::size_t i = 0; i < fit.size(); ++i) add(i);
   }
 
@@ -50,7 +48,7 @@ class SegmentInfluence {
     Moves moves(kSegments, kCoordinates);
     Index known = 0;
     for (const Elimination& without : without_) {
-      const VectorXd step = common_steps(without.common(), 1, held);
+      const VectorXd step = common_steps(without.common(), 1, columns_.held(held));
       if (!step.allFinite() || without.is_singular()) continue;
       moves.row(known++) = move_of(selection, without, step).transpose();
     }
@@ -68,12 +66,12 @@ class SegmentInfluence {
       const RowMajor left = products_of(lines_.middleRows(stretches[p].begin, stretches[p].count));
       RowMajor kept = weight * (all - left);
       kept.rightCols<1>() = -weight * left.rightCols<1>();  // with all samples nothing pulls
-      without_[p].add_cycle(kept, columns_);
+      without_[p].add_cycle(kept, columns_.of(0));
     }
   }
 
   const BlockFit& fit_;
-  std::vector<Index> columns_;
+  CommonColumns columns_;
   std::vector<Elimination> without_;
   MatrixXd lines_;
 };

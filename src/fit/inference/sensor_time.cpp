@@ -14,7 +14,8 @@ double sensor_time_error(const CoordinateMatrix& covariance) {
 CoordinateMatrix with_unknown_shape(const CoordinateMatrix& covariance, const BlockFit& fit) {
   const double variance = covariance(kSensorTime, kSensorTime);
   if (!(variance > 0.0)) return covariance;
-  const Coordinates by_shape = thresholds::kKernelShape * fit.sensor_time() / variance * covariance.col(kSensorTime);
+  const Coordinates by_shape =
+      thresholds::kKernelShape * fit.parameters.values(kSensorTime) / variance * covariance.col(kSensorTime);
   return covariance + by_shape * by_shape.transpose();
 }
 
@@ -22,8 +23,8 @@ std::optional<FittedAverage> average_of(const BlockFit& fit, const CoordinateMat
   const Scales& scales = fit.scales();
   if (scales.free_time != FreeTime::Average) return std::nullopt;
   const double unit_s2 = scales.sensor_time_unit_s * scales.sensor_time_unit_s;
-  return FittedAverage{scales.sensor_average_s,
-                       0.5 * unit_s2 * sensor_time_error(covariance) / scales.sensor_average_s};
+  const double average_s = fit.sensor().average_s;
+  return FittedAverage{average_s, 0.5 * unit_s2 * sensor_time_error(covariance) / average_s};
 }
 
 }  // namespace slipfit::fit

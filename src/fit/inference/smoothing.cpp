@@ -65,15 +65,15 @@ bool Smoothing::exceeds_step(double sample_interval_s) const {
 }
 
 std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& held, double sample_interval_s) {
-  if (fit.model(0).has_sensor_time()) return std::nullopt;
-  const double known_s = fit.scales().sensor_average_s;
+  if (fit.solves_for(kSensorTime)) return std::nullopt;
+  const double known_s = fit.sensor().average_s;
   const double trial_s = std::max(kTrialShare * fit.scales().half_period_s, kTrialSteps * sample_interval_s);
   const double variance_s2 = trial_s * trial_s / 12.0;
-  const std::vector<Index> columns = CommonColumns(Problem{{&fit, 1}}).of(0);
-  const auto common = static_cast<Index>(columns.size());
-  const TwoSides sides = two_sides_of(fit, columns, variance_s2, std::hypot(known_s, trial_s));
+  const CommonColumns columns(Problem{{&fit, 1}});
+  const Index common = columns.size();
+  const TwoSides sides = two_sides_of(fit, columns.of(0), variance_s2, std::hypot(known_s, trial_s));
   const RowMajor& sum = sides.all.common();
-  const MatrixXd steps = common_steps(sum, 2, held);
+  const MatrixXd steps = common_steps(sum, 2, columns.held(held));
   const VectorXd common_step = steps.col(0);
   const double square = sum(common, common);
   const double information = square + sum.col(common).head(common).dot(common_step);

@@ -47,17 +47,17 @@ AgeingLine static_friction_line(const SweepSolution& solution, const StaticFrict
 Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
   const CommonColumns columns(solution.problem());
   Selection selection{MatrixXd::Zero(columns.size(), kCoordinates), {}};
-  for (Index i = 0; i < static_cast<Index>(solution.recordings.front().model(0).globals()); ++i) {
-    selection.common(i, i) = 1.0;
+  for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
+    for (const Coordinate coordinate : solution.recordings[r].columns().coordinates()) {
+      if (coordinate != kDifference) selection.common(*columns.find(r, coordinate), coordinate) = 1.0;
+    }
   }
-  if (const auto exponent = columns.exponent()) selection.common(*exponent, kStiffnessExponent) = 1.0;
-  if (const auto time = columns.sensor_time()) selection.common(*time, kSensorTime) = 1.0;
   const Index levels = levels_of(solution).size();
   for (Index r = 0; r < levels; ++r) {
     selection.common(columns.level(static_cast<std::size_t>(r)), kLevel) = 1.0 / static_cast<double>(levels);
   }
   for (Index r = 0; r < line.rate_weights.size(); ++r) {
-    const Index column = columns.difference(static_cast<std::size_t>(r));
+    const Index column = *columns.find(static_cast<std::size_t>(r), kDifference);
     selection.common(column, kDifference) = line.difference_weights(r);
     selection.common(column, kAgeing) = line.rate_weights(r);
   }
@@ -84,11 +84,7 @@ void add_scatter(Spread& spread, const SweepSolution& solution, const AgeingLine
 Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& kind) {
   const AgeingLine line = static_friction_line(solution, kind);
   const VectorXd differences = shared_or_own(differences_of(solution), solution.sweep.sharing.difference);
-  Coordinates values = Coordinates::Zero();
-  const Globals& globals = solution.recordings.front().parameters.globals;
-  for (std::size_t i = 0; i < globals.size(); ++i) values(static_cast<Index>(i)) = globals[i];
-  values(kStiffnessExponent) = solution.recordings.front().parameters.exponent;
-  if (const BlockFit* averaged = solution.with_sensor_time()) values(kSensorTime) = averaged->sensor_time();
+  Coordinates values = solution.shared();
   values(kLevel) = levels_of(solution).mean();
   values(kDifference) = line.difference_weights.dot(differences);
   values(kAgeing) = line.rate_weights.dot(differences);

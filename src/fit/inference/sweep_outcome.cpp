@@ -155,7 +155,8 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
   if (outcome.disagree) {
     Spread& spread = outcome.spread;
     spread.covariance += jackknife_over(outcome.left_out);
-    const double fitted = solution.recordings.front().model(0).has_exponent() ? 2.0 : 1.0;  // of a line, of a mean
+    const double fitted =
+        solution.recordings.front().solves_for(kStiffnessExponent) ? 2.0 : 1.0;  // of a line, of a mean
     spread.degrees_of_freedom = std::max(1.0, std::min(spread.degrees_of_freedom, count_of(outcome.left_out) - fitted));
   }
   if (outcome.reach.trend) outcome.reach.trend = std::hypot(*outcome.reach.trend, error_beyond(outcome));

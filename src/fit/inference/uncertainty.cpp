@@ -92,14 +92,14 @@ double spread_of_onset_force(const BlockFit& fit) {
 
 /// u = k V / w_n
 double force_scale(const BlockFit& fit) {
-  const Globals& g = fit.parameters.globals;
-  return std::exp(g[kLogStiffness] - g[kLogFrequency]) * fit.scales().speed_m_per_s;
+  const Coordinates& values = fit.parameters.values;
+  return std::exp(values(kLogStiffness) - values(kLogFrequency)) * fit.scales().speed_m_per_s;
 }
 
 /// Of all cycles.
 double parameters_of(const BlockFit& fit) {
   const CycleModel& any = fit.model(0);
-  return static_cast<double>(any.common_parameters() + any.local_parameters() * fit.size());
+  return static_cast<double>(any.columns().common() + any.columns().own() * fit.size());
 }
 
 }  // namespace
@@ -115,16 +115,13 @@ Coordinates coordinates_of(const BlockFit& fit) {
   const auto cycles = static_cast<double>(fit.size());
   const double force = fit.scales().force;
   Coordinates coordinates = Coordinates::Zero();
-  for (std::size_t i = 0; i < fit.model(0).globals(); ++i) {
-    coordinates(coordinate_of(fit.scales().law, i)) = p.globals[i];
-  }
-  if (fit.model(0).has_sensor_time()) coordinates(kSensorTime) = fit.sensor_time();
+  for (const Coordinate coordinate : fit.columns().coordinates()) coordinates(coordinate) = p.values(coordinate);
   for (std::size_t i = 0; i < fit.size(); ++i) {
     const double level = fit.model(i).level_at(fit.reference_s(i), fit.level_data(), p.cycles[i].data());
     coordinates(kLevel) += (level - fit.scales().level) / force / cycles;
     coordinates(kDifference) += p.cycles[i][1] / cycles;
   }
-  coordinates(kDifference) += 2.0 * p.globals[kDamping] * force_scale(fit) / force;
+  coordinates(kDifference) += 2.0 * p.values(kDamping) * force_scale(fit) / force;
   if (const auto& reloading = fit.level().reloading) {
     const double* const rise = fit.rise_data();
     coordinates(kReloadForce) = rise[0];
@@ -143,14 +140,13 @@ void select_rise(const BlockFit& fit, Index first_drift, double weight, Selectio
 /// F_s - F_k = A + c V: the spring force at onset is F_s - c V, and c V = 2 zeta k V / w_n. docs/model.md section 4
 Selection select(const BlockFit& fit) {
   const CommonColumns columns(Problem{{&fit, 1}});
-  const auto local = static_cast<Index>(fit.model(0).local_parameters());
+  const auto local = static_cast<Index>(fit.columns().own());
   Selection selection{MatrixXd::Zero(columns.size(), kCoordinates), MatrixXd::Zero(local, kCoordinates)};
-  for (std::size_t i = 0; i < fit.model(0).globals(); ++i) {
-    selection.common(static_cast<Index>(i), coordinate_of(fit.scales().law, i)) = 1.0;
+  for (const Coordinate coordinate : fit.columns().coordinates()) {
+    selection.common(*columns.find(0, coordinate), coordinate) = 1.0;
   }
-  if (const auto time = columns.sensor_time()) selection.common(*time, kSensorTime) = 1.0;
   const double drag_unit = 2.0 * force_scale(fit) / fit.scales().force;
-  const double drag = drag_unit * fit.parameters.globals[kDamping];
+  const double drag = drag_unit * fit.parameters.values(kDamping);
   selection.common(kLogStiffness, kDifference) = drag;
   selection.common(kLogFrequency, kDifference) = -drag;
   selection.common(kDamping, kDifference) = drag_unit;

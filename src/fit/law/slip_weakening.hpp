@@ -20,11 +20,11 @@ class WeakeningCycle {
 
   /// `average_s`: over which the sensor averages. Empty where D_c is far beyond (F_s - F_k) / k, from which on friction
   /// that weakens makes no stick-slip: a weak slip may lie above that limit, but not all.
-  static std::optional<WeakeningCycle> solve(double z0, double omega_rad_per_s, const double* globals, double average_s,
-                                             const Scales& scales) {
-    const double root = globals[kFrictionSlope];
+  static std::optional<WeakeningCycle> solve(double z0, double omega_rad_per_s, const Coordinates& values,
+                                             double average_s, const Scales& scales) {
+    const double root = values(kSlipDistance);
     const double unit = scales.slip_distance_m * omega_rad_per_s / scales.speed_m_per_s;
-    const double zeta = globals[kDamping];
+    const double zeta = values(kDamping);
     const double lambda = z0 + 2.0 * zeta;
     constexpr double kShortest = 1e-9;  // of lambda: Coulomb friction
     constexpr double kLongest = 1.5;    // of half the typical drop over k

@@ -34,23 +34,23 @@ class SpeedDependentCycle {
   using Point = ShownPoint;
 
   /// Empty where the slip has no solution.
-  static std::optional<SpeedDependentCycle> solve(double z0, const double* globals, const SensorTimes& sensor,
+  static std::optional<SpeedDependentCycle> solve(double z0, const Coordinates& values, const SensorTimes& sensor,
                                                   const Scales& scales) {
     const double rate_unit = scales.speed_m_per_s / scales.population->slip_speed_m_per_s;
     const double slope_unit = 2.0 * scales.population->load;
-    const SlopeRatio ratio = slope_ratio(scales.law, globals[kFrictionRate]);
-    const model::ScaledLaw law{slope_unit * globals[kFrictionSlope] * ratio.value, rate_unit * globals[kFrictionRate],
+    const SlopeRatio ratio = slope_ratio(scales.law, values(kFrictionRate));
+    const model::ScaledLaw law{slope_unit * values(kFrictionSlope) * ratio.value, rate_unit * values(kFrictionRate),
                                shape_of(scales.law)};
-    auto track = model::VelocityTrack::solve(z0, globals[kDamping], law);
+    auto track = model::VelocityTrack::solve(z0, values(kDamping), law);
     if (!track) return std::nullopt;
     SpeedDependentCycle cycle(std::move(*track), scales.view);
-    const double omega_rad_per_s = std::exp(globals[kLogFrequency]);
+    const double omega_rad_per_s = std::exp(values(kLogFrequency));
     if (sensor.lag_s > 0.0) {
       cycle.lagged_.emplace(cycle.track_, scales.view == ForceView::Transmitted, omega_rad_per_s * sensor.lag_s);
     }
     cycle.half_window_ = 0.5 * omega_rad_per_s * sensor.average_s;
     cycle.by_slope_ = slope_unit * ratio.value;
-    cycle.by_rate_ = slope_unit * globals[kFrictionSlope] * ratio.derivative;
+    cycle.by_rate_ = slope_unit * values(kFrictionSlope) * ratio.derivative;
     cycle.rate_unit_ = rate_unit;
     return cycle;
   }

@@ -50,7 +50,7 @@ Waves waves_at(const Eigen::VectorXd& time_s, double frequency_Hz) {
 
 /// k V.
 double stick_slope(const BlockFit& fit) {
-  return std::exp(fit.parameters.globals[kLogStiffness]) * fit.scales().speed_m_per_s;
+  return std::exp(fit.parameters.values(kLogStiffness)) * fit.scales().speed_m_per_s;
 }
 
 class Sticks {
@@ -92,8 +92,7 @@ class Sticks {
   /// Blocks begin at multiples of their length, so that all sticks lie on one grid.
   void add(std::size_t begin, std::size_t end) {
     // Beside a slip onset and end are known to about a sample, and an average still shows the slip.
-    const auto margin =
-        2 + static_cast<std::size_t>(0.5 * fit_.scales().sensor_average_s / recording_.sample_interval_s());
+    const auto margin = 2 + static_cast<std::size_t>(0.5 * fit_.sensor().average_s / recording_.sample_interval_s());
     const std::size_t first = (begin + margin + block_ - 1) / block_;
     const std::size_t last = end < margin ? 0 : (end - margin) / block_;
     if (last < first + kFewestBlocks) return;

@@ -12,15 +12,16 @@ namespace slipfit::fit {
 
 namespace {
 
-std::vector<CycleModel> models_of(const CycleSet& set, const Scales& scales) {
+std::vector<CycleModel> models_of(const CycleSet& set, const Scales& scales, const Columns& columns) {
   std::vector<CycleModel> models;
   models.reserve(set.cycles().size());
-  for (std::size_t i = 0; i < set.cycles().size(); ++i) models.emplace_back(set, i, scales);
+  for (std::size_t i = 0; i < set.cycles().size(); ++i) models.emplace_back(set, i, scales, columns);
   return models;
 }
 
-double& free_time_s(Scales& scales) {
-  return scales.free_time == FreeTime::Lag ? scales.sensor_lag_s : scales.sensor_average_s;
+double first_sensor_time(const Scales& scales) {
+  const double time_s = scales.free_time == FreeTime::Lag ? scales.sensor_lag_s : scales.sensor_average_s;
+  return std::pow(time_s / scales.sensor_time_unit_s, 2);
 }
 
 }  // namespace
@@ -28,9 +29,10 @@ double& free_time_s(Scales& scales) {
 BlockFit::BlockFit(std::shared_ptr<const CycleSet> set, const Scales& scales)
     : set_(std::move(set)),
       scales_(scales),
-      sensor_time_(std::pow(free_time_s(scales_) / scales.sensor_time_unit_s, 2)),
-      models_(models_of(*set_, scales_)) {
-  parameters.level.assign((models_[0].has_constant() ? 1 : 0) + models_[0].drift_parameters(), 0.0);
+      columns_(std::make_shared<const Columns>(scales_, set_->level())),
+      models_(models_of(*set_, scales_, *columns_)) {
+  parameters.values(kSensorTime) = first_sensor_time(scales_);
+  parameters.level.assign((columns_->has_constant() ? 1 : 0) + columns_->drift(), 0.0);
   parameters.cycles.assign(models_.size(), Local{});
 }
 
@@ -47,32 +49,24 @@ BlockFit BlockFit::with_level(LevelModel level, const Scales& scales) const {
 
 BlockFit BlockFit::with_scales(const Scales& scales) const {
   BlockFit other(set_, scales);
+  const double anew = other.parameters.values(kSensorTime);
   other.parameters = parameters;
+  const bool is_same = scales.free_time == scales_.free_time && anew == first_sensor_time(scales_);
+  if (!is_same) other.parameters.values(kSensorTime) = anew;
   return other;
 }
 
 CycleValues BlockFit::values(std::size_t cycle) const {
   CycleValues values;
-  values.globals = parameters.globals.data();
-  values.exponent = &parameters.exponent;
-  values.sensor_time = &sensor_time_;
-  values.difference = &parameters.difference;
+  values.shared = &parameters.values;
   values.constant = parameters.level.data();
-  values.drift = parameters.level.data() + (models_[cycle].has_constant() ? 1 : 0);
+  values.drift = parameters.level.data() + (columns_->has_constant() ? 1 : 0);
   values.local = parameters.cycles[cycle].data();
   return values;
 }
 
-void BlockFit::set_sensor_time(double value) {
-  sensor_time_ = value;
-  free_time_s(scales_) = scales_.sensor_time_unit_s * std::sqrt(value);
-  models_ = models_of(*set_, scales_);
-}
-
 CycleState BlockFit::state(std::size_t cycle) const {
-  const CycleModel& model = models_[cycle];
-  const Globals globals = model.globals_at_speed(parameters.globals.data(), parameters.exponent);
-  return model.state(globals.data(), parameters.cycles[cycle].data()).value();
+  return models_[cycle].state(parameters.values, parameters.cycles[cycle].data()).value();
 }
 
 double BlockFit::cycle_sum_of_squares(std::size_t cycle) const {

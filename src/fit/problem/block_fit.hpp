@@ -14,14 +14,14 @@ namespace slipfit::fit {
 
 /// The parameters of a recording in a fit.
 struct Parameters {
-  Globals globals{};
-  double exponent = 0.0;      ///< d ln k / d ln V, in a sweep where k goes with the speed
-  double difference = 0.0;    ///< F_s - F_k(0+) / Population::force, in a sweep
+  /// Those of Columns::coordinates. F_s - F_k(0+) of a recording counts in Population::force.
+  Coordinates values = Coordinates::Zero();
   std::vector<double> level;  ///< constant, where there is one, and drift; scaled by Scales::level_unit and force
   std::vector<Local> cycles;
 };
 
-/// A recording in a fit: cycles as blocks beside the globals, a bundle adjustment. The current solution of it.
+/// A recording in a fit: cycles as blocks beside the shared parameters, a bundle adjustment. The current solution of
+/// it.
 class BlockFit {
  public:
   BlockFit(std::shared_ptr<const CycleSet> set, const Scales& scales);
@@ -32,7 +32,8 @@ class BlockFit {
   /// The same cycles above another level, all parameters 0.
   [[nodiscard]] BlockFit with_level(LevelModel level, const Scales& scales) const;
 
-  /// The same cycles at the same parameters, on other scales.
+  /// The same cycles at the same parameters, on other scales. A time of the sensor that is free begins anew where these
+  /// have another one.
   [[nodiscard]] BlockFit with_scales(const Scales& scales) const;
 
   /// Weighted sum of squares of one cycle's residuals at the solution; the part inside stick bins is not in it.
@@ -53,14 +54,15 @@ class BlockFit {
   [[nodiscard]] const double* level_data() const { return parameters.level.data(); }
   /// Coefficients of the rise after a slip, over Scales::force; where there is one.
   [[nodiscard]] const double* rise_data() const {
-    return level_data() + (model(0).has_constant() ? 1 : 0) + level().first_rise();
+    return level_data() + (columns().has_constant() ? 1 : 0) + level().first_rise();
   }
   /// Of the cosine and sine of each line, over Scales::force; where there are lines.
   [[nodiscard]] const double* wave_data() const { return level_data() + model(0).first_wave(); }
   [[nodiscard]] CycleValues values(std::size_t cycle) const;
-  /// (time / Scales::sensor_time_unit_s)^2 of the time of the sensor that is free.
-  [[nodiscard]] double sensor_time() const { return sensor_time_; }
-  void set_sensor_time(double value);
+  [[nodiscard]] const Columns& columns() const { return *columns_; }
+  [[nodiscard]] bool solves_for(Coordinate coordinate) const { return columns_->has(coordinate); }
+  /// At the solution.
+  [[nodiscard]] SensorTimes sensor() const { return sensor_of(scales_, parameters.values); }
   /// By a law in closed form, at a solution; under friction that depends on the speed as if it did not.
   [[nodiscard]] CycleState state(std::size_t cycle) const;
 
@@ -69,7 +71,7 @@ class BlockFit {
  private:
   std::shared_ptr<const CycleSet> set_;
   Scales scales_;
-  double sensor_time_ = 0.0;
+  std::shared_ptr<const Columns> columns_;
   std::vector<CycleModel> models_;
 };
 
@@ -84,7 +86,7 @@ double median_stick_s(const BlockFit& fit);
 /// From onset to onset; a cycle that could not be fitted makes one interval long.
 double median_period_s(const BlockFit& fit);
 
-/// What the recordings of a sweep have in common beside the globals; otherwise each has its own.
+/// What the recordings of a sweep have in common beside the contact and the rig; otherwise each has its own.
 struct Sharing {
   bool level = false;       ///< F_k(0+): no sensor zero or run-to-run friction between them
   bool difference = false;  ///< F_s - F_k(0+): static friction does not depend on the speed (no ageing)

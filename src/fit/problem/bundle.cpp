@@ -13,44 +13,29 @@ namespace {
 
 using Eigen::Index;
 
-/// Parameters of a recording in the order of its Jacobian, as the cycle model reads them.
+/// The parameters of a recording, taken from those that all have in common.
 class Gathered {
  public:
-  Gathered(const CycleModel& any, const std::vector<Index>& columns, const Eigen::VectorXd& common) {
-    for (const Index column : columns) values_.push_back(common(column));
-    const double* next = values_.data();
-    const auto take = [&](std::size_t count) { return count > 0 ? std::exchange(next, next + count) : nullptr; };
-    shared_.globals = take(any.globals());
-    shared_.exponent = take(any.has_exponent() ? 1 : 0);
-    shared_.sensor_time = take(any.has_sensor_time() ? 1 : 0);
-    shared_.difference = take(any.has_difference() ? 1 : 0);
-    shared_.constant = take(any.has_constant() ? 1 : 0);
-    shared_.drift = take(any.drift_parameters());
+  Gathered(const CommonColumns& columns, std::size_t recording, const BlockFit& fit, const Eigen::VectorXd& common)
+      : parameters_{fit.parameters.values, fit.parameters.level, {}}, has_constant_(fit.columns().has_constant()) {
+    columns.visit(recording, fit, parameters_, [&](Index column, double& value) { value = common(column); });
   }
-  Gathered(const Gathered&) = delete;
-  Gathered(Gathered&&) = delete;
-  Gathered& operator=(const Gathered&) = delete;
-  Gathered& operator=(Gathered&&) = delete;
-  ~Gathered() = default;
 
   [[nodiscard]] CycleValues with(const Local& local) const {
-    CycleValues values = shared_;
-    values.local = local.data();
-    return values;
+    const double* const level = parameters_.level.data();
+    return {&parameters_.values, level, level + (has_constant_ ? 1 : 0), local.data()};
   }
-  [[nodiscard]] const double* globals() const { return shared_.globals; }
+  [[nodiscard]] const Coordinates& values() const { return parameters_.values; }
 
  private:
-  std::vector<double> values_;
-  CycleValues shared_;
+  Parameters parameters_;
+  bool has_constant_;
 };
 
 }  // namespace
 
 Bundle::Bundle(const Problem& problem, const SolveOptions& options)
     : problem_(problem), options_(options), columns_(problem) {
-  const BlockFit& first = problem.recordings.front();
-  if (problem.sweep.sharing.level) of_steady_ = columns_.of_steady(first.model(0).globals());
   for (const BlockFit& recording : problem.recordings) residuals_ += recording.residuals();
 }
 
@@ -59,8 +44,6 @@ std::optional<Bundle::Point> Bundle::start(double damping) const {
   for (std::size_t r = problem_.recordings.size(); r-- > 0;) {  // what is shared is the first one's
     columns_.visit(r, problem_.recordings[r], problem_.recordings[r].parameters,
                    [&](Index column, double value) { values.common(column) = value; });
-    if (problem_.recordings[r].model(0).has_sensor_time())
-      values.common(*columns_.sensor_time()) = problem_.recordings[r].sensor_time();
   }
   for (const BlockFit& recording : problem_.recordings) {
     const std::vector<Local>& cycles = recording.parameters.cycles;
@@ -75,7 +58,7 @@ Bundle::Values Bundle::moved(const Point& from, const Eigen::VectorXd& step, dou
   const double* next = steps.data();
   auto cycle = values.cycles.begin();
   for (const BlockFit& recording : problem_.recordings) {
-    const std::size_t own = recording.model(0).local_parameters();
+    const std::size_t own = recording.columns().own();
     for (std::size_t i = 0; i < recording.size(); ++i, ++cycle) {
       for (std::size_t j = 0; j < own; ++j) (*cycle)[j] += *next++;
     }
@@ -87,9 +70,8 @@ bool Bundle::is_inside(const Values& values) const {
   const Local* cycle = values.cycles.data();
   for (std::size_t r = 0; r < problem_.recordings.size(); ++r) {
     const BlockFit& fit = problem_.recordings[r];
-    const CycleModel& any = fit.model(0);
-    if (any.is_integrated()) return false;
-    const Gathered common(any, columns_.of(r), values.common);
+    if (fit.model(0).is_integrated()) return false;
+    const Gathered common(columns_, r, fit, values.common);
     for (std::size_t i = 0; i < fit.size(); ++i, ++cycle) {
       if (!fit.model(i).is_inside(common.with(*cycle))) return false;
     }
@@ -103,7 +85,6 @@ void Bundle::put(const Values& values, std::span<BlockFit> recordings) const {
     Parameters& parameters = recordings[r].parameters;
     columns_.visit(r, recordings[r], parameters, [&](Index column, double& value) { value = values.common(column); });
     for (Local& cycle : parameters.cycles) cycle = *next++;
-    if (recordings[r].model(0).has_sensor_time()) recordings[r].set_sensor_time(values.common(*columns_.sensor_time()));
   }
 }
 
@@ -121,9 +102,9 @@ std::optional<Bundle::Point> Bundle::at(Values values, double damping) const {
 bool Bundle::add(std::size_t recording, std::size_t first_cycle, Point& point) const {
   const BlockFit& fit = problem_.recordings[recording];
   const std::vector<Index>& columns = columns_.of(recording);
-  const Gathered common(fit.model(0), columns, point.common);
+  const Gathered common(columns_, recording, fit, point.common);
   const Local* const cycles = point.cycles.data() + first_cycle;
-  const auto size = static_cast<Index>(fit.model(0).columns() + 1);
+  const auto size = static_cast<Index>(fit.columns().size() + 1);
   RowMajor normals(size * static_cast<Index>(fit.size()), size);  // one below the other
   std::vector<double> sums(fit.size());
   std::atomic<bool> is_outside = false;
@@ -142,7 +123,7 @@ bool Bundle::add(std::size_t recording, std::size_t first_cycle, Point& point) c
   for (std::size_t i = 0; i < fit.size(); ++i) {
     std::optional<RampResidual> ramp;
     if (options_.continuous && i + 1 < fit.size() && fit.data(i).continuous_with_next) {
-      ramp = ramp_residual(fit, i, common.globals(), cycles[i].data(), cycles[i + 1].data());
+      ramp = ramp_residual(fit, i, common.values(), cycles[i].data(), cycles[i + 1].data());
       point.sum += ramp->value * ramp->value;
     }
     point.sum += sums[i];
@@ -162,14 +143,12 @@ double Bundle::put_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> n
 
 bool Bundle::add_steady(Point& point) const {
   if (!problem_.sweep.sharing.level) return true;
-  const FrictionLaw law = problem_.recordings.front().scales().law;
-  const std::size_t count = of_steady_.size() - 1;
-  Globals globals{};
-  std::copy_n(point.common.data(), count, globals.begin());
+  const BlockFit& first = problem_.recordings.front();
+  const Gathered common(columns_, 0, first, point.common);
   for (const SteadyRun& run : problem_.sweep.steady) {
-    const SteadyResidual steady =
-        steady_residual(run, problem_.sweep.units, law, globals, point.common(of_steady_.back()));
-    point.normal.add_cycle(products_of(steady, count), of_steady_);
+    const SteadyResidual steady = steady_residual(run, problem_.sweep.units, first.scales().law, common.values(),
+                                                  point.common(columns_.level(0)));
+    point.normal.add_cycle(products_of(steady, first.columns()), columns_.of_steady());
     point.sum += steady.value * steady.value;
   }
   return true;

@@ -54,7 +54,6 @@ class Bundle {
   const Problem& problem_;
   const SolveOptions& options_;
   CommonColumns columns_;
-  std::vector<Eigen::Index> of_steady_;
   std::size_t residuals_ = 0;
 };
 

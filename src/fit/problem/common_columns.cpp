@@ -1,52 +1,63 @@
 #include "fit/problem/common_columns.hpp"
 
+#include <algorithm>
+
 namespace slipfit::fit {
 
 using Eigen::Index;
 
-CommonColumns::CommonColumns(const Problem& problem) {
+namespace {
+
+/// What belongs to the contact and the rig is one for all recordings.
+bool is_shared(Coordinate coordinate, const Sharing& sharing) {
+  return coordinate != kDifference || sharing.difference;
+}
+
+}  // namespace
+
+CommonColumns::CommonColumns(const Problem& problem)
+    : coordinates_(problem.recordings.size()), of_(problem.recordings.size()) {
   const std::size_t count = problem.recordings.size();
-  const auto globals = static_cast<Index>(problem.recordings.front().model(0).globals());
-  size_ = globals;
-  if (problem.recordings.front().model(0).has_exponent()) exponent_ = size_++;
-  for (const BlockFit& recording : problem.recordings) {
-    if (recording.model(0).has_sensor_time() && !sensor_time_) sensor_time_ = size_++;
-  }
-  const auto add = [&](std::vector<Index>& columns, auto&& width_of, bool shared) {
+  for (Index i = 0; i < kCoordinates; ++i) {
+    const auto coordinate = static_cast<Coordinate>(i);
+    std::optional<Index> of_all;
     for (std::size_t r = 0; r < count; ++r) {
-      const Index width = width_of(problem.recordings[r]);
-      const bool again = shared && r > 0;
-      columns.push_back(again ? columns.front() : size_);
-      if (!again) size_ += width;
+      if (!problem.recordings[r].solves_for(coordinate)) continue;
+      if (!of_all || !is_shared(coordinate, problem.sweep.sharing)) of_all = size_++;
+      coordinates_[r][static_cast<std::size_t>(i)] = of_all;
     }
-  };
-  const auto constants = [](const BlockFit& r) { return r.model(0).has_constant() ? Index{1} : Index{0}; };
-  const auto populations = [](const BlockFit& r) { return r.scales().population ? Index{1} : Index{0}; };
-  const auto drifts = [](const BlockFit& r) { return static_cast<Index>(r.model(0).drift_parameters()); };
-  add(levels_, constants, problem.sweep.sharing.level);
-  add(differences_, populations, problem.sweep.sharing.difference);
-  add(drifts_, drifts, false);
+  }
+  for (const BlockFit& recording : problem.recordings) {
+    const bool is_again = problem.sweep.sharing.level && !levels_.empty();
+    levels_.push_back(is_again ? levels_.front() : size_);
+    if (!is_again && recording.columns().has_constant()) ++size_;
+  }
+  for (const BlockFit& recording : problem.recordings) {
+    drifts_.push_back(size_);
+    size_ += static_cast<Index>(recording.columns().drift());
+  }
   for (std::size_t r = 0; r < count; ++r) {
-    const BlockFit& recording = problem.recordings[r];
-    of_.emplace_back();
-    for (Index i = 0; i < globals; ++i) of_.back().push_back(i);
-    if (exponent_) of_.back().push_back(*exponent_);
-    if (recording.model(0).has_sensor_time()) of_.back().push_back(*sensor_time_);
-    if (populations(recording) > 0) of_.back().push_back(differences_[r]);
-    if (constants(recording) > 0) of_.back().push_back(levels_[r]);
-    for (Index i = 0; i < drifts(recording); ++i) of_.back().push_back(drifts_[r] + i);
+    const Columns& columns = problem.recordings[r].columns();
+    for (const Coordinate coordinate : columns.coordinates()) of_[r].push_back(*find(r, coordinate));
+    if (r == 0) {
+      of_steady_ = of_[0];
+      of_steady_.push_back(levels_[0]);
+    }
+    if (columns.has_constant()) of_[r].push_back(levels_[r]);
+    for (Index i = 0; i < static_cast<Index>(columns.drift()); ++i) of_[r].push_back(drifts_[r] + i);
   }
 }
 
-std::vector<Index> CommonColumns::of_steady(std::size_t globals) const {
-  std::vector<Index> columns(of_.front().begin(), of_.front().begin() + static_cast<std::ptrdiff_t>(globals));
-  columns.push_back(levels_.front());
+std::vector<Index> CommonColumns::held(const Held& held) const {
+  std::vector<Index> columns;
+  for (const OfCoordinates& of_recording : coordinates_) {
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      if (held[i] && of_recording[i]) columns.push_back(*of_recording[i]);
+    }
+  }
+  std::sort(columns.begin(), columns.end());
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
   return columns;
-}
-
-Held held_in(const Problem& problem, Held held) {
-  for (std::size_t i = problem.recordings.front().model(0).globals(); i < held.size(); ++i) held[i] = false;
-  return held;
 }
 
 }  // namespace slipfit::fit

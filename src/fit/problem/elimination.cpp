@@ -67,8 +67,8 @@ void Elimination::add_cycle(const Eigen::Ref<const RowMajor>& normal, const std:
       row(i) = ramp->d_first[static_cast<std::size_t>(i)];
       row(own + i) = ramp->d_second[static_cast<std::size_t>(i)];
     }
-    for (Index i = 0; i < static_cast<Index>(ramp->d_globals.size()); ++i) {
-      row(first + i) = ramp->d_globals[static_cast<std::size_t>(i)];
+    for (Index i = 0; i < static_cast<Index>(ramp->d_values.size()); ++i) {
+      row(first + i) = ramp->d_values[static_cast<std::size_t>(i)];
     }
     row(side) = ramp->value;
     work_ += row.transpose() * row;

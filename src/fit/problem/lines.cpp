@@ -5,7 +5,7 @@ namespace slipfit::fit {
 using Eigen::Index;
 
 bool evaluate_lines(const CycleModel& model, const CycleValues& values, Eigen::MatrixXd& lines) {
-  const auto columns = static_cast<Index>(model.columns());
+  const auto columns = static_cast<Index>(model.columns().size());
   lines.resize(static_cast<Index>(model.residuals()), columns + 1);
   return model.evaluate(values, lines.col(columns).data(), lines.data());
 }
@@ -22,9 +22,10 @@ RowMajor products_of(const Eigen::Ref<const Eigen::MatrixXd>& lines) {
   return products;
 }
 
-RowMajor products_of(const SteadyResidual& steady, std::size_t globals) {
-  Eigen::RowVectorXd line(static_cast<Index>(globals) + 2);
-  for (std::size_t i = 0; i < globals; ++i) line(static_cast<Index>(i)) = steady.by_global[i];
+RowMajor products_of(const SteadyResidual& steady, const Columns& columns) {
+  Eigen::RowVectorXd line(static_cast<Index>(columns.coordinates().size()) + 2);
+  Index next = 0;
+  for (const Coordinate coordinate : columns.coordinates()) line(next++) = steady.by_value(coordinate);
   line.tail<2>() << steady.by_level, steady.value;
   return line.transpose() * line;
 }

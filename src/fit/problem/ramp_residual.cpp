@@ -6,10 +6,10 @@
 
 namespace slipfit::fit {
 
-RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const double* globals, const double* local_first,
+RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const Coordinates& values, const double* local_first,
                            const double* local_second) {
   const Scales& scales = fit.scales();
-  const std::optional<CycleState> s = fit.model(first).state(globals, local_first);
+  const std::optional<CycleState> s = fit.model(first).state(values, local_first);
   if (!s) return {std::numeric_limits<double>::quiet_NaN(), {}, {}, {}};
   const model::StickLine& after = std::get<CoulombCycle>(s->motion).after;
   const double weight = 1.0 / (scales.noise * kRampTolerance);
@@ -21,7 +21,7 @@ RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const double*
   const double scale_part = u * (after.intercept - s->z0() * after.d_z0);
   RampResidual ramp;
   ramp.value = weight * (rate * elapsed_s + u * after.intercept - scales.force * local_second[1]);
-  ramp.d_globals = {weight * (rate * elapsed_s + scale_part), -weight * scale_part, weight * u * after.d_zeta};
+  ramp.d_values = {weight * (rate * elapsed_s + scale_part), -weight * scale_part, weight * u * after.d_zeta};
   ramp.d_first = {-weight * rate * scales.half_period_s, weight * scales.force * after.d_z0};
   ramp.d_second = {weight * rate * scales.half_period_s, -weight * scales.force};
   return ramp;

@@ -11,11 +11,11 @@ namespace slipfit::fit {
 /// kRampTolerance. Coulomb friction.
 struct RampResidual {
   double value = 0.0;
-  std::array<double, 3> d_globals{};
+  std::array<double, 3> d_values{};
   std::array<double, 2> d_first{};
   std::array<double, 2> d_second{};
 };
-RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const double* globals, const double* local_first,
+RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const Coordinates& values, const double* local_first,
                            const double* local_second);
 
 /// In units of the noise: small enough to hold the ramp together (a ramp's mean is known to noise / sqrt(samples)),

@@ -149,7 +149,7 @@ int most_iterations(const Problem& problem, const SolveOptions& options, std::si
   const BlockFit& fit = problem.recordings.front();
   double evaluations = static_cast<double>(residuals) + kCycle * static_cast<double>(fit.size());
   if (fit.scales().law == FrictionLaw::Weakening) evaluations *= kTerm;
-  if (fit.scales().sensor_average_s > 0.0) evaluations *= kTerm;
+  if (fit.sensor().average_s > 0.0) evaluations *= kTerm;
   return static_cast<int>(std::min<double>(options.max_iterations, std::max(kFewest, kMostEvaluations / evaluations)));
 }
 
@@ -158,20 +158,23 @@ constexpr double kLeastSensorTime = 1e-4;  // (time / Scales::sensor_time_unit_s
 
 void hold(ceres::Problem& ceres, double* parameters, const Problem& problem, const SolveOptions& options,
           const Eigen::VectorXd& units) {
-  const std::size_t globals = problem.recordings.front().model(0).globals();
-  const int size = ceres.ParameterBlockSize(parameters);
+  const CommonColumns columns(problem);
   std::vector<int> constant;
-  for (std::size_t i = 0; i < globals; ++i) {
-    if (options.held[i]) constant.push_back(static_cast<int>(i));
+  for (const Index column : columns.held(options.held)) constant.push_back(static_cast<int>(column));
+  if (!constant.empty()) {
+    ceres.SetManifold(parameters, new ceres::SubsetManifold(ceres.ParameterBlockSize(parameters), constant));
   }
-  if (!constant.empty()) ceres.SetManifold(parameters, new ceres::SubsetManifold(size, constant));
-  if (globals > kFrictionRate && !options.held[kFrictionRate]) {
-    ceres.SetParameterLowerBound(parameters, static_cast<int>(kFrictionRate), kLeastRate / units(kFrictionRate));
-    ceres.SetParameterUpperBound(parameters, static_cast<int>(kFrictionRate), kMostRate / units(kFrictionRate));
-  }
-  if (const auto time = CommonColumns(problem).sensor_time()) {
-    ceres.SetParameterLowerBound(parameters, static_cast<int>(*time), kLeastSensorTime / units(*time));
-  }
+  const auto bound = [&](Coordinate coordinate, double least, std::optional<double> most) {
+    if (options.held[static_cast<std::size_t>(coordinate)]) return;
+    for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
+      const std::optional<Index> column = columns.find(r, coordinate);
+      if (!column) continue;
+      ceres.SetParameterLowerBound(parameters, static_cast<int>(*column), least / units(*column));
+      if (most) ceres.SetParameterUpperBound(parameters, static_cast<int>(*column), *most / units(*column));
+    }
+  };
+  bound(kFrictionRate, kLeastRate, kMostRate);
+  bound(kSensorTime, kLeastSensorTime, std::nullopt);
 }
 
 /// Joined ramps start at the solution for the cycles by themselves: nearly whole steps. Damped ones move a long chain

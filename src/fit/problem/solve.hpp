@@ -7,7 +7,7 @@
 
 namespace slipfit::fit {
 
-/// Levenberg-Marquardt by Ceres from the recordings' parameters (globals: the first one's); the cycles' own are
+/// Levenberg-Marquardt by Ceres from the recordings' parameters (what they share: the first one's); the cycles' own are
 /// eliminated first (Elimination). Leaves the solution in all of them. Returns the sum of squared residuals, infinity
 /// where the start is outside the model.
 double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, const SolveOptions& options);

@@ -12,13 +12,14 @@ struct SteadyRun {
   double standard_error = 0.0;
 };
 
-/// Residual of a steady recording and its derivatives with respect to the globals and the level. `units` of the sweep.
+/// Residual of a steady recording and its derivatives with respect to the coordinates and the shared level. `units` of
+/// the sweep.
 struct SteadyResidual {
   double value = 0.0;
-  Globals by_global{};
+  Coordinates by_value = Coordinates::Zero();
   double by_level = 0.0;
 };
-SteadyResidual steady_residual(const SteadyRun& run, const Units& units, FrictionLaw law, const Globals& globals,
+SteadyResidual steady_residual(const SteadyRun& run, const Units& units, FrictionLaw law, const Coordinates& values,
                                double level);
 
 }  // namespace slipfit::fit

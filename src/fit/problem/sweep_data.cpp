@@ -146,9 +146,9 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
   for (const std::size_t i : data.fitted) {
     log_speeds += std::log(data.single[i]->blocks.scales().speed_m_per_s);
     sticks_s.push_back(typical_stick_s(data.single[i]->blocks));
-    const Globals& globals = data.single[i]->blocks.parameters.globals;
+    const Coordinates& values = data.single[i]->blocks.parameters.values;
     forces.push_back(std::abs(mean_onset_force(*data.single[i])) / data.loads[i]);
-    impedances.push_back(std::exp(globals[kLogStiffness] - globals[kLogFrequency]));
+    impedances.push_back(std::exp(values(kLogStiffness) - values(kLogFrequency)));
   }
   if (forces.empty()) return data;
   data.units.force = signal::median(forces);

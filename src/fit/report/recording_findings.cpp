@@ -22,7 +22,7 @@ namespace {
 
 /// Where the free zeta lies below 0, the fit with zeta = 0 is the best one.
 bool is_at_bound(const TierFits& fits) {
-  return fits.damped.blocks.parameters.globals[kDamping] < 0.0 && !fits.damping_held() && fits.undamped.has_value();
+  return fits.damped.blocks.parameters.values(kDamping) < 0.0 && !fits.damping_held() && fits.undamped.has_value();
 }
 
 const BlockFit& reported(const TierFits& fits) {
@@ -131,10 +131,10 @@ DampingFindings damping_of(const TierFits& fits, const BlockFit& blocks) {
   const double variance = covariance(kDamping, kDamping);
   const double se = std::sqrt(std::max(0.0, variance));
   const double quantile = t_quantile(uncertainty.degrees_of_freedom);
-  const double zeta = std::max(0.0, blocks.parameters.globals[kDamping]);
+  const double zeta = std::max(0.0, blocks.parameters.values(kDamping));
   DampingFindings result{{zeta, se, Interval{zeta, zeta}, {}}, std::nullopt};
   if (fits.damped.held[kDamping] && !fits.damped.motion) return result;
-  result.estimate.ci95 = damping_interval(fits.damped.blocks.parameters.globals[kDamping], se, quantile);
+  result.estimate.ci95 = damping_interval(fits.damped.blocks.parameters.values(kDamping), se, quantile);
   if (!is_at_bound(fits)) return result;
   const bool has_more = uncertainty.from_refits || fits.damped.average || !fits.damped.rivals.empty();
   result.profile = Profile{has_more ? given(covariance, kDamping) : fits.undamped->uncertainty.covariance, {}, true};
@@ -173,8 +173,8 @@ std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, co
   const bool coloured = residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance;
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
   if (!large || !coloured || fit.mass_gives_frequency || fit.motion) return {};
-  const double average_s = fit.blocks.scales().sensor_average_s;
-  if (std::exp(fit.blocks.parameters.globals[kLogFrequency]) * average_s > thresholds::kHidingAverage) {
+  const double average_s = fit.blocks.sensor().average_s;
+  if (std::exp(fit.blocks.parameters.values(kLogFrequency)) * average_s > thresholds::kHidingAverage) {
     const std::string remedy =
         conditions.mass_kg ? fmt::format("the stated mass of {:.3g} kg does not explain the slips", *conditions.mass_kg)
                            : std::string("state the mass with --mass");

@@ -46,11 +46,11 @@ Recording with_average(const Recording& recording, double average_s) {
 bool follows_slips(const DampedFit& fit, double sample_interval_s) {
   const double negative = -thresholds::kNegativeSigmas * damping_error(fit);
   const bool is_shaped = !fit.misfit || fit.misfit->chance > thresholds::kMisfitChance;
-  return is_shaped && !fit.refused_damping && fit.blocks.parameters.globals[kDamping] > negative &&
+  return is_shaped && !fit.refused_damping && fit.blocks.parameters.values(kDamping) > negative &&
          resting_share(fit.blocks) >= thresholds::kRestickShare && median_slip_s(fit.blocks) > sample_interval_s;
 }
 
-std::optional<DampedFit> AverageSolver::fit(double variance_s2, const Globals& near, const DampedFit* other) const {
+std::optional<DampedFit> AverageSolver::fit(double variance_s2, const Coordinates& near, const DampedFit* other) const {
   std::optional<DampedFit> fit = other != nullptr ? beside(*other, variance_s2, near) : drafted(variance_s2, near);
   if (!fit || !follows_slips(*fit, input_.recording.sample_interval_s())) return std::nullopt;
   return solved(with_free_time(fit->blocks, FreeTime::Average), *fit);
@@ -63,7 +63,7 @@ std::shared_ptr<const RiseAfterSlip> AverageSolver::reloading(double average_s) 
   return std::make_shared<const RiseAfterSlip>(std::move(reloading));
 }
 
-std::optional<DampedFit> AverageSolver::drafted(double variance_s2, const Globals& near) const {
+std::optional<DampedFit> AverageSolver::drafted(double variance_s2, const Coordinates& near) const {
   const double average_s = std::sqrt(12.0 * variance_s2);
   const Recording averaged = with_average(input_.recording, average_s);
   return settle_rise(
@@ -78,7 +78,8 @@ bool AverageSolver::is_hopeless(const BlockFit& some) const {
   return resting_share(some) < thresholds::kFewRest || mean_square_in(some, some) > mean_square_in(some, plain_.blocks);
 }
 
-std::optional<DampedFit> AverageSolver::beside(const DampedFit& other, double variance_s2, const Globals& start) const {
+std::optional<DampedFit> AverageSolver::beside(const DampedFit& other, double variance_s2,
+                                               const Coordinates& start) const {
   BlockFit blocks = averaged_by(other.blocks, variance_s2);
   set_start(blocks, input_.segmentation, start);
   return solved(std::move(blocks), other);

@@ -23,17 +23,18 @@ class AverageSolver {
 
   /// `other`: a fit with another average, whose cycles and samples will do. Empty where there is no solution, or slips
   /// of the average to begin with are not those of the model (follows_slips).
-  [[nodiscard]] std::optional<DampedFit> fit(double variance_s2, const Globals& near, const DampedFit* other) const;
+  [[nodiscard]] std::optional<DampedFit> fit(double variance_s2, const Coordinates& near, const DampedFit* other) const;
 
  private:
   /// Of the fit without an average, as one of this time shows it.
   [[nodiscard]] std::shared_ptr<const RiseAfterSlip> reloading(double average_s) const;
-  [[nodiscard]] std::optional<DampedFit> drafted(double variance_s2, const Globals& near) const;
+  [[nodiscard]] std::optional<DampedFit> drafted(double variance_s2, const Coordinates& near) const;
   /// A fit of some cycles whose slips do not come to rest or are not shaped like the model's (follows_slips), or that
   /// explains them less well than the fit without average.
   [[nodiscard]] bool is_hopeless(const BlockFit& some) const;
   /// The same cycles and samples with another average, and the rise after the slips that it shows, from `start` on.
-  [[nodiscard]] std::optional<DampedFit> beside(const DampedFit& other, double variance_s2, const Globals& start) const;
+  [[nodiscard]] std::optional<DampedFit> beside(const DampedFit& other, double variance_s2,
+                                                const Coordinates& start) const;
   /// From where the blocks stand. `near`: a fit of the same cycles.
   [[nodiscard]] std::optional<DampedFit> solved(BlockFit blocks, const DampedFit& near) const;
 

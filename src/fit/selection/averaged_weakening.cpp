@@ -37,8 +37,8 @@ bool explains_more(const Draft& a, const Draft& b) {
 
 /// What slip and average together draw the fall out by, T_b^2 + kSlip2 / w_n^2.
 double squared_fall_s2(const DampedFit& coulomb) {
-  const double average_s = coulomb.blocks.scales().sensor_average_s;
-  return average_s * average_s + kSlip2 * std::exp(-2.0 * coulomb.blocks.parameters.globals[kLogFrequency]);
+  const double average_s = coulomb.blocks.sensor().average_s;
+  return average_s * average_s + kSlip2 * std::exp(-2.0 * coulomb.blocks.parameters.values(kLogFrequency));
 }
 
 class AveragedWeakening {
@@ -84,7 +84,7 @@ class AveragedWeakening {
   /// They come to rest, and the average is shorter than a stick.
   [[nodiscard]] bool has_slips_of_its_own(const BlockFit& fit) const {
     if (resting_share(fit) < thresholds::kFewRest) return false;
-    return fit.scales().sensor_average_s + median_slip_s(fit) < median_period_s(coulomb_.blocks);
+    return fit.sensor().average_s + median_slip_s(fit) < median_period_s(coulomb_.blocks);
   }
 
   /// Of some of the cycles, from averages that take from little to nearly all of the fall.
@@ -98,7 +98,7 @@ class AveragedWeakening {
     }
     std::sort(drafts.begin(), drafts.end(), explains_more);
     for (std::size_t i = 0; i < std::min(kBest, drafts.size()); ++i) {
-      const double average_s = drafts[i].blocks.scales().sensor_average_s;
+      const double average_s = drafts[i].blocks.sensor().average_s;
       std::optional<Draft> draft = draft_of(some, average_s * average_s / fall_s2_, kBesideBest);
       if (draft && explains_more(*draft, drafts[i])) drafts[i] = *std::move(draft);
     }
@@ -128,14 +128,14 @@ class AveragedWeakening {
   }
 
   [[nodiscard]] bool is_another(const Draft& draft, const Draft& best) const {
-    const double ratio = draft.blocks.scales().sensor_average_s / best.blocks.scales().sensor_average_s;
+    const double ratio = draft.blocks.sensor().average_s / best.blocks.sensor().average_s;
     const double behind = effective_samples(coulomb_) * std::log(draft.sum_of_squares / best.sum_of_squares);
     return std::abs(std::log(ratio)) > kSameAverage && behind < kRuledOut;
   }
 
   /// Averages within a step of the clock cannot be told from none.
   [[nodiscard]] bool has_no_average(const BlockFit& blocks) const {
-    return blocks.scales().sensor_average_s < input_.recording.sample_interval_s();
+    return blocks.sensor().average_s < input_.recording.sample_interval_s();
   }
 
   /// With the average free.

@@ -11,7 +11,7 @@
 namespace slipfit::fit {
 
 void carry_over(const BlockFit& from, BlockFit& to) {
-  to.parameters.globals = from.parameters.globals;
+  to.parameters.values.head<kOfLaw>() = from.parameters.values.head<kOfLaw>();
   to.parameters.level = from.parameters.level;
   std::size_t same = 0;
   for (std::size_t i = 0; i < to.size(); ++i) {

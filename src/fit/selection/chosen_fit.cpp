@@ -29,7 +29,7 @@ Chosen with_weakening(Chosen chosen, const FitInput& input, std::optional<Tier> 
       trial.fit->law_doubt = doubt;
       chosen.fits = {fit_sawtooth(*trial.fit), std::nullopt, *std::move(trial.fit)};
       chosen.resolution = resolution_of(input.recording, chosen.fits);
-      const bool is_negative = chosen.fits.damped.blocks.parameters.globals[kDamping] < 0.0;
+      const bool is_negative = chosen.fits.damped.blocks.parameters.values(kDamping) < 0.0;
       if (is_negative && !chosen.fits.damped.held[kDamping])
         chosen.fits.undamped = fit_undamped(chosen.fits.damped, false);
     } else {

@@ -60,7 +60,7 @@ class Fitter {
       if (near_.needs_damping && !refuse_negative_damping(*start, kRough)) return std::nullopt;
     }
     std::optional<BlockFit> fit =
-        fit_from(std::move(cycles_), start->level(), start->parameters.globals, near_.most_iterations, kRough);
+        fit_from(std::move(cycles_), start->level(), start->parameters.values, near_.most_iterations, kRough);
     if (fit && !are_many) {
       fit = or_wandering(*std::move(fit), kRough);
       // A few cycles do not tell that an average is hopeless.
@@ -82,7 +82,7 @@ class Fitter {
   std::optional<BlockFit> rough() {
     const std::optional<BlockFit> start = started();
     if (!start) return std::nullopt;
-    return fit_from(std::move(cycles_), start->level(), start->parameters.globals, kRoughIterations, kRough);
+    return fit_from(std::move(cycles_), start->level(), start->parameters.values, kRoughIterations, kRough);
   }
 
  private:
@@ -108,13 +108,13 @@ class Fitter {
   std::optional<BlockFit> fit_probe(const std::vector<CycleData>& probe, const LevelModel& level) {
     std::optional<BlockFit> fit = fit_from_starts(probe, level);
     if (!fit) return std::nullopt;
-    start_ = fit->parameters.globals;
+    start_ = fit->parameters.values;
     // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
     if (!std::isfinite(solve(*fit, {held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
     const bool may_wander = near_.level_per_cycle || reduced_chi2(*fit) > thresholds::kSuspectChi2;
     if (!level.per_cycle && probe.size() > level.terms && may_wander) {
-      const Globals globals = near_.globals.value_or(fit->parameters.globals);
-      auto wandering = fit_from(probe, {true, 0, level.lines_Hz, level.reloading}, globals, kProbeIterations, kRough);
+      const Coordinates near = near_.values.value_or(fit->parameters.values);
+      auto wandering = fit_from(probe, {true, 0, level.lines_Hz, level.reloading}, near, kProbeIterations, kRough);
       if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
     }
     if (!refuse_negative_damping(*fit, kRough)) return std::nullopt;
@@ -126,8 +126,7 @@ class Fitter {
     level.lines_Hz = lines_Hz;
     // What decides whether all are fitted has to be settled.
     const double tolerance = near_.give_up ? kFinal : kRough;
-    return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.globals, kMiddleIterations,
-                    tolerance);
+    return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.values, kMiddleIterations, tolerance);
   }
 
   /// The spectrum tells the frequencies of lines less well than a fit of some cycles from the first to the last.
@@ -156,7 +155,7 @@ class Fitter {
   /// The same cycles with a level each from little damping, where they explain more: troughs that lie on one level
   /// while the peaks scatter look like slips with much damping, from which no fit finds back.
   [[nodiscard]] BlockFit or_wandering(BlockFit fit, double tolerance) const {
-    const bool is_damped = !held_[kDamping] && fit.parameters.globals[kDamping] > kMuchDamping;
+    const bool is_damped = !held_[kDamping] && fit.parameters.values(kDamping) > kMuchDamping;
     if (!is_damped || fit.level().per_cycle || fit.size() < kFewestWandering) return fit;
     const LevelModel level{true, 0, fit.level().lines_Hz, fit.level().reloading};
     std::optional<BlockFit> wandering = fit_from(fit.set()->cycles(), level, start_, kMaxIterations, tolerance);
@@ -173,9 +172,9 @@ class Fitter {
     double best_cost = std::numeric_limits<double>::infinity();
     Parameters best;
     const double step_s = recording_.sample_interval_s();
-    const std::vector<Globals> starts =
-        near_.globals ? std::vector{*near_.globals} : first_globals(start_stiffness_, held_values_, scales_, step_s);
-    for (const Globals& start : starts) {
+    const std::vector<Coordinates> starts =
+        near_.values ? std::vector{*near_.values} : first_values(start_stiffness_, held_values_, scales_, step_s);
+    for (const Coordinates& start : starts) {
       set_start(*fit, segmentation_, start);
       const double cost = solve(*fit, quick);
       if (cost >= best_cost) continue;
@@ -189,11 +188,11 @@ class Fitter {
   }
 
   [[nodiscard]] std::optional<BlockFit> fit_from(std::vector<CycleData> cycles, const LevelModel& level,
-                                                 const Globals& globals, int max_iterations, double tolerance) const {
+                                                 const Coordinates& start, int max_iterations, double tolerance) const {
     std::vector<double> middles = middles_s(segmentation_, cycles);
     std::optional<BlockFit> fit = BlockFit::create(std::move(cycles), std::move(middles), scales_, level);
     if (!fit) return fit;
-    set_start(*fit, segmentation_, globals);
+    set_start(*fit, segmentation_, start);
     if (!std::isfinite(solve(*fit, {held_, false, true, max_iterations, tolerance}))) return std::nullopt;
     return fit;
   }
@@ -201,7 +200,7 @@ class Fitter {
   /// A damping ratio clearly below 0 (jackknife where residuals are not white) means that slips are not shaped like the
   /// model's: zeta is held at 0 from here on, and called unidentified. False where the fit is of no use then.
   [[nodiscard]] bool refuse_negative_damping(BlockFit& fit, double tolerance) {
-    const double zeta = fit.parameters.globals[2];
+    const double zeta = fit.parameters.values(kDamping);
     if (held_[kDamping] || !(zeta < 0.0) || reduced_chi2(fit) < thresholds::kSuspectChi2) return true;
     const Uncertainty uncertainty = estimate_uncertainty(fit, {held_, false});
     const double se = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
@@ -210,7 +209,7 @@ class Fitter {
     refused_damping_ = zeta;
     held_[kDamping] = true;
     // Start again from the features: the other parameters have followed the wrong zeta.
-    set_start(fit, segmentation_, {start_[0], start_[1], 0.0});
+    set_start(fit, segmentation_, oscillator(start_(kLogStiffness), start_(kLogFrequency), 0.0));
     return std::isfinite(solve(fit, {held_, false, true, kMaxIterations, tolerance}));
   }
 
@@ -276,7 +275,7 @@ class Fitter {
   Scales scales_;
   std::vector<std::size_t> excluded_;  // in ascending order
   double start_stiffness_ = 0.0;
-  Globals start_{};
+  Coordinates start_ = Coordinates::Zero();
   std::optional<double> refused_damping_;
   std::vector<CycleData> cycles_;
 };

@@ -17,7 +17,7 @@ using GiveUp = std::function<bool(const BlockFit& some)>;
 
 /// Where a fit begins: beside another one of the same recording, first without the samples that this left out.
 struct Near {
-  std::optional<Globals> globals{};  ///< empty: where the features of the slips lead
+  std::optional<Coordinates> values{};  ///< empty: where the features of the slips lead
   std::vector<std::size_t> excluded{};
   std::shared_ptr<const RiseAfterSlip> reloading{};  ///< of the sticks
   bool level_per_cycle = false;  ///< the other one has a level of its own in every cycle, which is tried then

@@ -41,21 +41,21 @@ std::vector<double> middles_s(const Segmentation& segmentation, const std::vecto
   return values;
 }
 
-std::vector<Globals> first_globals(double stiffness_N_per_m, const HeldParameters& held, const Scales& scales,
-                                   double step_s) {
+std::vector<Coordinates> first_values(double stiffness_N_per_m, const HeldParameters& held, const Scales& scales,
+                                      double step_s) {
   std::vector<double> stretches{1.0};
   if (scales.half_period_s < 6.0 * step_s) stretches = {1.0, 1.6, 1.0 / 0.6};
   // Lag and averaging draw the fall out.
   const double smoothed_s = std::max(scales.sensor_lag_s, 0.3 * scales.sensor_average_s);
   if (smoothed_s > 0.05 * scales.half_period_s) stretches = {1.0, 1.4, 2.0};
   const double zeta = held.damping_ratio.value_or(0.05);
-  std::vector<Globals> globals;
+  std::vector<Coordinates> starts;
   for (const double stretch : stretches) {
     const double omega = held.natural_frequency_rad_per_s.value_or(
         stretch * std::numbers::pi / (scales.half_period_s * std::sqrt(1.0 - zeta * zeta)));
-    globals.push_back({std::log(stiffness_N_per_m), std::log(omega), zeta});
+    starts.push_back(oscillator(std::log(stiffness_N_per_m), std::log(omega), zeta));
   }
-  return globals;
+  return starts;
 }
 
 }  // namespace slipfit::fit

@@ -26,7 +26,7 @@ LevelModel first_level(const Recording& recording, const Segmentation& segmentat
 std::vector<double> middles_s(const Segmentation& segmentation, const std::vector<CycleData>& cycles);
 
 /// Where the search begins: several frequencies where the fall is hardly sampled or drawn out.
-std::vector<Globals> first_globals(double stiffness_N_per_m, const HeldParameters& held, const Scales& scales,
-                                   double step_s);
+std::vector<Coordinates> first_values(double stiffness_N_per_m, const HeldParameters& held, const Scales& scales,
+                                      double step_s);
 
 }  // namespace slipfit::fit

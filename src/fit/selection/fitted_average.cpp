@@ -32,7 +32,7 @@ bool may_be_averaged(const FitInput& input, const DampedFit& plain) {
   const double step_s = input.recording.sample_interval_s();
   if (!(median_slip_s(plain.blocks) > step_s) || hides_shape(input.quality.noise_rms, plain)) return false;
   const std::optional<Smoothing>& seen = plain.rounding;
-  const double zeta = plain.blocks.parameters.globals[kDamping];
+  const double zeta = plain.blocks.parameters.values(kDamping);
   const bool is_damped = zeta > thresholds::kSureTerm * damping_error(plain);
   return plain.misfit || plain.refused_damping || !is_damped || (seen && seen->exceeds_step(step_s));
 }
@@ -42,7 +42,7 @@ bool hides_damping(double average_s, double log_omega) {
   return std::exp(log_omega) * average_s > thresholds::kHidingAverage;
 }
 bool hides_damping(const KernelSearch::Least& least) {
-  return hides_damping(std::sqrt(12.0 * least.variance_s2), least.parameters.globals[kLogFrequency]);
+  return hides_damping(std::sqrt(12.0 * least.variance_s2), least.parameters.values(kLogFrequency));
 }
 
 /// Slips and W can be told apart.
@@ -95,7 +95,7 @@ Found best_trial(const AverageSolver& solver, const DampedFit& plain, const std:
   Found found;
   std::optional<DampedFit>& trial = found.trial;
   for (const KernelSearch::Least& start : starts) {
-    std::optional<DampedFit> next = solver.fit(start.variance_s2, start.parameters.globals, trial ? &*trial : nullptr);
+    std::optional<DampedFit> next = solver.fit(start.variance_s2, start.parameters.values, trial ? &*trial : nullptr);
     const bool is_better = next && follows_slips(*next, sample_interval_s) && gain_of(*next, plain) > least_gain;
     if (!is_better) continue;
     if (!trial) {
@@ -104,7 +104,8 @@ Found best_trial(const AverageSolver& solver, const DampedFit& plain, const std:
     }
     const double gain = gain_of(*next, *trial);
     if (gain > 0.0) std::swap(trial, next);
-    const double apart = std::abs(next->blocks.sensor_time() - trial->blocks.sensor_time());
+    const double apart =
+        std::abs(next->blocks.parameters.values(kSensorTime) - trial->blocks.parameters.values(kSensorTime));
     const bool is_another = apart > thresholds::kSureTerm * sensor_time_error(trial->uncertainty.covariance);
     if (is_another && std::abs(gain) < thresholds::kTierPrice) found.other = std::move(next);
   }
@@ -113,7 +114,7 @@ Found best_trial(const AverageSolver& solver, const DampedFit& plain, const std:
 
 /// Finished, with what the average is not known by.
 std::optional<DampedFit> finish_averaged(const FitInput& input, DampedFit draft) {
-  const Recording averaged = with_average(input.recording, draft.blocks.scales().sensor_average_s);
+  const Recording averaged = with_average(input.recording, draft.blocks.sensor().average_s);
   std::optional<DampedFit> fit =
       finish_fit({averaged, input.quality, input.segmentation, input.held}, std::move(draft));
   return fit ? std::optional(with_average_error(*std::move(fit))) : std::nullopt;
@@ -154,8 +155,8 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   if (!trial) return {};
   const bool is_taken =
       gain_of(*trial, plain) > thresholds::kTierPrice && rules_out_lag(averages.front(), *comparison, plain);
-  const double average_s = trial->blocks.scales().sensor_average_s;
-  if (!is_taken && !hides_damping(average_s, trial->blocks.parameters.globals[kLogFrequency])) return {};
+  const double average_s = trial->blocks.sensor().average_s;
+  if (!is_taken && !hides_damping(average_s, trial->blocks.parameters.values(kLogFrequency))) return {};
   std::optional<DampedFit> fit = finish_averaged(input, *std::move(trial));
   if (!fit || !(fit->average->seconds < median_stick_s(fit->blocks))) return {};
   if (!is_taken) return {std::nullopt, std::move(fit)};

@@ -31,7 +31,7 @@ constexpr int kMinimumBits = 6;
 bool is_best_undamped(BlockFit fit) {
   constexpr double kStep = 1e-3;
   const double sum = sum_of_squares(fit);
-  fit.parameters.globals[kDamping] = kStep;
+  fit.parameters.values(kDamping) = kStep;
   return !(sum_of_squares(fit) < sum);
 }
 
@@ -97,7 +97,7 @@ std::vector<KernelSearch::Least> KernelSearch::minima(double least_gain) const {
 }
 
 double KernelSearch::seen_variance_s2() const {
-  const double slip_s = std::numbers::pi / std::exp(plain_.parameters.globals[kLogFrequency]);
+  const double slip_s = std::numbers::pi / std::exp(plain_.parameters.values(kLogFrequency));
   return kSlipVariance * slip_s * slip_s;
 }
 
@@ -107,10 +107,11 @@ Parameters KernelSearch::extrapolated(double variance_s2, const Least& near, con
   const auto follow = [&](double& value, double from) { value += steps * (value - from); };
   Parameters p = near.parameters;
   const double bend_before = log_frequency_gain(near.variance_s2) - log_frequency_gain(other.variance_s2);
-  for (std::size_t i = 0; i < p.globals.size(); ++i) {
-    if (!held_[i]) follow(p.globals[i], other.parameters.globals[i] + (i == kLogFrequency ? bend_before : 0.0));
+  for (Eigen::Index i = 0; i < kOfLaw; ++i) {
+    if (!held_[static_cast<std::size_t>(i)])
+      follow(p.values(i), other.parameters.values(i) + (i == kLogFrequency ? bend_before : 0.0));
   }
-  p.globals[kDamping] = std::max(0.0, p.globals[kDamping]);
+  p.values(kDamping) = std::max(0.0, p.values(kDamping));
   for (std::size_t i = 0; i < p.level.size(); ++i) follow(p.level[i], other.parameters.level[i]);
   for (std::size_t i = 0; i < p.cycles.size(); ++i) {
     for (std::size_t j = 0; j < p.cycles[i].size(); ++j) follow(p.cycles[i][j], other.parameters.cycles[i][j]);
@@ -126,11 +127,11 @@ KernelSearch::Least KernelSearch::at(double variance_s2, const Least& near, cons
   fit = with_kernel(fit, FreeTime::Average, variance_s2);
   const double gain =
       held_[kLogFrequency] ? 0.0 : log_frequency_gain(variance_s2) - log_frequency_gain(near.variance_s2);
-  fit.parameters.globals[kLogFrequency] += gain;
+  fit.parameters.values(kLogFrequency) += gain;
   if (other != nullptr && std::isfinite(other->sum)) {
     BlockFit start = fit;
     start.parameters = extrapolated(variance_s2, near, *other);
-    start.parameters.globals[kLogFrequency] += gain;
+    start.parameters.values(kLogFrequency) += gain;
     if (std::isfinite(sum_of_squares(start))) fit = std::move(start);
   }
   least.parameters = fit.parameters;
@@ -149,7 +150,7 @@ KernelSearch::Least KernelSearch::least_lag(const Least& near, double variance_s
 
 KernelSearch::Least KernelSearch::refined(const Least& near) const {
   BlockFit fit(cycles_, plain_.scales());
-  set_start(fit, segmentation_, near.parameters.globals);
+  set_start(fit, segmentation_, near.parameters.values);
   fit.parameters.level = plain_.parameters.level;
   return solved(with_kernel(fit, FreeTime::Average, near.variance_s2), FreeTime::Average);
 }
@@ -158,9 +159,8 @@ KernelSearch::Least KernelSearch::refined(const Least& near) const {
 KernelSearch::Least KernelSearch::solved(const BlockFit& start, FreeTime time) const {
   BlockFit fit = with_free_time(start, time);
   if (!solve_with_damping(fit)) return {};
-  const Scales& scales = fit.scales();
-  const double variance_s2 =
-      time == FreeTime::Lag ? std::pow(scales.sensor_lag_s, 2) : std::pow(scales.sensor_average_s, 2) / 12.0;
+  const SensorTimes sensor = fit.sensor();
+  const double variance_s2 = time == FreeTime::Lag ? std::pow(sensor.lag_s, 2) : std::pow(sensor.average_s, 2) / 12.0;
   return {sum_of_squares(fit), variance_s2, fit.parameters, resting_share(fit)};
 }
 
@@ -186,11 +186,12 @@ double KernelSearch::log_frequency_gain(double variance_s2) const {
 /// Without a kernel.
 BlockFit KernelSearch::started() const {
   BlockFit fit(cycles_, plain_.scales());
-  Globals globals{plain_.parameters.globals[kLogStiffness], plain_.parameters.globals[kLogFrequency], 0.1};
-  for (std::size_t i = 0; i < globals.size(); ++i) {
-    if (held_[i]) globals[i] = plain_.parameters.globals[i];
+  const Coordinates& plain = plain_.parameters.values;
+  Coordinates start = oscillator(plain(kLogStiffness), plain(kLogFrequency), 0.1);
+  for (Eigen::Index i = 0; i < kOfLaw; ++i) {
+    if (held_[static_cast<std::size_t>(i)]) start(i) = plain(i);
   }
-  set_start(fit, segmentation_, globals);
+  set_start(fit, segmentation_, start);
   fit.parameters.level = plain_.parameters.level;
   return with_rise_after(fit, plain_.scales());
 }
@@ -205,7 +206,7 @@ std::optional<Held> KernelSearch::solve_with_damping(BlockFit& fit) const {
   Held undamped = held_;
   undamped[kDamping] = true;
   if (held_[kDamping]) return solve_holding(held_) ? std::optional(held_) : std::nullopt;
-  double& zeta = fit.parameters.globals[kDamping];
+  double& zeta = fit.parameters.values(kDamping);
   if (zeta == 0.0 && solve_holding(undamped) && is_best_undamped(fit)) return undamped;
   if (!solve_holding(held_)) return std::nullopt;
   if (zeta >= 0.0) return held_;

@@ -203,7 +203,7 @@ class OwnFitter {
 double median_stiffness(const OwnFits& own) {
   std::vector<double> stiffnesses;
   for (const auto& fit : own.fits) {
-    if (fit) stiffnesses.push_back(std::exp(fit->blocks.parameters.globals[kLogStiffness]));
+    if (fit) stiffnesses.push_back(std::exp(fit->blocks.parameters.values(kLogStiffness)));
   }
   return median(std::move(stiffnesses));
 }
@@ -214,7 +214,7 @@ std::optional<StatedMass> common_mass(std::span<const SweepRecording> recordings
   std::optional<StatedMass> common;
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     if (!own.fits[i]) continue;
-    const double average_s = own.fits[i]->blocks.scales().sensor_average_s;
+    const double average_s = own.fits[i]->blocks.sensor().average_s;
     const auto mass = mass_for_frequency(recordings[i].recording.conditions(), held, median_stiffness(own), average_s);
     if (!mass || (common && mass->kg != common->kg)) return std::nullopt;
     common = mass;

@@ -50,7 +50,7 @@ std::optional<BlockFit> recut(BlockFit fit, const Cut& cut, const std::vector<st
   std::optional<BlockFit> anew = BlockFit::create(std::move(kept), std::move(middles), scales, level);
   if (!anew) return std::nullopt;
   Parameters& parameters = anew->parameters;
-  parameters.globals = start.globals;
+  parameters.values = start.values;
   const auto before_lines = static_cast<std::ptrdiff_t>(level.first_line());
   std::copy_n(start.level.begin(), before_lines, parameters.level.begin());
   std::copy(hum_start.begin(), hum_start.end(), parameters.level.begin() + before_lines);

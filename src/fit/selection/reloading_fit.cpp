@@ -32,8 +32,7 @@ constexpr double kSmallLengthChange = 0.2;  // in standard errors
 /// `rise` after slips that begin and end where `fit` has them. A slip that has no solution there stays where it was.
 RiseAfterSlip moved(RiseAfterSlip rise, const BlockFit& fit) {
   for (std::size_t i = 0; i < fit.size(); ++i) {
-    const Globals globals = fit.model(i).globals_at_speed(fit.parameters.globals.data(), fit.parameters.exponent);
-    const std::optional<CycleState> state = fit.model(i).state(globals.data(), fit.parameters.cycles[i].data());
+    const std::optional<CycleState> state = fit.model(i).state(fit.parameters.values, fit.parameters.cycles[i].data());
     if (!state) continue;
     rise.slip_begin_s[fit.data(i).slip] = state->onset_s;
     rise.slip_end_s[fit.data(i).slip] = state->onset_s + state->slip_s();
@@ -44,7 +43,7 @@ RiseAfterSlip moved(RiseAfterSlip rise, const BlockFit& fit) {
 /// The rise over this length after all slips of a recording, those of `fit` where it has them.
 std::shared_ptr<const RiseAfterSlip> rise_over(double length_m, bool is_free, const FitInput& input,
                                                const BlockFit& fit) {
-  RiseAfterSlip rise{length_m, is_free, fit.scales().speed_m_per_s, fit.scales().sensor_average_s, {}, {}};
+  RiseAfterSlip rise{length_m, is_free, fit.scales().speed_m_per_s, fit.sensor().average_s, {}, {}};
   for (const DetectedSlip& slip : input.segmentation.slips) {
     rise.slip_begin_s.push_back(input.recording.time_s()[slip.peak]);
     rise.slip_end_s.push_back(input.recording.time_s()[slip.trough]);
@@ -57,8 +56,7 @@ BlockFit with_rise(const BlockFit& fit, const Scales& scales, std::shared_ptr<co
   LevelModel level = fit.level();
   level.reloading = std::move(rise);
   BlockFit other = fit.with_level(std::move(level), scales);
-  other.parameters.globals = fit.parameters.globals;
-  other.parameters.difference = fit.parameters.difference;
+  other.parameters.values = fit.with_scales(scales).parameters.values;
   other.parameters.cycles = fit.parameters.cycles;
   const std::size_t same = std::min(fit.parameters.level.size(), other.parameters.level.size());
   std::copy_n(fit.parameters.level.begin(), same, other.parameters.level.begin());
@@ -79,7 +77,7 @@ std::optional<BlockFit> some_cycles_of(const BlockFit& fit, const Segmentation& 
   std::vector<double> middles = middles_s(segmentation, cycles);
   std::optional<BlockFit> some = BlockFit::create(std::move(cycles), std::move(middles), fit.scales(), fit.level());
   if (!some) return some;
-  some->parameters.globals = fit.parameters.globals;
+  some->parameters.values = fit.parameters.values;
   some->parameters.level = fit.parameters.level;
   std::size_t same = 0;
   for (std::size_t i = 0; i < some->size(); ++i) {
@@ -104,7 +102,7 @@ std::optional<DampedFit> best_of_lengths(const FitInput& input, const DampedFit&
   for (int i = 0; i < kLengths; ++i) {
     const double length_m = shortest_m * std::pow(longest_m / shortest_m, static_cast<double>(i) / (kLengths - 1));
     BlockFit trial = with_rise(*some, some->scales(), rise_over(length_m, false, input, plain.blocks));
-    if (!held[kDamping]) trial.parameters.globals[kDamping] = std::max(0.05, plain.blocks.parameters.globals[kDamping]);
+    if (!held[kDamping]) trial.parameters.values(kDamping) = std::max(0.05, plain.blocks.parameters.values(kDamping));
     const double sum = solve(trial, {held, false, true, kSearchIterations, kRoughRise});
     if (!(sum < least)) continue;
     least = sum;
@@ -184,7 +182,7 @@ bool is_justified(const DampedFit& fit, const DampedFit& plain, const RampBend& 
 BlockFit with_rise_after(const BlockFit& fit, const Scales& scales) {
   if (!fit.level().reloading) return fit.with_scales(scales);
   RiseAfterSlip rise = moved(*fit.level().reloading, fit);
-  rise.average_s = scales.sensor_average_s;
+  rise.average_s = fit.with_scales(scales).sensor().average_s;
   return with_rise(fit, scales, std::make_shared<const RiseAfterSlip>(std::move(rise)));
 }
 
@@ -242,7 +240,7 @@ std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& gi
   if (!few || !promises(*few, *bend)) return plain;
   std::optional<DampedFit> fit = settle_rise(
       input,
-      draft_damped(input, {few->blocks.parameters.globals, plain->excluded,
+      draft_damped(input, {few->blocks.parameters.values, plain->excluded,
                            rise_over(length_of(*few), true, input, plain->blocks), plain->blocks.level().per_cycle}));
   const bool is_better = fit && is_justified(*fit, *plain, *bend);
   return is_better ? std::move(fit) : std::move(plain);

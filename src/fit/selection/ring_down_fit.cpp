@@ -23,7 +23,7 @@ namespace {
 double off_by_averaging(const Recording& recording, const DampedFit& fit) {
   if (recording.conditions().sensor_average_s || fit.average) return 0.0;
   const Smoothing seen = fit.rounding.value_or(Smoothing{});
-  const double omega = std::exp(fit.blocks.parameters.globals[kLogFrequency]);
+  const double omega = std::exp(fit.blocks.parameters.values(kLogFrequency));
   return kFrequencyByAverage * omega * omega * unstated_variance_s2(fit, seen, recording.sample_interval_s());
 }
 
@@ -66,7 +66,7 @@ std::optional<DampedFit> with_errors_of(const FreeMotion& motion, DampedFit fit)
   MotionMoves moves;
   for (const Coordinate i : {kLogFrequency, kDamping}) {
     BlockFit other = fit.blocks;
-    other.parameters.globals[static_cast<std::size_t>(i)] += kStep;
+    other.parameters.values(i) += kStep;
     if (!std::isfinite(solve(other, {fit.held, fit.continuous, true}))) return std::nullopt;
     moves.col(i - kLogFrequency) = (coordinates_of(other) - here) / kStep;
   }
@@ -129,8 +129,8 @@ std::optional<Warning> join_ring_downs(std::span<const SweepRecording> recording
 
 std::optional<DampedFit> held_at(const FreeMotion& motion, const FitInput& input, DampedFit fit) {
   fit.held[kLogFrequency] = fit.held[kDamping] = true;
-  fit.blocks.parameters.globals[kLogFrequency] = motion.values(0);
-  fit.blocks.parameters.globals[kDamping] = motion.values(1);
+  fit.blocks.parameters.values(kLogFrequency) = motion.values(0);
+  fit.blocks.parameters.values(kDamping) = motion.values(1);
   fit.continuous = false;
   if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
   const bool averaged = fit.average.has_value();

@@ -15,13 +15,13 @@ namespace {
 constexpr double kStep = 0.01;  // of ln w_n
 
 double stiffness_of(const DampedFit& fit) {
-  return std::exp(fit.blocks.parameters.globals[kLogStiffness]);
+  return std::exp(fit.blocks.parameters.values(kLogStiffness));
 }
 
 /// What the coordinates move by where w_n is held elsewhere; empty where the fit has no solution there.
 std::optional<Coordinates> by_log_frequency(const DampedFit& fit) {
   BlockFit other = fit.blocks;
-  other.parameters.globals[kLogFrequency] += kStep;
+  other.parameters.values(kLogFrequency) += kStep;
   if (!std::isfinite(solve(other, {fit.held, fit.continuous, true}))) return std::nullopt;
   return (coordinates_of(other) - coordinates_of(fit.blocks)) / kStep;
 }
@@ -47,7 +47,7 @@ CoordinateMatrix with_mass(const CoordinateMatrix& held, const Coordinates& by_l
 
 DampedFit fit_with_mass(const FitInput& input, DampedFit fit) {
   constexpr int kRounds = 2;  // k changes little with w_n
-  const double average_s = fit.blocks.scales().sensor_average_s;
+  const double average_s = fit.blocks.sensor().average_s;
   const std::optional<StatedMass> mass =
       mass_for_frequency(input.recording.conditions(), input.held, stiffness_of(fit), average_s);
   if (!mass) return fit;

@@ -34,7 +34,7 @@ SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, 
     const std::ptrdiff_t skip = single.blocks.level().terms > 0 ? 1 : 0;
     std::copy(level.begin() + skip, level.end(), recording.parameters.level.begin() + 1);
     recording.parameters.level[0] = level_of(single) / scales.population->force;
-    recording.parameters.difference = mean_onset_force(single) / scales.population->force;
+    recording.parameters.values(kDifference) = mean_onset_force(single) / scales.population->force;
     recording.parameters.cycles = single.blocks.parameters.cycles;
     solution.recordings.push_back(std::move(recording));
   }
@@ -81,27 +81,27 @@ class SweepFitter {
   }
 
   /// From the medians of the recordings' own fits.
-  void set_globals(SweepSolution& solution) const {
-    Globals globals{};
-    for (const std::size_t i : std::array<std::size_t, 3>{kLogStiffness, kLogFrequency, kDamping}) {
+  void set_start(SweepSolution& solution) const {
+    Coordinates first = Coordinates::Zero();
+    for (const std::size_t i : std::array{kLogStiffness, kLogFrequency, kDamping}) {
       std::vector<double> values;
-      for (const std::size_t r : data_.fitted) values.push_back(data_.single[r]->blocks.parameters.globals[i]);
-      globals[i] = signal::median(values);
+      for (const std::size_t r : data_.fitted) values.push_back(data_.single[r]->blocks.parameters.values(i));
+      first(i) = signal::median(values);
     }
-    globals[kDamping] = std::clamp(globals[kDamping], 0.0, 0.3);
-    if (fixed_.stiffness_N_per_m) globals[kLogStiffness] = std::log(*fixed_.stiffness_N_per_m);
-    if (fixed_.natural_frequency_rad_per_s) globals[kLogFrequency] = std::log(*fixed_.natural_frequency_rad_per_s);
-    if (fixed_.damping_ratio) globals[kDamping] = *fixed_.damping_ratio;
+    first(kDamping) = std::clamp(first(kDamping), 0.0, 0.3);
+    if (fixed_.stiffness_N_per_m) first(kLogStiffness) = std::log(*fixed_.stiffness_N_per_m);
+    if (fixed_.natural_frequency_rad_per_s) first(kLogFrequency) = std::log(*fixed_.natural_frequency_rad_per_s);
+    if (fixed_.damping_ratio) first(kDamping) = *fixed_.damping_ratio;
     std::vector<double> levels;
     std::vector<double> differences;
     for (const BlockFit& recording : solution.recordings) {
       levels.push_back(recording.parameters.level[0]);
-      differences.push_back(recording.parameters.difference);
+      differences.push_back(recording.parameters.values(kDifference));
     }
     for (BlockFit& recording : solution.recordings) {
-      recording.parameters.globals = globals;
+      recording.parameters.values.head<kOfLaw>() = first.head<kOfLaw>();
       if (solution.sweep.sharing.level) recording.parameters.level[0] = signal::median(levels);
-      if (solution.sweep.sharing.difference) recording.parameters.difference = signal::median(differences);
+      if (solution.sweep.sharing.difference) recording.parameters.values(kDifference) = signal::median(differences);
     }
   }
 
@@ -111,8 +111,8 @@ class SweepFitter {
     constexpr std::array kStartRates{-1.0, 1.0, -4.0};
     std::vector<SweepSolution> starts = in_parallel(kStartRates.size(), [&](std::size_t i) {
       SweepSolution start = start_of(data_, sharing, FrictionLaw::Exponential, data_.fitted);
-      set_globals(start);
-      for (BlockFit& recording : start.recordings) recording.parameters.globals[kFrictionRate] = kStartRates[i];
+      set_start(start);
+      for (BlockFit& recording : start.recordings) recording.parameters.values(kFrictionRate) = kStartRates[i];
       Held quick = held;
       quick[kFrictionRate] = true;
       start.chi2 = solve(start, quick, kSweepQuickIterations, kSweepRough);
@@ -127,7 +127,7 @@ class SweepFitter {
 
   [[nodiscard]] std::optional<SweepSolution> fit_coulomb(Sharing sharing, bool grows) const {
     SweepSolution start = start_of(data_, sharing, FrictionLaw::Coulomb, data_.fitted);
-    set_globals(start);
+    set_start(start);
     return grows ? with_exponent(std::move(start), held_of(fixed_)) : at_minimum(std::move(start), held_of(fixed_));
   }
 
@@ -190,10 +190,10 @@ std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& op
   constexpr double kSmallChange = 1e-3;  // of ln w_n: k hardly depends on it
   HeldParameters held = options.held;
   std::vector<double> logs;
-  for (const std::size_t i : data.fitted) logs.push_back(data.single[i]->blocks.parameters.globals[kLogStiffness]);
+  for (const std::size_t i : data.fitted) logs.push_back(data.single[i]->blocks.parameters.values(kLogStiffness));
   double stiffness = std::exp(signal::median(std::move(logs)));
   const auto log_stiffness = [](const SweepSolution& solution) {
-    return solution.recordings.front().parameters.globals[kLogStiffness];
+    return solution.recordings.front().parameters.values(kLogStiffness);
   };
   std::optional<SweepFits> fits;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -205,9 +205,9 @@ std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& op
     if (std::abs(std::log(next / std::exchange(stiffness, next))) < 2.0 * kSmallChange) break;
   }
   for (int round = 0; round < kMostRounds && fits->growing; ++round) {
-    const Globals& globals = fits->growing->recordings.front().parameters.globals;
+    const Coordinates& values = fits->growing->recordings.front().parameters.values;
     const double log_frequency = std::log(data.mass->frequency_rad_per_s(std::exp(log_stiffness(*fits->growing))));
-    const double change = log_frequency - globals[kLogFrequency];
+    const double change = log_frequency - values(kLogFrequency);
     if (std::abs(change) < kSmallChange) break;
     fits->growing = with_held(*fits->growing, kLogFrequency, change);
   }

@@ -17,14 +17,12 @@ constexpr int kSweepMaxIterations = 50;
 
 /// Residual rows over parameters: each stick bin counts as its two rows, as it does in chi2.
 double residual_freedom(const SweepSolution& solution) {
-  double freedom = -static_cast<double>(CommonColumns(solution.problem()).size());
+  const CommonColumns columns(solution.problem());
+  double freedom = static_cast<double>(columns.held(solution.held).size()) - static_cast<double>(columns.size());
   if (solution.sweep.sharing.level) freedom += static_cast<double>(solution.sweep.steady.size());
-  const std::size_t globals = solution.recordings.front().model(0).globals();
-  for (std::size_t i = 0; i < globals; ++i) freedom += solution.held[i] ? 1.0 : 0.0;
   for (const BlockFit& recording : solution.recordings) {
     for (std::size_t c = 0; c < recording.size(); ++c) {
-      freedom += static_cast<double>(recording.model(c).residuals()) -
-                 static_cast<double>(recording.model(c).local_parameters());
+      freedom += static_cast<double>(recording.model(c).residuals()) - static_cast<double>(recording.columns().own());
     }
   }
   return std::max(1.0, freedom);
@@ -34,12 +32,12 @@ SweepSolution moved_by(SweepSolution solution, const NewtonStep& step) {
   const CommonColumns columns(solution.problem());
   for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
     BlockFit& recording = solution.recordings[r];
+    const double time = recording.parameters.values(kSensorTime);
     columns.visit(r, recording, recording.parameters,
                   [&](Eigen::Index column, double& value) { value += step.step(column); });
-    if (!recording.model(0).has_sensor_time()) continue;
     constexpr double kMost = 0.5;  // of it, where a step leads to none
-    const double before = recording.sensor_time();
-    recording.set_sensor_time(std::max(kMost * before, before + step.step(*columns.sensor_time())));
+    double& moved = recording.parameters.values(kSensorTime);
+    moved = std::max(kMost * time, moved);
   }
   solution.chi2 = step.sum_of_squares;
   solution.degrees_of_freedom = residual_freedom(solution);
@@ -54,8 +52,18 @@ std::size_t SweepSolution::cycles() const {
   return count;
 }
 
+Coordinates SweepSolution::shared() const {
+  Coordinates values = Coordinates::Zero();
+  for (const BlockFit& recording : recordings) {
+    for (const Coordinate coordinate : recording.columns().coordinates()) {
+      if (coordinate != kDifference) values(coordinate) = recording.parameters.values(coordinate);
+    }
+  }
+  return values;
+}
+
 const BlockFit* SweepSolution::with_sensor_time() const {
-  const auto has_time = [](const BlockFit& recording) { return recording.model(0).has_sensor_time(); };
+  const auto has_time = [](const BlockFit& recording) { return recording.solves_for(kSensorTime); };
   const auto found = std::find_if(recordings.begin(), recordings.end(), has_time);
   return found == recordings.end() ? nullptr : &*found;
 }
@@ -89,7 +97,7 @@ SweepSolution settled(const SweepSolution& solution) {
 
 std::optional<SweepSolution> with_rate(const SweepSolution& solution, double rate) {
   SweepSolution moved = solution;
-  for (BlockFit& recording : moved.recordings) recording.parameters.globals[kFrictionRate] = rate;
+  for (BlockFit& recording : moved.recordings) recording.parameters.values(kFrictionRate) = rate;
   Held held = solution.held;
   held[kFrictionRate] = true;
   return at_minimum(std::move(moved), held);
@@ -102,7 +110,7 @@ std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw
     scales.law = law;
     recording = recording.with_scales(scales);
     // The other laws have friction that changes ever less.
-    double& rate = recording.parameters.globals[kFrictionRate];
+    double& rate = recording.parameters.values(kFrictionRate);
     rate = std::min(rate, -kSlowestRate);
   }
   return at_minimum(std::move(other), solution.held);
@@ -117,9 +125,9 @@ std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& h
   return at_minimum(std::move(solution), held);
 }
 
-std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate global, double change) {
+std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate coordinate, double change) {
   SweepSolution other = solution;
-  for (BlockFit& recording : other.recordings) recording.parameters.globals[static_cast<std::size_t>(global)] += change;
+  for (BlockFit& recording : other.recordings) recording.parameters.values(coordinate) += change;
   return at_minimum(std::move(other), solution.held);
 }
 
@@ -127,8 +135,8 @@ std::optional<SweepSolution> with_motion(SweepSolution solution, const FreeMotio
   Held held = solution.held;
   held[kLogFrequency] = held[kDamping] = true;
   for (BlockFit& recording : solution.recordings) {
-    recording.parameters.globals[kLogFrequency] = motion.values(0);
-    recording.parameters.globals[kDamping] = motion.values(1);
+    recording.parameters.values(kLogFrequency) = motion.values(0);
+    recording.parameters.values(kDamping) = motion.values(1);
   }
   return at_minimum(std::move(solution), held);
 }

@@ -20,6 +20,8 @@ struct SweepSolution {
 
   [[nodiscard]] Problem problem() const { return {recordings, sweep}; }
   [[nodiscard]] std::size_t cycles() const;
+  /// What the recordings share; the other coordinates are 0.
+  [[nodiscard]] Coordinates shared() const;
   /// A recording with the time of the sensor that is free; null where none is.
   [[nodiscard]] const BlockFit* with_sensor_time() const;
   /// Of the recordings' speeds, in their order.
@@ -37,7 +39,7 @@ inline constexpr double kSweepFinal = 1e-4;
 /// From the solution's parameters; returns chi2, infinity where they are outside the model.
 double solve(SweepSolution& solution, const Held& held, int max_iterations, double tolerance);
 
-/// The solution, moved to its minimum with these globals held; empty where it has none.
+/// The solution, moved to its minimum with these coordinates held; empty where it has none.
 std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held, double tolerance = kSweepFinal);
 
 /// At its minimum to a thousandth of a standard error.
@@ -49,11 +51,11 @@ std::optional<SweepSolution> with_rate(const SweepSolution& solution, double rat
 /// The same fit with another law of kinetic friction, started from the solution.
 std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw law);
 
-/// The solution with k that goes with the speed as V^p, p free, moved to its minimum with these globals held.
+/// The solution with k that goes with the speed as V^p, p free, moved to its minimum with these coordinates held.
 std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& held);
 
-/// The same fit with a global that is held elsewhere.
-std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate global, double change);
+/// The same fit with a coordinate that is held elsewhere.
+std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate coordinate, double change);
 
 /// The solution with this w_n and zeta held.
 std::optional<SweepSolution> with_motion(SweepSolution solution, const FreeMotion& motion);

@@ -45,7 +45,7 @@ double damping_error(const DampedFit& fit) {
 }
 
 double sigmas_of_distance(const DampedFit& fit) {
-  const double root = fit.blocks.parameters.globals[kFrictionSlope];
+  const double root = fit.blocks.parameters.values(kSlipDistance);
   const double variance = fit.uncertainty.covariance(kSlipDistance, kSlipDistance);
   return variance > 0.0 ? 0.5 * std::abs(root) / std::sqrt(variance) : 0.0;
 }

@@ -20,7 +20,7 @@ bool is_lost(double loose_chi2, const DampedFit& damped) {
 /// The damped fit does not rule zeta = 0 out, and its cycles stand where the undamped fit has them.
 bool is_near(const DampedFit& damped) {
   constexpr double kNear = 2.0;
-  return std::abs(damped.blocks.parameters.globals[kDamping]) < kNear * damping_error(damped);
+  return std::abs(damped.blocks.parameters.values(kDamping)) < kNear * damping_error(damped);
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ bool is_near(const DampedFit& damped) {
 std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
   const BlockFit& from = damped.blocks;
   BlockFit blocks = from;
-  blocks.parameters.globals[kDamping] = 0.0;
+  blocks.parameters.values(kDamping) = 0.0;
   Held held = damped.held;
   held[kDamping] = true;
   bool lost = false;
@@ -47,7 +47,7 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
   result.uncertainty = estimate_uncertainty(result.blocks, {held, joined});
   // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.
   const bool is_false =
-      from.parameters.globals[kDamping] < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
+      from.parameters.values(kDamping) < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
   return is_false ? std::nullopt : std::optional(std::move(result));
 }
 

@@ -21,12 +21,12 @@ namespace slipfit::fit {
 namespace {
 
 double slip_distance_m(const DampedFit& fit) {
-  return fit.blocks.scales().slip_distance_m * std::pow(fit.blocks.parameters.globals[kFrictionSlope], 2);
+  return fit.blocks.scales().slip_distance_m * std::pow(fit.blocks.parameters.values(kSlipDistance), 2);
 }
 
 /// Why it cannot even be tried; empty: it can.
 std::string hindrance(const FitInput& input, const DampedFit& coulomb) {
-  if (coulomb.blocks.scales().sensor_lag_s > 0.0) return "it is not fitted with a sensor of first order";
+  if (coulomb.blocks.sensor().lag_s > 0.0) return "it is not fitted with a sensor of first order";
   const double step_s = input.recording.sample_interval_s();
   const double samples = median_slip_s(coulomb.blocks) / step_s;
   return samples < thresholds::kShapeSamples ? too_few_samples(samples, step_s) : std::string();

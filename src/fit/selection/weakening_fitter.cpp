@@ -66,7 +66,7 @@ std::optional<DampedFit> fit_weakening(const FitInput& input, const DampedFit& c
   const std::vector<CycleData> cycles = solver.cycles();
   const std::optional<WeakeningSolver::Draft> draft =
       solver.draft(solver.some_of(cycles, kTrialCycles), average_s,
-                   {coulomb.blocks.parameters.globals[kLogFrequency], kStarts, kTrialIterations});
+                   {coulomb.blocks.parameters.values(kLogFrequency), kStarts, kTrialIterations});
   if (!draft) return std::nullopt;
   const bool may_be_left = missed && !WeakeningTest(solver, coulomb, *missed).promises(cycles, draft->blocks);
   if (may_be_left) return std::nullopt;

@@ -57,7 +57,7 @@ bool solve_own(BlockFit& blocks, SolveOptions options) {
 
 /// The best zeta is below 0 clearly, or it is not told.
 bool is_negative(const DampedFit& fit) {
-  const double zeta = fit.blocks.parameters.globals[kDamping];
+  const double zeta = fit.blocks.parameters.values(kDamping);
   const double error = damping_error(fit);
   const bool is_told = error < thresholds::kTellingDamping;
   return !fit.held[kDamping] && zeta < (is_told ? -thresholds::kNegativeSigmas * error : 0.0);
@@ -73,7 +73,7 @@ WeakeningSolver::WeakeningSolver(const FitInput& input, const DampedFit& coulomb
       half_width_s_(half_width_s),
       hum_(hum_of(input.recording, coulomb.blocks)) {
   scales_.law = FrictionLaw::Weakening;
-  scales_.slip_distance_m = scales_.force / std::exp(coulomb.blocks.parameters.globals[kLogStiffness]);
+  scales_.slip_distance_m = scales_.force / std::exp(coulomb.blocks.parameters.values(kLogStiffness));
 }
 
 std::vector<CycleData> WeakeningSolver::cycles() const {
@@ -103,14 +103,13 @@ std::optional<WeakeningSolver::Draft> WeakeningSolver::draft(const std::vector<C
                                         coulomb_.blocks.level().reloading ? kRiseLengths.size() : 1);
   std::optional<Draft> best;
   for (const double weakening : start.weakenings) {
-    Globals globals = coulomb_.blocks.parameters.globals;
+    Coordinates near = coulomb_.blocks.parameters.values;
     // The slower onset makes a slip longer: so much slower is w_n of the Coulomb fit.
-    if (!held_[kLogFrequency]) globals[kLogFrequency] = start.log_omega + std::log1p(0.6 * weakening);
-    if (!held_[kDamping]) globals[kDamping] = 0.05;
-    globals[kFrictionSlope] = std::sqrt(weakening);
+    if (!held_[kLogFrequency]) near(kLogFrequency) = start.log_omega + std::log1p(0.6 * weakening);
+    if (!held_[kDamping]) near(kDamping) = 0.05;
+    near(kSlipDistance) = std::sqrt(weakening);
     for (const double times : lengths) {
-      const std::optional<BlockFit> first =
-          started(cycles, {average_s, FreeTime::None}, globals, coulomb_.blocks.level());
+      const std::optional<BlockFit> first = started(cycles, {average_s, FreeTime::None}, near, coulomb_.blocks.level());
       if (!first) return best;
       BlockFit blocks = with_length_times(*first, times);
       if (!solve_own(blocks, options)) continue;
@@ -128,7 +127,7 @@ std::optional<WeakeningSolver::Draft> WeakeningSolver::draft(const std::vector<C
 
 std::optional<BlockFit> WeakeningSolver::solved(const std::vector<CycleData>& cycles, const BlockFit& near,
                                                 double tolerance) const {
-  std::optional<BlockFit> blocks = started(cycles, averaging_of(near), near.parameters.globals, near.level());
+  std::optional<BlockFit> blocks = started(cycles, averaging_of(near), near.parameters.values, near.level());
   if (!blocks || !solve_own(*blocks, {held_, false, true})) return std::nullopt;
   return settled(*std::move(blocks), held_, tolerance);
 }
@@ -161,7 +160,7 @@ std::optional<BlockFit> WeakeningSolver::blocks_of(const std::vector<CycleData>&
 }
 
 std::optional<BlockFit> WeakeningSolver::started(const std::vector<CycleData>& cycles, Averaging average,
-                                                 const Globals& start, const LevelModel& level) const {
+                                                 const Coordinates& start, const LevelModel& level) const {
   std::optional<BlockFit> blocks = blocks_of(cycles, average, level);
   if (!blocks) return blocks;
   set_start(*blocks, input_.segmentation, start);
@@ -189,9 +188,9 @@ std::optional<DampedFit> WeakeningSolver::without_outliers(BlockFit blocks) cons
 
 /// zeta is held at 0, and called unknown, as under Coulomb friction.
 std::optional<DampedFit> WeakeningSolver::without_damping(DampedFit fit) const {
-  fit.refused_damping = fit.blocks.parameters.globals[kDamping];
+  fit.refused_damping = fit.blocks.parameters.values(kDamping);
   fit.held[kDamping] = true;
-  fit.blocks.parameters.globals[kDamping] = 0.0;
+  fit.blocks.parameters.values(kDamping) = 0.0;
   std::optional<BlockFit> blocks = settled(std::move(fit.blocks), fit.held, kTolerance);
   if (!blocks) return std::nullopt;
   fit.blocks = *std::move(blocks);

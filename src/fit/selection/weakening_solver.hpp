@@ -59,7 +59,7 @@ class WeakeningSolver {
     double seconds = 0.0;
     FreeTime free = FreeTime::None;
   };
-  static Averaging averaging_of(const BlockFit& fit) { return {fit.scales().sensor_average_s, fit.scales().free_time}; }
+  static Averaging averaging_of(const BlockFit& fit) { return {fit.sensor().average_s, fit.scales().free_time}; }
 
   [[nodiscard]] std::vector<CycleData> cycles_without(const std::vector<std::size_t>& excluded) const;
   /// Empty where there are too few cycles to fit.
@@ -68,7 +68,7 @@ class WeakeningSolver {
   /// With the rise after slips, where there is one, from the ends of the slips on, as the average shows it. Empty where
   /// there are too few cycles to fit.
   [[nodiscard]] std::optional<BlockFit> started(const std::vector<CycleData>& cycles, Averaging average,
-                                                const Globals& start, const LevelModel& level) const;
+                                                const Coordinates& start, const LevelModel& level) const;
   [[nodiscard]] DampedFit unfinished(BlockFit blocks, std::vector<std::size_t> excluded) const;
   [[nodiscard]] std::optional<DampedFit> without_outliers(BlockFit blocks) const;
   [[nodiscard]] std::optional<DampedFit> without_damping(DampedFit fit) const;
