@@ -20,22 +20,23 @@ enum Coordinate : Eigen::Index {
   /// (F_k(v_c) - F_k(0+)) / (2 v_c sqrt(k m)), the mean share of friction in the damping of a slip: the data fix it
   /// whatever alpha is, which the slope at v = 0 is not.
   kFrictionSlope,
-  kFrictionRate,  ///< a = alpha v_c
-  kSlipDistance,  ///< sqrt(D_c / Units::slip_distance_m): the limit of Coulomb friction is reached as it goes to 0
-  kOfLaw,         ///< how many the rig and the laws of friction have
-  kStiffnessExponent = kOfLaw,  ///< d ln k / d ln V, of a sweep; k and w_n are those at Units::speed_m_per_s
-  kSensorTime,                  ///< (time / Scales::sensor_time_unit_s)^2, of the time of the sensor that is free
-  kLevel,                       ///< F_k(0+) / Units::force, from Units::level
-  kDifference,                  ///< (F_s - F_k(0+)) / Units::force
-  kAgeing,                      ///< rate of ageing / Units::force
-  kAgeingTime,                  ///< cut-off of ageing / Units::stick_s
-  kReloadForce,                 ///< A / Units::force, of the rise after a slip
-  kReloadLength,                ///< ln (l / m), of the path over which it rises
+  kFrictionRate,       ///< a = alpha v_c
+  kSlipDistance,       ///< sqrt(D_c / Units::slip_distance_m): the limit of Coulomb friction is reached as it goes to 0
+  kReloadForce,        ///< A / Units::force, of the rise after a slip
+  kReloadLength,       ///< ln (l / m), of the path over which it rises
+  kStiffnessExponent,  ///< d ln k / d ln V, of a sweep; k and w_n are those at Units::speed_m_per_s
+  kSensorTime,         ///< (time / Scales::sensor_time_unit_s)^2, of the time of the sensor that is free
+  kLevel,              ///< F_k(0+) / Units::force, from Units::level
+  kDifference,         ///< (F_s - F_k(0+)) / Units::force
+  kAgeing,             ///< rate of ageing / Units::force
+  kAgeingTime,         ///< cut-off of ageing / Units::stick_s
   kCoordinates
 };
 
 using Coordinates = Eigen::Matrix<double, kCoordinates, 1>;
 using CoordinateMatrix = Eigen::Matrix<double, kCoordinates, kCoordinates>;
+/// Those of the rig and of friction in the slip come first.
+inline constexpr int kOfSlip = kSlipDistance + 1;
 /// Which of the coordinates stand still while fitting.
 using Held = std::array<bool, kCoordinates>;
 

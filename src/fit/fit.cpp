@@ -73,11 +73,13 @@ void tell_selection(const fit::OfferedSlips& offered, FitResult& result) {
 /// Of the slip and the stick that makes good its drop.
 double recovery_s(const BlockFit& blocks, const CycleState& state) {
   const double straight_s = (state.z0() - state.intercept()) / state.omega_rad_per_s;
-  const auto& reloading = blocks.level().reloading;
-  if (!reloading || !(straight_s > state.slip_s()) || !(blocks.rise_data()[0] > 0.0)) return straight_s;
+  if (!blocks.level().reloading || !(straight_s > state.slip_s()) ||
+      !(blocks.parameters.values(fit::kReloadForce) > 0.0))
+    return straight_s;
   const double speed = blocks.scales().speed_m_per_s;
-  const double rise_m = blocks.rise_data()[0] * blocks.scales().force / state.stiffness_N_per_m;
-  const double stick_m = model::reloaded_stick_m(speed * (straight_s - state.slip_s()), rise_m, reloading->length_m);
+  const double rise_m = blocks.parameters.values(fit::kReloadForce) * blocks.scales().force / state.stiffness_N_per_m;
+  const double stick_m = model::reloaded_stick_m(speed * (straight_s - state.slip_s()), rise_m,
+                                                 std::exp(blocks.parameters.values(fit::kReloadLength)));
   return state.slip_s() + stick_m / speed;
 }
 
@@ -114,7 +116,7 @@ std::vector<CurvePoint> curve_of(const Recording& recording, const BlockFit& blo
       const double interference = blocks.model(c).hum_at(time_s[i], blocks.level_data());
       curve.push_back({i,
                        blocks.model(c).level_at(time_s[i], blocks.level_data(), local) + interference +
-                           blocks.model(c).rise_at(time_s[i], blocks.level_data()) + state.force_at(time_s[i]),
+                           blocks.model(c).rise_at(time_s[i], blocks.parameters.values) + state.force_at(time_s[i]),
                        interference});
     }
   }

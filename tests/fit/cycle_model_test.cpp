@@ -87,6 +87,8 @@ void check_derivatives(const Scales& scales, const LevelModel& level, double ste
     here(kStiffnessExponent) = 0.07;
     here(kSensorTime) = 0.6;
     here(kDifference) = 0.9;
+    here(kReloadForce) = 0.3;
+    here(kReloadLength) = std::log(2e-3);
     std::vector<double> x;
     for (const Coordinate coordinate : columns.coordinates()) x.push_back(here(coordinate));
     x.resize(columns.size(), 0.1);
@@ -147,13 +149,19 @@ const LevelModel kPolynomial{false, 3, {}};
 const LevelModel kPerCycle{true, 0, {}};
 const LevelModel kConstant{false, 1, {}};
 
+/// A level above which the force rises after slips.
+LevelModel rising() {
+  RiseAfterSlip rise{2e-3, 1.0, true, 0.01, {-0.02}, {0.24}};
+  return {false, 2, {}, std::make_shared<const RiseAfterSlip>(std::move(rise))};
+}
+
 }  // namespace
 
 TEST_CASE("residual derivatives of Coulomb friction agree with central differences in every view and level model") {
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
   const double sensor_lag_s = GENERATE(0.0, 0.02);
   const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
-  for (const LevelModel& level : {kPolynomial, kPerCycle}) {
+  for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) {
     Scales scales = averaged_by(average, example_scales(view, sensor_lag_s));
     // h^2 times third derivatives (up to 1e4 here) and round-off / h; a sample that an event crosses within h keeps its
     // first derivative, its second one jumps: h times that jump.
@@ -170,7 +178,7 @@ TEST_CASE("residual derivatives of friction that depends on the speed agree with
   const FrictionLaw law = GENERATE(FrictionLaw::Exponential, FrictionLaw::Hyperbolic, FrictionLaw::Logarithmic);
   const double sensor_lag_s = GENERATE(0.0, 0.02);
   const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
-  for (const LevelModel& level : {kPolynomial, kPerCycle}) {
+  for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) {
     Scales scales = averaged_by(average, example_scales(view, sensor_lag_s));
     scales.law = law;
     scales.population = example_population();
@@ -187,7 +195,7 @@ TEST_CASE("residual derivatives of friction that weakens over a slip distance ag
   scales.law = FrictionLaw::Weakening;
   scales.slip_distance_m = scales.force / 60.0;
   // As under Coulomb friction.
-  for (const LevelModel& level : {kPolynomial, kPerCycle}) check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);
+  for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);
 }
 
 TEST_CASE("friction that depends on the speed with slope 0 gives the residuals of Coulomb friction") {

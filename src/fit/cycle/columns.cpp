@@ -1,7 +1,5 @@
 #include "fit/cycle/columns.hpp"
 
-#include "fit/cycle/cycle_model.hpp"
-
 namespace slipfit::fit {
 
 Columns::Columns(const Scales& scales, const LevelModel& level)
@@ -18,6 +16,8 @@ Columns::Columns(const Scales& scales, const LevelModel& level)
     add(kFrictionRate);
   }
   if (scales.law == FrictionLaw::Weakening) add(kSlipDistance);
+  if (level.reloading) add(kReloadForce);
+  if (level.reloading && level.reloading->is_free) add(kReloadLength);
   if (scales.population && scales.population->log_speed) add(kStiffnessExponent);
   if (scales.free_time != FreeTime::None) add(kSensorTime);
   if (scales.population) add(kDifference);

@@ -7,10 +7,9 @@
 
 #include "fit/coordinates.hpp"
 #include "fit/cycle/cycle_data.hpp"
+#include "fit/level/level_model.hpp"
 
 namespace slipfit::fit {
-
-struct LevelModel;
 
 /// The columns of the Jacobian of a recording's cycles: the coordinates that the fit solves for, in the order of
 /// Coordinate, then the level's constant, where there is one, the level's other functions, and the cycle's own.

@@ -45,10 +45,13 @@ CycleFrame CycleModel::frame(const Coordinates& here, const double* local) const
   return frame;
 }
 
-double CycleModel::rise_at(double time_s, const double* level) const {
+RiseAfterSlip::Shape CycleModel::rise_of(const Coordinates& shared) const {
+  return {std::exp(shared(kReloadLength)), sensor_of(scales_, shared).average_s};
+}
+
+double CycleModel::rise_at(double time_s, const Coordinates& shared) const {
   if (!level_->reloading) return 0.0;
-  const double* const rise = level + (columns_->has_constant() ? 1 : 0) + level_->first_rise();
-  return scales_.force * level_->reloading->sum_of(level_->reloading->at(data_->slip, time_s), rise);
+  return scales_.force * shared(kReloadForce) * level_->reloading->at(data_->slip, time_s, rise_of(shared)).value;
 }
 
 std::optional<CycleState> CycleModel::state(const Coordinates& shared, const double* local) const {
@@ -129,6 +132,36 @@ class CycleModel::Rows {
         by_noise * (rows_.weight * (rows_.force - u * z) - constant_force() * rows_.level_weight);
     for (Index i = 0; i < rows_.level.cols(); ++i) {
       Column(residuals_, z.size()) -= by_noise * scales_.force * values_.drift[i] * rows_.weight * rows_.level.col(i);
+    }
+  }
+
+  /// The rise after slips joins residuals and Jacobian.
+  void add_rise() const {
+    const RiseAfterSlip& rise = *cycle_.level_->reloading;
+    const Coordinates& shared = *values_.shared;
+    const RiseAfterSlip::Shape shape = cycle_.rise_of(shared);
+    const double force = shared(kReloadForce);
+    Index row = 0;
+    const auto put = [&](const RiseAfterSlip::Share& share) {
+      const double weight = -scales_.force / scales_.noise * rows_.weight(row);
+      residuals_[row] += weight * force * share.value;
+      if (jacobian_ != nullptr) {
+        at(of(kReloadForce))[row] = weight * share.value;
+        if (columns_.has(kReloadLength)) at(of(kReloadLength))[row] = weight * force * share.by_log_length;
+        if (scales_.free_time == FreeTime::Average) {
+          at(of(kSensorTime))[row] += weight * force * share.by_log_average * 0.5 / shared(kSensorTime);
+        }
+      }
+      ++row;
+    };
+    const CycleData& data = cycle_.data();
+    for (const double time_s : data.time_s) put(rise.at(data.slip, time_s, shape));
+    for (const auto* bins : {&data.bins_before, &data.bins_after}) {
+      for (const StickBin& bin : *bins) {
+        const RiseAfterSlip::Line line = rise.over(data.slip, bin, shape);
+        put(line.mean);
+        put(line.slope);
+      }
     }
   }
 
@@ -243,6 +276,7 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, const Rows& rows)
   for (const StickBin& bin : data_->bins_before) put_bin(tau_of(bin), law.before_slip(tau_of(bin)));
   for (const StickBin& bin : data_->bins_after) put_bin(tau_of(bin), law.after_slip(tau_of(bin)));
   rows.finish(frame);
+  if (level_->reloading) rows.add_rise();
   if (!scales_.population) return;
   const auto ties = static_cast<Eigen::Index>(data_->residuals());
   rows.tie_static_friction(frame, ties);

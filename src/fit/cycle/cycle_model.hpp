@@ -14,7 +14,7 @@
 #include "fit/cycle/cycle_data.hpp"
 #include "fit/law/coulomb.hpp"
 #include "fit/law/slip_weakening.hpp"
-#include "fit/level/reloading.hpp"
+#include "fit/level/level_model.hpp"
 
 namespace slipfit::fit {
 
@@ -23,23 +23,6 @@ SensorTimes sensor_of(const Scales& scales, const Coordinates& values);
 
 /// Values of the Legendre polynomials P_0 ... P_(terms-1) at x, and their derivatives.
 void legendre(double x, std::size_t terms, double* values, double* derivatives);
-
-/// How the kinetic level F_k is described: one polynomial in time (additive drift of the sensor, order 0: constant) or
-/// one value a cycle (friction that wanders); beside it hum of the mains, a cosine and a sine for each line.
-struct LevelModel {
-  bool per_cycle = false;
-  std::size_t terms = 1;  ///< of the Legendre polynomial; 0 where per_cycle
-  std::vector<double> lines_Hz;
-  std::shared_ptr<const RiseAfterSlip> reloading{};  ///< null: sticks are straight
-
-  /// Functions of time: the polynomial's first, then the rise after a slip, then cosine and sine of each line.
-  [[nodiscard]] std::size_t columns() const { return first_line() + 2 * lines_Hz.size(); }
-  [[nodiscard]] std::size_t columns_behind_constant() const { return columns() - (terms > 0 ? 1 : 0); }
-  [[nodiscard]] std::size_t first_line() const { return terms + rise_columns(); }
-  [[nodiscard]] std::size_t rise_columns() const { return reloading ? reloading->columns() : 0; }
-  /// Of the first column of the rise among those behind the constant.
-  [[nodiscard]] std::size_t first_rise() const { return terms > 0 ? terms - 1 : 0; }
-};
 
 /// The residual rows of a cycle: its samples around the slip, then mean and slope of each stick bin.
 struct CycleRows {
@@ -171,11 +154,12 @@ class CycleModel {
   [[nodiscard]] double level_at(double time_s, const double* level, const double* local) const;
   [[nodiscard]] double hum_at(double time_s, const double* level) const;
   /// Of the rise after a slip; 0 where sticks are straight.
-  [[nodiscard]] double rise_at(double time_s, const double* level) const;
+  [[nodiscard]] double rise_at(double time_s, const Coordinates& shared) const;
 
  private:
   class Rows;
 
+  [[nodiscard]] RiseAfterSlip::Shape rise_of(const Coordinates& shared) const;
   /// At the recording's speed: k goes with it, and w_n of the same mass.
   [[nodiscard]] Coordinates at_speed(const Coordinates& shared) const;
   /// `here`: at the recording's speed.

@@ -58,9 +58,8 @@ class LevelRow {
 
   /// `out`: a row of CycleRows::level.
   template <class Row>
-  void at(double time_s, std::size_t slip, Row out) {
+  void at(double time_s, Row out) {
     Eigen::Index column = put_polynomial(time_s, out);
-    if (level_.reloading) column = put_rise(level_.reloading->at(slip, time_s), out, column);
     for (const double line_Hz : level_.lines_Hz) {
       const double phase = 2.0 * std::numbers::pi * line_Hz * (time_s - scales_.time_begin_s);
       out(column++) = std::cos(phase);
@@ -70,15 +69,10 @@ class LevelRow {
 
   /// `mean`, `slope`: rows.
   template <class Row>
-  void over(const StickBin& bin, std::size_t slip, Row mean, Row slope) {
+  void over(const StickBin& bin, Row mean, Row slope) {
     Eigen::Index column = put_polynomial(bin.time_s, mean);
     for (std::size_t i = 1; i < level_.terms; ++i)
       slope(static_cast<Eigen::Index>(i) - 1) = 2.0 / span_s() * slopes_[i];
-    if (level_.reloading) {
-      const RiseAfterSlip::Line rise = level_.reloading->over(slip, bin);
-      put_rise(rise.slope, slope, column);
-      column = put_rise(rise.mean, mean, column);
-    }
     for (const LineInBin& line : bin.lines) {
       for (std::size_t i = 0; i < 2; ++i, ++column) {
         mean(column) = line.mean[i];
@@ -94,14 +88,7 @@ class LevelRow {
   Eigen::Index put_polynomial(double time_s, Row& out) {
     legendre(2.0 * (time_s - scales_.time_begin_s) / span_s() - 1.0, level_.terms, values_.data(), slopes_.data());
     for (std::size_t i = 1; i < level_.terms; ++i) out(static_cast<Eigen::Index>(i) - 1) = values_[i];
-    return static_cast<Eigen::Index>(level_.first_rise());
-  }
-
-  template <class Row>
-  Eigen::Index put_rise(const RiseAfterSlip::Share& share, Row& out, Eigen::Index column) const {
-    out(column++) = share.value;
-    if (level_.reloading->is_free) out(column++) = share.by_log_length;
-    return column;
+    return static_cast<Eigen::Index>(level_.terms > 0 ? level_.terms - 1 : 0);
   }
 
   const LevelModel& level_;
@@ -117,10 +104,10 @@ Eigen::ArrayXXd level_of(const CycleData& data, const LevelModel& level, const S
   if (rows.cols() == 0) return rows;  // an empty array has no rows to point to
   LevelRow functions(level, scales);
   Eigen::Index row = 0;
-  for (const double time_s : data.time_s) functions.at(time_s, data.slip, rows.row(row++));
+  for (const double time_s : data.time_s) functions.at(time_s, rows.row(row++));
   for (const auto* bins : {&data.bins_before, &data.bins_after}) {
     for (const StickBin& bin : *bins) {
-      functions.over(bin, data.slip, rows.row(row), rows.row(row + 1));
+      functions.over(bin, rows.row(row), rows.row(row + 1));
       row += 2;
     }
   }

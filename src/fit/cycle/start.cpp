@@ -119,7 +119,7 @@ void set_start(BlockFit& fit, const Segmentation& segmentation, const Coordinate
   const double b = std::sqrt(1.0 - zeta * zeta);
   const double rebound = std::exp(-std::numbers::pi * zeta / b);  // trough over peak, both from the level
   const double u = stiffness_N_per_m * scales.speed_m_per_s / omega_rad_per_s;
-  fit.parameters.values.head<kOfLaw>() = start.head<kOfLaw>();
+  fit.start_at(start);
   std::vector<double> times_s;
   std::vector<double> levels;
   for (std::size_t i = 0; i < fit.size(); ++i) {

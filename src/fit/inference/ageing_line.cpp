@@ -27,10 +27,7 @@ VectorXd log_sticks(const SweepSolution& solution) {
   const VectorXd differences = differences_of(solution);
   const Units& units = solution.sweep.units;
   Coordinates values = solution.shared();
-  if (solution.reload) {
-    values(kReloadLength) = std::log(solution.reload->metres);
-    if (const VectorXd rises = rises_of(solution); rises.size() > 0) values(kReloadForce) = rises.mean();
-  }
+  if (const VectorXd rises = rises_of(solution); rises.size() > 0) values(kReloadForce) = rises.mean();
   const SlidingModel model(values, units);
   VectorXd logs(differences.size());
   for (Index i = 0; i < differences.size(); ++i) {
@@ -219,7 +216,8 @@ VectorXd rises_of(const SweepSolution& solution) {
   for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
     const BlockFit& recording = solution.recordings[r];
     if (!recording.level().reloading) continue;
-    rises.push_back(recording.rise_data()[0] * recording.scales().force / solution.population(r).force);
+    rises.push_back(recording.parameters.values(kReloadForce) * recording.scales().force /
+                    solution.population(r).force);
   }
   return Eigen::Map<const VectorXd>(rises.data(), static_cast<Index>(rises.size()));
 }

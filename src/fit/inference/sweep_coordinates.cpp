@@ -49,7 +49,8 @@ Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
   Selection selection{MatrixXd::Zero(columns.size(), kCoordinates), {}};
   for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
     for (const Coordinate coordinate : solution.recordings[r].columns().coordinates()) {
-      if (coordinate != kDifference) selection.common(*columns.find(r, coordinate), coordinate) = 1.0;
+      if (coordinate != kDifference && coordinate != kReloadForce)
+        selection.common(*columns.find(r, coordinate), coordinate) = 1.0;
     }
   }
   const Index levels = levels_of(solution).size();
@@ -63,8 +64,9 @@ Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
   }
   const auto rises = static_cast<double>(rises_of(solution).size());
   for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
+    const std::optional<Index> rise = columns.find(r, kReloadForce);
     const double unit = solution.recordings[r].scales().force / solution.population(r).force;
-    select_rise(solution.recordings[r], columns.drift(r), unit / rises, selection);
+    if (rise) selection.common(*rise, kReloadForce) = unit / rises;
   }
   return selection;
 }
@@ -89,10 +91,7 @@ Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& 
   values(kDifference) = line.difference_weights.dot(differences);
   values(kAgeing) = line.rate_weights.dot(differences);
   values(kAgeingTime) = kind ? kind->value : 0.0;
-  if (const VectorXd rises = rises_of(solution); rises.size() > 0) {
-    values(kReloadForce) = rises.mean();
-    values(kReloadLength) = std::log(solution.reload->metres);
-  }
+  if (const VectorXd rises = rises_of(solution); rises.size() > 0) values(kReloadForce) = rises.mean();
   return values;
 }
 

@@ -101,17 +101,10 @@ double error_beyond(const SweepOutcome& outcome) {
   return largest;
 }
 
-/// What the error of something that was found before adds to the covariance. `other`: with that a standard error away.
-CoordinateMatrix by_error(const std::optional<SweepSolution>& other, const SweepOutcome& outcome) {
-  if (!other) return CoordinateMatrix::Zero();
-  const Coordinates move = coordinates_of(*other, outcome.static_friction) - outcome.values;
-  return move * move.transpose();
-}
-
-/// What the coordinates of `outcome` move by with a global that is held.
-std::optional<Coordinates> moves_by(Coordinate global, const SweepSolution& solution, const SweepOutcome& outcome) {
+/// What the coordinates of `outcome` move by with one that is held.
+std::optional<Coordinates> moves_by(Coordinate coordinate, const SweepSolution& solution, const SweepOutcome& outcome) {
   constexpr double kStep = 0.01;  // of ln w_n or zeta
-  const std::optional<SweepSolution> other = with_held(solution, global, kStep);
+  const std::optional<SweepSolution> other = with_held(solution, coordinate, kStep);
   if (!other) return std::nullopt;
   return (coordinates_of(*other, outcome.static_friction) - outcome.values) / kStep;
 }
@@ -146,10 +139,6 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
     outcome.spread.covariance = with_unknown_shape(outcome.spread.covariance, *averaged);
   }
   if (data.mass || data.motion) outcome.spread.covariance = with_errors_of_held(data, solution, outcome);
-  if (const auto& reload = solution.reload) {
-    const double length_m = reload->metres * std::exp(reload->relative_error);
-    outcome.spread.covariance += by_error(with_length(solution, length_m), outcome);
-  }
   if (depends_on_speed(solution)) outcome.other_law = other_law(solution, kind);
   outcome.disagree = recordings_disagree(outcome);
   if (outcome.disagree) {

@@ -122,19 +122,8 @@ Coordinates coordinates_of(const BlockFit& fit) {
     coordinates(kDifference) += p.cycles[i][1] / cycles;
   }
   coordinates(kDifference) += 2.0 * p.values(kDamping) * force_scale(fit) / force;
-  if (const auto& reloading = fit.level().reloading) {
-    const double* const rise = fit.rise_data();
-    coordinates(kReloadForce) = rise[0];
-    coordinates(kReloadLength) = std::log(reloading->length_m) + (reloading->is_free ? rise[1] / rise[0] : 0.0);
-  }
+  if (fit.level().reloading) coordinates(kReloadLength) = p.values(kReloadLength);
   return coordinates;
-}
-
-void select_rise(const BlockFit& fit, Index first_drift, double weight, Selection& selection) {
-  if (!fit.level().reloading) return;
-  const Index column = first_drift + static_cast<Index>(fit.level().first_rise());
-  selection.common(column, kReloadForce) += weight;
-  if (fit.level().reloading->is_free) selection.common(column + 1, kReloadLength) += weight / fit.rise_data()[0];
 }
 
 /// F_s - F_k = A + c V: the spring force at onset is F_s - c V, and c V = 2 zeta k V / w_n. docs/model.md section 4
@@ -151,7 +140,6 @@ Selection select(const BlockFit& fit) {
   selection.common(kLogFrequency, kDifference) = -drag;
   selection.common(kDamping, kDifference) = drag_unit;
   selection.local(1, kDifference) = 1.0;
-  select_rise(fit, columns.drift(0), 1.0, selection);
   if (fit.level().per_cycle) {
     selection.local(2, kLevel) = 1.0;
     return selection;

@@ -33,9 +33,6 @@ Coordinates coordinates_of(const BlockFit& fit);
 /// Their derivatives with respect to the fit's parameters.
 Selection select(const BlockFit& fit);
 
-/// The columns of its rise after a slip, where there is one, weighted.
-void select_rise(const BlockFit& fit, Eigen::Index first_drift, double weight, Selection& selection);
-
 /// Held and continuous as the solution was found. White-noise covariance where residuals are white, otherwise the
 /// delete-one jackknife over cycles (cluster-robust CR3), which sees misfit and correlated noise alike.
 Uncertainty estimate_uncertainty(const BlockFit& fit, const SolveOptions& solved);

@@ -8,36 +8,39 @@
 namespace slipfit::fit {
 
 /// Reloading hysteresis: after a slip the force rises by A (1 - exp(-x / l)) more than by k x over the path x = V t of
-/// the stick (docs/model.md section 10). Columns of the level: one counts A; where l is free a second one counts A
-/// times what ln l is off by, to first order. The ends of the slips stand still while fitting.
+/// the stick (docs/model.md section 10). The ends of the slips stand still while fitting.
 struct RiseAfterSlip {
-  double length_m = 0.0;  ///< l
-  bool is_free = false;   ///< l
+  double length_m = 0.0;  ///< l with which a fit begins
+  /// l of which it ends at most: over a longer path the rise cannot be told from a softer spring.
+  double longest_m = 0.0;
+  bool is_free = false;  ///< the fit solves for l
   double speed_m_per_s = 0.0;
-  double average_s = 0.0;            ///< of the sensor
   std::vector<double> slip_begin_s;  ///< of every slip of the recording
   std::vector<double> slip_end_s;
 
-  [[nodiscard]] std::size_t columns() const { return is_free ? 2 : 1; }
-
-  /// A share of A and its derivative with respect to ln l.
+  /// What the share of A depends on.
+  struct Shape {
+    double length_m = 0.0;
+    double average_s = 0.0;  ///< over which the sensor averages; 0: it does not
+  };
+  /// A share of A and its derivatives with respect to ln l and to the logarithm of the average.
   struct Share {
     double value = 0.0;
     double by_log_length = 0.0;
+    double by_log_average = 0.0;
   };
-  /// What its columns add up to with these coefficients.
-  [[nodiscard]] double sum_of(const Share& share, const double* coefficients) const {
-    return coefficients[0] * share.value + (is_free ? coefficients[1] * share.by_log_length : 0.0);
-  }
   /// Near this slip: what the rise after the slip before it still lacks at the onset (below 0), 0 in the slip, the rise
   /// after it.
-  [[nodiscard]] Share at(std::size_t slip, double time_s) const;
+  [[nodiscard]] Share at(std::size_t slip, double time_s, const Shape& shape) const;
 
   /// Mean and least-squares slope over a bin's samples, evenly spread.
   struct Line {
     Share mean, slope;
   };
-  [[nodiscard]] Line over(std::size_t slip, const StickBin& bin) const;
+  [[nodiscard]] Line over(std::size_t slip, const StickBin& bin, const Shape& shape) const;
+
+ private:
+  [[nodiscard]] Share without_average(std::size_t slip, double time_s, double length_m) const;
 };
 
 }  // namespace slipfit::fit

@@ -32,6 +32,7 @@ BlockFit::BlockFit(std::shared_ptr<const CycleSet> set, const Scales& scales)
       columns_(std::make_shared<const Columns>(scales_, set_->level())),
       models_(models_of(*set_, scales_, *columns_)) {
   parameters.values(kSensorTime) = first_sensor_time(scales_);
+  if (const auto& reloading = set_->level().reloading) parameters.values(kReloadLength) = std::log(reloading->length_m);
   parameters.level.assign((columns_->has_constant() ? 1 : 0) + columns_->drift(), 0.0);
   parameters.cycles.assign(models_.size(), Local{});
 }
@@ -54,6 +55,11 @@ BlockFit BlockFit::with_scales(const Scales& scales) const {
   const bool is_same = scales.free_time == scales_.free_time && anew == first_sensor_time(scales_);
   if (!is_same) other.parameters.values(kSensorTime) = anew;
   return other;
+}
+
+void BlockFit::start_at(const Coordinates& start) {
+  parameters.values.head<kOfSlip>() = start.head<kOfSlip>();
+  if (start(kReloadForce) != 0.0) parameters.values.segment<2>(kReloadForce) = start.segment<2>(kReloadForce);
 }
 
 CycleValues BlockFit::values(std::size_t cycle) const {

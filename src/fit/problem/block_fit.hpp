@@ -32,6 +32,9 @@ class BlockFit {
   /// The same cycles above another level, all parameters 0.
   [[nodiscard]] BlockFit with_level(LevelModel level, const Scales& scales) const;
 
+  /// Rig and contact as in `start`; a rise after slips only where that has one.
+  void start_at(const Coordinates& start);
+
   /// The same cycles at the same parameters, on other scales. A time of the sensor that is free begins anew where these
   /// have another one.
   [[nodiscard]] BlockFit with_scales(const Scales& scales) const;
@@ -52,10 +55,6 @@ class BlockFit {
   [[nodiscard]] const LevelModel& level() const { return set_->level(); }
   [[nodiscard]] double reference_s(std::size_t cycle) const { return set_->reference_s()[cycle]; }
   [[nodiscard]] const double* level_data() const { return parameters.level.data(); }
-  /// Coefficients of the rise after a slip, over Scales::force; where there is one.
-  [[nodiscard]] const double* rise_data() const {
-    return level_data() + (columns().has_constant() ? 1 : 0) + level().first_rise();
-  }
   /// Of the cosine and sine of each line, over Scales::force; where there are lines.
   [[nodiscard]] const double* wave_data() const { return level_data() + model(0).first_wave(); }
   [[nodiscard]] CycleValues values(std::size_t cycle) const;

@@ -10,7 +10,8 @@ namespace {
 
 /// What belongs to the contact and the rig is one for all recordings.
 bool is_shared(Coordinate coordinate, const Sharing& sharing) {
-  return coordinate != kDifference || sharing.difference;
+  if (coordinate == kDifference) return sharing.difference;
+  return coordinate != kReloadForce;  // which goes with the load
 }
 
 }  // namespace

@@ -125,7 +125,6 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
   OwnFits own = fit_each(recordings, options.held, known);
   data.single = std::move(own.fits);
   data.average = own.average;
-  data.reload = own.reload;
   data.rounding_s2 = own.rounding_s2;
   data.mass = own.mass;
   for (std::size_t i = 0; i < recordings.size(); ++i) {

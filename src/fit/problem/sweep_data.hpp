@@ -23,7 +23,6 @@ inline constexpr std::size_t kSteadyStretches = 10;
 struct SweepData {
   std::vector<std::optional<DampedFit>> single;  ///< in the order of the recordings
   std::optional<FittedAverage> average{};        ///< OwnFits; the fit of the sweep begins with it
-  std::optional<FittedLength> reload{};          ///< OwnFits
   std::optional<double> rounding_s2{};           ///< OwnFits
   std::optional<StatedMass> mass{};              ///< OwnFits
   /// Of slips and ring-downs together, at which w_n and zeta are held: what follows has its errors.

@@ -56,19 +56,12 @@ std::optional<DampedFit> AverageSolver::fit(double variance_s2, const Coordinate
   return solved(with_free_time(fit->blocks, FreeTime::Average), *fit);
 }
 
-std::shared_ptr<const RiseAfterSlip> AverageSolver::reloading(double average_s) const {
-  if (!plain_.blocks.level().reloading) return nullptr;
-  RiseAfterSlip reloading = *plain_.blocks.level().reloading;
-  reloading.average_s = average_s;
-  return std::make_shared<const RiseAfterSlip>(std::move(reloading));
-}
-
 std::optional<DampedFit> AverageSolver::drafted(double variance_s2, const Coordinates& near) const {
   const double average_s = std::sqrt(12.0 * variance_s2);
   const Recording averaged = with_average(input_.recording, average_s);
   return settle_rise(
       input_, draft_damped({averaged, input_.quality, input_.segmentation, input_.held},
-                           {near, plain_.excluded, reloading(average_s), plain_.blocks.level().per_cycle,
+                           {near, plain_.excluded, plain_.blocks.level().reloading, plain_.blocks.level().per_cycle,
                             kAveragedIterations, [this](const BlockFit& some) { return is_hopeless(some); }, true}));
 }
 

@@ -26,8 +26,6 @@ class AverageSolver {
   [[nodiscard]] std::optional<DampedFit> fit(double variance_s2, const Coordinates& near, const DampedFit* other) const;
 
  private:
-  /// Of the fit without an average, as one of this time shows it.
-  [[nodiscard]] std::shared_ptr<const RiseAfterSlip> reloading(double average_s) const;
   [[nodiscard]] std::optional<DampedFit> drafted(double variance_s2, const Coordinates& near) const;
   /// A fit of some cycles whose slips do not come to rest or are not shaped like the model's (follows_slips), or that
   /// explains them less well than the fit without average.

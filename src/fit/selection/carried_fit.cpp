@@ -11,7 +11,7 @@
 namespace slipfit::fit {
 
 void carry_over(const BlockFit& from, BlockFit& to) {
-  to.parameters.values.head<kOfLaw>() = from.parameters.values.head<kOfLaw>();
+  to.start_at(from.parameters.values);
   to.parameters.level = from.parameters.level;
   std::size_t same = 0;
   for (std::size_t i = 0; i < to.size(); ++i) {
@@ -42,13 +42,13 @@ bool has_slips(const BlockFit& fit) {
 BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& from) {
   BlockFit to(set, from.scales());
   carry_over(from, to);
-  return with_rise_after(to, from.scales());
+  return with_rise_after(to);
 }
 
 BlockFit averaged_by(const BlockFit& fit, double variance_s2) {
   Scales scales = fit.scales();
   scales.sensor_average_s = std::sqrt(12.0 * variance_s2);
-  return with_rise_after(fit, scales);
+  return with_rise_after(fit.with_scales(scales));
 }
 
 BlockFit with_free_time(const BlockFit& fit, FreeTime time) {

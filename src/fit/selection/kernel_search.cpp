@@ -107,7 +107,7 @@ Parameters KernelSearch::extrapolated(double variance_s2, const Least& near, con
   const auto follow = [&](double& value, double from) { value += steps * (value - from); };
   Parameters p = near.parameters;
   const double bend_before = log_frequency_gain(near.variance_s2) - log_frequency_gain(other.variance_s2);
-  for (Eigen::Index i = 0; i < kOfLaw; ++i) {
+  for (Eigen::Index i = 0; i < kOfSlip; ++i) {
     if (!held_[static_cast<std::size_t>(i)])
       follow(p.values(i), other.parameters.values(i) + (i == kLogFrequency ? bend_before : 0.0));
   }
@@ -174,7 +174,7 @@ BlockFit KernelSearch::with_kernel(const BlockFit& fit, FreeTime kernel, double 
   Scales scales = plain_.scales();
   scales.sensor_average_s = kernel == FreeTime::Average ? std::sqrt(12.0 * variance_s2) : 0.0;
   scales.sensor_lag_s = kernel == FreeTime::Lag ? std::sqrt(variance_s2) : 0.0;
-  return with_rise_after(fit, scales);
+  return with_rise_after(fit.with_scales(scales));
 }
 
 /// By which ln w_n of the slips grows where an average of this variance takes its part of what is seen.
@@ -188,12 +188,12 @@ BlockFit KernelSearch::started() const {
   BlockFit fit(cycles_, plain_.scales());
   const Coordinates& plain = plain_.parameters.values;
   Coordinates start = oscillator(plain(kLogStiffness), plain(kLogFrequency), 0.1);
-  for (Eigen::Index i = 0; i < kOfLaw; ++i) {
+  for (Eigen::Index i = 0; i < kOfSlip; ++i) {
     if (held_[static_cast<std::size_t>(i)]) start(i) = plain(i);
   }
   set_start(fit, segmentation_, start);
   fit.parameters.level = plain_.parameters.level;
-  return with_rise_after(fit, plain_.scales());
+  return with_rise_after(fit);
 }
 
 /// What is held at the solution: zeta at 0 where its best value is negative. Empty: no solution.

@@ -74,7 +74,7 @@ class ResidualsOfCycles {
     for (std::size_t i = begin; i < end; ++i) {
       const double t_s = recording_.time_s()[i];
       result_.value[i] = recording_.force()[i] - (model.level_at(t_s, level, local) + force_at(t_s));
-      if (rises) result_.value[i] -= model.rise_at(t_s, level);
+      if (rises) result_.value[i] -= model.rise_at(t_s, fit_.parameters.values);
       result_.part[i] = part;
     }
     add_hum(recording_, fit_, begin, end, -1.0, result_.value);

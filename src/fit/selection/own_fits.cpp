@@ -68,24 +68,16 @@ std::optional<double> common_rounding_s2(std::span<const SweepRecording> recordi
 }
 
 /// Mean of the lengths that the recordings find for the rise after a slip, by their errors; empty where none does.
-std::optional<FittedLength> mean_length(const std::vector<std::optional<DampedFit>>& fits) {
+std::optional<double> mean_length_m(const std::vector<std::optional<DampedFit>>& fits) {
   double weights = 0.0;
   double sum = 0.0;
-  double square = 0.0;
-  double count = 0.0;
   for (const auto& fit : fits) {
     if (!fit || !fit->blocks.level().reloading) continue;
-    const double log_length = coordinates_of(fit->blocks)(kReloadLength);
     const double weight = 1.0 / fit->uncertainty.covariance(kReloadLength, kReloadLength);
     weights += weight;
-    sum += weight * log_length;
-    square += weight * log_length * log_length;
-    count += 1.0;
+    sum += weight * fit->blocks.parameters.values(kReloadLength);
   }
-  if (count == 0.0) return std::nullopt;
-  const double mean = sum / weights;
-  const double scatter = count > 1.0 ? std::max(1.0, (square - weights * mean * mean) / (count - 1.0)) : 1.0;
-  return FittedLength{std::exp(mean), std::sqrt(scatter / weights)};
+  return weights > 0.0 ? std::optional(std::exp(sum / weights)) : std::nullopt;
 }
 
 class OwnFitter {
@@ -106,7 +98,7 @@ class OwnFitter {
       if (!own.fits[i] || (known_ && !states_average(i))) continue;
       own.fits[i] = fit_as_sensed(input(i), *std::move(own.fits[i]));
     }
-    if (known_) return with_settled_length(averaged(own, *known_));
+    if (known_) return averaged(own, *known_);
     share_average(own);
     if (!own.average) own.rounding_s2 = common_rounding_s2(recordings_, own);
     return own;
@@ -123,12 +115,12 @@ class OwnFitter {
 
   /// Recordings that are too fast to tell it are fitted with it where it explains them better.
   void share_length(OwnFits& own) const {
-    own.reload = mean_length(own.fits);
-    if (!own.reload) return;
+    own.reload_length_m = mean_length_m(own.fits);
+    if (!own.reload_length_m) return;
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
       std::optional<DampedFit>& fit = own.fits[i];
       if (!fit) continue;
-      auto other = draft_with_rise_over(own.reload->metres, input(i), *fit);
+      auto other = draft_with_rise_over(*own.reload_length_m, input(i), *fit);
       if (other && (fit->blocks.level().reloading || gain_of(*other, *fit) > 0.0)) fit = std::move(other);
     }
   }
@@ -151,23 +143,7 @@ class OwnFitter {
       if (together.fits[i] && !own.fits[i]->average) gain += gain_of(*together.fits[i], *own.fits[i]);
     }
     if (2 * averages.size() < open && !(gain > thresholds::kTierPrice)) return;
-    own = with_settled_length(std::move(together));
-  }
-
-  /// The rise after slips was looked for before the average, behind which it looks longer.
-  [[nodiscard]] OwnFits with_settled_length(OwnFits own) const {
-    constexpr int kRounds = 2;
-    for (int round = 0; own.reload && round < kRounds; ++round) {
-      std::vector<std::optional<DampedFit>> free;
-      for (std::size_t i = 0; i < recordings_.size(); ++i) {
-        if (own.fits[i]) free.push_back(with_free_rise(input(i), *own.fits[i]));
-      }
-      const std::optional<FittedLength> length = mean_length(free);
-      if (!length) break;
-      own.reload = length;
-      own = averaged(own, *own.average);
-    }
-    return own;
+    own = std::move(together);
   }
 
   /// All recordings that state none seen through this average.
@@ -175,19 +151,19 @@ class OwnFitter {
     OwnFits other = own;
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
       if (!own.fits[i] || states_average(i)) continue;
-      other.fits[i] = fit_averaged(i, average, *own.fits[i], own.reload);
+      other.fits[i] = fit_averaged(i, average, *own.fits[i], own.reload_length_m);
     }
     other.average = average;
     return other;
   }
 
   [[nodiscard]] std::optional<DampedFit> fit_averaged(std::size_t i, const FittedAverage& average, const DampedFit& own,
-                                                      const std::optional<FittedLength>& length) const {
+                                                      const std::optional<double>& length_m) const {
     const Recording recording = with_average(recordings_[i].recording, average.seconds);
     const FitInput averaged{recording, recordings_[i].quality, recordings_[i].segmentation, held_};
     std::optional<DampedFit> fit;
-    if (length && own.blocks.level().reloading) {
-      fit = draft_with_rise_over(length->metres, averaged, own);
+    if (length_m && own.blocks.level().reloading) {
+      fit = draft_with_rise_over(*length_m, averaged, own);
     }
     if (!fit) fit = draft_damped(averaged);
     if (fit) fit = finish_fit(averaged, *std::move(fit));
@@ -235,13 +211,21 @@ bool explains_as_well(const OwnFits& with_mass, const OwnFits& free) {
   return std::sqrt(square / count) < thresholds::kContradictedMass;
 }
 
+/// The recordings together determine the length of the rise.
+OwnFits with_free_rises(OwnFits own) {
+  for (std::optional<DampedFit>& fit : own.fits) {
+    if (fit) fit->blocks = with_free_rise(fit->blocks);
+  }
+  return own;
+}
+
 }  // namespace
 
 OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held,
                  const std::optional<FittedAverage>& known) {
   OwnFits own = OwnFitter(recordings, held, known).fit();
   const std::optional<StatedMass> mass = common_mass(recordings, own, held);
-  if (!mass) return own;
+  if (!mass) return with_free_rises(std::move(own));
   // As with a stated average, where one was found
   std::vector<Recording> averaged;
   for (const SweepRecording& one : recordings) {
@@ -256,13 +240,13 @@ OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameter
   HeldParameters by_mass = held;
   by_mass.natural_frequency_rad_per_s = mass->frequency_rad_per_s(median_stiffness(own));
   OwnFits with_mass = OwnFitter(sweep, by_mass, {}).fit();
-  if (!explains_as_well(with_mass, own)) return own;
+  if (!explains_as_well(with_mass, own)) return with_free_rises(std::move(own));
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     if (with_mass.fits[i] && own.fits[i]) with_mass.fits[i]->average = own.fits[i]->average;
   }
   with_mass.average = own.average;
   with_mass.mass = mass;
-  return with_mass;
+  return with_free_rises(std::move(with_mass));
 }
 
 }  // namespace slipfit::fit

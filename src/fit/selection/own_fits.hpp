@@ -15,17 +15,17 @@ namespace slipfit::fit {
 struct OwnFits {
   std::vector<std::optional<DampedFit>> fits;  ///< empty: not of cycles, or none that can be fitted
   std::optional<FittedAverage> average{};      ///< in all fits of recordings that state none
-  std::optional<FittedLength> reload{};        ///< in all fits whose sticks rise more steeply after a slip
+  std::optional<double> reload_length_m{};     ///< with which fits begin whose sticks rise more steeply after a slip
   /// sigma^2 up to which averaging that is not in the fits rounds their slips; empty: no sign of more than a step's
   std::optional<double> rounding_s2{};
   std::optional<StatedMass> mass{};  ///< that gives w_n
 };
 
 /// What belongs to contact or machine is the same in all of them. Where some show a rise after slips, all are fitted
-/// with the mean of its length. Where some that state no average show one, and agree on it, all of these are fitted
-/// with the mean of it if half of them show it or they are explained better together; otherwise what all of them show
-/// together is told. Where averaging hides w_n, a mass that all state gives it. `known`: an average that was found
-/// before, in place of a search for it.
+/// with one, its length to be found together. Where some that state no average show one, and agree on it, all of these
+/// are fitted with the mean of it if half of them show it or they are explained better together; otherwise what all of
+/// them show together is told. Where averaging hides w_n, a mass that all state gives it. `known`: an average that was
+/// found before, in place of a search for it.
 OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held,
                  const std::optional<FittedAverage>& known);
 

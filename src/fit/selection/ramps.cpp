@@ -49,11 +49,12 @@ std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& f
   }
   const auto& reloading = fit.level().reloading;
   if (!reloading) return bins;
-  const double* const rise = fit.rise_data();
+  const double force = fit.scales().force * fit.parameters.values(kReloadForce);
+  const RiseAfterSlip::Shape shape{std::exp(fit.parameters.values(kReloadLength)), fit.sensor().average_s};
   for (StickBin& bin : bins) {
-    const RiseAfterSlip::Line line = reloading->over(fit.data(cycle).slip, bin);
-    bin.force -= fit.scales().force * reloading->sum_of(line.mean, rise);
-    bin.slope -= fit.scales().force * reloading->sum_of(line.slope, rise);
+    const RiseAfterSlip::Line line = reloading->over(fit.data(cycle).slip, bin, shape);
+    bin.force -= force * line.mean.value;
+    bin.slope -= force * line.slope.value;
   }
   return bins;
 }

@@ -51,7 +51,7 @@ std::optional<BlockFit> recut(BlockFit fit, const Cut& cut, const std::vector<st
   if (!anew) return std::nullopt;
   Parameters& parameters = anew->parameters;
   parameters.values = start.values;
-  const auto before_lines = static_cast<std::ptrdiff_t>(level.first_line());
+  const auto before_lines = static_cast<std::ptrdiff_t>(level.terms);
   std::copy_n(start.level.begin(), before_lines, parameters.level.begin());
   std::copy(hum_start.begin(), hum_start.end(), parameters.level.begin() + before_lines);
   std::size_t old = 0;

@@ -23,11 +23,9 @@ constexpr int kLengths = 6;
 constexpr int kSearchIterations = 20;
 constexpr double kRoughRise = 0.1;       // SolveOptions::tolerance
 constexpr double kShortestShare = 0.02;  // of a stick
-constexpr double kLongestShare = 0.5;
+constexpr double kLongestShare = 0.5;    // of a stick
 constexpr int kMostRounds = 10;
-constexpr double kMostLengthChange = 0.7;   // of ln l in one round
-constexpr int kMostLarger = 2;              // steps that are larger than another before them
-constexpr double kSmallLengthChange = 0.2;  // in standard errors
+constexpr double kSmallLengthChange = 0.2;  // of ln l, in standard errors
 
 /// `rise` after slips that begin and end where `fit` has them. A slip that has no solution there stays where it was.
 RiseAfterSlip moved(RiseAfterSlip rise, const BlockFit& fit) {
@@ -43,7 +41,8 @@ RiseAfterSlip moved(RiseAfterSlip rise, const BlockFit& fit) {
 /// The rise over this length after all slips of a recording, those of `fit` where it has them.
 std::shared_ptr<const RiseAfterSlip> rise_over(double length_m, bool is_free, const FitInput& input,
                                                const BlockFit& fit) {
-  RiseAfterSlip rise{length_m, is_free, fit.scales().speed_m_per_s, fit.sensor().average_s, {}, {}};
+  const double speed = fit.scales().speed_m_per_s;
+  RiseAfterSlip rise{length_m, kLongestShare * speed * median_stick_s(fit), is_free, speed, {}, {}};
   for (const DetectedSlip& slip : input.segmentation.slips) {
     rise.slip_begin_s.push_back(input.recording.time_s()[slip.peak]);
     rise.slip_end_s.push_back(input.recording.time_s()[slip.trough]);
@@ -51,15 +50,15 @@ std::shared_ptr<const RiseAfterSlip> rise_over(double length_m, bool is_free, co
   return std::make_shared<const RiseAfterSlip>(moved(std::move(rise), fit));
 }
 
-/// The same cycles with another rise.
-BlockFit with_rise(const BlockFit& fit, const Scales& scales, std::shared_ptr<const RiseAfterSlip> rise) {
+/// The same cycles at the same parameters, with a rise after these slips.
+BlockFit with_rise(const BlockFit& fit, std::shared_ptr<const RiseAfterSlip> rise) {
   LevelModel level = fit.level();
+  const bool is_new = level.reloading == nullptr;
+  const double first = std::log(rise->length_m);
   level.reloading = std::move(rise);
-  BlockFit other = fit.with_level(std::move(level), scales);
-  other.parameters.values = fit.with_scales(scales).parameters.values;
-  other.parameters.cycles = fit.parameters.cycles;
-  const std::size_t same = std::min(fit.parameters.level.size(), other.parameters.level.size());
-  std::copy_n(fit.parameters.level.begin(), same, other.parameters.level.begin());
+  BlockFit other = fit.with_level(std::move(level), fit.scales());
+  other.parameters = fit.parameters;
+  if (is_new) other.parameters.values(kReloadLength) = first;
   return other;
 }
 
@@ -69,7 +68,7 @@ double error_of(const DampedFit& fit, Coordinate coordinate) {
 }
 
 double length_of(const DampedFit& fit) {
-  return fit.blocks.level().reloading->length_m;
+  return std::exp(fit.blocks.parameters.values(kReloadLength));
 }
 
 std::optional<BlockFit> some_cycles_of(const BlockFit& fit, const Segmentation& segmentation) {
@@ -101,7 +100,7 @@ std::optional<DampedFit> best_of_lengths(const FitInput& input, const DampedFit&
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kLengths; ++i) {
     const double length_m = shortest_m * std::pow(longest_m / shortest_m, static_cast<double>(i) / (kLengths - 1));
-    BlockFit trial = with_rise(*some, some->scales(), rise_over(length_m, false, input, plain.blocks));
+    BlockFit trial = with_rise(*some, rise_over(length_m, false, input, plain.blocks));
     if (!held[kDamping]) trial.parameters.values(kDamping) = std::max(0.05, plain.blocks.parameters.values(kDamping));
     const double sum = solve(trial, {held, false, true, kSearchIterations, kRoughRise});
     if (!(sum < least)) continue;
@@ -111,44 +110,13 @@ std::optional<DampedFit> best_of_lengths(const FitInput& input, const DampedFit&
   return best;
 }
 
-/// With the rise over a length that is free.
-std::optional<DampedFit> with_free_length(double length_m, const Quality& quality, DampedFit fit) {
+/// With a free length of the rise, after the slips as `fit` has them.
+std::optional<DampedFit> with_free_length(const Quality& quality, DampedFit fit) {
   RiseAfterSlip rise = moved(*fit.blocks.level().reloading, fit.blocks);
-  rise.length_m = length_m;
   rise.is_free = true;
-  fit.blocks = with_rise(fit.blocks, fit.blocks.scales(), std::make_shared<const RiseAfterSlip>(std::move(rise)));
+  fit.blocks = with_rise(fit.blocks, std::make_shared<const RiseAfterSlip>(std::move(rise)));
   if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
   return with_uncertainty(std::move(fit), quality);
-}
-
-/// What Newton's step in ln l comes to, at most a factor of 2.
-double next_length_step(const BlockFit& fit) {
-  const double* const rise = fit.rise_data();
-  return std::clamp(rise[1] / rise[0], -kMostLengthChange, kMostLengthChange);
-}
-
-/// Steps that each are the same share of the one before, because the slips move with the length, come to
-/// 1 / (1 - share) of the next one together; the share is negative where they go back and forth.
-class StepSum {
- public:
-  /// What the step comes to with all that follow it, where they are foreseen: from the third on.
-  double of(double step) {
-    const double share = step / last_;
-    const bool is_steady = std::abs(share) < kMostShare && std::abs(share - share_) < kSameShare;
-    last_ = step;
-    share_ = share;
-    return is_steady ? step / (1.0 - share) : step;
-  }
-
- private:
-  static constexpr double kMostShare = 0.75;
-  static constexpr double kSameShare = 0.15;  // twice one after the other
-  double last_ = std::numeric_limits<double>::quiet_NaN();
-  double share_ = std::numeric_limits<double>::quiet_NaN();
-};
-
-bool is_length_settled(const DampedFit& fit) {
-  return std::abs(next_length_step(fit.blocks)) < kSmallLengthChange * error_of(fit, kReloadLength);
 }
 
 /// Beyond chance, where falls are not as slow as those of waves, and an early half of a stick gains more over its late
@@ -168,56 +136,42 @@ bool promises(const DampedFit& few, const RampBend& before) {
   return surely < thresholds::kHalvedStack * before.log_ratio;
 }
 
+/// The data do not say how long the rise is.
+bool is_at_bound(const DampedFit& fit) {
+  constexpr double kNear = 0.99;
+  return length_of(fit) > kNear * fit.blocks.level().reloading->longest_m;
+}
+
 /// A and l are told by this recording alone, and explain most of what bends.
 bool is_justified(const DampedFit& fit, const DampedFit& plain, const RampBend& before) {
-  const double rise = fit.blocks.rise_data()[0];
+  const double rise = fit.blocks.parameters.values(kReloadForce);
   const std::optional<RampBend> after = ramp_bend(fit.blocks);
   const bool is_straight = after && std::abs(after->log_ratio) < thresholds::kHalvedStack * before.log_ratio;
-  return is_straight && rise > thresholds::kSureTerm * error_of(fit, kReloadForce) &&
+  return is_straight && !is_at_bound(fit) && rise > thresholds::kSureTerm * error_of(fit, kReloadForce) &&
          error_of(fit, kReloadLength) < thresholds::kTellingError && gain_of(fit, plain) > thresholds::kTierPrice;
 }
 
 }  // namespace
 
-BlockFit with_rise_after(const BlockFit& fit, const Scales& scales) {
-  if (!fit.level().reloading) return fit.with_scales(scales);
-  RiseAfterSlip rise = moved(*fit.level().reloading, fit);
-  rise.average_s = fit.with_scales(scales).sensor().average_s;
-  return with_rise(fit, scales, std::make_shared<const RiseAfterSlip>(std::move(rise)));
-}
-
-BlockFit with_length_times(const BlockFit& fit, double times) {
+BlockFit with_rise_after(const BlockFit& fit) {
   if (!fit.level().reloading) return fit;
-  RiseAfterSlip rise = moved(*fit.level().reloading, fit);
-  rise.length_m *= times;
-  return with_rise(fit, fit.scales(), std::make_shared<const RiseAfterSlip>(std::move(rise)));
-}
-
-BlockFit with_next_length(const BlockFit& fit) {
-  const bool is_free = fit.level().reloading && fit.level().reloading->is_free;
-  return with_length_times(fit, is_free && rises(fit) ? std::exp(next_length_step(fit)) : 1.0);
+  return with_rise(fit, std::make_shared<const RiseAfterSlip>(moved(*fit.level().reloading, fit)));
 }
 
 bool rises(const BlockFit& fit) {
-  return !fit.level().reloading || fit.rise_data()[0] > 0.0;
+  return !fit.level().reloading || fit.parameters.values(kReloadForce) > 0.0;
 }
 
 std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<DampedFit> fit) {
   if (!fit || !fit->blocks.level().reloading || !fit->blocks.level().reloading->is_free) return fit;
-  double least_step = std::numeric_limits<double>::infinity();
   const double step_m = fit->blocks.scales().speed_m_per_s * input.recording.sample_interval_s();
-  int larger = 0;
-  StepSum steps;
   for (int round = 0; fit && round < kMostRounds; ++round) {
-    const bool is_sampled = length_of(*fit) >= thresholds::kShapeSamples * step_m;
-    if (!(fit->blocks.rise_data()[0] > 0.0) || !is_sampled) return std::nullopt;
-    const double step = next_length_step(fit->blocks);
-    if (std::abs(step) > least_step && ++larger > kMostLarger) return std::nullopt;
-    least_step = std::min(least_step, std::abs(step));
-    const bool is_last = round > 0 && is_length_settled(*fit);  // the slips may have moved since the first
-    const double length_m = length_of(*fit) * std::exp(steps.of(step));
-    fit = with_free_length(length_m, input.quality, *std::move(fit));
-    if (is_last) return fit;
+    const double before_m = length_of(*fit);
+    if (!rises(fit->blocks) || !(before_m >= thresholds::kShapeSamples * step_m)) return std::nullopt;
+    fit = with_free_length(input.quality, *std::move(fit));
+    if (!fit) return fit;
+    const double change = std::abs(std::log(length_of(*fit) / before_m));
+    if (change < kSmallLengthChange * error_of(*fit, kReloadLength)) return fit;
   }
   return std::nullopt;
 }
@@ -236,26 +190,31 @@ std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& gi
   if (!bends(bend, *plain, input.quality)) return plain;
   std::optional<DampedFit> few = best_of_lengths(input, *plain);
   if (!few) return plain;
-  few = settle_rise(input, with_free_length(length_of(*few), input.quality, *few));
+  few = settle_rise(input, with_free_length(input.quality, *few));
   if (!few || !promises(*few, *bend)) return plain;
   std::optional<DampedFit> fit = settle_rise(
       input,
       draft_damped(input, {few->blocks.parameters.values, plain->excluded,
                            rise_over(length_of(*few), true, input, plain->blocks), plain->blocks.level().per_cycle}));
-  const bool is_better = fit && is_justified(*fit, *plain, *bend);
-  return is_better ? std::move(fit) : std::move(plain);
+  if (!fit) return plain;
+  if (is_justified(*fit, *plain, *bend)) return fit;
+  const bool explains_more = gain_of(*fit, *plain) > thresholds::kTierPrice;
+  if (explains_more) plain->rivals.push_back(coordinates_of(fit->blocks));
+  return plain;
 }
 
-std::optional<DampedFit> with_free_rise(const FitInput& input, const DampedFit& fit) {
-  if (!fit.blocks.level().reloading) return std::nullopt;
-  return settle_rise(input, with_free_length(length_of(fit), input.quality, fit));
+BlockFit with_free_rise(const BlockFit& fit) {
+  if (!fit.level().reloading) return fit;
+  RiseAfterSlip rise = *fit.level().reloading;
+  rise.is_free = true;
+  return with_rise(fit, std::make_shared<const RiseAfterSlip>(std::move(rise)));
 }
 
 std::optional<DampedFit> draft_with_rise_over(double length_m, const FitInput& input, const DampedFit& near) {
   std::optional<DampedFit> fit = draft_damped(
       input,
       {std::nullopt, near.excluded, rise_over(length_m, false, input, near.blocks), near.blocks.level().per_cycle});
-  return fit && fit->blocks.rise_data()[0] > 0.0 ? std::move(fit) : std::nullopt;
+  return fit && rises(fit->blocks) ? std::move(fit) : std::nullopt;
 }
 
 }  // namespace slipfit::fit

@@ -20,12 +20,6 @@ struct FittedAverage {
   double standard_error_s = 0.0;
 };
 
-/// Path over which the force rises after a slip, as the recordings of a sweep found it.
-struct FittedLength {
-  double metres = 0.0;
-  double relative_error = 0.0;
-};
-
 /// The block fit of a recording and what it was reached with.
 struct DampedFit {
   BlockFit blocks;

@@ -25,7 +25,6 @@ constexpr int kSweepQuickIterations = 10;
 SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, const std::vector<std::size_t>& used) {
   SweepSolution solution;
   solution.sweep = {sharing, data.steady, data.units};
-  solution.reload = data.reload;
   for (const std::size_t i : used) {
     const DampedFit& single = *data.single[i];
     const Scales scales = scales_in_sweep(data, i, law);
@@ -34,6 +33,7 @@ SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, 
     const std::ptrdiff_t skip = single.blocks.level().terms > 0 ? 1 : 0;
     std::copy(level.begin() + skip, level.end(), recording.parameters.level.begin() + 1);
     recording.parameters.level[0] = level_of(single) / scales.population->force;
+    recording.parameters.values.segment<2>(kReloadForce) = single.blocks.parameters.values.segment<2>(kReloadForce);
     recording.parameters.values(kDifference) = mean_onset_force(single) / scales.population->force;
     recording.parameters.cycles = single.blocks.parameters.cycles;
     solution.recordings.push_back(std::move(recording));
@@ -99,7 +99,7 @@ class SweepFitter {
       differences.push_back(recording.parameters.values(kDifference));
     }
     for (BlockFit& recording : solution.recordings) {
-      recording.parameters.values.head<kOfLaw>() = first.head<kOfLaw>();
+      recording.parameters.values.head<kOfSlip>() = first.head<kOfSlip>();
       if (solution.sweep.sharing.level) recording.parameters.level[0] = signal::median(levels);
       if (solution.sweep.sharing.difference) recording.parameters.values(kDifference) = signal::median(differences);
     }

@@ -56,7 +56,8 @@ Coordinates SweepSolution::shared() const {
   Coordinates values = Coordinates::Zero();
   for (const BlockFit& recording : recordings) {
     for (const Coordinate coordinate : recording.columns().coordinates()) {
-      if (coordinate != kDifference) values(coordinate) = recording.parameters.values(coordinate);
+      if (coordinate != kDifference && coordinate != kReloadForce)
+        values(coordinate) = recording.parameters.values(coordinate);
     }
   }
   return values;
@@ -139,22 +140,6 @@ std::optional<SweepSolution> with_motion(SweepSolution solution, const FreeMotio
     recording.parameters.values(kDamping) = motion.values(1);
   }
   return at_minimum(std::move(solution), held);
-}
-
-std::optional<SweepSolution> with_length(const SweepSolution& solution, double length_m) {
-  SweepSolution other = solution;
-  other.reload->metres = length_m;
-  for (BlockFit& recording : other.recordings) {
-    LevelModel level = recording.level();
-    if (!level.reloading) continue;
-    RiseAfterSlip rise = *level.reloading;
-    rise.length_m = length_m;
-    level.reloading = std::make_shared<const RiseAfterSlip>(std::move(rise));
-    BlockFit next = recording.with_level(std::move(level), recording.scales());
-    next.parameters = std::move(recording.parameters);
-    recording = std::move(next);
-  }
-  return at_minimum(std::move(other), solution.held);
 }
 
 std::optional<NormalSolution> leave_out(const NormalSolution& all, std::size_t recording) {

@@ -16,7 +16,6 @@ struct SweepSolution {
   Held held{};
   double chi2 = 0.0;  ///< in units of each recording's own noise
   double degrees_of_freedom = 0.0;
-  std::optional<FittedLength> reload{};  ///< in the recordings whose sticks rise more steeply after a slip
 
   [[nodiscard]] Problem problem() const { return {recordings, sweep}; }
   [[nodiscard]] std::size_t cycles() const;
@@ -59,9 +58,6 @@ std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate
 
 /// The solution with this w_n and zeta held.
 std::optional<SweepSolution> with_motion(SweepSolution solution, const FreeMotion& motion);
-
-/// The same fit with a rise over another length in the recordings that have one.
-std::optional<SweepSolution> with_length(const SweepSolution& solution, double length_m);
 
 /// A solution with its normal equations.
 struct NormalSolution {

@@ -32,7 +32,7 @@ constexpr double kTolerance = 1e-7;
 
 /// Of the rise after slips, in that of the Coulomb fit: behind an average it looks longer.
 constexpr std::array kRiseLengths{1.0, 0.5};
-constexpr int kLengthSteps = 2;  // of a draft
+constexpr int kRiseSteps = 2;  // of a draft, each after the slips of the one before
 
 std::size_t samples_of(const std::vector<CycleData>& cycles) {
   std::size_t samples = 0;
@@ -111,11 +111,12 @@ std::optional<WeakeningSolver::Draft> WeakeningSolver::draft(const std::vector<C
     for (const double times : lengths) {
       const std::optional<BlockFit> first = started(cycles, {average_s, FreeTime::None}, near, coulomb_.blocks.level());
       if (!first) return best;
-      BlockFit blocks = with_length_times(*first, times);
+      BlockFit blocks = *first;
+      blocks.parameters.values(kReloadLength) += std::log(times);
       if (!solve_own(blocks, options)) continue;
       double sum = solve(blocks, options);
-      for (int i = 0; i < kLengthSteps && blocks.level().reloading && std::isfinite(sum); ++i) {
-        blocks = with_next_length(blocks);
+      for (int i = 0; i < kRiseSteps && blocks.level().reloading && std::isfinite(sum); ++i) {
+        blocks = with_rise_after(blocks);
         sum = solve(blocks, options);
       }
       if (std::isfinite(sum) && rises(blocks) && (!best || sum < best->sum_of_squares))
@@ -164,7 +165,7 @@ std::optional<BlockFit> WeakeningSolver::started(const std::vector<CycleData>& c
   std::optional<BlockFit> blocks = blocks_of(cycles, average, level);
   if (!blocks) return blocks;
   set_start(*blocks, input_.segmentation, start);
-  return with_rise_after(*blocks, blocks->scales());
+  return with_rise_after(*blocks);
 }
 
 DampedFit WeakeningSolver::unfinished(BlockFit blocks, std::vector<std::size_t> excluded) const {
@@ -182,7 +183,7 @@ std::optional<DampedFit> WeakeningSolver::without_outliers(BlockFit blocks) cons
   std::optional<BlockFit> clean = blocks_of(cycles_without(excluded), averaging_of(blocks), blocks.level());
   if (!clean) return std::nullopt;
   carry_over(blocks, *clean);
-  std::optional<BlockFit> again = settled(with_rise_after(*clean, clean->scales()), held_, kTolerance);
+  std::optional<BlockFit> again = settled(with_rise_after(*clean), held_, kTolerance);
   return again ? std::optional(unfinished(*std::move(again), std::move(excluded))) : std::nullopt;
 }
 
