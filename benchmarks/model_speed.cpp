@@ -170,7 +170,7 @@ fit::WeakeningCycle weakening_cycle(double average_tau) {
   scales.sensor_average_s = average_tau;
   fit::Coordinates values = fit::oscillator(0.0, 0.0, kZeta);
   values(fit::kSlipDistance) = std::sqrt(0.2);
-  return *fit::WeakeningCycle::solve(kLambda - 2.0 * kZeta, 1.0, values, scales.sensor_average_s, scales);
+  return *fit::WeakeningCycle::solve(kLambda - 2.0 * kZeta, 1.0, values, {0.0, scales.sensor_average_s}, scales);
 }
 
 void coulomb_solved(benchmark::State& state) {

@@ -47,6 +47,13 @@ inline double integral_of(const Series& series, double time) {
 /// Derivatives with respect to z0 = lambda - 2 zeta, zeta, slope and rate of the law at a fixed time.
 inline constexpr std::size_t kScaledParameters = 4;
 using ScaledGradient = std::array<double, kScaledParameters>;
+
+/// A part of a slip in which the force is a polynomial: z and its derivatives with respect to z0, zeta and two numbers
+/// of the law are sums of terms[n] (tau - begin)^n.
+struct SlipPart {
+  double begin = 0.0, length = 0.0;
+  std::array<std::array<double, 1 + kScaledParameters>, kSeriesOrder + 1> terms{};
+};
 using GradientSeries = std::array<ScaledGradient, kSeriesOrder + 1>;
 
 inline ScaledGradient value_of(const GradientSeries& series, double time) {

@@ -150,13 +150,13 @@ TrackPoint VelocityTrack::transmitted_integral_to(double tau) const {
   return sum;
 }
 
-std::vector<VelocityTrack::Part> VelocityTrack::parts(bool transmitted) const {
-  std::vector<Part> parts;
+std::vector<SlipPart> VelocityTrack::parts(bool transmitted) const {
+  std::vector<SlipPart> parts;
   const double drag = transmitted ? 2.0 * slip_.zeta : 0.0;
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const SlipSeries<true>& series = steps_[i].series;
     const double end = i + 1 < steps_.size() ? steps_[i + 1].begin : end_.tau;
-    Part part{steps_[i].begin, end - steps_[i].begin, {}};
+    SlipPart part{steps_[i].begin, end - steps_[i].begin, {}};
     for (std::size_t n = 0; n <= kSeriesOrder; ++n) {
       const double slope = (n == 0 ? 1.0 : 0.0) - series.v[n];  // of z'
       part.terms[n][0] = series.s[n] + drag * slope;

@@ -43,13 +43,6 @@ class VelocityTrack {
   }
   static std::optional<VelocityTrack> solve(double z0, double zeta, const ScaledLaw& law);
 
-  /// A part of the slip in which the force is a polynomial: z and its derivatives with respect to z0, zeta, slope and
-  /// rate are sums of terms[n] (tau - begin)^n.
-  struct Part {
-    double begin = 0.0, length = 0.0;
-    std::array<std::array<double, 1 + kScaledParameters>, kSeriesOrder + 1> terms{};
-  };
-
   /// The whole cycle: tau < 0 is the stick before, tau > tau_end() the stick after.
   [[nodiscard]] TrackPoint at(double tau) const;
   /// What spring and damper carry together, z + 2 zeta z'.
@@ -61,7 +54,7 @@ class VelocityTrack {
   [[nodiscard]] bool resticks() const { return resticks_; }
   [[nodiscard]] double tau_end() const { return end_.tau; }
   /// The parts of the slip, of what `at` or `transmitted_at` gives.
-  [[nodiscard]] std::vector<Part> parts(bool transmitted) const;
+  [[nodiscard]] std::vector<SlipPart> parts(bool transmitted) const;
   /// The begin of the part in which the slip is fastest at its begin.
   [[nodiscard]] double fastest_tau() const;
   /// After the slip z = value + tau.

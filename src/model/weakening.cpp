@@ -158,4 +158,48 @@ WeakeningPoint WeakeningSlip::mean_at(double tau, double average) const {
   return {{mean.a, mean.v[0], mean.v[1], by_tau, by_log_average, by_log_average}, mean.v[2]};
 }
 
+WeakeningPoint WeakeningSlip::integral_to(double tau) const {
+  const State now = shown_at(tau);
+  return {{now.integral.a, now.integral.v[0], now.integral.v[1], now.z.a}, now.integral.v[2]};
+}
+
+/// The power series of z'' + 2 zeta z' + z = 0 or, while the friction falls, of x'' + 2 zeta x' - g x = tau with
+/// z = z0 + tau - x: z'' = g z - 2 zeta z' + 2 zeta - g z0 - (1 + g) tau.
+SlipPart WeakeningSlip::part_from(const State& begin, double length, bool weakens) const {
+  const Jet g = weakens ? stiffening_ : Jet(-1.0);
+  const Jet by_time = weakens ? -(1.0 + g) : Jet(0.0);
+  const Jet constant = weakens ? 2.0 * zeta_ - g * z0_ + by_time * begin.tau.a : Jet(0.0);
+  std::array<Jet, kSeriesOrder + 2> z{begin.z, begin.dz};  // a term more, for the drag
+  for (std::size_t n = 0; n + 2 < z.size(); ++n) {
+    const auto order = static_cast<double>(n);
+    Jet force = g * z[n] - 2.0 * zeta_ * (order + 1.0) * z[n + 1];
+    if (n == 0) force += constant;
+    if (n == 1) force += by_time;
+    z[n + 2] = force / ((order + 1.0) * (order + 2.0));
+  }
+  SlipPart part{begin.tau.a, length, {}};
+  for (std::size_t n = 0; n <= kSeriesOrder; ++n) {
+    Jet term = z[n];
+    if (view_ == ForceView::Transmitted) term += 2.0 * zeta_ * (static_cast<double>(n) + 1.0) * z[n + 1];
+    part.terms[n] = {term.a, term.v[0], term.v[1], term.v[2], 0.0};
+  }
+  return part;
+}
+
+std::vector<SlipPart> WeakeningSlip::parts() const {
+  const double weakened = std::min(weakened_.tau.a, tau_end_);
+  const double rate = std::abs(zeta_.a) + std::sqrt(std::abs(zeta_.a * zeta_.a + stiffening_.a));
+  std::vector<SlipPart> parts;
+  const auto add = [&](double from, double to, double fastest, bool weakens) {
+    const double count = std::ceil(std::max(1.0, fastest) * (to - from));  // in steps of a radian: kSeriesOrder
+    for (double i = 0.0; i < count; ++i) {
+      const Jet begin(from + i / count * (to - from));
+      parts.push_back(part_from(weakens ? weakening_at(begin) : weakened_at(begin), (to - from) / count, weakens));
+    }
+  };
+  add(0.0, weakened, rate, true);
+  add(weakened, tau_end_, 1.0, false);
+  return parts;
+}
+
 }  // namespace slipfit::model

@@ -3,6 +3,7 @@
 #include <ceres/jet.h>
 
 #include "model/slip.hpp"
+#include "model/slip_series.hpp"
 #include "slipfit/core/recording.hpp"
 
 namespace slipfit::model {
@@ -32,6 +33,10 @@ class WeakeningSlip {
   [[nodiscard]] WeakeningPoint at(double tau) const;
   /// Its mean over a time around tau, which is `average` long at this w_n.
   [[nodiscard]] WeakeningPoint mean_at(double tau, double average) const;
+  /// The integral of what `at` gives, and of its derivatives, from the onset to any time; `d_tau` is the force itself.
+  [[nodiscard]] WeakeningPoint integral_to(double tau) const;
+  /// The parts of the slip, of what `at` gives; the numbers of the law are the distance and none.
+  [[nodiscard]] std::vector<SlipPart> parts() const;
 
  private:
   friend class WeakeningTrack;
@@ -50,6 +55,7 @@ class WeakeningSlip {
   [[nodiscard]] State shown_at(double tau) const;
   [[nodiscard]] double time_to_weaken() const;
   void end_while_weakening();
+  [[nodiscard]] SlipPart part_from(const State& begin, double length, bool weakens) const;
   void end_when_weakened();
 
   Jet z0_, zeta_, distance_, stiffening_;

@@ -190,8 +190,9 @@ TEST_CASE("residual derivatives of friction that depends on the speed agree with
 
 TEST_CASE("residual derivatives of friction that weakens over a slip distance agree with central differences") {
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
-  const Average average = GENERATE(Average::None, Average::Stated, Average::Free);
-  Scales scales = averaged_by(average, example_scales(view));
+  const double sensor_lag_s = GENERATE(0.0, 0.02);
+  const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
+  Scales scales = averaged_by(average, example_scales(view, sensor_lag_s));
   scales.law = FrictionLaw::Weakening;
   scales.slip_distance_m = scales.force / 60.0;
   // As under Coulomb friction.

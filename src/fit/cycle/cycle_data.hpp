@@ -34,6 +34,11 @@ struct SensorTimes {
   double average_s = 0.0;
 };
 
+/// How long after a slip, or before it, such a sensor still shows it: to e^-8.
+inline double shown_beyond_s(const SensorTimes& sensor) {
+  return 8.0 * sensor.lag_s + 0.5 * sensor.average_s;
+}
+
 /// How a recording enters a fit: what makes its numbers of order one, and how its samples see a slip.
 struct Scales {
   double speed_m_per_s = 1.0;

@@ -59,7 +59,7 @@ std::optional<CycleState> CycleModel::state(const Coordinates& shared, const dou
   const CycleFrame f = frame(here, local);
   const SensorTimes sensor = sensor_of(scales_, here);
   if (scales_.law == FrictionLaw::Weakening) {
-    auto motion = WeakeningCycle::solve(f.z0(), f.omega_rad_per_s, here, sensor.average_s, scales_);
+    auto motion = WeakeningCycle::solve(f.z0(), f.omega_rad_per_s, here, sensor, scales_);
     return motion ? std::optional(CycleState{f, *std::move(motion)}) : std::nullopt;
   }
   if (!(f.z0() + 2.0 * f.zeta > 0.0) || !(std::abs(f.zeta) < 1.0) || !std::isfinite(f.z0())) return std::nullopt;

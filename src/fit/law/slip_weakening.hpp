@@ -5,23 +5,43 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "fit/cycle/cycle_data.hpp"
+#include "fit/observation/shown_motion.hpp"
 #include "model/weakening.hpp"
 #include "model/weakening_track.hpp"
 
 namespace slipfit::fit {
 
+/// A slip under friction that weakens over a distance, in its view. The numbers of the law are the distance and none.
+class WeakeningMotion {
+ public:
+  explicit WeakeningMotion(model::WeakeningSlip slip) : slip_(std::move(slip)) {}
+
+  [[nodiscard]] MotionPoint at(double tau) const { return point_of(slip_.at(tau)); }
+  [[nodiscard]] MotionPoint integral_to(double tau) const { return point_of(slip_.integral_to(tau)); }
+  [[nodiscard]] double tau_end() const { return slip_.tau_end(); }
+  [[nodiscard]] std::vector<model::SlipPart> parts() const { return slip_.parts(); }
+
+ private:
+  static MotionPoint point_of(const model::WeakeningPoint& p) {
+    return {p.z, p.d_tau, p.d_z0, p.d_zeta, {p.d_distance, 0.0}};
+  }
+
+  model::WeakeningSlip slip_;
+};
+
 /// One cycle under friction that weakens over a slip distance as the sensor shows it, in the units of model/slip.hpp:
-/// closed form. A sensor of first order counts as one that shows the force as it is.
+/// closed form.
 class WeakeningCycle {
  public:
   using Point = model::WeakeningPoint;
 
-  /// `average_s`: over which the sensor averages. Empty where D_c is far beyond (F_s - F_k) / k, from which on friction
+  /// Empty where D_c is far beyond (F_s - F_k) / k, from which on friction
   /// that weakens makes no stick-slip: a weak slip may lie above that limit, but not all.
   static std::optional<WeakeningCycle> solve(double z0, double omega_rad_per_s, const Coordinates& values,
-                                             double average_s, const Scales& scales) {
+                                             const SensorTimes& sensor, const Scales& scales) {
     const double root = values(kSlipDistance);
     const double unit = scales.slip_distance_m * omega_rad_per_s / scales.speed_m_per_s;
     const double zeta = values(kDamping);
@@ -35,7 +55,10 @@ class WeakeningCycle {
     WeakeningCycle cycle({z0, zeta, distance, scales.view});
     cycle.distance_ = distance;
     cycle.by_root_ = 2.0 * unit * root;
-    cycle.average_ = omega_rad_per_s * average_s;
+    cycle.average_ = omega_rad_per_s * sensor.average_s;
+    if (sensor.lag_s > 0.0) {
+      cycle.lagged_.emplace(WeakeningMotion(cycle.slip_), omega_rad_per_s * sensor.lag_s, cycle.average_);
+    }
     return cycle;
   }
 
@@ -44,11 +67,17 @@ class WeakeningCycle {
   /// Spring force above the level at tau = 0 of the stick after the slip.
   [[nodiscard]] double intercept() const { return slip_.intercept(); }
   /// As the sensor shows the sticks before and after it, continued to tau = 0.
-  [[nodiscard]] double shown_before() const { return slip_.at(0.0).z; }
-  [[nodiscard]] double shown_after() const { return slip_.at(2.0 * tau_end()).z - 2.0 * tau_end(); }
+  [[nodiscard]] double shown_before() const { return slip_.at(0.0).z - lag_tau(); }
+  [[nodiscard]] double shown_after() const { return slip_.at(2.0 * tau_end()).z - 2.0 * tau_end() - lag_tau(); }
 
   /// Force above the level in units of k V / w_n, at any tau = w_n (t - onset).
-  [[nodiscard]] Point at(double tau) const { return average_ > 0.0 ? slip_.mean_at(tau, average_) : slip_.at(tau); }
+  [[nodiscard]] Point at(double tau) const {
+    if (lagged_) {
+      const ShownPoint p = lagged_->at(tau);
+      return {{p.z, p.d_z0, p.d_zeta, p.d_tau, p.d_log_omega, p.d_log_average}, p.d_law[0]};
+    }
+    return average_ > 0.0 ? slip_.mean_at(tau, average_) : slip_.at(tau);
+  }
   [[nodiscard]] Point before_slip(double tau) const { return at(tau); }
   [[nodiscard]] Point after_slip(double tau) const { return at(tau); }
 
@@ -66,7 +95,7 @@ class WeakeningCycle {
   class Samples {
    public:
     Samples(const WeakeningCycle& cycle, double step_tau) : cycle_(cycle) {
-      if (step_tau > 0.0) track_.emplace(cycle.slip_, step_tau, cycle.average_);
+      if (step_tau > 0.0 && !cycle.lagged_) track_.emplace(cycle.slip_, step_tau, cycle.average_);
     }
     Point at(double tau) { return track_ ? track_->at(tau) : cycle_.at(tau); }
 
@@ -78,10 +107,13 @@ class WeakeningCycle {
  private:
   explicit WeakeningCycle(model::WeakeningSlip slip) : slip_(std::move(slip)) {}
 
+  [[nodiscard]] double lag_tau() const { return lagged_ ? lagged_->lag_tau() : 0.0; }
+
   model::WeakeningSlip slip_;
-  double distance_ = 0.0;  ///< D_c w_n / V
-  double by_root_ = 0.0;   ///< d distance_ / d kSlipDistance
-  double average_ = 0.0;   ///< of the sensor, w_n W
+  std::optional<ShownMotion<WeakeningMotion>> lagged_;  ///< where the sensor lags
+  double distance_ = 0.0;                               ///< D_c w_n / V
+  double by_root_ = 0.0;                                ///< d distance_ / d kSlipDistance
+  double average_ = 0.0;                                ///< of the sensor, w_n W
 };
 
 }  // namespace slipfit::fit

@@ -11,9 +11,8 @@ namespace slipfit::fit {
 
 double half_width_s(double stiffness_N_per_m, const Scales& scales) {
   const double u = stiffness_N_per_m * scales.speed_m_per_s * scales.half_period_s / std::numbers::pi;
-  constexpr double kForgotten = 8.0;  // e^-8: what the sensor still shows of the slip in the straight ramp
   return scales.half_period_s * (1.0 - std::atan2(scales.force, u) / std::numbers::pi + 0.3) +
-         kForgotten * scales.sensor_lag_s + 0.5 * scales.sensor_average_s;
+         shown_beyond_s({scales.sensor_lag_s, scales.sensor_average_s});
 }
 
 LevelModel first_level(const Recording& recording, const Segmentation& segmentation,

@@ -26,7 +26,6 @@ double slip_distance_m(const DampedFit& fit) {
 
 /// Why it cannot even be tried; empty: it can.
 std::string hindrance(const FitInput& input, const DampedFit& coulomb) {
-  if (coulomb.blocks.sensor().lag_s > 0.0) return "it is not fitted with a sensor of first order";
   const double step_s = input.recording.sample_interval_s();
   const double samples = median_slip_s(coulomb.blocks) / step_s;
   return samples < thresholds::kShapeSamples ? too_few_samples(samples, step_s) : std::string();

@@ -62,7 +62,8 @@ std::optional<DampedFit> fit_weakening(const FitInput& input, const DampedFit& c
   const std::optional<double> stated_s = input.recording.conditions().sensor_average_s;
   const double average_s = stated_s.value_or(0.0);
   // A slow onset begins before the slip of the Coulomb fit.
-  const WeakeningSolver solver(input, coulomb, 1.1 * median_slip_s(coulomb.blocks) + 0.5 * average_s);
+  const WeakeningSolver solver(input, coulomb,
+                               1.1 * median_slip_s(coulomb.blocks) + shown_beyond_s(coulomb.blocks.sensor()));
   const std::vector<CycleData> cycles = solver.cycles();
   const std::optional<WeakeningSolver::Draft> draft =
       solver.draft(solver.some_of(cycles, kTrialCycles), average_s,

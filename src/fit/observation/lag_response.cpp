@@ -1,4 +1,4 @@
-#include "fit/observation/lagged_track.hpp"
+#include "fit/observation/lag_response.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,23 +28,19 @@ std::array<double, N> moments(double q) {
 
 }  // namespace
 
-LaggedTrack::LaggedTrack(const model::VelocityTrack& track, bool transmitted, double lag_tau)
-    : transmitted_(transmitted), kappa_(1.0 / lag_tau) {
+LagResponse::LagResponse(const MotionPoint& onset, const std::vector<model::SlipPart>& parts, double tau_end,
+                         double lag_tau)
+    : tau_end_(tau_end), kappa_(1.0 / lag_tau) {
   // A straight ramp lags by T.
-  end_ = {motion_at(track, 0.0), -lag_tau};
+  end_ = {column_of(onset), -lag_tau};
   end_.shown[0] -= lag_tau;
-  for (const model::VelocityTrack::Part& part : track.parts(transmitted)) {
+  for (const model::SlipPart& part : parts) {
     pieces_.push_back({part, end_});
     end_ = response(pieces_.back(), part.length);
   }
 }
 
-LaggedTrack::Column LaggedTrack::motion_at(const model::VelocityTrack& track, double tau) const {
-  const model::TrackPoint z = transmitted_ ? track.transmitted_at(tau) : track.at(tau);
-  return {z.z, z.d_z0, z.d_zeta, z.d_slope, z.d_rate};
-}
-
-LaggedTrack::Response LaggedTrack::response(const Piece& piece, double time) const {
+LagResponse::Response LagResponse::response(const Piece& piece, double time) const {
   constexpr std::size_t kTerms = model::kSeriesOrder + 1;
   const double q = kappa_ * time;
   const std::array<double, kTerms + 1> moment = moments<kTerms + 1>(q);
@@ -63,13 +59,13 @@ LaggedTrack::Response LaggedTrack::response(const Piece& piece, double time) con
   return response;
 }
 
-LaggedTrack::Response LaggedTrack::after_slip(const model::VelocityTrack& track, double tau) const {
-  const double since = tau - track.tau_end();
+LagResponse::Response LagResponse::after_slip(const Column& motion, double tau) const {
+  const double since = tau - tau_end_;
   const double decay = std::exp(-kappa_ * since);
   const double lag = lag_tau();
-  Response response{motion_at(track, tau), 0.0};
+  Response response{motion, 0.0};
   // The line of the stick at the end of the slip.
-  Column line = response.shown;
+  Column line = motion;
   line[0] -= since;
   for (std::size_t c = 0; c < kColumns; ++c) response.shown[c] += decay * (end_.shown[c] - line[c]);
   response.shown[0] += lag * (decay - 1.0);
@@ -77,13 +73,12 @@ LaggedTrack::Response LaggedTrack::after_slip(const model::VelocityTrack& track,
   return response;
 }
 
-ShownPoint LaggedTrack::at(const model::VelocityTrack& track, double tau) const {
-  const Column motion = motion_at(track, tau);
-  Response y{motion, -lag_tau()};
+ShownPoint LagResponse::at(const MotionPoint& motion, double tau) const {
+  Response y{column_of(motion), -lag_tau()};
   if (tau <= 0.0) {
     y.shown[0] -= lag_tau();
-  } else if (tau >= track.tau_end()) {
-    y = after_slip(track, tau);
+  } else if (tau >= tau_end_) {
+    y = after_slip(y.shown, tau);
   } else {
     const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), tau,
                                         [](double time, const Piece& piece) { return time < piece.motion.begin; });
@@ -92,11 +87,10 @@ ShownPoint LaggedTrack::at(const model::VelocityTrack& track, double tau) const 
   }
   ShownPoint point;
   point.z = y.shown[0];
-  point.d_tau = kappa_ * (motion[0] - y.shown[0]);
+  point.d_tau = kappa_ * (motion.z - y.shown[0]);
   point.d_z0 = y.shown[1];
   point.d_zeta = y.shown[2];
-  point.d_slope = y.shown[3];
-  point.d_rate = y.shown[4];
+  point.d_law = {y.shown[3], y.shown[4]};
   point.d_log_omega = y.d_log_omega;
   return point;
 }

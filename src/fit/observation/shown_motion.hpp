@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "fit/cycle/cycle_data.hpp"
+#include "fit/observation/lag_response.hpp"
+
+namespace slipfit::fit {
+
+/// Any motion as a sensor shows it that lags, averages, or does both. A Motion has, in the view of the sensor, the
+/// force `at` any tau, its `integral_to` any tau from the onset (d_tau: the force itself), the `parts` and the
+/// `tau_end` of its slip. docs/model.md section 7
+template <class Motion>
+class ShownMotion {
+ public:
+  /// Times of the sensor in units of 1 / w_n.
+  ShownMotion(Motion motion, double lag_tau, double average_tau)
+      : motion_(std::move(motion)), half_window_(0.5 * average_tau) {
+    if (lag_tau > 0.0) lag_.emplace(motion_.at(0.0), motion_.parts(), motion_.tau_end(), lag_tau);
+  }
+
+  [[nodiscard]] const Motion& motion() const { return motion_; }
+  [[nodiscard]] double lag_tau() const { return lag_ ? lag_->lag_tau() : 0.0; }
+
+  [[nodiscard]] ShownPoint at(double tau) const {
+    // The mean of a straight line is its middle.
+    const bool is_straight = tau + half_window_ <= 0.0 || (!lag_ && tau - half_window_ >= motion_.tau_end());
+    return half_window_ == 0.0 || is_straight ? instant_at(tau) : mean_around(tau);
+  }
+
+ private:
+  /// Without the average.
+  [[nodiscard]] ShownPoint instant_at(double tau) const {
+    const MotionPoint motion = motion_.at(tau);
+    return lag_ ? lag_->at(motion, tau) : ShownPoint{motion};
+  }
+
+  /// The mean over the window around tau.
+  [[nodiscard]] ShownPoint mean_around(double tau) const {
+    const double first = tau - half_window_;
+    const double last = tau + half_window_;
+    const double length = last - first;
+    const ShownPoint shown_first = instant_at(first);
+    const ShownPoint shown_last = instant_at(last);
+    ShownPoint mean{motion_.integral_to(last)};
+    add(motion_.integral_to(first), -1.0, mean);
+    if (lag_) {
+      // y' = kappa (z - y) makes the integral of y that of z less y / kappa.
+      const double lag = lag_tau();
+      add(shown_last, -lag, mean);
+      add(shown_first, lag, mean);
+      mean.d_log_omega = -lag * (shown_last.d_log_omega - shown_first.d_log_omega + shown_last.z - shown_first.z);
+    }
+    for (double* const value : {&mean.z, &mean.d_z0, &mean.d_zeta, &mean.d_law[0], &mean.d_law[1], &mean.d_log_omega}) {
+      *value /= length;
+    }
+    mean.d_tau = (shown_last.z - shown_first.z) / length;
+    mean.d_log_average = 0.5 * (shown_first.z + shown_last.z) - mean.z;
+    mean.d_log_omega += mean.d_log_average;  // the window is w_n W long
+    return mean;
+  }
+
+  static void add(const MotionPoint& point, double weight, MotionPoint& sum) {
+    sum.z += weight * point.z;
+    sum.d_z0 += weight * point.d_z0;
+    sum.d_zeta += weight * point.d_zeta;
+    for (std::size_t i = 0; i < sum.d_law.size(); ++i) sum.d_law[i] += weight * point.d_law[i];
+  }
+
+  Motion motion_;
+  double half_window_;  ///< of the average
+  std::optional<LagResponse> lag_;
+};
+
+}  // namespace slipfit::fit
