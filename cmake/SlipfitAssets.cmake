@@ -1,15 +1,4 @@
-# Files that the HTML report carries inside: ours from src/report/html, and the chart library dygraphs where Debian's
-# libjs-dygraphs (or SLIPFIT_DYGRAPHS_DIR) provides it. Without it reports have pictures in place of the interactive trace.
-find_path(SLIPFIT_DYGRAPHS_DIR dygraph.min.js
-  PATHS "${CMAKE_INSTALL_PREFIX}/share/javascript/dygraphs" /usr/share/javascript/dygraphs
-  DOC "Folder with dygraph.min.js and dygraph.min.css")
-if(SLIPFIT_DYGRAPHS_DIR)
-  set(dygraphs_js "${SLIPFIT_DYGRAPHS_DIR}/dygraph.min.js")
-  set(dygraphs_css "${SLIPFIT_DYGRAPHS_DIR}/dygraph.min.css")
-else()
-  message(STATUS "dygraphs not found: HTML reports will have no interactive trace (Debian: libjs-dygraphs)")
-endif()
-
+# Files that the HTML report carries inside, from src/report/html.
 # slipfit_embed(TARGET FUNCTION FILE): FILE's bytes as slipfit::assets::FUNCTION() in TARGET; an empty FILE is empty text.
 function(slipfit_embed target name file)
   set(source "${CMAKE_CURRENT_BINARY_DIR}/assets/${name}.cpp")

@@ -6,7 +6,7 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
-  nlohmann-json3-dev libfmt-dev libjs-dygraphs libxxhash-dev zlib1g-dev libminizip-dev libpugixml-dev
+  nlohmann-json3-dev libfmt-dev libxxhash-dev zlib1g-dev libminizip-dev libpugixml-dev
   libhdf5-dev libleptonica-dev python3)
 python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-pip
   python3-venv)

@@ -6,7 +6,6 @@ import { fileURLToPath } from "node:url";
 
 const build = process.argv[2];
 const here = path.dirname(fileURLToPath(import.meta.url));
-const kDygraphs = process.env.SLIPFIT_DYGRAPHS_DIR ?? "/usr/share/javascript/dygraphs";
 const read = (...names) => names.map((name) => fs.readFileSync(path.resolve(here, name), "utf8")).join("\n");
 const made = (name) => path.resolve(build, name);
 /** Text inside <script> or <style>: nothing in it may end the element. */
@@ -17,10 +16,10 @@ fs.copyFileSync(made("slipfit-core.wasm"), made("slipfit.wasm"));
 fs.writeFileSync(made("slipfit.mjs"), read(core, "words.js", "api.js", "module.js"));
 
 const parts = {
-  style: inside(read(path.join(kDygraphs, "dygraph.min.css"), "../src/report/html/style.css", "page.css")),
+  style: inside(read("../src/report/html/style.css", "page.css")),
   engine: inside(read(core, "base64.js", "words.js", "api.js", "worker.js")),
   wasm: zlib.gzipSync(fs.readFileSync(made("slipfit.wasm")), { level: 9 }).toString("base64"),
-  scripts: inside(read(path.join(kDygraphs, "dygraph.min.js"), "words.js", "texts.js", "base64.js", "files.js", "engine.js", "options.js", "trace.js", "folder.js", "file_list.js", "each.js", "prediction.js", "saving.js", "german_report.js", "german_warnings.js", "page.js")),
+  scripts: inside(read("words.js", "texts.js", "base64.js", "files.js", "engine.js", "options.js", "../src/report/html/trace.js", "trace.js", "folder.js", "file_list.js", "each.js", "prediction.js", "saving.js", "german_report.js", "german_warnings.js", "page.js")),
 };
 const page = read("page.html").replace(/{{(\w+)}}/g, (_, name) => parts[name]);
 fs.writeFileSync(made("slipfit.html"), page);

@@ -88,9 +88,6 @@ void write_all_results(const AnalysisArguments& arguments, const slipfit::Record
     }
     notice(fmt::format("wrote {} pictures to '{}'", pictures.size(), *arguments.plots));
   }
-  if (arguments.document.has("--report") && !slipfit::has_interactive_trace()) {
-    notice("this build has no chart library: the report's trace is a picture (build with libjs-dygraphs)");
-  }
 }
 
 /// The first option that is given and asks for something of one recording alone; empty: none.

@@ -114,7 +114,7 @@ test("a hostile file name stays text", async () => {
   assert.ok((await page.locator("p.file").textContent()).endsWith(kHostile));
   assert.equal(await page.title(), path.basename(kHostile));
   assert.equal(await page.locator("h1").textContent(), path.basename(kHostile));
-  assert.equal(await page.locator("script:not(.chart-data)").count(), 4);
+  assert.equal(await page.locator("script:not(.chart-data)").count(), 3);
   assert.ok((await drawnPixels(page)) > 5000);
   assert.deepEqual(page.faults, []);
   await page.close();

@@ -332,7 +332,7 @@ test("narrow, dark and German", { skip }, async () => {
   await openDemo(page);
   await page.fill("#option-speed", "10");
   await page.keyboard.press("Tab");
-  assert.equal(await page.locator("#trace .dygraph-ylabel").textContent(), "Reibkraft [N]");
+  assert.equal(await page.locator("#trace .trace-label").textContent(), "Reibkraft [N]");
   await page.screenshot({ path: shot("400-dark-german"), fullPage: true });
   await fit(page);
   const overflow = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);

@@ -118,7 +118,7 @@ TEST_CASE("steady sliding: words in place of cycles, parameters and pattern") {
     CHECK_THAT(absent, !Contains("<svg") && Contains(std::string("<dt>") + title));
   }
   CHECK_THAT(section(page, "parameters"), Contains("this recording shows none") && !Contains("<table"));
-  if (slipfit::has_interactive_trace()) CHECK_FALSE(trace_data_in(page).contains("residual_levels"));
+  CHECK_FALSE(trace_data_in(page).contains("residual_levels"));
 }
 
 TEST_CASE("what the fit does not know is said in words, with the reason") {
@@ -159,7 +159,6 @@ TEST_CASE("peaks and troughs are not drawn against the damping where the sensor 
 }
 
 TEST_CASE("the packed trace gives every sample back to half a level") {
-  if (!slipfit::has_interactive_trace()) return;
   const slipfit::Recording recording = sawtooth();
   const nlohmann::json data = trace_data_in(page_of(recording, fitted(recording)));
   const std::vector<unsigned char> bytes = decoded(data["force_levels"]);
@@ -177,7 +176,6 @@ TEST_CASE("the packed trace gives every sample back to half a level") {
 }
 
 TEST_CASE("an uneven clock travels with the trace") {
-  if (!slipfit::has_interactive_trace()) return;
   const std::vector<double> time_s{0.0, 0.1, 0.15, 0.4, 0.5};
   const slipfit::Recording recording =
       slipfit::Recording::create(time_s, {0.0, 1.0, 2.0, 1.0, 0.0}, sawtooth().conditions()).value();
@@ -191,7 +189,6 @@ TEST_CASE("an uneven clock travels with the trace") {
 }
 
 TEST_CASE("gaps of the clock and outliers travel with the trace") {
-  if (!slipfit::has_interactive_trace()) return;
   std::vector<double> time_s;
   std::vector<double> force_N;
   for (int i = 0; i < 100; ++i) {
@@ -246,7 +243,6 @@ TEST_CASE("a force that differs in its last digit alone is a flat trace, not a p
   const auto recording = slipfit::Recording::create(std::move(time_s), std::move(force), conditions).value();
   const std::string page = page_of(recording, fitted(recording));
   CHECK(page.size() < 400'000);
-  if (!slipfit::has_interactive_trace()) return;
   const std::size_t begin = page.find("\"force_low\":");
   REQUIRE(begin != std::string::npos);
   const std::string low = page.substr(begin + 12, page.find(',', begin) - begin - 12);

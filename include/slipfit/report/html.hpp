@@ -19,9 +19,6 @@ struct ReportOrigin {
 std::string to_html(const Recording& recording, const Analysis& analysis, const Background& background,
                     const ReportOrigin& origin);
 
-/// False where this build has no chart library: the page then has pictures in place of the interactive trace.
-bool has_interactive_trace();
-
 struct PictureFile {
   std::string name;  ///< trace.svg, spectrum.svg, ...
   std::string content;

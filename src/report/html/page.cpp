@@ -78,13 +78,12 @@ std::string numbers_part(const Source& source) {
 std::string page_from(const PageParts& parts) {
   return filled(assets::page(), {{"title", text(parts.title)},
                                  {"place", parts.place},
-                                 {"style", parts.library_style + std::string(assets::style())},
+                                 {"style", std::string(assets::style())},
                                  {"kind", parts.kind},
                                  {"headline", parts.headline},
                                  {"summary", parts.summary},
                                  {"main", parts.main},
                                  {"version", SLIPFIT_VERSION},
-                                 {"credits", text(parts.credits)},
                                  {"scripts", parts.scripts + script_element(assets::save_script())}});
 }
 
@@ -156,10 +155,6 @@ std::string figure_part(const Figure& figure) {
 
 }  // namespace html
 
-bool has_interactive_trace() {
-  return !assets::dygraphs_script().empty();
-}
-
 std::string to_html(const Recording& recording, const Analysis& analysis, const Background& background,
                     const ReportOrigin& origin) {
   const html::Source source = html::source_of(recording, analysis, background);
@@ -172,12 +167,8 @@ std::string to_html(const Recording& recording, const Analysis& analysis, const 
                  html::key_numbers(source) + html::warnings_part(analysis.warnings);
   page.main = html::parameters_part(source) + html::coefficients_part(source) + html::figures_part(source) +
               html::quality_part(source) + html::numbers_part(source) + html::repeat_part(source, origin);
-  if (has_interactive_trace()) {
-    page.library_style = assets::dygraphs_style();
-    page.credits = "; interactive trace by dygraphs (MIT licence)";
-    page.scripts = R"(<script type="application/json" id="trace-data">)" + html::trace_data(source) + "</script>\n" +
-                   html::script_element(assets::dygraphs_script()) + html::script_element(assets::trace_script());
-  }
+  page.scripts = R"(<script type="application/json" id="trace-data">)" + html::trace_data(source) + "</script>\n" +
+                 html::script_element(assets::trace_script());
   return html::page_from(page);
 }
 

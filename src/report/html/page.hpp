@@ -16,8 +16,6 @@ struct PageParts {
   std::string headline;
   std::string summary;  ///< under the headline
   std::string main;
-  std::string library_style;
-  std::string credits;  ///< behind the program's version, as text
   std::string scripts;  ///< elements <script>
 };
 std::string page_from(const PageParts& parts);
