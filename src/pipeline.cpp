@@ -17,6 +17,7 @@
 #include "analysis/estimate.hpp"
 #include "analysis/ranges.hpp"
 #include "analysis/ring_down.hpp"
+#include "analysis/rules.hpp"
 #include "analysis/slip_intervals.hpp"
 #include "analysis/sweep_checks.hpp"
 #include "core/thresholds.hpp"
@@ -115,9 +116,7 @@ Analysis conclude(const Detected& detected, Estimates estimates, Classification 
   analysis.derived = derive(recording, analysis);
   analysis.tests = run_short_tests(recording, analysis);
   analysis = audited(recording, std::move(analysis));
-  analysis.warnings = collect_warnings(detected, slips, analysis);
-  append(analysis.warnings, warn_of(analysis.audit));
-  if (auto units = implausible_units(recording, analysis)) analysis.warnings.push_back(*std::move(units));
+  analysis.warnings = collect_warnings({detected, slips, analysis});
   if (analysis.fit) analysis.fit = limited_by(analysis.warnings, *std::move(analysis.fit));
   analysis.fit = told_of_whole(std::move(analysis.fit), detected);
   analysis.timing.frequency_s = detected.seconds + estimates.frequency_s;
@@ -239,8 +238,9 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   if (sweep.fit) {
     append(sweep.warnings, check_agreement(entries, sweep.recordings, *sweep.fit));
     append(sweep.warnings, sweep.fit->result.warnings);
-    sweep.fit->result = limited_by(all_warnings(sweep), std::move(sweep.fit->result));
+    sweep.fit->result = limited_by(by_effect(all_warnings(sweep)), std::move(sweep.fit->result));
   }
+  sweep.warnings = by_effect(std::move(sweep.warnings));
   for (Analysis& analysis : sweep.recordings) analysis = without_falls(std::move(analysis));
   return sweep;
 }

@@ -6,7 +6,7 @@ const kGermanReport = new Map(Object.entries({
   "Damping from peaks and troughs": "Dämpfung aus Spitzen und Tälern", "Stability map": "Stabilitätskarte",
   "Spacing and frequency at other speeds": "Abstand und Frequenz bei anderen Geschwindigkeiten",
   "Predicted abrasion pattern": "Vorhergesagtes Abriebmuster", "Data quality": "Güte der Daten", "All numbers": "Alle Zahlen",
-  "Models compared": "Verglichene Modelle", "Warnings": "Warnungen", "Assumed in the fit:": "Bei der Anpassung angenommen:",
+  "Models compared": "Verglichene Modelle", "Warnings": "Warnungen", "Accounted for in the analysis": "Bereits berücksichtigt", "Assumed in the fit:": "Bei der Anpassung angenommen:",
   "In brackets: 95 % intervals.": "In Klammern: 95-%-Bereiche.", "The text report, as printed by the command line": "Der Bericht als Text, wie auf der Befehlszeile (englisch)",
   parameter: "Größe", value: "Wert", unit: "Einheit", "95 % interval": "95-%-Bereich", "what the data say": "was die Daten sagen",
   model: "Modell", "residual, rms": "Residuum, rms", why: "Begründung", chosen: "gewählt", "not chosen": "nicht gewählt", "not known": "nicht bekannt",

@@ -176,11 +176,6 @@ void lower(Parameter& parameter, ParameterStatus highest) {
   if (is_higher) parameter.status = highest;
 }
 
-std::string sentence_of(const AuditPair& pair) {
-  return fmt::format("{} is {:.4g}, {} is {:.4g}", pair.first_of, *pair.first.value, pair.second_of,
-                     *pair.second.value);
-}
-
 /// The model's covariance with the way to the other value.
 void widen(ModelEstimate& model, std::span<const Concern> concerns, double log_ratio) {
   std::array<double, kModelValues> move{};
@@ -194,6 +189,11 @@ void widen(ModelEstimate& model, std::span<const Concern> concerns, double log_r
 }
 
 }  // namespace
+
+std::string sentence_of(const AuditPair& pair) {
+  return fmt::format("{} is {:.4g}, {} is {:.4g}", pair.first_of, *pair.first.value, pair.second_of,
+                     *pair.second.value);
+}
 
 std::vector<AuditPair> audit_of(const Recording& recording, const Analysis& analysis) {
   std::vector<AuditPair> pairs;
@@ -234,30 +234,6 @@ FrequencyReport with_audit(FrequencyReport frequency, const std::vector<AuditPai
     if (pair.contradicts && row_of(pair).concerns.empty()) include(frequency.quoted, *pair.second.value);
   }
   return frequency;
-}
-
-Warnings warn_of(const std::vector<AuditPair>& pairs) {
-  Warnings warnings;
-  for (const AuditPair& pair : pairs) {
-    if (pair.contradicts) warnings.push_back({"values_contradict", sentence_of(pair) + ": the intervals include both"});
-  }
-  return warnings;
-}
-
-FitResult limited_by(const Warnings& warnings, FitResult fit) {
-  constexpr std::array kDoubts{"implausible_units", "speed_differs_from_displacement", "speed_differs"};
-  constexpr std::array kDoubted{Id::Stiffness, Id::StiffnessExponent, Id::Mass, Id::DampingCoefficient};
-  for (const char* const code : kDoubts) {
-    const auto has_code = [&](const Warning& warning) { return warning.code == code; };
-    if (std::none_of(warnings.begin(), warnings.end(), has_code)) continue;
-    for (Parameter& parameter : fit.parameters) {
-      const bool is_doubted = std::find(kDoubted.begin(), kDoubted.end(), parameter.id) != kDoubted.end();
-      if (!is_doubted || parameter.status != ParameterStatus::Identified) continue;
-      parameter.status = ParameterStatus::Conditional;
-      add_note(parameter.estimate.note, fmt::format("see the warning {}", code));
-    }
-  }
-  return fit;
 }
 
 }  // namespace slipfit

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "slipfit/analysis.hpp"
@@ -15,10 +16,7 @@ FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs);
 /// The same of the quoted frequency.
 FrequencyReport with_audit(FrequencyReport frequency, const std::vector<AuditPair>& pairs);
 
-/// One for each contradicted pair.
-Warnings warn_of(const std::vector<AuditPair>& pairs);
-
-/// The fit with k, m and c at most conditional beside a warning that doubts the speed or the units.
-FitResult limited_by(const Warnings& warnings, FitResult fit);
+/// "A is 3, B is 4": both values are known.
+std::string sentence_of(const AuditPair& pair);
 
 }  // namespace slipfit

@@ -46,22 +46,16 @@ Transients find_transients(const Detected& detected, MotionClass motion);
 std::optional<Coefficients> find_coefficients(const Detected& detected, const Analysis& analysis);
 
 /// Numbers that no tester has, mostly from a unit that was mistaken: with the factor of 1000 that would mend them.
-std::optional<Warning> implausible_units(const Recording& recording, const Analysis& analysis);
+std::optional<std::string> implausible_units(const Recording& recording, const Analysis& analysis);
 
 /// One-line tests of what the fit takes for granted (docs/accuracy.md): drift of the period, a cycle against the one
 /// before, ageing; the stated mass and the load cell's resonance where they are stated; without a fit, whether the
 /// level repeats. Empty unless the kind of motion is stick-slip.
 std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysis& analysis);
 
-/// One warning for each test whose outcome is beyond chance (1 in 1000).
-Warnings warn_of(const std::vector<ShortTest>& tests);
-
 /// Does the force level of the slips repeat over the path (docs/accuracy.md)? `level_repeats`: the path from one
 /// repetition to the next, in m. Beyond chance only where neither white scatter of the levels nor a random walk makes
 /// such a sine. Empty below thresholds::kFewestOfWave slips.
 std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, double speed_m_per_s);
-
-/// Of the reader, the quality, the lines beside the slips, the short tests, the fit, and of what changes on the way.
-Warnings collect_warnings(const Detected& detected, const Segmentation& slips, const Analysis& analysis);
 
 }  // namespace slipfit

@@ -73,7 +73,7 @@ std::string remedy_for(const Seen& seen, bool is_time_unit_assumed) {
 
 }  // namespace
 
-std::optional<Warning> implausible_units(const Recording& recording, const Analysis& analysis) {
+std::optional<std::string> implausible_units(const Recording& recording, const Analysis& analysis) {
   const bool has_slips = analysis.motion == MotionClass::StickSlip || analysis.motion == MotionClass::OscillatorySlip;
   if (recording.conditions().quantity != ForceQuantity::Force_N || !has_slips) return std::nullopt;
   Seen seen{analysis.cycles.stick_stiffness.value, std::nullopt, analysis.derived.pattern_spacing_m.value};
@@ -88,8 +88,8 @@ std::optional<Warning> implausible_units(const Recording& recording, const Analy
   add(seen.stiffness_N_per_m, kStiffness_N_per_m, "a stiffness in N/m of");
   add(seen.mass_kg, kMass_kg, "a mass in kg of");
   add(seen.spacing_m, kSpacing_m, "a way per slip in m of");
-  return Warning{"implausible_units", fmt::format("{} is beyond what testers have: {}", what,
-                                                  remedy_for(seen, recording.provenance().is_time_unit_assumed))};
+  return fmt::format("{} is beyond what testers have: {}", what,
+                     remedy_for(seen, recording.provenance().is_time_unit_assumed));
 }
 
 }  // namespace slipfit

@@ -193,25 +193,4 @@ std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysi
   return tests;
 }
 
-Warnings warn_of(const std::vector<ShortTest>& tests) {
-  Warnings warnings;
-  for (const ShortTest& test : tests) {
-    const bool by_chance = !test.p_value || *test.p_value > thresholds::kProven;
-    if (test.kind == TestKind::SensorResonance && test.value && *test.value > thresholds::kNearResonance) {
-      warnings.push_back({"near_sensor_resonance", test.finding});
-    }
-    if (by_chance) continue;
-    if (test.kind == TestKind::PeriodDrift) warnings.push_back({"period_drifts", test.finding});
-    if (test.kind == TestKind::LevelRepeats) warnings.push_back({"level_repeats", test.finding});
-    if (test.kind == TestKind::ReturnMap) warnings.push_back({"cycles_remember", test.finding});
-    if (test.kind == TestKind::StatedMass) {
-      warnings.push_back({"mass_differs", test.finding +
-                                              "; springs or parts may move with the body, the contact may be "
-                                              "compliant, or the slips differ from the model; the fit does not use "
-                                              "the stated mass"});
-    }
-  }
-  return warnings;
-}
-
 }  // namespace slipfit

@@ -129,17 +129,18 @@ Estimate count_frequency(const Recording& recording, const Segmentation& segment
   return symmetric(value, value * relative_error(intervals_s, interval), interval.count - 1.0);
 }
 
-Warnings warn_of_changes(const Recording& recording, const Segmentation& segmentation) {
-  Warnings warnings;
+std::optional<std::string> broken_rhythm(const Recording& recording, const Segmentation& segmentation) {
+  const std::size_t broken = intervals_of(recording, segmentation).broken;
+  if (broken == 0) return std::nullopt;
+  return fmt::format(
+      "{} interval(s) between slips do not fit the rhythm of the others: the stage stood still, or "
+      "samples are missing while the clock ran on; they do not count",
+      broken);
+}
+
+std::optional<std::string> change_on_the_way(const Segmentation& segmentation) {
   const std::vector<DetectedSlip>& slips = segmentation.slips;
-  const Intervals intervals = intervals_of(recording, segmentation);
-  if (intervals.broken > 0) {
-    warnings.push_back({"broken_rhythm",
-                        fmt::format("{} interval(s) between slips do not fit the rhythm of the others: the stage stood "
-                                    "still, or samples are missing while the clock ran on; they do not count",
-                                    intervals.broken)});
-  }
-  if (slips.size() < thresholds::kFewestForChange + 2) return warnings;
+  if (slips.size() < thresholds::kFewestForChange + 2) return std::nullopt;
   std::vector<double> seconds, drops;
   for (std::size_t i = 2; i < slips.size(); ++i) {
     seconds.push_back(slips[i].middle_s - slips[i - 1].middle_s);
@@ -147,16 +148,14 @@ Warnings warn_of_changes(const Recording& recording, const Segmentation& segment
   }
   const Split interval = best_split(seconds);
   const Split drop = best_split(drops);
-  if (!is_change(interval) && !is_change(drop)) return warnings;
+  if (!is_change(interval) && !is_change(drop)) return std::nullopt;
   const bool pace = is_change(interval) && interval.apart >= drop.apart;
   const Split& split = pace ? interval : drop;
-  warnings.push_back(
-      {"changes_on_the_way",
-       fmt::format("{} changes from {:.4g}{} before {:.6g} s to {:.4g}{} after it: one number for both is a mean; use "
-                   "--window T0:T1 for each part",
-                   pace ? "the interval between slips" : "the drop", split.before, pace ? " s" : "",
-                   slips[split.at + 2].middle_s, split.after, pace ? " s" : "")});
-  return warnings;
+  return fmt::format(
+      "{} changes from {:.4g}{} before {:.6g} s to {:.4g}{} after it: one number for both is a mean; use "
+      "--window T0:T1 for each part",
+      pace ? "the interval between slips" : "the drop", split.before, pace ? " s" : "", slips[split.at + 2].middle_s,
+      split.after, pace ? " s" : "");
 }
 
 }  // namespace slipfit

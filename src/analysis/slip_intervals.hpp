@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/quantile.hpp"
@@ -25,8 +27,11 @@ Intervals intervals_of(const Recording& recording, const Segmentation& segmentat
 /// included.
 Estimate count_frequency(const Recording& recording, const Segmentation& segmentation);
 
-/// What changes on the way: the interval or the drop before and after the moment that sets them apart best, where that
-/// is beyond their scatter.
-Warnings warn_of_changes(const Recording& recording, const Segmentation& segmentation);
+/// Says how many intervals do not fit a regular rhythm; empty where all do.
+std::optional<std::string> broken_rhythm(const Recording& recording, const Segmentation& segmentation);
+
+/// Says how the interval or the drop changes at the moment that separates the values best; empty where their scatter
+/// explains the change.
+std::optional<std::string> change_on_the_way(const Segmentation& segmentation);
 
 }  // namespace slipfit

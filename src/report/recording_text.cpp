@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "analysis/rules.hpp"
 #include "report/format.hpp"
 #include "report/names.hpp"
 #include "report/quantities.hpp"
@@ -220,12 +221,14 @@ std::string recording_text(const Recording& recording, const Analysis& analysis)
 }  // namespace
 
 std::string warnings_text(const Warnings& warnings) {
-  if (warnings.empty()) return {};
-  std::string text = "\nWarnings\n";
+  std::string doubts;
+  std::string facts;
   for (const Warning& warning : warnings) {
-    text += fmt::format("  ! {} [{}]\n", printable(warning.message), printable(warning.code));
+    (is_fact(warning) ? facts : doubts) += fmt::format("  {} {} [{}]\n", is_fact(warning) ? '-' : '!',
+                                                       printable(warning.message), printable(warning.code));
   }
-  return text;
+  return (doubts.empty() ? "" : "\nWarnings\n" + doubts) +
+         (facts.empty() ? "" : "\nAccounted for in the analysis\n" + facts);
 }
 
 std::string assumed_text(const std::vector<std::string>& assumed) {

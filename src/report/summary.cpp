@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/rules.hpp"
 #include "report/names.hpp"
 #include "report/quantities.hpp"
 #include "report/text_sections.hpp"
@@ -27,48 +28,6 @@ constexpr std::size_t kBelowSentences = 2;   // a blank line and the pointer to 
 constexpr std::size_t kRoomForWarnings = 6;  // a blank line, a warning of two lines, and what is below it
 constexpr std::size_t kLongestName = 32;     // of a path in the headline; of a longer one the name of the file
 constexpr std::size_t kMostListed = 8;       // recordings of a sweep
-
-/// Warnings by their effect on the results, the largest first; a code that is not named here comes last.
-constexpr auto kByEffect = std::to_array<std::string_view>({"implausible_units",
-                                                            "speed_differs_from_displacement",
-                                                            "speed_differs",
-                                                            "normal_force_differs",
-                                                            "frequency_differs_at_one_speed",
-                                                            "frequency_does_not_follow_speed",
-                                                            "recording_repeated",
-                                                            "values_contradict",
-                                                            "mains_in_step",
-                                                            "recordings_disagree",
-                                                            "recording_disagrees",
-                                                            "level_differs",
-                                                            "static_friction_differs",
-                                                            "changes_on_the_way",
-                                                            "level_trend",
-                                                            "model_misfit",
-                                                            "slips_not_inertial",
-                                                            "near_sensor_resonance",
-                                                            "sensor_too_slow",
-                                                            "samples_averaged",
-                                                            "drive_ripple",
-                                                            "clocked",
-                                                            "ring_down_differs",
-                                                            "mass_differs",
-                                                            "slips_not_resolved",
-                                                            "period_drifts",
-                                                            "cycles_remember",
-                                                            "broken_rhythm",
-                                                            "clipped",
-                                                            "normal_force_varies"});
-
-/// Facts about the recording or the model: they need no action, and the interval of every parameter includes them.
-constexpr auto kFacts = std::to_array<std::string_view>(
-    {"rows_without_number", "time_runs_backwards", "repeated_time_stamps", "gaps", "uneven_clock", "impulses",
-     "quantised", "repeated_values", "suspicious_line", "hum_fitted", "part_of_cycles_fitted", "several_steps",
-     "container_cut", "stiffness_goes_with_speed", "static_friction_ages", "level_repeats"});
-
-bool is_fact(const Warning& warning) {
-  return std::ranges::find(kFacts, warning.code) != kFacts.end();
-}
 
 /// The text in lines of at most kWidth characters, the first after `first`, the others after as many blanks.
 std::vector<std::string> wrapped(const std::string& first, const std::string& text) {
@@ -158,16 +117,14 @@ class Screen {
 };
 
 void Screen::add_warnings(const Warnings& warnings) {
-  std::vector<const Warning*> real;
-  for (const Warning& warning : warnings) {
-    if (!is_fact(warning) && !has_footnote(warning.message)) real.push_back(&warning);
+  for (const Warning& warning : by_effect(warnings)) {
+    if (is_fact(warning) || has_footnote(warning.message)) continue;
+    if (warnings_.size() == kMostWarnings) {
+      ++warnings_left_out_;
+    } else {
+      warnings_.push_back(wrapped("  ! ", sentence(shortened(printable(warning.message)))));
+    }
   }
-  const auto effect = [](const Warning* warning) { return std::ranges::find(kByEffect, warning->code); };
-  std::ranges::stable_sort(real, [&](const Warning* a, const Warning* b) { return effect(a) < effect(b); });
-  warnings_left_out_ = real.size() - std::min(real.size(), kMostWarnings);
-  real.resize(real.size() - warnings_left_out_);
-  for (const Warning* const warning : real)
-    warnings_.push_back(wrapped("  ! ", sentence(shortened(printable(warning->message)))));
 }
 
 std::string Screen::text() const {

@@ -60,7 +60,7 @@ const std::vector<Form> kForms{
     {R"form(refusal\(\s*"(\w+)")form", "bad_rows", "## Errors"},
     {R"form(Warning\{\s*"(\w+)")form", "speed_differs_from_displacement", "## Warnings"},
     {R"form(warnings\.push_back\(\s*\{\s*"(\w+)")form", "hum_fitted", "## Warnings"},
-    {R"form(warn\(\s*"(\w+)")form", "uneven_clock", "## Warnings"},
+    {R"form(\{"(\w+)", RuleKind::)form", "uneven_clock", "## Warnings"},
 };
 
 /// Under a heading, up to the next one of its rank.
@@ -93,5 +93,18 @@ TEST_CASE("every code in the tables of errors and warnings of docs/formats.md is
     const std::set<std::string> codes = matches_of(cells, "`([a-z0-9_]+)`");
     CHECK(codes.size() > 20);
     for (const std::string& code : codes) CHECK_THAT(text, Catch::Contains("\"" + code + "\""));
+  }
+}
+
+TEST_CASE("every warning that the sources make has a rule, and every rule without a condition is made somewhere") {
+  const std::string text = sources();
+  const std::set<std::string> rules = matches_of(text, R"form(\{"(\w+)", RuleKind::)form");
+  for (const char* form : {R"form(Warning\{\s*"(\w+)")form", R"form(warnings\.push_back\(\s*\{\s*"(\w+)")form"}) {
+    for (const std::string& code : matches_of(text, form)) CHECK(rules.count(code) == 1);
+  }
+  for (const std::string& code : matches_of(text, R"form(\{"(\w+)", RuleKind::\w+(?:, nullptr[^}]*)?\})form")) {
+    CAPTURE(code);
+    const std::string quoted = "\"" + code + "\"";
+    CHECK(text.find(quoted, text.find(quoted) + 1) != std::string::npos);
   }
 }

@@ -33,6 +33,7 @@ std::string command_fact(const std::string& command_line);
 // Parts of the page of one recording, as HTML.
 std::string motion_sentence(const Source& source);
 std::string key_numbers(const Source& source);
+/// Warnings, and apart from them the facts among them.
 std::string warnings_part(const Warnings& warnings);
 std::string parameters_part(const Source& source);
 /// The table alone.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/rules.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
@@ -124,13 +125,18 @@ std::string key_numbers(const Source& source) {
 }
 
 std::string warnings_part(const Warnings& warnings) {
-  if (warnings.empty()) return {};
-  std::string items;
+  std::string doubts;
+  std::string facts;
   for (const Warning& warning : warnings) {
-    items +=
+    (is_fact(warning) ? facts : doubts) +=
         fmt::format("<li>{} <code>{}</code></li>\n", capitalised(formula_text(warning.message)), text(warning.code));
   }
-  return "<div class=\"warnings\" role=\"note\"><strong>Warnings</strong>\n<ul>\n" + items + "</ul></div>\n";
+  const auto box = [](const char* kind, const char* title, const std::string& items) {
+    if (items.empty()) return items;
+    return fmt::format("<div class=\"{}\" role=\"note\"><strong>{}</strong>\n<ul>\n{}</ul></div>\n", kind, title,
+                       items);
+  };
+  return box("warnings", "Warnings", doubts) + box("warnings facts-known", "Accounted for in the analysis", facts);
 }
 
 std::string parameter_table(const FitResult& fit) {
