@@ -102,7 +102,8 @@ struct PagePlace {
 };
 
 /// An element <svg class="chart"> of a page, without title and remarks, as wide as its surroundings. Colours, grid and
-/// letters come from the page's style sheet (classes grid, axes, legend, entries, label, value, note).
+/// letters come from the page's style sheet (classes grid, axes, legend, entries, label, value, note). Panels carry
+/// their axes, lines, areas and markers their names, as data- attributes: save.js reads the points back from them.
 std::string to_page_svg(const Chart& chart, const PagePlace& place);
 
 /// What stands in rows above the axes, as an element <ul class="legend-list"> that breaks its lines: for screens that

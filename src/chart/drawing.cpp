@@ -70,28 +70,27 @@ void Drawing::path(const std::string& data, const std::string& style) {
   fmt::format_to(std::back_inserter(svg_), "<path d=\"{}\" {}/>\n", data, style);
 }
 
-void Drawing::marker(double x, double y, Colour colour, Shape shape) {
-  const std::string place = fmt::format("transform=\"translate({:.1f} {:.1f})\" ", x, y);
+void Drawing::markers(const std::vector<Point>& places, Colour colour, Shape shape, const std::string& attributes) {
+  constexpr const char* kRound = "M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z";
   const std::string name = name_of(colour);
+  const auto filled = [&name](const char* opacity) { return fmt::format("fill=\"{}\"{}", name, opacity); };
   const std::string ring = fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"2\"",
                                        palette_ == Palette::File ? "#FFF" : "var(--chart-paper)", name);
-  switch (shape) {
-    case Shape::Dot:
-      path("M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z", place + fmt::format("fill=\"{}\"", name));
-      break;
-    case Shape::Speck:
-      path("M-2 0a2 2 0 1 0 4 0a2 2 0 1 0 -4 0z", place + fmt::format("fill=\"{}\" fill-opacity=\"0.8\"", name));
-      break;
-    case Shape::Ring:
-      path("M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z", place + ring);
-      break;
-    case Shape::Triangle:
-      path("M0 -5 5 4 -5 4z", place + ring);
-      break;
-    case Shape::Cross:
-      path("M-4 -4 4 4M-4 4 4 -4", place + fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", name));
-      break;
-  }
+  struct Look {
+    const char* outline;
+    std::string style;
+  };
+  // In the order of Shape.
+  const std::array<Look, 5> looks{{{kRound, filled("")},
+                                   {"M-2 0a2 2 0 1 0 4 0a2 2 0 1 0 -4 0z", filled(" fill-opacity=\"0.8\"")},
+                                   {kRound, ring},
+                                   {"M0 -5 5 4 -5 4z", ring},
+                                   {"M-4 -4 4 4M-4 4 4 -4", fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", name)}}};
+  const Look& look = looks.at(index_of(shape));
+  raw(fmt::format("<g {}{}>\n", look.style, attributes));
+  for (const Point& place : places)
+    path(look.outline, fmt::format("transform=\"translate({:.1f} {:.1f})\"", place.x, place.y));
+  raw("</g>\n");
 }
 
 std::string Drawing::name_of(Colour colour) const {

@@ -20,9 +20,11 @@ class Drawing {
   void line(double x1, double y1, double x2, double y2, const std::string& style);
   void box(double x, double y, double width, double height, const std::string& style);
   void path(const std::string& data, const std::string& style);
-  void marker(double x, double y, Colour colour, Shape shape);
+  /// At these places, in pixels, as one element with these attributes, each with a blank before it.
+  void markers(const std::vector<Point>& places, Colour colour, Shape shape, const std::string& attributes = {});
   void raw(const std::string& element) { svg_ += element; }
 
+  [[nodiscard]] bool is_on_page() const { return palette_ == Palette::Page; }
   [[nodiscard]] const std::string& svg() const { return svg_; }
   [[nodiscard]] std::string name_of(Colour colour) const;
   [[nodiscard]] std::string stroke_style(const Line& line) const;

@@ -40,7 +40,7 @@ void draw_sample(Drawing& drawing, const Entry& entry, Spot spot, const std::str
   if (const auto* line = std::get_if<const Line*>(&entry.what)) {
     drawing.line(spot.x, spot.y, spot.x + kSample, spot.y, drawing.stroke_style(**line));
   } else if (const auto* markers = std::get_if<const Markers*>(&entry.what)) {
-    drawing.marker(spot.x + 0.5 * kSample, spot.y, (*markers)->colour, (*markers)->shape);
+    drawing.markers({{spot.x + 0.5 * kSample, spot.y}}, (*markers)->colour, (*markers)->shape);
   } else if (const auto* area = std::get_if<const Area*>(&entry.what)) {
     drawing.box(spot.x, spot.y - 6.0, kSample, 12.0, drawing.area_style(**area, id));
   }

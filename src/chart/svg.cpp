@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -24,6 +24,15 @@ constexpr double kDigit = 6.6;        // mean width of one at 12 px
 constexpr double kWidestDigit = 7.7;  // of the fonts that readers may have in its place (DejaVu Sans)
 constexpr double kBetween = 6.0;      // least gap between two values below
 
+/// Tenths of a pixel as a number of SVG: "12", "-.5"; after another number with a blank where no sign parts them.
+std::string tenths(long number, bool follows_number) {
+  const long size = std::labs(number);
+  std::string text = number < 0 ? "-" : follows_number ? " " : "";
+  if (size >= 10 || size == 0) text += std::to_string(size / 10);
+  if (size % 10 != 0) text += "." + std::to_string(size % 10);
+  return text;
+}
+
 /// One panel: from values to pixels.
 class PanelDrawing {
  public:
@@ -39,26 +48,45 @@ class PanelDrawing {
 
   /// `number`: of the panel in its picture.
   void draw(std::size_t number) {
+    drawing_.raw(fmt::format("<g{}>\n", drawing_.is_on_page() ? axes_attributes() : std::string()));
     draw_grid();
     drawing_.raw(
         fmt::format("<clipPath id=\"{0}inside{1}\"><rect x=\"{2:.1f}\" y=\"{3:.1f}\" width=\"{4:.1f}\" "
                     "height=\"{5:.1f}\"/></clipPath>\n<g clip-path=\"url(#{0}inside{1})\">\n",
                     id_, number, kLeft, top_, width_, panel_.height_px));
-    for (const Area& area : panel_.areas) drawing_.path(path_of(area.outline), drawing_.area_style(area, id_));
-    for (const Line& line : panel_.lines) drawing_.path(path_of(line.points), drawing_.stroke_style(line));
+    for (const Area& area : panel_.areas)
+      drawing_.path(path_of(area.outline), drawing_.area_style(area, id_) + series_attribute(area.name));
+    for (const Line& line : panel_.lines)
+      drawing_.path(path_of(line.points), drawing_.stroke_style(line) + series_attribute(line.name));
     drawing_.raw("</g>\n");
     for (const Markers& markers : panel_.markers) {
+      std::vector<Point> places;
       for (const Point& p : markers.points) {
-        if (has_mark(p)) drawing_.marker(x_of(p.x), y_of(p.y), markers.colour, markers.shape);
+        if (has_mark(p)) places.push_back({x_of(p.x), y_of(p.y)});
       }
+      drawing_.markers(places, markers.colour, markers.shape, series_attribute(markers.name));
     }
     for (const Note& note : panel_.notes) {
       if (has_mark(note.at)) draw_note(note);
     }
     draw_legend(drawing_, panel_, {kLeft, top_, width_, panel_.height_px}, id_);
+    drawing_.raw("</g>\n");
   }
 
  private:
+  /// What save.js needs to turn pixels into values: of each axis its ends, 1 if it is logarithmic, and where it lies.
+  [[nodiscard]] std::string axes_attributes() const {
+    const auto axis = [](const Axis& of, double begin, double length) {
+      return fmt::format("{} {} {} {:.1f} {:.1f}", of.low, of.high, of.scale == Scale::Logarithmic ? 1 : 0, begin,
+                         length);
+    };
+    return fmt::format(" class=\"panel\" data-axes=\"{}\" data-x=\"{}\" data-y=\"{}\"",
+                       escaped(panel_.y.label + " over " + panel_.x.label), axis(x_, kLeft, width_),
+                       axis(y_, bottom_, -panel_.height_px));
+  }
+  [[nodiscard]] std::string series_attribute(const std::string& name) const {
+    return drawing_.is_on_page() ? fmt::format(" data-name=\"{}\"", escaped(name)) : std::string();
+  }
   static double share(const Axis& axis, double value) {
     if (axis.scale == Scale::Logarithmic) {  // 0 and below: far beneath, so that an outline stays closed
       if (value <= 0.0) return -std::numeric_limits<double>::infinity();
@@ -79,15 +107,31 @@ class PanelDrawing {
     return std::isfinite(share(x_, point.x)) && std::isfinite(share(y_, point.y));
   }
 
+  /// "M12.3 45l.5-1.2 ...": each part begins at a place, and goes on by steps, which are shorter to write.
   [[nodiscard]] std::string path_of(const std::vector<Point>& points) const {
     std::string data;
+    long last_x = 0;
+    long last_y = 0;
     bool pen_down = false;
+    bool is_first_step = false;
     for (const Point& point : points) {
-      const bool has = has_place(point);
-      if (has) {
-        fmt::format_to(std::back_inserter(data), "{}{:.1f} {:.1f}", pen_down ? "L" : "M", x_of(point.x), y_of(point.y));
+      if (!has_place(point)) {
+        pen_down = false;
+        continue;
       }
-      pen_down = has;
+      const long x = std::lround(10.0 * x_of(point.x));
+      const long y = std::lround(10.0 * y_of(point.y));
+      if (pen_down && x == last_x && y == last_y) continue;
+      if (!pen_down) {
+        data += "M" + tenths(x, false) + tenths(y, true);
+      } else {
+        if (is_first_step) data += "l";
+        data += tenths(x - last_x, !is_first_step) + tenths(y - last_y, true);
+      }
+      is_first_step = !pen_down;
+      pen_down = true;
+      last_x = x;
+      last_y = y;
     }
     return data;
   }
@@ -103,9 +147,10 @@ class PanelDrawing {
   }
 
   void draw_grid() {
+    std::string grid;
     for (const Tick& tick : panel_.x.label.empty() ? std::vector<Tick>{} : ticks_below()) {
       const double x = x_of(tick.value);
-      drawing_.line(x, top_, x, bottom_, "class=\"grid\"");
+      grid += fmt::format("M{:.1f} {:.1f}V{:.1f}", x, top_, bottom_);
       if (tick.text.empty()) continue;
       const double half = 0.5 * kWidestDigit * letters_in(tick.text);
       const double inside = std::min(x, kLeft + width_ + kRight - half);  // of the picture, at the end of the axis
@@ -114,9 +159,10 @@ class PanelDrawing {
     const int most_steps = std::clamp(static_cast<int>(panel_.height_px / kLeastStep), 3, 8);
     for (const Tick& tick : panel_.y.label.empty() ? std::vector<Tick>{} : ticks_of(y_, most_steps)) {
       const double y = y_of(tick.value);
-      drawing_.line(kLeft, y, kLeft + width_, y, "class=\"grid\"");
+      grid += fmt::format("M{:.1f} {:.1f}H{:.1f}", kLeft, y, kLeft + width_);
       if (!tick.text.empty()) drawing_.text(kLeft - 7.0, y + 4.0, tick.text, "value", " text-anchor=\"end\"");
     }
+    drawing_.path(grid, "class=\"grid\"");
     drawing_.box(kLeft, top_, width_, panel_.height_px, "class=\"axes\"");
     drawing_.text(kLeft + 0.5 * width_, bottom_ + 38.0, panel_.x.label, "label", " text-anchor=\"middle\"");
     const double middle = 0.5 * (top_ + bottom_);
@@ -156,7 +202,7 @@ class PanelDrawing {
 constexpr const char* kStyle =
     "<style>text{font-family:Helvetica,Arial,sans-serif;fill:#222}.title{font-size:16px;font-weight:bold}"
     ".remark{font-size:12px}.label{font-size:13px}.value{font-size:12px}.note{font-size:12px}"
-    ".grid{stroke:#DDD;stroke-width:0.7}.axes{fill:none;stroke:#444}"
+    ".grid{fill:none;stroke:#DDD;stroke-width:0.7}.axes{fill:none;stroke:#444}"
     ".legend{fill:#FFF;fill-opacity:0.85;stroke:#CCC;stroke-width:0.7}</style>\n";
 
 /// Panels from top to bottom; returns where they end.
@@ -168,6 +214,14 @@ double draw_panels(Drawing& drawing, const Chart& chart, double top, const std::
     top += panel.height_px + kAxisRoom;
   }
   return top;
+}
+
+/// The patterns of hatched areas, where the chart has any.
+std::string hatches_of(const Drawing& drawing, const Chart& chart, const std::string& id) {
+  const auto is_hatched = [](const Area& area) { return area.fill == Fill::Hatched; };
+  const bool has_any = std::ranges::any_of(
+      chart.panels, [&](const Panel& panel) { return std::ranges::any_of(panel.areas, is_hatched); });
+  return has_any ? drawing.hatches(id) : std::string();
 }
 
 double picture_width(const Chart& chart) {
@@ -186,8 +240,8 @@ std::string to_svg(const Chart& chart) {
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
              "{1:.0f}\">\n",
              picture_width(chart), y) +
-         kStyle + drawing.hatches("") + "<rect width=\"100%\" height=\"100%\" fill=\"#FFF\"/>\n" + drawing.svg() +
-         "</svg>\n";
+         kStyle + hatches_of(drawing, chart, "") + "<rect width=\"100%\" height=\"100%\" fill=\"#FFF\"/>\n" +
+         drawing.svg() + "</svg>\n";
 }
 
 std::string to_page_svg(const Chart& chart, const PagePlace& place) {
@@ -196,7 +250,7 @@ std::string to_page_svg(const Chart& chart, const PagePlace& place) {
   const double height = draw_panels(drawing, chart, 8.0, id);
   return fmt::format("<svg class=\"chart\" id=\"{}\" role=\"img\" aria-label=\"{}\" viewBox=\"0 0 {:.0f} {:.0f}\">\n",
                      place.id, escaped(place.label), picture_width(chart), height) +
-         drawing.hatches(id) + drawing.svg() + "</svg>\n";
+         hatches_of(drawing, chart, id) + drawing.svg() + "</svg>\n";
 }
 
 }  // namespace slipfit::chart

@@ -113,8 +113,8 @@ std::string distributions(const std::vector<BatchPageRow>& rows) {
     const std::string label = label_with_unit(column.heading, column.unit);
     const auto panel = histogram(std::move(values), label);
     if (!panel) continue;
-    const std::string picture = picture_with_data(chart::Chart{"", {}, {*panel}, kDistributionWidth_px}, column.id,
-                                                  "histogram of the " + label);
+    const std::string picture =
+        picture_of(chart::Chart{"", {}, {*panel}, kDistributionWidth_px}, column.id, "histogram of the " + label);
     figures += "<figure>" + picture + "</figure>\n";
   }
   if (figures.empty()) return {};

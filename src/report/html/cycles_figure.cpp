@@ -13,7 +13,7 @@ namespace {
 
 using chart::Colour, chart::Panel, chart::Point, chart::Stroke;
 
-constexpr std::size_t kCycleColumns = 110;  // of one cycle
+constexpr std::size_t kCycleColumns = 80;  // of one cycle
 Anchor anchor_of(const Cycle& cycle) {
   const double force = cycle.level_force.value_or(cycle.trough_force);
   return {cycle.onset_s.value_or(cycle.peak_s), force, cycle.onset_force.value_or(cycle.peak_force) - force};

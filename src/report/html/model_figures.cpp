@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/quantile.hpp"
@@ -114,19 +115,26 @@ std::vector<double> ridge_distances_m(const Analysis& analysis, double spacing_m
   return distances;
 }
 
-/// Without an edge: the shades of a ridge lie over each other.
-chart::Area shade_between(double begin, double end) {
-  chart::Area area = rectangle("", Colour::Black, {begin, 0.0}, {end, 1.0});
-  area.edge_px = 0.0;
-  return area;
+/// Adds a rectangle to an area. Without an edge: the shades of a ridge lie over each other.
+void shade_between(chart::Area& area, double begin, double end) {
+  const std::vector<Point> outline = rectangle("", Colour::Black, {begin, 0.0}, {end, 1.0}).outline;
+  area.outline.insert(area.outline.end(), outline.begin(), outline.end());
+  constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+  area.outline.push_back({kGap, kGap});
 }
 
-/// One ridge seen from above: darker towards its crest.
-void add_ridge(Panel& panel, double begin, double end) {
-  const double crest = begin + kCrest * (end - begin);
+/// The ridges seen from above, darker towards their crests: an area for each shade.
+void add_ridges(Panel& panel, const std::vector<double>& lengths) {
   for (int shade = 1; shade <= kShades; ++shade) {
     const double part = static_cast<double>(shade) / (kShades + 1);
-    panel.areas.push_back(shade_between(begin + part * (crest - begin), end - part * (end - crest)));
+    chart::Area area{"", Colour::Black, chart::Fill::Plain, {}};
+    double begin = 0.0;
+    for (const double length : lengths) {
+      const double crest = begin + kCrest * length;
+      shade_between(area, begin + part * (crest - begin), begin + length - part * (begin + length - crest));
+      begin += length;
+    }
+    panel.areas.push_back(std::move(area));
   }
 }
 
@@ -141,9 +149,9 @@ Panel strip(const std::string& name, const std::string& unit, double length) {
 Panel fine_strip(double spacing, double length, const std::string& unit) {
   Panel panel = strip("path, fine pattern (an estimate)", unit, length);
   panel.height_px = 40.0;
-  for (double at = 0.0; at < length; at += spacing) {
-    panel.areas.push_back(shade_between(at + 0.5 * spacing, at + spacing));
-  }
+  chart::Area area{"", Colour::Black, chart::Fill::Plain, {}};
+  for (double at = 0.0; at < length; at += spacing) shade_between(area, at + 0.5 * spacing, at + spacing);
+  panel.areas.push_back(std::move(area));
   return panel;
 }
 
@@ -189,11 +197,9 @@ Figure pattern_figure(const Source& source) {
   const DisplayUnit unit = display_unit("m", 0.2 * length_m);
   const double per_SI = unit.per_SI;
   Panel coarse = strip("path, coarse pattern (stick-slip)", unit.unit, per_SI * length_m);
-  double at = 0.0;
-  for (const double distance_m : distances_m) {
-    add_ridge(coarse, at, at + per_SI * distance_m);
-    at += per_SI * distance_m;
-  }
+  std::vector<double> lengths;
+  for (const double distance_m : distances_m) lengths.push_back(per_SI * distance_m);
+  add_ridges(coarse, lengths);
   figure.chart = chart::Chart{"Abrasion pattern, to scale", {}, {coarse}};
   const std::string source_words = is_predicted ? "predicted by the fitted model" : "measured (V/f)";
   figure.guide = fmt::format(

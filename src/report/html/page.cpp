@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -49,7 +47,7 @@ std::string trace_part(const Figure& figure, const Source& source) {
                  {"label", text(figure.label)},
                  {"slips_key", shows_cycles(source.analysis) ? "<span class=\"key slips\"></span>slips" : ""},
                  {"fit_key", has_fitted_curve(source.analysis) ? "<span class=\"key fit\"></span>fit" : ""},
-                 {"chart", picture_with_data(*figure.chart, figure.id, figure.label)}});
+                 {"chart", picture_of(*figure.chart, figure.id, figure.label)}});
 }
 
 /// Charts in their order; what the recording does not allow stands behind them, in a few lines.
@@ -89,19 +87,6 @@ std::string page_from(const PageParts& parts) {
 
 namespace {
 
-/// {"panel":1,"name":"...","x":[...],"y":[...]}, as save.js takes it; five digits are finer than a picture.
-std::string series_json(std::size_t panel, const std::string& name, std::span<const chart::Point> points) {
-  std::string x;
-  std::string y;
-  for (const chart::Point& point : points) {
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
-    x += fmt::format("{}{:.5g}", x.empty() ? "" : ",", point.x);
-    y += fmt::format("{}{:.5g}", y.empty() ? "" : ",", point.y);
-  }
-  return fmt::format(R"({{"panel":{},"name":{},"x":[{}],"y":[{}]}},)", panel, text_of(Json(name), JsonLayout::OneLine),
-                     x, y);
-}
-
 /// The name of the file; "recording" where there is none.
 std::string title_of(const Recording& recording) {
   const std::string name = std::filesystem::path(recording.provenance().file).filename().string();
@@ -110,21 +95,8 @@ std::string title_of(const Recording& recording) {
 
 }  // namespace
 
-std::string picture_with_data(const chart::Chart& chart, const std::string& id, const std::string& label) {
-  std::string data;
-  for (std::size_t i = 0; i < chart.panels.size(); ++i) {
-    const chart::Panel& panel = chart.panels[i];
-    const std::string axes = panel.y.label + " over " + panel.x.label;
-    const auto words = [&axes](const std::string& name) {
-      return name.empty() ? axes : fmt::format("{}, {}", name, axes);
-    };
-    for (const chart::Line& line : panel.lines) data += series_json(i + 1, words(line.name), line.points);
-    for (const chart::Markers& marks : panel.markers) data += series_json(i + 1, words(marks.name), marks.points);
-    for (const chart::Area& area : panel.areas) data += series_json(i + 1, words(area.name), area.outline);
-  }
-  if (!data.empty()) data.pop_back();
-  return to_page_legend(chart, id) + to_page_svg(chart, {id, label}) +
-         R"(<script type="application/json" class="chart-data">)" + script_json("[" + data + "]") + "</script>";
+std::string picture_of(const chart::Chart& chart, const std::string& id, const std::string& label) {
+  return to_page_legend(chart, id) + to_page_svg(chart, {id, label});
 }
 
 std::string place_of(const Recording& recording) {
@@ -148,7 +120,7 @@ std::string script_element(std::string_view script) {
 std::string figure_part(const Figure& figure) {
   const std::string content =
       figure.chart ? fmt::format("<p class=\"guide\">{}</p>\n<figure>{}</figure>\n", formula_text(figure.guide),
-                                 picture_with_data(*figure.chart, figure.id, figure.label))
+                                 picture_of(*figure.chart, figure.id, figure.label))
                    : fmt::format("<p class=\"absent\">{}</p>\n", formula_text(figure.absent));
   return section(fmt::format(" id=\"{}-section\"", figure.id), text(figure.title), content);
 }

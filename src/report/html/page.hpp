@@ -48,8 +48,8 @@ std::string repeat_part(const Source& source, const ReportOrigin& origin);
 /// their time, as such parts, too. Beyond a million samples the lowest and the
 /// highest of each group, whose times are then right to two millionths of the duration.
 std::string trace_data(const Source& source);
-/// The picture, its legend for narrow screens, and its points as CSV for the button that saves them.
-std::string picture_with_data(const chart::Chart& chart, const std::string& id, const std::string& label);
+/// The picture with its legend for narrow screens.
+std::string picture_of(const chart::Chart& chart, const std::string& id, const std::string& label);
 /// <section> with the chart, or with the reason why there is none.
 std::string figure_part(const Figure& figure);
 

@@ -38,9 +38,33 @@
     };
     image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(standalone(svg))}`;
   }
-  function csvOf(series) {
+  /** Pixels of a line or an area ("M12.3 45l.5-1.2 ...": a place, then steps), or of markers. */
+  function pixelsOf(series) {
+    if (series.localName === "g") return [...series.children].map((mark) => mark.getAttribute("transform").match(/[-\d.]+/g).map(Number));
+    return series.getAttribute("d").split("M").slice(1).flatMap((part) => {
+      const numbers = part.match(/-?\d*\.?\d+/g).map(Number);
+      let [x, y] = [0, 0];
+      return numbers.flatMap((_, i) => (i % 2 === 0 ? [[(x += numbers[i]), (y += numbers[i + 1])]] : []));
+    });
+  }
+  /** From a pixel to the value of an axis: its ends, 1 if it is logarithmic, where it begins, and its length. */
+  function axisOf(words) {
+    const [low, high, isLogarithmic, begin, length] = words.split(" ").map(Number);
+    return (pixel) => {
+      const share = (pixel - begin) / length;
+      return Number((isLogarithmic ? low * (high / low) ** share : low + share * (high - low)).toPrecision(5));
+    };
+  }
+  /** The points of a chart as they are drawn, to a tenth of a pixel. */
+  function csvOf(svg) {
     const quoted = (text) => `"${text.replaceAll('"', '""')}"`;
-    const rows = series.flatMap(({ panel, name, x, y }) => x.map((value, i) => `${panel},${quoted(name)},${value},${y[i]}\n`));
+    const rows = [...svg.querySelectorAll(".panel")].flatMap((panel, i) => {
+      const [x, y] = [axisOf(panel.dataset.x), axisOf(panel.dataset.y)];
+      return [...panel.querySelectorAll("[data-name]")].flatMap((series) => {
+        const name = quoted([series.dataset.name, panel.dataset.axes].filter(Boolean).join(", "));
+        return pixelsOf(series).map((pixel) => `${i + 1},${name},${x(pixel[0])},${y(pixel[1])}\n`);
+      });
+    });
     return ["panel,series,x,y\n", ...rows].join("");
   }
   function button(words, label, act) {
@@ -61,11 +85,10 @@
     const svg = figure.querySelector("svg.chart");
     if (!svg) continue;
     const name = svg.id || "chart";
-    const data = figure.querySelector("script.chart-data");
     figure.append(tools(
       button("SVG", `Save the chart ${name} as SVG`, () => download(`${name}.svg`, new Blob([standalone(svg)], { type: "image/svg+xml" }))),
       button("PNG", `Save the chart ${name} as PNG`, () => savePicture(svg, name)),
-      ...(data ? [button("CSV", `Save the data of the chart ${name} as CSV`, () => download(`${name}.csv`, new Blob([csvOf(JSON.parse(data.textContent))], { type: "text/csv" })))] : []),
+      button("CSV", `Save the data of the chart ${name} as CSV`, () => download(`${name}.csv`, new Blob([csvOf(svg)], { type: "text/csv" }))),
     ));
   }
   /** Cells apart by tabs, as spreadsheets take them; the value before its interval. */

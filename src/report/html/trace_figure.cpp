@@ -10,7 +10,7 @@ namespace {
 
 using chart::Colour, chart::Panel, chart::Point, chart::Shape, chart::Stroke;
 
-constexpr std::size_t kTraceColumns = 610;  // of the picture: one a pixel
+constexpr std::size_t kTraceColumns = 400;  // of the picture: one for 1.5 pixels
 constexpr std::size_t kCyclesClose = 5;     // seen close up
 constexpr std::size_t kFewSamples = 150;    // of the close-up: so few are drawn one by one
 
