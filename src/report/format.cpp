@@ -195,6 +195,7 @@ std::string Table::text() const {
   for (const auto& row : rows_) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
+      if (widths[i] == 0) continue;
       const std::string padding(widths[i] - shown_width(row[i]), ' ');
       line += "  " + (columns_[i] == Align::Left ? row[i] + padding : padding + row[i]);
     }

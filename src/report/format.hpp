@@ -70,7 +70,8 @@ std::size_t shown_width(std::string_view text);
 
 enum class Align { Left, Right };
 
-/// Lines of cells in columns that are as wide as their widest cell, two blanks apart, indented by two.
+/// Lines of cells in columns that are as wide as their widest cell, two blanks apart, indented by two. A column without
+/// text is left out.
 class Table {
  public:
   explicit Table(std::vector<Align> columns) : columns_(std::move(columns)) {}

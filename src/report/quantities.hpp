@@ -1,14 +1,9 @@
 #pragma once
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <array>
 #include <limits>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "slipfit/analysis.hpp"
@@ -63,18 +58,6 @@ inline constexpr std::array<CoefficientSpread, 2> kCoefficientSpreads{
     {{"static_peak_sd", "scatter of the peaks (sd)", &Coefficients::static_peak_sd},
      {"kinetic_sd", "scatter of the force while sliding (sd)", &Coefficients::kinetic_sd}}};
 
-/// All of them with their words, in the order of the reports.
-inline std::vector<std::pair<std::string_view, Estimate>> coefficient_rows(const Coefficients& coefficients) {
-  std::vector<std::pair<std::string_view, Estimate>> rows;
-  rows.reserve(kCoefficients.size() + kCoefficientThirds.size() + kCoefficientSpreads.size());
-  for (const auto& row : kCoefficients) rows.emplace_back(row.words, coefficients.*row.estimate);
-  for (const auto& row : kCoefficientThirds) rows.emplace_back(row.words, coefficients.*row.estimate);
-  for (const auto& row : kCoefficientSpreads) {
-    rows.emplace_back(row.words, Estimate{coefficients.*row.value, {}, {}, {}});
-  }
-  return rows;
-}
-
 /// The fit at every sample of the recording, not a number where it does not reach.
 inline std::vector<double> fitted_force(const Recording& recording, const Analysis& analysis) {
   std::vector<double> fitted(recording.size(), std::numeric_limits<double>::quiet_NaN());
@@ -93,12 +76,6 @@ inline std::vector<double> force_without_interference(const Recording& recording
     if (point.sample < force.size()) force[point.sample] -= point.interference;
   }
   return force;
-}
-
-/// In what a recording differs from what a standard asks.
-inline std::string differences_text(const StandardCoefficients& standard) {
-  if (standard.differs.empty()) return "as prescribed, as far as a recording shows it";
-  return fmt::format("{}", fmt::join(standard.differs, "; "));
 }
 
 }  // namespace slipfit

@@ -6,26 +6,11 @@
 #include <numbers>
 
 #include "core/unknown.hpp"
-#include "report/format.hpp"
+#include "report/blocks.hpp"
 #include "report/json_sections.hpp"
 #include "report/text_sections.hpp"
 
 namespace slipfit {
-namespace {
-
-std::string surface_row(const char* name, const std::string& value) {
-  return fmt::format("  {:<22} {}\n", name, value);
-}
-
-std::string estimate_of(const char* name, const Estimate& estimate, const std::string& unit) {
-  return estimate.value ? surface_row(name, estimate_text(estimate, unit)) : std::string();
-}
-
-std::string length_of(const char* name, const std::optional<double>& length_m) {
-  return length_m ? surface_row(name, quantity_text(*length_m, "m")) : std::string();
-}
-
-}  // namespace
 
 std::string name_of(SurfaceStatus status) {
   constexpr std::array<const char*, 4> kNames{"periodic", "irregular", "none", "undetermined"};
@@ -58,25 +43,30 @@ std::string to_json(const Profile& profile, const Surface& surface) {
   return text_of(json);
 }
 
+Block pattern_block(const Profile& profile, const Surface& surface) {
+  Block block{"pattern", "Pattern"};
+  const auto add_length = [&block](const char* label, const std::optional<double>& length_m) {
+    if (length_m) block.rows.push_back({label, quantity_text(*length_m, "m")});
+  };
+  block.rows.push_back({"status", name_of(surface.status)});
+  block.add("spacing", surface.spacing_m, "m");
+  block.add("fine spacing", surface.fine_spacing_m, "m");
+  if (surface.ridges > 0) block.rows.push_back({"ridges", std::to_string(surface.ridges)});
+  add_length("scatter as located", surface.spacing_sd_m);
+  block.add("spacing at the start", surface.begin_spacing_m, "m");
+  block.add("spacing at the end", surface.end_spacing_m, "m");
+  block.add("ridge height", surface.ridge_height, profile.height_in_metres ? "m" : "");
+  if (surface.asymmetry) block.rows.push_back({"rise over fall", fmt::format("{:.2f}", *surface.asymmetry)});
+  add_length("RSm", surface.rsm_m);
+  add_length("cut-off of the waves", surface.cutoff_m);
+  add_length("ridges smoothed over", surface.smoothed_over_m);
+  return block;
+}
+
 std::string to_text(const Profile& profile, const Surface& surface) {
-  std::string text = fmt::format("{}: {} points, pitch {}\n\nPattern\n", profile.file, profile.height.size(),
-                                 quantity_text(profile.pitch_m, "m"));
-  text += surface_row("status", name_of(surface.status));
-  text += surface.spacing_m.value ? estimate_of("spacing", surface.spacing_m, "m")
-                                  : surface_row("spacing", "not known: " + surface.spacing_m.note);
-  text += estimate_of("fine spacing", surface.fine_spacing_m, "m");
-  if (surface.ridges > 0) text += surface_row("ridges", fmt::format("{}", surface.ridges));
-  text += length_of("scatter as located", surface.spacing_sd_m);
-  text += estimate_of("spacing at the begin", surface.begin_spacing_m, "m");
-  text += estimate_of("spacing at the end", surface.end_spacing_m, "m");
-  text += estimate_of("ridge height", surface.ridge_height, profile.height_in_metres ? "m" : "");
-  if (surface.asymmetry) text += surface_row("rise over fall", fmt::format("{:.2f}", *surface.asymmetry));
-  text += length_of("RSm", surface.rsm_m);
-  text += length_of("cut-off of the waves", surface.cutoff_m);
-  text += length_of("ridges smoothed over", surface.smoothed_over_m);
-  if (!surface.warnings.empty()) text += "\nWarnings\n";
-  for (const Warning& warning : surface.warnings) text += fmt::format("  - {}: {}\n", warning.code, warning.message);
-  return text + assumed_text(profile.assumed);
+  return fmt::format("{}: {} points, pitch {}\n", profile.file, profile.height.size(),
+                     quantity_text(profile.pitch_m, "m")) +
+         text_of(pattern_block(profile, surface)) + warnings_text(surface.warnings) + assumed_text(profile.assumed);
 }
 
 }  // namespace slipfit

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/format.hpp"
+#include "report/blocks.hpp"
 #include "report/names.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
@@ -40,33 +40,6 @@ std::string statuses_text(const std::vector<Parameter>& parameters) {
     if (occurs) text += fmt::format("  {}: {}\n", name_of(status), words_for_status(status));
   }
   return text;
-}
-
-std::string residual_text(const FitResult& fit, ForceQuantity quantity) {
-  std::string text = fmt::format("  model: {}, residual {} rms", name_of(fit.tier),
-                                 quantity_text(fit.residual.rms, force_unit(quantity)));
-  if (const auto chi2 = fit.residual.reduced_chi2) {
-    text += fmt::format(", {:.2g} times the noise (reduced chi2 {:.3g})", std::sqrt(*chi2), *chi2);
-  }
-  if (const auto p = fit.residual.whiteness_p) {
-    constexpr double kLevel = 1e-3;
-    constexpr double kSmallestPrinted = 1e-6;  // the normal approximation is not accurate that far into its tail
-    text += fmt::format("\n  residuals: {} (whiteness p {}, level {:g})",
-                        *p < kLevel ? "neighbouring residuals are correlated, so the model misses a pattern"
-                                    : "consistent with white noise",
-                        *p > kSmallestPrinted ? fmt::format("{:.2g}", *p) : "below 1e-6", kLevel);
-  }
-  return text + "\n";
-}
-
-std::string candidates_text(const FitResult& fit, ForceQuantity quantity) {
-  Table table({Align::Left, Align::Left, Align::Left, Align::Left, Align::Left});
-  for (const Candidate& candidate : fit.candidates) {
-    table.add({"", std::string(name_of(candidate.tier)), candidate.chosen ? "chosen" : "not chosen",
-               candidate.rms ? quantity_text(candidate.rms, force_unit(quantity)) + " rms" : "",
-               printable(candidate.reason)});
-  }
-  return table.text();
 }
 
 }  // namespace
@@ -119,8 +92,7 @@ std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const 
     table.add({parameter.words, numbers.value, numbers.unit, numbers.interval, std::string(name_of(parameter.status))});
   }
   return fmt::format("\nParameters{}\n", caution) + table.text() + notes_text(fit.parameters) +
-         statuses_text(fit.parameters) + residual_text(fit, quantity) + candidates_text(fit, quantity) +
-         conditions_text(fit.conditional_on);
+         statuses_text(fit.parameters) + text_of(models_block(fit, quantity));
 }
 
 std::string parameters_text(const Recording& recording, const Analysis& analysis) {
@@ -152,17 +124,6 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
   return "\nRecordings\n" + table.text();
 }
 
-std::string repeats_text(const std::vector<Repeat>& repeats) {
-  if (repeats.empty()) return {};
-  Table table({Align::Left, Align::Left, Align::Left, Align::Right});
-  table.add({"", "mean, 95 % interval", "sd between recordings", "recordings"});
-  for (const Repeat& repeat : repeats) {
-    table.add({repeat.words, estimate_text(repeat.mean, repeat.unit),
-               quantity_text(repeat.standard_deviation, repeat.unit), std::to_string(repeat.count)});
-  }
-  return "\nAt one speed: scatter between the recordings\n" + table.text();
-}
-
 }  // namespace
 
 std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name) {
@@ -170,7 +131,7 @@ std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   if (!sweep.fit)
     text = fmt::format("{}: {} recordings, no joint fit: {}\n", printable(name), entries.size(), sweep.fit_reason);
   if (sweep.fit) text += parameters_text(sweep.fit->result, ForceQuantity::Force_N, "");
-  text += recordings_text(entries, sweep) + repeats_text(sweep.repeats);
+  text += recordings_text(entries, sweep) + text_of(repeats_block(sweep.repeats));
   if (sweep.fit || sweep.derived.observed_end) {
     text += "\nEnd of stick-slip\n" + critical_speed_text(sweep.derived.critical_speed_m_per_s,
                                                           sweep.derived.lambda_critical,

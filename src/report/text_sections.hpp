@@ -18,8 +18,6 @@ std::string conditions_text(const std::vector<std::string>& conditional_on);
 std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit);
 /// "-1.0 %"; "-" where one is not known.
 std::string off_by(const Estimate& predicted, const Estimate& measured);
-/// What is wrong with the samples: "4 gaps, the longest 120 ms", ...
-std::vector<std::string> defects_of(const Recording& recording, const Quality& quality);
 std::string warnings_text(const Warnings& warnings);
 /// What was assumed while reading a file.
 std::string assumed_text(const std::vector<std::string>& assumed);

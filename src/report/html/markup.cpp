@@ -121,16 +121,6 @@ std::string fact(std::string_view term, std::string_view content) {
   return fmt::format("<dt>{}</dt><dd>{}</dd>\n", text(term), text(content));
 }
 
-std::string preformatted(std::string_view lines) {
-  std::string content;
-  for (std::size_t begin = 0; begin < lines.size();) {
-    const std::size_t end = std::min(lines.find('\n', begin), lines.size());
-    content += text(lines.substr(begin, end - begin)) + "\n";
-    begin = end + 1;
-  }
-  return "<pre>" + content + "</pre>";
-}
-
 std::string list(const std::vector<std::string>& items) {
   if (items.empty()) return {};
   std::string lines;

@@ -42,9 +42,6 @@ std::string fact_list(std::string_view facts);
 /// <dt>term</dt><dd>text</dd>
 std::string fact(std::string_view term, std::string_view content);
 
-/// <pre> of text in lines.
-std::string preformatted(std::string_view lines);
-
 /// <ul> of items that are HTML already; empty text where there are none.
 std::string list(const std::vector<std::string>& items);
 

@@ -65,10 +65,14 @@ std::string figures_part(const Source& source) {
   return parts + section(" id=\"absent\"", "Charts that are not available", fact_list(absent));
 }
 
+/// Tables that the text report has, too, folded away.
 std::string numbers_part(const Source& source) {
+  std::string tables;
+  for (const Block& block : number_blocks(source.recording, source.analysis))
+    tables += "<h3>" + text(block.title) + "</h3>\n" + block_content(block);
   return section(" class=\"flows\" id=\"numbers\"", "All numbers",
-                 "<details><summary>The text report, as printed by the command line</summary>\n" +
-                     preformatted(to_text(source.recording, source.analysis)) + "</details>\n");
+                 "<details><summary>Frequency, cycles, spacing, prediction and tests as tables</summary>\n" + tables +
+                     "</details>\n");
 }
 
 }  // namespace
@@ -137,8 +141,9 @@ std::string to_html(const Recording& recording, const Analysis& analysis, const 
   page.headline = html::motion_sentence(source);
   page.summary = "<p class=\"reason\">" + html::capitalised(html::formula_text(analysis.motion_reason)) + "</p>\n" +
                  html::key_numbers(source) + html::warnings_part(analysis.warnings);
-  page.main = html::parameters_part(source) + html::coefficients_part(source) + html::figures_part(source) +
-              html::quality_part(source) + html::numbers_part(source) + html::repeat_part(source, origin);
+  page.main = html::parameters_part(source) + html::block_part(coefficients_block(analysis.coefficients)) +
+              html::figures_part(source) + html::block_part(quality_block(recording, analysis)) +
+              html::numbers_part(source) + html::repeat_part(source, origin);
   page.scripts = R"(<script type="application/json" id="trace-data">)" + html::trace_data(source) + "</script>\n" +
                  html::script_element(assets::trace_script());
   return html::page_from(page);

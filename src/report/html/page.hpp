@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "report/blocks.hpp"
 #include "report/html/figure.hpp"
 #include "slipfit/report/html.hpp"
 
@@ -38,9 +39,10 @@ std::string warnings_part(const Warnings& warnings);
 std::string parameters_part(const Source& source);
 /// The table alone.
 std::string parameter_table(const FitResult& fit);
-/// Empty without a load.
-std::string coefficients_part(const Source& source);
-std::string quality_part(const Source& source);
+/// The table of a block with its sentences.
+std::string block_content(const Block& block);
+/// <section> with the block; empty where that is.
+std::string block_part(const Block& block);
 std::string repeat_part(const Source& source, const ReportOrigin& origin);
 /// The recording for trace.js, as JSON that may stand in a <script>: force and residual in 65535 levels between their
 /// ends (a residual that the fit does not reach is level 65535), two bytes a sample in base64; times as a first and a

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "analysis/rules.hpp"
+#include "report/blocks.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
 #include "report/names.hpp"
-#include "report/quantities.hpp"
 #include "report/text_sections.hpp"
 
 namespace slipfit::html {
@@ -50,21 +50,6 @@ std::vector<std::string> each(const std::vector<std::string>& sentences, std::st
   items.reserve(sentences.size());
   for (const std::string& sentence : sentences) items.push_back(to_markup(sentence));
   return items;
-}
-
-std::string candidates_table(const FitResult& fit, ForceQuantity quantity) {
-  std::vector<std::vector<std::string>> rows;
-  for (const Candidate& candidate : fit.candidates) {
-    rows.push_back({text(name_of(candidate.tier)), candidate.chosen ? "chosen" : "not chosen",
-                    text(quantity_text(candidate.rms, force_unit(quantity))), formula_text(candidate.reason)});
-  }
-  return "<h3>Models compared</h3>\n" + table("", {"model", "", "#residual, rms", "why"}, rows);
-}
-
-std::vector<std::string> coefficient_row(std::string_view words, const Estimate& estimate) {
-  const EstimateRow shown = estimate_row(estimate, std::string());
-  return {text(words), text(shown.value), shown.interval.empty() ? "-" : text(shown.interval),
-          formula_text(estimate.note)};
 }
 
 }  // namespace
@@ -152,6 +137,22 @@ std::string parameter_table(const FitResult& fit) {
   return table(" class=\"parameters\"", {"parameter", "#value", "~unit", "~95 % interval", "what the data say"}, rows);
 }
 
+std::string block_content(const Block& block) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Row& row : block.rows) {
+    rows.push_back({formula_text(row.label), text(row.value), text(row.unit), text(row.interval),
+                    capitalised(formula_text(row.note))});
+  }
+  std::vector<std::string> sentences;
+  for (const std::string& sentence : block.sentences) sentences.push_back(capitalised(formula_text(sentence)));
+  return (rows.empty() ? "" : table(" class=\"parameters\"", {"", "#", "~", "~", ""}, rows)) + list(sentences);
+}
+
+std::string block_part(const Block& block) {
+  if (block.empty()) return {};
+  return section(fmt::format(" id=\"{}\" class=\"flows\"", block.id), text(block.title), block_content(block));
+}
+
 std::string parameters_part(const Source& source) {
   const Analysis& analysis = source.analysis;
   const auto part = [](const std::string& content) {
@@ -165,54 +166,8 @@ std::string parameters_part(const Source& source) {
   }
   const FitResult& fit = *analysis.fit;
   const bool is_doubtful = analysis.motion == MotionClass::Undetermined;
-  std::string content =
-      (is_doubtful ? "<p>Not to rely on: this may be no stick-slip.</p>\n" : "") + parameter_table(fit);
-  if (!fit.conditional_on.empty())
-    content += "<p class=\"guide\">Assumed in the fit:</p>\n" + list(each(fit.conditional_on, formula_text));
-  return part(content + candidates_table(fit, source.recording.conditions().quantity));
-}
-
-std::string coefficients_part(const Source& source) {
-  const auto& coefficients = source.analysis.coefficients;
-  if (!coefficients) return {};
-  std::vector<std::vector<std::string>> rows;
-  for (const auto& [words, estimate] : coefficient_rows(*coefficients))
-    rows.push_back(coefficient_row(words, estimate));
-  for (const StandardCoefficients& standard : coefficients->standards) {
-    Estimate kinetic = standard.kinetic_coefficient;
-    kinetic.note = standard.standard + " prescribes " + standard.prescribes + ". Here: " + differences_text(standard);
-    rows.push_back(coefficient_row("static, as " + standard.standard, standard.static_coefficient));
-    rows.push_back(coefficient_row("kinetic, as " + standard.standard, kinetic));
-  }
-  return section(" id=\"coefficients\" class=\"flows\"", "Coefficient of friction",
-                 table(" class=\"parameters\"", {"", "#value", "~95 % interval", "what it is"}, rows));
-}
-
-std::string quality_part(const Source& source) {
-  const Recording& recording = source.recording;
-  const Quality& quality = source.analysis.quality;
-  const std::string unit = force_unit(recording.conditions().quantity);
-  std::string facts = fact("samples", std::to_string(recording.size())) +
-                      fact("sampling rate", stated_text(1.0 / recording.sample_interval_s(), "Hz")) +
-                      fact("duration", quantity_text(recording.duration_s(), "s")) +
-                      fact("noise, rms", quantity_text(quality.noise_rms, unit));
-  if (quality.quantisation_step)
-    facts += fact("smallest step of the sensor", quantity_text(quality.quantisation_step, unit));
-  constexpr double kNoJitter = 1e-4;  // below it stands what rounding leaves of an even clock
-  const bool is_even = quality.clock_jitter < kNoJitter;
-  facts += fact("clock jitter", is_even ? "less than 0.01 % of a step"
-                                        : quantity_text(100.0 * quality.clock_jitter, "") + " % of a step");
-  if (source.analysis.fit && shows_cycles(source.analysis)) {
-    const Residual& residual = source.analysis.fit->residual;
-    facts += fact("residual of the fit, rms", quantity_text(residual.rms, unit));
-    if (residual.reduced_chi2)
-      facts +=
-          fact("residual over noise (1: only noise is left)", fmt::format("{:.2g}", std::sqrt(*residual.reduced_chi2)));
-  }
-  const std::vector<std::string> defects = defects_of(recording, quality);
-  return section(" id=\"quality\"", "Data quality",
-                 fact_list(facts) + (defects.empty() ? "<p>No gaps, no clipping, no impulses, no rows left out.</p>\n"
-                                                     : list(each(defects, text))));
+  return part((is_doubtful ? "<p>Not to rely on: this may be no stick-slip.</p>\n" : "") + parameter_table(fit)) +
+         block_part(models_block(fit, source.recording.conditions().quantity));
 }
 
 std::string repeat_part(const Source& source, const ReportOrigin& origin) {

@@ -91,7 +91,7 @@ std::string to_html(const Profile& profile, const Surface& surface, const std::s
   page.headline = html::surface_headline(surface);
   page.summary = html::warnings_part(surface.warnings);
   page.main = html::figure_part(html::profile_figure(profile, surface)) +
-              html::section(" id=\"numbers\"", "All numbers", html::preformatted(to_text(profile, surface)) + "\n") +
+              html::block_part(pattern_block(profile, surface)) +
               html::section(" id=\"repeat\"", "To repeat this", html::fact_list(html::command_fact(command_line)));
   return html::page_from(page);
 }

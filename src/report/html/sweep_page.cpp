@@ -106,20 +106,6 @@ std::string recordings_of(const SweepSource& source) {
                  table(" class=\"plain-table\"", columns, rows));
 }
 
-/// Of recordings that are all at one speed.
-std::string repeats_of(const std::vector<Repeat>& repeats) {
-  if (repeats.empty()) return {};
-  std::vector<std::vector<std::string>> rows;
-  rows.reserve(repeats.size());
-  for (const Repeat& repeat : repeats) {
-    rows.push_back({text(repeat.words), text(estimate_text(repeat.mean, repeat.unit)),
-                    text(quantity_text(repeat.standard_deviation, repeat.unit)), std::to_string(repeat.count)});
-  }
-  return section("", "At one speed: scatter between the recordings",
-                 table(" class=\"plain-table\"",
-                       {"", "mean, 95 % interval", "standard deviation between recordings", "#recordings"}, rows));
-}
-
 std::string traces_of(const SweepSource& source) {
   std::string parts;
   for (const Figure& figure : sweep_traces_figures(source)) parts += figure_part(figure);
@@ -180,7 +166,7 @@ std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sw
       "<p class=\"reason\">" + html::formula_text(sweep.fit_reason) + "</p>\n" + html::warnings_part(sweep.warnings);
   page.main = html::parameters_of(sweep) + html::figure_part(html::sweep_spacing_figure(source)) +
               html::figure_part(html::sweep_friction_figure(source)) + html::recordings_of(source) +
-              html::repeats_of(sweep.repeats) + html::figure_part(html::sweep_cycles_figure(source)) +
+              html::block_part(repeats_block(sweep.repeats)) + html::figure_part(html::sweep_cycles_figure(source)) +
               html::traces_of(source) + html::repeat_of(source, origin);
   return html::page_from(page);
 }

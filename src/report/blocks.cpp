@@ -1,0 +1,296 @@
+#include "report/blocks.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/names.hpp"
+#include "report/quantities.hpp"
+#include "slipfit/core/printable.hpp"
+
+namespace slipfit {
+namespace {
+
+/// "5.983 N" with the note "standard deviation 0.054 N": rounded by the spread, both in one unit.
+Row with_spread(const char* label, std::optional<double> value, std::optional<double> spread,
+                const std::string& SI_unit) {
+  if (!value || !spread) return {label, quantity_text(value, SI_unit)};
+  const DisplayUnit unit = display_unit(SI_unit, value);
+  const double shown_spread = *spread * unit.per_SI;
+  const std::string blank_unit = unit.unit.empty() ? std::string() : " " + unit.unit;
+  return {label,
+          rounded(*value * unit.per_SI, shown_spread) + blank_unit,
+          {},
+          {},
+          "standard deviation " + rounded(shown_spread, shown_spread) + blank_unit};
+}
+
+/// Empty where the level has no significant trend.
+std::optional<Row> trend_row(const Analysis& analysis, ForceQuantity quantity) {
+  if (!analysis.fit || !analysis.fit->level_trend.level_range) return std::nullopt;
+  const LevelTrend& trend = analysis.fit->level_trend;
+  const char* const reading = trend.reading == LevelReading::Sensor ? "drift of the sensor"
+                              : trend.reading == LevelReading::Friction
+                                  ? "change of the friction"
+                                  : "drift of the sensor or change of the friction";
+  const char* const unit = quantity == ForceQuantity::Force_N ? " N/s" : " /s";
+  return Row{"trend of the level", with_error(trend.rate_per_s) + unit, {}, {}, reading};
+}
+
+std::string regime_sentence(Regime regime) {
+  if (regime == Regime::StickSlipBistable) {
+    return "regime: stick-slip from rest; steady sliding, once reached, persists too (bistable)";
+  }
+  std::string words(name_of(regime));
+  std::ranges::replace(words, '_', '-');
+  return "regime: " + words;
+}
+
+std::string whiteness_sentence(double p) {
+  constexpr double kLevel = 1e-3;
+  constexpr double kSmallestPrinted = 1e-6;  // the normal approximation is not accurate that far into its tail
+  return fmt::format("residuals: {} (whiteness p {}, level {:g})",
+                     p < kLevel ? "neighbouring residuals are correlated, so the model misses a pattern"
+                                : "consistent with white noise",
+                     p > kSmallestPrinted ? fmt::format("{:.2g}", p) : "below 1e-6", kLevel);
+}
+
+/// What is wrong with the samples: "4 gaps, the longest 120 ms", ...
+std::vector<std::string> defects_of(const Recording& recording, const Quality& quality) {
+  const Provenance& provenance = recording.provenance();
+  std::vector<std::string> found;
+  const auto add = [&found](std::size_t count, const char* what) {
+    if (count > 0) found.push_back(fmt::format("{} {}", count, what));
+  };
+  add(quality.clipped_samples, "samples at the end of the sensor's range");
+  add(quality.impulses, "isolated impulses, left out");
+  add(quality.gaps, "gaps");
+  if (quality.gaps > 0) found.back() += ", the longest " + quantity_text(quality.longest_gap_s, "s");
+  add(provenance.rows_without_number, "rows without a number, left out");
+  add(provenance.rows_backward_in_time, "rows backward in time, left out");
+  add(provenance.rows_repeating_time, "repeated time stamps, kept");
+  if (found.empty()) found.emplace_back("No gaps, no clipping, no impulses, no rows left out");
+  return found;
+}
+
+template <class Unit>
+void add_estimate(std::vector<Row>& rows, std::string_view label, const Estimate& estimate, const Unit& unit) {
+  if (!estimate.value && !estimate.ci95 && estimate.note.empty()) return;
+  const EstimateRow shown = estimate_row(estimate, unit);
+  rows.push_back({std::string(label), shown.value, shown.unit, shown.interval, printable(estimate.note)});
+}
+
+}  // namespace
+
+void Block::add(std::string_view label, const Estimate& estimate, const std::string& SI_unit) {
+  add_estimate(rows, label, estimate, SI_unit);
+}
+
+void Block::add(std::string_view label, const Estimate& estimate, const DisplayUnit& unit) {
+  add_estimate(rows, label, estimate, unit);
+}
+
+namespace {
+
+Block frequency_block(const FrequencyReport& frequency) {
+  const auto row = [](const char* label, const Estimate& estimate, const std::string& interval, std::string note) {
+    if (estimate.value) return Row{label, with_error(estimate) + " Hz", {}, interval, std::move(note)};
+    return Row{label, "none", {}, {}, printable(estimate.note)};
+  };
+  const SpectralFrequency& spectral = frequency.spectral;
+  const std::size_t lines = spectral.harmonics_Hz.size();
+  Block block{"frequency", "Frequency"};
+  block.rows = {
+      row("by FFT", {spectral.value_Hz, spectral.standard_error_Hz, {}, "no repetition stands out of the spectrum"}, {},
+          fmt::format("{} {}, false-alarm probability {:.1g}", lines, lines == 1 ? "harmonic" : "harmonics",
+                      spectral.false_alarm_probability)),
+      row("by counting slips", frequency.counted, {}, {}),
+      row("result", frequency.quoted, estimate_row(frequency.quoted, std::string("Hz")).interval,
+          "method: " + plain_words(name_of(frequency.method)))};
+  for (const SuspiciousLine& line : frequency.lines) {
+    block.sentences.push_back(
+        fmt::format("suspicious line at {}: {}", quantity_text(line.frequency_Hz, "Hz"), printable(line.reason)));
+  }
+  return block;
+}
+
+Block cycles_block(const Analysis& analysis, ForceQuantity quantity) {
+  const CycleStatistics& cycles = analysis.cycles;
+  const std::string unit = force_unit(quantity);
+  Block block{"cycles-numbers", "Cycles"};
+  block.rows = {{"slips",
+                 std::to_string(cycles.count),
+                 {},
+                 {},
+                 fmt::format("{} minor{}, {} used in the fit", cycles.minor,
+                             cycles.minor > 0 ? " (drop below a quarter of the median)" : "", cycles.used)},
+                with_spread("period", cycles.period_s, cycles.period_sd_s, "s"),
+                {"rhythm", cycles.regularity ? std::string(name_of(*cycles.regularity)) : "-"},
+                {"slip time", quantity_text(cycles.slip_time_s, "s")},
+                {"stick time", quantity_text(cycles.stick_time_s, "s")},
+                {"sticking degree", quantity_text(cycles.sticking_degree, "")},
+                with_spread("peak force", cycles.peak_force, cycles.peak_force_sd, unit),
+                {"trough force", quantity_text(cycles.trough_force, unit)},
+                with_spread("force drop", cycles.force_drop, cycles.force_drop_sd, unit)};
+  std::erase_if(block.rows, [](const Row& row) { return row.value == "-"; });
+  if (cycles.stick_stiffness.value && quantity == ForceQuantity::Force_N)
+    block.rows.push_back({"slope of the sticks / V", with_error(cycles.stick_stiffness) + " N/m"});
+  if (auto trend = trend_row(analysis, quantity)) block.rows.push_back(*std::move(trend));
+  return block;
+}
+
+Block transients_block(const Transients& transients, ForceQuantity quantity) {
+  Block block{"transients", "Before and after the sliding"};
+  for (const auto& row : kTransients) {
+    if (row.unit == "N/m" && quantity != ForceQuantity::Force_N) continue;
+    const Estimate& estimate = transients.*row.estimate;
+    if (estimate.value) block.add(row.words, estimate, row.unit == "N" ? force_unit(quantity) : std::string(row.unit));
+  }
+  return block;
+}
+
+Block spacing_block(const Conditions& conditions, const Derived& derived) {
+  Block block{"spacing", "Spacing, measured (V/f) at " + speed_text(conditions)};
+  for (const auto& row : kMeasured) block.add(row.words, derived.*row.estimate, std::string(row.unit));
+  block.add("spread of the spacing over cycles (sd)", {derived.pattern_spacing_sd_m, {}, {}, {}}, "m");
+  if (block.rows.empty()) block.sentences.emplace_back("none");
+  return block;
+}
+
+Block surface_block(const Derived& derived) {
+  Block block{"worn-surface", "On the worn surface"};
+  if (!derived.surface_spacing_m) return block;
+  block.add("pattern on the worn surface", *derived.surface_spacing_m, "m");
+  block.add("over the spacing by force (V/f)", derived.surface_ratio.value_or(Estimate{}), "");
+  block.add("E_n of the two (within +-1: agree)", derived.surface_En.value_or(Estimate{}), "");
+  block.sentences.push_back(printable(derived.surface_verdict));
+  return block;
+}
+
+Block predicted_block(const Conditions& conditions, const Derived& derived) {
+  Block block{"predicted", "Predicted by the model at this speed"};
+  if (!derived.lambda.value && !derived.lambda.note.empty()) {
+    block.sentences.push_back("nothing: " + printable(derived.lambda.note));
+    return block;
+  }
+  for (const auto& row : kPredicted) {
+    const Estimate& estimate = derived.*row.estimate;
+    if (row.unit == "m/s") {
+      block.add(row.words, estimate, speed_unit(conditions.speed_unit, estimate.value));
+    } else {
+      block.add(row.words, estimate, std::string(row.unit));
+    }
+  }
+  if (derived.regime) block.sentences.push_back(regime_sentence(*derived.regime));
+  return block;
+}
+
+Block tests_block(const std::vector<ShortTest>& tests) {
+  Block block{"tests", "Tests"};
+  for (const ShortTest& test : tests) block.sentences.push_back(printable(test.finding));
+  return block;
+}
+
+}  // namespace
+
+Block coefficients_block(const std::optional<Coefficients>& coefficients) {
+  Block block{"coefficients", "Coefficient of friction"};
+  if (!coefficients) return block;
+  for (const auto& row : kCoefficients) block.add(row.words, (*coefficients).*row.estimate, "");
+  for (const auto& row : kCoefficientThirds) block.add(row.words, (*coefficients).*row.estimate, "");
+  for (const auto& row : kCoefficientSpreads) block.add(row.words, {(*coefficients).*row.value, {}, {}, {}}, "");
+  for (const StandardCoefficients& standard : coefficients->standards) {
+    Estimate kinetic = standard.kinetic_coefficient;
+    kinetic.note = fmt::format("{} prescribes {}. Here: {}", standard.standard, standard.prescribes,
+                               standard.differs.empty() ? std::string("as prescribed, as far as a recording shows it")
+                                                        : fmt::format("{}", fmt::join(standard.differs, "; ")));
+    block.add("static, as " + standard.standard, standard.static_coefficient, "");
+    block.add("kinetic, as " + standard.standard, kinetic, "");
+  }
+  return block;
+}
+
+Block quality_block(const Recording& recording, const Analysis& analysis) {
+  const Quality& quality = analysis.quality;
+  const Conditions& conditions = recording.conditions();
+  const std::string unit = force_unit(conditions.quantity);
+  Block block{"quality", "Data quality"};
+  block.rows = {{"samples", std::to_string(recording.size())},
+                {"sampling rate", stated_text(1.0 / recording.sample_interval_s(), "Hz")},
+                {"duration", quantity_text(recording.duration_s(), "s")},
+                {"force that the sensor sees", std::string(name_of(conditions.force_view))}};
+  if (conditions.normal_force_N) block.rows.push_back({"normal force", stated_text(*conditions.normal_force_N, "N")});
+  block.rows.push_back({"noise, rms", quantity_text(quality.noise_rms, unit)});
+  if (quality.quantisation_step)
+    block.rows.push_back({"smallest step of the sensor", quantity_text(quality.quantisation_step, unit)});
+  constexpr double kNoJitter = 1e-4;  // rounding leaves as much of an even clock
+  const bool is_even = quality.clock_jitter < kNoJitter;
+  block.rows.push_back({"clock jitter", is_even ? "less than 0.01 % of a step"
+                                                : quantity_text(100.0 * quality.clock_jitter, "") + " % of a step"});
+  block.sentences = defects_of(recording, quality);
+  const TimeSpan& sliding = analysis.sliding;
+  if (sliding.end_s - sliding.begin_s < recording.duration_s()) {
+    block.sentences.push_back(
+        fmt::format("sliding from {:.6g} to {:.6g} s: all numbers are of this stretch (--window T0:T1 chooses another)",
+                    sliding.begin_s, sliding.end_s));
+  }
+  return block;
+}
+
+Block models_block(const FitResult& fit, ForceQuantity quantity) {
+  Block block{"models", "Models compared"};
+  const std::string unit = force_unit(quantity);
+  for (const Candidate& candidate : fit.candidates) {
+    block.rows.push_back({std::string(name_of(candidate.tier)),
+                          candidate.rms ? quantity_text(candidate.rms, unit) + " rms" : "",
+                          candidate.chosen ? "chosen" : "not chosen",
+                          {},
+                          printable(candidate.reason)});
+  }
+  std::string residual = fmt::format("residual {} rms", quantity_text(fit.residual.rms, unit));
+  if (const auto chi2 = fit.residual.reduced_chi2)
+    residual += fmt::format(", {:.2g} times the noise (reduced chi2 {:.3g})", std::sqrt(*chi2), *chi2);
+  block.sentences.push_back(residual);
+  if (fit.residual.whiteness_p) block.sentences.push_back(whiteness_sentence(*fit.residual.whiteness_p));
+  for (const std::string& condition : fit.conditional_on) block.sentences.push_back("assumed: " + printable(condition));
+  return block;
+}
+
+Block repeats_block(const std::vector<Repeat>& repeats) {
+  Block block{"repeats", "At one speed: scatter between the recordings"};
+  for (const Repeat& repeat : repeats) {
+    Estimate mean = repeat.mean;
+    mean.note = fmt::format("standard deviation {} between {} recordings",
+                            quantity_text(repeat.standard_deviation, repeat.unit), repeat.count);
+    block.add(repeat.words, mean, repeat.unit);
+  }
+  return block;
+}
+
+std::vector<Block> number_blocks(const Recording& recording, const Analysis& analysis) {
+  const Conditions& conditions = recording.conditions();
+  std::vector<Block> blocks{frequency_block(analysis.frequency)};
+  if (analysis.motion != MotionClass::SteadySliding) blocks.push_back(cycles_block(analysis, conditions.quantity));
+  blocks.push_back(transients_block(analysis.transients, conditions.quantity));
+  blocks.push_back(spacing_block(conditions, analysis.derived));
+  blocks.push_back(surface_block(analysis.derived));
+  const bool moves_like_model =
+      analysis.motion == MotionClass::StickSlip || analysis.motion == MotionClass::OscillatorySlip;
+  if (moves_like_model) blocks.push_back(predicted_block(conditions, analysis.derived));
+  blocks.push_back(tests_block(analysis.tests));
+  std::erase_if(blocks, [](const Block& block) { return block.empty(); });
+  return blocks;
+}
+
+std::string text_of(const Block& block) {
+  if (block.empty()) return {};
+  Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
+  for (const Row& row : block.rows) table.add({row.label, row.value, row.unit, row.interval, row.note});
+  std::string text = "\n" + block.title + "\n" + table.text();
+  for (const std::string& sentence : block.sentences) text += "  - " + sentence + "\n";
+  return text;
+}
+
+}  // namespace slipfit
