@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/thresholds.hpp"
+#include "signal/sinusoids.hpp"
 
 namespace slipfit {
 namespace {
@@ -31,21 +32,14 @@ struct Sine {
   double rest = 1.0;  ///< share of the sum of squares about the trend that it leaves
 };
 
-Eigen::MatrixXd trend_of(const Series& series) {
+Eigen::VectorXd without_trend(const Series& series) {
   Eigen::MatrixXd trend(series.size(), 2);
   trend << Eigen::VectorXd::Ones(series.size()), series.place;
-  return trend;
-}
-
-Eigen::VectorXd without_trend(const Series& series) {
-  const Eigen::MatrixXd trend = trend_of(series);
   return series.value - trend * trend.colPivHouseholderQr().solve(series.value);
 }
 
 Sine sine_in(const Series& series, double waves) {
-  const Eigen::ArrayXd phase = 2.0 * std::numbers::pi * waves * series.place.array();
-  Eigen::MatrixXd columns(series.size(), 4);
-  columns << trend_of(series), phase.cos().matrix(), phase.sin().matrix();
+  const Eigen::MatrixXd columns = signal::line_and_harmonics(series.place, waves, 1);
   const Eigen::VectorXd fitted = columns.colPivHouseholderQr().solve(series.value);
   const double all = without_trend(series).squaredNorm();
   const double rest = (series.value - columns * fitted).squaredNorm();

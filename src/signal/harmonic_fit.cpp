@@ -1,6 +1,5 @@
 #include "signal/phase_track.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,23 +7,19 @@
 
 #include "core/student.hpp"
 #include "signal/robust.hpp"
+#include "signal/sinusoids.hpp"
 
 namespace slipfit::signal {
 namespace {
 
-/// The trace in means of a few samples, time and force from their middles.
-struct Points {
-  Eigen::VectorXd time_s;
-  Eigen::VectorXd force;
-  Eigen::VectorXd weight;  ///< Hann: without it the harmonics that are left out pull at both ends (0.8 % at 4 cycles)
-};
-
-Points thinned(const Recording& recording, double highest_Hz) {
+/// The trace in means of a few samples, time and force from their middles. Weights of Hann: without them the harmonics
+/// that are left out pull at both ends (0.8 % at 4 cycles).
+Samples thinned(const Recording& recording, double highest_Hz) {
   const std::span<const double> time = recording.time_s();
   const double step = recording.duration_s() / static_cast<double>(recording.size() - 1);
   const auto factor = static_cast<std::size_t>(std::max(1.0, 1.0 / (8.0 * highest_Hz * step)));
   const auto count = static_cast<Eigen::Index>(recording.size() / factor);
-  Points points{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
+  Samples points{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
   const double middle = 0.5 * (time.front() + time.back());
   for (Eigen::Index row = 0; row < count; ++row) {
     for (std::size_t k = 0; k < factor; ++k) {
@@ -36,57 +31,6 @@ Points thinned(const Recording& recording, double highest_Hz) {
   points.force.array() -= points.force.mean();
   points.weight = 1.0 + (2.0 * std::numbers::pi / recording.duration_s() * points.time_s.array()).cos();
   return points;
-}
-
-/// Columns: 1, t, then cosine and sine of every harmonic, each turned on from the one before it by the fundamental.
-Eigen::MatrixXd design(const Points& points, double frequency_Hz, std::size_t harmonics) {
-  const auto waves = static_cast<Eigen::Index>(harmonics);
-  Eigen::MatrixXd columns(points.time_s.size(), 2 + 2 * waves);
-  columns.col(0).setOnes();
-  columns.col(1) = points.time_s;
-  const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * frequency_Hz * points.time_s.array();
-  columns.col(2) = angle.cos();
-  columns.col(3) = angle.sin();
-  const auto turn_c = columns.col(2).array();
-  const auto turn_s = columns.col(3).array();
-  for (Eigen::Index h = 1; h < waves; ++h) {
-    const auto c = columns.col(2 * h).array();
-    const auto s = columns.col(2 * h + 1).array();
-    columns.col(2 * h + 2) = c * turn_c - s * turn_s;
-    columns.col(2 * h + 3) = c * turn_s + s * turn_c;
-  }
-  return columns;
-}
-
-struct Step {
-  double change_Hz = 0.0;
-  Eigen::VectorXd residual;
-  Eigen::VectorXd influence;  ///< change of the frequency for a unit change of every point
-};
-
-Step newton_step(const Points& points, double frequency_Hz, std::size_t harmonics) {
-  const auto waves = static_cast<Eigen::Index>(harmonics);
-  const Eigen::MatrixXd columns = design(points, frequency_Hz, harmonics);
-  const Eigen::MatrixXd weighted = points.weight.asDiagonal() * columns;
-  const Eigen::MatrixXd normal = weighted.transpose() * columns;
-  const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
-  const Eigen::VectorXd weights = solver.solve(weighted.transpose() * points.force);
-  Eigen::VectorXd slope = Eigen::VectorXd::Zero(points.time_s.size());
-  for (Eigen::Index h = 0; h < waves; ++h) {
-    const double turn = 2.0 * std::numbers::pi * static_cast<double>(h + 1);
-    slope.array() +=
-        turn * points.time_s.array() *
-        (weights[3 + 2 * h] * columns.col(2 + 2 * h) - weights[2 + 2 * h] * columns.col(3 + 2 * h)).array();
-  }
-  Step step;
-  step.residual = points.force - columns * weights;
-  // What the linear columns can take over tells nothing about the frequency.
-  slope -= columns * solver.solve(weighted.transpose() * slope);
-  const Eigen::VectorXd pull = points.weight.cwiseProduct(slope);
-  const double information = pull.dot(slope);
-  step.influence = information > 0.0 ? Eigen::VectorXd(pull / information) : Eigen::VectorXd::Zero(slope.size());
-  step.change_Hz = step.influence.dot(step.residual);
-  return step;
 }
 
 /// Noise of the residuals from their second differences, which see little of what varies slowly.
@@ -103,7 +47,7 @@ double noise_variance(const Eigen::VectorXd& residual) {
 /// (Newey and West). The latter comes from periods that scatter, that is a phase that walks at random; of a walk the
 /// straight line fitted to N cycles leaves N/15 of the variance of one step in the residuals, but is itself off by
 /// 6/5 of it over N: 3/2 N times what independent errors of the size of the residuals would make.
-double variance(const Step& step, double cycles, double points_per_period) {
+double variance(const HarmonicStep& step, double cycles, double points_per_period) {
   const Eigen::VectorXd score = step.influence.cwiseProduct(step.residual);
   const Eigen::Index n = score.size();
   const Eigen::Index reach = std::min<Eigen::Index>(n - 1, static_cast<Eigen::Index>(points_per_period) + 1);
@@ -120,12 +64,12 @@ double variance(const Step& step, double cycles, double points_per_period) {
 }  // namespace
 
 std::optional<TrackedFrequency> fit_harmonics(const Recording& recording, double near_Hz, std::size_t harmonics) {
-  const Points points = thinned(recording, near_Hz * static_cast<double>(harmonics));
+  const Samples points = thinned(recording, near_Hz * static_cast<double>(harmonics));
   if (points.time_s.size() < static_cast<Eigen::Index>(2 * harmonics + 6)) return std::nullopt;
   const double resolution_Hz = 1.0 / recording.duration_s();
   double frequency = near_Hz;
   for (int pass = 0; pass < 12; ++pass) {
-    const Step step = newton_step(points, frequency, harmonics);
+    const HarmonicStep step = harmonic_step(points, frequency, harmonics);
     const double change = std::clamp(step.change_Hz, -0.1 * resolution_Hz, 0.1 * resolution_Hz);
     frequency += change;
     if (!std::isfinite(frequency) || std::abs(frequency - near_Hz) > 0.7 * resolution_Hz) return std::nullopt;
