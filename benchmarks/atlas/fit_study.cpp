@@ -104,7 +104,6 @@ Panel panel_over(const Sweep& sweep, const Axis& y) {
   panel.height_px = 300.0;
   panel.x = {sweep.label, sweep.values.front(), sweep.values.back(), Scale::Logarithmic};
   panel.y = y;
-  panel.legend = {0.5, y.scale == Scale::Linear ? 0.5 : 1.0};
   return panel;
 }
 
@@ -184,7 +183,6 @@ std::vector<Panel> time_panels(std::size_t trials) {
     panels[i].height_px = 330.0;
     panels[i].x = {"CPU time of the fit  [ms]", 0.03, 1e4, Scale::Logarithmic};
     panels[i].y = {kShown[i].second, 0.1, 1e7, Scale::Logarithmic};
-    panels[i].legend = {1.0, 1.0};
     panels[i].lines.push_back(draw_front(usual[i], 1e4));
     if (i > 0) strip_legend(panels[i]);
   }

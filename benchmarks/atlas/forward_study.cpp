@@ -101,7 +101,6 @@ Panel pareto_panel(const std::vector<Summary>& summaries, double Summary::*error
   panel.height_px = 430.0;
   panel.x = {"CPU time for one cycle with 200 samples of its waveform  [µs]", 0.1, 1e6, Scale::Logarithmic};
   panel.y = {label, 1e-17, 10.0, Scale::Logarithmic};
-  panel.legend = {1.0, 0.15};
   std::map<std::string, std::vector<Point>> families;
   std::vector<std::string> order;
   std::vector<Point> all;
@@ -137,7 +136,6 @@ Panel lambda_panel(Effort effort) {
   panel.height_px = 430.0;
   panel.x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", 0.3, 2e5, Scale::Logarithmic};
   panel.y = {"relative error of the period  [-]", 1e-17, 10.0, Scale::Logarithmic};
-  panel.legend = {1.0, 0.5};
   const std::map<std::string, std::string> settings{{"RK4, sign switching", "0.01"},
                                                     {"time stepping (Moreau)", "0.01"},
                                                     {"ODE 5(4), event location", "1e-07"},

@@ -85,7 +85,6 @@ Panel error_panel(const Sweep& sweep) {
   panel.height_px = 360.0;
   panel.x = {sweep.label, sweep.values.front(), sweep.values.back(), Scale::Logarithmic};
   panel.y = {"relative error of the frequency  [-]", kLeast, 10.0, Scale::Logarithmic};
-  panel.legend = {0.0, 1.0};
   return panel;
 }
 
@@ -127,7 +126,6 @@ Panel time_panel(Effort effort, std::size_t trials) {
   panel.height_px = 400.0;
   panel.x = {"CPU time for one recording of 40 cycles, about 4000 samples  [µs]", 20.0, 1e6, Scale::Logarithmic};
   panel.y = {"relative error of the frequency  [-]", 1e-7, 1.0, Scale::Logarithmic};
-  panel.legend = {1.0, 1.0};
   const std::vector<std::pair<double, std::string>> noises{{0.002, "0.002"}, {0.02, "0.02"}, {0.2, "0.2"}};
   std::vector<Point> usual;
   for (const FrequencyMethod& method : frequency_methods()) {

@@ -62,25 +62,18 @@ struct Axis {
   Scale scale = Scale::Linear;
 };
 
-/// 0 = left or bottom, 1 = right or top, as parts of the room inside the axes.
-struct Place {
-  double right = 0.0;
-  double up = 1.0;
-};
-
-/// Inside the axes at `Panel::legend`, in rows above them, or in the panel above, which has the same.
-enum class LegendAt { Inside, Above, None };
+/// In rows above the axes, or in the panel above, which has the same.
+enum class LegendAt { Above, None };
 
 struct Panel {
   Axis x;
   Axis y;
   double height_px = 330.0;
-  Place legend;
   std::vector<Area> areas;  ///< later ones cover earlier ones; all under the lines, markers and notes
   std::vector<Line> lines;
   std::vector<Markers> markers;
   std::vector<Note> notes;
-  LegendAt legend_at = LegendAt::Inside;
+  LegendAt legend_at = LegendAt::Above;
 };
 
 /// Panels from top to bottom, with 90 px beside their axes.
@@ -102,7 +95,7 @@ struct PagePlace {
 };
 
 /// An element <svg class="chart"> of a page, without title and remarks, as wide as its surroundings. Colours, grid and
-/// letters come from the page's style sheet (classes grid, axes, legend, entries, label, value, note). Panels carry
+/// letters come from the page's style sheet (classes grid, axes, entries, label, value, note). Panels carry
 /// their axes, lines, areas and markers their names, as data- attributes: save.js reads the points back from them.
 std::string to_page_svg(const Chart& chart, const PagePlace& place);
 

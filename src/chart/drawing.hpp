@@ -67,7 +67,7 @@ struct Frame {
   double height = 0.0;
 };
 
-/// Room that the legend takes above the axes; 0 where it stands inside them.
+/// Room that the legend takes above the axes; 0 without one.
 double legend_height_px(const Panel& panel, double width_px);
 
 /// Everything with a name, in the order lines, markers, areas. `id`: of the picture.

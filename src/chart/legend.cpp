@@ -63,31 +63,17 @@ std::vector<Spot> rows_of(const std::vector<Entry>& entries, double width_px) {
   return spots;
 }
 
-void draw_box(Drawing& drawing, const Panel& panel, const Frame& frame, const std::vector<Entry>& entries,
-              const std::string& id) {
-  double longest = 0.0;
-  for (const Entry& entry : entries) longest = std::max(longest, letters_in(entry.name));
-  const double width = kSample + 22.0 + kCharacter * longest;
-  const double height = 10.0 + kLineHeight_px * static_cast<double>(entries.size());
-  const double left = frame.left + 8.0 + panel.legend.right * (frame.width - 16.0 - width);
-  double y = frame.top + 8.0 + (1.0 - panel.legend.up) * (frame.height - 16.0 - height);
-  drawing.box(left, y, width, height, "class=\"legend\"");
-  y += 5.0 - 0.5 * kLineHeight_px;
-  for (const Entry& entry : entries) draw_entry(drawing, entry, {left + 7.0, y += kLineHeight_px}, id);
-}
-
 }  // namespace
 
 double legend_height_px(const Panel& panel, double width_px) {
   const std::vector<Entry> entries = entries_of(panel);
-  if (panel.legend_at == LegendAt::Inside || entries.empty()) return 0.0;
+  if (entries.empty()) return 0.0;
   return rows_of(entries, width_px).back().y + kLineHeight_px + 6.0;
 }
 
 void draw_legend(Drawing& drawing, const Panel& panel, const Frame& frame, const std::string& id) {
   const std::vector<Entry> entries = entries_of(panel);
   if (entries.empty()) return;
-  if (panel.legend_at == LegendAt::Inside) return draw_box(drawing, panel, frame, entries, id);
   const double top = frame.top - legend_height_px(panel, frame.width) + 0.5 * kLineHeight_px;
   const std::vector<Spot> spots = rows_of(entries, frame.width);
   drawing.raw("<g class=\"entries\">\n");

@@ -202,8 +202,7 @@ class PanelDrawing {
 constexpr const char* kStyle =
     "<style>text{font-family:Helvetica,Arial,sans-serif;fill:#222}.title{font-size:16px;font-weight:bold}"
     ".remark{font-size:12px}.label{font-size:13px}.value{font-size:12px}.note{font-size:12px}"
-    ".grid{fill:none;stroke:#DDD;stroke-width:0.7}.axes{fill:none;stroke:#444}"
-    ".legend{fill:#FFF;fill-opacity:0.85;stroke:#CCC;stroke-width:0.7}</style>\n";
+    ".grid{fill:none;stroke:#DDD;stroke-width:0.7}.axes{fill:none;stroke:#444}</style>\n";
 
 /// Panels from top to bottom; returns where they end.
 double draw_panels(Drawing& drawing, const Chart& chart, double top, const std::string& id) {

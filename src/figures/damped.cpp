@@ -80,7 +80,6 @@ chart::Chart chart_of(chart::Panel whole) {
   close.x.high = 1.8;
   close.y.high = 0.35;
   add_keys(whole);
-  whole.legend = {1.0, 0.0};
   for (const PrintedLimit& printed : kPrintedLimits) {
     const double critical = critical_lambda(printed.damping_ratio);
     close.notes.push_back({{critical, sticking_degree_at_limit(printed.damping_ratio)},

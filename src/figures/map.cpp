@@ -58,7 +58,6 @@ chart::Panel map_of(const Limits& limits) {
   panel.height_px = 420.0;
   panel.x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", kLeft, kRight, kLog};
   panel.y = {"damping ratio ζ  [-]", kBottom, kTop, kLog};
-  panel.legend = {1.0, 0.0};
   panel.areas = {{"", Colour::SkyBlue, Fill::Plain, right_of(limits.exact)},
                  {"", Colour::Grey, Fill::Plain, {{kLeft, 1}, {kLeft, kTop}, {kRight, kTop}, {kRight, 1}}},
                  {"left of it: eq. (36) has no solution", Colour::Purple, Fill::Hatched, left_of(limits.first_root)}};

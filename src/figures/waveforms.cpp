@@ -69,7 +69,6 @@ std::vector<FigureFile> velocity_ratio() {
   }
   panel.x = {kTimeLabel, 0.0, 14.0};
   panel.y = {"velocity ratio v* = (sliding speed) / V  [-]", 0.0, 6.5};
-  panel.legend = {1.0, 1.0};
   panel.markers.push_back({"end of slip", Colour::Grey, chart::Shape::Ring, {}});
   panel.markers.push_back({"end of stick", Colour::Grey, chart::Shape::Cross, {}});
   const chart::Chart chart{"Figure 5: velocity ratio in one period, undamped",
@@ -99,7 +98,6 @@ std::vector<FigureFile> spring_force() {
   }
   panel.x = {kTimeLabel, 0.0, 17.0};
   panel.y = {"spring force Fₑ* = Fₑ / (Fₛ − Fₖ)  [-]", -1.0, 8.0};
-  panel.legend = {1.0, 1.0};
   panel.areas = {{"spring in compression", Colour::Grey, chart::Fill::Plain, {{0, -1}, {0, 0}, {17, 0}, {17, -1}}}};
   const chart::Chart chart{"Figure 6: spring force in two periods at λ = 2, undamped",
                            {"Exact; so are the paper's eqs (26) and (27). γ = Fₛ/Fₖ.",

@@ -93,7 +93,6 @@ Panel panel_of(const Source& source, const Stack& stack, CycleWindow window) {
   const bool has_model = std::ranges::any_of(model.points, [](const Point& p) { return std::isfinite(p.y); });
   Panel panel;
   panel.height_px = 240.0;
-  panel.legend_at = chart::LegendAt::Above;
   panel.lines.push_back(std::move(measured));
   if (has_model) panel.lines.push_back(std::move(model));
   for (chart::Line& line : panel.lines) {

@@ -52,7 +52,6 @@ chart::Panel spectrum_panel(const Source& source, const std::vector<Point>& poin
   const DisplayUnit unit = source.force_unit;
   const Spectrum& spectrum = source.background.spectrum;
   chart::Panel panel;
-  panel.legend_at = chart::LegendAt::Above;
   panel.height_px = 280.0;
   Span heights;
   for (const Point& point : points) heights.add(point.y);
@@ -138,7 +137,6 @@ chart::Panel pairs_panel(const Source& source, const std::vector<Point>& pairs) 
     troughs.add(pair.y);
   }
   chart::Panel panel;
-  panel.legend_at = chart::LegendAt::Above;
   panel.x = peaks.linear_axis(label_with_unit("peak above kinetic friction", unit));
   troughs.add(-*reflection.value * peaks.low());
   troughs.add(-*reflection.value * peaks.high());

@@ -34,7 +34,6 @@ Spot spot_of(const Analysis& analysis) {
 chart::Panel regions(const std::vector<LimitPoint>& limit, double left, double right) {
   chart::Panel panel;
   panel.height_px = 340.0;
-  panel.legend_at = chart::LegendAt::Above;
   panel.x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", left, right, chart::Scale::Logarithmic};
   panel.y = {"damping ratio ζ  [-]", kLowestZeta, kHighestZeta, chart::Scale::Logarithmic};
   chart::Line exact{"exact limit of stick-slip", Colour::Black, Stroke::Solid, {}};

@@ -117,7 +117,6 @@ class SpeedPanel {
                                const Estimate& critical_speed = {}) const {
     Panel panel = panel_;
     panel.height_px = 300.0;
-    panel.legend_at = chart::LegendAt::Above;
     panel.x = speeds_.logarithmic_axis(label_with_unit("driving speed", speed_unit_.unit));
     const std::string full = label_with_unit(label, unit_.unit);
     if (scale == chart::Scale::Logarithmic) {
@@ -318,7 +317,6 @@ Panel trace_panel(const SweepEntry& entry) {
   }
   Panel panel;
   panel.height_px = 80.0;
-  panel.legend_at = chart::LegendAt::Above;
   panel.x = {"time [s]", recording.time_s().front(), recording.time_s().back()};
   panel.y = heights.linear_axis(label_with_unit("force", unit.unit));
   panel.lines.push_back({fmt::format("{}, {}", entry.id, speed_text(recording.conditions())), Colour::Grey,

@@ -52,7 +52,6 @@ chart::Panel profile_panel(const Profile& profile, const Surface& surface, const
   panel.y = {units.height.unit.empty() ? "height (as in the file)" : "height (" + units.height.unit + ")",
              span.low() - 0.05 * room, span.high() + 0.15 * room};
   panel.height_px = 240.0;
-  panel.legend_at = chart::LegendAt::Above;
   return panel;
 }
 

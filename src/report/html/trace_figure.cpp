@@ -46,7 +46,6 @@ chart::Axis time_axis(const Piece& piece, const std::string& label) {
 Panel force_panel(const Piece& piece, const std::string& label, double width_px) {
   Panel panel;
   panel.height_px = 220.0;
-  panel.legend_at = chart::LegendAt::Above;
   panel.lines = {
       {"measured", Colour::Grey, Stroke::Solid, envelope(piece.time_s, piece.force, kTraceColumns), width_px},
       {"fit", Colour::Vermillion, Stroke::Solid, envelope(piece.time_s, piece.fitted, kTraceColumns), width_px + 0.4}};
