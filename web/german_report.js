@@ -2,7 +2,7 @@
 // Notes and explanations stay English, as does the report that is saved; warnings: german_warnings.js.
 const kGermanReport = new Map(Object.entries({
   "Parameters of the model": "Parameter des Modells", "The recording and the fit": "Aufzeichnung und Anpassung",
-  Frequency: "Frequenz", "Overlaid cycles": "Zyklen übereinandergelegt",
+  Frequency: "Frequenz", "Overlaid cycles": "Zyklen übereinandergelegt", "Evolution over the slips": "Entwicklung über die Rutscher", "number of the slip": "Nummer des Rutschers", "time since the slip before": "Zeit seit dem vorigen Rutscher",
   "Damping from peaks and troughs": "Dämpfung aus Spitzen und Tälern", "Stability map": "Stabilitätskarte",
   "Spacing and frequency at other speeds": "Abstand und Frequenz bei anderen Geschwindigkeiten",
   "Predicted abrasion pattern": "Vorhergesagtes Abriebmuster", "Data quality": "Güte der Daten", "All numbers": "Alle Zahlen",

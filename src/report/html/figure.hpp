@@ -49,6 +49,7 @@ struct Figure {
 Figure trace_figure(const Source& source);
 Figure spectrum_figure(const Source& source);
 Figure cycles_figure(const Source& source);
+Figure evolution_figure(const Source& source);
 Figure pairs_figure(const Source& source);
 Figure map_figure(const Source& source);
 Figure speed_figure(const Source& source);
