@@ -15,6 +15,7 @@ const kGermanWarnings = {
   normal_force_differs: "Die Spalte der Normalkraft sagt etwas anderes als die Angabe; die Angabe gilt.",
   normal_force_varies: "Die Normalkraft schwankt um mehr als ein Zehntel; ihr Median steht für sie.",
   implausible_units: "Die Werte sind unwahrscheinlich groß oder klein: vermutlich ist eine Einheit um 1000 falsch.",
+  part_of_recording: "Weniger als 80 % der Aufzeichnung gleitet; nur dieser Abschnitt wurde ausgewertet.",
   several_steps: "Die Datei enthält mehrere Aufzeichnungen nacheinander; eine davon wurde genommen.",
   container_cut: "Der letzte Block der TDMS-Datei ist unvollständig und wurde ausgelassen.",
   zero_force_ignored: "Ein Nullpunkt in Newton lässt sich von einer Reibungszahl nicht abziehen.",

@@ -11,6 +11,7 @@
 #include "analysis/audit.hpp"
 #include "analysis/conclusions.hpp"
 #include "analysis/slip_intervals.hpp"
+#include "core/slip_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "core/unknown.hpp"
 
@@ -69,6 +70,15 @@ Messages lines_beside_slips(const Facts& facts) {
   for (const SuspiciousLine& line : facts.analysis.frequency.lines)
     messages.push_back(fmt::format("line at {:.4g} Hz: {}", line.frequency_Hz, line.reason));
   return messages;
+}
+
+Messages part_of_recording(const Facts& facts) {
+  const Recording& whole = *facts.detected.whole;
+  const TimeSpan& sliding = facts.analysis.sliding;
+  const double share = (sliding.end_s - sliding.begin_s) / whole.duration_s();
+  return when(share < thresholds::kMostlySliding,
+              fmt::format("the analysis uses {:.6g} to {:.6g} s, {:.0f} % of the recording, where the body slides",
+                          sliding.begin_s, sliding.end_s, 100.0 * share));
 }
 
 Messages repeated_values(const Facts& facts) {
@@ -165,6 +175,7 @@ constexpr auto kRules = std::to_array<Rule>({
     {"repeated_time_stamps", RuleKind::Fact},
     {"several_steps", RuleKind::Fact},
     {"container_cut", RuleKind::Fact},
+    {"part_of_recording", RuleKind::Fact, part_of_recording},
     {"gaps", RuleKind::Fact,
      [](const Facts& f) {
        return when(quality_in(f).gaps > 0,

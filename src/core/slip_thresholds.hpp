@@ -37,6 +37,10 @@ inline constexpr double kNoiseTurn = 8.0;
 /// Fewest slips that follow each other in a stretch that slides. [count; convention]
 inline constexpr std::size_t kFewestInStretch = 4;
 
+/// Duration of the stretch that slides over that of the recording, below which a reader is informed of it. [1;
+/// convention]
+inline constexpr double kMostlySliding = 0.8;
+
 /// Interval over the long ones (90 % are shorter), and over the time of loading, beyond which a pause lies between two
 /// slips. [1; convention]
 inline constexpr double kPatience = 2.5;

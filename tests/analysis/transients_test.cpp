@@ -69,6 +69,7 @@ TEST_CASE("loading ramp, breakaway and ring-down are measured outside the slidin
   const Analysis analysis = analyze(run_with_release(run));
   REQUIRE(analysis.motion == MotionClass::StickSlip);
   CHECK(*analysis.cycles.stick_stiffness.value == Approx(run.stiffness_N_per_m).epsilon(0.01));
+  CHECK(warns(analysis, "part_of_recording"));  // it slides for 5.2 of 7 s
   const Transients& found = analysis.transients;
   REQUIRE(found.loading_stiffness_N_per_m.value);
   CHECK(*found.loading_stiffness_N_per_m.value == Approx(run.stiffness_N_per_m).epsilon(0.02));
@@ -86,6 +87,7 @@ TEST_CASE("a recording that holds neither run-up nor release tells nothing of th
   const Recording whole = run_with_release({});
   const Analysis analysis = analyze(whole.part(6000, 22000));
   REQUIRE(analysis.motion == MotionClass::StickSlip);
+  CHECK_FALSE(warns(analysis, "part_of_recording"));
   CHECK_FALSE(analysis.transients.loading_stiffness_N_per_m.value);
   CHECK_FALSE(analysis.transients.ring_down_frequency_Hz.value);
   CHECK_FALSE(analysis.transients.loading_stiffness_N_per_m.note.empty());
