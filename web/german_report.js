@@ -2,7 +2,7 @@
 // Notes and explanations stay English, as does the report that is saved; warnings: german_warnings.js.
 const kGermanReport = new Map(Object.entries({
   "Parameters of the model": "Parameter des Modells", "The recording and the fit": "Aufzeichnung und Anpassung",
-  Frequency: "Frequenz", "Overlaid cycles": "Zyklen übereinandergelegt", "Evolution over the slips": "Entwicklung über die Rutscher", "number of the slip": "Nummer des Rutschers", "time since the slip before": "Zeit seit dem vorigen Rutscher",
+  Frequency: "Frequenz", "Overlaid cycles": "Zyklen übereinandergelegt", "Evolution over the slips": "Entwicklung über die Rutscher", "number of the slip": "Nummer des Rutschers",
   "Damping from peaks and troughs": "Dämpfung aus Spitzen und Tälern", "Stability map": "Stabilitätskarte",
   "Spacing and frequency at other speeds": "Abstand und Frequenz bei anderen Geschwindigkeiten",
   "Predicted abrasion pattern": "Vorhergesagtes Abriebmuster", "Data quality": "Güte der Daten", "All numbers": "Alle Zahlen",
@@ -41,9 +41,9 @@ const kGermanReport = new Map(Object.entries({
   "Parameters of all recordings": "Parameter aller Aufzeichnungen", "Pattern spacing over speed": "Musterabstand über der Geschwindigkeit",
   "Friction over speed": "Reibung über der Geschwindigkeit", "Each recording, predicted without it": "Jede Aufzeichnung, ohne sie vorhergesagt",
   "At one speed: scatter between the recordings": "Bei einer Geschwindigkeit: Streuung zwischen den Aufzeichnungen",
-  "Cycles of the recordings laid over each other": "Zyklen der Aufzeichnungen übereinandergelegt", "The recordings": "Die Aufzeichnungen",
+  "Overlaid cycles of the recordings": "Zyklen der Aufzeichnungen übereinandergelegt", "The recordings": "Die Aufzeichnungen",
   "The recordings, continued": "Die Aufzeichnungen, Fortsetzung", "What is compared": "Was verglichen wird", "What cannot be compared": "Was sich nicht vergleichen lässt",
-  "Cycles of A and B laid over each other": "Zyklen von A und B übereinandergelegt", "The profile": "Das Profil",
+  "Overlaid cycles of A and B": "Zyklen von A und B übereinandergelegt", "The profile": "Das Profil",
   program: "Programm", file: "Datei", "digest of its bytes": "Prüfsumme der Datei", "normal force": "Normalkraft", "not given": "nicht angegeben",
   "force that the sensor sees": "Kraft, die der Sensor sieht", "sensor's zero": "Nullpunkt des Sensors", "Assumed while reading:": "Beim Lesen angenommen:",
   weak: "schwach", ": an estimate that should be confirmed": ": eine Schätzung, die der Bestätigung bedarf",

@@ -55,7 +55,7 @@ bool is_release(const Recording& recording, const Segmentation& segmentation) {
 std::optional<Classification> by_counts(const Recording& recording, const Segmentation& segmentation,
                                         const SpectralFrequency& spectral) {
   const std::size_t count = segmentation.slips.size();
-  if (count == 0) return Classification{MotionClass::SteadySliding, "the force has no falls beyond its noise"};
+  if (count == 0) return Classification{MotionClass::SteadySliding, "the force has no falls larger than its noise"};
   if (is_faint(segmentation) && no_repetition(spectral)) {
     return Classification{MotionClass::SteadySliding, "the force moves no more than its noise, without repetition"};
   }
@@ -123,7 +123,7 @@ Classification without_model(const Recording& recording, const Signals& signals)
   if (sudden) {
     return {MotionClass::Undetermined,
             fmt::format("{} falls after rises that take {:.1f} times as long, and no slip of the model is close to "
-                        "them: too few falls to tell slips from ripple; record longer",
+                        "them: too few falls to distinguish slips from ripple; record longer",
                         segmentation.slips.size(), ratio)};
   }
   if (spectrum_agrees(segmentation, signals.spectral)) {
@@ -149,7 +149,7 @@ std::optional<Classification> as_round_swings(const Segmentation& segmentation, 
   }
   if ((sine_like || e.restick_share < thresholds::kRestickShare) && is_faint(segmentation)) {
     return Classification{MotionClass::Undetermined,
-                          "the oscillations are not much larger than the noise, which hides sticks"};
+                          "the oscillations are not much larger than the noise, so that sticks cannot be recognised"};
   }
   if (sine_like && e.relative_residual > thresholds::kSineFit) {
     return Classification{MotionClass::OscillatorySlip,
@@ -276,16 +276,16 @@ Classification classify_by_shape(const Recording& recording, const Signals& sign
     return {MotionClass::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   }
   if (is_faint(segmentation)) {
-    return {MotionClass::Undetermined, "the falls are not much larger than the noise: only a fit can tell"};
+    return {MotionClass::Undetermined, "the falls are not much larger than the noise: only a fit can decide"};
   }
   const bool are_few = segmentation.slips.size() < thresholds::kFewFalls;
   if (!is_sine_like(segmentation) && ratio > thresholds::kSquare && !are_few) {
     return {MotionClass::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   }
   if (ratio > thresholds::kSquare && are_few) {
-    return {MotionClass::Undetermined, "too few falls to tell slips from ripple without a fit"};
+    return {MotionClass::Undetermined, "too few falls to distinguish slips from ripple without a fit"};
   }
-  return {MotionClass::Undetermined, "the force falls about as slowly as it rises: only a fit can tell"};
+  return {MotionClass::Undetermined, "the force falls about as slowly as it rises: only a fit can decide"};
 }
 
 }  // namespace slipfit

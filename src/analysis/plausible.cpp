@@ -88,7 +88,7 @@ std::optional<std::string> implausible_units(const Recording& recording, const A
   add(seen.stiffness_N_per_m, kStiffness_N_per_m, "a stiffness in N/m of");
   add(seen.mass_kg, kMass_kg, "a mass in kg of");
   add(seen.spacing_m, kSpacing_m, "a way per slip in m of");
-  return fmt::format("{} is beyond what testers have: {}", what,
+  return fmt::format("{} is outside the range of tribometers: {}", what,
                      remedy_for(seen, recording.provenance().is_time_unit_assumed));
 }
 

@@ -125,7 +125,7 @@ Estimate count_frequency(const Recording& recording, const Segmentation& segment
   const MeanAndSpread interval = describe(intervals_s);
   if (interval.count < 1.0) return unknown("fewer than 3 slips");
   const double value = 1.0 / interval.mean;
-  if (interval.count < 2.0) return {value, std::nullopt, std::nullopt, "one interval tells no error"};
+  if (interval.count < 2.0) return {value, std::nullopt, std::nullopt, "one interval gives no standard error"};
   return symmetric(value, value * relative_error(intervals_s, interval), interval.count - 1.0);
 }
 
@@ -133,7 +133,7 @@ std::optional<std::string> broken_rhythm(const Recording& recording, const Segme
   const std::size_t broken = intervals_of(recording, segmentation).broken;
   if (broken == 0) return std::nullopt;
   return fmt::format(
-      "{} interval(s) between slips do not fit the rhythm of the others: the stage stood still, or "
+      "{} interval(s) between slips do not fit the rhythm of the others: the stage paused, or "
       "samples are missing while the clock ran on; they do not count",
       broken);
 }

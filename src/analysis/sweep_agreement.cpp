@@ -174,8 +174,8 @@ Warnings check_duplicates(std::span<const SweepEntry> entries) {
       const auto other = entries[j].recording.force();
       if (!std::ranges::equal(one, other)) continue;
       warnings.push_back(
-          {"recording_repeated", fmt::format("recordings '{}' and '{}' hold the same samples: one of them counts "
-                                             "twice, or stands under another's conditions",
+          {"recording_repeated", fmt::format("recordings '{}' and '{}' have the same samples: one of them counts "
+                                             "twice, or is listed with the conditions of another",
                                              entries[j].id, entries[i].id)});
       break;
     }

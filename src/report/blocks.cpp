@@ -103,7 +103,8 @@ Block frequency_block(const FrequencyReport& frequency) {
   const std::size_t lines = spectral.harmonics_Hz.size();
   Block block{"frequency", "Frequency"};
   block.rows = {
-      row("by FFT", {spectral.value_Hz, spectral.standard_error_Hz, {}, "no repetition stands out of the spectrum"}, {},
+      row("by FFT", {spectral.value_Hz, spectral.standard_error_Hz, {}, "the spectrum shows no significant repetition"},
+          {},
           fmt::format("{} {}, false-alarm probability {:.1g}", lines, lines == 1 ? "harmonic" : "harmonics",
                       spectral.false_alarm_probability)),
       row("by counting slips", frequency.counted, {}, {}),

@@ -52,7 +52,7 @@ Block pattern_block(const Profile& profile, const Surface& surface) {
   block.add("spacing", surface.spacing_m, "m");
   block.add("fine spacing", surface.fine_spacing_m, "m");
   if (surface.ridges > 0) block.rows.push_back({"ridges", std::to_string(surface.ridges)});
-  add_length("scatter as located", surface.spacing_sd_m);
+  add_length("scatter of the located ridges", surface.spacing_sd_m);
   block.add("spacing at the start", surface.begin_spacing_m, "m");
   block.add("spacing at the end", surface.end_spacing_m, "m");
   block.add("ridge height", surface.ridge_height, profile.height_in_metres ? "m" : "");

@@ -201,5 +201,5 @@ TEST_CASE("segments of one file are a joint fit as a row of a batch, and its pag
     CHECK(document["recordings"][i]["frequency"]["value_Hz"].get<double>() == Approx(2.5 * std::exp2(i)).epsilon(0.01));
   }
   const std::string page = test::content_of(folder.path("pages/recordings/00001-r1.html"));
-  CHECK_THAT(page, Catch::Contains("cycles of 3 recordings laid over each other"));
+  CHECK_THAT(page, Catch::Contains("overlaid cycles of 3 recordings"));
 }

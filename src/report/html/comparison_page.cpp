@@ -20,9 +20,9 @@ OverlaidSet side_of(const std::string& name, const std::vector<ComparedRecording
 }
 
 Figure both_cycles_figure(const ComparisonOrigin& origin) {
-  Figure figure{"cycles", "Cycles of A and B laid over each other"};
+  Figure figure{"cycles", "Overlaid cycles of A and B"};
   figure.guide = std::string(kOverlayGuide);
-  figure.label = "cycles of A and of B laid over each other";
+  figure.label = "overlaid cycles of A and of B";
   const std::vector<OverlaidSet> sides{side_of("A", origin.recordings_a), side_of("B", origin.recordings_b)};
   if (has_cycles(sides.front()) && has_cycles(sides.back())) {
     figure.chart = overlay_of(figure.title, sides);

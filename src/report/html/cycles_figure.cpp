@@ -119,12 +119,12 @@ Figure cycles_figure(const Source& source) {
   const CycleStatistics& cycles = source.analysis.cycles;
   const auto windows = windows_of(cycles, source.recording.sample_interval_s());
   if (stack.anchors.empty() || windows.empty())
-    return figure.without_chart("There are too few slips to lay cycles over each other.");
+    return figure.without_chart("There are too few slips to overlay cycles.");
   chart::Chart chart{"Overlaid cycles", {}, {}};
   for (const CycleWindow& window : windows) chart.panels.push_back(panel_of(source, stack, window));
   figure.chart = std::move(chart);
-  figure.label = fmt::format("{} of {} cycles laid over each other, with the fit of a typical one",
-                             stack.anchors.size(), cycles.count);
+  figure.label =
+      fmt::format("{} of {} cycles, overlaid, with the fit of a typical one", stack.anchors.size(), cycles.count);
   return figure;
 }
 

@@ -36,7 +36,7 @@ constexpr std::array kEvolutions = std::to_array<Evolution>(
         const Cycle& cycle = source.analysis.cycle_table[slip];
         return std::optional(cycle.peak_force - cycle.trough_force);
       }},
-     {"time since the slip before", "s", [](const Source& source, std::size_t slip) {
+     {"period", "s", [](const Source& source, std::size_t slip) {
         const std::vector<Cycle>& cycles = source.analysis.cycle_table;
         return slip == 0 ? std::nullopt : std::optional(begin_s(cycles[slip]) - begin_s(cycles[slip - 1]));
       }}});

@@ -198,7 +198,7 @@ std::string reason_for_none(const Source& source, const std::vector<Point>& pair
 Figure pairs_figure(const Source& source) {
   Figure figure{
       "pairs", "Damping from peaks and troughs",
-      "Each point is one slip: how far the force stood above kinetic friction at its peak, and how far it swung below "
+      "Each point is one slip: how far the force was above kinetic friction at its peak, and how far it swung below "
       "at its trough. Without damping the trough mirrors the peak (dashed line). Damping makes the swing smaller by "
       "exp(-pi zeta / sqrt(1 - zeta^2)): the points should lie along the solid line."};
   const std::vector<Point> pairs = pairs_of(source);

@@ -171,14 +171,14 @@ chart::Chart overlay_of(const std::string& title, const std::vector<OverlaidSet>
 
 Figure sweep_cycles_figure(const SweepSource& source) {
   constexpr std::size_t kMostTogether = 16;  // colours and strokes that can be told apart
-  Figure figure{"sweep-cycles", "Cycles of the recordings laid over each other", std::string(kOverlayGuide)};
+  Figure figure{"sweep-cycles", "Overlaid cycles of the recordings", std::string(kOverlayGuide)};
   const std::vector<OverlaidSet> all = sets_of(source);
-  if (all.size() < 2) return figure.without_chart("Fewer than two recordings have cycles to lay over each other.");
+  if (all.size() < 2) return figure.without_chart("Fewer than two recordings have cycles to overlay.");
   const std::size_t count = std::min(kMostTogether, all.size());
   std::vector<OverlaidSet> shown;
   for (std::size_t i = 0; i < count; ++i) shown.push_back(all[i * all.size() / count]);
   if (count < all.size()) figure.guide += fmt::format(" {} of {} recordings are drawn.", count, all.size());
-  figure.label = fmt::format("cycles of {} recordings laid over each other, from the slowest to the fastest", count);
+  figure.label = fmt::format("overlaid cycles of {} recordings, from the slowest to the fastest", count);
   figure.chart = overlay_of(figure.title, shown);
   return figure;
 }
