@@ -68,8 +68,8 @@ Figure evolution_figure(const Source& source) {
       "evolution", "Evolution over the slips",
       "Peak force, force drop and period of each slip, in their order. A trend is wear, warming or a drift of "
       "the sensor; a step is a change of the contact; a long time may be a slip that was missed."};
-  constexpr std::size_t kFewest = 5;
-  if (!shows_cycles(source.analysis) || source.analysis.cycle_table.size() < kFewest)
+  constexpr std::size_t kFewestSlips = 5;
+  if (!shows_cycles(source.analysis) || source.analysis.cycle_table.size() < kFewestSlips)
     return figure.without_chart("There are too few slips to show how they change.");
   chart::Chart chart{"Evolution over the slips", {}, {}};
   for (const Evolution& evolution : kEvolutions) chart.panels.push_back(panel_of(source, evolution));
