@@ -108,16 +108,6 @@ Estimate frequency_by_spectrum(const Subject& of) {
   return {spectral.value_Hz, spectral.standard_error_Hz, std::nullopt, {}};
 }
 
-Estimate stiffness(const Subject& of) {
-  return of.parameter(Id::Stiffness);
-}
-Estimate quoted(const Subject& of) {
-  return of.analysis.frequency.quoted;
-}
-Estimate counted(const Subject& of) {
-  return of.analysis.frequency.counted;
-}
-
 /// A pair of quantities that are the same: where the document has each, and the parameters that a contradiction puts in
 /// question (none: the quoted frequency).
 struct Row {
@@ -128,13 +118,22 @@ struct Row {
   ParameterStatus highest = ParameterStatus::Weak;
 };
 
+Estimate quoted(const Subject& of) {
+  return of.analysis.frequency.quoted;
+}
+
 constexpr std::array kRows = std::to_array<Row>({
-    {"stiffness_and_sticks", "parameters.stiffness_N_per_m", "cycles.stick_stiffness_N_per_m", kOfStiffness, stiffness,
-     stiffness_by_sticks},
+    {"stiffness_and_sticks", "parameters.stiffness_N_per_m", "cycles.stick_stiffness_N_per_m", kOfStiffness,
+     [](const Subject& of) { return of.parameter(Id::Stiffness); }, stiffness_by_sticks},
     {"speed_and_displacement", "recording.speed_m_per_s", "speed of the displacement column", kOfSpeed, stated_speed,
      speed_of_displacement, ParameterStatus::Conditional},
     {"mass_and_stated_mass", "secant of the sticks / w_n^2", "recording.mass_kg", kOfMass, mass_by_secant, stated_mass},
-    {"frequency_and_count", "frequency.value_Hz", "frequency.counted", {}, quoted, counted},
+    {"frequency_and_count",
+     "frequency.value_Hz",
+     "frequency.counted",
+     {},
+     quoted,
+     [](const Subject& of) { return of.analysis.frequency.counted; }},
     {"frequency_and_spectrum", "frequency.value_Hz", "frequency.spectral", {}, quoted, frequency_by_spectrum},
 });
 

@@ -2,29 +2,11 @@
 
 #include "analysis/rules.hpp"
 #include "report/blocks.hpp"
-#include "report/names.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
-namespace {
-
-std::string judgement_text(const Recording& recording, const Analysis& analysis) {
-  const std::string& file = recording.provenance().file;
-  std::string text =
-      fmt::format("{}: {}", file.empty() ? "recording" : printable(file), words_for_motion(analysis.motion));
-  if (analysis.frequency.quoted.value) {
-    text += fmt::format(", {} Hz", with_error(analysis.frequency.quoted));
-    if (analysis.cycles.count > 0) text += fmt::format(", {} slips", analysis.cycles.count);
-  }
-  text += "\n";
-  if (!analysis.motion_reason.empty()) text += fmt::format("  {}\n", printable(analysis.motion_reason));
-  return text;
-}
-
-}  // namespace
-
 std::string warnings_text(const Warnings& warnings) {
   std::string doubts;
   std::string facts;
@@ -44,8 +26,9 @@ std::string assumed_text(const std::vector<std::string>& assumed) {
 }
 
 std::string to_text(const Recording& recording, const Analysis& analysis) {
-  std::string text = judgement_text(recording, analysis) + parameters_text(recording, analysis) +
-                     text_of(coefficients_block(analysis.coefficients));
+  std::string text = headline_of(recording, analysis) + "\n";
+  if (!analysis.motion_reason.empty()) text += fmt::format("  {}\n", printable(analysis.motion_reason));
+  text += parameters_text(recording, analysis) + text_of(coefficients_block(analysis.coefficients));
   for (const Block& block : number_blocks(recording, analysis)) text += text_of(block);
   return text + text_of(quality_block(recording, analysis)) + warnings_text(analysis.warnings) +
          assumed_text(recording.provenance().assumed);

@@ -270,6 +270,8 @@ void add_below_table(Screen& screen, const FitResult& fit, ForceQuantity quantit
   }
 }
 
+}  // namespace
+
 std::string headline_of(const Recording& recording, const Analysis& analysis) {
   std::string file = recording.provenance().file;
   if (file.size() > kLongestName) file = std::filesystem::path(file).filename().string();
@@ -283,8 +285,6 @@ std::string headline_of(const Recording& recording, const Analysis& analysis) {
   }
   return text + ", driven at " + speed_text(recording.conditions());
 }
-
-}  // namespace
 
 std::string to_summary(const Recording& recording, const Analysis& analysis) {
   const Conditions& conditions = recording.conditions();

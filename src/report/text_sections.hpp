@@ -8,6 +8,9 @@
 
 namespace slipfit {
 
+/// "run.csv: stick-slip at 24.6 Hz [24.2, 24.9], 47 slips, driven at 10 mm/s"
+std::string headline_of(const Recording& recording, const Analysis& analysis);
+
 // One function a section of the report for people; each ends with a line break, or is empty.
 std::string parameters_text(const Recording& recording, const Analysis& analysis);
 /// `caution` follows the heading.

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include <array>
-#include <optional>
-#include <string_view>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include "report/html/figure.hpp"
 #include "report/html/scaling.hpp"
@@ -10,53 +10,19 @@
 namespace slipfit::html {
 namespace {
 
-constexpr std::size_t kMostSlips = 1000;  // evenly chosen where there are more
-
-/// A quantity of a slip, in SI; empty where it is not known. `slip`: place in the table of cycles.
-using SlipQuantity = std::optional<double> (*)(const Source& source, std::size_t slip);
-
-double begin_s(const Cycle& cycle) {
-  return cycle.onset_s.value_or(cycle.peak_s);
-}
-
-/// What is drawn over the number of the slip: one row for each panel.
-struct Evolution {
-  const char* label;
-  const char* SI_unit;  ///< "force": the unit of the force column
-  SlipQuantity quantity;
-};
-
-constexpr std::array kEvolutions = std::to_array<Evolution>(
-    {{"peak force", "force",
-      [](const Source& source, std::size_t slip) {
-        return std::optional(source.analysis.cycle_table[slip].peak_force);
-      }},
-     {"force drop", "force",
-      [](const Source& source, std::size_t slip) {
-        const Cycle& cycle = source.analysis.cycle_table[slip];
-        return std::optional(cycle.peak_force - cycle.trough_force);
-      }},
-     {"period", "s", [](const Source& source, std::size_t slip) {
-        const std::vector<Cycle>& cycles = source.analysis.cycle_table;
-        return slip == 0 ? std::nullopt : std::optional(begin_s(cycles[slip]) - begin_s(cycles[slip - 1]));
-      }}});
-
-chart::Panel panel_of(const Source& source, const Evolution& evolution) {
-  const std::size_t slips = source.analysis.cycle_table.size();
-  const std::size_t step = slips / kMostSlips + 1;
+/// A value in SI for each slip; not finite where it is not known. Evenly chosen where they are many.
+chart::Panel panel_over_slips(const std::string& name, const DisplayUnit& unit, const std::vector<double>& values) {
+  constexpr std::size_t kMostSlips = 1000;
   chart::Line line{"", chart::Colour::Blue, chart::Stroke::Solid, {}, 1.2};
-  for (std::size_t i = 0; i < slips; i += step) {
-    if (const auto value = evolution.quantity(source, i)) line.points.push_back({static_cast<double>(i + 1), *value});
-  }
-  const bool is_force = std::string_view(evolution.SI_unit) == "force";
-  const DisplayUnit unit =
-      is_force ? source.force_unit : display_unit(evolution.SI_unit, source.analysis.cycles.period_s);
   Span span;
-  for (chart::Point& point : line.points) span.add(point.y *= unit.per_SI);
+  for (std::size_t i = 0; i < values.size(); i += values.size() / kMostSlips + 1) {
+    line.points.push_back({static_cast<double>(i + 1), unit.per_SI * values[i]});
+    span.add(line.points.back().y);
+  }
   chart::Panel panel;
   panel.height_px = 110.0;
-  panel.x = {"number of the slip", 0.5, static_cast<double>(slips) + 0.5};
-  panel.y = span.linear_axis(label_with_unit(evolution.label, unit.unit));
+  panel.x = {"number of the slip", 0.5, static_cast<double>(values.size()) + 0.5};
+  panel.y = span.linear_axis(label_with_unit(name, unit.unit));
   panel.lines.push_back(std::move(line));
   return panel;
 }
@@ -67,14 +33,27 @@ Figure evolution_figure(const Source& source) {
   Figure figure{
       "evolution", "Evolution over the slips",
       "Peak force, force drop and period of each slip, in their order. A trend is wear, warming or a drift of "
-      "the sensor; a step is a change of the contact; a long time may be a slip that was missed."};
+      "the sensor; a step is a change of the contact; a long period may be a slip that was missed."};
   constexpr std::size_t kFewestSlips = 5;
-  if (!shows_cycles(source.analysis) || source.analysis.cycle_table.size() < kFewestSlips)
+  const std::vector<Cycle>& cycles = source.analysis.cycle_table;
+  if (!shows_cycles(source.analysis) || cycles.size() < kFewestSlips)
     return figure.without_chart("There are too few slips to show how they change.");
-  chart::Chart chart{"Evolution over the slips", {}, {}};
-  for (const Evolution& evolution : kEvolutions) chart.panels.push_back(panel_of(source, evolution));
-  figure.chart = std::move(chart);
-  figure.label = fmt::format("peak force, force drop and period of {} slips", source.analysis.cycle_table.size());
+  std::vector<double> peaks, drops, periods_s;
+  double before_s = std::numeric_limits<double>::quiet_NaN();
+  for (const Cycle& cycle : cycles) {
+    const double begin_s = cycle.onset_s.value_or(cycle.peak_s);
+    peaks.push_back(cycle.peak_force);
+    drops.push_back(cycle.peak_force - cycle.trough_force);
+    periods_s.push_back(begin_s - before_s);
+    before_s = begin_s;
+  }
+  figure.chart =
+      chart::Chart{figure.title,
+                   {},
+                   {panel_over_slips("peak force", source.force_unit, peaks),
+                    panel_over_slips("force drop", source.force_unit, drops),
+                    panel_over_slips("period", display_unit("s", source.analysis.cycles.period_s), periods_s)}};
+  figure.label = fmt::format("peak force, force drop and period of {} slips", cycles.size());
   return figure;
 }
 
