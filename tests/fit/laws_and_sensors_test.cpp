@@ -152,7 +152,8 @@ TEST_CASE("a sweep gives back the parameters of every law behind every sensor in
     recordings.push_back(displaced(exact(scales_of(law, view, instrument, speed_m_per_s, true), truth)));
   }
   Held held{};
-  held[kFrictionRate] = true;  // beside slope and zeta three speeds tell it to a hundredth only: test the others sharply
+  held[kFrictionRate] =
+      true;  // beside slope and zeta three speeds tell it to a hundredth only: test the others sharply
   REQUIRE(std::isfinite(solve_together(recordings, {}, {held, false, false, 200, 1e-12})));
   // Slips under friction that depends on the speed are integrated to 1e-7 of the motion.
   const double margin = depends_on_speed(law) ? 1e-4 : 1e-6;
