@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# web_layer.sh [LAYER...]: checks layers of src (core, signal, analysis, surface) against the C++ library of the browser version, libc++ 13,
+# web_layer.sh [LAYER...]: checks layers of src (core, io, signal, analysis, surface) against the C++ library of the browser version, libc++ 13,
 # which lacks much that g++ 12 has: by emscripten's compiler where it is installed, else by clang or g++ with the headers of
 # Debian's libc++-13-dev. That package is unpacked into build/web-layer, not installed, because it conflicts with what libceres-dev
 # needs. Nothing is built, and no library of scripts/web_libraries.sh is needed: half a minute. Skips, saying so, where neither is.
@@ -12,7 +12,7 @@ skip() {
 }
 
 layers=("$@")
-[ ${#layers[@]} -gt 0 ] || layers=(core signal analysis surface)
+[ ${#layers[@]} -gt 0 ] || layers=(core io signal analysis surface)
 headers_of_libcxx() {  # unpacked once, from what apt-get verifies; prints their folder
   local folder="$PWD/build/web-layer" headers="usr/lib/llvm-13/include/c++/v1"
   if [ ! -f "$folder/$headers/version" ]; then
@@ -36,19 +36,21 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$work/include" "$work/core"
-for header in boost ceres fast_float fftw3.h fmt libfccp xxhash.h; do  # by links: /usr/include is of another C library
+for header in boost ceres fast_float fftw3.h fmt libfccp xxhash.h zlib.h zconf.h; do  # by links: /usr/include is of another C library
   ln -s "/usr/include/$header" "$work/include/$header"
 done
+[ ! -d /usr/include/hdf5/serial ] || ln -s /usr/include/hdf5/serial "$work/include/hdf5"
 cmake -DINPUT=docs/formats.md -DOUTPUT="$work/core/remedies.hpp" -P cmake/remedies.cmake
 
 for layer in "${layers[@]}"; do  # a folder is one translation unit, as in the build
   while read -r folder; do
-    find "$PWD/$folder" -maxdepth 1 -name '*.cpp' | sort | sed 's/.*/#include "&"/' >"$work/$(tr / _ <<<"$folder").cpp"
+    [ "$folder" != src/io/arrays ] || [ -d "$work/include/hdf5" ] || continue
+    find "$PWD/$folder" -maxdepth 1 -name '*.cpp' ! -name helper.cpp | sort | sed 's/.*/#include "&"/' >"$work/$(tr / _ <<<"$folder").cpp"
   done < <(find "src/$layer" -name '*.cpp' -printf '%h\n' | sort -u)
 done
 if ! printf '%s\0' "$work"/*.cpp | xargs -0 -n 1 -P "$(nproc 2>/dev/null || echo 2)" "${compiler[@]}" -std=c++20 -fsyntax-only -w \
   -DSLIPFIT_SINGLE_PROCESS -DSLIPFIT_USE_FAST_FLOAT -DFMT_HEADER_ONLY -Iinclude -Isrc -I"$work" -isystem "$work/include" \
-  -isystem "$work/include/libfccp" -isystem /usr/include/eigen3 -include cmake/web/missing_ranges.hpp; then
+  -isystem "$work/include/libfccp" -isystem "$work/include/hdf5" -isystem /usr/include/eigen3 -include cmake/web/missing_ranges.hpp; then
   echo "web_layer.sh: the browser version will not compile; cmake/web/missing_ranges.hpp adds what its C++ library lacks" >&2
   exit 1
 fi

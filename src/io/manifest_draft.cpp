@@ -50,8 +50,9 @@ std::string stem_of(const fs::path& file) {
 /// A name of a table as part of an id: "/runs/7" becomes "runs-7".
 std::string id_part(std::string name) {
   name.erase(0, std::min(name.find_first_not_of('/'), name.size()));
-  std::ranges::replace_if(
-      name, [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < 0x20; }, '-');
+  for (char& c : name) {
+    if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < 0x20) c = '-';
+  }
   return slipfit::printable(name);
 }
 
