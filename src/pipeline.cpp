@@ -72,7 +72,8 @@ void append(Warnings& warnings, const Warnings& more) {
 
 /// The analysis with the values that contradict each other not identified, and what follows from them derived anew.
 Analysis audited(const Recording& recording, Analysis analysis) {
-  analysis.audit = audit_of(recording, analysis);
+  if (!analysis.fit) return analysis;
+  analysis.audit = audit_of(recording, analysis, *analysis.fit);
   const auto contradicts = [](const AuditPair& pair) { return pair.contradicts; };
   if (std::none_of(analysis.audit.begin(), analysis.audit.end(), contradicts)) return analysis;
   analysis.fit = with_audit(*std::move(analysis.fit), analysis.audit);
@@ -141,6 +142,20 @@ Warnings all_warnings(const SweepAnalysis& sweep) {
     if (sweep.roles[i] == SweepRole::Cycles) append(warnings, sweep.recordings[i].warnings);
   }
   return warnings;
+}
+
+/// The sweep with the shared values that contradict what one of its recordings shows not identified.
+SweepAnalysis audited(std::span<const SweepEntry> entries, SweepAnalysis sweep) {
+  std::vector<AuditPair> shared;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    Analysis& analysis = sweep.recordings[i];
+    if (sweep.roles[i] != SweepRole::Cycles) continue;
+    analysis.audit = joint_audit_of(entries[i], analysis, sweep.fit->result);
+    shared.insert(shared.end(), analysis.audit.begin(), analysis.audit.end());
+  }
+  sweep.fit->result = with_audit(std::move(sweep.fit->result), shared);
+  append(sweep.fit->result.warnings, warn_of(shared));
+  return sweep;
 }
 
 /// A recording of a sweep on its own.
@@ -226,6 +241,7 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
                           ring_down_of(sweep.recordings[i].transients)});
   }
   sweep.fit = in_range(fit_sweep(recordings, options));
+  if (sweep.fit) sweep = audited(entries, std::move(sweep));
   const FitResult result = sweep.fit ? sweep.fit->result : FitResult{};
   sweep.derived = in_range(derive_from_sweep(result, observed_end(entries, sweep.recordings, result)));
   sweep.fit_reason = describe_roles(sweep.roles);

@@ -103,6 +103,7 @@ struct AuditPair {
   std::string first_of, second_of;
   Estimate first, second;
   bool contradicts = false;  ///< they differ by more than 4 standard errors and 1 %
+  std::string recording{};   ///< of a joint fit: its name there; empty: the only one
 };
 
 /// What a user asked of a fit.
@@ -125,7 +126,8 @@ struct Analysis {
   Derived derived;
   Transients transients;
   std::optional<Coefficients> coefficients;  ///< empty without a normal force
-  std::vector<AuditPair> audit;              ///< pairs of which both values are known; of stick-slip with a fit
+  std::vector<AuditPair> audit;              ///< pairs of which both values are known; of stick-slip with a fit (of a
+                                             ///< joint fit: with the shared parameters)
   std::vector<ShortTest> tests;              ///< only where the kind of motion is stick-slip with a fit
   Timing timing;
   std::optional<AskedFit> asked{};  ///< empty: no fit was asked for

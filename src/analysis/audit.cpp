@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,13 +21,31 @@ namespace {
 
 using Id = ParameterId;
 
+/// A recording, and the fit whose parameters are audited: its own, or one of several recordings.
 struct Subject {
   const Recording& recording;
   const Analysis& analysis;
+  const FitResult& fit;
 
-  [[nodiscard]] Estimate parameter(Id id) const { return analysis.fit->estimate_of(id); }
   [[nodiscard]] double speed_m_per_s() const { return recording.conditions().speed_m_per_s; }
+  /// A parameter proportional to this power of k, at the speed of the recording.
+  [[nodiscard]] Estimate parameter(Id id, double power) const;
 };
+
+Estimate Subject::parameter(Id id, double power) const {
+  Estimate estimate = fit.estimate_of(id);
+  if (!estimate.value || !fit.estimate || !fit.estimate->stiffness_trend) return estimate;
+  const StiffnessTrend& trend = *fit.estimate->stiffness_trend;
+  const double growth = std::exp(power * trend.log_growth_at(speed_m_per_s()));
+  const double exponent_error = fit.estimate_of(Id::StiffnessExponent).standard_error.value_or(0.0);
+  const double of_trend = power * exponent_error * std::log(speed_m_per_s() / trend.speed_m_per_s);
+  *estimate.value *= growth;
+  if (estimate.standard_error) {
+    estimate.standard_error = std::hypot(*estimate.standard_error * growth, *estimate.value * of_trend);
+  }
+  if (estimate.ci95) estimate.ci95 = Interval{estimate.ci95->low * growth, estimate.ci95->high * growth};
+  return estimate;
+}
 
 /// A parameter is proportional to this power of the audited quantity.
 struct Concern {
@@ -54,7 +73,9 @@ Estimate stiffness_by_sticks(const Subject& of) {
   const FitResult& fit = *of.analysis.fit;
   Estimate slope = of.analysis.cycles.stick_stiffness;
   if (!slope.value || !slope.standard_error || !has_long_sticks(of.analysis.cycles)) return {};
-  if (fit.find(Id::ReloadLength) != nullptr || of.recording.conditions().force_view == ForceView::Contact) return {};
+  if (fit.find(Id::ReloadLength) != nullptr || of.fit.find(Id::ReloadLength) != nullptr ||
+      of.recording.conditions().force_view == ForceView::Contact)
+    return {};
   *slope.value -= fit.level_trend.in_sticks_per_s / of.speed_m_per_s();
   const double by_lines = fit.diagnostics.stick_slope_by_lines / of.speed_m_per_s();
   *slope.standard_error = std::hypot(*slope.standard_error, by_lines / kNormalQuantile);
@@ -76,7 +97,7 @@ Estimate speed_of_displacement(const Subject& of) {
 /// standard errors here.
 Estimate mass_by_secant(const Subject& of) {
   const CycleStatistics& cycles = of.analysis.cycles;
-  const Estimate omega = of.parameter(Id::NaturalFrequency);
+  const Estimate omega = of.parameter(Id::NaturalFrequency, 0.5);
   const Estimate slope = cycles.stick_stiffness;
   if (!omega.value || !omega.standard_error || !slope.value || !slope.standard_error || !cycles.force_drop ||
       !cycles.stick_time_s || !has_long_sticks(cycles)) {
@@ -92,7 +113,7 @@ Estimate mass_by_secant(const Subject& of) {
 
 Estimate stated_mass(const Subject& of) {
   const Conditions& conditions = of.recording.conditions();
-  if (!conditions.mass_kg || of.analysis.fit->mass_gives_frequency) return {};
+  if (!conditions.mass_kg || of.fit.mass_gives_frequency) return {};
   const double error_kg = conditions.mass_standard_error_kg.value_or(thresholds::kUsualMassError * *conditions.mass_kg);
   return {*conditions.mass_kg, error_kg, std::nullopt, {}};
 }
@@ -108,6 +129,16 @@ Estimate frequency_by_spectrum(const Subject& of) {
   return {spectral.value_Hz, spectral.standard_error_Hz, std::nullopt, {}};
 }
 
+Estimate stiffness(const Subject& of) {
+  return of.parameter(Id::Stiffness, 1.0);
+}
+Estimate quoted(const Subject& of) {
+  return of.analysis.frequency.quoted;
+}
+Estimate counted(const Subject& of) {
+  return of.analysis.frequency.counted;
+}
+
 /// A pair of quantities that are the same: where the document has each, and the parameters that a contradiction puts in
 /// question (none: the quoted frequency).
 struct Row {
@@ -118,22 +149,13 @@ struct Row {
   ParameterStatus highest = ParameterStatus::Weak;
 };
 
-Estimate quoted(const Subject& of) {
-  return of.analysis.frequency.quoted;
-}
-
 constexpr std::array kRows = std::to_array<Row>({
-    {"stiffness_and_sticks", "parameters.stiffness_N_per_m", "cycles.stick_stiffness_N_per_m", kOfStiffness,
-     [](const Subject& of) { return of.parameter(Id::Stiffness); }, stiffness_by_sticks},
+    {"stiffness_and_sticks", "parameters.stiffness_N_per_m", "cycles.stick_stiffness_N_per_m", kOfStiffness, stiffness,
+     stiffness_by_sticks},
     {"speed_and_displacement", "recording.speed_m_per_s", "speed of the displacement column", kOfSpeed, stated_speed,
      speed_of_displacement, ParameterStatus::Conditional},
     {"mass_and_stated_mass", "secant of the sticks / w_n^2", "recording.mass_kg", kOfMass, mass_by_secant, stated_mass},
-    {"frequency_and_count",
-     "frequency.value_Hz",
-     "frequency.counted",
-     {},
-     quoted,
-     [](const Subject& of) { return of.analysis.frequency.counted; }},
+    {"frequency_and_count", "frequency.value_Hz", "frequency.counted", {}, quoted, counted},
     {"frequency_and_spectrum", "frequency.value_Hz", "frequency.spectral", {}, quoted, frequency_by_spectrum},
 });
 
@@ -175,6 +197,21 @@ void lower(Parameter& parameter, ParameterStatus highest) {
   if (is_higher) parameter.status = highest;
 }
 
+/// Of the pairs of this row that contradict themselves, the one whose values differ most; null without any.
+const AuditPair* worst_of(const Row& row, const std::vector<AuditPair>& pairs) {
+  const AuditPair* worst = nullptr;
+  double greatest = 0.0;
+  for (const AuditPair& pair : pairs) {
+    if (pair.pair != row.pair || !pair.contradicts) continue;
+    const double ratio = *pair.second.value / *pair.first.value;
+    const double distance = ratio > 0.0 ? std::abs(std::log(ratio)) : std::numeric_limits<double>::infinity();
+    if (distance < greatest) continue;
+    greatest = distance;
+    worst = &pair;
+  }
+  return worst;
+}
+
 /// The model's covariance with the way to the other value.
 void widen(ModelEstimate& model, std::span<const Concern> concerns, double log_ratio) {
   std::array<double, kModelValues> move{};
@@ -190,14 +227,15 @@ void widen(ModelEstimate& model, std::span<const Concern> concerns, double log_r
 }  // namespace
 
 std::string sentence_of(const AuditPair& pair) {
-  return fmt::format("{} is {:.4g}, {} is {:.4g}", pair.first_of, *pair.first.value, pair.second_of,
+  const std::string place = pair.recording.empty() ? "" : fmt::format("recording '{}': ", pair.recording);
+  return fmt::format("{}{} is {:.4g}, {} is {:.4g}", place, pair.first_of, *pair.first.value, pair.second_of,
                      *pair.second.value);
 }
 
-std::vector<AuditPair> audit_of(const Recording& recording, const Analysis& analysis) {
+std::vector<AuditPair> audit_of(const Recording& recording, const Analysis& analysis, const FitResult& fit) {
   std::vector<AuditPair> pairs;
   if (analysis.motion != MotionClass::StickSlip || !analysis.fit) return pairs;
-  const Subject subject{recording, analysis};
+  const Subject subject{recording, analysis, fit};
   for (const Row& row : kRows) {
     AuditPair pair{std::string(row.pair), std::string(row.first_of), std::string(row.second_of), row.first(subject),
                    row.second(subject)};
@@ -208,11 +246,22 @@ std::vector<AuditPair> audit_of(const Recording& recording, const Analysis& anal
   return pairs;
 }
 
+std::vector<AuditPair> joint_audit_of(const SweepEntry& entry, const Analysis& analysis, const FitResult& joint) {
+  std::vector<AuditPair> pairs = audit_of(entry.recording, analysis, joint);
+  for (AuditPair& pair : pairs) {
+    if (row_of(pair).concerns.empty()) {  // the recording's own, whose quoted frequency includes both values already
+      pair = *std::ranges::find(analysis.audit, pair.pair, &AuditPair::pair);
+    }
+    pair.recording = entry.id;
+  }
+  return pairs;
+}
+
 FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs) {
-  for (const AuditPair& pair : pairs) {
-    if (!pair.contradicts) continue;
-    const Row& row = row_of(pair);
-    const double ratio = *pair.second.value / *pair.first.value;
+  for (const Row& row : kRows) {
+    const AuditPair* const pair = worst_of(row, pairs);
+    if (pair == nullptr) continue;
+    const double ratio = *pair->second.value / *pair->first.value;
     for (const Concern& concern : row.concerns) {
       for (Parameter& parameter : fit.parameters) {
         if (parameter.id != concern.id || parameter.status == ParameterStatus::Fixed) continue;
@@ -220,7 +269,7 @@ FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs) {
         if (ratio > 0.0 && parameter.estimate.value) {
           include(parameter.estimate, *parameter.estimate.value * std::pow(ratio, concern.power));
         }
-        add_note(parameter.estimate.note, "contradicted: " + sentence_of(pair));
+        add_note(parameter.estimate.note, "contradicted: " + sentence_of(*pair));
       }
     }
     if (fit.estimate && ratio > 0.0) widen(*fit.estimate, row.concerns, std::log(ratio));
@@ -233,6 +282,16 @@ FrequencyReport with_audit(FrequencyReport frequency, const std::vector<AuditPai
     if (pair.contradicts && row_of(pair).concerns.empty()) include(frequency.quoted, *pair.second.value);
   }
   return frequency;
+}
+
+Warnings warn_of(const std::vector<AuditPair>& pairs) {
+  Warnings warnings;
+  for (const AuditPair& pair : pairs) {
+    const bool is_shared = pair.recording.empty() || !row_of(pair).concerns.empty();
+    if (!pair.contradicts || !is_shared) continue;  // a recording of a joint fit has its own warning of its frequency
+    warnings.push_back({"values_contradict", sentence_of(pair) + ": the intervals include both"});
+  }
+  return warnings;
 }
 
 }  // namespace slipfit

@@ -1,20 +1,27 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "slipfit/analysis.hpp"
+#include "slipfit/sweep.hpp"
 
 namespace slipfit {
 
 /// The pairs of quantities that a document gives in two ways, as far as both are known. Of stick-slip with a fit.
-std::vector<AuditPair> audit_of(const Recording& recording, const Analysis& analysis);
+/// `fit`: whose parameters are compared with what the recording shows.
+std::vector<AuditPair> audit_of(const Recording& recording, const Analysis& analysis, const FitResult& fit);
+
+/// The same for a recording of a joint fit: the shared parameters at its speed, and its own frequencies.
+std::vector<AuditPair> joint_audit_of(const SweepEntry& entry, const Analysis& analysis, const FitResult& joint);
 
 /// The fit with the parameters of contradicted pairs not identified, in intervals that include both values.
 FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs);
 
 /// The same of the quoted frequency.
 FrequencyReport with_audit(FrequencyReport frequency, const std::vector<AuditPair>& pairs);
+
+/// One for each contradicted pair; of a joint fit, for those of shared values.
+Warnings warn_of(const std::vector<AuditPair>& pairs);
 
 /// "A is 3, B is 4": both values are known.
 std::string sentence_of(const AuditPair& pair);

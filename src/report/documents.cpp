@@ -78,6 +78,7 @@ Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole ro
   add_analysis(json, entry.recording, analysis, role);
   json["derived"] = derived_json(analysis.derived);
   if (point != nullptr) {
+    if (role == SweepRole::Cycles) json["audit"] = audit_json(analysis.audit);
     json["joint"] = {{"cycles_used", point->cycles_used},
                      {"rms_N", point->rms},
                      {"kinetic_friction_N", point->kinetic_friction_N},

@@ -2,7 +2,9 @@
 #include "analysis/rules.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/student.hpp"
@@ -34,6 +36,10 @@ Analysis analysis_with(double stick_stiffness_N_per_m) {
   return analysis;
 }
 
+std::vector<AuditPair> own_audit(const Recording& recording, const Analysis& analysis) {
+  return audit_of(recording, analysis, *analysis.fit);
+}
+
 const Parameter& of(const FitResult& fit, ParameterId id) {
   REQUIRE(fit.find(id) != nullptr);
   return *fit.find(id);
@@ -44,7 +50,7 @@ const Parameter& of(const FitResult& fit, ParameterId id) {
 TEST_CASE("k that the slope of the sticks contradicts is not identified, and its interval includes both") {
   const Recording recording = recording_at(0.01);
   const Analysis analysis = analysis_with(4000.0);
-  const std::vector<AuditPair> pairs = audit_of(recording, analysis);
+  const std::vector<AuditPair> pairs = own_audit(recording, analysis);
   REQUIRE(pairs.size() == 1);
   CHECK(pairs.front().pair == "stiffness_and_sticks");
   CHECK(pairs.front().contradicts);
@@ -59,7 +65,7 @@ TEST_CASE("k that the slope of the sticks contradicts is not identified, and its
 TEST_CASE("values that agree within 4 standard errors, or 1 %, contradict nothing") {
   const Recording recording = recording_at(0.01);
   for (const double slope : {5000.0, 5012.0, 5045.0, 4955.0}) {  // 13.9 N/m are 4 errors, 50 are 1 %
-    const std::vector<AuditPair> pairs = audit_of(recording, analysis_with(slope));
+    const std::vector<AuditPair> pairs = own_audit(recording, analysis_with(slope));
     REQUIRE(pairs.size() == 1);
     CHECK_FALSE(pairs.front().contradicts);
   }
@@ -68,16 +74,46 @@ TEST_CASE("values that agree within 4 standard errors, or 1 %, contradict nothin
 TEST_CASE("the slope of the sticks is compared without the drift that the fit has") {
   Analysis analysis = analysis_with(5200.0);
   analysis.fit->level_trend.in_sticks_per_s = 2.0;  // 200 N/m at 10 mm/s
-  const std::vector<AuditPair> pairs = audit_of(recording_at(0.01), analysis);
+  const std::vector<AuditPair> pairs = own_audit(recording_at(0.01), analysis);
   REQUIRE(pairs.size() == 1);
   CHECK(*pairs.front().second.value == Approx(5000.0));
   CHECK_FALSE(pairs.front().contradicts);
 }
 
+TEST_CASE("a recording of a joint fit is compared with the shared k at its speed") {
+  FitResult joint = *analysis_with(5000.0).fit;
+  joint.parameters.push_back({ParameterId::StiffnessExponent, symmetric(0.1, 0.001), ParameterStatus::Identified});
+  joint.estimate = ModelEstimate{};
+  joint.estimate->stiffness_trend = StiffnessTrend{0.1, 0.01};
+  const double grown = 5000.0 * std::pow(3.0, 0.1);
+  const std::vector<AuditPair> agree = joint_audit_of({"fast", recording_at(0.03)}, analysis_with(grown), joint);
+  REQUIRE(agree.size() == 1);
+  CHECK(*agree.front().first.value == Approx(grown));
+  CHECK_FALSE(agree.front().contradicts);
+  CHECK(joint_audit_of({"fast", recording_at(0.03)}, analysis_with(5000.0), joint).front().contradicts);
+}
+
+TEST_CASE("a shared k that one recording contradicts is not identified, and the warning names the recording") {
+  const FitResult joint = *analysis_with(5000.0).fit;
+  std::vector<AuditPair> pairs;
+  for (const auto& [id, slope] : {std::pair{"slow", 5000.0}, std::pair{"middle", 4500.0}, std::pair{"fast", 4000.0}}) {
+    const std::vector<AuditPair> more = joint_audit_of({id, recording_at(0.01)}, analysis_with(slope), joint);
+    pairs.insert(pairs.end(), more.begin(), more.end());
+  }
+  REQUIRE(pairs.size() == 3);
+  const FitResult fit = with_audit(joint, pairs);
+  CHECK(of(fit, ParameterId::Stiffness).status == ParameterStatus::Weak);
+  CHECK(of(fit, ParameterId::Stiffness).estimate.ci95->low == Approx(4000.0));
+  CHECK(of(fit, ParameterId::Stiffness).estimate.note.find("recording 'fast'") != std::string::npos);
+  const Warnings warnings = warn_of(pairs);
+  REQUIRE(warnings.size() == 2);
+  CHECK(warnings.front().message.find("recording 'middle'") == 0);
+}
+
 TEST_CASE("k by the displacement makes k conditional where the two speeds differ") {
   const Estimate moved{0.0095, 1e-6, std::nullopt, {}};
   const Analysis analysis = analysis_with(5000.0);
-  const std::vector<AuditPair> pairs = audit_of(recording_at(0.01, moved), analysis);
+  const std::vector<AuditPair> pairs = own_audit(recording_at(0.01, moved), analysis);
   REQUIRE(pairs.size() == 2);
   CHECK(pairs.back().pair == "speed_and_displacement");
   const FitResult fit = with_audit(*analysis.fit, pairs);
@@ -88,13 +124,13 @@ TEST_CASE("k by the displacement makes k conditional where the two speeds differ
 TEST_CASE("short sticks have no slope to compare") {
   Analysis analysis = analysis_with(4000.0);
   analysis.cycles.stick_time_s = 4e-3;
-  CHECK(audit_of(recording_at(0.01), analysis).empty());
+  CHECK(own_audit(recording_at(0.01), analysis).empty());
 }
 
 TEST_CASE("only stick-slip with a fit is audited") {
   Analysis analysis = analysis_with(4000.0);
   analysis.motion = MotionClass::Undetermined;
-  CHECK(audit_of(recording_at(0.01), analysis).empty());
+  CHECK(own_audit(recording_at(0.01), analysis).empty());
 }
 
 TEST_CASE("beside a warning that doubts the speed or the units, k, m and c are conditional") {

@@ -132,12 +132,16 @@ std::vector<std::string> contradictions_of(const json& document) {
     }
     if (code == "model_misfit") check(code, {"natural_frequency_rad_per_s", "mass_kg", "damping_ratio"});
   }
-  for (const json& pair : document.value("audit", json::array())) {
-    const bool is_of_stiffness = pair["pair"] == "stiffness_and_sticks" || pair["pair"] == "speed_and_displacement";
-    if (pair["contradicts"] && is_of_stiffness) {
-      check(pair["pair"].get<std::string>(), {"stiffness_N_per_m", "mass_kg"});
+  const auto check_audit = [&](const json& audited) {
+    for (const json& pair : audited.value("audit", json::array())) {
+      const bool is_of_stiffness = pair["pair"] == "stiffness_and_sticks" || pair["pair"] == "speed_and_displacement";
+      if (pair["contradicts"] && is_of_stiffness) {
+        check(pair["pair"].get<std::string>(), {"stiffness_N_per_m", "mass_kg"});
+      }
     }
-  }
+  };
+  check_audit(document);
+  for (const json& recording : document.value("recordings", json::array())) check_audit(recording);
   return breaches;
 }
 
