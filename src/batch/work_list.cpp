@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
-#include <queue>
 #include <system_error>
 #include <unordered_map>
 
@@ -14,13 +12,6 @@
 
 namespace slipfit::batch {
 namespace {
-
-std::uint64_t cost_of(const std::filesystem::path& file) {
-  constexpr std::uint64_t kOpening = 4096;  // opening a file costs something too, also a missing one
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  return kOpening + (error ? 0 : size);
-}
 
 /// The manifest or a recording that the batch would write over, by the same name or another (a link).
 void check_not_written(const std::filesystem::path& input, const std::filesystem::path& folder) {
@@ -52,18 +43,10 @@ class WorkCollector {
     list_.slots.add(entry.id, entry.row - 1);
     list_.rows = entry.row;
     const std::size_t first_row = options_.fit_group && !entry.group.empty() ? add_member(entry) : entry.row;
-    if (options_.shard.count == 1) return;
-    first_rows_.push_back(static_cast<std::uint32_t>(first_row));
-    costs_.push_back(0);
-    costs_[first_row - 1] += cost_of(entry.file);
+    list_.is_mine.push_back(first_row < entry.row ? list_.is_mine[first_row - 1] : next_is_mine());
   }
 
   WorkList finish() {
-    const std::vector<std::uint32_t> shard_of = spread(costs_, options_.shard.count);
-    list_.is_mine.assign(list_.rows, true);
-    for (std::size_t i = 0; i < first_rows_.size(); ++i) {
-      list_.is_mine[i] = shard_of[first_rows_[i] - 1] == options_.shard.index;
-    }
     std::vector<Group>& groups = list_.groups;
     std::ranges::sort(groups, [](const Group& a, const Group& b) { return a.last_row < b.last_row; });
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -84,11 +67,14 @@ class WorkCollector {
     return group.first_row;
   }
 
+  /// The shards take rows and groups in turn: whatever the files hold, a row stays on its shard, and no file but those
+  /// of a shard is looked at.
+  bool next_is_mine() { return pieces_++ % options_.shard.count + 1 == options_.shard.index; }
+
   const BatchOptions& options_;
   WorkList list_;
   std::unordered_map<std::string, std::size_t> group_of_name_;
-  std::vector<std::uint64_t> costs_;       ///< of a row and of the later members of its group, whose own are 0
-  std::vector<std::uint32_t> first_rows_;  ///< of each row's group, which stays on one shard
+  std::size_t pieces_ = 0;  ///< rows without a group, and groups, so far
 };
 
 /// Reads the manifest once more, to tell which ids stand in it twice.
@@ -104,24 +90,6 @@ void check_duplicates(const std::filesystem::path& manifest, const std::vector<D
 }
 
 }  // namespace
-
-std::vector<std::uint32_t> spread(const std::vector<std::uint64_t>& sizes, std::size_t shards) {
-  std::vector<std::uint32_t> largest_first(sizes.size());
-  std::iota(largest_first.begin(), largest_first.end(), 0U);
-  std::ranges::stable_sort(largest_first, [&sizes](std::uint32_t a, std::uint32_t b) { return sizes[a] > sizes[b]; });
-  using Load = std::pair<std::uint64_t, std::uint32_t>;  // so far, shard
-  std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
-  const std::size_t used = std::min(shards, sizes.size());  // more than pieces stay empty
-  for (std::uint32_t shard = 1; shard <= used; ++shard) loads.emplace(0, shard);
-  std::vector<std::uint32_t> shard_of(sizes.size());
-  for (const std::uint32_t piece : largest_first) {
-    const auto [load, shard] = loads.top();
-    loads.pop();
-    shard_of[piece] = shard;
-    loads.emplace(load + sizes[piece], shard);
-  }
-  return shard_of;
-}
 
 void IdIndex::sort() {
   std::ranges::sort(entries_);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,10 +14,6 @@
 #include "slipfit/io/manifest.hpp"
 
 namespace slipfit::batch {
-
-/// Spreads pieces of work over `shards` so that none is much larger than the others: the largest first, each to the
-/// shard with the least so far. Returns the shard of each piece, from 1. Same sizes, same answer, on every machine.
-std::vector<std::uint32_t> spread(const std::vector<std::uint64_t>& sizes, std::size_t shards);
 
 /// Finds the slot that belongs to an id, in 24 bytes an id: digests in place of the ids.
 class IdIndex {
