@@ -3,15 +3,14 @@
 #include <poll.h>
 #include <sys/resource.h>
 #include <unistd.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "core/platform.hpp"
 
 // What a program that reads a file by large libraries for slipfit does to itself, because the file may be hostile.
 
@@ -27,9 +26,7 @@ inline void limit_resources(rlim_t most_memory, rlim_t most_seconds) {
 
 /// The program is killed when slipfit ends. If slipfit has ended before the call, nobody reads standard output.
 inline void end_with_slipfit() {
-#ifdef __linux__
-  (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);
-#endif
+  slipfit::platform::end_with_parent();
   pollfd output{STDOUT_FILENO, 0, 0};
   if (::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0) ::_exit(1);
 }

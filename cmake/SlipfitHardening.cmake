@@ -4,5 +4,7 @@
 if(SLIPFIT_HARDENING)
   add_compile_options($<$<CONFIG:Release>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=2>
     $<$<CONFIG:Release>:-fstack-protector-strong> $<$<CONFIG:Release>:-D_GLIBCXX_ASSERTIONS>)
-  add_link_options($<$<CONFIG:Release>:LINKER:-z,relro,-z,now>)
+  if(NOT APPLE)
+    add_link_options($<$<CONFIG:Release>:LINKER:-z,relro,-z,now>)
+  endif()
 endif()

@@ -1,17 +1,16 @@
 #include "slipfit/batch/batch.hpp"
 
 #include <fmt/format.h>
-#include <sched.h>
 
 #include <charconv>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "batch_folder.hpp"
 #include "commands.hpp"
+#include "core/parallel.hpp"
 #include "failure.hpp"
 #include "output.hpp"
 #include "progress_line.hpp"
@@ -76,17 +75,8 @@ slipfit::Shard shard_from(const std::string& text) {
                 fmt::format("--shard: bad '{}', expected I/N with I from 1 to N (Slurm: --array=1-N)", text));
 }
 
-/// What a batch system, a container or taskset leaves of the machine's cores.
-std::size_t usable_cores() {
-#ifdef __linux__
-  cpu_set_t cores;
-  if (::sched_getaffinity(0, sizeof(cores), &cores) == 0) return static_cast<std::size_t>(CPU_COUNT(&cores));
-#endif
-  return std::max(1U, std::thread::hardware_concurrency());
-}
-
 std::size_t jobs_from(const std::optional<std::size_t>& jobs) {
-  if (!jobs) return usable_cores();
+  if (!jobs) return slipfit::usable_processors();
   if (*jobs >= 1 && *jobs <= kMostJobs) return *jobs;
   throw Failure(ExitCode::WrongUsage, fmt::format("--jobs: {} is out of range, expected 1 to {}", *jobs, kMostJobs));
 }

@@ -13,6 +13,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/platform.hpp"
 #include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
@@ -81,7 +82,7 @@ void CheckedFile::write(std::string_view text) {
 }
 
 void CheckedFile::sync() {
-  if (!error) check(::fdatasync(handle.get()) == 0);
+  if (!error) check(platform::sync_data(handle.get()));
 }
 
 void CheckedFile::sync_folder() {

@@ -5,9 +5,6 @@
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 
 #include <algorithm>
 #include <array>
@@ -19,6 +16,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "core/platform.hpp"
 
 namespace slipfit::batch {
 namespace {
@@ -34,7 +32,7 @@ using JobNumber = std::uint64_t;
 
 bool send_all(int socket, std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t sent = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    const ssize_t sent = ::send(socket, bytes.data(), bytes.size(), platform::kSendFlags);
     if (sent < 0 && errno != EINTR) return false;
     if (sent > 0) bytes.remove_prefix(static_cast<std::size_t>(sent));
   }
@@ -129,7 +127,7 @@ void ProcessPool::begin_jobs(std::vector<Answer>& answers) {
     child->left = std::chrono::duration_cast<Clock::duration>(
         std::chrono::duration<double>(std::min(waiting.limit_s, kLongest_s)));
     const JobNumber number = job;  // a child that is gone is noticed by poll
-    (void)::send(child->socket.get(), &number, sizeof(number), MSG_NOSIGNAL);
+    (void)::send(child->socket.get(), &number, sizeof(number), platform::kSendFlags);
   }
 }
 
@@ -143,12 +141,11 @@ ProcessPool::Child* ProcessPool::child_for(std::size_t job) {
 }
 
 ProcessPool::Child* ProcessPool::start_child() {
-  std::array<int, 2> sockets{-1, -1};
   const pid_t parent = ::getpid();
-  const bool has_sockets = ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) == 0;
+  const std::array<int, 2> sockets = platform::connected_sockets();
   FileHandle ours(sockets[0]);
   FileHandle theirs(sockets[1]);
-  const pid_t pid = has_sockets ? ::fork() : -1;
+  const pid_t pid = ours ? ::fork() : -1;
   if (pid == 0) {
     for (Child& sibling : children_) sibling.socket = {};  // else they would outlive the parent: no end of file
     ours = {};
@@ -171,9 +168,7 @@ ProcessPool::Child* ProcessPool::start_child() {
 /// Ends without writing the parent's buffers or running its destructors.
 void ProcessPool::serve(int socket, pid_t parent) const {
   for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, SIG_IGN);  // the parent handles them
-#ifdef __linux__
-  (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);
-#endif
+  platform::end_with_parent();
   if (::getppid() != parent) ::_exit(1);
   try {
     JobNumber job = 0;

@@ -1,6 +1,6 @@
 #include "core/parallel.hpp"
 
-#include <thread>
+#include "core/platform.hpp"
 
 namespace slipfit {
 namespace {
@@ -14,7 +14,7 @@ std::atomic<std::size_t>& processes_sharing() {
 }  // namespace
 
 std::size_t usable_processors() {
-  static const std::size_t present = std::max(1U, std::thread::hardware_concurrency());
+  static const std::size_t present = platform::processors();
   return std::max<std::size_t>(1, present / processes_sharing());
 }
 

@@ -20,7 +20,8 @@ inline constexpr std::launch kLaunch = std::launch::deferred;
 inline constexpr std::launch kLaunch = std::launch::async | std::launch::deferred;
 #endif
 
-/// Processors that this process may use at a time, at least 1: those of the machine, or fewer after share_processors.
+/// Processors that this process may use at a time, at least 1: those of the machine that it was
+/// given, or fewer after share_processors.
 [[nodiscard]] std::size_t usable_processors();
 
 /// For a process of several that compute at the same time: it takes its share of the machine's processors, at least

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/platform.hpp"
 #include "io/container/byte_stream.hpp"
 
 // What each kind of container takes to become text. Without the library that a kind needs the error is not_built_in and
@@ -51,7 +52,7 @@ struct Helper {
   std::chrono::milliseconds longest_wait = std::chrono::minutes(4);  ///< for its output, in total; then it is killed
 };
 
-inline constexpr const char* kFileOfHelper = "/proc/self/fd/3";
+inline constexpr const char* kFileOfHelper = platform::kFileOfDescriptor3;
 
 struct HelperOutput {
   std::string first;  ///< line, behind its "="

@@ -2,7 +2,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -128,8 +127,7 @@ std::vector<std::filesystem::path> folders_of_variable(const char* name) {
 /// the programs on the PATH, for a program of another place that slipfit's library is part of.
 std::vector<std::filesystem::path> helper_folders() {
   std::vector<std::filesystem::path> folders = folders_of_variable("SLIPFIT_HELPERS");
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  const auto program = platform::program_file().parent_path();
   const auto library = folder_of_this_code();
   const std::filesystem::path installed = "../libexec/slipfit";
   folders.insert(folders.end(), {program, program / installed, program / "../apps", library,
@@ -153,7 +151,7 @@ std::string find_helper(const Helper& helper, const std::string& name) {
 /// pipe.
 FileHandle file_in_memory(TextStream input, const std::string& name) {
   constexpr std::size_t kMostBytes = std::size_t{2} << 30U;
-  FileHandle file(::memfd_create("slipfit", MFD_CLOEXEC));
+  FileHandle file(platform::open_nameless_file());
   if (!file) throw too_large(name);
   std::vector<char> piece(std::size_t{256} * 1024);
   std::size_t size = 0;
@@ -215,10 +213,9 @@ class SpawnSettings {
 
 std::unique_ptr<ProgramStream> start(const Helper& helper, const FileHandle& input, const std::string& name) {
   const std::string program = find_helper(helper, name);
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw ThrownError({"not_readable", name + ": no pipe can be made; close programs"});
+  const std::array<int, 2> ends = platform::open_pipe();
   FileHandle read_end(ends[0]);
+  if (!read_end) throw ThrownError({"not_readable", name + ": no pipe can be made; close programs"});
   const FileHandle write_end(ends[1]);
   const ::pid_t process = SpawnSettings(input.get(), write_end.get()).start(program, helper.arguments);
   if (process != 0) return std::make_unique<ProgramStream>(process, std::move(read_end), name, helper.longest_wait);
