@@ -1,14 +1,17 @@
 #pragma once
 
+#include <fcntl.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <string>
+#include <string_view>
+#include <system_error>
 
 #include "core/platform.hpp"
 
@@ -38,13 +41,16 @@ inline void forbid_opening_files() {
   setrlimit(RLIMIT_NOFILE, &none);
 }
 
-/// The whole file; after that no other one can be opened. Throws std::exception.
-inline std::string read_only_file(const char* name) {
-  std::ifstream opened(name, std::ios::binary);
-  std::string file(std::filesystem::file_size(name), '\0');
-  opened.read(file.data(), static_cast<std::streamsize>(file.size()));
+/// The whole file, which stays in memory to the end of the program; after that no other one can be opened. What is not
+/// looked at is not read. Throws std::exception.
+inline std::string_view map_only_file(const char* name) {
+  const std::size_t size = std::filesystem::file_size(name);
+  const int file = ::open(name, O_RDONLY);
+  void* const bytes = size > 0 && file >= 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : MAP_FAILED;
   forbid_opening_files();
-  return file;
+  if (bytes != MAP_FAILED) return {static_cast<const char*>(bytes), size};
+  if (size == 0) return {};
+  throw std::system_error(errno, std::generic_category(), "the file cannot be read");
 }
 
 /// Ends the program without the exit handlers of the libraries, which may want to open files. Standard output must have

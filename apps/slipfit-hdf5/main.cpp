@@ -54,20 +54,20 @@ std::string line_of_names(const std::string& first, const std::vector<std::strin
   return line + "\n";
 }
 
-int read_one(std::string_view kind, std::string file, const std::optional<std::string>& variable) {
+int read_one(std::string_view kind, std::string_view file, const std::optional<std::string>& variable) {
   auto* const read = kind == "mat" ? read_mat : read_hdf5;
-  ReadTable found = read(std::move(file), variable);
+  ReadTable found = read(file, variable);
   const bool written = write(line_of_names(found.name, found.all)) && copy(std::move(found.table), write);
   return written && std::fflush(stdout) == 0 ? 0 : 1;
 }
 
-int read_all_tables(std::string_view kind, std::string file) {
+int read_all_tables(std::string_view kind, std::string_view file) {
   bool written = true;
   const auto write_piece = [](std::string_view piece) {
     return write(std::to_string(piece.size()) + "\n") && write(piece);
   };
   auto* const take_all = kind == "mat-all" ? take_all_of_mat : take_all_of_hdf5;
-  take_all(std::move(file), [&](const std::string& name, const std::function<NumberTable()>& read) {
+  take_all(file, [&](const std::string& name, const std::function<NumberTable()>& read) {
     if (!written || name.find('\n') != std::string::npos) return;
     written = write("=" + name + "\n");
     try {
@@ -80,8 +80,8 @@ int read_all_tables(std::string_view kind, std::string file) {
 }
 
 int run(std::string_view kind, const char* name, const std::optional<std::string>& variable) {
-  std::string file = read_only_file(name);
-  return kind.ends_with("-all") ? read_all_tables(kind, std::move(file)) : read_one(kind, std::move(file), variable);
+  const std::string_view file = map_only_file(name);
+  return kind.ends_with("-all") ? read_all_tables(kind, file) : read_one(kind, file, variable);
 }
 
 /// Never throws.

@@ -8,6 +8,7 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -56,9 +57,9 @@ bool write(const Image& image) {
 }
 
 int run(const char* name) {
-  const std::string file = read_only_file(name);
-  const auto* const bytes = reinterpret_cast<const l_uint8*>(
-      file.data());  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast): Leptonica's
+  const std::string_view file = map_only_file(name);
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): Leptonica's
+  const auto* const bytes = reinterpret_cast<const l_uint8*>(file.data());
   setMsgSeverity(L_SEVERITY_NONE);
   l_int32 format = 0;
   l_int32 width = 0;

@@ -1,3 +1,4 @@
+#include "io/kept_recordings.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/pipeline.hpp"
@@ -23,11 +24,12 @@ std::optional<Error> check_joint(const Recording& recording) {
 
 Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manifest) {
   std::vector<SweepEntry> entries;
+  reading::KeptFile kept;
   for (const ManifestEntry& entry : manifest) {
     const auto told = [&entry](const Error& error) { return entry.line > 0 ? in_words_of_manifest(error) : error; };
     const auto stated = with_worn_track(entry.conditions, entry.surface);
     if (!stated) return told(stated.error());
-    auto pieces = read_pieces(entry.file, stated.value(), entry.options);
+    auto pieces = reading::read_pieces(kept, entry.file, stated.value(), entry.options);
     if (!pieces) return told(pieces.error());
     for (NamedRecording& piece : std::move(pieces).value()) {
       if (auto error = check_joint(piece.recording)) return *std::move(error);

@@ -55,7 +55,7 @@ void Run::fit_recordings() {
     const bool is_mine = entry->row <= list_.rows && list_.is_mine[entry->row - 1];  // the file may have grown
     if (!is_mine) continue;
     offer({{entry->row - 1, entry->id}, {input_paths_of(*entry)}, [this, entry] {
-             return fit_recording_of(*entry, options_);
+             return fit_recording_of(*entry, options_, kept_);
            }});
   }
   finish();

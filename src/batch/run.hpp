@@ -61,6 +61,7 @@ class Run {
   const BatchHooks& hooks_;
   const WorkList& list_;
   ResultLog& log_;
+  reading::KeptFile kept_;  ///< of the process that fits
   ProcessPool pool_;
   std::map<std::size_t, WorkItem> at_work_;  ///< by the number of the job
   std::vector<WorkItem> suspects_;           ///< whose process died: tried again when nothing else runs

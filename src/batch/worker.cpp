@@ -10,6 +10,7 @@
 
 #include "batch/files.hpp"
 #include "batch/pages.hpp"
+#include "io/kept_recordings.hpp"
 #include "report/batch_html.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/core/printable.hpp"
@@ -155,11 +156,11 @@ Result<BatchFit> fit_pieces_of(const ManifestEntry& entry, const BatchOptions& o
   return result;
 }
 
-Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions& options) {
+Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions& options, reading::KeptFile& kept) {
   if (entry.options.pieces != Pieces::One) return fit_pieces_of(entry, options);
   const auto conditions = with_worn_track(entry.conditions, entry.surface);
   if (!conditions) return in_words_of_manifest(conditions.error());
-  const auto read = with_data(read_recording(entry.file, conditions.value(), entry.options));
+  const auto read = with_data(reading::read_recording(kept, entry.file, conditions.value(), entry.options));
   if (!read) return in_words_of_manifest(read.error());
   const Recording& recording = read.value();
   FitOptions fit = options.fit;

@@ -7,6 +7,7 @@
 
 #include "batch/result_log.hpp"
 #include "batch/work_list.hpp"
+#include "io/container/kept_file.hpp"
 #include "slipfit/batch/options.hpp"
 #include "slipfit/core/result.hpp"
 
@@ -28,7 +29,8 @@ struct WorkItem {
 
 std::string name_of(const WorkItem& item);
 
-Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions& options);
+/// `kept`: the file of the row before, of which this one may be another table.
+Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions& options, reading::KeptFile& kept);
 
 struct Reply {
   enum class Kind : char {

@@ -119,11 +119,10 @@ LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options)
           std::move(rows),      std::move(warnings)};
 }
 
-LoadedFile load_file(const std::filesystem::path& path, double speed_m_per_s, const ReadOptions& options) {
-  check_options(options, name_of_file(path));
-  OpenedFile opened = open_file(path, options);
-  Choice choice = choose_columns(opened.layout, options, speed_m_per_s, opened.name);
-  return load_rows(std::move(opened), std::move(choice), options);
+LoadedFile load_file(TextStream opened, const std::string& name, double speed_m_per_s, const ReadOptions& options) {
+  OpenedFile file = open_file(std::move(opened), name, options);
+  Choice choice = choose_columns(file.layout, options, speed_m_per_s, file.name);
+  return load_rows(std::move(file), std::move(choice), options);
 }
 
 void check_options(const ReadOptions& options, const std::string& file) {

@@ -41,9 +41,9 @@ struct LoadedFile {
 /// Reads the rows. With a window of the options that comes before the steps, what lies outside is not even kept.
 LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options);
 
-/// The same of the columns that the options and names tell. Errors: those of open_file, check_options and
-/// choose_columns.
-LoadedFile load_file(const std::filesystem::path& path, double speed_m_per_s, const ReadOptions& options);
+/// The same of the columns that the options and names tell, of a file that open_plain opened. Errors: those of
+/// open_file and choose_columns.
+LoadedFile load_file(TextStream opened, const std::string& name, double speed_m_per_s, const ReadOptions& options);
 
 /// The samples as a file of two columns whose rows are read. Errors: length_mismatch, unknown_unit, no_time_column,
 /// conflicting_options, those of check_options.

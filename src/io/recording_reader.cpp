@@ -6,6 +6,7 @@
 
 #include "core/thrown_error.hpp"
 #include "io/build.hpp"
+#include "io/kept_recordings.hpp"
 #include "io/message.hpp"
 #include "io/opened_file.hpp"
 #include "io/part.hpp"
@@ -39,21 +40,52 @@ std::vector<NamedRecording> take_apart(LoadedFile file, const Conditions& condit
   return one;
 }
 
-}  // namespace
+/// `open`: opens the file.
+template <class Open>
+Result<std::vector<NamedRecording>> pieces_of(const std::filesystem::path& file, const Conditions& conditions,
+                                              const ReadOptions& options, const Open& open) {
+  const std::string name = name_of_file(file);
+  return with_errors_of_reading(name, [&] {
+    check_options(options, name);
+    return take_apart(load_file(open(file), name, conditions.speed_m_per_s, options), conditions);
+  });
+}
 
-Result<Recording> read_recording(const std::filesystem::path& file, const Conditions& conditions,
-                                 const ReadOptions& options) {
-  ReadOptions one = options;
-  one.pieces = Pieces::One;
-  auto pieces = read_pieces(file, conditions, one);
+Result<Recording> only_one(Result<std::vector<NamedRecording>> pieces) {
   if (!pieces) return pieces.error();
   return std::move(std::move(pieces).value().front().recording);
 }
 
+ReadOptions in_one_piece(ReadOptions options) {
+  options.pieces = Pieces::One;
+  return options;
+}
+
+}  // namespace
+
+namespace reading {
+
+Result<std::vector<NamedRecording>> read_pieces(KeptFile& kept, const std::filesystem::path& file,
+                                                const Conditions& conditions, const ReadOptions& options) {
+  if (!options.sheet && !options.variable) return slipfit::read_pieces(file, conditions, options);
+  return pieces_of(file, conditions, options, [&](const std::filesystem::path& path) { return kept.open(path); });
+}
+
+Result<Recording> read_recording(KeptFile& kept, const std::filesystem::path& file, const Conditions& conditions,
+                                 const ReadOptions& options) {
+  return only_one(read_pieces(kept, file, conditions, in_one_piece(options)));
+}
+
+}  // namespace reading
+
+Result<Recording> read_recording(const std::filesystem::path& file, const Conditions& conditions,
+                                 const ReadOptions& options) {
+  return only_one(read_pieces(file, conditions, in_one_piece(options)));
+}
+
 Result<std::vector<NamedRecording>> read_pieces(const std::filesystem::path& file, const Conditions& conditions,
                                                 const ReadOptions& options) {
-  return with_errors_of_reading(
-      name_of_file(file), [&] { return take_apart(load_file(file, conditions.speed_m_per_s, options), conditions); });
+  return pieces_of(file, conditions, options, open_plain);
 }
 
 Result<std::vector<NamedRecording>> read_samples(Samples samples, const Conditions& conditions,

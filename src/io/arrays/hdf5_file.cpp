@@ -162,12 +162,23 @@ void add_array(hid_t file, const ArrayShape& shape, NumberTable& table) {
   }
 }
 
-/// The library resolves links in the path of a file that it opens itself; slipfit's has no path.
-hid_t open_in_memory(std::string file) {
+/// The library resolves links in the path of a file that it opens itself; slipfit's has no path. The bytes are not
+/// copied, which the library would do twice: they have to outlive the file, which is never written to.
+hid_t open_in_memory(std::string_view file) {
   constexpr std::size_t kIncrement = std::size_t{1} << 20U;
+  auto* const bytes = const_cast<char*>(file.data());
+  H5FD_file_image_callbacks_t uncopied{
+      .image_malloc = [](std::size_t, H5FD_file_image_op_t, void* image) { return image; },
+      .image_memcpy = [](void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) { return to; },
+      .image_realloc = [](void*, std::size_t, H5FD_file_image_op_t, void*) -> void* { return nullptr; },
+      .image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; },
+      .udata_copy = [](void* image) { return image; },
+      .udata_free = [](void*) -> herr_t { return 0; },
+      .udata = bytes};
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access, kIncrement, false);
-  H5Pset_file_image(access, file.data(), file.size());
+  H5Pset_file_image_callbacks(access, &uncopied);
+  H5Pset_file_image(access, bytes, file.size());
   return H5Fopen("recording", H5F_ACC_RDONLY, access);
 }
 
@@ -201,20 +212,20 @@ NumberTable table_of(hid_t file, const TableShape& shape) {
 
 }  // namespace
 
-ReadTable read_hdf5(std::string file, const std::optional<std::string>& variable) {
+ReadTable read_hdf5(std::string_view file, const std::optional<std::string>& variable) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const std::uint64_t size = file.size();
-  const Handle opened(open_in_memory(std::move(file)), H5Fclose);
+  const Handle opened(open_in_memory(file), H5Fclose);
   const Contents contents = contents_of(opened);
   refuse_other_files(contents, variable);
   const TableShape shape = choose_table(contents.arrays, variable, size);
   return {table_of(opened, shape), shape.name, names_of(recordable_tables(contents.arrays, size))};
 }
 
-void take_all_of_hdf5(std::string file, const TakeTable& take) {
+void take_all_of_hdf5(std::string_view file, const TakeTable& take) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const std::uint64_t size = file.size();
-  const Handle opened(open_in_memory(std::move(file)), H5Fclose);
+  const Handle opened(open_in_memory(file), H5Fclose);
   const Contents contents = contents_of(opened);
   refuse_other_files(contents, std::nullopt);
   for (const TableShape& shape : recordable_tables(contents.arrays, size)) {

@@ -269,14 +269,14 @@ NumberTable table_of(std::string_view file, const TableShape& shape) {
 }  // namespace
 
 // Of one type with read_hdf5, which gives the bytes away. NOLINTNEXTLINE(performance-unnecessary-value-param)
-ReadTable read_mat(std::string file, const std::optional<std::string>& variable) {
+ReadTable read_mat(std::string_view file, const std::optional<std::string>& variable) {
   const std::vector<ArrayShape> arrays = arrays_in(file);
   const TableShape shape = choose_table(arrays, variable, file.size());
   return {table_of(file, shape), shape.name, names_of(recordable_tables(arrays, file.size()))};
 }
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
-void take_all_of_mat(std::string file, const TakeTable& take) {
+void take_all_of_mat(std::string_view file, const TakeTable& take) {
   for (const TableShape& shape : recordable_tables(arrays_in(file), file.size())) {
     take(shape.name, [&] { return table_of(file, shape); });
   }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/thrown_error.hpp"
@@ -63,15 +64,15 @@ struct ReadTable {
 };
 
 /// The table in the bytes of a file: of MATLAB 5 to 7; of HDF5, which MATLAB 7.3 writes, too. Throw Refusal.
-ReadTable read_mat(std::string file, const std::optional<std::string>& variable);
-ReadTable read_hdf5(std::string file, const std::optional<std::string>& variable);
+ReadTable read_mat(std::string_view file, const std::optional<std::string>& variable);
+ReadTable read_hdf5(std::string_view file, const std::optional<std::string>& variable);
 
 /// Called with the name of a table and what reads it, which may throw Refusal.
 using TakeTable = std::function<void(const std::string& name, const std::function<NumberTable()>& read)>;
 
 /// All recordable tables of such a file.
-void take_all_of_mat(std::string file, const TakeTable& take);
-void take_all_of_hdf5(std::string file, const TakeTable& take);
+void take_all_of_mat(std::string_view file, const TakeTable& take);
+void take_all_of_hdf5(std::string_view file, const TakeTable& take);
 
 /// The names of the tables that --variable can name.
 std::vector<std::string> names_of(const std::vector<TableShape>& tables);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/file_handle.hpp"
 #include "core/thrown_error.hpp"
 #include "slipfit/core/digest.hpp"
 #include "slipfit/core/estimate.hpp"
@@ -44,6 +45,7 @@ struct TextStream {
   std::shared_ptr<const Digester> digester;  ///< of the bytes of the file itself
   std::size_t size = 0;                      ///< of the text; 0 where it is not known
   std::string start;                         ///< first bytes of the file, which are still to be read
+  std::shared_ptr<const FileHandle> memory;  ///< all bytes as a file without a name, where they are kept so
   std::vector<std::string> assumed;          ///< sentences about the container
   std::vector<std::string> tables;           ///< that a choice can name
   TableKind table_kind = TableKind::One;

@@ -18,6 +18,7 @@
 
 #include "core/file_handle.hpp"
 #include "io/container/formats.hpp"
+#include "io/container/kept_file.hpp"
 #include "io/message.hpp"
 
 namespace slipfit::reading {
@@ -127,6 +128,7 @@ std::vector<std::filesystem::path> folders_of_variable(const char* name) {
 /// the programs on the PATH, for a program of another place that slipfit's library is part of.
 std::vector<std::filesystem::path> helper_folders() {
   std::vector<std::filesystem::path> folders = folders_of_variable("SLIPFIT_HELPERS");
+  std::error_code error;
   const auto program = platform::program_file().parent_path();
   const auto library = folder_of_this_code();
   const std::filesystem::path installed = "../libexec/slipfit";
@@ -145,27 +147,6 @@ std::string find_helper(const Helper& helper, const std::string& name) {
                                          " reads, and that is not found; install it (it is built with Debian's " +
                                          helper.package + "), set SLIPFIT_HELPERS to its folder, or export the file " +
                                          "as text"});
-}
-
-/// The libraries need a file with random access: one in memory, so that the bytes are read once, and may come through a
-/// pipe.
-FileHandle file_in_memory(TextStream input, const std::string& name) {
-  constexpr std::size_t kMostBytes = std::size_t{2} << 30U;
-  FileHandle file(platform::open_nameless_file());
-  if (!file) throw too_large(name);
-  std::vector<char> piece(std::size_t{256} * 1024);
-  std::size_t size = 0;
-  while (const std::size_t got = input.bytes->read(piece.data(), piece.size())) {
-    size += got;
-    if (size > kMostBytes) throw too_large(name);
-    for (std::size_t written = 0; written < got;) {
-      const ::ssize_t count = ::write(file.get(), piece.data() + written, got - written);
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) throw too_large(name);
-      written += static_cast<std::size_t>(count);
-    }
-  }
-  return file;
 }
 
 constexpr int kDescriptorOfHelper = 3;  // kFileOfHelper
@@ -327,8 +308,10 @@ void visit_with_reader(const char* kind, TextStream packed, const std::string& n
 }  // namespace
 
 HelperOutput run_helper(const Helper& helper, TextStream input, const std::string& name) {
-  const FileHandle file = file_in_memory(std::move(input), name);
-  std::unique_ptr<ProgramStream> bytes = start(helper, file, name);
+  // The libraries need a file with random access: one in memory, so that the bytes are read once, and may come through
+  // a pipe.
+  if (input.memory == nullptr) input.memory = std::make_shared<const FileHandle>(file_in_memory(*input.bytes, name));
+  std::unique_ptr<ProgramStream> bytes = start(helper, *input.memory, name);
   const std::string first = bytes->line();
   if (first.starts_with('=')) return {first.substr(1), std::move(bytes)};
   const std::size_t blank = std::min(first.find(' '), first.size());

@@ -26,22 +26,22 @@ TextStream text_of_table(NumberTable table, const std::string& name) {
   return text;
 }
 
-using ReadOne = ReadTable(std::string file, const std::optional<std::string>& variable);
+using ReadOne = ReadTable(std::string_view file, const std::optional<std::string>& variable);
 
 TextStream open_arrays(ReadOne* read, TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  std::string file = read_all(packed, name);
-  ReadTable found = with_name(name, [&] { return read(std::move(file), choice.variable); });
+  const std::string file = read_all(packed, name);
+  ReadTable found = with_name(name, [&] { return read(file, choice.variable); });
   TextStream text = text_of_table(std::move(found.table), found.name);
   text.tables = std::move(found.all);
   return text;
 }
 
-using TakeAll = void(std::string file, const TakeTable& take);
+using TakeAll = void(std::string_view file, const TakeTable& take);
 
 void visit_arrays_of(TakeAll* take_all, TextStream packed, const std::string& name, const TableVisitor& visit) {
-  std::string file = read_all(packed, name);
+  const std::string file = read_all(packed, name);
   with_name(name, [&] {
-    take_all(std::move(file), [&](const std::string& table, const std::function<NumberTable()>& read) {
+    take_all(file, [&](const std::string& table, const std::function<NumberTable()>& read) {
       visit({table, [&] { return text_of_table(with_name(name, read), table); }});
     });
   });
