@@ -208,14 +208,17 @@ test("every kind of page prints all of its charts", async () => {
     ["trace", "spectrum", "cycles", "evolution", "pairs", "map", "speed", "pattern"]);
   slipfit("analyze", demo, "--speed", "10mm/s", "--report", shot("print-analyze.html"), "--quiet");
   assert.deepEqual(await printedCharts(shot("print-analyze.html")), ["trace", "spectrum", "cycles", "evolution", "pattern"]);
-  const rows = sweep("print").map((run) => `${run.name},${run.name}.csv,${run.speed},print`);
+  addHum(demo, shot("print-hum.csv"));
+  assert.deepEqual(await printedCharts(report(shot("print-hum.csv"), "print-hum.html")),
+    ["trace", "spectrum", "cycles", "evolution", "pairs", "map", "speed", "pattern"]);
+  const rows = sweep("print", [4, 5, 7, 10, 20]).map((run) => `${run.name},${run.name}.csv,${run.speed},print`);
   fs.writeFileSync(shot("print.csv"), `id,file,speed [mm/s],group\n${rows.join("\n")}\n`);
   slipfit("fit", "--joint", shot("print.csv"), "--report", shot("print-sweep.html"), "--quiet");
   assert.deepEqual(await printedCharts(shot("print-sweep.html")),
     ["sweep-spacing", "sweep-friction", "sweep-cycles", "sweep-traces"]);
   fs.rmSync(shot("print-results"), { recursive: true, force: true });
   slipfit("batch", shot("print.csv"), "--out", shot("print-results"), "--report", shot("print-batch.html"), "--quiet");
-  assert.deepEqual(await printedCharts(shot("print-batch.html")), ["spark", "spark", "spark"]);
+  assert.deepEqual(await printedCharts(shot("print-batch.html")), [...rows.map(() => "spark"), ...kDistributions]);
   slipfit("compare", shot("print-5.csv"), shot("print-10.csv"), "--speed", "10mm/s", "--quiet", "--out", shot("print.txt"),
     "--report", shot("print-compare.html"));
   assert.deepEqual(await printedCharts(shot("print-compare.html")), ["cycles"]);
@@ -225,9 +228,22 @@ test("every kind of page prints all of its charts", async () => {
   assert.deepEqual(await printedCharts(shot("print-surface.html")), ["profile"]);
 });
 
-/** Recordings of three speeds; the file names begin with `prefix`. */
-function sweep(prefix) {
-  return [5, 10, 20].map((speed) => {
+const kDistributions = ["frequencies", "spacings", "stiffnesses", "differences", "damping-ratios"];
+
+/** The recording with hum of 50 Hz and a line of another origin. */
+function addHum(file, name) {
+  const lines = fs.readFileSync(file, "utf8").trim().split("\n").filter((line) => !line.startsWith("#"));
+  const rows = lines.slice(1).map((line) => {
+    const [time, force] = line.split(",").map(Number);
+    const hum = 0.15 * Math.sin(2 * Math.PI * 50.03 * time + 1) + 0.1 * Math.sin(2 * Math.PI * 271.3 * time);
+    return `${time},${(force + hum).toFixed(6)}`;
+  });
+  fs.writeFileSync(name, `${[lines[0], ...rows].join("\n")}\n`);
+}
+
+/** Recordings of several speeds; the file names begin with `prefix`. */
+function sweep(prefix, speeds = [5, 10, 20]) {
+  return speeds.map((speed) => {
     const name = `${prefix}-${speed}`;
     const model = ["--stiffness", "5000", "--natural-frequency", "900", "--damping-ratio", "0.05", "--static-friction",
       "4.2", "--kinetic-friction", "3.2"];

@@ -124,7 +124,7 @@ Figure cycles_figure(const Source& source) {
   for (const CycleWindow& window : windows) chart.panels.push_back(panel_of(source, stack, window));
   figure.chart = std::move(chart);
   figure.label =
-      fmt::format("{} of {} cycles, overlaid, with the fit of a typical one", stack.anchors.size(), cycles.count);
+      fmt::format("{} of {} cycles overlaid, with the fit of a typical one", stack.anchors.size(), cycles.count);
   return figure;
 }
 
