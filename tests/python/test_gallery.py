@@ -24,7 +24,7 @@ def test_notebooks(notebook, tmp_path):
 
 
 def test_notebooks_are_kept_without_results():
-    assert len(NOTEBOOKS) == 5
+    assert len(NOTEBOOKS) == 6
     for notebook in NOTEBOOKS:
         cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
         assert not any(cell.get("outputs") or cell.get("execution_count") for cell in cells), notebook.name
