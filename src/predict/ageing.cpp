@@ -161,9 +161,11 @@ std::optional<double> aged_difference_N(const ModelEstimate& model, double speed
 
 MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s, double sharp) {
   const std::optional<double> difference_N = aged_difference_N(model, speed_m_per_s, sharp);
-  if (!difference_N) {
+  // Next to the end of stick-slip, a static friction that is found no more sharply than that may have no cycle any more.
+  MotionJets motion = held_motion_at(held_at(model, difference_N.value_or(0.0)), speed_m_per_s);
+  if (!difference_N || !motion.cycle) {
     // Each slip is smaller than the one before, until nothing sticks: as for F_s = F_k.
-    MotionJets motion = held_motion_at(held_at(model, 0.0), speed_m_per_s);
+    if (difference_N) motion = held_motion_at(held_at(model, 0.0), speed_m_per_s);
     motion.cycle.reset();
     motion.restick_margin.reset();
     if (motion.regime == Regime::StickSlip || motion.regime == Regime::StickSlipBistable) {
@@ -171,7 +173,6 @@ MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s, do
     }
     return motion;
   }
-  MotionJets motion = held_motion_at(held_at(model, *difference_N), speed_m_per_s);
   const Jet aged_N = aged_jet(model, *difference_N, motion.cycle->stick_s);
   CycleJets& cycle = *motion.cycle;
   std::vector<Jet*> all{&cycle.slip_s,       &cycle.stick_s,       &cycle.period_s, &cycle.periodic_displacement_m,

@@ -264,3 +264,29 @@ TEST_CASE("ageing: static friction that differs for another reason is not taken 
   }
   CHECK(taken <= 1);  // of 8 at 1 %
 }
+
+TEST_CASE("next to the end of stick-slip the motion is known for a static friction that is found roughly") {
+  constexpr double kRough = 1e-4;
+  for (const double zeta : {0.01, 0.05, 0.1, 0.1657, 0.3}) {
+    for (const double rate_N : {0.01, 0.03, 0.0575, 0.1}) {
+      for (const double stiffness_N_per_m : {300.0, 378.83, 420.0}) {
+        ModelEstimate model = example().estimate;
+        model.stiffness_N_per_m = stiffness_N_per_m;
+        model.natural_frequency_rad_per_s = 44.114;
+        model.damping_ratio = zeta;
+        model.friction_difference_N = 1.0919;
+        model.ageing = Ageing{rate_N, 1.4246};
+        double sticks = 1e-6;
+        double slides = 10.0;
+        while (slides > (1.0 + 1e-14) * sticks) {
+          const double middle = std::sqrt(sticks * slides);
+          (predict::aged_difference_N(model, middle, kRough) ? sticks : slides) = middle;
+          const predict::MotionJets motion = predict::ageing_motion_at(model, middle, kRough);
+          CAPTURE(zeta, rate_N, stiffness_N_per_m, middle);
+          CHECK(motion.cycle.has_value() ==
+                (motion.regime == Regime::StickSlip || motion.regime == Regime::StickSlipBistable));
+        }
+      }
+    }
+  }
+}
