@@ -10,7 +10,7 @@ const kGermanWarnings = {
   speed_differs_from_displacement: "Die Wegspalte bewegt sich mit einer anderen Geschwindigkeit als der angegebenen.",
   level_repeats: "Das Kraftniveau wiederholt sich entlang des Weges.",
   level_trend: "Das Kraftniveau steigt oder fällt: Drift des Sensors oder geänderte Reibung (--drift sagt, was davon).",
-  values_contradict: "Zwei Angaben zu derselben Größe widersprechen sich; die Bereiche enthalten beide.",
+  values_contradict: "Zwei Angaben zu derselben Größe widersprechen sich; die Bereiche enthalten beide, oder eine von mehreren Aufzeichnungen weicht ab.",
   speed_differs: "Die Geschwindigkeitsspalte sagt etwas anderes als die Angabe; die Angabe gilt.",
   normal_force_differs: "Die Spalte der Normalkraft sagt etwas anderes als die Angabe; die Angabe gilt.",
   normal_force_varies: "Die Normalkraft schwankt um mehr als ein Zehntel; ihr Median steht für sie.",

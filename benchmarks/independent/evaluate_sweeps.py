@@ -8,7 +8,8 @@ bands: spacings at 2 and 4 times the fastest recording inside their 95 % interva
 without any warning of the fit. V_c: inside its interval, of those with one; bracket: told as a bracket or a bound that holds, of
 those told so. fit: sweeps that could be predicted from. warned: with any warning. named: warnings `recording_disagrees` that name
 the wrong recording, of the sweeps that have one; alarm: that name one where none is wrong. se: median relative standard error of k
-and half-width of F_s - F_k. k, w_n, zeta, dF: inside its interval, of the sweeps that call it identified; B, t_c (rate and cut-off of ageing): of all that give one.
+and half-width of F_s - F_k. k, w_n, zeta, dF: inside its interval, of the sweeps that call it identified; B, t_c (rate and cut-off of ageing): of all that give one. audit: pairs of the recordings' audits that contradict
+themselves, of all.
 """
 import collections
 import json
@@ -49,6 +50,8 @@ def scored(result, truth):
     wrong = {f"run{b}" for b in (bad if isinstance(bad, list) else [bad])} if bad is not None else set()
     row["named"] = int(bool(named & wrong))
     row["alarm"] = int(bool(named - wrong))
+    pairs = [pair for one in fit.get("recordings", []) for pair in one.get("audit", [])]
+    row["pairs"], row["contradict"] = len(pairs), sum(pair["contradicts"] for pair in pairs)
     half = []
     prediction = result.get("prediction")
     row["fit"] = int(prediction is not None)
@@ -103,7 +106,8 @@ def line(family, rows):
             f"{total['wrong']:5d} {total['silent']:6d} {total['critical_covered']:4d}/{total['critical_given']:<4d} "
             f"{total['bound_holds']:4d}/{total['bound_given']:<4d} {total['warned']:6d} {total['named']:5d} {total['alarm']:5d} "
             f"{median(errors['k'], 100):>7} {median(errors['dF'], 100):>7}" +
-            "".join(f" {total['held ' + name]:3d}/{total['identified ' + name]:<3d}" for name in NAMES + AGEING))
+            "".join(f" {total['held ' + name]:3d}/{total['identified ' + name]:<3d}" for name in NAMES + AGEING) +
+            f" {total['contradict']:3d}/{total['pairs']}")
 
 
 def main():
@@ -117,7 +121,7 @@ def main():
         if row["wrong"] or row["alarm"] or (truth["bad"] is not None and not row["named"]) or not row["fit"]:
             codes = [w["code"] for w in (result.get("fit") or {}).get("warnings", [])]
             misses.append(f"  {truth['id']:22} wrong {row['wrong']} alarm {row['alarm']} named {row['named']} bad {truth['bad']} {codes} {result['error'][:160]}")
-    print(f"{'family':16} fit   bands    half none wrong silent     V_c   bracket warned named alarm   se k %  se dF %    k      w_n    zeta    dF      B      t_c")
+    print(f"{'family':16} fit   bands    half none wrong silent     V_c   bracket warned named alarm   se k %  se dF %    k      w_n    zeta    dF      B      t_c   audit")
     for family, rows in families.items():
         print(line(family, rows))
     print(line("all", [row for rows in families.values() for row in rows]))

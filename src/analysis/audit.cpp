@@ -212,6 +212,14 @@ const AuditPair* worst_of(const Row& row, const std::vector<AuditPair>& pairs) {
   return worst;
 }
 
+/// Whether the value itself is in question: most recordings of a joint fit that agree with the shared value show that
+/// the others are, which lower its status all the same.
+bool is_in_question(const Row& row, const std::vector<AuditPair>& pairs) {
+  const auto is_compared = [&](const AuditPair& pair) { return pair.pair == row.pair; };
+  const auto contradicts = [&](const AuditPair& pair) { return is_compared(pair) && pair.contradicts; };
+  return 2 * std::ranges::count_if(pairs, contradicts) >= std::ranges::count_if(pairs, is_compared);
+}
+
 /// The model's covariance with the way to the other value.
 void widen(ModelEstimate& model, std::span<const Concern> concerns, double log_ratio) {
   std::array<double, kModelValues> move{};
@@ -262,17 +270,18 @@ FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs) {
     const AuditPair* const pair = worst_of(row, pairs);
     if (pair == nullptr) continue;
     const double ratio = *pair->second.value / *pair->first.value;
+    const bool is_widened = ratio > 0.0 && is_in_question(row, pairs);
     for (const Concern& concern : row.concerns) {
       for (Parameter& parameter : fit.parameters) {
         if (parameter.id != concern.id || parameter.status == ParameterStatus::Fixed) continue;
         lower(parameter, row.highest);
-        if (ratio > 0.0 && parameter.estimate.value) {
+        if (is_widened && parameter.estimate.value) {
           include(parameter.estimate, *parameter.estimate.value * std::pow(ratio, concern.power));
         }
         add_note(parameter.estimate.note, "contradicted: " + sentence_of(*pair));
       }
     }
-    if (fit.estimate && ratio > 0.0) widen(*fit.estimate, row.concerns, std::log(ratio));
+    if (fit.estimate && is_widened) widen(*fit.estimate, row.concerns, std::log(ratio));
   }
   return fit;
 }
@@ -289,7 +298,10 @@ Warnings warn_of(const std::vector<AuditPair>& pairs) {
   for (const AuditPair& pair : pairs) {
     const bool is_shared = pair.recording.empty() || !row_of(pair).concerns.empty();
     if (!pair.contradicts || !is_shared) continue;  // a recording of a joint fit has its own warning of its frequency
-    warnings.push_back({"values_contradict", sentence_of(pair) + ": the intervals include both"});
+    const char* const what = is_in_question(row_of(pair), pairs)
+                                 ? ": the intervals include both"
+                                 : ": most of the other recordings agree with the shared value, check this one";
+    warnings.push_back({"values_contradict", sentence_of(pair) + what});
   }
   return warnings;
 }

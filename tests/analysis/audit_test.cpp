@@ -110,6 +110,20 @@ TEST_CASE("a shared k that one recording contradicts is not identified, and the 
   CHECK(warnings.front().message.find("recording 'middle'") == 0);
 }
 
+TEST_CASE("one recording that contradicts a shared k lowers its status, and the interval stays that of the others") {
+  const FitResult joint = *analysis_with(5000.0).fit;
+  std::vector<AuditPair> pairs;
+  for (const auto& [id, slope] : {std::pair{"a", 5000.0}, std::pair{"b", 5003.0}, std::pair{"wrong", 300000.0}}) {
+    const std::vector<AuditPair> more = joint_audit_of({id, recording_at(0.01)}, analysis_with(slope), joint);
+    pairs.insert(pairs.end(), more.begin(), more.end());
+  }
+  const FitResult fit = with_audit(joint, pairs);
+  CHECK(of(fit, ParameterId::Stiffness).status == ParameterStatus::Weak);
+  CHECK(of(fit, ParameterId::Stiffness).estimate.ci95->high < 5010.0);
+  REQUIRE(warn_of(pairs).size() == 1);
+  CHECK(warn_of(pairs).front().message.find("check this one") != std::string::npos);
+}
+
 TEST_CASE("k by the displacement makes k conditional where the two speeds differ") {
   const Estimate moved{0.0095, 1e-6, std::nullopt, {}};
   const Analysis analysis = analysis_with(5000.0);
