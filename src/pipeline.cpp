@@ -148,10 +148,9 @@ Warnings all_warnings(const SweepAnalysis& sweep) {
 SweepAnalysis audited(std::span<const SweepEntry> entries, SweepAnalysis sweep) {
   std::vector<AuditPair> shared;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    Analysis& analysis = sweep.recordings[i];
-    if (sweep.roles[i] != SweepRole::Cycles) continue;
-    analysis.audit = joint_audit_of(entries[i], analysis, sweep.fit->result);
-    shared.insert(shared.end(), analysis.audit.begin(), analysis.audit.end());
+    std::vector<AuditPair>& audit = sweep.audits.emplace_back();
+    if (sweep.roles[i] == SweepRole::Cycles) audit = joint_audit_of(entries[i], sweep.recordings[i], sweep.fit->result);
+    shared.insert(shared.end(), audit.begin(), audit.end());
   }
   sweep.fit->result = with_audit(std::move(sweep.fit->result), shared);
   append(sweep.fit->result.warnings, warn_of(shared));

@@ -126,8 +126,7 @@ struct Analysis {
   Derived derived;
   Transients transients;
   std::optional<Coefficients> coefficients;  ///< empty without a normal force
-  std::vector<AuditPair> audit;              ///< pairs of which both values are known; of stick-slip with a fit (of a
-                                             ///< joint fit: with the shared parameters)
+  std::vector<AuditPair> audit;              ///< pairs of which both values are known; of stick-slip with a fit
   std::vector<ShortTest> tests;              ///< only where the kind of motion is stick-slip with a fit
   Timing timing;
   std::optional<AskedFit> asked{};  ///< empty: no fit was asked for

@@ -35,14 +35,15 @@ struct Repeat {
 
 /// Recordings of one sliding pair at several speeds (or loads), analysed one by one and then together.
 struct SweepAnalysis {
-  std::vector<Analysis> recordings;  ///< in the order of the entries; `fit` is each recording's own
-  std::vector<SweepRole> roles;      ///< what each was used for
-  std::optional<SweepFit> fit;       ///< empty: fewer than two recordings with stick-slip cycles
-  std::string fit_reason;            ///< what it is made of, or why there is none
-  Derived derived;                   ///< critical speed; what belongs to one speed is empty
-  std::vector<Repeat> repeats;       ///< empty where the speeds differ
-  Warnings warnings;                 ///< of the sweep as a whole, the fit of the sweep's included
-  std::optional<AskedFit> asked{};   ///< empty: no fit was asked for
+  std::vector<Analysis> recordings;              ///< in the order of the entries; `fit` is each recording's own
+  std::vector<SweepRole> roles;                  ///< what each was used for
+  std::optional<SweepFit> fit;                   ///< empty: fewer than two recordings with stick-slip cycles
+  std::vector<std::vector<AuditPair>> audits{};  ///< of `fit` with each recording; empty without `fit`
+  std::string fit_reason;                        ///< what it is made of, or why there is none
+  Derived derived;                               ///< critical speed; what belongs to one speed is empty
+  std::vector<Repeat> repeats;                   ///< empty where the speeds differ
+  Warnings warnings;                             ///< of the sweep as a whole, the fit of the sweep's included
+  std::optional<AskedFit> asked{};               ///< empty: no fit was asked for
 };
 
 /// Each recording on its own, then one set of parameters for all. Needs at least one entry.

@@ -161,7 +161,7 @@ std::optional<double> aged_difference_N(const ModelEstimate& model, double speed
 
 MotionJets ageing_motion_at(const ModelEstimate& model, double speed_m_per_s, double sharp) {
   const std::optional<double> difference_N = aged_difference_N(model, speed_m_per_s, sharp);
-  // Next to the end of stick-slip, a static friction that is found no more sharply than that may have no cycle any more.
+  // Next to the end of stick-slip, a static friction that is found roughly may have no cycle any more.
   MotionJets motion = held_motion_at(held_at(model, difference_N.value_or(0.0)), speed_m_per_s);
   if (!difference_N || !motion.cycle) {
     // Each slip is smaller than the one before, until nothing sticks: as for F_s = F_k.

@@ -78,7 +78,6 @@ Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole ro
   add_analysis(json, entry.recording, analysis, role);
   json["derived"] = derived_json(analysis.derived);
   if (point != nullptr) {
-    if (role == SweepRole::Cycles) json["audit"] = audit_json(analysis.audit);
     json["joint"] = {{"cycles_used", point->cycles_used},
                      {"rms_N", point->rms},
                      {"kinetic_friction_N", point->kinetic_friction_N},
@@ -117,8 +116,9 @@ std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   Json json = head_json(options.id, sweep.asked);
   Json members = Json::array();
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    members.push_back(
+    Json& member = members.emplace_back(
         member_json(entries[i], sweep.recordings[i], sweep.roles[i], sweep.fit ? &sweep.fit->points[i] : nullptr));
+    if (i < sweep.audits.size() && sweep.roles[i] == SweepRole::Cycles) member["audit"] = audit_json(sweep.audits[i]);
   }
   json["recordings"] = std::move(members);
   if (!sweep.repeats.empty()) json["repeats"] = repeats_json(sweep.repeats);
