@@ -16,6 +16,7 @@ import subprocess
 import command_line
 
 SHORT = {"stiffness_N_per_m": "k", "friction_difference_N": "dF", "natural_frequency_rad_per_s": "w_n", "damping_ratio": "zeta",
+         "mass_kg": "m",
          "sensor_average_s": "T_b", "slip_distance_m": "D_c", "reload_force_N": "A", "reload_length_m": "l"}
 TERMS = ("sensor_average_s", "slip_distance_m", "reload_force_N")
 RIGHT = {"stick_slip": {"stick_slip"}, "reciprocating": {"stick_slip", "refused:reciprocating"},

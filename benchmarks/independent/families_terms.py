@@ -1,5 +1,5 @@
 """Families of the terms that measured recordings ask for, alone and together: an average of the instrument, friction that
-weakens over a slip distance, a rise after slips. Drawn by make_terms.py."""
+weakens over a slip distance, a rise after slips, a spring that relaxes. Drawn by make_terms.py."""
 import math
 
 from scenes import PARAMETERS, Scene, draw_rig, np, truth_of
@@ -25,7 +25,7 @@ def _release(omega, zeta, force, step, seconds):
     return force * np.exp(-zeta * omega * t) * (np.cos(damped * omega * t) + zeta / damped * np.sin(damped * omega * t))
 
 
-def _scene(rng, average=False, weakens=False, reloads=False, rings=None):
+def _scene(rng, average=False, weakens=False, reloads=False, rings=None, relaxes=False):
     """`rings`: by which w_n of the slips differs from that of the ring-down after a release at the end; None: no release."""
     rig = draw_rig(rng, per_slip=(20, 60), ratio=(5, 25))
     rig.step /= FINE
@@ -34,6 +34,9 @@ def _scene(rng, average=False, weakens=False, reloads=False, rings=None):
     if reloads:
         rig.model.reload_force = rig.drop * rng.uniform(0.1, 0.3)
         rig.model.reload_length = rig.drop / rig.model.stiffness * rng.uniform(0.2, 0.5)
+    if relaxes:
+        rig.model.relax_share = _log_uniform(rng, 0.05, 0.7)
+        rig.model.relax_time = _log_uniform(rng, 0.01, 10.0) * rig.period_s
     motion = rig.run((rig.count + 2) * rig.period_s)
     window_s = _log_uniform(rng, 0.3, 6.0) / rig.model.omega if average else 0.0
     time_s, force, end_s = motion.time_s, motion.force, motion.time_s[-1]
@@ -51,6 +54,12 @@ def _scene(rng, average=False, weakens=False, reloads=False, rings=None):
     truth["stretch_s"] = [0.0, float(stretch[1] - stretch[0])]
     if average:
         truth["parameters"]["sensor_average_s"] = window_s
+    truth["parameters"]["mass_kg"] = rig.model.stiffness / rig.model.omega**2
+    if relaxes:  # k between the relaxed and the instantaneous one is right, and w_n goes with it
+        for name in ("stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio"):
+            del truth["parameters"][name]
+        truth["stiffness_N_per_m"] = [rig.model.stiffness * (1 - rig.model.relax_share), rig.model.stiffness]
+        truth["relax_time_in_periods"] = rig.model.relax_time / rig.period_s
     return Scene(time_s - time_s[0], force + rig.white(len(force)), truth)
 
 
@@ -99,5 +108,10 @@ def rings_otherwise(rng):
     return _scene(rng, rings=rng.uniform(1.15, 2.0))
 
 
+def relaxes(rng):
+    """A standard linear solid in place of the spring, beside the damper."""
+    return _scene(rng, relaxes=True)
+
+
 FAMILIES = [none, average, weakens, reloads, average_weakens, average_reloads, weakens_reloads, average_weakens_reloads,
-            rings, average_rings, rings_otherwise]
+            rings, average_rings, rings_otherwise, relaxes]

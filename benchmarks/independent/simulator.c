@@ -19,6 +19,7 @@ typedef struct {
   double aftershock_s, aftershock_share;  /* small fall so long after a slip */
   double velocity_law;                    /* of stribeck_force: 0 exponential, 1 logarithmic, 2 hyperbolic */
   double ageing_law;                      /* 0 ln(1 + t/t_c), 1 power of t/t_c, 2 saturating */
+  double relax_share, relax_time;         /* a standard linear solid: this share of the stiffness relaxes */
 } Model;
 
 /* What changes with time, one value a sample; static friction further takes a factor for each slip. */
@@ -30,7 +31,7 @@ typedef struct {
 } Course;
 
 typedef struct {
-  double force, velocity, slid, sensor, sensor_rate, since_slip;
+  double force, velocity, slid, sensor, sensor_rate, since_slip, relaxing;
 } State;
 
 static double sign_of(double x) { return x < 0 ? -1.0 : 1.0; }
@@ -75,6 +76,10 @@ static State rate(const Model *m, const State *s, double drive, double kinetic, 
     if (m->creep_force > 0) velocity = m->creep_share * drive * exp(-(static_friction - fabs(s->force)) / m->creep_force);
   }
   d.force = tangent(m, s, sliding) * (drive - velocity);
+  if (m->relax_time > 0) {
+    d.force -= s->relaxing / m->relax_time;
+    d.relaxing = m->relax_share * m->stiffness * (drive - velocity) - s->relaxing / m->relax_time;
+  }
   if (m->sensor_omega > 0) {
     d.sensor = s->sensor_rate;
     d.sensor_rate = m->sensor_omega * m->sensor_omega * (s->force - s->sensor) -

@@ -17,7 +17,8 @@ class Model(ctypes.Structure):
     _fields_ = [(name, ctypes.c_double) for name in (
         "stiffness omega damping_ratio stribeck_force stribeck_speed quadratic weakening_length ageing ageing_time "
         "creep_force creep_share reload_force reload_length stiffening sensor_omega sensor_damping precursor_at "
-        "precursor_share aftershock_s aftershock_share velocity_law ageing_law").split()]
+        "precursor_share aftershock_s aftershock_share velocity_law ageing_law "
+        "relax_share relax_time").split()]
 
 
 class Course(ctypes.Structure):

@@ -235,6 +235,21 @@ TEST_CASE("a sweep finds the length of the rise behind an average that nobody st
   CHECK(*fit.stiffness().value == Approx(s.stiffness).epsilon(0.002));
 }
 
+TEST_CASE("the mass beside a rise includes the contact that relaxes with time") {
+  Scene s = bent_sticks();
+  const double rise_N = kRise * (s.static_N - s.kinetic_N);
+  const Analysis analysis = analyze_and_fit(reloading_recording(s, rise_N));
+  const Estimate& mass = parameter(analysis, "mass_kg").estimate;
+  const double k = *parameter(analysis, "stiffness_N_per_m").estimate.value;
+  const double omega = *parameter(analysis, "natural_frequency_rad_per_s").estimate.value;
+  const double path_m = s.speed * *analysis.cycles.stick_time_s;
+  const double secant = k + rise_N * (1.0 - std::exp(-path_m / kLength_m)) / path_m;
+  CHECK(mass.ci95->low < k / (omega * omega));
+  CHECK(mass.ci95->high > secant / (omega * omega));
+  CHECK(*mass.value > 1.01 * k / (omega * omega));
+  CHECK(parameter(analysis, "mass_kg").status == ParameterStatus::Weak);
+}
+
 TEST_CASE("straight sticks get no rise") {
   Scene s = bent_sticks();
   s.seed = GENERATE(range<std::uint64_t>(1, 9));

@@ -27,6 +27,12 @@ inline constexpr const char* kOneSpeed =
 inline constexpr const char* kRingDown = "the free ring-down, which was used as data for w_n and zeta";
 inline constexpr const char* kStatedMass = "from the stated mass, because sensor averaging hides w_n";
 
+/// Why the mass is not identified where the force rises after a slip.
+inline constexpr const char* kRiseOfTimeOrDistance =
+    "the rise of the force after a slip may be the relaxation of the contact, whose stiffness in the slip is larger: "
+    "the "
+    "interval includes both";
+
 /// That an average of the samples is fitted.
 Warning averaged_warning(double average_s);
 

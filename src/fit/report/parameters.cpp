@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <string>
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "core/student.hpp"
 #include "core/unknown.hpp"
 #include "fit/report/findings.hpp"
 #include "fit/report/model_estimate.hpp"
@@ -189,7 +191,31 @@ class Reporter {
       return add(Id::Mass, f_.intervals.interval_of_one_sign(m), ParameterStatus::Conditional, kStatedMass);
     }
     const std::string doubt = frequency_doubt().empty() ? f_.stiffness_doubt : frequency_doubt();
-    add_graded(Id::Mass, f_.intervals.interval_of_one_sign(m), doubt, doubt);
+    const Estimate estimate = f_.intervals.interval_of_one_sign(m);
+    if (!model_.reload) return add_graded(Id::Mass, estimate, doubt, doubt);
+    const Jet by_relaxation = instantaneous_stiffness(*model_.reload) / (model_.omega * model_.omega);
+    const Estimate other = f_.intervals.interval_of_one_sign(by_relaxation);
+    const std::string why = doubt.empty() ? kRiseOfTimeOrDistance : doubt;
+    add_graded(Id::Mass, spanning(estimate, other), why, why);
+  }
+
+  /// The stiffness that acts in a slip where the rise after it is the relaxation of the spring: the secant of a whole
+  /// stick, with what has relaxed in half a slip. docs/model.md (25a)
+  [[nodiscard]] Jet instantaneous_stiffness(const Reload& reload) const {
+    constexpr double kMost = 1.0;  // more than a third of the rise hidden in the slip is not foreseen so
+    const double path_m = f_.units.speed_m_per_s * f_.units.stick_s;
+    const Jet in_slip = 0.5 * std::numbers::pi * f_.units.speed_m_per_s / model_.omega / reload.length_m;
+    const Jet regained = reload.force_N * (1.0 - exp(-path_m / reload.length_m)) / path_m;
+    return model_.stiffness + regained * exp(in_slip.a < kMost ? in_slip : Jet(kMost));
+  }
+
+  /// Between two positive values of which either may be right.
+  static Estimate spanning(const Estimate& one, const Estimate& other) {
+    Estimate both = one;
+    both.value = std::sqrt(*one.value * *other.value);
+    both.ci95 = Interval{std::min(one.ci95->low, other.ci95->low), std::max(one.ci95->high, other.ci95->high)};
+    both.standard_error = 0.5 * (both.ci95->high - both.ci95->low) / kNormalQuantile;
+    return both;
   }
 
   void report_damping() {

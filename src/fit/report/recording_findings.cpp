@@ -235,7 +235,11 @@ std::optional<Estimate> fitted_average_of(const DampedFit& fit) {
 
 Units units_of(const BlockFit& blocks) {
   const Scales& scales = blocks.scales();
-  return {.force = scales.force, .level = scales.level, .slip_distance_m = scales.slip_distance_m};
+  return {.force = scales.force,
+          .level = scales.level,
+          .stick_s = blocks.level().reloading ? median_stick_s(blocks) : 1.0,
+          .slip_distance_m = scales.slip_distance_m,
+          .speed_m_per_s = scales.speed_m_per_s};
 }
 
 }  // namespace
