@@ -166,6 +166,7 @@ void add_array(hid_t file, const ArrayShape& shape, NumberTable& table) {
 /// copied, which the library would do twice: they have to outlive the file, which is never written to.
 hid_t open_in_memory(std::string_view file) {
   constexpr std::size_t kIncrement = std::size_t{1} << 20U;
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): the interface of HDF5
   auto* const bytes = const_cast<char*>(file.data());
   H5FD_file_image_callbacks_t uncopied{
       .image_malloc = [](std::size_t, H5FD_file_image_op_t, void* image) { return image; },
