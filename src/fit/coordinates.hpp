@@ -35,6 +35,12 @@ enum Coordinate : Eigen::Index {
 
 using Coordinates = Eigen::Matrix<double, kCoordinates, 1>;
 using CoordinateMatrix = Eigen::Matrix<double, kCoordinates, kCoordinates>;
+/// What each recording of a sweep has for itself: it may share F_s - F_k(0+); A goes with the load. All else belongs to
+/// the contact and the rig.
+constexpr bool is_of_recording(Coordinate coordinate) {
+  return coordinate == kDifference || coordinate == kReloadForce;
+}
+
 /// Those of the rig and of friction in the slip come first.
 inline constexpr int kOfSlip = kSlipDistance + 1;
 /// Which of the coordinates stand still while fitting.

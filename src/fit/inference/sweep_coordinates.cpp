@@ -49,8 +49,7 @@ Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
   Selection selection{MatrixXd::Zero(columns.size(), kCoordinates), {}};
   for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
     for (const Coordinate coordinate : solution.recordings[r].columns().coordinates()) {
-      if (coordinate != kDifference && coordinate != kReloadForce)
-        selection.common(*columns.find(r, coordinate), coordinate) = 1.0;
+      if (!is_of_recording(coordinate)) selection.common(*columns.find(r, coordinate), coordinate) = 1.0;
     }
   }
   const Index levels = levels_of(solution).size();

@@ -8,10 +8,8 @@ using Eigen::Index;
 
 namespace {
 
-/// What belongs to the contact and the rig is one for all recordings.
 bool is_shared(Coordinate coordinate, const Sharing& sharing) {
-  if (coordinate == kDifference) return sharing.difference;
-  return coordinate != kReloadForce;  // which goes with the load
+  return !is_of_recording(coordinate) || (coordinate == kDifference && sharing.difference);
 }
 
 }  // namespace

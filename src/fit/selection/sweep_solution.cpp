@@ -56,8 +56,7 @@ Coordinates SweepSolution::shared() const {
   Coordinates values = Coordinates::Zero();
   for (const BlockFit& recording : recordings) {
     for (const Coordinate coordinate : recording.columns().coordinates()) {
-      if (coordinate != kDifference && coordinate != kReloadForce)
-        values(coordinate) = recording.parameters.values(coordinate);
+      if (!is_of_recording(coordinate)) values(coordinate) = recording.parameters.values(coordinate);
     }
   }
   return values;
