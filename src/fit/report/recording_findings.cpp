@@ -169,15 +169,20 @@ void state_law(const DampedFit& fit, Findings& findings) {
 /// they can. A fall that the sensor's average draws out fits as well as a slow slip then.
 std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, const Residual& residual,
                           const Findings& findings) {
-  if (!fit.fall_doubt.empty()) return fit.fall_doubt;
+  const auto stated_mass = [&] {
+    return fmt::format("the stated mass of {:.3g} kg does not explain the slips", *conditions.mass_kg);
+  };
+  if (!fit.fall_doubt.empty()) {
+    const bool is_rejected = conditions.mass_kg && !fit.mass_gives_frequency;
+    return fit.fall_doubt + ": " +
+           (is_rejected ? stated_mass() : std::string("state the average with --sensor-average, or the mass"));
+  }
   const bool coloured = residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance;
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
   if (!large || !coloured || fit.mass_gives_frequency || fit.motion) return {};
   const double average_s = fit.blocks.sensor().average_s;
   if (std::exp(fit.blocks.parameters.values(kLogFrequency)) * average_s > thresholds::kHidingAverage) {
-    const std::string remedy =
-        conditions.mass_kg ? fmt::format("the stated mass of {:.3g} kg does not explain the slips", *conditions.mass_kg)
-                           : std::string("state the mass with --mass");
+    const std::string remedy = conditions.mass_kg ? stated_mass() : std::string("state the mass with --mass");
     return "the sensor averages over most of the slip, and correlated residuals hide w_n and zeta: " + remedy;
   }
   if (!fit.blocks.level().reloading || findings.sensor_average_s || fit.average) return {};

@@ -161,9 +161,7 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   if (!fit || !(fit->average->seconds < median_stick_s(fit->blocks))) return {};
   if (!is_taken) return {std::nullopt, std::move(fit)};
   if (!tells_slips(*fit)) {
-    fit->fall_doubt =
-        "the slips and the average of the sensor behind which they are seen cannot be told apart: state the average "
-        "with --sensor-average, or the mass";
+    fit->fall_doubt = "the slips and the average of the sensor behind which they are seen cannot be told apart";
   }
   if (other) other = finish_averaged(input, *std::move(other));
   if (other) fit = beside_rival(*std::move(fit), *other);
