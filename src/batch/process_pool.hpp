@@ -68,8 +68,8 @@ class ProcessPool {
   Child* child_for(std::size_t job);
   Child* start_child();
   [[noreturn]] void serve(int socket, pid_t parent) const;
-  void receive(Child& child, std::vector<Answer>& answers);
-  void end_child(Child& child);
+  static void receive(Child& child, std::vector<Answer>& answers);
+  static void end_child(Child& child);
 
   std::size_t most_;
   std::size_t first_ = 0;  ///< number of the first waiting job

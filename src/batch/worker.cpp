@@ -93,6 +93,7 @@ std::vector<DocumentJson> inputs_in(const DocumentJson& recording) {
 std::vector<std::vector<DocumentJson>> inputs_of(const DocumentJson& recordings) {
   const auto names_in = [](const std::vector<DocumentJson>& inputs) {
     std::vector<DocumentJson> names;
+    names.reserve(inputs.size());
     for (const DocumentJson& input : inputs) names.push_back(input.value("file", DocumentJson()));
     return names;
   };

@@ -85,7 +85,7 @@ class EndsOfDraws {
       : slowest_(kSlowestEnd * speed_unit(model)),
         fastest_(kFastestEnd * speed_unit(model)),
         near_(std::clamp(near_m_per_s, 2.0 * slowest_, 0.5 * fastest_)) {
-    for (ModelEstimate& draw : draws_of(model)) draws_.push_back({std::move(draw), 0.0, HUGE_VAL});
+    for (const ModelEstimate& draw : draws_of(model)) draws_.push_back({draw, 0.0, HUGE_VAL});
   }
 
   /// To a share of 1e-3. 0 where that model has no stick-slip at any speed, infinite where it has at all.

@@ -37,7 +37,7 @@ struct EstimateRow {
   std::string interval;  ///< "[low, high]"; empty where it is not known
   std::string unit;
 };
-EstimateRow estimate_row(const Estimate& estimate, const DisplayUnit& unit);
+EstimateRow estimate_row(const Estimate& SI, const DisplayUnit& unit);
 /// In the unit that suits it.
 EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit);
 

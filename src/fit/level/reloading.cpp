@@ -41,8 +41,8 @@ struct SticksBeside {
 
 }  // namespace
 
-RiseAfterSlip::Share RiseAfterSlip::without_average(std::size_t slip, double time_s, double length_m) const {
-  const SticksBeside sticks(*this, slip, length_m);
+RiseAfterSlip::Share RiseAfterSlip::without_average(std::size_t slip, double time_s, double over_m) const {
+  const SticksBeside sticks(*this, slip, over_m);
   LengthJet share(0.0);
   if (time_s < sticks.begin_s && slip > 0) share = sticks.before.at(std::max(time_s, sticks.before.begin_s));
   if (time_s > sticks.after.begin_s) share = sticks.after.at(time_s);

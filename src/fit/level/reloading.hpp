@@ -40,7 +40,7 @@ struct RiseAfterSlip {
   [[nodiscard]] Line over(std::size_t slip, const StickBin& bin, const Shape& shape) const;
 
  private:
-  [[nodiscard]] Share without_average(std::size_t slip, double time_s, double length_m) const;
+  [[nodiscard]] Share without_average(std::size_t slip, double time_s, double over_m) const;
 };
 
 }  // namespace slipfit::fit

@@ -52,9 +52,8 @@ class ShownMotion {
       add(shown_first, lag, mean);
       mean.d_log_omega = -lag * (shown_last.d_log_omega - shown_first.d_log_omega + shown_last.z - shown_first.z);
     }
-    for (double* const value : {&mean.z, &mean.d_z0, &mean.d_zeta, &mean.d_law[0], &mean.d_law[1], &mean.d_log_omega}) {
-      *value /= length;
-    }
+    for (double* const value : {&mean.z, &mean.d_z0, &mean.d_zeta, &mean.d_log_omega}) *value /= length;
+    for (double& value : mean.d_law) value /= length;
     mean.d_tau = (shown_last.z - shown_first.z) / length;
     mean.d_log_average = 0.5 * (shown_first.z + shown_last.z) - mean.z;
     mean.d_log_omega += mean.d_log_average;  // the window is w_n W long

@@ -83,7 +83,7 @@ class SweepFitter {
   /// From the medians of the recordings' own fits.
   void set_start(SweepSolution& solution) const {
     Coordinates first = Coordinates::Zero();
-    for (const std::size_t i : std::array{kLogStiffness, kLogFrequency, kDamping}) {
+    for (const Coordinate i : {kLogStiffness, kLogFrequency, kDamping}) {
       std::vector<double> values;
       for (const std::size_t r : data_.fitted) values.push_back(data_.single[r]->blocks.parameters.values(i));
       first(i) = signal::median(values);
