@@ -227,8 +227,9 @@ Warnings by_effect(Warnings warnings) {
 Warnings collect_warnings(const Facts& facts) {
   const Analysis& analysis = facts.analysis;
   Warnings warnings = facts.detected.recording().provenance().warnings;
-  if (analysis.fit && analysis.motion != MotionClass::SteadySliding)
-    std::ranges::copy(analysis.fit->warnings, std::back_inserter(warnings));
+  if (analysis.fit && analysis.motion != MotionClass::SteadySliding) {
+    warnings.insert(warnings.end(), analysis.fit->warnings.begin(), analysis.fit->warnings.end());
+  }
   for (const Rule& rule : kRules) {
     if (rule.messages == nullptr) continue;
     for (std::string& message : rule.messages(facts)) warnings.push_back({std::string(rule.code), std::move(message)});
