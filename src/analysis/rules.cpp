@@ -59,9 +59,7 @@ Messages near_sensor_resonance(const Facts& facts) {
 
 Messages contradictions(const Facts& facts) {
   Messages messages;
-  for (const AuditPair& pair : facts.analysis.audit) {
-    if (pair.contradicts) messages.push_back(sentence_of(pair) + ": the intervals include both");
-  }
+  for (const Warning& warning : warn_of(facts.analysis.audit)) messages.push_back(warning.message);
   return messages;
 }
 

@@ -45,6 +45,17 @@ const Parameter& of(const FitResult& fit, ParameterId id) {
   return *fit.find(id);
 }
 
+/// The pairs of a joint fit over recordings whose sticks have these slopes over V.
+std::vector<AuditPair> joint_pairs(const FitResult& joint,
+                                   const std::vector<std::pair<std::string, double>>& stick_stiffness_N_per_m) {
+  std::vector<AuditPair> pairs;
+  for (const auto& [id, slope] : stick_stiffness_N_per_m) {
+    const std::vector<AuditPair> more = joint_audit_of({id, recording_at(0.01)}, analysis_with(slope), joint);
+    pairs.insert(pairs.end(), more.begin(), more.end());
+  }
+  return pairs;
+}
+
 }  // namespace
 
 TEST_CASE("k that the slope of the sticks contradicts is not identified, and its interval includes both") {
@@ -95,11 +106,7 @@ TEST_CASE("a recording of a joint fit is compared with the shared k at its speed
 
 TEST_CASE("a shared k that one recording contradicts is not identified, and the warning names the recording") {
   const FitResult joint = *analysis_with(5000.0).fit;
-  std::vector<AuditPair> pairs;
-  for (const auto& [id, slope] : {std::pair{"slow", 5000.0}, std::pair{"middle", 4500.0}, std::pair{"fast", 4000.0}}) {
-    const std::vector<AuditPair> more = joint_audit_of({id, recording_at(0.01)}, analysis_with(slope), joint);
-    pairs.insert(pairs.end(), more.begin(), more.end());
-  }
+  const std::vector<AuditPair> pairs = joint_pairs(joint, {{"slow", 5000.0}, {"middle", 4500.0}, {"fast", 4000.0}});
   REQUIRE(pairs.size() == 3);
   const FitResult fit = with_audit(joint, pairs);
   CHECK(of(fit, ParameterId::Stiffness).status == ParameterStatus::Weak);
@@ -112,11 +119,7 @@ TEST_CASE("a shared k that one recording contradicts is not identified, and the 
 
 TEST_CASE("one recording that contradicts a shared k lowers its status, and the interval stays that of the others") {
   const FitResult joint = *analysis_with(5000.0).fit;
-  std::vector<AuditPair> pairs;
-  for (const auto& [id, slope] : {std::pair{"a", 5000.0}, std::pair{"b", 5003.0}, std::pair{"wrong", 300000.0}}) {
-    const std::vector<AuditPair> more = joint_audit_of({id, recording_at(0.01)}, analysis_with(slope), joint);
-    pairs.insert(pairs.end(), more.begin(), more.end());
-  }
+  const std::vector<AuditPair> pairs = joint_pairs(joint, {{"a", 5000.0}, {"b", 5003.0}, {"wrong", 300000.0}});
   const FitResult fit = with_audit(joint, pairs);
   CHECK(of(fit, ParameterId::Stiffness).status == ParameterStatus::Weak);
   CHECK(of(fit, ParameterId::Stiffness).estimate.ci95->high < 5010.0);

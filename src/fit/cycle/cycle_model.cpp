@@ -169,7 +169,9 @@ class CycleModel::Rows {
   void tie_static_friction(const CycleFrame& frame, Index row) const {
     const double weight = 1.0 / scales_.population->onset_sd;
     const double drag = 2.0 * frame.zeta * frame.force_scale;
-    residuals_[row] = weight * (scales_.population->force * (*values_.shared)(kDifference)-frame.onset_force - drag);
+    const Coordinates& shared = *values_.shared;
+    const double onset_force = scales_.population->force * shared(kDifference);
+    residuals_[row] = weight * (onset_force - frame.onset_force - drag);
     if (jacobian_ == nullptr) return;
     Jacobian::RowXpr line = cleared(row);
     line(kLogStiffness) = -weight * drag;

@@ -20,7 +20,6 @@ class ShownMotion {
     if (lag_tau > 0.0) lag_.emplace(motion_.at(0.0), motion_.parts(), motion_.tau_end(), lag_tau);
   }
 
-  [[nodiscard]] const Motion& motion() const { return motion_; }
   [[nodiscard]] double lag_tau() const { return lag_ ? lag_->lag_tau() : 0.0; }
 
   [[nodiscard]] ShownPoint at(double tau) const {

@@ -30,8 +30,7 @@ inline constexpr const char* kStatedMass = "from the stated mass, because sensor
 /// Why the mass is not identified where the force rises after a slip.
 inline constexpr const char* kRiseOfTimeOrDistance =
     "the rise of the force after a slip may be the relaxation of the contact, whose stiffness in the slip is larger: "
-    "the "
-    "interval includes both";
+    "the interval includes both";
 
 /// That an average of the samples is fitted.
 Warning averaged_warning(double average_s);

@@ -268,7 +268,6 @@ NumberTable table_of(std::string_view file, const TableShape& shape) {
 
 }  // namespace
 
-// Of one type with read_hdf5, which gives the bytes away. NOLINTNEXTLINE(performance-unnecessary-value-param)
 ReadTable read_mat(std::string_view file, const std::optional<std::string>& variable) {
   const std::vector<ArrayShape> arrays = arrays_in(file);
   const TableShape shape = choose_table(arrays, variable, file.size());
