@@ -177,6 +177,7 @@ void hold(ceres::Problem& ceres, double* parameters, const Problem& problem, con
   };
   bound(kFrictionRate, kLeastRate, kMostRate);
   bound(kSensorTime, kLeastSensorTime, std::nullopt);
+  if (options.damped) bound(kDamping, 0.0, std::nullopt);
   double longest_m = 0.0;
   for (const BlockFit& recording : problem.recordings) {
     if (const auto& rise = recording.level().reloading) longest_m = std::max(longest_m, rise->longest_m);

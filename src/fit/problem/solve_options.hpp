@@ -15,6 +15,7 @@ struct SolveOptions {
   /// Ends with the step that gains less than this much of one residual's share of the cost: 1e-3 leaves the parameters
   /// within a thousandth of a standard error (99 of 100 within 0.006), 0.1 is enough for a start.
   double tolerance = 1e-3;
+  bool damped = false;  ///< zeta stays at 0 or above, in a search that a negative one would lead astray
 };
 
 /// What a cycle far worse than the others counts (SolveOptions::robust).

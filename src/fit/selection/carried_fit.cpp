@@ -42,13 +42,8 @@ bool has_slips(const BlockFit& fit) {
 BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& from) {
   BlockFit to(set, from.scales());
   carry_over(from, to);
+  to.parameters.values(kSensorTime) = from.parameters.values(kSensorTime);
   return with_rise_after(to);
-}
-
-BlockFit averaged_by(const BlockFit& fit, double variance_s2) {
-  Scales scales = fit.scales();
-  scales.sensor_average_s = std::sqrt(12.0 * variance_s2);
-  return with_rise_after(fit.with_scales(scales));
 }
 
 BlockFit with_free_time(const BlockFit& fit, FreeTime time) {

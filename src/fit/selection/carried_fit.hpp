@@ -16,10 +16,7 @@ void carry_over(const BlockFit& from, BlockFit& to);
 /// The fit on the cycles of another one, its rise after the slips that it has there.
 BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& from);
 
-/// The same cycles at the same parameters, seen through an average of this variance.
-BlockFit averaged_by(const BlockFit& fit, double variance_s2);
-
-/// The same with a time of the sensor as one parameter more.
+/// The fit with a time of the sensor as one parameter more.
 BlockFit with_free_time(const BlockFit& fit, FreeTime time);
 
 double sum_of_squares(const BlockFit& fit);

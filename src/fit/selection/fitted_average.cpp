@@ -1,7 +1,6 @@
 #include "fit/selection/fitted_average.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -10,21 +9,16 @@
 #include "core/thresholds.hpp"
 #include "fit/inference/sensor_time.hpp"
 #include "fit/inference/smoothing.hpp"
-#include "fit/selection/average_solver.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/finish.hpp"
-#include "fit/selection/kernel_search.hpp"
 #include "fit/selection/rival.hpp"
+#include "fit/selection/term_fitter.hpp"
 #include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {
 namespace {
 
-constexpr std::size_t kSearchCycles = 10;   // enough to begin with
-constexpr std::size_t kCompareCycles = 40;  // enough to tell two kernels apart
-constexpr double kSame = 0.05;              // of the variance: Newton's steps have led to one minimum from two sides
-constexpr double kLongTail = 3.0;           // variance of a tail that rounds as much as an average of variance 1
-constexpr double kForgottenLags = 8.0;      // e^-8
+constexpr double kForgottenLags = 8.0;  // e^-8
 
 /// Rounded slips, slips that are not shaped like the model's, or slips without damping: an average that lasts longer
 /// than the slip takes it away. Falls within a step of the clock show nothing of it.
@@ -41,8 +35,17 @@ bool may_be_averaged(const FitInput& input, const DampedFit& plain) {
 bool hides_damping(double average_s, double log_omega) {
   return std::exp(log_omega) * average_s > thresholds::kHidingAverage;
 }
-bool hides_damping(const KernelSearch::Least& least) {
-  return hides_damping(std::sqrt(12.0 * least.variance_s2), least.parameters.values(kLogFrequency));
+bool hides_damping(const BlockFit& fit) {
+  return hides_damping(fit.sensor().average_s, fit.parameters.values(kLogFrequency));
+}
+
+/// The slips that are left behind the average are those of the model as far as so few cycles show, and longer than a
+/// step of the clock.
+bool follows_slips(const DampedFit& fit, double sample_interval_s) {
+  const double negative = -thresholds::kNegativeSigmas * damping_error(fit);
+  const bool is_shaped = !fit.misfit || fit.misfit->chance > thresholds::kMisfitChance;
+  return is_shaped && !fit.refused_damping && fit.blocks.parameters.values(kDamping) > negative &&
+         resting_share(fit.blocks) >= thresholds::kRestickShare && median_slip_s(fit.blocks) > sample_interval_s;
 }
 
 /// Slips and W can be told apart.
@@ -50,74 +53,40 @@ bool tells_slips(const DampedFit& fit) {
   return damping_error(fit) < thresholds::kTellingDamping && tells_average(*fit.average);
 }
 
-/// Logarithm of how much more likely `better` is on these cycles. `plain` tells how far samples are independent.
-double evidence(const KernelSearch::Least& better, const KernelSearch::Least& other, const KernelSearch& search,
-                const DampedFit& plain) {
-  const double independent = search.residuals() * effective_samples(plain) / plain.uncertainty.samples;
-  return independent * std::log(other.sum / better.sum);
-}
-
-/// Averages that explain some of the samples of some cycles, the best first and those that it does not rule out.
-std::vector<KernelSearch::Least> best_averages(const std::vector<KernelSearch::Least>& minima,
-                                               const KernelSearch& search, const DampedFit& plain) {
-  std::vector<KernelSearch::Least> averages;
-  for (const KernelSearch::Least& minimum : minima) {
-    const KernelSearch::Least least = search.refined(minimum);
-    const bool is_new = std::none_of(averages.begin(), averages.end(), [&](const KernelSearch::Least& other) {
-      return std::abs(other.variance_s2 - least.variance_s2) < kSame * least.variance_s2;
-    });
-    if (is_new && least.resting >= thresholds::kRestickShare) averages.push_back(least);
-  }
-  std::sort(averages.begin(), averages.end(), [](const auto& a, const auto& b) { return a.sum < b.sum; });
-  if (averages.empty()) return {};
-  const KernelSearch::Least best = averages.front();
-  std::erase_if(averages,
-                [&](const auto& other) { return evidence(best, other, search, plain) > thresholds::kTierPrice; });
-  return averages;
-}
-
-/// A sensor of first order is ten times less likely. A long tail rounds the slip less than its variance says: the
-/// search for it begins on both sides.
-bool rules_out_lag(const KernelSearch::Least& average, const KernelSearch& search, const DampedFit& plain) {
-  return std::ranges::all_of(std::array{1.0, kLongTail}, [&](double tail) {
-    const KernelSearch::Least lag = search.least_lag(average, tail * average.variance_s2);
-    return evidence(average, lag, search, plain) > thresholds::kEvidence;
-  });
+/// A lag of first order is ten times less likely on cycles that are wide enough to show it.
+bool rules_out_lag(const FitInput& input, const DampedFit& plain, const BlockFit& average) {
+  const double longest_lag_s = std::sqrt(kLongTail / 12.0) * average.sensor().average_s;
+  const auto fitter = TermFitter::create(input, plain, kForgottenLags * longest_lag_s);
+  if (!fitter) return false;
+  const std::optional<Minimum> best = fitter->near(average);
+  return best && fitter->gain_on_some(best->sum_of_squares, fitter->least_with_lag(*best)) > thresholds::kEvidence;
 }
 
 /// The fit of all cycles that explains them best, and another average that does so as well.
 struct Found {
-  std::optional<DampedFit> trial;
+  std::optional<DampedFit> best;
   std::optional<DampedFit> other;
 };
-Found best_trial(const AverageSolver& solver, const DampedFit& plain, const std::vector<KernelSearch::Least>& starts,
-                 double sample_interval_s, double least_gain) {
+Found best_fit(const TermFitter& fitter, const DampedFit& plain, const std::vector<Minimum>& minima,
+               double sample_interval_s) {
   Found found;
-  std::optional<DampedFit>& trial = found.trial;
-  for (const KernelSearch::Least& start : starts) {
-    std::optional<DampedFit> next = solver.fit(start.variance_s2, start.parameters.values, trial ? &*trial : nullptr);
-    const bool is_better = next && follows_slips(*next, sample_interval_s) && gain_of(*next, plain) > least_gain;
+  for (const Minimum& minimum : minima) {
+    std::optional<DampedFit> next = fitter.fit(minimum.blocks);
+    const bool is_better = next && follows_slips(*next, sample_interval_s) &&
+                           gain_on_same_samples(*next, plain) > -thresholds::kNotRuledOut;
     if (!is_better) continue;
-    if (!trial) {
-      trial = std::move(next);
+    next = with_average_error(*std::move(next));
+    if (!found.best) {
+      found.best = std::move(next);
       continue;
     }
-    const double gain = gain_of(*next, *trial);
-    if (gain > 0.0) std::swap(trial, next);
-    const double apart =
-        std::abs(next->blocks.parameters.values(kSensorTime) - trial->blocks.parameters.values(kSensorTime));
-    const bool is_another = apart > thresholds::kSureTerm * sensor_time_error(trial->uncertainty.covariance);
+    const double gain = gain_of(*next, *found.best);
+    if (gain > 0.0) std::swap(found.best, next);
+    const double apart_s = std::abs(next->average->seconds - found.best->average->seconds);
+    const bool is_another = apart_s > thresholds::kSureTerm * found.best->average->standard_error_s;
     if (is_another && std::abs(gain) < thresholds::kTierPrice) found.other = std::move(next);
   }
   return found;
-}
-
-/// Finished, with what the average is not known by.
-std::optional<DampedFit> finish_averaged(const FitInput& input, DampedFit draft) {
-  const Recording averaged = with_average(input.recording, draft.blocks.sensor().average_s);
-  std::optional<DampedFit> fit =
-      finish_fit({averaged, input.quality, input.segmentation, input.held}, std::move(draft));
-  return fit ? std::optional(with_average_error(*std::move(fit))) : std::nullopt;
 }
 
 /// What an average of the instrument explains that a fit without does not.
@@ -129,46 +98,44 @@ struct AverageTrial {
 /// The fit with one parameter more, the time W over which the instrument averages its samples (docs/model.md section
 /// 7), where it is not stated and `plain`, the fit without, shows a sign of it. Its covariance holds that of W. Not
 /// taken where W does not explain all that `plain` misses of the slips or a sensor of first order explains it as well.
-/// Where W cannot be told from the slips behind it DampedFit::fall_doubt says so; where another W explains them as
-/// well, intervals hold both fits.
+/// Where the slips do not determine W, DampedFit::fall_doubt says so; where another W explains them as well, intervals
+/// hold both fits.
 AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   if (!may_be_averaged(input, plain)) return {};
-  const double width_s = 2.0 * plain.blocks.scales().half_period_s;
-  // Half of what all cycles have to gain: a few of them may tell less.
-  const double worth = 0.5 * thresholds::kTierPrice / effective_samples(plain);
-  const double shown = std::min(1.0, static_cast<double>(kSearchCycles) / static_cast<double>(plain.blocks.size()));
-  const double doubtful = -2.0 * thresholds::kNotRuledOut / (shown * effective_samples(plain));  // of a few of them
-  const std::optional<KernelSearch> search = KernelSearch::create(input, plain, width_s, kSearchCycles);
-  if (!search) return {};
-  std::vector<KernelSearch::Least> minima = search->minima(doubtful);
-  std::erase_if(minima, [&](const KernelSearch::Least& least) { return least.gain < worth && !hides_damping(least); });
+  const std::optional<TermFitter> fitter = TermFitter::create(input, plain);
+  if (!fitter) return {};
+  std::vector<Minimum> minima = fitter->minima({true, false}).found;
+  const double without = fitter->plain().sum_of_squares;
+  std::erase_if(minima, [&](const Minimum& minimum) {
+    const double sum = minimum.sum_of_squares;
+    const bool may_pay = fitter->gain_on_all(sum, without) > 0.5 * thresholds::kTierPrice;
+    return !may_pay && !(hides_damping(minimum.blocks) && fitter->gain_on_some(sum, without) > -thresholds::kNotRuledOut);
+  });
   if (minima.empty()) return {};
-  double longest_s2 = 0.0;
-  for (const KernelSearch::Least& least : minima) longest_s2 = std::max(longest_s2, least.variance_s2);
-  const double longest_lag_s = std::sqrt(kLongTail * longest_s2);
-  const std::optional<KernelSearch> comparison =
-      KernelSearch::create(input, plain, width_s + kForgottenLags * longest_lag_s, kCompareCycles);
-  const auto averages = comparison ? best_averages(minima, *comparison, plain) : std::vector<KernelSearch::Least>();
-  if (averages.empty()) return {};
-  auto [trial, other] = best_trial(AverageSolver(input, plain), plain, averages, input.recording.sample_interval_s(),
-                                   -thresholds::kNotRuledOut);
-  if (!trial) return {};
-  const bool is_taken =
-      gain_of(*trial, plain) > thresholds::kTierPrice && rules_out_lag(averages.front(), *comparison, plain);
-  const double average_s = trial->blocks.sensor().average_s;
-  if (!is_taken && !hides_damping(average_s, trial->blocks.parameters.values(kLogFrequency))) return {};
-  std::optional<DampedFit> fit = finish_averaged(input, *std::move(trial));
+  auto [fit, other] = best_fit(*fitter, plain, minima, input.recording.sample_interval_s());
   if (!fit || !(fit->average->seconds < median_stick_s(fit->blocks))) return {};
+  const bool is_taken =
+      gain_on_same_samples(*fit, plain) > thresholds::kTierPrice && rules_out_lag(input, plain, fit->blocks);
+  if (!is_taken && !hides_damping(fit->blocks)) return {};
   if (!is_taken) return {std::nullopt, std::move(fit)};
   if (!tells_slips(*fit)) {
     fit->fall_doubt = "the slips and the average of the sensor behind which they are seen cannot be told apart";
   }
-  if (other) other = finish_averaged(input, *std::move(other));
   if (other) fit = beside_rival(*std::move(fit), *other);
   return {std::move(fit), std::nullopt};
 }
 
 }  // namespace
+
+Recording with_average(const Recording& recording, double average_s) {
+  Conditions conditions = recording.conditions();
+  conditions.sensor_average_s = average_s;
+  const auto time_s = recording.time_s();
+  const auto force = recording.force();
+  return Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()}, conditions,
+                           recording.provenance())
+      .value();
+}
 
 bool tells_average(const FittedAverage& average) {
   return average.seconds > 2.0 * thresholds::kSureTerm * average.standard_error_s;

@@ -7,6 +7,9 @@
 
 namespace slipfit::fit {
 
+/// The recording, as if it stated that its samples are averaged over this time.
+Recording with_average(const Recording& recording, double average_s);
+
 /// With the average that is a parameter of the fit, where it is one, and what its unknown shape adds to the covariance.
 DampedFit with_average_error(DampedFit fit);
 

@@ -7,7 +7,6 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/quantile.hpp"
-#include "fit/selection/average_solver.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/fitted_average.hpp"

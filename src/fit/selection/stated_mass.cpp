@@ -5,8 +5,8 @@
 
 #include "core/fit_thresholds.hpp"
 #include "fit/problem/solve.hpp"
-#include "fit/selection/average_solver.hpp"
 #include "fit/selection/finish.hpp"
+#include "fit/selection/fitted_average.hpp"
 #include "fit/selection/reloading_fit.hpp"
 
 namespace slipfit::fit {

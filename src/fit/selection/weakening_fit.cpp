@@ -11,11 +11,13 @@
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/misfit.hpp"
+#include "fit/inference/smoothing.hpp"
 #include "fit/problem/sweep_data.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/fitted_average.hpp"
 #include "fit/selection/rival.hpp"
-#include "fit/selection/weakening_fitter.hpp"
+#include "fit/selection/term_fitter.hpp"
+#include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -56,20 +58,64 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
   return candidate;
 }
 
+constexpr double kHopeful = 1.1 * thresholds::kHalvedStack;
+
+/// False where the cycles that compare the terms show that this minimum will not be taken in place of Coulomb friction:
+/// it explains them less well, or it cannot halve what the slips of that law miss (`missed`, the stacked residual). In
+/// place of an average it need not explain more.
+bool promises(const TermFitter& fitter, const Minimum& minimum, const DampedFit& coulomb, double missed) {
+  const double sum_of_coulomb = fitter.plain().sum_of_squares;
+  if (fitter.gain_on_some(minimum.sum_of_squares, sum_of_coulomb) < -thresholds::kTierPrice) return false;
+  if (coulomb.average) return true;
+  const StackedResidual after = stacked_residual(minimum.blocks, coulomb.blocks);
+  return after.size * after.size - after.by_chance * after.by_chance < std::pow(kHopeful * missed, 2);
+}
+
+/// The fit of all cycles with friction that weakens and no average but a stated one. `missed`: stacked residual of the
+/// Coulomb fit; empty: the user asks for this law. Empty where no start converges or the law does not promise to be
+/// taken.
+std::optional<DampedFit> fit_weakening(const FitInput& input, const TermFitter& fitter, const DampedFit& coulomb,
+                                       std::optional<double> missed) {
+  const Minima minima = fitter.minima({false, true}, !missed);
+  if (minima.found.empty()) return std::nullopt;
+  const Minimum& best = minima.found.front();
+  if (missed && !promises(fitter, best, coulomb, *missed)) return std::nullopt;
+  std::optional<DampedFit> fit = fitter.fit(best.blocks);
+  if (fit && !input.recording.conditions().sensor_average_s) {
+    fit->rounding = estimate_smoothing(fit->blocks, fit->held, input.recording.sample_interval_s());
+  }
+  return fit;
+}
+
 /// A fit of both, by how much its AICc is lower than the rival's, and whether no other minimum is as good.
-struct Minimum {
+struct Both {
   DampedFit fit;
   double gain = 0.0;
   bool is_sure = true;
   std::optional<DampedFit> other{};  ///< as good
 };
 
-std::optional<Minimum> best_of_both(const FitInput& input, const DampedFit& coulomb, const DampedFit& rival) {
-  auto [fits, is_complete] = fit_averaged_weakening(input, coulomb);
+std::optional<Both> best_of_both(const FitInput& input, const TermFitter& fitter, const DampedFit& rival) {
+  const auto [minima, is_complete] = fitter.minima({true, true});
+  if (minima.empty()) return std::nullopt;
+  const std::optional<Minimum> single = fitter.near(rival.blocks);
+  std::vector<DampedFit> fits;
+  bool all_settled = is_complete;
+  for (const Minimum& minimum : minima) {
+    const double gain =
+        single ? fitter.gain_on_some(minimum.sum_of_squares, single->sum_of_squares) : thresholds::kTierPrice;
+    if (gain < -thresholds::kTierPrice) continue;
+    std::optional<DampedFit> fit = fitter.fit(minimum.blocks);
+    if (fit && fit->blocks.sensor().average_s >= input.recording.sample_interval_s()) {
+      fits.push_back(with_average_error(*std::move(fit)));
+    } else {
+      all_settled = false;
+    }
+  }
   if (fits.empty()) return std::nullopt;
   if (fits.size() == 1) {
     const double gain = gain_on_same_samples(fits[0], rival);
-    return Minimum{std::move(fits[0]), gain, is_complete};
+    return Both{std::move(fits[0]), gain, all_settled};
   }
   const double ahead = gain_on_same_samples(fits[1], fits[0]) + 2.0;  // as many parameters
   const FittedAverage average = *fits[0].average;
@@ -77,9 +123,9 @@ std::optional<Minimum> best_of_both(const FitInput& input, const DampedFit& coul
       std::abs(fits[1].average->seconds - average.seconds) < thresholds::kSureTerm * average.standard_error_s;
   if (ahead > 0.0) std::swap(fits[0], fits[1]);
   const double gain = gain_on_same_samples(fits[0], rival);
-  Minimum minimum{std::move(fits[0]), gain, is_same || std::abs(ahead) > thresholds::kSurelyAhead};
-  if (!minimum.is_sure) minimum.other = std::move(fits[1]);
-  return minimum;
+  Both both{std::move(fits[0]), gain, is_same || std::abs(ahead) > thresholds::kSurelyAhead};
+  if (!both.is_sure) both.other = std::move(fits[1]);
+  return both;
 }
 
 /// F_s - F_k lies between half of the fall and the drop between the ramps whatever D_c and zeta are, and slips rest:
@@ -94,7 +140,7 @@ bool has_slips_of_the_model(const DampedFit& fit) {
 
 /// What a fit of both says for and against it beside `single`, the fit with one of the two. `before`: stacked residual
 /// of `single`.
-Candidate judged_both(const Minimum& both, const DampedFit& single, double before) {
+Candidate judged_both(const Both& both, const DampedFit& single, double before) {
   const DampedFit& fit = both.fit;
   Candidate candidate =
       judged(candidate_of(fit, Tier::Weakening, 5, effective_samples(fit)), fit, single, both.gain, before);
@@ -103,12 +149,13 @@ Candidate judged_both(const Minimum& both, const DampedFit& single, double befor
 }
 
 /// Friction that weakens, seen through an average, where this explains more than either of the two.
-WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const DampedFit& coulomb) {
+WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const TermFitter& fitter,
+                         const DampedFit& coulomb) {
   if (input.recording.conditions().sensor_average_s) return trial;
   const DampedFit& single = trial.candidate.chosen ? *trial.fit : coulomb;
   const StackedResidual before = stacked_residual(single.blocks, coulomb.blocks);
   if (!coulomb.average && before.size < before.by_chance) return trial;
-  std::optional<Minimum> both = best_of_both(input, coulomb, single);
+  std::optional<Both> both = best_of_both(input, fitter, single);
   if (!both) return trial;
   Candidate candidate = judged_both(*both, single, before.size);
   if (both->is_sure && candidate.chosen) return {std::move(both->fit), std::move(candidate), {}, {}, std::nullopt};
@@ -138,9 +185,10 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
   WeakeningTrial trial{std::nullopt, {Tier::Weakening, 4, std::nullopt, std::nullopt, false, {}}, {}, {}, std::nullopt};
   trial.candidate.reason = hindrance(input, coulomb);
   if (!trial.candidate.reason.empty()) return trial;
+  const std::optional<TermFitter> fitter = TermFitter::create(input, coulomb);
   const double missed = stacked_residual(coulomb.blocks, coulomb.blocks).size;
   const std::optional<double> asked = forced == Tier::Weakening ? std::nullopt : std::optional(missed);
-  trial.fit = fit_weakening(input, coulomb, asked);
+  if (fitter) trial.fit = fit_weakening(input, *fitter, coulomb, asked);
   if (trial.fit) {
     const double effective = effective_samples(*trial.fit);
     trial.candidate = candidate_of(*trial.fit, Tier::Weakening, 4, effective);
@@ -158,7 +206,7 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
     trial.candidate.reason =
         "no slip distance between 0 and (F_s - F_k) / k halves what the slips of Coulomb friction miss";
   }
-  return with_both(std::move(trial), input, coulomb);
+  return fitter ? with_both(std::move(trial), input, *fitter, coulomb) : std::move(trial);
 }
 
 }  // namespace slipfit::fit

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "fit/selection/weakening_fitter.hpp"
+#include "fit/selection/fit_input.hpp"
+#include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {
 

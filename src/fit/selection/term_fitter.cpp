@@ -1,0 +1,349 @@
+#include "fit/selection/term_fitter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
+#include "fit/cycle/start.hpp"
+#include "fit/level/add_hum.hpp"
+#include "fit/problem/solve.hpp"
+#include "fit/selection/carried_fit.hpp"
+#include "fit/selection/clipping.hpp"
+#include "fit/selection/first_guess.hpp"
+#include "fit/selection/outliers.hpp"
+#include "fit/selection/recut.hpp"
+#include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/tiers.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+/// W^2 / fall^2 to begin with: w_n W of 1, 2.4, 4 and 8. The sum of squares has several minima.
+constexpr std::array kSharesOfFall{0.15, 0.5, 0.75, 0.92};
+/// k D_c / (F_s - F_k) to begin with, alone and together with an average.
+constexpr std::array kWeakenings{0.05, 0.2, 0.45, 0.75};
+constexpr std::array kWeakeningsWithAverage{0.1, 0.45};
+/// Length of the rise after slips, in that of the plain fit: behind an average it looks longer.
+constexpr std::array kRiseLengths{1.0, 0.5};
+
+constexpr double kSlip2 = 5.6;  // W^2 of an average that draws the fall out as much as the slip itself does
+constexpr std::size_t kFewCycles = 16;
+constexpr std::size_t kLeastEnough = 40;
+constexpr std::size_t kMostEnough = 64;
+constexpr std::size_t kDescents = 3;  // of the drafts
+constexpr int kOwnIterations = 6;     // of onsets and forces by themselves
+constexpr int kDraftIterations = 10;
+constexpr int kCompareIterations = 20;
+constexpr int kFullIterations = 60;
+constexpr int kRiseSteps = 2;  // of a draft, each after the slips of the one before
+constexpr double kDraftTolerance = 0.1;   // SolveOptions::tolerance
+constexpr double kDescentTolerance = 1e-3;
+constexpr double kRoughTolerance = 1e-4;  // a tenth of an error decides nothing
+/// Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them an error off.
+constexpr double kTolerance = 1e-7;
+constexpr double kSameAverage = 0.1;  // of ln W: two starts that led to one minimum
+constexpr double kRuledOut = 60.0;    // of AICc by all samples: few of the cycles show less
+constexpr double kNothing = 0.1;      // of its error: a slip distance that is none
+
+double residuals_of(const std::vector<CycleData>& cycles) {
+  double residuals = 0.0;
+  for (const CycleData& cycle : cycles) residuals += static_cast<double>(cycle.residuals());
+  return residuals;
+}
+
+double squared_fall_s2(const BlockFit& plain) {
+  const double average_s = plain.sensor().average_s;
+  return average_s * average_s + kSlip2 * std::exp(-2.0 * plain.parameters.values(kLogFrequency));
+}
+
+bool explains_more(const Minimum& a, const Minimum& b) {
+  return a.sum_of_squares < b.sum_of_squares;
+}
+
+/// Onsets and forces of the cycles by themselves; false where a slip has no solution.
+bool solve_own(BlockFit& blocks) {
+  SolveOptions options{{}, false, true, kOwnIterations, kDraftTolerance};
+  options.held.fill(true);
+  return std::isfinite(solve(blocks, options));
+}
+
+/// From where it stands, its rise after the slips as they come out. Empty where a slip has no solution.
+std::optional<BlockFit> settled(BlockFit blocks, const Held& held, double tolerance) {
+  const bool is_rough = tolerance > kTolerance;
+  const SolveOptions options{held, false, true, is_rough ? kCompareIterations : kFullIterations, tolerance, is_rough};
+  const int rounds = blocks.level().reloading ? 1 + kRiseSteps : 1;
+  for (int i = 0; i < rounds; ++i) {
+    if (i > 0) blocks = with_rise_after(blocks);
+    if (!std::isfinite(solve(blocks, options)) || !has_slips(blocks)) return std::nullopt;
+  }
+  return blocks;
+}
+
+/// The best zeta is clearly below 0, or the slips do not determine it.
+bool is_negative(const DampedFit& fit) {
+  const double zeta = fit.blocks.parameters.values(kDamping);
+  const double error = damping_error(fit);
+  const bool is_known = error < thresholds::kTellingDamping;
+  return !fit.held[kDamping] && zeta < (is_known ? -thresholds::kNegativeSigmas * error : 0.0);
+}
+
+}  // namespace
+
+std::optional<TermFitter> TermFitter::create(const FitInput& input, const DampedFit& plain, double beyond_s) {
+  // A slow onset begins before the slip of the plain fit.
+  const double half_width_s = 1.1 * median_slip_s(plain.blocks) + 0.5 * std::sqrt(squared_fall_s2(plain.blocks)) +
+                              shown_beyond_s({plain.blocks.sensor().lag_s, 0.0}) + beyond_s;
+  TermFitter fitter(input, plain, half_width_s);
+  return fitter.cycles_ ? std::optional(std::move(fitter)) : std::nullopt;
+}
+
+TermFitter::TermFitter(const FitInput& input, const DampedFit& plain, double half_width_s)
+    : input_(input),
+      plain_(plain),
+      held_(held_of(input.held)),
+      fall_s2_(squared_fall_s2(plain.blocks)),
+      half_width_s_(half_width_s),
+      hum_(hum_of(input.recording, plain.blocks)),
+      cycles_(set_of(cycles_without(plain.excluded))) {
+  if (!cycles_) return;
+  const std::vector<CycleData>& all = cycles_->cycles();
+  few_ = set_of(some_of(all, kFewCycles));
+  std::vector<CycleData> enough = some_of(all, std::clamp(all.size() / 3, kLeastEnough, kMostEnough));
+  enough_ = 2.0 * residuals_of(enough) < residuals_of(all) ? set_of(std::move(enough)) : cycles_;
+}
+
+Minima TermFitter::minima(Terms terms, bool is_asked) const {
+  std::vector<Minimum> drafts = drafts_of(terms);
+  drafts.erase(drafts.begin() + static_cast<std::ptrdiff_t>(std::min(drafts.size(), kDescents)), drafts.end());
+  for (Minimum& draft : drafts) draft = descended(std::move(draft));
+  std::sort(drafts.begin(), drafts.end(), explains_more);
+  const auto is_another = [&](const Minimum& draft) {
+    const double ratio = draft.blocks.sensor().average_s / drafts.front().blocks.sensor().average_s;
+    const double behind =
+        effective_samples(plain_) * std::log(draft.sum_of_squares / drafts.front().sum_of_squares);
+    return terms.average && std::abs(std::log(ratio)) > kSameAverage && behind < kRuledOut;
+  };
+  Minima minima;
+  for (std::size_t i = 0; i < drafts.size(); ++i) {
+    if (i > 0 && !is_another(drafts[i])) continue;
+    std::optional<BlockFit> some = solved(enough_, drafts[i].blocks, kRoughTolerance);
+    const bool has_slips_of_its_own =
+        some && resting_share(*some) >= thresholds::kFewRest &&
+        some->sensor().average_s + median_slip_s(*some) < median_period_s(plain_.blocks);
+    if (!has_slips_of_its_own && !(is_asked && some)) {
+      minima.is_complete = false;
+    } else if (is_asked || has_term(*some)) {
+      const double sum = sum_of_squares(*some);
+      minima.found.push_back({*std::move(some), sum});
+    }
+    if (i > 0) break;
+  }
+  std::sort(minima.found.begin(), minima.found.end(), explains_more);
+  return minima;
+}
+
+Minimum TermFitter::plain() const {
+  BlockFit some = carried_to(enough_, plain_.blocks);
+  solve(some, {plain_.held, false, true, kCompareIterations, kRoughTolerance});
+  const double sum = sum_of_squares(some);
+  return {std::move(some), sum};
+}
+
+std::optional<Minimum> TermFitter::near(const BlockFit& fit) const {
+  std::optional<BlockFit> some = solved(enough_, fit, kRoughTolerance);
+  if (!some) return std::nullopt;
+  const double sum = sum_of_squares(*some);
+  return Minimum{*std::move(some), sum};
+}
+
+double TermFitter::least_with_lag(const Minimum& near) const {
+  double least = std::numeric_limits<double>::infinity();
+  const double variance_s2 = std::pow(near.blocks.sensor().average_s, 2) / 12.0;
+  for (const double tail : {1.0, kLongTail}) {
+    Scales scales = near.blocks.scales();
+    scales.sensor_average_s = 0.0;
+    scales.sensor_lag_s = std::sqrt(tail * variance_s2);
+    scales.free_time = FreeTime::Lag;
+    std::optional<BlockFit> lag = settled(with_rise_after(near.blocks.with_scales(scales)), held_, kRoughTolerance);
+    if (lag) least = std::min(least, sum_of_squares(*lag));
+  }
+  return least;
+}
+
+double TermFitter::gain_on_some(double better, double other) const {
+  const double share = residuals_of(enough_->cycles()) / residuals_of(cycles_->cycles());
+  return share * gain_on_all(better, other);
+}
+
+/// What scatters within the bins of the sticks is in neither sum.
+double TermFitter::gain_on_all(double better, double other) const {
+  const double independent = effective_samples(plain_) * residuals_of(cycles_->cycles()) / plain_.uncertainty.samples;
+  return independent * std::log(other / better);
+}
+
+std::optional<DampedFit> TermFitter::fit(const BlockFit& near) const {
+  std::optional<BlockFit> blocks = solved(cycles_, near, kTolerance);
+  if (!blocks) return std::nullopt;
+  std::optional<DampedFit> fit = without_outliers(*std::move(blocks));
+  if (fit) fit = finish_settled(input_, *std::move(fit));
+  return fit && is_negative(*fit) ? without_damping(*std::move(fit)) : std::move(fit);
+}
+
+std::vector<CycleData> TermFitter::cycles_without(const std::vector<std::size_t>& excluded) const {
+  return same_cycles_of(plain_.blocks,
+                        cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded, hum_));
+}
+
+std::vector<CycleData> TermFitter::some_of(const std::vector<CycleData>& cycles, std::size_t count) const {
+  std::vector<CycleData> some = spread_subset(cycles, count);
+  const double half_period_s = plain_.blocks.scales().half_period_s;
+  for (CycleData& cycle : some) {
+    const double middle_s = input_.segmentation.slips[cycle.slip].middle_s;
+    cycle = thinned(std::move(cycle), middle_s, half_period_s, input_.recording.sample_interval_s());
+  }
+  return some;
+}
+
+TermFitter::Cycles TermFitter::set_of(std::vector<CycleData> cycles) const {
+  std::vector<double> middles = middles_s(input_.segmentation, cycles);
+  std::optional<CycleSet> set = CycleSet::create(std::move(cycles), std::move(middles), plain_.blocks.level(),
+                                                 plain_.blocks.scales());
+  return set ? std::make_shared<const CycleSet>(*std::move(set)) : nullptr;
+}
+
+BlockFit TermFitter::started(const Cycles& cycles, const Scales& scales, const Coordinates& values) const {
+  BlockFit blocks(cycles, scales);
+  set_start(blocks, input_.segmentation, values);
+  return with_rise_after(blocks);
+}
+
+Scales TermFitter::scales_of(Terms terms, double average_s) const {
+  Scales scales = plain_.blocks.scales();
+  scales.law = terms.weakening ? FrictionLaw::Weakening : FrictionLaw::Coulomb;
+  scales.slip_distance_m = scales.force / std::exp(plain_.blocks.parameters.values(kLogStiffness));
+  scales.free_time = FreeTime::None;
+  scales.sensor_average_s = average_s;
+  return scales;
+}
+
+std::vector<TermFitter::Start> TermFitter::starts_of(Terms terms) const {
+  std::vector<Start> starts;
+  if (!terms.average) {
+    const double stated_s = input_.recording.conditions().sensor_average_s.value_or(0.0);
+    for (const double weakening : kWeakenings) starts.push_back({stated_s * stated_s / fall_s2_, weakening});
+    return starts;
+  }
+  std::vector<double> shares(kSharesOfFall.begin(), kSharesOfFall.end());
+  if (plain_.average) shares.push_back(std::pow(plain_.average->seconds, 2) / fall_s2_);
+  for (const double share : shares) {
+    if (!terms.weakening) {
+      starts.push_back({share, 0.0});
+      continue;
+    }
+    for (const double weakening : kWeakeningsWithAverage) starts.push_back({share, weakening});
+  }
+  return starts;
+}
+
+std::optional<Minimum> TermFitter::drafted(Terms terms, const Start& start) const {
+  const SolveOptions options{held_, false, true, kDraftIterations, kDraftTolerance, true};
+  Coordinates near = plain_.blocks.parameters.values;
+  // The slower onset makes a slip longer: so much slower is w_n without it.
+  if (!held_[kLogFrequency]) {
+    near(kLogFrequency) = 0.5 * std::log(kSlip2 / ((1.0 - start.share_of_fall) * fall_s2_)) +
+                          std::log1p(0.6 * start.weakening);
+  }
+  if (!held_[kDamping]) near(kDamping) = 0.05;
+  near(kSlipDistance) = std::sqrt(start.weakening);
+  const bool rises = plain_.blocks.level().reloading != nullptr;
+  std::optional<Minimum> best;
+  for (std::size_t length = 0; length < (rises ? kRiseLengths.size() : 1); ++length) {
+    BlockFit blocks = started(few_, scales_of(terms, std::sqrt(start.share_of_fall * fall_s2_)), near);
+    blocks.parameters.values(kReloadLength) += std::log(kRiseLengths[length]);
+    if (!solve_own(blocks)) continue;
+    double sum = solve(blocks, options);
+    for (int i = 0; i < kRiseSteps && rises && std::isfinite(sum); ++i) {
+      blocks = with_rise_after(blocks);
+      sum = solve(blocks, options);
+    }
+    const bool is_better = std::isfinite(sum) && fit::rises(blocks) && (!best || sum < best->sum_of_squares);
+    if (is_better) best = Minimum{std::move(blocks), sum};
+  }
+  return best;
+}
+
+std::vector<Minimum> TermFitter::drafts_of(Terms terms) const {
+  std::vector<Minimum> drafts;
+  for (const Start& start : starts_of(terms)) {
+    std::optional<Minimum> draft = drafted(terms, start);
+    if (draft) drafts.push_back(*std::move(draft));
+  }
+  if (terms.average) {
+    for (Minimum& draft : drafts) draft.blocks = with_free_time(draft.blocks, FreeTime::Average);
+  }
+  std::sort(drafts.begin(), drafts.end(), explains_more);
+  return drafts;
+}
+
+Minimum TermFitter::descended(Minimum draft) const {
+  std::optional<BlockFit> blocks = settled(draft.blocks, held_, kDescentTolerance);
+  const double sum = blocks ? sum_of_squares(*blocks) : std::numeric_limits<double>::infinity();
+  return sum < draft.sum_of_squares ? Minimum{*std::move(blocks), sum} : std::move(draft);
+}
+
+std::optional<BlockFit> TermFitter::solved(const Cycles& cycles, const BlockFit& near, double tolerance) const {
+  if (cycles->cycles().size() == near.size()) return settled(carried_to(cycles, near), held_, tolerance);
+  Scales scales = near.scales();
+  scales.sensor_average_s = near.sensor().average_s;
+  BlockFit blocks = started(cycles, scales, near.parameters.values);
+  blocks.parameters.level = near.parameters.level;
+  if (!solve_own(blocks)) return std::nullopt;
+  return settled(std::move(blocks), held_, tolerance);
+}
+
+/// Waves and slips of Coulomb friction have a minimum at D_c = 0, and an average within a step of the clock cannot be
+/// distinguished from none.
+bool TermFitter::has_term(const BlockFit& fit) const {
+  const bool is_averaged = fit.scales().free_time != FreeTime::Average ||
+                           fit.sensor().average_s >= input_.recording.sample_interval_s();
+  if (fit.scales().law != FrictionLaw::Weakening || !is_averaged) return is_averaged;
+  DampedFit some{fit, false, held_};
+  some.uncertainty = estimate_uncertainty(fit, {held_, false});
+  return sigmas_of_distance(some) > kNothing;
+}
+
+/// Outliers of the plain fit may be what its model misses. Empty where they leave too few cycles.
+std::optional<DampedFit> TermFitter::without_outliers(BlockFit blocks) const {
+  const std::vector<std::size_t> initial = initial_exclusions(input_.recording, input_.quality);
+  const Residuals residuals = without(fit::residuals_of(input_.recording, blocks), initial);
+  const double noise = blocks.scales().noise;
+  const std::vector<std::size_t> outliers = find_outliers(residuals, noise);
+  const std::vector<std::size_t> censored = beyond_clip(input_.recording, input_.quality, residuals, noise);
+  std::vector<std::size_t> excluded = united(initial, united(outliers, censored));
+  if (excluded != plain_.excluded) {
+    const Cycles clean = set_of(cycles_without(excluded));
+    if (!clean) return std::nullopt;
+    std::optional<BlockFit> again = settled(carried_to(clean, blocks), held_, kTolerance);
+    if (!again) return std::nullopt;
+    blocks = *std::move(again);
+  }
+  return DampedFit{std::move(blocks), false, held_, std::nullopt, half_width_s_, std::move(excluded)};
+}
+
+/// zeta is held at 0, and called unknown, as it is without the terms.
+std::optional<DampedFit> TermFitter::without_damping(DampedFit fit) const {
+  fit.refused_damping = fit.blocks.parameters.values(kDamping);
+  fit.held[kDamping] = true;
+  fit.blocks.parameters.values(kDamping) = 0.0;
+  std::optional<BlockFit> blocks = settled(std::move(fit.blocks), fit.held, kTolerance);
+  if (!blocks) return std::nullopt;
+  fit.blocks = *std::move(blocks);
+  return finish_settled(input_, std::move(fit));
+}
+
+}  // namespace slipfit::fit

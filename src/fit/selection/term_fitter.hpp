@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fit/selection/fit_input.hpp"
+#include "fit/selection/solution.hpp"
+
+namespace slipfit::fit {
+
+/// The terms that a fit may have beside those of every fit.
+struct Terms {
+  bool average = false;    ///< an average of the sensor, its time W a parameter (docs/model.md section 7)
+  bool weakening = false;  ///< friction that weakens over a slip distance D_c in place of Coulomb friction (section 9)
+};
+
+/// Variance of an impulse response with a long tail that rounds slips as much as an average of variance 1.
+inline constexpr double kLongTail = 3.0;
+
+/// A minimum of the sum of squares of some of the cycles.
+struct Minimum {
+  BlockFit blocks;
+  double sum_of_squares = 0.0;
+};
+
+/// The minima of a fit with more terms.
+struct Minima {
+  std::vector<Minimum> found{};  ///< the best one first; the next one where some of the cycles do not rule it out
+  bool is_complete = true;       ///< false: the fit of more cycles failed from one of the starts
+};
+
+/// Fits with more terms to the cycles that a plain fit of the same recording has. Few cycles find the minima, more of
+/// them compare the terms, and only what they do not rule out is fitted to all cycles.
+class TermFitter {
+ public:
+  /// All must outlive this. `beyond_s`: how much farther cycles are cut around their slips than the terms need. Empty
+  /// where too few cycles are that wide.
+  static std::optional<TermFitter> create(const FitInput& input, const DampedFit& plain, double beyond_s = 0.0);
+
+  /// Minima of the cycles that compare the terms. A minimum without a slip distance, without an average or without
+  /// slips that come to rest is not among them, unless `is_asked`: by the user, whatever these cycles show.
+  [[nodiscard]] Minima minima(Terms terms, bool is_asked = false) const;
+
+  /// The plain fit of the cycles that compare the terms.
+  [[nodiscard]] Minimum plain() const;
+  /// Their fit with the terms of `near`, another fit of the recording. Empty where a slip has no solution.
+  [[nodiscard]] std::optional<Minimum> near(const BlockFit& fit) const;
+
+  /// From a minimum, with a lag of first order in place of its average, the best of two starts. Infinity where there is
+  /// no solution.
+  [[nodiscard]] double least_with_lag(const Minimum& near) const;
+
+  /// By how much more likely `better` makes these cycles, twice the logarithm, each at its best noise; of all cycles in
+  /// proportion.
+  [[nodiscard]] double gain_on_some(double better, double other) const;
+  [[nodiscard]] double gain_on_all(double better, double other) const;
+
+  /// The fit of all cycles with the terms of `near`, without the outliers of its own model, with its uncertainty. zeta
+  /// is held at 0 where it came out below. Empty where a slip has no solution.
+  [[nodiscard]] std::optional<DampedFit> fit(const BlockFit& near) const;
+
+ private:
+  TermFitter(const FitInput& input, const DampedFit& plain, double half_width_s);
+
+  struct Start {
+    double share_of_fall = 0.0;  ///< that the square of an average's time takes of the square of the fall's
+    double weakening = 0.0;      ///< k D_c / (F_s - F_k)
+  };
+
+  using Cycles = std::shared_ptr<const CycleSet>;
+
+  [[nodiscard]] Cycles set_of(std::vector<CycleData> cycles) const;
+  [[nodiscard]] std::vector<CycleData> cycles_without(const std::vector<std::size_t>& excluded) const;
+  [[nodiscard]] std::vector<CycleData> some_of(const std::vector<CycleData>& cycles, std::size_t count) const;
+  /// These cycles in a model of these scales and values, from the features of their slips on.
+  [[nodiscard]] BlockFit started(const Cycles& cycles, const Scales& scales, const Coordinates& values) const;
+  [[nodiscard]] Scales scales_of(Terms terms, double average_s) const;
+  [[nodiscard]] std::vector<Start> starts_of(Terms terms) const;
+  [[nodiscard]] std::optional<Minimum> drafted(Terms terms, const Start& start) const;
+  [[nodiscard]] std::vector<Minimum> drafts_of(Terms terms) const;
+  [[nodiscard]] Minimum descended(Minimum draft) const;
+  [[nodiscard]] std::optional<BlockFit> solved(const Cycles& cycles, const BlockFit& near, double tolerance) const;
+  [[nodiscard]] bool has_term(const BlockFit& fit) const;
+  [[nodiscard]] std::optional<DampedFit> without_outliers(BlockFit blocks) const;
+  [[nodiscard]] std::optional<DampedFit> without_damping(DampedFit fit) const;
+
+  const FitInput& input_;
+  const DampedFit& plain_;
+  Held held_;
+  double fall_s2_;  ///< square of the time by which slip and average together draw the fall out
+  double half_width_s_;
+  HumLines hum_;                    ///< of the plain fit
+  Cycles cycles_;  ///< of the plain fit, cut wider
+  Cycles few_;     ///< that find minima, their slips with no more samples than their shape needs
+  Cycles enough_;  ///< that compare terms; all where these are not much more work
+};
+
+}  // namespace slipfit::fit
