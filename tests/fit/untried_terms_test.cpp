@@ -16,7 +16,7 @@ namespace {
 bool is_noisy(const Recording& recording) {
   const Detected detected = detect(recording);
   const Signals& signals = detected.signals;
-  const auto fit = fit::draft_damped({detected.recording(), signals.quality, signals.segmentation, {}}, {});
+  const auto fit = fit::draft_damped({detected.recording(), signals.quality, signals.segmentation, {}});
   REQUIRE(fit);
   return fit::hides_shape(signals.quality.noise_rms, *fit);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/fit_thresholds.hpp"
 
@@ -25,6 +26,13 @@ std::optional<FittedAverage> average_of(const BlockFit& fit, const CoordinateMat
   const double unit_s2 = scales.sensor_time_unit_s * scales.sensor_time_unit_s;
   const double average_s = fit.sensor().average_s;
   return FittedAverage{average_s, 0.5 * unit_s2 * sensor_time_error(covariance) / average_s};
+}
+
+DampedFit with_average_error(DampedFit fit) {
+  fit.uncertainty.covariance = with_unknown_shape(fit.uncertainty.covariance, fit.blocks);
+  const std::optional<FittedAverage> average = average_of(fit.blocks, fit.uncertainty.covariance);
+  if (average) fit.average = average;
+  return fit;
 }
 
 }  // namespace slipfit::fit

@@ -17,6 +17,8 @@ struct LevelModel {
   std::vector<double> lines_Hz;
   std::shared_ptr<const RiseAfterSlip> reloading{};  ///< null: sticks are straight
 
+  friend bool operator==(const LevelModel&, const LevelModel&) = default;
+
   /// Functions of time with a coefficient each: those of the polynomial, then cosine and sine of each line.
   [[nodiscard]] std::size_t columns() const { return terms + 2 * lines_Hz.size(); }
   [[nodiscard]] std::size_t columns_behind_constant() const { return columns() - (terms > 0 ? 1 : 0); }

@@ -13,9 +13,10 @@
 #include "fit/inference/smoothing.hpp"
 #include "fit/level/mains_hum.hpp"
 #include "fit/report/trend_notes.hpp"
-#include "fit/selection/fitted_average.hpp"
+#include "fit/selection/average_term.hpp"
 #include "fit/selection/ramps.hpp"
 #include "fit/selection/rival.hpp"
+#include "fit/selection/stated_mass.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -186,8 +187,12 @@ std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, co
     return "the sensor averages over most of the slip, and correlated residuals hide w_n and zeta: " + remedy;
   }
   if (!fit.blocks.level().reloading || findings.sensor_average_s || fit.average) return {};
-  return "the force recovers after a slip, and residuals are correlated and larger than the noise: sensor averaging "
-         "(--sensor-average) or friction may determine the slip time instead of the mass";
+  const std::string open_fall =
+      "the force recovers after a slip, and residuals are correlated and larger than the noise: sensor averaging "
+      "(--sensor-average) or friction may determine the slip time instead of the mass";
+  // An average hides slips that are quicker, and so of a smaller mass, than they look.
+  const bool is_too_large = sigmas_of_stated_mass(conditions, fit) > thresholds::kSureTerm;
+  return is_too_large ? open_fall + "; " + stated_mass() : open_fall;
 }
 
 /// Why what is read from the slip cannot be told, or not surely.

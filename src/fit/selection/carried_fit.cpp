@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fit/problem/solve.hpp"
-#include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/rise.hpp"
 #include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {
@@ -41,6 +41,7 @@ bool has_slips(const BlockFit& fit) {
 
 BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& from) {
   BlockFit to(set, from.scales());
+  if (to.level() != from.level()) to = to.with_level(from.level(), from.scales());
   carry_over(from, to);
   to.parameters.values(kSensorTime) = from.parameters.values(kSensorTime);
   return with_rise_after(to);
@@ -54,7 +55,7 @@ BlockFit with_free_time(const BlockFit& fit, FreeTime time) {
 
 double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor) {
   BlockFit again = carried_to(rich.blocks.set(), poor.blocks);
-  if (!std::isfinite(solve(again, {poor.held, false, true}))) return 0.0;
+  if (!std::isfinite(solve(again, {poor.held, rich.continuous, true}))) return 0.0;
   // What scatters within the bins of the sticks is in neither sum.
   const double independent =
       effective_samples(rich) * static_cast<double>(residuals_in(rich.blocks)) / rich.uncertainty.samples;

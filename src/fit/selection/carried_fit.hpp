@@ -13,7 +13,7 @@ namespace slipfit::fit {
 /// Takes the solution of other fits of the same slips, of a neighbour where one is not among them.
 void carry_over(const BlockFit& from, BlockFit& to);
 
-/// The fit on the cycles of another one, its rise after the slips that it has there.
+/// The fit on the cycles of another one, above its own level, its rise after the slips that it has there.
 BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& from);
 
 /// The fit with a time of the sensor as one parameter more.

@@ -5,12 +5,12 @@
 #include <string>
 #include <utility>
 
-#include "fit/selection/fitted_average.hpp"
-#include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/average_term.hpp"
 #include "fit/selection/ring_down_fit.hpp"
+#include "fit/selection/rise_term.hpp"
 #include "fit/selection/rival.hpp"
 #include "fit/selection/stated_mass.hpp"
-#include "fit/selection/weakening_fit.hpp"
+#include "fit/selection/weakening_term.hpp"
 
 namespace slipfit::fit {
 namespace {

@@ -16,6 +16,7 @@
 #include "fit/selection/first_guess.hpp"
 #include "fit/selection/outliers.hpp"
 #include "fit/selection/recut.hpp"
+#include "fit/selection/wandering.hpp"
 #include "signal/robust.hpp"
 
 namespace slipfit::fit {
@@ -38,12 +39,12 @@ constexpr double kFinal = 1e-3;
 
 class Fitter {
  public:
-  Fitter(const FitInput& input, const Near& near)
+  Fitter(const FitInput& input, const GiveUp& give_up)
       : recording_(input.recording),
         quality_(input.quality),
         segmentation_(input.segmentation),
         held_values_(input.held),
-        near_(near),
+        give_up_(give_up),
         held_(held_of(input.held)),
         scales_(scales_of(recording_, quality_, segmentation_)),
         excluded_(initial_exclusions(recording_, quality_)) {}
@@ -56,15 +57,13 @@ class Fitter {
       auto middle = fit_middle(*start, start->level().lines_Hz);
       if (middle) start = with_settled_hum(*std::move(middle));
       start = or_wandering(*std::move(start), kRough);
-      if (near_.give_up && near_.give_up(*start)) return std::nullopt;
-      if (near_.needs_damping && !refuse_negative_damping(*start, kRough)) return std::nullopt;
+      if (give_up_ && give_up_(*start)) return std::nullopt;
     }
     std::optional<BlockFit> fit =
-        fit_from(std::move(cycles_), start->level(), start->parameters.values, near_.most_iterations, kRough);
+        fit_from(std::move(cycles_), start->level(), start->parameters.values, kMaxIterations, kRough);
     if (fit && !are_many) {
       fit = or_wandering(*std::move(fit), kRough);
-      // A few cycles do not tell that an average is hopeless.
-      if (!near_.needs_damping && near_.give_up && near_.give_up(*fit)) return std::nullopt;
+      if (give_up_ && give_up_(*fit)) return std::nullopt;
     }
     const std::size_t excluded = excluded_.size();
     if (fit) fit = with_clean_data(std::move(*fit));
@@ -90,16 +89,14 @@ class Fitter {
   std::optional<BlockFit> started() {
     start_stiffness_ = held_values_.stiffness_N_per_m.value_or(stiffness_of(recording_, segmentation_));
     if (!(start_stiffness_ > 0.0)) return std::nullopt;
-    const std::vector<std::size_t> first_excluded = united(excluded_, near_.excluded);
-    cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), first_excluded);
+    cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_);
     if (cycles_.size() < thresholds::kFewestFitted) return std::nullopt;
     scales_.time_begin_s = cycles_.front().window_begin_s;
     scales_.time_end_s = cycles_.back().window_end_s;
-    LevelModel level = first_level(recording_, segmentation_, cycles_, scales_);
-    level.reloading = near_.reloading;
+    const LevelModel level = first_level(recording_, segmentation_, cycles_, scales_);
     if (!level.lines_Hz.empty()) {
       const HumLines hum{level.lines_Hz, scales_.time_begin_s};
-      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), first_excluded, hum);
+      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_, hum);
     }
     return fit_probe(spread_subset(cycles_, std::max<std::size_t>(kProbeCycles, 3 * level.terms)), level);
   }
@@ -111,11 +108,10 @@ class Fitter {
     start_ = fit->parameters.values;
     // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
     if (!std::isfinite(solve(*fit, {held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
-    const bool may_wander = near_.level_per_cycle || reduced_chi2(*fit) > thresholds::kSuspectChi2;
+    const bool may_wander = reduced_chi2(*fit) > thresholds::kSuspectChi2;
     if (!level.per_cycle && probe.size() > level.terms && may_wander) {
-      const Coordinates near = near_.values.value_or(fit->parameters.values);
-      auto wandering = fit_from(probe, {true, 0, level.lines_Hz, level.reloading}, near, kProbeIterations, kRough);
-      if (wandering && explains_more(*wandering, *fit)) fit = std::move(wandering);
+      auto wandering = fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.values, kProbeIterations, kRough);
+      if (wandering && level_wanders(*wandering, *fit, held_)) fit = std::move(wandering);
     }
     if (!refuse_negative_damping(*fit, kRough)) return std::nullopt;
     return fit;
@@ -125,7 +121,7 @@ class Fitter {
     LevelModel level = near.level();
     level.lines_Hz = lines_Hz;
     // What decides whether all are fitted has to be settled.
-    const double tolerance = near_.give_up ? kFinal : kRough;
+    const double tolerance = give_up_ ? kFinal : kRough;
     return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.values, kMiddleIterations, tolerance);
   }
 
@@ -135,8 +131,8 @@ class Fitter {
       const Residuals residuals = without(residuals_of(recording_, middle), excluded_);
       const std::vector<double> lines_Hz = refine_hum(recording_, middle, residuals.value);
       if (is_same_hum(middle, lines_Hz)) break;
-      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_),
-                           united(excluded_, near_.excluded), {lines_Hz, scales_.time_begin_s});
+      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_,
+                           {lines_Hz, scales_.time_begin_s});
       std::optional<BlockFit> next = fit_middle(middle, lines_Hz);
       if (!next) break;
       middle = *std::move(next);
@@ -144,22 +140,14 @@ class Fitter {
     return middle;
   }
 
-  [[nodiscard]] bool explains_more(const BlockFit& wandering, const BlockFit& polynomial) const {
-    const Uncertainty rich = estimate_uncertainty(wandering, {held_, false});
-    const Uncertainty poor = estimate_uncertainty(polynomial, {held_, false});
-    const auto extra = static_cast<double>(wandering.size() - polynomial.level().terms);
-    const double noise2 = std::pow(rich.noise / scales_.noise, 2);
-    return (poor.chi2 - rich.chi2) / extra > thresholds::kWanderingRatio * noise2;
-  }
-
   /// The same cycles with a level each from little damping, where they explain more: troughs that lie on one level
   /// while the peaks scatter look like slips with much damping, from which no fit finds back.
   [[nodiscard]] BlockFit or_wandering(BlockFit fit, double tolerance) const {
     const bool is_damped = !held_[kDamping] && fit.parameters.values(kDamping) > kMuchDamping;
     if (!is_damped || fit.level().per_cycle || fit.size() < kFewestWandering) return fit;
-    const LevelModel level{true, 0, fit.level().lines_Hz, fit.level().reloading};
+    const LevelModel level{true, 0, fit.level().lines_Hz};
     std::optional<BlockFit> wandering = fit_from(fit.set()->cycles(), level, start_, kMaxIterations, tolerance);
-    return wandering && explains_more(*wandering, fit) ? *std::move(wandering) : std::move(fit);
+    return wandering && level_wanders(*wandering, fit, held_) ? *std::move(wandering) : std::move(fit);
   }
 
   /// Short runs with zeta held, the best of them.
@@ -172,9 +160,7 @@ class Fitter {
     double best_cost = std::numeric_limits<double>::infinity();
     Parameters best;
     const double step_s = recording_.sample_interval_s();
-    const std::vector<Coordinates> starts =
-        near_.values ? std::vector{*near_.values} : first_values(start_stiffness_, held_values_, scales_, step_s);
-    for (const Coordinates& start : starts) {
+    for (const Coordinates& start : first_values(start_stiffness_, held_values_, scales_, step_s)) {
       set_start(*fit, segmentation_, start);
       const double cost = solve(*fit, quick);
       if (cost >= best_cost) continue;
@@ -205,7 +191,6 @@ class Fitter {
     const Uncertainty uncertainty = estimate_uncertainty(fit, {held_, false});
     const double se = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
     if (!(zeta + thresholds::kNegativeSigmas * se < 0.0)) return true;
-    if (near_.needs_damping) return false;
     refused_damping_ = zeta;
     held_[kDamping] = true;
     // Start again from the features: the other parameters have followed the wrong zeta.
@@ -229,14 +214,14 @@ class Fitter {
           find_stick_ripple(recording_, fit, residuals, tolerated_misfit(quality_));
       const HumSearch hum = find_hum(recording_, fit, std::move(residuals.value), outliers, ripple);
       const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && hum.lines_Hz.empty();
-      if (is_clean && (pass > 0 || near_.excluded.empty())) {
-        if (pass == 0) solve(fit, {held_, false, true, near_.most_iterations, kFinal});  // it was only rough so far
+      if (is_clean) {
+        if (pass == 0) solve(fit, {held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
         return fit;
       }
       excluded_ = united(excluded_, united(outliers, censored));
       const bool is_settled = is_same_hum(fit, hum.lines_Hz);
       std::optional<BlockFit> next = recut(std::move(fit), cut(), bad, hum.lines_Hz);
-      if (!next || !std::isfinite(solve(*next, {held_, false, true, near_.most_iterations, kFinal}))) {
+      if (!next || !std::isfinite(solve(*next, {held_, false, true, kMaxIterations, kFinal}))) {
         return std::nullopt;
       }
       fit = std::move(*next);
@@ -270,7 +255,7 @@ class Fitter {
   const Quality& quality_;
   const Segmentation& segmentation_;
   const HeldParameters& held_values_;
-  const Near& near_;
+  const GiveUp& give_up_;
   Held held_;
   Scales scales_;
   std::vector<std::size_t> excluded_;  // in ascending order
@@ -282,9 +267,9 @@ class Fitter {
 
 }  // namespace
 
-std::optional<DampedFit> draft_damped(const FitInput& input, const Near& near) {
+std::optional<DampedFit> draft_damped(const FitInput& input, const GiveUp& give_up) {
   if (input.segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
-  return Fitter(input, near).fit();
+  return Fitter(input, give_up).fit();
 }
 
 std::optional<BlockFit> rough_fit(const FitInput& input) {

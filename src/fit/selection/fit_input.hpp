@@ -15,4 +15,7 @@ struct FitInput {
   const HeldParameters& held;  ///< by the user, or by what is known beside the slips
 };
 
+/// The recording, as if it stated that its samples are averaged over this time.
+Recording with_average(const Recording& recording, double average_s);
+
 }  // namespace slipfit::fit

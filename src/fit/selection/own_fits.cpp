@@ -7,10 +7,11 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/quantile.hpp"
+#include "fit/selection/average_term.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/finish.hpp"
-#include "fit/selection/fitted_average.hpp"
-#include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/rise.hpp"
+#include "fit/selection/rise_term.hpp"
 #include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {
@@ -160,11 +161,11 @@ class OwnFitter {
                                                       const std::optional<double>& length_m) const {
     const Recording recording = with_average(recordings_[i].recording, average.seconds);
     const FitInput averaged{recording, recordings_[i].quality, recordings_[i].segmentation, held_};
-    std::optional<DampedFit> fit;
-    if (length_m && own.blocks.level().reloading) {
-      fit = draft_with_rise_over(*length_m, averaged, own);
+    std::optional<DampedFit> fit = draft_damped(averaged);
+    if (fit && length_m && own.blocks.level().reloading) {
+      std::optional<DampedFit> risen = draft_with_rise_over(*length_m, averaged, *fit);
+      if (risen) fit = std::move(risen);
     }
-    if (!fit) fit = draft_damped(averaged);
     if (fit) fit = finish_fit(averaged, *std::move(fit));
     if (fit) fit->average = average;
     return fit;

@@ -12,9 +12,9 @@
 #include "fit/inference/sensor_time.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
+#include "fit/selection/average_term.hpp"
 #include "fit/selection/carried_fit.hpp"
-#include "fit/selection/fitted_average.hpp"
-#include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/rise.hpp"
 
 namespace slipfit::fit {
 namespace {

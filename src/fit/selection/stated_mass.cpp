@@ -1,13 +1,13 @@
 #include "fit/selection/stated_mass.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/finish.hpp"
-#include "fit/selection/fitted_average.hpp"
-#include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/rise_term.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -16,6 +16,12 @@ constexpr double kStep = 0.01;  // of ln w_n
 
 double stiffness_of(const DampedFit& fit) {
   return std::exp(fit.blocks.parameters.values(kLogStiffness));
+}
+
+/// Standard error of a stated mass over the mass: as stated, or what is usual. `conditions` state a mass.
+double relative_mass_error(const Conditions& conditions) {
+  const auto& error_kg = conditions.mass_standard_error_kg;
+  return error_kg ? *error_kg / *conditions.mass_kg : thresholds::kUsualMassError;
 }
 
 /// What the coordinates move by where w_n is held elsewhere; empty where the fit has no solution there.
@@ -28,11 +34,18 @@ std::optional<Coordinates> by_log_frequency(const DampedFit& fit) {
 
 }  // namespace
 
+double sigmas_of_stated_mass(const Conditions& conditions, const DampedFit& fit) {
+  if (!conditions.mass_kg || fit.held[kLogFrequency]) return 0.0;
+  const Coordinates log_mass = Coordinates::Unit(kLogStiffness) - 2.0 * Coordinates::Unit(kLogFrequency);
+  const double variance = log_mass.dot(fit.uncertainty.covariance * log_mass);
+  const double apart = std::log(*conditions.mass_kg) - log_mass.dot(fit.blocks.parameters.values);
+  return apart / std::hypot(std::sqrt(std::max(0.0, variance)), relative_mass_error(conditions));
+}
+
 std::optional<StatedMass> mass_for_frequency(const Conditions& conditions, const HeldParameters& held,
                                              double stiffness_N_per_m, double average_s) {
   if (!conditions.mass_kg || held.natural_frequency_rad_per_s) return std::nullopt;
-  StatedMass mass{*conditions.mass_kg, thresholds::kUsualMassError};
-  if (conditions.mass_standard_error_kg) mass.relative_error = *conditions.mass_standard_error_kg / mass.kg;
+  const StatedMass mass{*conditions.mass_kg, relative_mass_error(conditions)};
   const bool hides = mass.frequency_rad_per_s(stiffness_N_per_m) * average_s > thresholds::kHidingAverage;
   return hides ? std::optional(mass) : std::nullopt;
 }

@@ -8,6 +8,10 @@
 
 namespace slipfit::fit {
 
+/// By how many of their common standard errors the stated mass exceeds k / w_n^2 of a fit; 0 where none is stated or
+/// w_n is held.
+double sigmas_of_stated_mass(const Conditions& conditions, const DampedFit& fit);
+
 /// A stated mass that gives the natural frequency, sqrt(k / m). kg > 0.
 struct StatedMass {
   double kg = 0.0;

@@ -10,15 +10,18 @@
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "fit/cycle/start.hpp"
+#include "fit/inference/sensor_time.hpp"
 #include "fit/level/add_hum.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/clipping.hpp"
+#include "fit/selection/finish.hpp"
 #include "fit/selection/first_guess.hpp"
 #include "fit/selection/outliers.hpp"
 #include "fit/selection/recut.hpp"
-#include "fit/selection/reloading_fit.hpp"
+#include "fit/selection/rise.hpp"
 #include "fit/selection/tiers.hpp"
+#include "fit/selection/wandering.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -31,24 +34,27 @@ constexpr std::array kWeakeningsWithAverage{0.1, 0.45};
 /// Length of the rise after slips, in that of the plain fit: behind an average it looks longer.
 constexpr std::array kRiseLengths{1.0, 0.5};
 
-constexpr double kSlip2 = 5.6;  // W^2 of an average that draws the fall out as much as the slip itself does
+constexpr int kRiseStarts = 6;
+constexpr double kShortestRise = 0.02;  // of a stick
+constexpr double kLongestRise = 0.5;    // of a stick
+constexpr double kSlip2 = 5.6;          // W^2 of an average that draws the fall out as much as the slip itself does
 constexpr std::size_t kFewCycles = 16;
 constexpr std::size_t kLeastEnough = 40;
 constexpr std::size_t kMostEnough = 64;
-constexpr std::size_t kDescents = 3;  // of the drafts
-constexpr int kOwnIterations = 6;     // of onsets and forces by themselves
+constexpr int kOwnIterations = 6;  // of onsets and forces by themselves
 constexpr int kDraftIterations = 10;
 constexpr int kCompareIterations = 20;
 constexpr int kFullIterations = 60;
-constexpr int kRiseSteps = 2;  // of a draft, each after the slips of the one before
-constexpr double kDraftTolerance = 0.1;   // SolveOptions::tolerance
+constexpr int kRiseSteps = 2;            // of a draft, each after the slips of the one before
+constexpr double kDraftTolerance = 0.1;  // SolveOptions::tolerance
 constexpr double kDescentTolerance = 1e-3;
 constexpr double kRoughTolerance = 1e-4;  // a tenth of an error decides nothing
-/// Steps gain little along the valley of D_c, zeta and w_n: what ends other fits leaves them an error off.
-constexpr double kTolerance = 1e-7;
-constexpr double kSameAverage = 0.1;  // of ln W: two starts that led to one minimum
-constexpr double kRuledOut = 60.0;    // of AICc by all samples: few of the cycles show less
-constexpr double kNothing = 0.1;      // of its error: a slip distance that is none
+constexpr double kFinalTolerance = 1e-3;
+/// Steps gain little along the valley of D_c or W, zeta and w_n: what ends other fits leaves them an error off.
+constexpr double kValleyTolerance = 1e-7;
+constexpr double kSameAverage = 0.1;                        // of ln W: two starts that led to one minimum
+constexpr double kRuledOut = 2.0 * thresholds::kTierPrice;  // of AICc by few of the cycles
+constexpr double kNothing = 0.1;                            // of its error: a slip distance that is none
 
 double residuals_of(const std::vector<CycleData>& cycles) {
   double residuals = 0.0;
@@ -72,24 +78,35 @@ bool solve_own(BlockFit& blocks) {
   return std::isfinite(solve(blocks, options));
 }
 
-/// From where it stands, its rise after the slips as they come out. Empty where a slip has no solution.
-std::optional<BlockFit> settled(BlockFit blocks, const Held& held, double tolerance) {
-  const bool is_rough = tolerance > kTolerance;
-  const SolveOptions options{held, false, true, is_rough ? kCompareIterations : kFullIterations, tolerance, is_rough};
-  const int rounds = blocks.level().reloading ? 1 + kRiseSteps : 1;
-  for (int i = 0; i < rounds; ++i) {
-    if (i > 0) blocks = with_rise_after(blocks);
-    if (!std::isfinite(solve(blocks, options)) || !has_slips(blocks)) return std::nullopt;
+/// From where it stands. Empty where a slip has no solution.
+std::optional<BlockFit> solved_from(BlockFit blocks, const SolveOptions& options) {
+  const bool is_solved = std::isfinite(solve(blocks, options)) && has_slips(blocks);
+  return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
+}
+
+/// As far as comparing terms needs, its rise after the slips as they come out.
+std::optional<BlockFit> roughly_settled(BlockFit start, const Held& held, double tolerance) {
+  const SolveOptions options{held, false, true, kCompareIterations, tolerance, true};
+  std::optional<BlockFit> blocks = solved_from(std::move(start), options);
+  for (int i = 0; i < kRiseSteps && blocks && blocks->level().reloading; ++i) {
+    blocks = solved_from(with_rise_after(*blocks), options);
   }
   return blocks;
 }
 
-/// The best zeta is clearly below 0, or the slips do not determine it.
+/// The rise of what it returns is not settled (settle_rise).
+std::optional<BlockFit> settled(BlockFit blocks, const Held& held) {
+  const bool has_valley = blocks.scales().law == FrictionLaw::Weakening || blocks.solves_for(kSensorTime);
+  return solved_from(std::move(blocks),
+                     {held, false, true, kFullIterations, has_valley ? kValleyTolerance : kFinalTolerance});
+}
+
+/// The best zeta is clearly below 0, or below it where D_c leaves it open.
 bool is_negative(const DampedFit& fit) {
   const double zeta = fit.blocks.parameters.values(kDamping);
   const double error = damping_error(fit);
-  const bool is_known = error < thresholds::kTellingDamping;
-  return !fit.held[kDamping] && zeta < (is_known ? -thresholds::kNegativeSigmas * error : 0.0);
+  const bool is_open = fit.blocks.scales().law == FrictionLaw::Weakening && !(error < thresholds::kTellingDamping);
+  return !fit.held[kDamping] && zeta < (is_open ? 0.0 : -thresholds::kNegativeSigmas * error);
 }
 
 }  // namespace
@@ -119,22 +136,19 @@ TermFitter::TermFitter(const FitInput& input, const DampedFit& plain, double hal
 
 Minima TermFitter::minima(Terms terms, bool is_asked) const {
   std::vector<Minimum> drafts = drafts_of(terms);
-  drafts.erase(drafts.begin() + static_cast<std::ptrdiff_t>(std::min(drafts.size(), kDescents)), drafts.end());
   for (Minimum& draft : drafts) draft = descended(std::move(draft));
   std::sort(drafts.begin(), drafts.end(), explains_more);
   const auto is_another = [&](const Minimum& draft) {
     const double ratio = draft.blocks.sensor().average_s / drafts.front().blocks.sensor().average_s;
-    const double behind =
-        effective_samples(plain_) * std::log(draft.sum_of_squares / drafts.front().sum_of_squares);
-    return terms.average && std::abs(std::log(ratio)) > kSameAverage && behind < kRuledOut;
+    const bool is_elsewhere = terms.average && std::abs(std::log(ratio)) > kSameAverage;
+    return is_elsewhere && gain_on(*few_, drafts.front().sum_of_squares, draft.sum_of_squares) < kRuledOut;
   };
   Minima minima;
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     if (i > 0 && !is_another(drafts[i])) continue;
-    std::optional<BlockFit> some = solved(enough_, drafts[i].blocks, kRoughTolerance);
-    const bool has_slips_of_its_own =
-        some && resting_share(*some) >= thresholds::kFewRest &&
-        some->sensor().average_s + median_slip_s(*some) < median_period_s(plain_.blocks);
+    std::optional<BlockFit> some = solved(enough_, drafts[i].blocks);
+    const bool has_slips_of_its_own = some && resting_share(*some) >= thresholds::kFewRest &&
+                                      some->sensor().average_s + median_slip_s(*some) < median_period_s(plain_.blocks);
     if (!has_slips_of_its_own && !(is_asked && some)) {
       minima.is_complete = false;
     } else if (is_asked || has_term(*some)) {
@@ -155,7 +169,7 @@ Minimum TermFitter::plain() const {
 }
 
 std::optional<Minimum> TermFitter::near(const BlockFit& fit) const {
-  std::optional<BlockFit> some = solved(enough_, fit, kRoughTolerance);
+  std::optional<BlockFit> some = solved(enough_, fit);
   if (!some) return std::nullopt;
   const double sum = sum_of_squares(*some);
   return Minimum{*std::move(some), sum};
@@ -169,28 +183,45 @@ double TermFitter::least_with_lag(const Minimum& near) const {
     scales.sensor_average_s = 0.0;
     scales.sensor_lag_s = std::sqrt(tail * variance_s2);
     scales.free_time = FreeTime::Lag;
-    std::optional<BlockFit> lag = settled(with_rise_after(near.blocks.with_scales(scales)), held_, kRoughTolerance);
+    std::optional<BlockFit> lag =
+        roughly_settled(with_rise_after(near.blocks.with_scales(scales)), held_, kRoughTolerance);
     if (lag) least = std::min(least, sum_of_squares(*lag));
   }
   return least;
 }
 
 double TermFitter::gain_on_some(double better, double other) const {
-  const double share = residuals_of(enough_->cycles()) / residuals_of(cycles_->cycles());
-  return share * gain_on_all(better, other);
+  return gain_on(*enough_, better, other);
+}
+
+double TermFitter::gain_on_all(double better, double other) const {
+  return gain_on(*cycles_, better, other);
 }
 
 /// What scatters within the bins of the sticks is in neither sum.
-double TermFitter::gain_on_all(double better, double other) const {
-  const double independent = effective_samples(plain_) * residuals_of(cycles_->cycles()) / plain_.uncertainty.samples;
+double TermFitter::gain_on(const CycleSet& cycles, double better, double other) const {
+  const double independent = effective_samples(plain_) * residuals_of(cycles.cycles()) / plain_.uncertainty.samples;
   return independent * std::log(other / better);
 }
 
+DampedFit TermFitter::rival_of(const Minimum& minimum) const {
+  DampedFit rival{minimum.blocks, false, held_, std::nullopt, half_width_s_, plain_.excluded};
+  rival.uncertainty = estimate_uncertainty(rival.blocks, {held_, false});
+  rival.uncertainty.covariance *= residuals_of(enough_->cycles()) / residuals_of(cycles_->cycles());
+  return rival.blocks.solves_for(kSensorTime) ? with_average_error(std::move(rival)) : rival;
+}
+
+std::optional<DampedFit> TermFitter::draft(const BlockFit& near) const {
+  std::optional<BlockFit> rough = solved(cycles_, near);
+  if (!rough) return std::nullopt;
+  if (rough->level().per_cycle) rough = with_poorest_level(*std::move(rough));
+  std::optional<DampedFit> fit = without_outliers(*rough);
+  return fit ? settle_rise(input_, with_uncertainty(*std::move(fit), input_.quality)) : std::nullopt;
+}
+
 std::optional<DampedFit> TermFitter::fit(const BlockFit& near) const {
-  std::optional<BlockFit> blocks = solved(cycles_, near, kTolerance);
-  if (!blocks) return std::nullopt;
-  std::optional<DampedFit> fit = without_outliers(*std::move(blocks));
-  if (fit) fit = finish_settled(input_, *std::move(fit));
+  std::optional<DampedFit> fit = draft(near);
+  if (fit) fit = finish_fit(input_, *std::move(fit));
   return fit && is_negative(*fit) ? without_damping(*std::move(fit)) : std::move(fit);
 }
 
@@ -211,13 +242,12 @@ std::vector<CycleData> TermFitter::some_of(const std::vector<CycleData>& cycles,
 
 TermFitter::Cycles TermFitter::set_of(std::vector<CycleData> cycles) const {
   std::vector<double> middles = middles_s(input_.segmentation, cycles);
-  std::optional<CycleSet> set = CycleSet::create(std::move(cycles), std::move(middles), plain_.blocks.level(),
-                                                 plain_.blocks.scales());
+  std::optional<CycleSet> set =
+      CycleSet::create(std::move(cycles), std::move(middles), plain_.blocks.level(), plain_.blocks.scales());
   return set ? std::make_shared<const CycleSet>(*std::move(set)) : nullptr;
 }
 
-BlockFit TermFitter::started(const Cycles& cycles, const Scales& scales, const Coordinates& values) const {
-  BlockFit blocks(cycles, scales);
+BlockFit TermFitter::started(BlockFit blocks, const Coordinates& values) const {
   set_start(blocks, input_.segmentation, values);
   return with_rise_after(blocks);
 }
@@ -233,9 +263,14 @@ Scales TermFitter::scales_of(Terms terms, double average_s) const {
 
 std::vector<TermFitter::Start> TermFitter::starts_of(Terms terms) const {
   std::vector<Start> starts;
+  const double stated_s = input_.recording.conditions().sensor_average_s.value_or(0.0);
+  const double stated_share = stated_s * stated_s / fall_s2_;
+  if (terms.rise) {
+    for (const double length_m : lengths_of_rise()) starts.push_back({stated_share, 0.0, length_m});
+    return starts;
+  }
   if (!terms.average) {
-    const double stated_s = input_.recording.conditions().sensor_average_s.value_or(0.0);
-    for (const double weakening : kWeakenings) starts.push_back({stated_s * stated_s / fall_s2_, weakening});
+    for (const double weakening : kWeakenings) starts.push_back({stated_share, weakening});
     return starts;
   }
   std::vector<double> shares(kSharesOfFall.begin(), kSharesOfFall.end());
@@ -250,21 +285,36 @@ std::vector<TermFitter::Start> TermFitter::starts_of(Terms terms) const {
   return starts;
 }
 
+/// From what the clock resolves to half a stick, over which a rise cannot be told from a softer spring.
+std::vector<double> TermFitter::lengths_of_rise() const {
+  const double speed = plain_.blocks.scales().speed_m_per_s;
+  const double stick_m = speed * median_stick_s(plain_.blocks);
+  const double shortest_m = std::max(2.0 * speed * input_.recording.sample_interval_s(), kShortestRise * stick_m);
+  const double longest_m = kLongestRise * stick_m;
+  std::vector<double> lengths;
+  if (!(longest_m > shortest_m)) return lengths;
+  for (int i = 0; i < kRiseStarts; ++i) {
+    lengths.push_back(shortest_m * std::pow(longest_m / shortest_m, static_cast<double>(i) / (kRiseStarts - 1)));
+  }
+  return lengths;
+}
+
 std::optional<Minimum> TermFitter::drafted(Terms terms, const Start& start) const {
   const SolveOptions options{held_, false, true, kDraftIterations, kDraftTolerance, true};
   Coordinates near = plain_.blocks.parameters.values;
   // The slower onset makes a slip longer: so much slower is w_n without it.
   if (!held_[kLogFrequency]) {
-    near(kLogFrequency) = 0.5 * std::log(kSlip2 / ((1.0 - start.share_of_fall) * fall_s2_)) +
-                          std::log1p(0.6 * start.weakening);
+    near(kLogFrequency) =
+        0.5 * std::log(kSlip2 / ((1.0 - start.share_of_fall) * fall_s2_)) + std::log1p(0.6 * start.weakening);
   }
   if (!held_[kDamping]) near(kDamping) = 0.05;
   near(kSlipDistance) = std::sqrt(start.weakening);
   const bool rises = plain_.blocks.level().reloading != nullptr;
   std::optional<Minimum> best;
   for (std::size_t length = 0; length < (rises ? kRiseLengths.size() : 1); ++length) {
-    BlockFit blocks = started(few_, scales_of(terms, std::sqrt(start.share_of_fall * fall_s2_)), near);
-    blocks.parameters.values(kReloadLength) += std::log(kRiseLengths[length]);
+    BlockFit blocks = started(BlockFit(few_, scales_of(terms, std::sqrt(start.share_of_fall * fall_s2_))), near);
+    if (rises) blocks.parameters.values(kReloadLength) += std::log(kRiseLengths[length]);
+    if (terms.rise) blocks = with_rise_over(start.length_m, false, input_, blocks);
     if (!solve_own(blocks)) continue;
     double sum = solve(blocks, options);
     for (int i = 0; i < kRiseSteps && rises && std::isfinite(sum); ++i) {
@@ -279,60 +329,80 @@ std::optional<Minimum> TermFitter::drafted(Terms terms, const Start& start) cons
 
 std::vector<Minimum> TermFitter::drafts_of(Terms terms) const {
   std::vector<Minimum> drafts;
+  std::optional<double> latest_share;
   for (const Start& start : starts_of(terms)) {
+    const bool is_beside_latest = latest_share == start.share_of_fall;
     std::optional<Minimum> draft = drafted(terms, start);
-    if (draft) drafts.push_back(*std::move(draft));
+    if (!draft || (is_beside_latest && !explains_more(*draft, drafts.back()))) continue;
+    if (is_beside_latest) drafts.pop_back();
+    latest_share = start.share_of_fall;
+    drafts.push_back(*std::move(draft));
   }
-  if (terms.average) {
-    for (Minimum& draft : drafts) draft.blocks = with_free_time(draft.blocks, FreeTime::Average);
+  for (Minimum& draft : drafts) {
+    if (terms.average) draft.blocks = with_free_time(draft.blocks, FreeTime::Average);
+    if (terms.rise) draft.blocks = with_free_rise(draft.blocks);
   }
   std::sort(drafts.begin(), drafts.end(), explains_more);
   return drafts;
 }
 
 Minimum TermFitter::descended(Minimum draft) const {
-  std::optional<BlockFit> blocks = settled(draft.blocks, held_, kDescentTolerance);
+  std::optional<BlockFit> blocks = roughly_settled(draft.blocks, held_, kDescentTolerance);
   const double sum = blocks ? sum_of_squares(*blocks) : std::numeric_limits<double>::infinity();
   return sum < draft.sum_of_squares ? Minimum{*std::move(blocks), sum} : std::move(draft);
 }
 
-std::optional<BlockFit> TermFitter::solved(const Cycles& cycles, const BlockFit& near, double tolerance) const {
-  if (cycles->cycles().size() == near.size()) return settled(carried_to(cycles, near), held_, tolerance);
+std::optional<BlockFit> TermFitter::solved(const Cycles& cycles, const BlockFit& near) const {
+  if (cycles->cycles().size() == near.size()) {
+    return roughly_settled(carried_to(cycles, near), held_, kRoughTolerance);
+  }
   Scales scales = near.scales();
   scales.sensor_average_s = near.sensor().average_s;
-  BlockFit blocks = started(cycles, scales, near.parameters.values);
+  BlockFit blocks = started(BlockFit(cycles, scales).with_level(near.level(), scales), near.parameters.values);
   blocks.parameters.level = near.parameters.level;
   if (!solve_own(blocks)) return std::nullopt;
-  return settled(std::move(blocks), held_, tolerance);
+  return roughly_settled(std::move(blocks), held_, kRoughTolerance);
 }
 
 /// Waves and slips of Coulomb friction have a minimum at D_c = 0, and an average within a step of the clock cannot be
 /// distinguished from none.
 bool TermFitter::has_term(const BlockFit& fit) const {
-  const bool is_averaged = fit.scales().free_time != FreeTime::Average ||
-                           fit.sensor().average_s >= input_.recording.sample_interval_s();
+  const bool is_averaged =
+      fit.scales().free_time != FreeTime::Average || fit.sensor().average_s >= input_.recording.sample_interval_s();
   if (fit.scales().law != FrictionLaw::Weakening || !is_averaged) return is_averaged;
   DampedFit some{fit, false, held_};
   some.uncertainty = estimate_uncertainty(fit, {held_, false});
   return sigmas_of_distance(some) > kNothing;
 }
 
-/// Outliers of the plain fit may be what its model misses. Empty where they leave too few cycles.
-std::optional<DampedFit> TermFitter::without_outliers(BlockFit blocks) const {
+/// A level of its own in every cycle may be what the plain fit misses of the slips: a polynomial in its place where it
+/// explains as much.
+BlockFit TermFitter::with_poorest_level(BlockFit wandering) const {
+  const Scales& scales = wandering.scales();
+  LevelModel level = first_level(input_.recording, input_.segmentation, cycles_->cycles(), scales);
+  if (level.per_cycle) return wandering;
+  level.lines_Hz = wandering.level().lines_Hz;
+  level.reloading = wandering.level().reloading;
+  BlockFit polynomial = started(wandering.with_level(std::move(level), scales), wandering.parameters.values);
+  polynomial.parameters.values = wandering.parameters.values;
+  std::optional<BlockFit> settled = roughly_settled(std::move(polynomial), held_, kRoughTolerance);
+  return settled && !level_wanders(wandering, *settled, held_) ? *std::move(settled) : std::move(wandering);
+}
+
+/// The outliers are those of the model of `rough`: those of the plain fit may be what its model misses. Empty where
+/// they leave too few cycles.
+std::optional<DampedFit> TermFitter::without_outliers(const BlockFit& rough) const {
   const std::vector<std::size_t> initial = initial_exclusions(input_.recording, input_.quality);
-  const Residuals residuals = without(fit::residuals_of(input_.recording, blocks), initial);
-  const double noise = blocks.scales().noise;
+  const Residuals residuals = without(fit::residuals_of(input_.recording, rough), initial);
+  const double noise = rough.scales().noise;
   const std::vector<std::size_t> outliers = find_outliers(residuals, noise);
   const std::vector<std::size_t> censored = beyond_clip(input_.recording, input_.quality, residuals, noise);
   std::vector<std::size_t> excluded = united(initial, united(outliers, censored));
-  if (excluded != plain_.excluded) {
-    const Cycles clean = set_of(cycles_without(excluded));
-    if (!clean) return std::nullopt;
-    std::optional<BlockFit> again = settled(carried_to(clean, blocks), held_, kTolerance);
-    if (!again) return std::nullopt;
-    blocks = *std::move(again);
-  }
-  return DampedFit{std::move(blocks), false, held_, std::nullopt, half_width_s_, std::move(excluded)};
+  const Cycles clean = excluded == plain_.excluded ? cycles_ : set_of(cycles_without(excluded));
+  if (!clean) return std::nullopt;
+  std::optional<BlockFit> blocks = settled(carried_to(clean, rough), held_);
+  if (!blocks) return std::nullopt;
+  return DampedFit{*std::move(blocks), false, held_, std::nullopt, half_width_s_, std::move(excluded)};
 }
 
 /// zeta is held at 0, and called unknown, as it is without the terms.
@@ -340,7 +410,7 @@ std::optional<DampedFit> TermFitter::without_damping(DampedFit fit) const {
   fit.refused_damping = fit.blocks.parameters.values(kDamping);
   fit.held[kDamping] = true;
   fit.blocks.parameters.values(kDamping) = 0.0;
-  std::optional<BlockFit> blocks = settled(std::move(fit.blocks), fit.held, kTolerance);
+  std::optional<BlockFit> blocks = settled(std::move(fit.blocks), fit.held);
   if (!blocks) return std::nullopt;
   fit.blocks = *std::move(blocks);
   return finish_settled(input_, std::move(fit));

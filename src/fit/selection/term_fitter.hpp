@@ -14,6 +14,7 @@ namespace slipfit::fit {
 struct Terms {
   bool average = false;    ///< an average of the sensor, its time W a parameter (docs/model.md section 7)
   bool weakening = false;  ///< friction that weakens over a slip distance D_c in place of Coulomb friction (section 9)
+  bool rise = false;       ///< a rise of the force after slips (section 10), where the plain fit has none
 };
 
 /// Variance of an impulse response with a long tail that rounds slips as much as an average of variance 1.
@@ -57,8 +58,13 @@ class TermFitter {
   [[nodiscard]] double gain_on_some(double better, double other) const;
   [[nodiscard]] double gain_on_all(double better, double other) const;
 
-  /// The fit of all cycles with the terms of `near`, without the outliers of its own model, with its uncertainty. zeta
-  /// is held at 0 where it came out below. Empty where a slip has no solution.
+  /// A minimum as a fit that is not ruled out: its errors are those of all cycles in proportion.
+  [[nodiscard]] DampedFit rival_of(const Minimum& minimum) const;
+
+  /// The fit of all cycles with the terms of `near`, without the outliers of its own model, with its uncertainty but
+  /// for what finish_fit adds. Empty where a slip has no solution.
+  [[nodiscard]] std::optional<DampedFit> draft(const BlockFit& near) const;
+  /// The same, finished. zeta is held at 0 where it came out below.
   [[nodiscard]] std::optional<DampedFit> fit(const BlockFit& near) const;
 
  private:
@@ -67,6 +73,7 @@ class TermFitter {
   struct Start {
     double share_of_fall = 0.0;  ///< that the square of an average's time takes of the square of the fall's
     double weakening = 0.0;      ///< k D_c / (F_s - F_k)
+    double length_m = 0.0;       ///< of a rise, where the plain fit has none
   };
 
   using Cycles = std::shared_ptr<const CycleSet>;
@@ -74,16 +81,21 @@ class TermFitter {
   [[nodiscard]] Cycles set_of(std::vector<CycleData> cycles) const;
   [[nodiscard]] std::vector<CycleData> cycles_without(const std::vector<std::size_t>& excluded) const;
   [[nodiscard]] std::vector<CycleData> some_of(const std::vector<CycleData>& cycles, std::size_t count) const;
-  /// These cycles in a model of these scales and values, from the features of their slips on.
-  [[nodiscard]] BlockFit started(const Cycles& cycles, const Scales& scales, const Coordinates& values) const;
+  /// The blocks from the features of their slips and these values on.
+  [[nodiscard]] BlockFit started(BlockFit blocks, const Coordinates& values) const;
   [[nodiscard]] Scales scales_of(Terms terms, double average_s) const;
   [[nodiscard]] std::vector<Start> starts_of(Terms terms) const;
+  [[nodiscard]] double gain_on(const CycleSet& cycles, double better, double other) const;
+  [[nodiscard]] std::vector<double> lengths_of_rise() const;
   [[nodiscard]] std::optional<Minimum> drafted(Terms terms, const Start& start) const;
+  /// Of starts that share an average only the best one: it is what separates minima.
   [[nodiscard]] std::vector<Minimum> drafts_of(Terms terms) const;
   [[nodiscard]] Minimum descended(Minimum draft) const;
-  [[nodiscard]] std::optional<BlockFit> solved(const Cycles& cycles, const BlockFit& near, double tolerance) const;
+  /// As far as comparing terms needs. Empty where a slip has no solution.
+  [[nodiscard]] std::optional<BlockFit> solved(const Cycles& cycles, const BlockFit& near) const;
   [[nodiscard]] bool has_term(const BlockFit& fit) const;
-  [[nodiscard]] std::optional<DampedFit> without_outliers(BlockFit blocks) const;
+  [[nodiscard]] BlockFit with_poorest_level(BlockFit wandering) const;
+  [[nodiscard]] std::optional<DampedFit> without_outliers(const BlockFit& rough) const;
   [[nodiscard]] std::optional<DampedFit> without_damping(DampedFit fit) const;
 
   const FitInput& input_;
@@ -91,7 +103,7 @@ class TermFitter {
   Held held_;
   double fall_s2_;  ///< square of the time by which slip and average together draw the fall out
   double half_width_s_;
-  HumLines hum_;                    ///< of the plain fit
+  HumLines hum_;   ///< of the plain fit
   Cycles cycles_;  ///< of the plain fit, cut wider
   Cycles few_;     ///< that find minima, their slips with no more samples than their shape needs
   Cycles enough_;  ///< that compare terms; all where these are not much more work

@@ -2,13 +2,14 @@
 
 #include <optional>
 
-#include "fit/selection/damped_fit.hpp"
+#include "fit/selection/fit_input.hpp"
+#include "fit/selection/solution.hpp"
 
 namespace slipfit::fit {
 
-/// The damped fit, its sticks rising more steeply after a slip (level/reloading.hpp) where straight ones bend and the
-/// rise is known and explains it. Before `finish_fit`.
-std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& give_up = {});
+/// The same cycles at the same parameters, with a rise over this length after all slips of the recording, those of
+/// `fit` where it has them. `is_free`: the fit solves for the length.
+BlockFit with_rise_over(double length_m, bool is_free, const FitInput& input, const BlockFit& fit);
 
 /// The same cycles at the same parameters, their rise after slips that begin and end where `fit` has them.
 BlockFit with_rise_after(const BlockFit& fit);
@@ -19,6 +20,12 @@ BlockFit with_free_rise(const BlockFit& fit);
 /// The force rises after slips, or has no rise there.
 bool rises(const BlockFit& fit);
 
+/// Standard error of a coordinate.
+double error_of(const DampedFit& fit, Coordinate coordinate);
+
+/// Length of the rise of a fit that has one.
+double rise_length_m(const DampedFit& fit);
+
 /// The fit of the same cycles under the same law, its rise settled: its length, and the slips that it comes after.
 /// Empty where the data do not sample it. Without a rise `fit` as it is.
 std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<DampedFit> fit);
@@ -26,9 +33,5 @@ std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<Damped
 /// A solution with its uncertainty, its rise settled. Empty where the data do not tell the parameters apart or do not
 /// sample the rise.
 std::optional<DampedFit> finish_settled(const FitInput& input, DampedFit fit);
-
-/// With the rise over a given length, after slips that begin and end where `near`, another fit of the recording, has
-/// them. Empty where the force falls after a slip in place of rising.
-std::optional<DampedFit> draft_with_rise_over(double length_m, const FitInput& input, const DampedFit& near);
 
 }  // namespace slipfit::fit

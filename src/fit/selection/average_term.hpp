@@ -7,12 +7,6 @@
 
 namespace slipfit::fit {
 
-/// The recording, as if it stated that its samples are averaged over this time.
-Recording with_average(const Recording& recording, double average_s);
-
-/// With the average that is a parameter of the fit, where it is one, and what its unknown shape adds to the covariance.
-DampedFit with_average_error(DampedFit fit);
-
 /// Its variance, which is what rounds the slips, is more than kSureTerm of its errors: T_b itself, a root, is twice as
 /// many of its own.
 bool tells_average(const FittedAverage& average);

@@ -1,4 +1,4 @@
-#include "fit/selection/weakening_fit.hpp"
+#include "fit/selection/weakening_term.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,11 @@
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/misfit.hpp"
+#include "fit/inference/sensor_time.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/sweep_data.hpp"
+#include "fit/selection/average_term.hpp"
 #include "fit/selection/carried_fit.hpp"
-#include "fit/selection/fitted_average.hpp"
 #include "fit/selection/rival.hpp"
 #include "fit/selection/term_fitter.hpp"
 #include "fit/selection/tiers.hpp"
@@ -76,7 +77,7 @@ bool promises(const TermFitter& fitter, const Minimum& minimum, const DampedFit&
 /// taken.
 std::optional<DampedFit> fit_weakening(const FitInput& input, const TermFitter& fitter, const DampedFit& coulomb,
                                        std::optional<double> missed) {
-  const Minima minima = fitter.minima({false, true}, !missed);
+  const Minima minima = fitter.minima({.weakening = true}, !missed);
   if (minima.found.empty()) return std::nullopt;
   const Minimum& best = minima.found.front();
   if (missed && !promises(fitter, best, coulomb, *missed)) return std::nullopt;
@@ -95,16 +96,19 @@ struct Both {
   std::optional<DampedFit> other{};  ///< as good
 };
 
+/// All cycles are fitted only where the cycles that compare the terms show that it may pay.
 std::optional<Both> best_of_both(const FitInput& input, const TermFitter& fitter, const DampedFit& rival) {
-  const auto [minima, is_complete] = fitter.minima({true, true});
-  if (minima.empty()) return std::nullopt;
+  const auto [minima, is_complete] = fitter.minima({.average = true, .weakening = true});
   const std::optional<Minimum> single = fitter.near(rival.blocks);
+  if (minima.empty() || !single) return std::nullopt;
+  const double sum = single->sum_of_squares;
+  if (fitter.gain_on_all(minima.front().sum_of_squares, sum) < 0.5 * thresholds::kTierPrice) {
+    const double gain = fitter.gain_on_some(minima.front().sum_of_squares, sum) - 2.0;  // one parameter more
+    return Both{fitter.rival_of(minima.front()), gain, false};
+  }
   std::vector<DampedFit> fits;
   bool all_settled = is_complete;
   for (const Minimum& minimum : minima) {
-    const double gain =
-        single ? fitter.gain_on_some(minimum.sum_of_squares, single->sum_of_squares) : thresholds::kTierPrice;
-    if (gain < -thresholds::kTierPrice) continue;
     std::optional<DampedFit> fit = fitter.fit(minimum.blocks);
     if (fit && fit->blocks.sensor().average_s >= input.recording.sample_interval_s()) {
       fits.push_back(with_average_error(*std::move(fit)));

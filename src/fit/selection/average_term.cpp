@@ -1,4 +1,4 @@
-#include "fit/selection/fitted_average.hpp"
+#include "fit/selection/average_term.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include "fit/selection/carried_fit.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/rival.hpp"
+#include "fit/selection/stated_mass.hpp"
 #include "fit/selection/term_fitter.hpp"
 #include "fit/selection/tiers.hpp"
 
@@ -39,12 +40,15 @@ bool hides_damping(const BlockFit& fit) {
   return hides_damping(fit.sensor().average_s, fit.parameters.values(kLogFrequency));
 }
 
+bool is_shaped(const std::optional<SegmentMisfit>& misfit) {
+  return !misfit || misfit->chance > thresholds::kMisfitChance;
+}
+
 /// The slips that are left behind the average are those of the model as far as so few cycles show, and longer than a
 /// step of the clock.
 bool follows_slips(const DampedFit& fit, double sample_interval_s) {
   const double negative = -thresholds::kNegativeSigmas * damping_error(fit);
-  const bool is_shaped = !fit.misfit || fit.misfit->chance > thresholds::kMisfitChance;
-  return is_shaped && !fit.refused_damping && fit.blocks.parameters.values(kDamping) > negative &&
+  return is_shaped(fit.misfit) && !fit.refused_damping && fit.blocks.parameters.values(kDamping) > negative &&
          resting_share(fit.blocks) >= thresholds::kRestickShare && median_slip_s(fit.blocks) > sample_interval_s;
 }
 
@@ -62,18 +66,33 @@ bool rules_out_lag(const FitInput& input, const DampedFit& plain, const BlockFit
   return best && fitter->gain_on_some(best->sum_of_squares, fitter->least_with_lag(*best)) > thresholds::kEvidence;
 }
 
+/// Twice the logarithm of how much more likely a stated mass is by `fit` than by `plain`; 0 where it agrees with
+/// neither.
+double gain_by_mass(const FitInput& input, const DampedFit& fit, const DampedFit& plain) {
+  const Conditions& conditions = input.recording.conditions();
+  const double sigmas = sigmas_of_stated_mass(conditions, fit);
+  const bool agrees = std::abs(sigmas) < thresholds::kSureTerm;
+  return agrees ? std::pow(sigmas_of_stated_mass(conditions, plain), 2) - sigmas * sigmas : 0.0;
+}
+
+/// The same of samples and mass together.
+double likelihood_gain(const FitInput& input, const DampedFit& fit, const DampedFit& plain) {
+  return gain_on_same_samples(fit, plain) + 2.0 + gain_by_mass(input, fit, plain);
+}
+
 /// The fit of all cycles that explains them best, and another average that does so as well.
 struct Found {
   std::optional<DampedFit> best;
   std::optional<DampedFit> other;
 };
-Found best_fit(const TermFitter& fitter, const DampedFit& plain, const std::vector<Minimum>& minima,
-               double sample_interval_s) {
+Found best_fit(const FitInput& input, const TermFitter& fitter, const DampedFit& plain,
+               const std::vector<Minimum>& minima) {
+  const double sample_interval_s = input.recording.sample_interval_s();
   Found found;
   for (const Minimum& minimum : minima) {
     std::optional<DampedFit> next = fitter.fit(minimum.blocks);
     const bool is_better = next && follows_slips(*next, sample_interval_s) &&
-                           gain_on_same_samples(*next, plain) > -thresholds::kNotRuledOut;
+                           likelihood_gain(input, *next, plain) > -thresholds::kNotRuledOut;
     if (!is_better) continue;
     next = with_average_error(*std::move(next));
     if (!found.best) {
@@ -104,18 +123,21 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   if (!may_be_averaged(input, plain)) return {};
   const std::optional<TermFitter> fitter = TermFitter::create(input, plain);
   if (!fitter) return {};
-  std::vector<Minimum> minima = fitter->minima({true, false}).found;
+  std::vector<Minimum> minima = fitter->minima({.average = true}).found;
   const double without = fitter->plain().sum_of_squares;
   std::erase_if(minima, [&](const Minimum& minimum) {
+    if (!is_shaped(find_misfit(minimum.blocks, tolerated_misfit(input.quality)))) return true;
     const double sum = minimum.sum_of_squares;
     const bool may_pay = fitter->gain_on_all(sum, without) > 0.5 * thresholds::kTierPrice;
-    return !may_pay && !(hides_damping(minimum.blocks) && fitter->gain_on_some(sum, without) > -thresholds::kNotRuledOut);
+    return !may_pay &&
+           !(hides_damping(minimum.blocks) && fitter->gain_on_some(sum, without) > -2.0 * thresholds::kNotRuledOut);
   });
   if (minima.empty()) return {};
-  auto [fit, other] = best_fit(*fitter, plain, minima, input.recording.sample_interval_s());
+  auto [fit, other] = best_fit(input, *fitter, plain, minima);
   if (!fit || !(fit->average->seconds < median_stick_s(fit->blocks))) return {};
   const bool is_taken =
-      gain_on_same_samples(*fit, plain) > thresholds::kTierPrice && rules_out_lag(input, plain, fit->blocks);
+      likelihood_gain(input, *fit, plain) > thresholds::kTierPrice &&
+      (gain_by_mass(input, *fit, plain) > thresholds::kTierPrice || rules_out_lag(input, plain, fit->blocks));
   if (!is_taken && !hides_damping(fit->blocks)) return {};
   if (!is_taken) return {std::nullopt, std::move(fit)};
   if (!tells_slips(*fit)) {
@@ -127,25 +149,8 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
 
 }  // namespace
 
-Recording with_average(const Recording& recording, double average_s) {
-  Conditions conditions = recording.conditions();
-  conditions.sensor_average_s = average_s;
-  const auto time_s = recording.time_s();
-  const auto force = recording.force();
-  return Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()}, conditions,
-                           recording.provenance())
-      .value();
-}
-
 bool tells_average(const FittedAverage& average) {
   return average.seconds > 2.0 * thresholds::kSureTerm * average.standard_error_s;
-}
-
-DampedFit with_average_error(DampedFit fit) {
-  fit.uncertainty.covariance = with_unknown_shape(fit.uncertainty.covariance, fit.blocks);
-  const std::optional<FittedAverage> average = average_of(fit.blocks, fit.uncertainty.covariance);
-  if (average) fit.average = average;
-  return fit;
 }
 
 std::optional<DampedFit> fit_as_sensed(const FitInput& input, DampedFit plain) {

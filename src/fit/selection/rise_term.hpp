@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+
+#include "fit/selection/damped_fit.hpp"
+
+namespace slipfit::fit {
+
+/// The damped fit, its sticks rising more steeply after a slip (level/reloading.hpp) where straight ones bend and the
+/// rise is known and explains it. Before `finish_fit`.
+std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& give_up = {});
+
+/// `plain` with a rise over a given length. Empty where the force falls after a slip in place of rising.
+std::optional<DampedFit> draft_with_rise_over(double length_m, const FitInput& input, const DampedFit& plain);
+
+}  // namespace slipfit::fit
