@@ -1,5 +1,5 @@
 // How often the 95 % interval of the quoted frequency holds the truth, and how large its error is beside those of the
-// two methods that it chooses from. docs/accuracy.md quotes what it prints.
+// two methods that it chooses from. docs/validation.md quotes what it prints.
 //   frequency_coverage [RECORDINGS [SEED]]
 
 #include <fmt/format.h>
