@@ -89,7 +89,8 @@ Excerpt excerpt_of(const Recording& recording, const Quality& quality, const Seg
   return excerpt;
 }
 
-/// Where lines of the mains may hide slips or pass for them: the slips beneath, and whether they are fitted better.
+/// Decides whether lines of the mains conceal slips or resemble them: detects the slips after subtraction and compares
+/// the fits.
 class BeneathHum {
  public:
   BeneathHum(const Recording& recording, const FitOptions& options) : recording_(recording), options_(options) {}
@@ -131,7 +132,7 @@ class BeneathHum {
     is_searched_ = true;
   }
 
-  /// With the lines of the mains in the level.
+  /// Returns the misfit of a few cycles with the lines of the mains in the level.
   [[nodiscard]] double misfit_of_few(const Quality& quality, const Segmentation& segmentation) const {
     Excerpt few = excerpt_of(recording_, quality, segmentation, kFewSlips);
     few.segmentation.mains_Hz = slips_->mains_Hz;

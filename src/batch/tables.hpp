@@ -23,7 +23,7 @@ struct SummaryKey {
 std::string summary_names();
 /// From a document of `slipfit fit --json`; what it does not know is empty. Error: not_readable.
 std::string summary_of_result(const SummaryKey& key, const std::string& document);
-/// Of a recording that failed.
+/// Returns the summary row of a recording that failed.
 std::string summary_of_failure(const SummaryKey& key, const std::string& code);
 
 /// These do what `slipfit::summary_columns` and `slipfit::summary_row` do.

@@ -102,7 +102,7 @@ class PanelDrawing {
     return std::isfinite(x_of(point.x)) && std::isfinite(y_of(point.y));
   }
 
-  /// What stands alone is drawn where it is, or not at all.
+  /// Returns true if an isolated point is drawn as a mark.
   [[nodiscard]] bool has_mark(const Point& point) const {
     return std::isfinite(share(x_, point.x)) && std::isfinite(share(y_, point.y));
   }
@@ -136,7 +136,7 @@ class PanelDrawing {
     return data;
   }
 
-  /// As many as have room beside each other.
+  /// Returns as many ticks as fit without overlapping.
   [[nodiscard]] std::vector<Tick> ticks_below() const {
     std::vector<Tick> ticks = ticks_of(x_);
     std::size_t longest = 0;

@@ -28,7 +28,7 @@ double freedom_of(double quantile) {
   return low;
 }
 
-/// Of the sum of two independent variances (Satterthwaite).
+/// Returns the degrees of freedom of the sum of two independent variances (Satterthwaite).
 double joined_freedom(double variance_a, double freedom_a, double variance_b, double freedom_b) {
   const double sum = square(variance_a + variance_b);
   return sum > 0.0 ? sum / (square(variance_a) / freedom_a + square(variance_b) / freedom_b) : kMostFreedom;

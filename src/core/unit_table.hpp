@@ -14,7 +14,7 @@ constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 enum Base : std::size_t { kLength, kMass, kTime, kCurrent, kTemperature, kLight, kAngle, kTurns, kOther, kBases };
 
-/// Exponents of the bases. Turns are kept apart from radians: "rpm" is a frequency too, "rad/s" is not. `kOther` stands
+/// Exponents of the bases. Turns are kept apart from radians: "rpm" is a frequency too, "rad/s" is not. `kOther` is
 /// for what slipfit recognises and never converts, such as counts, decibels and humidity.
 using Powers = std::array<int, kBases>;
 
@@ -170,7 +170,7 @@ constexpr std::array kUnitTable = std::to_array<Unit>({
     {"ftlb|ftlbs|ftlbf|lbft|lbsft|lbfft", kPound_N * 12.0 * kInch_m, kJoule},
     {"ozin|ozfin|inoz|inozf", kPound_N / 16.0 * kInch_m, kJoule},
 
-    // Recognised beside a force, so that a units row with them is one.
+    // Recognised next to a force, so that a units row with them is one.
     {"W", 1.0, kWatt, Prefixes::Metric},
     {"Pa", 1.0, kPascal, Prefixes::Metric},
     {"kpa", 1e3, kPascal},

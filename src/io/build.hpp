@@ -22,7 +22,7 @@ std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, con
 /// A joint fit of more takes minutes.
 constexpr std::size_t kMostPieces = 16;
 
-/// Speed and load: what the user states, what the file's columns say, and whether they agree.
+/// Speed and load: as stated by the user, as contained in columns, and their agreement.
 struct StatedConditions {
   Conditions conditions;
   std::vector<std::string> assumed;

@@ -19,7 +19,7 @@ std::string list_columns(const Layout& layout);
 std::size_t find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
                                const std::string& file);
 
-/// The same of a column of numbers. Errors: unknown_column, column_not_numeric.
+/// Finds a column of numbers. Errors: unknown_column, column_not_numeric.
 std::size_t find_column(const Layout& layout, const std::string& wanted, const std::string& option,
                         const std::string& file);
 

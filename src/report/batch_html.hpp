@@ -16,7 +16,7 @@ struct BatchPageQuantity {
   std::string status;  ///< of a parameter: identified, conditional, ...; empty: not fitted
 };
 
-/// What the page of a batch shows of one recording or group.
+/// The row of a recording or group on the page of a batch.
 struct BatchPageRow {
   std::string id;
   std::string status;                           ///< as in the document: stick_slip, ...

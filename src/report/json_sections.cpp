@@ -30,7 +30,7 @@ Json quality_json(const Recording& recording, const Quality& quality) {
   return json;
 }
 
-/// Files that were read beside that of the recording, if any.
+/// Files that were read in addition to the recording, if any.
 void put_other_inputs(Json& json, const Conditions& conditions) {
   if (!conditions.worn_track || conditions.worn_track->inputs.empty()) return;
   json["other_inputs"] = array_of(conditions.worn_track->inputs, [](const InputFile& input) {
@@ -164,8 +164,8 @@ std::size_t place_of(const std::string& name) {
   return static_cast<std::size_t>(found - kModelParameters.begin());
 }
 
-/// What the covariance belongs to, in the order of Correlation::names. A value that the data hardly tell alone, and
-/// whose parameter is therefore null, still stands here: together with the others it predicts.
+/// What the covariance belongs to, in the order of Correlation::names. A value that the data hardly determine alone,
+/// and whose parameter is therefore null, is still included: together with the others it predicts.
 Json working_values_json(const Correlation& correlation, const ModelEstimate& estimate) {
   const std::array<double, kModelValues> values = values_of(estimate);
   return array_of(correlation.names, [&values](const std::string& name) { return values[place_of(name)]; });
