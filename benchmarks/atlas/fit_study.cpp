@@ -195,7 +195,7 @@ std::vector<File> study_fits(Effort effort) {
   const std::size_t trials = effort == Effort::Full ? 16 : 3;
   Measured all;
   for (const Sweep& sweep : sweeps_of(effort)) run_sweep(sweep, trials, all);
-  const std::string usual = "Usual: 40 cycles, 20 samples a slip, noise 0.02 of the friction drop, no scatter.";
+  const std::string usual = "Usual: 40 cycles, 20 samples per slip, noise 0.02 of the friction drop, no scatter.";
   const chart::Chart time{"Fits: error over the bound against time",
                           {"Three markers a method: 10, 40 and 160 cycles; the front is that of 40 cycles.", usual,
                            "Bound: white noise, all samples of the one recording at the usual speed."},

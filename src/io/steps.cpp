@@ -54,7 +54,7 @@ std::vector<std::size_t> changes_of(const std::vector<double>& step) {
   return counts_something_else ? std::vector<std::size_t>{} : changes;
 }
 
-/// Both, but for those of the second that stand beside one of the first.
+/// Returns both, except those of the second that are next to one of the first.
 std::vector<std::size_t> joined(std::vector<std::size_t> first, const std::vector<std::size_t>& second) {
   const std::vector<std::size_t> given = first;
   for (const std::size_t at : second) {
@@ -155,9 +155,10 @@ Step step_with_number(std::span<const Step> steps, std::size_t number, const std
   }
   if (steps.size() > kMostNamed) known += ", ...";
   throw ThrownError(
-      {"unknown_step", fmt::format("{}: there is no step {}; the file holds {} ({}); choose one of them with "
-                                   "--step, or leave it out",
-                                   file, number, counted(steps.size(), "step"), known)});
+      {"unknown_step",
+       fmt::format(
+           "{}: step {} does not exist; the file contains {} ({}); choose one of them with --step, or leave it out",
+           file, number, counted(steps.size(), "step"), known)});
 }
 
 }  // namespace slipfit::reading
