@@ -26,7 +26,7 @@ void add_recording_options(CLI::App& command, RecordingArguments& arguments);
 /// Returns the options that were given, including --speed.
 std::vector<slipfit::RecordingOption> given_options(const RecordingArguments& arguments);
 
-/// Of a command that takes one. Throws Failure(WrongUsage).
+/// Returns the file of a command that takes one. Throws Failure(WrongUsage).
 const std::string& only_file(const RecordingArguments& arguments);
 
 /// Returns the entry of a recording at one of the speeds; without one a column must contain it. Throws
@@ -36,5 +36,5 @@ slipfit::ManifestEntry entry_at(const RecordingArguments& arguments, const std::
 /// Returns the entry at the one speed that is given, if any. Throws Failure(WrongUsage), also if several are given.
 slipfit::ManifestEntry entry_from(const RecordingArguments& arguments);
 
-/// What the options say of the file; a speed has no part in it. Throws Failure(WrongUsage).
+/// Returns the options about the file, without the speed. Throws Failure(WrongUsage).
 slipfit::ReadOptions read_options_from(const RecordingArguments& arguments);

@@ -74,7 +74,7 @@ Estimate over_load(Estimate force, double load_N, bool zero_is_known) {
   return force;
 }
 
-/// What the standards ask for that a recording shows. ASTM D1894-14, 8 to 10; ISO 8295:1995, 6 to 9.
+/// The requirements of the standards that a recording can show: ASTM D1894-14, 8 to 10; ISO 8295:1995, 6 to 9.
 struct Standard {
   const char* name;
   const char* prescribes;

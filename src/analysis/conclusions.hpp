@@ -31,7 +31,7 @@ std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& 
 /// Returns statistics of the detected slips; times of stick and slip are those of the fitted cycles if there is a fit.
 CycleStatistics summarise_cycles(const Recording& recording, const Segmentation& segmentation, const FitResult* fit);
 
-/// Of slips with at least two intervals. `slips_Hz`: the quoted frequency.
+/// Returns the rhythm of slips with at least two intervals. `slips_Hz` is the reported frequency.
 Regularity regularity_of(const CycleStatistics& cycles, const Estimate& slips_Hz, const Conditions& conditions);
 
 /// Spacing V/f and impulse rate from the quoted frequency; uncertainty of the speed included where it is given.
@@ -42,7 +42,8 @@ Derived with_measured_spacing(Derived derived, const Recording& recording, const
 /// it (after the release, or after the last slip of a decaying motion).
 Transients find_transients(const Detected& detected, MotionClass motion);
 
-/// Empty without a normal force (for a force column). `analysis`: with its cycles, transients and kind of motion.
+/// Returns the coefficients of friction; empty without a normal force (for a force column). `analysis` contains cycles,
+/// transients and kind of motion.
 std::optional<Coefficients> find_coefficients(const Detected& detected, const Analysis& analysis);
 
 /// Numbers that no tester has, mostly from a unit that was mistaken: with the factor of 1000 that would mend them.

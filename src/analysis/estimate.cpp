@@ -45,9 +45,9 @@ double misfit_of(double relative_residual, double onset_force_spread) {
   return relative_residual + 0.3 * onset_force_spread;
 }
 
-/// How badly the cycles fit: residual and spread over the onset force. A missing fit is the worst; so is one that finds
-/// cycles in less than half of the slips offered to it, which are then no slips: a rhythm near the mains that was taken
-/// out as hum leaves such remains behind.
+/// Returns the misfit of the cycles: residual and spread over the onset force. A missing fit is the worst, and so is
+/// one with cycles in less than half of the detected slips, which are then not slips: subtracting a rhythm near the
+/// mains as hum leaves such remains.
 double misfit_of(const std::optional<FitResult>& fit) {
   if (!fit) return std::numeric_limits<double>::infinity();
   const std::vector<Cycle>& cycles = fit->cycles;

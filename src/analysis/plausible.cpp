@@ -12,9 +12,9 @@
 namespace slipfit {
 namespace {
 
-/// What a unit that is off by 1000 carries away. The ranges hold, with a decade to spare, what measured recordings and
-/// makers' sheets show: springs and load cells of 0.1 kN/m to 100 MN/m, moving bodies of 0.1 g to 1 t, slips of 10 nm
-/// (a thousandth of that counts) to 20 mm.
+/// The quantities that a wrong unit (by a factor of 1000) makes implausible. The ranges include, with a decade to
+/// spare, measured recordings and data sheets: springs and load cells of 0.1 kN/m to 100 MN/m, moving bodies of 0.1 g
+/// to 1 t, slips of 10 nm (a thousandth of that is allowed) to 20 mm.
 struct Seen {
   std::optional<double> stiffness_N_per_m;
   std::optional<double> mass_kg;

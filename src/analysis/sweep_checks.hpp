@@ -7,9 +7,8 @@
 
 namespace slipfit {
 
-/// What each recording is used for in a fit of a sweep. Slips that no model comes close to are none of a fit of a
-/// sweep's either. A slip within a sample or two fits the model of the others at many places of its onset: such
-/// recordings are left out where the others suffice.
+/// Returns the use of each recording in a fit of a sweep. Slips that the model does not fit are not used. A slip within
+/// one or two samples fits the model of the others at many onsets: such recordings are left out if the others suffice.
 std::vector<SweepRole> roles_of(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
 
 /// Warns of recordings that are left out because the sampling does not resolve their slips.

@@ -26,7 +26,8 @@ void write_page(const BatchReport& report, const SlotKey& key, const BatchFit& f
 /// Returns the small trace of a page, or nothing if no page belongs to the document.
 std::optional<std::string> sparkline_on_page(const BatchReport& report, const SlotKey& key, std::string_view document);
 
-/// Of what the log holds, in the manifest's order. Errors: those of ManifestReader, cannot_write, not_a_page.
+/// Writes the index of the results in the log, in the order of the manifest. Errors: those of ManifestReader,
+/// cannot_write, not_a_page.
 void write_index(const BatchReport& report, const std::filesystem::path& manifest, const WorkList& list,
                  const ResultLog& log);
 

@@ -21,7 +21,7 @@ struct JsonText {
   friend bool operator==(const JsonText&, const JsonText&) = default;
 };
 
-/// What run.json says: what was run, and how far it came.
+/// The contents of run.json: what was run, and how far it got.
 struct RunRecord {
   std::string version;
   std::string build;      ///< build_of_program(), or "unknown": of a program that did not write it

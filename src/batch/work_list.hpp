@@ -36,8 +36,8 @@ struct Group {
   std::size_t last_row = 0;
 };
 
-/// What a batch has to do. The entries are not kept but read again when they are needed. Rows count from 1. A slot is
-/// where the result of a row or a group is kept: rows first, then groups in the order of their last rows.
+/// The work of a batch. The entries are not kept but read again when they are needed. Rows count from 1. A slot holds
+/// the result of a row or a group: rows first, then groups in the order of their last rows.
 struct WorkList {
   Digest manifest_digest;
   std::size_t rows = 0;

@@ -53,8 +53,9 @@ struct Tick {
 /// between them are different doubles.
 Axis drawable(Axis axis);
 
-/// Of a drawable axis. Steps of 1, 2 or 5 times a power of ten, at most `most_steps` of them; decades with their parts
-/// on a logarithmic axis, all decades with values (of very many some) and, where the axis is short, some parts.
+/// Returns the ticks of a drawable axis: steps of 1, 2 or 5 times a power of ten, at most `most_steps` of them; on a
+/// logarithmic axis decades with their parts, all decades with values (some, if they are very many) and, if the axis is
+/// short, some parts.
 std::vector<Tick> ticks_of(const Axis& axis, int most_steps = 8);
 
 constexpr double kLineHeight_px = 18.0;

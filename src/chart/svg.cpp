@@ -74,7 +74,8 @@ class PanelDrawing {
   }
 
  private:
-  /// What save.js needs to turn pixels into values: of each axis its ends, 1 if it is logarithmic, and where it lies.
+  /// Returns the attributes with which save.js converts pixels into values: the ends of each axis, 1 if it is
+  /// logarithmic, and its position.
   [[nodiscard]] std::string axes_attributes() const {
     const auto axis = [](const Axis& of, double begin, double length) {
       return fmt::format("{} {} {} {:.1f} {:.1f}", of.low, of.high, of.scale == Scale::Logarithmic ? 1 : 0, begin,

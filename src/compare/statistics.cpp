@@ -70,8 +70,8 @@ Sample sample_of(std::span<const Estimate> estimates) {
   return sample;
 }
 
-/// Of the mean. Recordings scatter by at least the standard errors of their fits: where they seem to scatter less, by
-/// chance or because all lie at a bound, the standard errors count.
+/// Returns the variance of the mean. Recordings scatter by at least the standard errors of their fits: if they appear
+/// to scatter less, by chance or because all are at a bound, the standard errors are used.
 double variance_of_mean(const Sample& sample, double variance) {
   return std::max(variance, sample.squared_se) / sample.count;
 }

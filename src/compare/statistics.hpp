@@ -22,7 +22,7 @@ struct Pair {
   double degrees_of_freedom = 0.0;
 };
 
-/// Of one fit on each side. Nothing where a standard error is not known.
+/// Compares one fit on each side; empty if a standard error is unknown.
 std::optional<Pair> by_standard_errors(const Estimate& a, const Estimate& b);
 
 /// Compares the values of recordings, at least two on one side and one on the other.

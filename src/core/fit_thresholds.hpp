@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-/// As thresholds.hpp: what decides in the fit and in what follows from it.
+/// Limits that decide in the fit and in what follows from it, in the form of thresholds.hpp.
 namespace slipfit::thresholds {
 
 // ## Which cycles and samples are fitted
@@ -31,17 +31,18 @@ inline constexpr double kSuspectChi2 = 1.2;
 /// for 12 and more cycles]
 inline constexpr double kWanderingRatio = 3.0;
 
-/// What the polynomial leaves of the slips' middles over the drop, above which the level wanders. [1; convention]
+/// Residual of the polynomial through the middles of the slips over the drop, above which the level wanders. [1;
+/// convention]
 inline constexpr double kWanderingShare = 0.03;
 
-/// The same over the noise. [1; convention]
+/// Residual of that polynomial over the noise, above which the level wanders. [1; convention]
 inline constexpr double kWanderingNoises = 10.0;
 
 /// Samples in half a period of slips whose middles show the level. [count; derived: peaks are met to (pi / 20)^2 / 2 =
 /// 1 %]
 inline constexpr double kWellSampled = 10.0;
 
-/// What one more term of the level polynomial has to gain beyond BIC. [1; convention: "very strong" evidence, so that
+/// Gain beyond BIC that one more term of the level polynomial needs. [1; convention: "very strong" evidence, so that
 /// scatter alone is not called drift]
 inline constexpr double kDriftHandicap = 10.0;
 
@@ -146,8 +147,8 @@ inline constexpr double kLeastStiffness = 0.01;
 /// chance]
 inline constexpr double kAuditSigmas = 4.0;
 
-/// Their difference over the smaller one, up to which they do not; the same of the slopes of the halves of a stick.
-/// [1; convention]
+/// Relative difference of two values of one quantity, up to which they do not contradict each other, and of the slopes
+/// of the halves of a stick. [1; convention]
 inline constexpr double kAuditShare = 0.01;
 
 /// Relative standard error of a mass that is stated without one (Conditions::mass_standard_error_kg). [1; convention]
@@ -250,7 +251,8 @@ inline constexpr double kCutoffStickRatio = 30.0;
 /// Least recordings that show a trend of static friction over the speed. [1; convention: two always lie on a line]
 inline constexpr std::size_t kTrendRecordings = 3;
 
-/// The same of k. [1; derived: a line through three has one degree of freedom left]
+/// Least number of recordings that show a dependence of k on speed. [1; derived: a line through three has one degree of
+/// freedom left]
 inline constexpr std::size_t kStiffnessRecordings = 4;
 
 /// Least ratio of their speeds for either. [1; convention]
@@ -295,10 +297,12 @@ inline constexpr double kFarRatio = 4.0;
 /// ages and kinetic friction that depends on the speed. [1; derived: docs/model.md section 13]
 inline constexpr double kFrictionTrend = 0.33;
 
-/// The same of d ln k / d ln V: a stiffness that depends on the rate. [1; derived: as kFrictionTrend]
+/// Half-width of the 95 % interval of d ln k / d ln V for an unmeasured dependence of k on the rate. [1; derived: as
+/// kFrictionTrend]
 inline constexpr double kStiffnessTrend = 0.15;
 
-/// The same of d ln F_k / d ln V. [1; derived: as kFrictionTrend]
+/// Half-width of the 95 % interval of d ln F_k / d ln V for an unmeasured velocity dependence. [1; derived: as
+/// kFrictionTrend]
 inline constexpr double kKineticTrend = 0.04;
 
 /// Least relative standard error of a weak parameter at other speeds than the only one measured; of a conditional one
@@ -312,7 +316,8 @@ inline constexpr double kStraightLaw = 0.7;
 /// Reach of ln V of the end of stick-slip, above which it is not reported. [1; convention: a factor of two either way]
 inline constexpr double kWidestEnd = 0.6931471805599453;
 
-/// The same where static friction ages. [1; convention: a factor of four, V goes as an exponential there]
+/// Reach of ln V of the end of stick-slip, above which it is not reported, if static friction ages. [1; convention: a
+/// factor of four, V goes as an exponential there]
 inline constexpr double kWidestAgeing = 2.0 * kWidestEnd;
 
 /// Share of the models that the data allow, below which those that stick at a speed give no intervals. [1; convention:

@@ -40,8 +40,8 @@ inline constexpr const char* kFileOfDescriptor3 = "/proc/self/fd/3";
 inline constexpr const char* kFileOfDescriptor3 = "/dev/fd/3";
 #endif
 
-/// For `send`: an end that nobody reads is an error and no signal. Systems without the flag have a property of the
-/// socket, which connected_sockets sets.
+/// A flag for `send` with which an end that nobody reads is an error and not a signal. Systems without the flag have a
+/// property of the socket, which connected_sockets sets.
 #ifdef MSG_NOSIGNAL
 inline constexpr int kSendFlags = MSG_NOSIGNAL;
 #else

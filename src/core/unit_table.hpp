@@ -18,8 +18,8 @@ enum Base : std::size_t { kLength, kMass, kTime, kCurrent, kTemperature, kLight,
 /// for what slipfit recognises and never converts, such as counts, decibels and humidity.
 using Powers = std::array<int, kBases>;
 
-/// Which prefixes a unit takes. Not those that nobody writes: "Mm", "Ms" and "Mg" are millimetres, milliseconds and
-/// milligrams with a capital, "Min" is a minute and no mega-inch.
+/// The prefixes that a unit accepts, except those that nobody writes: "Mm", "Ms" and "Mg" are millimetres, milliseconds
+/// and milligrams with a capital, and "Min" is a minute, not a mega-inch.
 enum class Prefixes { None, Small, Metric, Word };
 
 struct Unit {

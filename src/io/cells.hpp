@@ -77,9 +77,9 @@ struct DateStart {
   std::string_view clock;   ///< text after the date, without a time zone; may be empty
 };
 
-/// Of "2024-05-12T12:22:17.5Z", "2024/05/12 12:22:17", "12.05.2024 12:22:17,5", "5/12/2024 12:22:17 PM". Empty where no
-/// date begins the text. Which of day and month is first in the last of these forms is not known, so that its midnight
-/// is 0: its clock counts within the day.
+/// Reads a date such as "2024-05-12T12:22:17.5Z", "2024/05/12 12:22:17", "12.05.2024 12:22:17,5", "5/12/2024 12:22:17
+/// PM"; empty if the text does not start with a date. The order of day and month in the last form is unknown, so its
+/// midnight is 0 and its clock counts within the day.
 std::optional<DateStart> read_date(std::string_view text);
 
 }  // namespace slipfit::reading

@@ -41,7 +41,7 @@ struct GuessedUnit {
   std::string_view why;
 };
 
-/// Of a date in days, 1.7 s: a clock in seconds would step by 20 microseconds for hours.
+/// The shortest step of a date in days, 1.7 s: a clock in seconds would step by 20 microseconds for hours.
 constexpr double kShortStep_d = 2e-5;
 
 /// Computers stamp in whole milliseconds since some start, or in milliseconds, micro- or nanoseconds since 1970.
@@ -188,8 +188,8 @@ std::size_t choose_force(const Request& request, std::optional<std::size_t> time
   return candidates.front();
 }
 
-/// From a column of volts or of another quantity, by the stated force per unit of it. Without a unit in the file it is
-/// that of the scale.
+/// Returns the force from a column of volts or another quantity, by the stated force per unit. Without a unit in the
+/// file it is that of the scale.
 Channel scaled_channel(const Request& request, std::size_t column, const std::string& text) {
   const auto scale = parse_force_scale(text);
   const std::string described = describe(request.layout, column);

@@ -45,7 +45,7 @@ struct Choice {
 /// `speed_m_per_s` (0: not known) replaces a missing clock.
 Choice choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s, const std::string& file);
 
-/// By which a torque is divided to give the force. `place` begins the message. Error: no_radius.
+/// Returns the radius by which a torque is divided to give the force. `place` starts the message. Error: no_radius.
 double radius_for_torque(const std::optional<double>& radius_m, const std::string& place);
 
 /// The columns other than time and force: normal force, speed, displacement, numbers of steps, the column of --where. A

@@ -51,8 +51,8 @@ struct ManifestColumns {
   std::size_t count = 0;  ///< of all columns
 };
 
-/// From the names row, in the order in which their cells are to be read. `place` ("manifest.csv:1") begins each
-/// message. Errors: missing_column, duplicate_column, unknown_unit.
+/// Finds the columns in the header line, in the order in which their cells have to be read. `place` ("manifest.csv:1")
+/// starts each message. Errors: missing_column, duplicate_column, unknown_unit.
 Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& names, const std::string& place);
 
 /// The entry with what a cell says about it. Errors: missing_value, bad_id, bad_number, out_of_range, bad_window,

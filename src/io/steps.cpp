@@ -20,8 +20,8 @@ constexpr double kLoadStep = 0.2;
 constexpr double kAboutAsLong = 0.9;
 constexpr std::size_t kMostNamed = 8;
 
-/// Whether a run of rows begins here that lies before the rows above it: the clock has begun again. A few stamps that
-/// fall back and return are damage, and so is a clock that falls back by less than half.
+/// Returns true if a run of rows starts here with times before the rows above it: the clock has started again. A few
+/// time stamps that go back and return are damage, and so is a clock that goes back by less than half.
 bool clock_restarts(const std::vector<double>& time_s, std::size_t at, double begin_s, double latest_s) {
   if (at + kFewestRows > time_s.size() || time_s[at] > 0.5 * (begin_s + latest_s)) return false;
   for (std::size_t i = at + 1; i < at + kFewestRows; ++i) {

@@ -29,7 +29,7 @@ std::vector<Step> segments_of_steps(const Rows& rows, std::span<const Step> step
 /// The first that is about as long as the longest.
 const Step& main_step(std::span<const Step> steps);
 
-/// By its number, else by its place. Error: unknown_step.
+/// Returns the step by its number, otherwise by its position. Error: unknown_step.
 Step step_with_number(std::span<const Step> steps, std::size_t number, const std::string& file);
 
 }  // namespace slipfit::reading

@@ -21,7 +21,7 @@ class TextSource final : public ::io::ByteSourceBase {
  public:
   /// Opens a text. Errors: file_not_found, is_directory, not_readable, empty_file, binary_file.
   static std::unique_ptr<TextSource> open(const std::filesystem::path& file);
-  /// Of a file that is open; `name`: as messages show it. Errors: empty_file, binary_file.
+  /// Reads the text of an open file; messages show `name`. Errors: empty_file, binary_file.
   static std::unique_ptr<TextSource> over(TextStream stream, const std::string& name);
 
   /// The first `size` bytes of the text (fewer when there are no more), without consuming them.

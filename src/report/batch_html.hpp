@@ -27,8 +27,8 @@ struct BatchPageRow {
   std::string sparkline;                        ///< of `sparkline_of`; empty: none
 };
 
-/// From a document of schema slipfit.fit/1, one line of results.jsonl; without page and sparkline. What the document
-/// does not know is empty. Error: bad_document.
+/// Reads a document of schema slipfit.fit/1, one line of results.jsonl, without page and sparkline. Values that the
+/// document does not contain are empty. Error: bad_document.
 Result<BatchPageRow> batch_page_row(const std::string& document);
 
 /// One row of failures.csv.

@@ -57,7 +57,7 @@ std::string whiteness_sentence(double p) {
                      p > kSmallestPrinted ? fmt::format("{:.2g}", p) : "below 1e-6", kLevel);
 }
 
-/// What is wrong with the samples: "4 gaps, the longest 120 ms", ...
+/// Returns the defects of the samples: "4 gaps, the longest 120 ms", ...
 std::vector<std::string> defects_of(const Recording& recording, const Quality& quality) {
   const Provenance& provenance = recording.provenance();
   std::vector<std::string> found;

@@ -81,9 +81,9 @@ std::vector<Comb> search(const Bands& bands, CombRange range) {
   return combs;
 }
 
-/// Whether a comb carries more than a trace of the power at and above its frequency. A weak line of the electronics
+/// Returns true if a comb has more than a trace of the power at and above its frequency. A weak line of the electronics
 /// that is conspicuous in a long recording only by its sharpness is not a motion of the slider (two recordings of
-/// friction with nothing periodic to see had such lines with 0.04 % of the power).
+/// friction without a visible repetition had such lines with 0.04 % of the power).
 bool is_visible(const Comb& comb, const Spectrum& spectrum) {
   const std::vector<double>& power = spectrum.power;
   const auto from = std::min(power.size(), static_cast<std::size_t>(0.5 * comb.frequency_Hz / spectrum.bin_Hz));

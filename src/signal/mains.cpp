@@ -52,7 +52,7 @@ double prominence_among(double bins) {
   return std::max(16.0, std::log(1e3 * bins) / std::log(2.0));
 }
 
-/// The same around each frequency where the mains may be.
+/// Returns that ratio for the frequencies where the mains may be.
 double prominence(double bins) {
   return prominence_among(4.0 * kMostHarmonics * bins);
 }

@@ -40,7 +40,7 @@ struct Axis {
   [[nodiscard]] std::size_t bytes() const { return type == 'I' ? 2 : type == 'D' ? 8 : 4; }
 };
 
-/// With a decimal point, as the standard demands, or a decimal comma. NaN for anything else.
+/// Reads a number with a decimal point, as the standard demands, or a decimal comma; NaN for anything else.
 double xml_number(std::string_view text) {
   const double value = reading::plain_number(trim(text), false);
   return std::isfinite(value) ? value : reading::plain_number(trim(text), true);

@@ -37,9 +37,9 @@ struct PredictedMotion {
   Estimate period_s, frequency_Hz, slip_time_s, stick_time_s, sticking_degree;
   Estimate periodic_displacement_m, micro_vibration_spacing_m;
   Estimate force_peak_N, force_trough_N;  ///< spring view
-  /// Not empty if the data do not determine whether there is stick-slip at this speed, or alpha is too little known for
-  /// it: regime and values are those of the best estimate, without intervals. Also if they do not determine whether
-  /// steady sliding is stable: the values keep their intervals.
+  /// The reason why the data do not determine whether there is stick-slip at this speed, or why alpha is too uncertain
+  /// for it: regime and values are then those of the best estimate, without intervals. It is also set if the data do
+  /// not determine whether steady sliding is stable: the values then keep their intervals. Otherwise it is empty.
   std::string note;
 };
 

@@ -53,7 +53,7 @@ bool has_huge_chunks(hid_t dataset, hid_t type) {
   return bytes > static_cast<double>(kMostChunkBytes);
 }
 
-/// Whether reading the numbers, or even asking for the extents, would open another file. H5Dopen2 itself opens none.
+/// Returns true if reading the numbers, or even the extents, would open another file. H5Dopen2 itself opens none.
 bool is_in_other_file(hid_t dataset) {
   const Handle settings(H5Dget_create_plist(dataset), H5Pclose);
   return H5Pget_layout(settings) == H5D_VIRTUAL || H5Pget_external_count(settings) != 0;

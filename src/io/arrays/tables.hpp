@@ -44,7 +44,8 @@ struct TableShape {
 TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::optional<std::string>& variable,
                         std::uint64_t file_size);
 
-/// Whether --variable WANTED names `name`: "/run/force" is also "run/force" and, as MATLAB writes it, "run.force".
+/// Returns true if --variable WANTED names `name`: "/run/force" is also "run/force" and, as MATLAB writes it,
+/// "run.force".
 bool is_called(const std::string& name, std::string wanted);
 
 /// The columns of an array that is stored row by row, or column by column; the longer extent is that of the
@@ -52,8 +53,8 @@ bool is_called(const std::string& name, std::string wanted);
 void add_columns(NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,
                  const std::string& name);
 
-/// Those that --variable can name, each name once, of which a recording may be made: at least two columns and 16 rows.
-/// Without any the one that choose_table takes. Throws Refusal.
+/// Returns the tables that --variable can name, each name once, from which a recording can be made: at least two
+/// columns and 16 rows. Without any it returns the one that choose_table takes. Throws Refusal.
 std::vector<TableShape> recordable_tables(const std::vector<ArrayShape>& arrays, std::uint64_t file_size);
 
 /// A table that was read, and the names of all that could have been.

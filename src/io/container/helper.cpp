@@ -240,7 +240,7 @@ class TablePieces {
     while (text.size() < kLongest && bytes_->read(&c, 1) == 1 && c != '\n') text += c;
     return text;
   }
-  /// Of the table whose name was read. Error: what its first line says.
+  /// Starts the table whose name was read. The error is that of its first line.
   void begin() { next_piece(); }
   std::size_t read(char* buffer, std::size_t size) {
     std::size_t count = 0;

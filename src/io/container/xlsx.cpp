@@ -81,13 +81,13 @@ pugi::xml_document part_of(const ZipArchive& archive, const std::string& path, s
   return *std::move(document);
 }
 
-/// By the number of one of Excel's own formats (ECMA-376 part 1, 18.8.30).
+/// Returns the style of one of Excel's own formats by its number (ECMA-376 part 1, 18.8.30).
 DateStyle built_in_date_style(unsigned format) {
   if ((format >= 18 && format <= 21) || (format >= 45 && format <= 47)) return DateStyle::Clock;
   return format >= 14 && format <= 22 ? DateStyle::Date : DateStyle::None;
 }
 
-/// By a format such as "yyyy-mm-dd hh:mm" or "[h]:mm:ss.000".
+/// Returns the style of a format such as "yyyy-mm-dd hh:mm" or "[h]:mm:ss.000".
 DateStyle date_style(std::string_view format) {
   bool has_clock = false;
   for (std::size_t i = 0; i < format.size(); ++i) {

@@ -163,7 +163,7 @@ chart::Panel pairs_panel(const Source& source, const std::vector<Point>& pairs) 
   return panel;
 }
 
-/// Whether the sensor's average or lag lowers peaks and troughs visibly. A lag tau shows a swing smaller by
+/// Returns true if averaging or lag of the sensor visibly reduces peaks and troughs. A lag tau reduces an amplitude by
 /// sqrt(1 + (w_n tau)^2): by 0.5 % at the limit.
 bool is_blunted(const Source& source) {
   constexpr double kVisibleLag = 0.1;  // of 1 / w_n

@@ -138,7 +138,7 @@ class OverlayPanel {
   bool on_kinetic_level_ = true;
 };
 
-/// Those with stick-slip, from the slowest to the fastest.
+/// Returns the recordings with stick-slip, from the slowest to the fastest.
 std::vector<OverlaidSet> sets_of(const SweepSource& source) {
   std::vector<OverlaidSet> sets;
   for (const std::size_t i : by_speed(source)) {

@@ -9,7 +9,7 @@
 
 namespace slipfit::html {
 
-/// What differs between the pages: HTML, but for the title, which is text. Empty parts are left out.
+/// The parts in which pages differ, in HTML except for the title, which is text. Empty parts are left out.
 struct PageParts {
   std::string title;
   std::string place;  ///< path and labels, under the title
